@@ -1,0 +1,128 @@
+/// A whole deployment: from a scene to its outcome. Knows no files, JSON or threads.
+#pragma once
+
+#include "core/scene.hpp"
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// How a run is integrated.
+struct Integration {
+  std::string method = "auto";     ///< a name from `methods()`
+  double rtol = 1e-8;              ///< relative tolerance per step, of every state component
+  double atol = 1e-10;             ///< absolute tolerance per step, rad, rad/s, m, m/s
+  std::optional<double> smoothing; ///< ε of the smoothed latch, rad; none: event latch
+  double t_end = 60;               ///< s, > 0
+  long max_steps = 1'000'000;      ///< tried steps after which the run fails
+};
+
+/// What is asked of a run: it computes no more, and goes no further than that needs.
+struct Goal {
+  bool peak_moment = true;
+  bool peak_force = true;
+  bool to_t_end = false; ///< integrate to t_end whatever happens
+};
+
+enum class Status { deployed, stalled, timed_out, invalid, failed };
+[[nodiscard]] const char* to_string(Status status);
+
+/// A hinge reached its latched angle.
+struct LatchEvent {
+  int hinge;                 ///< index into Scene::hinges
+  double time;               ///< s
+  std::vector<double> rates; ///< relative rates of all hinges at that instant, Scene order, rad/s
+};
+
+/// The largest magnitude that a quantity took, and when it first took it.
+struct Peak {
+  double value = 0;
+  double time = 0;
+};
+
+/// The state of a scene, in Scene order.
+struct Configuration {
+  std::vector<double> angles; ///< relative, rad
+  std::vector<double> rates;  ///< relative, rad/s
+  Eigen::Vector2d base_position{0, 0};
+  Eigen::Vector2d base_velocity{0, 0};
+  double base_angle = 0;
+  double base_rate = 0;
+};
+
+struct EnergyAudit {
+  double initial = 0; ///< kinetic + potential, J
+  double final = 0;
+  /// Largest |E(t) − E(0)| up to the first latch (or the end), less nothing for friction, J
+  double drift_before_first_latch = 0;
+};
+
+struct Work {
+  long steps = 0; ///< accepted
+  long rejected = 0;
+  long rhs_evaluations = 0;
+};
+
+/// Everything one run yields. Vectors over hinges stand in Scene order.
+struct Outcome {
+  Status status = Status::failed;
+  std::string reason; ///< why it stalled, was invalid or failed; empty otherwise
+  std::string method; ///< what integrated it
+  double t_end = 0;   ///< where the integration stopped, s
+  std::vector<LatchEvent> latches; ///< in order of time
+  std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
+  std::vector<Peak> peak_force;    ///< N; empty when not asked for
+  Configuration final;
+  EnergyAudit energy;
+  Work work;
+};
+
+/// One sample of a trajectory: every accepted step, and both sides of an engagement.
+struct Sample {
+  double t = 0;
+  std::vector<double> angles;  ///< relative, Scene order, rad
+  std::vector<double> rates;   ///< rad/s
+  std::vector<double> moments; ///< N·m
+  double kinetic = 0;          ///< J
+  double potential = 0;        ///< J
+};
+using Observer = std::function<void(const Sample&)>;
+
+/// An integration method that can be named in a campaign.
+struct MethodInfo {
+  std::string name;
+  std::string kind;      ///< e.g. "explicit Runge-Kutta, adaptive"
+  int order;             ///< of the solution that is carried on; 0 where it chooses
+  double real_limit;     ///< largest stable |hλ| on the negative real axis; 0 where it does not apply
+  double imaginary_limit;///< the same on the imaginary axis
+  std::string interpolation; ///< how events and peaks are found inside a step
+  std::string note;
+};
+[[nodiscard]] const std::vector<MethodInfo>& methods();
+
+/// Runs scenes of one topology one after another without allocating again. Not shared by threads:
+/// each has its own.
+class Deployment {
+public:
+  Deployment();
+  ~Deployment();
+  Deployment(Deployment&&) noexcept;
+  Deployment& operator=(Deployment&&) noexcept;
+
+  /// Integrates a deployment. Never throws for what the numbers do: an unphysical scene comes back
+  /// `invalid`, an integration that cannot go on `failed`, each with its reason.
+  /// @pre outward_order(scene) is not empty; integration.method is one of methods().
+  [[nodiscard]] Outcome run(const Scene& scene, const Integration& integration, const Goal& goal,
+                            const Observer& observer = {});
+
+private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+} // namespace wingspread
