@@ -26,6 +26,7 @@ struct Integration {
 struct Goal {
   bool peak_moment = true;
   bool peak_force = true;
+  bool audit = true;     ///< watch the energy up to the first latch
   bool to_t_end = false; ///< integrate to t_end whatever happens
 };
 

@@ -1,0 +1,86 @@
+#include "core/deployment.hpp"
+
+#include "core/integrator.hpp"
+
+namespace wingspread {
+
+const char* to_string(Status status) {
+  switch (status) {
+  case Status::deployed: return "deployed";
+  case Status::stalled: return "stalled";
+  case Status::timed_out: return "timed_out";
+  case Status::invalid: return "invalid";
+  case Status::failed: return "failed";
+  }
+  return "unknown";
+}
+
+const std::vector<MethodInfo>& methods() {
+  static const std::vector<MethodInfo> list{
+      {"auto", "chooses by itself", 0, 0, 0, "that of the method chosen",
+       "the default; in this version always dopri5"},
+      {"dopri5", "explicit Runge-Kutta, adaptive", 5, 3.306, 1.0,
+       "quintic Hermite on angle, rate and acceleration; order 5", "Dormand and Prince 5(4), first same as last"},
+  };
+  return list;
+}
+
+struct Deployment::Workspace {
+  std::vector<int> order;
+  Wing<double> wing;
+  wingspread::Workspace<double> scratch;
+};
+
+Deployment::Deployment() : workspace_(std::make_unique<Workspace>()) {}
+Deployment::~Deployment() = default;
+Deployment::Deployment(Deployment&&) noexcept = default;
+Deployment& Deployment::operator=(Deployment&&) noexcept = default;
+
+namespace {
+
+template <BaseMotion M, class Topology>
+Outcome integrate(const Wing<double>& wing, const Topology& topology, Workspace<double>& scratch,
+                  const Integration& how, const Goal& goal, const Observer& observer) {
+  System<double, Topology, M> system(wing, topology, how.smoothing, scratch);
+  return Integrator<double, Topology, M, DormandPrince5<double>>(system, how, goal, observer).run();
+}
+
+Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how, const Goal& goal,
+                  const Observer& observer) {
+  switch (wing.base.motion) {
+  case BaseMotion::prescribed:
+    return integrate<BaseMotion::prescribed>(wing, wing.tree, scratch, how, goal, observer);
+  case BaseMotion::free:
+    return integrate<BaseMotion::free>(wing, wing.tree, scratch, how, goal, observer);
+  case BaseMotion::fixed: break;
+  }
+  return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
+}
+
+[[nodiscard]] Outcome invalid(const std::vector<Fault>& faults) {
+  Outcome out;
+  out.status = Status::invalid;
+  for (const Fault& fault : faults) {
+    if (!out.reason.empty()) out.reason += "; ";
+    out.reason += fault.path + " is " + fault.found + ", expected " + fault.expected;
+  }
+  return out;
+}
+
+} // namespace
+
+Outcome Deployment::run(const Scene& scene, const Integration& integration, const Goal& goal,
+                        const Observer& observer) {
+  if (const std::vector<Fault> faults = unphysical(scene); !faults.empty()) return invalid(faults);
+  const std::vector<int> order = outward_order(scene);
+  if (order != workspace_->order || workspace_->wing.size() == 0) {
+    workspace_->wing = make_wing<double>(scene, order);
+    workspace_->order = order;
+  }
+  set_parameters(workspace_->wing, scene);
+  Outcome out = integrate(workspace_->wing, workspace_->scratch, integration, goal, observer);
+  out.method = "dopri5";
+  return out;
+}
+
+} // namespace wingspread

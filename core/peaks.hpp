@@ -1,0 +1,189 @@
+/// The largest moment and force that a hinge sees, inside steps and not only at their ends.
+#pragma once
+
+#include "core/quintic.hpp"
+#include "core/system.hpp"
+
+#include <boost/math/tools/minima.hpp>
+
+#include <array>
+#include <vector>
+
+namespace wingspread {
+
+/// An accepted step and its dense output.
+template <class T> struct Step {
+  T t, h;
+  State<T> x, dxdt;   ///< at t
+  State<T> x1, dxdt1; ///< at t + h
+
+  /// Coordinate k of q over the step; its rate stands `freedoms` further.
+  [[nodiscard]] Quintic<T> coordinate(int k, int freedoms) const {
+    const int r = k + freedoms;
+    return hermite<T>(h, {x[k], x[r], dxdt[r]}, {x1[k], x1[r], dxdt1[r]});
+  }
+
+  /// Any component by cubic Hermite interpolation; used for the states of smoothed latches.
+  [[nodiscard]] T cubic(int k, const T& s) const {
+    const T r = T(1) - s;
+    return r * r * (x[k] * fused(T(2), s, T(1)) + s * h * dxdt[k]) +
+           s * s * (x1[k] * fused(T(2), r, T(1)) - r * h * dxdt1[k]);
+  }
+
+  /// The whole state at t + s·h.
+  void interpolate(const Layout& at, const T& s, State<T>& out) const {
+    for (int k = 0; k < at.freedoms(); ++k) {
+      const Quintic<T> q = coordinate(k, at.freedoms());
+      out[k] = value(q, s);
+      out[k + at.freedoms()] = value(derivative(q, h), s);
+    }
+    if (at.smoothed)
+      for (int i = 1; i <= at.bodies; ++i) out[at.latch(i)] = cubic(at.latch(i), s);
+  }
+};
+
+template <class T> struct PeakOf {
+  T value = T(0);
+  T time = T(0);
+
+  void raise(const T& candidate, const T& when) {
+    if (candidate > value) value = candidate, time = when;
+  }
+};
+
+/// Raises `peak` to the maximum of |f| near s, within ± width of it and inside [0, 1]
+/// (Brent's method, half the digits of s).
+template <class T, class Function>
+void refine(PeakOf<T>& peak, const T& t, const T& h, const T& s, const T& width, Function f) {
+  using std::abs;
+  const T lower = larger(T(s - width), T(0)), upper = smaller(T(s + width), T(1));
+  std::uintmax_t iterations = 60;
+  const auto best = boost::math::tools::brent_find_minima([&](const T& at) { return T(-abs(f(at))); }, lower, upper,
+                                                          std::numeric_limits<T>::digits / 2, iterations);
+  peak.raise(T(-best.second), T(t + best.first * h));
+}
+
+/// How far below the peak a sample may lie for the maximum beside it to be looked for, times the peak.
+inline constexpr double sample_margin = 0.95;
+
+/// Raises `peak` to the largest |moment| of hinge i over the step. The hull of the moment's linear
+/// part, with the most that friction and a smoothed latch can add, dismisses most steps; what it does
+/// not is sampled and refined on the interpolant.
+template <class T, class AnySystem>
+void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i) {
+  using std::abs;
+  const Layout& at = system.layout();
+  const LinearLaw<T>& law = system.work().laws[i];
+  const HingeTerms<T>& hinge = system.wing().hinges[i];
+  const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
+  const Quintic<T> rate = derivative(angle, step.h);
+  Quintic<T> linear, latch;
+  for (int k = 0; k < 6; ++k) {
+    linear[k] = linear_moment(law, angle[k], rate[k]);
+    latch[k] = fused(hinge.stiffness, angle[k] - hinge.latched, hinge.damping * rate[k]);
+  }
+  const bool smoothed = at.smoothed && hinge.has_latch;
+  T most = bound(linear) + hinge.coulomb;
+  if (smoothed) most = most + bound(latch);
+  if (!(most > peak.value)) return;
+
+  const auto moment = [&](const T& s) {
+    const T velocity = value(rate, s);
+    T m = value(linear, s);
+    if (hinge.coulomb > T(0)) m = m + coulomb_moment(hinge, velocity);
+    if (smoothed) m = m - smooth_step(step.cubic(at.latch(i), s) / system.epsilon()) * value(latch, s);
+    return m;
+  };
+  constexpr int samples = 8;
+  T best(-1), where(0);
+  for (int k = 0; k <= samples; ++k) {
+    const T s = T(k) / T(samples);
+    const T m = abs(moment(s));
+    if (m > best) best = m, where = s;
+  }
+  if (best < T(sample_margin) * peak.value) return;
+  peak.raise(best, step.t + where * step.h);
+  refine(peak, step.t, step.h, where, T(1) / T(samples), moment);
+}
+
+/// Raises every hinge's `peaks` to its largest |reaction| over the step, given those at both ends.
+/// A step with an end within a quarter of a peak is sampled at three inner points by evaluating the
+/// recursion on the dense output, and refined beside the largest.
+template <class T, class AnySystem> class ForcePeaks {
+public:
+  std::vector<PeakOf<T>> peaks; ///< 1 … n
+
+  void start(const AnySystem& system, const T& t) {
+    const int n = system.layout().bodies;
+    peaks.assign(n + 1, {});
+    before_.assign(n + 1, T(0));
+    inner_.assign(n + 1, {});
+    observe(system, t);
+  }
+
+  /// The frames of `system` are those of an evaluation at t: takes the forces as they stand.
+  void observe(const AnySystem& system, const T& t) {
+    for (std::size_t i = 1; i < peaks.size(); ++i) {
+      before_[i] = magnitude(system, static_cast<int>(i));
+      peaks[i].raise(before_[i], t);
+    }
+  }
+
+  /// The frames are those of the step's end.
+  void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
+    bool promising = false;
+    for (std::size_t i = 1; i < peaks.size(); ++i) {
+      const T end = magnitude(system, static_cast<int>(i));
+      inner_[i] = {before_[i], T(0), T(0), T(0), end};
+      promising = promising || T(1.25) * larger(before_[i], end) > peaks[i].value;
+      before_[i] = end;
+    }
+    if (!promising) return;
+    for (int k = 1; k <= 3; ++k) {
+      evaluate(system, step, T(k) / T(4), x, dxdt);
+      for (std::size_t i = 1; i < peaks.size(); ++i) inner_[i][k] = magnitude(system, static_cast<int>(i));
+    }
+    for (std::size_t i = 1; i < peaks.size(); ++i) raise(system, step, static_cast<int>(i), x, dxdt);
+  }
+
+private:
+  [[nodiscard]] static T magnitude(const AnySystem& system, int i) {
+    using std::sqrt;
+    const Vec2<T> f = hinge_force(system.work().frames[i]);
+    return sqrt(dot(f, f));
+  }
+
+  static void evaluate(AnySystem& system, const Step<T>& step, const T& s, State<T>& x, State<T>& dxdt) {
+    step.interpolate(system.layout(), s, x);
+    system(x, dxdt, step.t + s * step.h);
+  }
+
+  void raise(AnySystem& system, const Step<T>& step, int i, State<T>& x, State<T>& dxdt) {
+    int best = 0;
+    for (int k = 1; k <= 4; ++k)
+      if (inner_[i][k] > inner_[i][best]) best = k;
+    if (inner_[i][best] < T(sample_margin) * peaks[i].value) return;
+    peaks[i].raise(inner_[i][best], step.t + T(best) / T(4) * step.h);
+    if (at_an_end_for_sure(inner_[i], best)) return;
+    refine(peaks[i], step.t, step.h, T(best) / T(4), T(1) / T(4), [&](const T& s) {
+      evaluate(system, step, s, x, dxdt);
+      return magnitude(system, i);
+    });
+  }
+
+  /// The samples rise or fall towards an end so steeply that a parabola through the last three has
+  /// its vertex well outside the step.
+  [[nodiscard]] static bool at_an_end_for_sure(const std::array<T, 5>& f, int best) {
+    using std::abs;
+    if (best != 0 && best != 4) return false;
+    const T a = best == 0 ? f[0] : f[4], b = best == 0 ? f[1] : f[3], c = best == 0 ? f[2] : f[2];
+    const T slope = T(3) * a - T(4) * b + c; // towards the end, times 2 spacings
+    const T curvature = a - T(2) * b + c;
+    return slope > T(2) * abs(curvature);
+  }
+
+  std::vector<T> before_;
+  std::vector<std::array<T, 5>> inner_;
+};
+
+} // namespace wingspread

@@ -1,0 +1,132 @@
+/// The O(n) recursion: hinge moments in, accelerations and hinge forces out. Stateless.
+///
+/// It is Vereshchagin's [Yudintsev, eqs. 3-5] with each hinge's own freedom eliminated beforehand.
+/// There a body hands its parent the 3×3 matrix  M* − M* S U⁻¹ Sᵀ M*  and a vector, which C_iᵀ moves to
+/// the parent's centre of mass. Referred to the hinge's own point instead, S = (0; 1), so that row and
+/// column of the angle vanish: once its axis moment is known, only a force crosses a revolute hinge.
+/// What is left is
+///
+///     f_i = K_i a_i + b_i          the force on body i at its hinge, a_i: acceleration of that point
+///
+/// with K_i symmetric, 2×2: five numbers a hinge. With axes fixed in inertial space, and for body i
+///
+/// | symbol | meaning                                                     | shape | unit        |
+/// |--------|-------------------------------------------------------------|-------|-------------|
+/// | θ, ω   | absolute angle and rate                                     |       | rad, rad/s  |
+/// | g      | from the hinge to the centre of mass, −c_ii                 | 2     | m           |
+/// | l_j    | from the hinge to the child hinge j, c_ij − c_ii            | 2     | m           |
+/// | q_j    | e3 × l_j                                                    | 2     | m           |
+/// | a, α   | acceleration of the hinge's point; angular, ω̇               | 2, 1  | m/s², rad/s²|
+/// | τ_i    | moment of hinge i: +τ on body i, −τ on its parent           |       | N·m         |
+/// | A, h, I| the articulated inertia M* about the hinge, in blocks       |       | kg, kg·m, kg·m² |
+/// | c, d   | the force and moment that motion without a and α needs      |       | N, N·m      |
+/// | U_i    | of the source, SᵀM*S: the number I here                     |       | kg·m²       |
+///
+/// Newton and Euler about the hinge, the children's forces eliminated by a_j = a + α q_j − ω² l_j:
+///
+///     f = A a + h α + c                                                                       (1)
+///     τ_i − Σ τ_j = I α + hᵀ a + d                                                            (2)
+///     A = m E2 + Σ K_j            h = e3 × m g + Σ K_j q_j        I = J + m g² + Σ q_jᵀ K_j q_j   (3)
+///     c = −ω² m g + Σ b'_j        d = Σ q_jᵀ b'_j                 b'_j = b_j − ω² K_j l_j         (4)
+///
+/// and α eliminated from (1) by (2), with u = (τ_i − Σ τ_j − d)/I and e = h/I:
+///
+///     α = u − eᵀ a                                                                            (5)
+///     K = A − h eᵀ                b = c + h u                                                 (6)
+///
+/// A free base is a body whose "hinge" carries no force: K_0 a_0 + b_0 = 0.                    (7)
+///
+/// About 75 flops, one division and one sine-cosine a body.
+#pragma once
+
+#include "core/wing.hpp"
+
+#include <vector>
+
+namespace wingspread {
+
+/// What the passes know of one body; axes fixed in inertial space.
+template <class T> struct BodyFrame {
+  SineCosine<T> rotation;
+  T angle, rate;       ///< θ, ω
+  T rate_squared;      ///< ω²
+  Vec2<T> mass_moment; ///< m g
+  Vec2<T> arm;         ///< l of this body's hinge, in its parent
+  T moment;            ///< τ_i: input of the inward pass
+  Sym2<T> stiffness;   ///< K_i, kg
+  Vec2<T> bias;        ///< b_i, N
+  Vec2<T> coupling;    ///< e, 1/m
+  T free_acceleration; ///< u, rad/s²
+  Vec2<T> acceleration;///< a_i, m/s²
+  T angular_acceleration; ///< α_i, rad/s²
+};
+
+/// Force on body i at its hinge, inertial axes, N. Valid after the outward pass.
+template <class T> [[nodiscard]] Vec2<T> hinge_force(const BodyFrame<T>& frame) {
+  return fused(frame.stiffness, frame.acceleration, frame.bias);
+}
+
+/// Kinematics of body i from its parent's [Yudintsev, eq. 2], for the relative angle and rate given.
+template <class T, class Topology>
+inline void place(const Wing<T>& wing, const Topology& tree, std::vector<BodyFrame<T>>& frames, int i,
+                  const T& relative_angle, const T& relative_rate) {
+  const BodyFrame<T>& parent = frames[tree.parent_of(i)];
+  BodyFrame<T>& own = frames[i];
+  own.angle = parent.angle + relative_angle;
+  own.rate = parent.rate + relative_rate;
+  own.rate_squared = own.rate * own.rate;
+  own.rotation = sine_cosine(own.angle);
+  own.mass_moment = rotated(own.rotation, wing.bodies[i].mass_moment);
+  own.arm = rotated(parent.rotation, wing.bodies[i].arm);
+}
+
+/// The inward pass at body i: eqs. (3), (4), (6). Its children's have been made.
+template <class T, class Topology>
+inline void gather(const Wing<T>& wing, const Topology& tree, std::vector<BodyFrame<T>>& frames, int i) {
+  BodyFrame<T>& own = frames[i];
+  const T mass = wing.bodies[i].mass;
+  const T minus_rate_squared = -own.rate_squared;
+  Sym2<T> A{mass, T(0), mass};
+  Vec2<T> h = turned(own.mass_moment);
+  T I = wing.bodies[i].inertia;
+  Vec2<T> c = scaled(minus_rate_squared, own.mass_moment);
+  T load = own.moment; // τ_i − Σ τ_j − d
+  tree.for_each_child(i, [&](int j) {
+    const BodyFrame<T>& child = frames[j];
+    const Vec2<T> q = turned(child.arm);
+    const Vec2<T> Kq = child.stiffness * q;
+    const Vec2<T> b = fused(minus_rate_squared, child.stiffness * child.arm, child.bias);
+    A = A + child.stiffness;
+    h = h + Kq;
+    I = fused_dot(q, Kq, I);
+    c = c + b;
+    load = (load - child.moment) - dot(q, b);
+  });
+  const T inverse = T(1) / I;
+  own.coupling = scaled(inverse, h);
+  own.free_acceleration = load * inverse;
+  own.stiffness = less_outer(A, h, own.coupling);
+  own.bias = fused(own.free_acceleration, h, c);
+}
+
+/// The outward pass at body i: eq. (5). @return φ̈_i, rad/s²
+template <class T, class Topology>
+[[nodiscard]] inline T accelerate(const Topology& tree, std::vector<BodyFrame<T>>& frames, int i) {
+  const BodyFrame<T>& parent = frames[tree.parent_of(i)];
+  BodyFrame<T>& own = frames[i];
+  const Vec2<T> carried = fused(-parent.rate_squared, own.arm, parent.acceleration);
+  own.acceleration = fused(parent.angular_acceleration, turned(own.arm), carried);
+  own.angular_acceleration = own.free_acceleration - dot(own.coupling, own.acceleration);
+  return own.angular_acceleration - parent.angular_acceleration;
+}
+
+/// Acceleration of a free base's centre of mass, eq. (7), after its inward pass. Sets a_0 and α_0.
+template <class T> inline void release_base(BodyFrame<T>& base) {
+  const Sym2<T>& K = base.stiffness;
+  const T inverse = T(1) / fused(K.xx, K.yy, -(K.xy * K.xy));
+  base.acceleration = {inverse * fused(K.xy, base.bias.y, -(K.yy * base.bias.x)),
+                       inverse * fused(K.xy, base.bias.x, -(K.xx * base.bias.y))};
+  base.angular_acceleration = base.free_acceleration - dot(base.coupling, base.acceleration);
+}
+
+} // namespace wingspread

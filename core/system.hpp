@@ -1,0 +1,163 @@
+/// The right-hand side of a wing's equations of motion, and the layout of its state.
+#pragma once
+
+#include "core/hinge_moment.hpp"
+#include "core/recursion.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace wingspread {
+
+template <class T> using State = std::vector<T>;
+
+/// Where things stand in the state: q = (x, y, θ_0 of a free base; φ_1 … φ_n), then q̇, then S_1 … S_n
+/// of smoothed latches.
+struct Layout {
+  int base = 0; ///< 3 for a free base, else 0
+  int bodies = 0;
+  bool smoothed = false;
+
+  [[nodiscard]] int freedoms() const { return base + bodies; }
+  [[nodiscard]] int size() const { return 2 * freedoms() + (smoothed ? bodies : 0); }
+  [[nodiscard]] int angle(int i) const { return base + i - 1; }            ///< φ_i
+  [[nodiscard]] int rate(int i) const { return freedoms() + angle(i); }    ///< φ̇_i
+  [[nodiscard]] int latch(int i) const { return 2 * freedoms() + i - 1; }  ///< S_i
+};
+
+/// What changes from phase to phase of a run, and scratch space. Owned by the caller, one a thread.
+template <class T> struct Workspace {
+  std::vector<BodyFrame<T>> frames;  ///< 0 … n
+  std::vector<LinearLaw<T>> laws;    ///< 1 … n
+  std::vector<char> engaged;         ///< 1 … n: has passed its latched angle
+  long evaluations = 0;
+};
+
+/// dx/dt of one wing. Motion is the base's; Topology a Tree or a Chain<N>.
+template <class T, class Topology, BaseMotion Motion> class System {
+public:
+  System(const Wing<T>& wing, const Topology& topology, const std::optional<double>& smoothing, Workspace<T>& work)
+      : wing_(wing), topology_(topology), work_(work),
+        layout_{Motion == BaseMotion::free ? 3 : 0, topology.bodies(), smoothing.has_value()},
+        epsilon_(smoothing.value_or(0)) {
+    work_.frames.assign(layout_.bodies + 1, BodyFrame<T>{});
+    work_.laws.resize(layout_.bodies + 1);
+    work_.engaged.assign(layout_.bodies + 1, false);
+    work_.evaluations = 0;
+    for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
+    place_base_at_rest();
+  }
+
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] const Wing<T>& wing() const { return wing_; }
+  [[nodiscard]] const Topology& topology() const { return topology_; }
+  [[nodiscard]] const Workspace<T>& work() const { return work_; }
+  [[nodiscard]] const T& epsilon() const { return epsilon_; }
+
+  /// The state at t = 0.
+  void start(State<T>& x) const {
+    x.assign(layout_.size(), T(0));
+    if constexpr (Motion == BaseMotion::free) {
+      const BaseTerms<T>& base = wing_.base;
+      const int v = layout_.freedoms();
+      x[0] = base.position.x, x[1] = base.position.y, x[2] = base.angle;
+      x[v] = base.velocity.x, x[v + 1] = base.velocity.y, x[v + 2] = base.rate;
+    }
+    for (int i = 1; i <= layout_.bodies; ++i) {
+      x[layout_.angle(i)] = wing_.hinges[i].stowed;
+      x[layout_.rate(i)] = wing_.initial_rates[i];
+    }
+  }
+
+  /// Records that hinge i has passed its latched angle; an event latch acts from now on.
+  void engage(int i) {
+    work_.engaged[i] = true;
+    update_law(i);
+  }
+
+  /// Kinematics alone: places every body.
+  void place_all(const State<T>& x, const T& t) {
+    place_base(x, t);
+    for (int i = 1; i <= topology_.bodies(); ++i)
+      place(wing_, topology_, work_.frames, i, x[layout_.angle(i)], x[layout_.rate(i)]);
+  }
+
+  /// Moment of hinge i, N·m.
+  [[nodiscard]] T moment(const State<T>& x, int i) const {
+    const T& angle = x[layout_.angle(i)];
+    const T& rate = x[layout_.rate(i)];
+    T m = linear_moment(work_.laws[i], angle, rate);
+    if (wing_.has_coulomb) m = m + coulomb_moment(wing_.hinges[i], rate);
+    if (layout_.smoothed && wing_.hinges[i].has_latch)
+      m = m + smoothed_latch_moment(wing_.hinges[i], angle, rate, x[layout_.latch(i)], epsilon_);
+    return m;
+  }
+
+  /// dx/dt. Afterwards the workspace's frames hold the accelerations and hinge forces at x.
+  void operator()(const State<T>& x, State<T>& dxdt, const T& t) {
+    ++work_.evaluations;
+    const int n = topology_.bodies();
+    place_all(x, t);
+    for (int i = 1; i <= n; ++i) work_.frames[i].moment = moment(x, i);
+    for (int i = n; i >= 1; --i) gather(wing_, topology_, work_.frames, i);
+    accelerate_base(dxdt);
+    for (int i = 1; i <= n; ++i) dxdt[layout_.rate(i)] = accelerate(topology_, work_.frames, i);
+    for (int k = 0; k < layout_.freedoms(); ++k) dxdt[k] = x[layout_.freedoms() + k];
+    if (layout_.smoothed) advance_latches(x, dxdt);
+  }
+
+private:
+  void update_law(int i) {
+    const bool acts = work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
+    work_.laws[i] = linear_law(wing_.hinges[i], acts);
+  }
+
+  void place_base_at_rest() {
+    BodyFrame<T>& base = work_.frames[0];
+    base = BodyFrame<T>{};
+    base.rotation = {T(0), T(1)};
+  }
+
+  void place_base(const State<T>& x, const T& t) {
+    BodyFrame<T>& base = work_.frames[0];
+    if constexpr (Motion == BaseMotion::fixed) return;
+    if constexpr (Motion == BaseMotion::prescribed) {
+      const BaseTerms<T>& given = wing_.base;
+      base.rate = fused(given.angular_acceleration, t, given.rate);
+      base.angle = fused(t, fused(T(0.5) * given.angular_acceleration, t, given.rate), given.angle);
+      base.acceleration = given.acceleration;
+      base.angular_acceleration = given.angular_acceleration;
+    }
+    if constexpr (Motion == BaseMotion::free) {
+      base.angle = x[2];
+      base.rate = x[layout_.freedoms() + 2];
+    }
+    base.rate_squared = base.rate * base.rate;
+    base.rotation = sine_cosine(base.angle);
+  }
+
+  void accelerate_base(State<T>& dxdt) {
+    if constexpr (Motion == BaseMotion::free) {
+      BodyFrame<T>& base = work_.frames[0];
+      gather(wing_, topology_, work_.frames, 0);
+      release_base(base);
+      const int v = layout_.freedoms();
+      dxdt[v] = base.acceleration.x, dxdt[v + 1] = base.acceleration.y;
+      dxdt[v + 2] = base.angular_acceleration;
+    }
+  }
+
+  void advance_latches(const State<T>& x, State<T>& dxdt) const {
+    for (int i = 1; i <= layout_.bodies; ++i)
+      dxdt[layout_.latch(i)] =
+          wing_.hinges[i].has_latch ? engagement_rate(wing_.hinges[i], x[layout_.angle(i)], epsilon_) : T(0);
+  }
+
+  const Wing<T>& wing_;
+  const Topology& topology_;
+  Workspace<T>& work_;
+  Layout layout_;
+  T epsilon_;
+};
+
+} // namespace wingspread

@@ -1,0 +1,160 @@
+#include "distributions/continuous_law.hpp"
+
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/exponential.hpp>
+#include <boost/math/distributions/gamma.hpp>
+#include <boost/math/distributions/lognormal.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/uniform.hpp>
+#include <boost/math/distributions/weibull.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+namespace wingspread {
+namespace {
+
+namespace bm = boost::math;
+namespace bp = boost::math::policies;
+
+// No exception may cross a thread, so errors become NaN or infinity. And double stays double: long
+// double is another type on every machine, and costs several times as much for digits that the
+// tests show are not needed.
+using Policy =
+    bp::policy<bp::domain_error<bp::ignore_error>, bp::pole_error<bp::ignore_error>,
+               bp::overflow_error<bp::ignore_error>, bp::underflow_error<bp::ignore_error>,
+               bp::denorm_error<bp::ignore_error>, bp::evaluation_error<bp::ignore_error>,
+               bp::rounding_error<bp::ignore_error>,
+               bp::indeterminate_result_error<bp::ignore_error>, bp::promote_double<false>>;
+
+auto boost_law(const Normal& l) { return bm::normal_distribution<double, Policy>(l.mean, l.std); }
+auto boost_law(const Uniform& l) {
+  return bm::uniform_distribution<double, Policy>(l.lower, l.upper);
+}
+auto boost_law(const Lognormal& l) {
+  return bm::lognormal_distribution<double, Policy>(l.mu_log, l.sigma_log);
+}
+auto boost_law(const Weibull& l) {
+  return bm::weibull_distribution<double, Policy>(l.shape, l.scale);
+}
+auto boost_law(const Gamma& l) { return bm::gamma_distribution<double, Policy>(l.shape, l.scale); }
+auto boost_law(const Beta& l) { return bm::beta_distribution<double, Policy>(l.alpha, l.beta); }
+auto boost_law(const Exponential& l) {
+  return bm::exponential_distribution<double, Policy>(l.rate);
+}
+
+template <class L> Interval support_of(const L& law) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if constexpr (requires { law.lower; })
+    return {law.lower, law.upper};
+  else
+    return {std::same_as<L, Normal> ? -infinity : 0., infinity};
+}
+
+template <class L> Tails tails_of(const L& law, double x) {
+  const auto boost = boost_law(law);
+  return {bm::cdf(boost, x), bm::cdf(bm::complement(boost, x))};
+}
+
+// Boost's beta law lives on [0, 1]. Near the upper end only the distance to it is exact, so there
+// the law is read backwards.
+Tails tails_of(const Beta& law, double x) {
+  const double from_lower = (x - law.lower) / (law.upper - law.lower);
+  const double to_upper = (law.upper - x) / (law.upper - law.lower);
+  if (from_lower <= to_upper)
+    return {bm::ibeta(law.alpha, law.beta, from_lower, Policy()),
+            bm::ibetac(law.alpha, law.beta, from_lower, Policy())};
+  return {bm::ibetac(law.beta, law.alpha, to_upper, Policy()),
+          bm::ibeta(law.beta, law.alpha, to_upper, Policy())};
+}
+
+// Boost's triangular law takes F from 1 − F beyond the mode, however small F is. Here each tail is
+// found from its own end of the triangle: `near` and `far` are the distances of that end and of the
+// other one from the mode.
+//   tail·(near + far) = s²/near within near, else near + t(2 far − t)/far with t = s − near  (1)
+double triangular_tail(double near, double far, double s) {
+  const double t = s - near;
+  return (t <= 0 ? s * s / near : near + t * (2 * far - t) / far) / (near + far);
+}
+
+// (1) solved for the distance s from the end.
+double triangular_distance(double near, double far, double tail) {
+  const double width = near + far;
+  const double beyond = tail * width - near;
+  if (beyond <= 0) return std::sqrt(tail * width * near);
+  return near + beyond * far / (far + std::sqrt(far * std::max(far - beyond, 0.)));
+}
+
+Tails tails_of(const Triangular& l, double x) {
+  return {triangular_tail(l.mode - l.lower, l.upper - l.mode, x - l.lower),
+          triangular_tail(l.upper - l.mode, l.mode - l.lower, l.upper - x)};
+}
+
+template <class L> double inverse_of(const L& law, Tails tails) {
+  const auto boost = boost_law(law);
+  return tails.below <= tails.above ? bm::quantile(boost, tails.below)
+                                    : bm::quantile(bm::complement(boost, tails.above));
+}
+
+double inverse_of(const Beta& law, Tails tails) {
+  double to_upper = 0;
+  const double from_lower =
+      tails.below <= tails.above
+          ? bm::ibeta_inv(law.alpha, law.beta, tails.below, &to_upper, Policy())
+          : bm::ibetac_inv(law.alpha, law.beta, tails.above, &to_upper, Policy());
+  const double width = law.upper - law.lower;
+  return from_lower <= to_upper ? law.lower + width * from_lower : law.upper - width * to_upper;
+}
+
+double inverse_of(const Triangular& l, Tails tails) {
+  if (tails.below <= tails.above)
+    return l.lower + triangular_distance(l.mode - l.lower, l.upper - l.mode, tails.below);
+  return l.upper - triangular_distance(l.upper - l.mode, l.mode - l.lower, tails.above);
+}
+
+template <class L> Moments moments_of(const L& law) {
+  const auto boost = boost_law(law);
+  return {bm::mean(boost), bm::standard_deviation(boost)};
+}
+
+Moments moments_of(const Triangular& l) {
+  const double rise = l.mode - l.lower;
+  const double fall = l.upper - l.mode;
+  return {(l.lower + l.mode + l.upper) / 3,
+          std::sqrt((rise * rise + rise * fall + fall * fall) / 18)};
+}
+
+Moments moments_of(const Beta& law) {
+  const auto boost = boost_law(law);
+  const double width = law.upper - law.lower;
+  return {law.lower + width * bm::mean(boost), width * bm::standard_deviation(boost)};
+}
+
+} // namespace
+
+Interval support(const ContinuousLaw& law) {
+  return std::visit([](const auto& l) { return support_of(l); }, law);
+}
+
+Tails tails(const ContinuousLaw& law, double x) {
+  const Interval within = support(law);
+  if (x <= within.lower) return {0, 1};
+  if (x >= within.upper) return {1, 0};
+  return std::visit([x](const auto& l) { return tails_of(l, x); }, law);
+}
+
+double inverse(const ContinuousLaw& law, Tails tails) {
+  const Interval within = support(law);
+  if (tails.below <= 0) return within.lower;
+  if (tails.above <= 0) return within.upper;
+  const double x = std::visit([tails](const auto& l) { return inverse_of(l, tails); }, law);
+  return std::clamp(x, within.lower, within.upper);
+}
+
+Moments continuous_moments(const ContinuousLaw& law) {
+  return std::visit([](const auto& l) { return moments_of(l); }, law);
+}
+
+} // namespace wingspread

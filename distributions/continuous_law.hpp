@@ -1,0 +1,36 @@
+/// The continuous laws' distribution functions and their inverses, by Boost.Math.
+///
+/// A point of a law is given by both of its tails, since the larger one alone, close to 1, says
+/// little about where in the smaller one it lies. All functions require a law without faults, throw
+/// nothing and are safe in any thread; what overflows is infinite.
+#pragma once
+
+#include "distributions/distribution.hpp"
+
+namespace wingspread {
+
+/// The probabilities on both sides of a point x. They add up to 1, up to rounding.
+struct Tails {
+  double below = 0; ///< P(X ≤ x)
+  double above = 1; ///< P(X > x)
+};
+
+struct Interval {
+  double lower = 0;
+  double upper = 0;
+};
+
+/// Where the law's density lives; its ends may be infinite.
+[[nodiscard]] Interval support(const ContinuousLaw& law);
+
+/// The tails at x, which may be outside the support or infinite. Both are accurate: their relative
+/// errors are some epsilon times the conditioning, 1 + |x·density(x)|/tail.
+[[nodiscard]] Tails tails(const ContinuousLaw& law, double x);
+
+/// The point with the given tails, found from the smaller of the two; within the support.
+/// Cost: up to some 50 ns, but about 1 µs for gamma and beta (iterative).
+[[nodiscard]] double inverse(const ContinuousLaw& law, Tails tails);
+
+[[nodiscard]] Moments continuous_moments(const ContinuousLaw& law);
+
+} // namespace wingspread

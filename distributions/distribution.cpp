@@ -1,0 +1,103 @@
+#include "distributions/distribution.hpp"
+
+#include "distributions/truncated_law.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// The shortest text that reads back as the number.
+std::string text(double number) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
+  return {buffer.data(), end};
+}
+
+/// Gathers the faults of one distribution.
+class Checker {
+public:
+  void expect(bool holds, std::string path, std::string found, std::string expected) {
+    if (!holds) faults_.push_back({std::move(path), std::move(found), std::move(expected)});
+  }
+
+  void expect_range(double number, Range range, const std::string& path) {
+    if (!std::isfinite(number))
+      expect(false, path, text(number), "a finite number");
+    else if (range == Range::positive)
+      expect(number > 0, path, text(number), "> 0");
+    else if (range == Range::non_negative)
+      expect(number >= 0, path, text(number), "≥ 0");
+  }
+
+  void expect_range(const std::vector<double>& numbers, Range range, const std::string& path) {
+    expect(!numbers.empty(), path, "none", "at least one");
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      expect_range(numbers[i], range, path + "/" + std::to_string(i));
+  }
+
+  /// Infinite ends count as ordered; NaN does not, and is reported as it is.
+  void expect_order(double lower, double upper, const std::string& prefix) {
+    for (const auto& [name, end] : {std::pair{"lower", lower}, std::pair{"upper", upper}})
+      expect(!std::isnan(end), prefix + name, text(end), "a number");
+    expect(!(lower >= upper), prefix + "upper", text(upper), "> lower (" + text(lower) + ")");
+  }
+
+  [[nodiscard]] bool clean() const { return faults_.empty(); }
+  [[nodiscard]] std::vector<DistributionFault> faults() && { return std::move(faults_); }
+
+private:
+  std::vector<DistributionFault> faults_;
+};
+
+void check_weights(const Discrete& law, Checker& checker) {
+  checker.expect(law.weights.size() == law.values.size(), "weights",
+                 std::to_string(law.weights.size()),
+                 "one for each of the " + std::to_string(law.values.size()) + " values");
+  if (!checker.clean()) return;
+  const double sum = std::accumulate(law.weights.begin(), law.weights.end(), 0.);
+  checker.expect(sum > 0, "weights", "all zero", "at least one > 0");
+  checker.expect(std::isfinite(sum), "weights", "a sum of " + text(sum), "a finite sum");
+}
+
+template <class L> void check_law(const L& law, Checker& checker) {
+  for (const auto& parameter : L::parameters())
+    checker.expect_range(law.*parameter.member, parameter.range, std::string(parameter.name));
+  if (!checker.clean()) return; // what follows compares the parameters with each other
+  if constexpr (requires { law.lower; }) checker.expect_order(law.lower, law.upper, "");
+  if constexpr (requires { law.mode; })
+    checker.expect(law.lower <= law.mode && law.mode <= law.upper, "mode", text(law.mode),
+                   "in [lower, upper] = [" + text(law.lower) + ", " + text(law.upper) + "]");
+  if constexpr (requires { law.weights; }) check_weights(law, checker);
+}
+
+template <class L> void check_truncation(const L& law, Truncation truncation, Checker& checker) {
+  const bool sound = checker.clean();
+  checker.expect_order(truncation.lower, truncation.upper, "truncate/");
+  if constexpr (!Continuous<L>)
+    checker.expect(false, "truncate", "a truncated " + std::string(L::type) + " law",
+                   "a continuous law");
+  else if (sound && checker.clean())
+    checker.expect(truncated(law, truncation).mass >= std::numeric_limits<double>::min(),
+                   "truncate", "[" + text(truncation.lower) + ", " + text(truncation.upper) + "]",
+                   "an interval in which the law has some probability");
+}
+
+} // namespace
+
+std::vector<DistributionFault> faults(const Distribution& distribution) {
+  Checker checker;
+  std::visit(
+      [&](const auto& law) {
+        check_law(law, checker);
+        if (distribution.truncate) check_truncation(law, *distribution.truncate, checker);
+      },
+      distribution.law);
+  return std::move(checker).faults();
+}
+
+} // namespace wingspread

@@ -1,0 +1,76 @@
+/// Uniform random numbers that depend on nothing but (seed, run, name).
+///
+/// A counter-based generator (Philox4x64-10; Salmon et al., "Parallel random numbers: as easy as
+/// 1, 2, 3", SC 2011) has no state to hand on: any number of any stream is computed where it is
+/// wanted. So threads, shards, order and resumption cannot change a draw.
+///
+///   word       holds
+///   key 0      the campaign's seed
+///   key 1      0, kept for other uses than a dispersion's draws
+///   counter 0  the block within the stream (four numbers each)
+///   counter 1  the run
+///   counter 2  the hash of the dispersion's name
+///   counter 3  0, kept likewise
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace wingspread {
+
+/// A name as the streams know it. Two names share a stream only if their hashes collide; whoever
+/// holds all of a campaign's names can rule that out by comparing them.
+struct StreamName {
+  std::uint64_t hash = 0;
+  friend bool operator==(StreamName, StreamName) = default;
+};
+
+/// The stream of a name: FNV-1a, 64 bits, over the name's bytes (Fowler, Noll, Vo; RFC 9923). Its
+/// weak mixing does no harm here: Philox mixes. Cost: one multiplication a byte.
+[[nodiscard]] constexpr StreamName stream_name(std::string_view name) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return {hash};
+}
+
+using PhiloxKey = std::array<std::uint64_t, 2>;
+using PhiloxBlock = std::array<std::uint64_t, 4>;
+
+/// Philox4x64-10's bijection of the counter under the key. Cost: 20 wide multiplications.
+[[nodiscard]] PhiloxBlock philox(const PhiloxKey& key, const PhiloxBlock& counter);
+
+/// The uniform number of 64 random bits: an odd multiple of 2⁻⁵³, so that u and 1 − u are both
+/// exact and neither is ever 0 or 1. One bit of the 53 is spent on that: (k + ½)·2⁻⁵³ with 53-bit k
+/// would round to 1 at the top. Extremes: 2⁻⁵³ = 1.1e-16 and 1 − 2⁻⁵³ (±8.2 σ of a normal law).
+[[nodiscard]] constexpr double open_uniform(std::uint64_t bits) {
+  return static_cast<double>((bits >> 11) | 1u) * 0x1p-53;
+}
+
+/// The stream's first number in (0, 1): the draw of a dispersion in a run.
+[[nodiscard]] double uniform(std::uint64_t seed, std::uint64_t run, StreamName name);
+
+/// All numbers of one stream, one after the other: a uniform random bit generator for std and
+/// Boost.Random. Its first number is the one behind `uniform`. Period 2⁶⁶.
+class RandomStream {
+public:
+  using result_type = std::uint64_t;
+  static constexpr bool has_fixed_range = false; ///< Boost.Random asks; it is for 32-bit ranges
+
+  RandomStream(std::uint64_t seed, std::uint64_t run, StreamName name)
+      : key_{seed, 0}, counter_{0, run, name.hash, 0} {}
+
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
+  result_type operator()();
+
+private:
+  PhiloxKey key_;
+  PhiloxBlock counter_;
+  PhiloxBlock block_{};
+  std::size_t used_ = 4; ///< how many numbers of block_ have been handed out
+};
+
+} // namespace wingspread

@@ -1,0 +1,83 @@
+/// What a campaign's results come to: plain data, from which the files (summary_json.hpp) and the
+/// terminal's table (table.hpp) are written.
+///
+/// Nothing is dropped silently: each output is summarised over the runs in which it happened, with
+/// the number in which it did not. The same results give the same summary, bit for bit.
+#pragma once
+
+#include "montecarlo/confidence.hpp"
+#include "montecarlo/histogram.hpp"
+#include "montecarlo/results.hpp"
+#include "montecarlo/statistics.hpp"
+#include "montecarlo/statistics_spec.hpp"
+
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// Which independent replicate of its design each row comes from: Latin hypercubes and scrambled
+/// Sobol' points depend on each other within one. Independent draws have no replicates.
+struct Replication {
+  int replicates = 0;      ///< 0: all draws are independent
+  std::vector<int> of_row; ///< per row of the results, in [0, replicates)
+};
+
+struct StatusShare {
+  Status status;
+  long count = 0;
+  double rate; ///< count / runs; NaN without runs
+  Bounds bounds;
+};
+
+/// How many runs of one status gave this reason.
+struct ReasonCount {
+  Status status;
+  std::string reason;
+  long count = 0;
+};
+
+struct LatchOrderCount {
+  std::string order; ///< "root>mid>tip"
+  long count = 0;
+};
+
+struct QuantileEstimate {
+  double p;
+  double value; ///< NaN without values
+  Bounds bounds;
+};
+
+struct OutputSummary {
+  std::string name;
+  Moments moments;  ///< over the runs in which it happened; `moments.count` of them
+  long missing = 0; ///< runs in which it did not
+  std::vector<QuantileEstimate> quantiles;
+  Histogram histogram;
+};
+
+/// Between a draw and an output, or `deployed`: 1 where the run deployed and 0 where it did not
+/// (Pearson's is then the point-biserial correlation).
+struct DrawCorrelation {
+  std::string draw, output;
+  Correlation value;
+};
+
+struct Summary {
+  long runs = 0;
+  double confidence = 0; ///< of all bounds, two-sided
+  int replicates = 0;    ///< that the bounds come from; 0: they are binomial, for independent draws
+  std::vector<StatusShare> statuses;         ///< all five
+  std::vector<ReasonCount> reasons;          ///< by status, then the most frequent, then by text
+  std::vector<LatchOrderCount> latch_orders; ///< the most frequent first, then by name
+  long without_latch = 0;                    ///< runs in which no hinge latched
+  std::vector<OutputSummary> outputs;        ///< in the order of the columns
+  std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
+};
+
+/// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs: each column is sorted once.
+/// @pre replication.of_row is as long as the results unless there are no replicates
+[[nodiscard]] Summary summarize(const Results& results, const StatisticsSpec& spec,
+                                const Replication& replication = {});
+
+} // namespace wingspread

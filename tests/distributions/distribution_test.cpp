@@ -1,0 +1,120 @@
+#include "distributions/distribution.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace wingspread;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+// All faults of a distribution, one a line: "path: found, expected".
+std::string report(const Law& law, std::optional<Truncation> truncate = {}) {
+  std::string lines;
+  for (const DistributionFault& f : faults({law, truncate}))
+    lines += (lines.empty() ? "" : "\n") + f.path + ": " + f.found + ", " + f.expected;
+  return lines;
+}
+
+} // namespace
+
+TEST_CASE("laws that are sound have no faults") {
+  CHECK(report(Normal{1, 0.05}) == "");
+  CHECK(report(Uniform{-1, 1}) == "");
+  CHECK(report(Triangular{0, 0, 1}) == "");
+  CHECK(report(Triangular{0, 1, 1}) == "");
+  CHECK(report(Lognormal{0, 0.1}) == "");
+  CHECK(report(Weibull{2, 3}) == "");
+  CHECK(report(Gamma{2, 3}) == "");
+  CHECK(report(Beta{2, 3, -1, 1}) == "");
+  CHECK(report(Exponential{2}) == "");
+  CHECK(report(Discrete{{1, 2}, {0, 3}}) == "");
+  CHECK(report(Empirical{{1, 1}}) == "");
+  CHECK(report(Constant{0}) == "");
+  CHECK(report(Normal{1, 0.05}, Truncation{0.9, infinity}) == "");
+  CHECK(report(Normal{}, Truncation{}) == "");
+}
+
+TEST_CASE("what must be positive is") {
+  CHECK(report(Normal{1, 0}) == "std: 0, > 0");
+  CHECK(report(Lognormal{1, -0.25}) == "sigma_log: -0.25, > 0");
+  CHECK(report(Exponential{0}) == "rate: 0, > 0");
+}
+
+TEST_CASE("all faults of a law are reported together") {
+  CHECK(report(Weibull{-1, 0}) == "shape: -1, > 0\nscale: 0, > 0");
+  CHECK(report(Gamma{0, not_a_number}) == "shape: 0, > 0\nscale: nan, a finite number");
+  CHECK(report(Beta{0, -1, infinity, 1}) ==
+        "alpha: 0, > 0\nbeta: -1, > 0\nlower: inf, a finite number");
+  CHECK(report(Normal{not_a_number, 0}, Truncation{2, 1}) ==
+        "mean: nan, a finite number\nstd: 0, > 0\ntruncate/upper: 1, > lower (2)");
+}
+
+TEST_CASE("what must be finite is") {
+  CHECK(report(Constant{-infinity}) == "value: -inf, a finite number");
+  CHECK(report(Uniform{not_a_number, 1}) == "lower: nan, a finite number");
+  CHECK(report(Empirical{{1, not_a_number}}) == "values/1: nan, a finite number");
+}
+
+TEST_CASE("bounds are in order, with the mode between them") {
+  CHECK(report(Uniform{1, 1}) == "upper: 1, > lower (1)");
+  CHECK(report(Beta{1, 1, 2, 1}) == "upper: 1, > lower (2)");
+  CHECK(report(Triangular{0, 1.5, 1}) == "mode: 1.5, in [lower, upper] = [0, 1]");
+  CHECK(report(Triangular{0, -0.1, 1}) == "mode: -0.1, in [lower, upper] = [0, 1]");
+}
+
+TEST_CASE("values and weights pair up and weigh something") {
+  CHECK(report(Discrete{{}, {}}) == "values: none, at least one\nweights: none, at least one");
+  CHECK(report(Empirical{}) == "values: none, at least one");
+  CHECK(report(Discrete{{1, 2, 3}, {1, 2}}) == "weights: 2, one for each of the 3 values");
+  CHECK(report(Discrete{{1, 2}, {0.5, -0.5}}) == "weights/1: -0.5, ≥ 0");
+  CHECK(report(Discrete{{1, 2}, {0, 0}}) == "weights: all zero, at least one > 0");
+  CHECK(report(Discrete{{1, 2}, {1e308, 1e308}}) == "weights: a sum of inf, a finite sum");
+}
+
+TEST_CASE("a truncation is an interval of a continuous law that holds some probability") {
+  const std::string none = ", an interval in which the law has some probability";
+  CHECK(report(Normal{}, Truncation{1, 1}) == "truncate/upper: 1, > lower (1)");
+  CHECK(report(Normal{}, Truncation{not_a_number, 1}) == "truncate/lower: nan, a number");
+  CHECK(report(Normal{}, Truncation{0, not_a_number}) == "truncate/upper: nan, a number");
+  CHECK(report(Normal{}, Truncation{infinity, infinity}) == "truncate/upper: inf, > lower (inf)");
+  CHECK(report(Normal{}, Truncation{40, 41}) == "truncate: [40, 41]" + none);
+  CHECK(report(Uniform{0, 1}, Truncation{-2, -1}) == "truncate: [-2, -1]" + none);
+  CHECK(report(Uniform{0, 1}, Truncation{-2, 0}) == "truncate: [-2, 0]" + none);
+  CHECK(report(Weibull{2, 1}, Truncation{-2, -1}) == "truncate: [-2, -1]" + none);
+  CHECK(report(Normal{}, Truncation{37, 38}) == "");
+  CHECK(report(Discrete{{1}, {1}}, Truncation{0, 2}) ==
+        "truncate: a truncated discrete law, a continuous law");
+  CHECK(report(Constant{1}, Truncation{0, 2}) ==
+        "truncate: a truncated constant law, a continuous law");
+  CHECK(report(Empirical{{1}}, Truncation{0, 2}) ==
+        "truncate: a truncated empirical law, a continuous law");
+}
+
+TEST_CASE("a law's parameters can be read by name") {
+  Law law = Triangular{1, 2, 3};
+  std::string names;
+  double sum = 0;
+  for (const auto& [name, member, range] : Triangular::parameters()) {
+    names += std::string(name) + " ";
+    sum += std::get<Triangular>(law).*member;
+  }
+  CHECK(names == "lower mode upper ");
+  CHECK(sum == 6);
+  CHECK(std::visit([](const auto& l) { return l.type; }, law) == "triangular");
+}
+
+TEST_CASE("the moments of laws whose values can be counted") {
+  const Moments discrete = moments(Discrete{{1, 3}, {3, 1}});
+  CHECK(discrete.mean == 1.5);
+  CHECK(discrete.standard_deviation == Approx(std::sqrt(0.75)).epsilon(1e-15));
+  const Moments data = moments(Empirical{{1, 2, 3, 6}});
+  CHECK(data.mean == 3);
+  CHECK(data.standard_deviation == Approx(std::sqrt(3.5)).epsilon(1e-15)); // of the law: over n
+  CHECK(moments(Constant{4}).mean == 4);
+  CHECK(moments(Constant{4}).standard_deviation == 0);
+}

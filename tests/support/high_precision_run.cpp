@@ -1,0 +1,162 @@
+#include "tests/support/reference_ode.hpp"
+#include "tests/support/reference_run.hpp"
+
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+
+#include <stdexcept>
+
+namespace wingspread::oracle {
+
+namespace {
+
+/// Fehlberg 7(8), carried on at order 8, with every point of interest reached by a real step.
+template <class Scalar> class Fehlberg {
+public:
+  Fehlberg(WingOde<Scalar>& ode, const ReferenceOptions& options)
+      : ode_(ode), options_(options), book_(ode, options, ode.initial()), y_(ode.initial()) {}
+
+  [[nodiscard]] ReferenceOutcome run() {
+    const Scalar end = options_.t_end;
+    while (time_ < end) {
+      const Scalar h = std::min<Scalar>({step_, Scalar(options_.max_step), end - time_});
+      Scalar error;
+      const Vector<Scalar> next = stepped(h, error);
+      step_ = h * growth(error);
+      if (!(error <= 1)) {
+        if (time_ + step_ == time_) throw std::runtime_error("Fehlberg: the step size underflows");
+        continue;
+      }
+      accept(h, next, h == end - time_);
+    }
+    return book_.close(y_);
+  }
+
+private:
+  using State = std::vector<Scalar>;
+  using Stepper = boost::numeric::odeint::runge_kutta_fehlberg78<State, Scalar, State, Scalar>;
+
+  /// The state after a step of h, and its error as a multiple of what is tolerated.
+  [[nodiscard]] Vector<Scalar> stepped(const Scalar& h, Scalar& error) const {
+    using std::abs;
+    using std::max;
+    const State from(y_.begin(), y_.end());
+    State to(from.size()), difference(from.size());
+    const auto system = [&](const State& y, State& derivative, const Scalar&) {
+      const Vector<Scalar> d =
+          ode_.derivative(Eigen::Map<const Vector<Scalar>>(y.data(), y_.size()));
+      std::copy(d.begin(), d.end(), derivative.begin());
+    };
+    Stepper().do_step(system, from, Scalar(0), to, h, difference);
+    error = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      const Scalar size = max<Scalar>(abs(from[i]), abs(to[i]));
+      const Scalar part = abs(difference[i]) / (absolute(i) + options_.rtol * size);
+      if (!(part <= error)) error = part; // a NaN stays
+    }
+    return Eigen::Map<const Vector<Scalar>>(to.data(), y_.size());
+  }
+
+  [[nodiscard]] Vector<Scalar> stepped(const Scalar& h) const {
+    Scalar ignored;
+    return stepped(h, ignored);
+  }
+
+  /// S is of the order of ε, so its absolute tolerance is too.
+  [[nodiscard]] Scalar absolute(std::size_t entry) const {
+    const std::size_t mechanical = 2 * ode_.hinges() + 6;
+    return entry < mechanical ? options_.atol : options_.atol * options_.smoothing.value_or(1);
+  }
+
+  [[nodiscard]] static Scalar growth(const Scalar& error) {
+    using std::pow;
+    if (!(error < 1e30)) return Scalar(0.1);
+    const double factor = 0.9 * pow(static_cast<double>(error) + 1e-30, -1. / 8);
+    return Scalar(std::clamp(factor, 0.2, 4.));
+  }
+
+  /// Goes on by h, or to the first latch on the way.
+  void accept(Scalar h, Vector<Scalar> next, bool to_end) {
+    const int hinge = first_latch(h, next);
+    if (hinge >= 0) next = stepped(h);
+    const Scalar upper = to_end && hinge < 0 ? Scalar(options_.t_end) : Scalar(time_ + h);
+    book_.step(time_, upper, 2, [&](const Scalar& time) -> Vector<Scalar> {
+      if (time == time_) return y_;
+      return time == upper ? next : stepped(time - time_);
+    });
+    time_ = upper;
+    y_ = next;
+    if (hinge < 0) return;
+    book_.latch(hinge, time_, y_);
+    if (!ode_.smoothed()) step_ = std::min<Scalar>(step_, Scalar(1e-4));
+  }
+
+  /// The hinge that latches first within a step of h that ends in `next`, −1 when none does; h then
+  /// becomes the step to that instant.
+  [[nodiscard]] int first_latch(Scalar& h, const Vector<Scalar>& next) const {
+    int first = -1;
+    const Scalar whole = h;
+    for (int i = 0; i < ode_.hinges(); ++i) {
+      if (!ode_.awaits_latch(i)) continue;
+      Scalar past = whole; // a step after which hinge i may be past its latch
+      const auto travel = [&](const Vector<Scalar>& y) { return ode_.overtravel(i, y); };
+      const auto slowing = [&](const Vector<Scalar>& y) { return Scalar(-ode_.overtravel_rate(i, y)); };
+      if (travel(next) < 0) {
+        if (!(slowing(y_) < 0 && slowing(next) > 0)) continue;
+        past = crossing(whole, slowing); // it turns within the step: perhaps beyond the latch
+        if (travel(stepped(past)) < 0) continue;
+      }
+      const Scalar at = travel(y_) < 0 ? crossing(past, travel) : Scalar(0);
+      if (first >= 0 && !(at < h)) continue;
+      first = i;
+      h = at;
+    }
+    return first;
+  }
+
+  /// The step at which g(y) < 0 becomes ≥ 0: Illinois, each trial a real step. Ends on the side ≥ 0.
+  template <class Function>
+  [[nodiscard]] Scalar crossing(Scalar upper, const Function& g) const {
+    using std::abs;
+    Scalar lower = 0, below = g(y_), above = g(stepped(upper));
+    int side = 0;
+    const Scalar least = 4 * std::numeric_limits<Scalar>::epsilon() * (time_ + upper);
+    for (int i = 0; i < 200 && upper - lower > least && above != 0; ++i) {
+      Scalar trial = (lower * above - upper * below) / (above - below);
+      if (!(trial > lower && trial < upper)) trial = (lower + upper) / 2;
+      if (trial == lower || trial == upper) break;
+      const Scalar value = g(stepped(trial));
+      if (value >= 0) {
+        upper = trial;
+        above = value;
+        if (side == 1) below /= 2;
+        side = 1;
+      } else {
+        lower = trial;
+        below = value;
+        if (side == -1) above /= 2;
+        side = -1;
+      }
+    }
+    return upper;
+  }
+
+  WingOde<Scalar>& ode_;
+  const ReferenceOptions& options_;
+  RunBook<Scalar> book_;
+  Vector<Scalar> y_;
+  Scalar time_{0};
+  Scalar step_{1e-4};
+};
+
+} // namespace
+
+template <class Scalar>
+ReferenceOutcome high_precision_run(const Scene& scene, const ReferenceOptions& options) {
+  WingOde<Scalar> ode(scene, options.smoothing);
+  return Fehlberg<Scalar>(ode, options).run();
+}
+
+template ReferenceOutcome high_precision_run<long double>(const Scene&, const ReferenceOptions&);
+template ReferenceOutcome high_precision_run<Quad>(const Scene&, const ReferenceOptions&);
+
+} // namespace wingspread::oracle
