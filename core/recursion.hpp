@@ -102,10 +102,10 @@ inline void gather(const Wing<T>& wing, const Topology& tree, std::vector<BodyFr
     c = c + b;
     load = (load - child.moment) - dot(q, b);
   });
-  const T inverse = T(1) / I;
-  own.coupling = scaled(inverse, h);
-  own.free_acceleration = load * inverse;
-  own.stiffness = less_outer(A, h, own.coupling);
+  const T minus_inverse = T(-1) / I;
+  own.coupling = scaled(minus_inverse, h);
+  own.free_acceleration = -(load * minus_inverse);
+  own.stiffness = {fused(h.x*h.x, minus_inverse, A.xx), fused(h.x*h.y, minus_inverse, A.xy), fused(h.y*h.y, minus_inverse, A.yy)};
   own.bias = fused(own.free_acceleration, h, c);
 }
 
@@ -116,7 +116,7 @@ template <class T, class Topology>
   BodyFrame<T>& own = frames[i];
   const Vec2<T> carried = fused(-parent.rate_squared, own.arm, parent.acceleration);
   own.acceleration = fused(parent.angular_acceleration, turned(own.arm), carried);
-  own.angular_acceleration = own.free_acceleration - dot(own.coupling, own.acceleration);
+  own.angular_acceleration = fused_dot(own.coupling, own.acceleration, own.free_acceleration);
   return own.angular_acceleration - parent.angular_acceleration;
 }
 
@@ -126,7 +126,7 @@ template <class T> inline void release_base(BodyFrame<T>& base) {
   const T inverse = T(1) / fused(K.xx, K.yy, -(K.xy * K.xy));
   base.acceleration = {inverse * fused(K.xy, base.bias.y, -(K.yy * base.bias.x)),
                        inverse * fused(K.xy, base.bias.x, -(K.xx * base.bias.y))};
-  base.angular_acceleration = base.free_acceleration - dot(base.coupling, base.acceleration);
+  base.angular_acceleration = fused_dot(base.coupling, base.acceleration, base.free_acceleration);
 }
 
 } // namespace wingspread

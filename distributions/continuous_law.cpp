@@ -98,12 +98,33 @@ template <class L> double inverse_of(const L& law, Tails tails) {
                                     : bm::quantile(bm::complement(boost, tails.above));
 }
 
+/// How far a point is from both ends of a beta law, in widths of its support.
+struct Distances {
+  double near; ///< from the end that the tail belongs to
+  double far;
+};
+
+// Boost's root finder gives up on tiny distances for some half-integer exponents (a = ½, b = 2: a
+// factor of 100 off), where two terms of the series are all that is needed:
+//   tail = x^a/(a B(a, b))·(1 − a(b − 1)/(a + 1) x + …), so x = f + (b − 1)/(a + 1) f² + …  (2)
+// with f its first term's solution. Where f underflows, Boost knows better.
+Distances beta_distances(double a, double b, double tail) {
+  const double f = std::pow(tail * a * bm::beta(a, b, Policy()), 1 / a);
+  if (f > 0 && f * (1 + b) < 1e-8) {
+    const double near = f + (b - 1) / (a + 1) * f * f; // (2); what is left out is below epsilon
+    return {near, 1 - near};
+  }
+  double far = 0;
+  const double near = bm::ibeta_inv(a, b, tail, &far, Policy());
+  return {near, far};
+}
+
 double inverse_of(const Beta& law, Tails tails) {
-  double to_upper = 0;
-  const double from_lower =
-      tails.below <= tails.above
-          ? bm::ibeta_inv(law.alpha, law.beta, tails.below, &to_upper, Policy())
-          : bm::ibetac_inv(law.alpha, law.beta, tails.above, &to_upper, Policy());
+  const bool upwards = tails.below <= tails.above;
+  const Distances at = upwards ? beta_distances(law.alpha, law.beta, tails.below)
+                               : beta_distances(law.beta, law.alpha, tails.above);
+  const double from_lower = upwards ? at.near : at.far;
+  const double to_upper = upwards ? at.far : at.near;
   const double width = law.upper - law.lower;
   return from_lower <= to_upper ? law.lower + width * from_lower : law.upper - width * to_upper;
 }

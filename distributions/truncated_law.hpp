@@ -24,7 +24,8 @@ struct TruncatedLaw {
 
 /// The point with the confined law's probability u below it, within [a, b] always:
 /// F(x) = F(a) + m·u (1), Q(x) = Q(b) + m·(1 − u) (2), whichever is the smaller and so the exact
-/// one. In an interval of 10⁻ⁿ standard deviations about 16 − n digits of its width are resolved.
+/// one. In an interval of 10⁻ⁿ standard deviations about 16 − n digits of its width are resolved;
+/// far out, tails below 1e-308 (a normal law's beyond 37.5 σ) lose digits as numbers do there.
 [[nodiscard]] double quantile(const TruncatedLaw& law, double u);
 
 /// The point with the confined law's probability q above it.

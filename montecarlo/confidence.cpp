@@ -87,8 +87,10 @@ RankBounds quantile_rank_bounds(long n, double p, double confidence) {
     return cdf(boost::math::complement(below, static_cast<double>(u - 1)));
   };
   const auto ranks = std::views::iota(1L, n + 1);
-  const auto first_not_lower = std::ranges::partition_point(ranks, [&](long l) { return fewer(l) <= tail; });
-  const auto first_upper = std::ranges::partition_point(ranks, [&](long u) { return at_least(u) > tail; });
+  const auto first_not_lower =
+      std::ranges::partition_point(ranks, [&](long l) { return fewer(l) <= tail; });
+  const auto first_upper =
+      std::ranges::partition_point(ranks, [&](long u) { return at_least(u) > tail; });
   RankBounds bounds;
   if (first_not_lower != ranks.begin()) bounds.lower = first_not_lower - ranks.begin();
   if (first_upper != ranks.end()) bounds.upper = *first_upper;

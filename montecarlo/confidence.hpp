@@ -63,8 +63,8 @@ struct ReplicateValue {
 /// Student's quantile for R − 1 degrees of freedom. (The mean of the replicates' quantiles would be
 /// biased.) No bounds for R < 2. Cost O(n).
 /// @param sorted smallest value first.
-[[nodiscard]] Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted, int replicates,
-                                               double p, double confidence);
+[[nodiscard]] Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted,
+                                               int replicates, double p, double confidence);
 
 /// A proportion's interval from replicates, F ± t s cut to [0, 1].
 /// No bounds for R < 2, nor where all replicates agree: that says nothing about the error.

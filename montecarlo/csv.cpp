@@ -32,6 +32,14 @@ void append_csv_cell(std::string& buffer, double value) {
   buffer.append(digits.data(), end);
 }
 
+std::optional<double> parse_csv_number(std::string_view cell) {
+  double value = 0;
+  const char* last = cell.data() + cell.size();
+  const auto [end, error] = std::from_chars(cell.data(), last, value);
+  if (error != std::errc{} || end != last || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 CsvReader::CsvReader(std::istream& in, std::string file) : in_(in), file_(std::move(file)) {}
 
 SpecError CsvReader::error(const std::string& column, std::string found,
@@ -71,7 +79,8 @@ std::size_t CsvReader::split_plain(std::size_t start, std::string& cell) const {
   const std::size_t end = std::min(record_.find(',', start), record_.size());
   cell.assign(record_, start, end - start);
   if (cell.find('"') != std::string::npos)
-    throw error("", fmt::format("a quote inside the cell '{}'", cell), "quotes around the whole cell");
+    throw error("", fmt::format("a quote inside the cell '{}'", cell),
+                "quotes around the whole cell");
   if (cell.find('\r') != std::string::npos)
     throw error("", "a carriage return on its own", "lines that end in LF or CRLF");
   return end;
@@ -83,12 +92,14 @@ std::size_t CsvReader::split_quoted(std::size_t start, std::string& cell) const 
   std::size_t at = start + 1;
   for (;;) {
     const std::size_t quote = record_.find('"', at);
-    if (quote == std::string::npos) throw error("", "a quote that is never closed", "a closing quote");
+    if (quote == std::string::npos)
+      throw error("", "a quote that is never closed", "a closing quote");
     cell.append(record_, at, quote - at);
     at = quote + 1;
     if (at == record_.size() || record_[at] == ',') return at;
     if (record_[at] != '"')
-      throw error("", fmt::format("'{}' after a closing quote", record_[at]), "a comma or a line break");
+      throw error("", fmt::format("'{}' after a closing quote", record_[at]),
+                  "a comma or a line break");
     cell += '"';
     ++at;
   }

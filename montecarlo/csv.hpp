@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,10 @@ void append_csv_cell(std::string& buffer, std::string_view text);
 /// Appends `value` with 17 significant digits (C's "%.17g", in any locale), which read back to the
 /// same double; appends nothing, an empty cell, when it is not finite.
 void append_csv_cell(std::string& buffer, double value);
+
+/// The number that the whole of `cell` spells; nothing when it spells none, or one that is not
+/// finite.
+[[nodiscard]] std::optional<double> parse_csv_number(std::string_view cell);
 
 /// Reads a CSV stream record by record. A leading UTF-8 byte order mark is skipped.
 class CsvReader {

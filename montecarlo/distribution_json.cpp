@@ -8,7 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <utility>
 
 namespace wingspread {
@@ -27,9 +27,12 @@ template <std::size_t... I> Law default_law(std::size_t type, std::index_sequenc
 
 std::string expected_of(double, Range range) {
   switch (range) {
-  case Range::positive: return "a number, > 0";
-  case Range::non_negative: return "a number, ≥ 0";
-  case Range::finite: break;
+  case Range::positive:
+    return "a number, > 0";
+  case Range::non_negative:
+    return "a number, ≥ 0";
+  case Range::finite:
+    break;
   }
   return "a number";
 }
@@ -55,8 +58,9 @@ double parse_cell(const CsvReader& reader, const std::string& cell, const std::s
 }
 
 /// The numbers of one column of a CSV file whose first record names its columns.
-/// @throws CsvError at the first fault
-std::vector<double> read_column(std::istream& in, const std::string& file, const std::string& column) {
+/// @throws SpecError at the first fault
+std::vector<double> read_column(std::istream& in, const std::string& file,
+                                const std::string& column) {
   CsvReader reader(in, file);
   const bool has_header = reader.next();
   const std::vector<std::string> header = has_header ? reader.cells() : std::vector<std::string>{};
@@ -79,28 +83,24 @@ std::vector<double> read_column(std::istream& in, const std::string& file, const
 void read_file(const JsonCursor& at, const std::string& name, const std::string& column,
                const std::filesystem::path& directory, std::vector<double>& values) {
   const std::filesystem::path path = directory / name;
-  std::error_code unknown; // then opening it fails too
-  std::ifstream in;
-  if (!std::filesystem::is_directory(path, unknown)) in.open(path, std::ios::binary);
-  if (!in.is_open()) {
-    at.refuse("no file that can be read at \"" + path.string() + "\"", "a CSV file", "/file");
+  const auto text = read_text(path);
+  if (!text) {
+    at.refuse(fmt::format("no file that can be read at \"{}\"", path.string()), "a CSV file",
+              "/file");
     return;
   }
+  std::istringstream in(*text);
   try {
     values = read_column(in, path.string(), column);
-  } catch (const CsvError& error) {
-    const CsvFault& fault = error.fault();
-    const std::string cell = fault.column.empty() ? "" : fmt::format(", column '{}'", fault.column);
-    at.problems().push_back({fault.file, "", fmt::format("line {}{}: {}", fault.line, cell, fault.found),
-                             fault.expected});
+  } catch (const SpecError& error) {
+    at.problems().insert(at.problems().end(), error.problems().begin(), error.problems().end());
   }
 }
 
 void read_empirical(JsonObject& object, Empirical& law, const std::filesystem::path& directory) {
   const bool from_file = object.find("file") || object.find("column");
   if (!from_file) return read_parameters(object, law);
-  if (object.find("values"))
-    object.at().refuse("both values and a file", "either of them");
+  if (object.find("values")) object.at().refuse("both values and a file", "either of them");
   std::string name, column;
   const bool named = object.required("file", name, "a string, the name of a CSV file");
   const bool picked = object.required("column", column, "a string, a column's name in the header");
@@ -134,7 +134,8 @@ Distribution read_distribution(const JsonCursor& at, const std::filesystem::path
           read_parameters(object, law);
       },
       distribution.law);
-  if (const auto truncate = object.find("truncate")) read_truncation(*truncate, distribution.truncate);
+  if (const auto truncate = object.find("truncate"))
+    read_truncation(*truncate, distribution.truncate);
   object.refuse_others();
   if (at.problems().size() == before)
     for (const DistributionFault& fault : faults(distribution))

@@ -35,7 +35,8 @@ int auto_bins(std::span<const double> sorted) {
 /// The number of bins that leaves at least four roundings between neighbouring edges.
 int with_room(int bins, const Range& range) {
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
-  const double room = (range.upper - range.lower) / (4 * std::numeric_limits<double>::epsilon() * largest);
+  const double room =
+      (range.upper - range.lower) / (4 * std::numeric_limits<double>::epsilon() * largest);
   return static_cast<int>(std::clamp(std::floor(room), 1.0, static_cast<double>(bins)));
 }
 
@@ -51,7 +52,8 @@ std::vector<double> edges_of(const Range& range, int bins) {
 long Histogram::total() const { return std::reduce(counts.begin(), counts.end()); }
 
 double Histogram::density(std::size_t bin) const {
-  return static_cast<double>(counts[bin]) / static_cast<double>(total()) / (edges[bin + 1] - edges[bin]);
+  return static_cast<double>(counts[bin]) / static_cast<double>(total()) /
+         (edges[bin + 1] - edges[bin]);
 }
 
 Histogram histogram(std::span<const double> sorted, const Bins& bins) {

@@ -28,9 +28,15 @@ public:
       open_.push_back({event == Event::array_start, 0, {}, {}});
       break;
     case Event::object_end:
-    case Event::array_end: open_.pop_back(); break;
-    case Event::key: see_key(parsed.get<std::string>()); break;
-    case Event::value: count_element(); break;
+    case Event::array_end:
+      open_.pop_back();
+      break;
+    case Event::key:
+      see_key(parsed.get<std::string>());
+      break;
+    case Event::value:
+      count_element();
+      break;
     }
   }
 
@@ -71,8 +77,9 @@ private:
   std::vector<Container> open_;
 };
 
-/// The parser's "[json.exception…] parse error at line 3, column 1: syntax error … - unexpected '}';
-/// expected string literal" without its bracket, split into what it found and what it expected.
+/// The parser's "[json.exception…] parse error at line 3, column 1: syntax error … - unexpected
+/// '}'; expected string literal" without its bracket, split into what it found and what it
+/// expected.
 Problem syntax_problem(const std::string& file, std::string_view message) {
   const auto cut_before = [&message](std::string_view mark) {
     if (const auto at = message.find(mark); at != std::string_view::npos)
@@ -117,17 +124,18 @@ Json parse_json(const std::string& text, const std::string& file) {
   return document;
 }
 
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code unknown; // a path that cannot be asked about cannot be read either
+std::optional<std::string> read_text(const std::filesystem::path& path) {
+  std::error_code unknown; // a path that cannot be asked about cannot be opened either
   std::ifstream in;
   if (!std::filesystem::is_directory(path, unknown)) in.open(path, std::ios::binary);
-  if (!in.is_open())
-    throw SpecError({{path.string(), "", "no file that can be read", "a readable file"}});
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.is_open()) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 Json parse_json_file(const std::filesystem::path& path) {
-  return parse_json(read_text(path), path.string());
+  const auto text = read_text(path);
+  if (!text) throw SpecError({{path.string(), "", "no file that can be read", "a JSON file"}});
+  return parse_json(*text, path.string());
 }
 
 } // namespace wingspread

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace wingspread {
 
@@ -16,11 +18,10 @@ using Json = nlohmann::ordered_json;
 ///   numbers beyond a double and keys that stand twice in one object (with their pointer)
 [[nodiscard]] Json parse_json(const std::string& text, const std::string& file = "");
 
-/// The bytes of a file.
-/// @throws SpecError when it cannot be read
-[[nodiscard]] std::string read_text(const std::filesystem::path& path);
+/// The bytes of a file; nothing when it cannot be read.
+[[nodiscard]] std::optional<std::string> read_text(const std::filesystem::path& path);
 
-/// @throws SpecError as parse_json and read_text do
+/// @throws SpecError as parse_json does, and when the file cannot be read
 [[nodiscard]] Json parse_json_file(const std::filesystem::path& path);
 
 /// A key as a JSON pointer's last token: "/key", with "~" and "/" escaped.

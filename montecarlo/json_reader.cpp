@@ -52,10 +52,14 @@ bool read_integer(const JsonCursor& at, Integer& out, std::string_view expected)
 
 std::string describe_value(const Json& value) {
   switch (value.type()) {
-  case Json::value_t::object: return "an object";
-  case Json::value_t::array: return fmt::format("an array of {}", value.size());
-  case Json::value_t::string: return "string " + shortened(value.dump());
-  default: return value.dump();
+  case Json::value_t::object:
+    return "an object";
+  case Json::value_t::array:
+    return fmt::format("an array of {}", value.size());
+  case Json::value_t::string:
+    return "string " + shortened(value.dump());
+  default:
+    return value.dump();
   }
 }
 

@@ -5,7 +5,8 @@
 ///     object.optional("inertia", body.inertia, "a number, kg·m², > 0");
 ///     object.refuse_others();
 ///
-/// Nothing is thrown: what could not be read keeps the value it had, and the problem is in the list.
+/// Nothing is thrown: what could not be read keeps the value it had, and the problem is in the
+/// list.
 #pragma once
 
 #include "montecarlo/json_parse.hpp"

@@ -24,8 +24,8 @@ OutputName parse_output_name(std::string_view name) {
     if (dot != std::string_view::npos && name.substr(dot + 1) == quantity.name)
       return {std::string(name.substr(0, dot)), std::string(quantity.name), "", quantity.unit};
   if (const std::size_t at = name.find(rate_at); at != std::string_view::npos)
-    return {std::string(name.substr(0, at)), "rate_at", std::string(name.substr(at + rate_at.size())),
-            "rad/s"};
+    return {std::string(name.substr(0, at)), "rate_at",
+            std::string(name.substr(at + rate_at.size())), "rad/s"};
   return {"", std::string(name), "", ""};
 }
 

@@ -89,9 +89,12 @@ using Owner = ParameterRef::Owner;
 template <class SceneType, class Use>
 decltype(auto) with_owner(const ParameterRef& parameter, SceneType& scene, Use use) {
   switch (parameter.owner) {
-  case Owner::body: return use(scene.bodies[parameter.index], body_fields);
-  case Owner::hinge: return use(scene.hinges[parameter.index], hinge_fields);
-  case Owner::base: break;
+  case Owner::body:
+    return use(scene.bodies[parameter.index], body_fields);
+  case Owner::hinge:
+    return use(scene.hinges[parameter.index], hinge_fields);
+  case Owner::base:
+    break;
   }
   return use(scene.base, base_fields);
 }
@@ -159,8 +162,9 @@ double& ParameterRef::in(Scene& scene) const {
 }
 
 double ParameterRef::in(const Scene& scene) const {
-  return with_owner(*this, scene,
-                    [this](const auto& its, const auto& fields) { return fields[field].read(its); });
+  return with_owner(*this, scene, [this](const auto& its, const auto& fields) {
+    return fields[field].read(its);
+  });
 }
 
 ParameterMatches resolve(const Scene& scene, std::string_view path) {
@@ -193,9 +197,12 @@ std::string path_of(const Scene& scene, const ParameterRef& parameter) {
 
 std::string_view unit_of(const ParameterRef& parameter) {
   switch (parameter.owner) {
-  case Owner::body: return body_fields[parameter.field].unit;
-  case Owner::hinge: return hinge_fields[parameter.field].unit;
-  case Owner::base: break;
+  case Owner::body:
+    return body_fields[parameter.field].unit;
+  case Owner::hinge:
+    return hinge_fields[parameter.field].unit;
+  case Owner::base:
+    break;
   }
   return base_fields[parameter.field].unit;
 }

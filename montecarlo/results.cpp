@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -57,21 +56,16 @@ Places find_places(CsvReader& reader, const ResultNames& names) {
   return places;
 }
 
-/// Parses the whole of `text`; nothing when it is not a number in its entirety, or out of range.
-template <class Number> std::optional<Number> parse(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 long parse_run(const CsvReader& reader, const std::string& cell, const Results& results) {
   const long least = results.runs.empty() ? 0 : results.runs.back() + 1;
-  const auto run = parse<long>(cell);
-  if (!run || *run < least)
-    throw reader.error("run", fmt::format("'{}'", cell),
-                       fmt::format("a whole number of at least {} (runs count from 0, in order)", least));
-  return *run;
+  const char* last = cell.data() + cell.size();
+  long run = -1;
+  const auto [end, error] = std::from_chars(cell.data(), last, run);
+  if (error != std::errc{} || end != last || run < least)
+    throw reader.error(
+        "run", fmt::format("'{}'", cell),
+        fmt::format("a whole number of at least {} (runs count from 0, in order)", least));
+  return run;
 }
 
 Status parse_status(const CsvReader& reader, const std::string& cell) {
@@ -79,16 +73,16 @@ Status parse_status(const CsvReader& reader, const std::string& cell) {
   const auto found = std::ranges::find_if(statuses, same);
   if (found != statuses.end()) return *found;
   std::vector<std::string> allowed;
-  std::ranges::transform(statuses, std::back_inserter(allowed), [](Status s) { return to_string(s); });
+  std::ranges::transform(statuses, std::back_inserter(allowed),
+                         [](Status s) { return to_string(s); });
   throw reader.error("status", fmt::format("'{}'", cell),
                      fmt::format("one of {}", fmt::join(allowed, ", ")));
 }
 
 double parse_number(const CsvReader& reader, const std::string& cell, const std::string& column) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto value = parse<double>(cell);
-  if (!value || !std::isfinite(*value))
-    throw reader.error(column, fmt::format("'{}'", cell), "a finite number, or nothing");
+  const auto value = parse_csv_number(cell);
+  if (!value) throw reader.error(column, fmt::format("'{}'", cell), "a finite number, or nothing");
   return *value;
 }
 

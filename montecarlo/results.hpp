@@ -84,9 +84,9 @@ struct ResultsFile {
 /// Reads runs.csv. The columns are those of `names` with `run`, `status` and `latch_order`, in any
 /// order; `reason` may be missing.
 /// @param file name for the error messages.
-/// Throws SpecError at the first fault: a column that is missing, unknown or there twice, a row with
-/// more or fewer cells than the header, a cell that is not what its column holds, run numbers that
-/// do not increase.
+/// Throws SpecError at the first fault: a column that is missing, unknown or there twice, a row
+/// with more or fewer cells than the header, a cell that is not what its column holds, run numbers
+/// that do not increase.
 [[nodiscard]] ResultsFile read_results(std::istream& in, const std::string& file,
                                        const ResultNames& names, UnterminatedRow last);
 

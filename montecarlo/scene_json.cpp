@@ -65,7 +65,8 @@ void read_friction(const JsonCursor& at, Friction& friction) {
     const bool exact = friction.model == FrictionModel::exact;
     double value = 0;
     if (level->read(value, "a number, N·m, ≥ coulomb")) friction.static_level = value;
-    if (!exact) level->refuse("no static level with the regularized model (\"model\": \"exact\" has one)");
+    if (!exact)
+      level->refuse("no static level with the regularized model (\"model\": \"exact\" has one)");
   }
   object.refuse_others();
 }
@@ -116,7 +117,10 @@ void refuse_unphysical(const JsonCursor& at, Scene scene) {
     const auto covers = [&](const Problem& problem) {
       return problem.file == at.file() && pointer.starts_with(problem.pointer + "/");
     };
-    if (std::ranges::none_of(known, covers)) at.refuse(fault.found, fault.expected, below);
+    if (std::ranges::any_of(known, covers)) continue;
+    const Json::json_pointer place(below);
+    const bool stated = at.value().contains(place); // else it is a default
+    at.refuse(stated ? describe_value(at.value()[place]) : fault.found, fault.expected, below);
   }
 }
 

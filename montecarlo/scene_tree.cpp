@@ -17,7 +17,8 @@ constexpr std::string_view base_name = "base";
 bool is_plain(std::string_view name) {
   const auto has_meaning = [](char c) {
     const auto code = static_cast<unsigned char>(c);
-    return code < 0x20 || code == 0x7F || std::string_view(".*/,\">").find(c) != std::string_view::npos;
+    return code < 0x20 || code == 0x7F ||
+           std::string_view(".*/,\">").find(c) != std::string_view::npos;
   };
   return !name.empty() && std::ranges::none_of(name, has_meaning);
 }
@@ -86,7 +87,8 @@ bool check_children(const JsonCursor& at, const Scene& scene) {
     const std::string& child = scene.bodies[scene.hinges[h].child].name;
     if (hinge)
       sound = at.member("hinges").element(h).member("child").refuse(
-          fmt::format("string \"{}\", the child of hinge \"{}\" too", child, scene.hinges[*hinge].name),
+          fmt::format("string \"{}\", the child of hinge \"{}\" too", child,
+                      scene.hinges[*hinge].name),
           "a body that is the child of no other hinge");
     hinge = hinge.value_or(h);
   }
@@ -117,8 +119,10 @@ void refuse_cycle(const JsonCursor& at, const Scene& scene) {
     body = parent(body);
     cycle += " < " + scene.bodies[body].name;
   } while (body != on_cycle);
-  at.member("hinges").element(hinge_of[on_cycle]).member("parent").refuse(
-      "a cycle of parents: " + cycle, "hinges that form a tree rooted at base");
+  at.member("hinges")
+      .element(hinge_of[on_cycle])
+      .member("parent")
+      .refuse("a cycle of parents: " + cycle, "hinges that form a tree rooted at base");
 }
 
 } // namespace

@@ -15,8 +15,8 @@ struct HingeEnds {
   std::string child;
 };
 
-/// Notes a problem for each name of a body or hinge that is empty, used twice, `base` for a body, or
-/// holds a character with a meaning of its own: names stand in parameter paths ("." and "*"), in
+/// Notes a problem for each name of a body or hinge that is empty, used twice, `base` for a body,
+/// or holds a character with a meaning of its own: names stand in parameter paths ("." and "*"), in
 /// column headers ("," and quotes), in latch orders (">") and in JSON pointers ("/").
 /// @param at the scene
 void check_names(const JsonCursor& at, const Scene& scene);

@@ -46,12 +46,12 @@ void add_shape(std::span<const double> values, const ShiftedMean& mean, Moments&
   const double m2 = sum2.value() / n, m3 = sum3.value() / n, m4 = sum4.value() / n;
   result.std = scale * std::sqrt(sum2.value() / (n - 1));
   if (n > 2) result.skewness = m3 / (m2 * std::sqrt(m2)) * std::sqrt(n * (n - 1)) / (n - 2);
-  if (n > 3)
-    result.kurtosis = (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (m4 / (m2 * m2) - 3) + 6);
+  if (n > 3) result.kurtosis = (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (m4 / (m2 * m2) - 3) + 6);
 }
 
 /// Mid-ranks, at their own places, of the values that `order` lists, smallest first.
-std::vector<double> mid_ranks(std::span<const double> values, std::span<const std::uint32_t> order) {
+std::vector<double> mid_ranks(std::span<const double> values,
+                              std::span<const std::uint32_t> order) {
   std::vector<double> ranks(values.size(), undefined);
   for (std::size_t first = 0; first < order.size();) {
     std::size_t end = first + 1;
@@ -84,8 +84,13 @@ void Sum::add(double term) {
 }
 
 Moments moments(std::span<const double> values) {
-  Moments result{static_cast<long>(values.size()), undefined, undefined, undefined,
-                 undefined,                        undefined, undefined};
+  Moments result{static_cast<long>(values.size()),
+                 undefined,
+                 undefined,
+                 undefined,
+                 undefined,
+                 undefined,
+                 undefined};
   if (values.empty()) return result;
   const auto [min, max] = std::ranges::minmax(values);
   const ShiftedMean mean = shifted_mean(values);
@@ -101,7 +106,8 @@ Moments moments(std::span<const double> values) {
 
 std::vector<double> sorted_present(std::span<const double> values) {
   std::vector<double> present;
-  std::ranges::copy_if(values, std::back_inserter(present), [](double v) { return !std::isnan(v); });
+  std::ranges::copy_if(values, std::back_inserter(present),
+                       [](double v) { return !std::isnan(v); });
   std::ranges::sort(present);
   return present;
 }
@@ -154,7 +160,8 @@ Correlation correlation(const RankedColumn& x, const RankedColumn& y) {
   if (x.complete() && y.complete())
     return {static_cast<long>(n), pearson(x.values(), y.values()), pearson(x.ranks(), y.ranks())};
   std::vector<bool> both(n);
-  for (std::size_t i = 0; i < n; ++i) both[i] = !std::isnan(x.values()[i]) && !std::isnan(y.values()[i]);
+  for (std::size_t i = 0; i < n; ++i)
+    both[i] = !std::isnan(x.values()[i]) && !std::isnan(y.values()[i]);
   return {static_cast<long>(std::ranges::count(both, true)),
           pearson(kept(x.values(), both), kept(y.values(), both)),
           pearson(x.ranks_where(both), y.ranks_where(both))};

@@ -48,10 +48,10 @@ struct Moments {
 /// @pre n > 0, 0 ≤ p ≤ 1
 [[nodiscard]] long quantile_rank(long n, double p);
 
-/// Sample quantile X_(⌈np⌉): the inverse of the empirical distribution function, min{x : F_n(x) ≥ p}.
-/// No interpolation: it is a value that occurred, and the distribution-free bounds (confidence.hpp)
-/// hold for the same order statistics. Definition 1 of R. J. Hyndman, Y. Fan, The American
-/// Statistician 50 (1996) 361–365. NaN for an empty sample. Cost O(1).
+/// Sample quantile X_(⌈np⌉): the inverse of the empirical distribution function, min{x : F_n(x) ≥
+/// p}. No interpolation: it is a value that occurred, and the distribution-free bounds
+/// (confidence.hpp) hold for the same order statistics. Definition 1 of R. J. Hyndman, Y. Fan, The
+/// American Statistician 50 (1996) 361–365. NaN for an empty sample. Cost O(1).
 /// @param sorted smallest first.
 [[nodiscard]] double quantile(std::span<const double> sorted, double p);
 

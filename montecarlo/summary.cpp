@@ -69,7 +69,8 @@ std::vector<ReplicateValue> with_replicates(const Column& column, const Replicat
   return values;
 }
 
-std::vector<QuantileEstimate> estimate_quantiles(const Column& column, std::span<const double> sorted,
+std::vector<QuantileEstimate> estimate_quantiles(const Column& column,
+                                                 std::span<const double> sorted,
                                                  const StatisticsSpec& spec,
                                                  const Replication& replication) {
   std::vector<ReplicateValue> replicated;
@@ -118,11 +119,18 @@ std::vector<DrawCorrelation> correlate(const Results& results) {
 
 } // namespace
 
-Summary summarize(const Results& results, const StatisticsSpec& spec, const Replication& replication) {
+Summary summarize(const Results& results, const StatisticsSpec& spec,
+                  const Replication& replication) {
   assert(replication.replicates == 0 || replication.of_row.size() == results.size());
-  Summary summary{static_cast<long>(results.size()), spec.confidence, replication.replicates, {},
-                  count_reasons(results), count_latch_orders(results),
-                  std::ranges::count(results.latch_order, std::string{}), {}, correlate(results)};
+  Summary summary{static_cast<long>(results.size()),
+                  spec.confidence,
+                  replication.replicates,
+                  {},
+                  count_reasons(results),
+                  count_latch_orders(results),
+                  std::ranges::count(results.latch_order, std::string{}),
+                  {},
+                  correlate(results)};
   for (const Status status : statuses)
     summary.statuses.push_back(status_share(results, status, spec.confidence, replication));
   for (const Column& output : results.outputs)

@@ -50,7 +50,8 @@ void add_reasons(Json& json, const Summary& summary) {
     if (i >= most_reasons)
       omitted += count;
     else
-      json["reasons"].push_back({{"status", to_string(status)}, {"reason", reason}, {"count", count}});
+      json["reasons"].push_back(
+          {{"status", to_string(status)}, {"reason", reason}, {"count", count}});
   }
   json["reasons_omitted"] = omitted;
 }
@@ -72,9 +73,11 @@ void add_latch_orders(Json& json, const Summary& summary) {
 /// Why a bound of a quantile is null.
 std::string missing_bound(const Summary& summary, const OutputSummary& output) {
   if (summary.replicates == 1)
-    return "no bounds: the draws of one replicate depend on each other; take two replicates or more";
-  return fmt::format("{} {} are too few for every bound at a confidence of {}", output.moments.count,
-                     output.moments.count == 1 ? "value" : "values", summary.confidence);
+    return "no bounds: the draws of one replicate depend on each other; take two replicates or "
+           "more";
+  return fmt::format("{} {} are too few for every bound at a confidence of {}",
+                     output.moments.count, output.moments.count == 1 ? "value" : "values",
+                     summary.confidence);
 }
 
 Json quantiles_json(const Summary& summary, const OutputSummary& output) {

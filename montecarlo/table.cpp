@@ -15,7 +15,7 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t most_lines = 8; ///< of reasons and of latch orders
-constexpr std::size_t columns_per_block = 6;
+constexpr std::size_t columns_per_block = 5;
 
 /// "timed_out" → "timed out".
 std::string words(std::string_view name) {
@@ -27,27 +27,39 @@ std::string words(std::string_view name) {
 /// The first `width` characters, the last of them "…" when there are more.
 std::string shortened(std::string_view text, std::size_t width) {
   const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
-  if (static_cast<std::size_t>(std::ranges::count_if(text, starts)) <= width) return std::string(text);
+  if (static_cast<std::size_t>(std::ranges::count_if(text, starts)) <= width)
+    return std::string(text);
   std::size_t end = 0;
   for (std::size_t characters = 0; characters < width; ++end)
     if (starts(text[end])) ++characters;
   return std::string(text.substr(0, end - 1)) + "…";
 }
 
-std::string percent(double share) { return std::isnan(share) ? "–" : fmt::format("{:.3f} %", 100 * share); }
+std::string percent(double share) {
+  return std::isnan(share) ? "–" : fmt::format("{:.3f} %", 100 * share);
+}
 
 std::string percent_bounds(const Bounds& bounds) {
   if (!bounds.lower || !bounds.upper) return "–";
   return fmt::format("{:.3f} – {:.3f} %", 100 * *bounds.lower, 100 * *bounds.upper);
 }
 
-double share_of(long count, long runs) { return static_cast<double>(count) / static_cast<double>(runs); }
+double share_of(long count, long runs) {
+  return static_cast<double>(count) / static_cast<double>(runs);
+}
 
-std::string number(double value) { return std::isnan(value) ? "–" : fmt::format("{:.5g}", value); }
+/// Five significant digits, trailing zeros among them, so that columns line up.
+std::string number(double value) {
+  if (std::isnan(value)) return "–";
+  std::string text = fmt::format("{:#.5g}", value);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
 
 std::string outcomes(const Summary& summary) {
   const std::string bounds = fmt::format("{:g} % bounds", 100 * summary.confidence);
-  std::string text = fmt::format("\n{:<50}{:>10}{:>12}{:>26}\n", "OUTCOME", "runs", "share", bounds);
+  std::string text =
+      fmt::format("\n{:<50}{:>10}{:>12}{:>26}\n", "OUTCOME", "runs", "share", bounds);
   for (const StatusShare& share : summary.statuses)
     text += fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", words(to_string(share.status)), share.count,
                         percent(share.rate), percent_bounds(share.bounds));
@@ -60,9 +72,10 @@ std::string reasons(const Summary& summary) {
   const std::size_t shown = std::min(summary.reasons.size(), most_lines);
   for (const auto& [status, reason, count] : std::span(summary.reasons).first(shown))
     text += fmt::format("  {:<10}{:>8}  {}\n", words(to_string(status)), count,
-                        shortened(words(reason), table_width - 22));
+                        shortened(reason, table_width - 22));
   if (shown < summary.reasons.size())
-    text += fmt::format("  and {} other reasons, in summary.json\n", summary.reasons.size() - shown);
+    text +=
+        fmt::format("  and {} other reasons, in summary.json\n", summary.reasons.size() - shown);
   return text;
 }
 
@@ -98,26 +111,28 @@ std::vector<NumberColumn> number_columns(const Summary& summary) {
   if (summary.outputs.empty()) return columns;
   const auto& quantiles = summary.outputs.front().quantiles;
   for (std::size_t i = 0; i < quantiles.size(); ++i)
-    columns.push_back({quantiles[i].p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * quantiles[i].p),
-                       [i](const OutputSummary& o) { return o.quantiles[i].value; }});
+    columns.push_back(
+        {quantiles[i].p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * quantiles[i].p),
+         [i](const OutputSummary& o) { return o.quantiles[i].value; }});
   return columns;
 }
 
 std::string label(const OutputName& name) {
-  return name.quantity == "rate_at" ? "rate at latch of " + name.other : words(name.quantity);
+  return name.quantity == "rate_at" ? "rate at " + name.other : words(name.quantity);
 }
 
 std::string output_line(const OutputSummary& output, std::span<const NumberColumn> columns) {
   const OutputName name = parse_output_name(output.name);
-  std::string text = fmt::format("  {:<18}{:<6}{:>8}", shortened(label(name), 17), name.unit,
+  std::string text = fmt::format("  {:<24}{:<6}{:>8}", shortened(label(name), 23), name.unit,
                                  output.moments.count);
-  for (const NumberColumn& column : columns) text += fmt::format("{:>11}", number(column.value(output)));
+  for (const NumberColumn& column : columns)
+    text += fmt::format("{:>12}", number(column.value(output)));
   return text + '\n';
 }
 
 std::string output_block(const Summary& summary, std::span<const NumberColumn> columns) {
-  std::string text = fmt::format("\n{:<20}{:<6}{:>8}", "OUTPUT", "unit", "runs");
-  for (const NumberColumn& column : columns) text += fmt::format("{:>11}", column.heading);
+  std::string text = fmt::format("\n{:<26}{:<6}{:>8}", "OUTPUT", "unit", "runs");
+  for (const NumberColumn& column : columns) text += fmt::format("{:>12}", column.heading);
   text += '\n';
   for (const char* previous = nullptr; const OutputSummary& output : summary.outputs) {
     const std::string hinge = parse_output_name(output.name).hinge;
@@ -146,7 +161,8 @@ std::string outputs(const Summary& summary) {
 
 std::string files(std::string_view folder) {
   if (folder.empty()) return "";
-  return fmt::format("\nFILES  {}: runs.csv, summary.json, histograms.json, histograms.csv\n", folder);
+  return fmt::format("\nFILES  {}: runs.csv, summary.json, histograms.json, histograms.csv\n",
+                     folder);
 }
 
 /// Neighbouring bins put together, so that at most `most` are left.
@@ -188,10 +204,10 @@ std::string draw_histogram(std::string_view name, std::string_view unit, const H
   const Histogram bins = coarser(histogram, 20);
   double highest = 0;
   for (std::size_t i = 0; i < bins.counts.size(); ++i) highest = std::max(highest, bins.density(i));
-  const double eighths = 8.0 * (width - 25);
+  const double eighths = 8.0 * (width - 24);
   for (std::size_t i = 0; i < bins.counts.size(); ++i)
     text += fmt::format("{:>12.6g} │{:<{}}{:>9}\n", bins.edges[i],
-                        bar(std::lround(eighths * bins.density(i) / highest)), width - 24,
+                        bar(std::lround(eighths * bins.density(i) / highest)), width - 23,
                         bins.counts[i]);
   return text + fmt::format("{:>12.6g} ┘\n", bins.edges.back());
 }

@@ -54,6 +54,15 @@ TEST_CASE("all faults of a law are reported together") {
         "mean: nan, a finite number\nstd: 0, > 0\ntruncate/upper: 1, > lower (2)");
 }
 
+TEST_CASE("one fault does not hide another") {
+  CHECK(report(Beta{0, 1, 2, 1}) == "alpha: 0, > 0\nupper: 1, > lower (2)");
+  CHECK(report(Triangular{2, 0, 1}) == "upper: 1, > lower (2)"); // no mode would do
+  CHECK(report(Discrete{{1, not_a_number}, {0, 0}}) ==
+        "values/1: nan, a finite number\nweights: all zero, at least one > 0");
+  CHECK(report(Discrete{{1, 2}, {}}) == "weights: none, at least one");
+  CHECK(report(Discrete{{1, 2}, {infinity, 1}}) == "weights/0: inf, a finite number");
+}
+
 TEST_CASE("what must be finite is") {
   CHECK(report(Constant{-infinity}) == "value: -inf, a finite number");
   CHECK(report(Uniform{not_a_number, 1}) == "lower: nan, a finite number");

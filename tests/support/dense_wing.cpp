@@ -118,8 +118,7 @@ template <class Scalar> WingState<Scalar> DenseWing<Scalar>::initial_state() con
   return initial_;
 }
 
-template <class Scalar>
-Scalar DenseWing<Scalar>::overtravel(int hinge, const Scalar& angle) const {
+template <class Scalar> Scalar DenseWing<Scalar>::overtravel(int hinge, const Scalar& angle) const {
   const Link& link = link_of(hinge);
   return link.sense * (angle - link.latched);
 }
@@ -162,15 +161,13 @@ Scalar DenseWing<Scalar>::potential(const Link& link, const WingState<Scalar>& s
 template <class Scalar>
 Vector<Scalar> DenseWing<Scalar>::moments(const WingState<Scalar>& state) const {
   Vector<Scalar> result(size());
-  for (const Link& link : links_)
-    result(link.hinge) = moment(link, state);
+  for (const Link& link : links_) result(link.hinge) = moment(link, state);
   return result;
 }
 
 /// (1) and its derivative.
 template <class Scalar>
-typename DenseWing<Scalar>::Motion
-DenseWing<Scalar>::motion(const WingState<Scalar>& state) const {
+typename DenseWing<Scalar>::Motion DenseWing<Scalar>::motion(const WingState<Scalar>& state) const {
   Motion result{Vector<Scalar>(size()), Vector<Scalar>(size()), Columns2<Scalar>(2, size()),
                 Columns2<Scalar>(2, size())};
   for (int k = 0; k < size(); ++k) {
@@ -275,7 +272,8 @@ Vector<Scalar> DenseWing<Scalar>::solve(const Matrix<Scalar>& mass,
   const int n = size();
   Vector<Scalar> result(base_coordinates + n);
   result.template head<base_coordinates>() = prescribed_;
-  const Vector<Scalar> rest = force.tail(n) - mass.bottomLeftCorner(n, base_coordinates) * prescribed_;
+  const Vector<Scalar> rest =
+      force.tail(n) - mass.bottomLeftCorner(n, base_coordinates) * prescribed_;
   result.tail(n) = Lower(mass.bottomRightCorner(n, n)).solve(rest);
   return result;
 }

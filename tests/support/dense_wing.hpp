@@ -84,13 +84,15 @@ template <class Scalar> [[nodiscard]] Scalar smooth_step(const Scalar& u) {
 /// A scene as a dense system. Scalar: double, long double or Quad. Friction: regularized only.
 template <class Scalar> class DenseWing {
 public:
-  /// @throws std::invalid_argument when the hinges form no tree, or when a hinge has exact friction.
+  /// @throws std::invalid_argument when the hinges form no tree, or when a hinge has exact
+  /// friction.
   explicit DenseWing(const Scene& scene);
 
   /// The number of hinges, n.
   [[nodiscard]] int size() const { return static_cast<int>(links_.size()); }
 
-  /// The state at t = 0: stowed, latches open. A base that is not free starts in the inertial origin.
+  /// The state at t = 0: stowed, latches open. A base that is not free starts in the inertial
+  /// origin.
   [[nodiscard]] WingState<Scalar> initial_state() const;
 
   /// The moment across each hinge, n, N·m (MODEL.md §4).
@@ -148,7 +150,8 @@ private:
   WingState<Scalar> initial_;
   std::vector<Link> links_;
   std::vector<int> link_of_hinge_;
-  std::vector<std::vector<int>> paths_; ///< coordinates that move link k: 0, 1, 2, ancestors, itself
+  std::vector<std::vector<int>>
+      paths_; ///< coordinates that move link k: 0, 1, 2, ancestors, itself
 };
 
 extern template class DenseWing<double>;

@@ -19,7 +19,7 @@ public:
   [[nodiscard]] double log_uniform(double lower, double upper); ///< 0 < lower
   [[nodiscard]] double sign();                                  ///< −1 or 1
   [[nodiscard]] bool chance(double probability);
-  [[nodiscard]] int below(int count); ///< in [0, count)
+  [[nodiscard]] int below(int count);                 ///< in [0, count)
   [[nodiscard]] Eigen::Vector2d vector(double reach); ///< each component in [−reach, reach)
 
 private:
@@ -33,8 +33,8 @@ struct RandomScene {
   std::optional<BaseMotion> motion; ///< none: any of the three
   bool springs = true;
   bool harness = true;
-  bool friction = true; ///< regularized
-  bool latches = true;  ///< on every hinge
+  bool friction = true;                      ///< regularized
+  bool latches = true;                       ///< on every hinge
   double mass_lower = 0.1, mass_upper = 100; ///< kg, log-uniform
   double reach = 1;                          ///< of the hinge vectors, m
 };

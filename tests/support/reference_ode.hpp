@@ -58,8 +58,7 @@ public:
                             y.template segment<2>(half() + n),
                             y(n + 2),
                             y(half() + n + 2)};
-    for (int i = 0; i < n; ++i)
-      state.engagement(i) = engagement(i, y);
+    for (int i = 0; i < n; ++i) state.engagement(i) = engagement(i, y);
     return state;
   }
 
@@ -200,8 +199,7 @@ public:
       ode_.latch(i);
     }
     const Vector<Scalar> magnitudes = ode_.magnitudes(y);
-    for (int i = 0; i < magnitudes.size(); ++i)
-      peaks_.offer(i, magnitudes(i), time);
+    for (int i = 0; i < magnitudes.size(); ++i) peaks_.offer(i, magnitudes(i), time);
   }
 
   /// The outcome of a run that ends in y.

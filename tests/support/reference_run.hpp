@@ -1,7 +1,7 @@
 /// Whole deployments by routes that share nothing with core/: the dense formulation of
 /// dense_wing.hpp integrated by SUNDIALS CVODE (multistep, its own root finding), or by
-/// Runge–Kutta–Fehlberg 7(8) in extended or quadruple precision (events and peaks located by real
-/// steps, never on an interpolant).
+/// Fehlberg's order-8 Runge–Kutta formula in extended or quadruple precision (events and peaks
+/// located by real steps, never on an interpolant).
 #pragma once
 
 #include "core/scene.hpp"
@@ -53,7 +53,7 @@ struct ReferenceOutcome {
 /// @throws std::runtime_error when CVODE gives up.
 [[nodiscard]] ReferenceOutcome cvode_run(const Scene& scene, const ReferenceOptions& options = {});
 
-/// Fehlberg 7(8) in Scalar: long double or Quad (some hundred times slower).
+/// Fehlberg, order 8, in Scalar: long double or Quad (some hundred times slower).
 /// @throws std::runtime_error when the step size underflows.
 template <class Scalar>
 [[nodiscard]] ReferenceOutcome high_precision_run(const Scene& scene,

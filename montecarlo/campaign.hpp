@@ -1,0 +1,62 @@
+/// A campaign: a scene, what varies in it, how often it is run, and what is wanted of the runs.
+#pragma once
+
+#include "core/scene.hpp"
+#include "montecarlo/campaign_settings.hpp"
+#include "montecarlo/dispersion.hpp"
+#include "montecarlo/json_parse.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace wingspread {
+
+struct Campaign {
+  Scene scene; ///< nominal
+  std::vector<Dispersion> dispersions;
+  Sampling sampling;
+  Integration integration;
+  Outputs outputs = default_outputs();
+  StatisticsSpec statistics;
+  /// The same in full as JSON: defaults explicit, the scene and empirical values in place of their
+  /// files. Reads back to the same campaign, wherever it is put.
+  Json resolved;
+};
+
+/// @param directory that the files named in the text are relative to
+/// @param file      the name that problems carry
+/// @throws SpecError with all that is wrong
+[[nodiscard]] Campaign read_campaign(const std::string& text,
+                                     const std::filesystem::path& directory,
+                                     const std::string& file = "");
+
+/// @throws SpecError with all that is wrong
+[[nodiscard]] Campaign read_campaign_file(const std::filesystem::path& path);
+[[nodiscard]] Scene read_scene_file(const std::filesystem::path& path);
+
+/// Reads either, told apart by their keys: a campaign has a scene, a scene has bodies.
+/// @throws SpecError with all that is wrong
+[[nodiscard]] std::variant<Scene, Campaign> read_file(const std::filesystem::path& path);
+
+/// Replaces the number of runs and the seed, where given; `resolved` follows. @pre runs ≥ 1
+void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
+                       std::optional<std::uint64_t> seed);
+
+/// What tells campaigns apart: 16 hexadecimal digits that depend on the resolved campaign alone,
+/// less its key "wingspread". Stable across platforms and runs of the program.
+[[nodiscard]] std::string campaign_hash(const Json& resolved);
+
+/// Makes a scene the one of a run: puts back what the campaign varies to its nominal value, then
+/// applies the draws. Allocates nothing.
+/// @param draws     one per dispersion, in their order
+/// @param nominal   the campaign's scene
+/// @param run_scene a copy of `nominal`, as it was or as this function left it
+void apply(const Campaign& campaign, std::span<const double> draws, const Scene& nominal,
+           Scene& run_scene);
+
+} // namespace wingspread

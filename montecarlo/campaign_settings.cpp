@@ -1,0 +1,128 @@
+#include "montecarlo/campaign_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+constexpr std::int64_t most_bins = 1'000'000;
+
+bool is_positive(const double& number) { return number > 0; }
+bool is_proper_share(const double& number) { return number > 0 && number < 1; }
+bool is_at_least_1(const std::int64_t& number) { return number >= 1; }
+
+void read_method(const JsonCursor& at, std::string& method) {
+  std::vector<std::string_view> names;
+  for (const MethodInfo& info : methods()) names.push_back(info.name);
+  if (const auto index = at.choice(names)) method = names[*index];
+}
+
+void read_latch_form(const JsonCursor& at, std::optional<double>& smoothing) {
+  constexpr std::string_view expected = "\"event\" or { \"smoothed\": a number, rad, > 0 }";
+  if (at.value() == "event") return smoothing.reset();
+  if (!at.value().is_object()) return void(at.refuse(expected));
+  JsonObject object(at, expected);
+  object.required("smoothed", smoothing.emplace(), "a number, rad, > 0", is_positive);
+  object.refuse_others();
+}
+
+void read_quantiles(const JsonCursor& at, std::vector<double>& quantiles) {
+  if (!at.read(quantiles, "an array of numbers, each > 0 and < 1")) return;
+  for (std::size_t i = 0; i < quantiles.size(); ++i) {
+    const auto here = quantiles.begin() + static_cast<std::ptrdiff_t>(i);
+    if (!is_proper_share(*here))
+      at.element(i).refuse("a number, > 0 and < 1");
+    else if (std::find(quantiles.begin(), here, *here) != here)
+      at.element(i).refuse(at.element(i).value().dump() + " a second time", "each quantile once");
+  }
+}
+
+void read_bins(const JsonCursor& at, Bins& bins) {
+  if (at.value() == "auto") return void(bins = AutoBins{});
+  const std::string expected = fmt::format("\"auto\" or an integer from 1 to {}", most_bins);
+  std::int64_t count = 0;
+  if (!at.read(count, expected)) return;
+  if (count < 1 || count > most_bins) return void(at.refuse(expected));
+  bins = static_cast<int>(count);
+}
+
+} // namespace
+
+Outputs default_outputs() {
+  return {OutputFamily::latch_time, OutputFamily::latch_rate, OutputFamily::peak_moment,
+          OutputFamily::peak_force};
+}
+
+void read_sampling(const JsonCursor& at, Sampling& sampling) {
+  JsonObject object(at, "an object with the sampling");
+  object.optional_choice("design", sampling.design, design_names);
+  object.optional("runs", sampling.runs, "an integer, ≥ 1", is_at_least_1);
+  object.optional("seed", sampling.seed, "an integer from 0 to 2^64 - 1");
+  object.optional("replicates", sampling.replicates, "an integer, ≥ 1", is_at_least_1);
+  object.refuse_others();
+}
+
+void read_integration(const JsonCursor& at, Integration& integration) {
+  JsonObject object(at, "an object with the integration");
+  if (const auto method = object.find("method")) read_method(*method, integration.method);
+  object.optional("rtol", integration.rtol, "a number, > 0 and < 1", is_proper_share);
+  object.optional("atol", integration.atol, "a number, > 0", is_positive);
+  if (const auto latch = object.find("latch")) read_latch_form(*latch, integration.smoothing);
+  object.optional("t_end", integration.t_end, "a number, s, > 0", is_positive);
+  std::int64_t max_steps = integration.max_steps;
+  object.optional("max_steps", max_steps, "an integer, ≥ 1", is_at_least_1);
+  integration.max_steps = static_cast<long>(max_steps);
+  object.refuse_others();
+}
+
+void read_outputs(const JsonCursor& at, Outputs& outputs) {
+  if (!at.value().is_array()) return void(at.refuse("an array of output families"));
+  outputs.clear();
+  for (const JsonCursor& element : at.elements()) {
+    const auto index = element.choice(output_family_names);
+    if (index && !outputs.insert(static_cast<OutputFamily>(*index)).second)
+      element.refuse(describe_value(element.value()) + " a second time", "each family once");
+  }
+}
+
+void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
+  JsonObject object(at, "an object with the statistics");
+  if (const auto quantiles = object.find("quantiles"))
+    read_quantiles(*quantiles, statistics.quantiles);
+  object.optional("confidence", statistics.confidence, "a number, > 0 and < 1", is_proper_share);
+  if (const auto bins = object.find("bins")) read_bins(*bins, statistics.bins);
+  object.refuse_others();
+}
+
+Json write_sampling(const Sampling& sampling) {
+  return {{"design", design_names[static_cast<std::size_t>(sampling.design)]},
+          {"runs", sampling.runs},
+          {"seed", sampling.seed},
+          {"replicates", sampling.replicates}};
+}
+
+Json write_integration(const Integration& integration) {
+  const Json latch =
+      integration.smoothing ? Json{{"smoothed", *integration.smoothing}} : Json("event");
+  return {{"method", integration.method}, {"rtol", integration.rtol},
+          {"atol", integration.atol},     {"latch", latch},
+          {"t_end", integration.t_end},   {"max_steps", integration.max_steps}};
+}
+
+Json write_outputs(const Outputs& outputs) {
+  Json json = Json::array();
+  for (const OutputFamily family : outputs)
+    json.push_back(output_family_names[static_cast<std::size_t>(family)]);
+  return json;
+}
+
+Json write_statistics(const StatisticsSpec& statistics) {
+  const int* count = std::get_if<int>(&statistics.bins);
+  return {{"quantiles", statistics.quantiles},
+          {"confidence", statistics.confidence},
+          {"bins", count ? Json(*count) : Json("auto")}};
+}
+
+} // namespace wingspread

@@ -1,0 +1,244 @@
+#include "montecarlo/campaign.hpp"
+#include "montecarlo/scene_json.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+
+using namespace wingspread;
+
+namespace {
+
+Campaign read(const Json& document) { return read_campaign(document.dump(), ""); }
+
+std::string problems(const test::Spoiled& change) {
+  return test::message_of([&] { return read(test::spoil(test::small_campaign(), change)); });
+}
+
+/// A folder of this test's own, empty at first and gone at the end.
+class Folder {
+public:
+  Folder() { std::filesystem::create_directories(path_); }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::filesystem::path write(const char* name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() / "wingspread_campaign_test";
+};
+
+bool same(const Dispersion& a, const Dispersion& b) {
+  return a.name == b.name && a.apply == b.apply && a.targets == b.targets;
+}
+
+} // namespace
+
+TEST_CASE("What a campaign leaves out has its default", "[campaign]") {
+  const Campaign campaign = read({{"scene", test::small_scene()}});
+  CHECK(campaign.dispersions.empty());
+  CHECK(campaign.resolved.dump() ==
+        R"({"scene":)" + write_scene(campaign.scene).dump() + R"(,"dispersions":[],)" +
+            R"("sampling":{"design":"random","runs":1000,"seed":1,"replicates":1},)" +
+            R"("integration":{"method":"auto","rtol":1e-08,"atol":1e-10,"latch":"event",)" +
+            R"("t_end":60.0,"max_steps":1000000},)" +
+            R"("outputs":["latch_time","latch_rate","peak_moment","peak_force"],)" +
+            R"("statistics":{"quantiles":[0.01,0.5,0.99],"confidence":0.95,"bins":"auto"}})");
+}
+
+TEST_CASE("A campaign as resolved reads back to itself", "[campaign]") {
+  Json document = test::small_campaign();
+  document["sampling"] = {{"runs", 7}, {"seed", 9}, {"replicates", 3}};
+  document["integration"] = {{"latch", {{"smoothed", 0.1}}}, {"rtol", 1e-5}};
+  document["outputs"] = {"rate_at"};
+  document["statistics"] = {{"bins", 12}};
+  const Campaign first = read(document);
+  const Campaign second = read(first.resolved);
+  CHECK(second.resolved == first.resolved);
+  CHECK(write_scene(second.scene) == write_scene(first.scene));
+  CHECK(std::ranges::equal(second.dispersions, first.dispersions, same));
+  CHECK(second.sampling.runs == 7);
+  CHECK(second.integration.smoothing == 0.1);
+  CHECK(second.outputs == Outputs{OutputFamily::rate_at});
+}
+
+TEST_CASE("A results folder's stamp is known and of no account", "[campaign]") {
+  Json stamped = read(test::small_campaign()).resolved;
+  const std::string hash = campaign_hash(stamped);
+  stamped["wingspread"] = {{"version", "0.1.0"}, {"seed", 1}, {"hash", hash}};
+  CHECK(read(stamped).resolved == read(test::small_campaign()).resolved);
+  CHECK(campaign_hash(stamped) == hash);
+}
+
+TEST_CASE("The hash tells campaigns apart, and stays what it is", "[campaign]") {
+  CHECK(campaign_hash(Json::object()) ==
+        "08f44b07b5901a25"); // FNV-1a of "{}", by its definition, in Python
+  const Campaign campaign = read(test::small_campaign());
+  CHECK(campaign_hash(read(campaign.resolved).resolved) == campaign_hash(campaign.resolved));
+  const Campaign other =
+      read(test::spoil(test::small_campaign(), {"/sampling", R"({"seed": 2})", ""}));
+  CHECK(campaign_hash(other.resolved) != campaign_hash(campaign.resolved));
+}
+
+TEST_CASE("Runs and seed may be replaced, and what is resolved follows", "[campaign]") {
+  Campaign campaign = read(test::small_campaign());
+  override_sampling(campaign, 12, std::nullopt);
+  CHECK(campaign.sampling.runs == 12);
+  CHECK(campaign.sampling.seed == 1);
+  override_sampling(campaign, std::nullopt, 5);
+  CHECK(campaign.resolved["sampling"].dump() ==
+        R"({"design":"random","runs":12,"seed":5,"replicates":1})");
+  CHECK(read(campaign.resolved).resolved == campaign.resolved);
+}
+
+TEST_CASE("Each fault of a campaign is told", "[campaign]") {
+  const test::Spoiled change = GENERATE(values<test::Spoiled>(
+      {{"", "[]", "found an array of 0, expected a campaign: an object"},
+       {"/scene", "",
+        "/scene: found nothing, expected a scene, or the name of the file that holds it"},
+       {"/scene", "3", "/scene: found 3, expected a scene: an object"},
+       {"/scene/bodies/0/mass", "-1", "/scene/bodies/0/mass: found -1, expected > 0"},
+       {"/scene", "\"none.json\"",
+        "/scene: found no file that can be read at \"none.json\", expected a scene, or the name of "
+        "the "
+        "file that holds it"},
+       {"/dispersions/0/to/1", "\"hinges.root.spring.torque\"",
+        "/dispersions/0/to/1: found string \"hinges.root.spring.torque\", expected the path of a "
+        "parameter (did you mean \"hinges.root.spring.torque_stowed\"?)"},
+       {"/sampling", R"({"runs": -5})", "/sampling/runs: found -5, expected an integer, ≥ 1"},
+       {"/output", "[]",
+        "/output: found the unknown key \"output\", expected \"scene\", \"dispersions\", "
+        "\"sampling\", \"integration\", \"outputs\", \"statistics\", \"correlations\", "
+        "\"requirements\", \"margin\" or \"wingspread\" (did you mean \"outputs\"?)"}}));
+  CAPTURE(change.pointer, change.value);
+  CHECK(problems(change) == change.message);
+}
+
+TEST_CASE("What this version cannot do is refused, not ignored", "[campaign]") {
+  const test::Spoiled change = GENERATE(values<test::Spoiled>(
+      {{"/correlations", R"([{"between": ["spring", "mass.inner"], "spearman": 0.6}])",
+        "/correlations: found an array of 1, expected no \"correlations\": not available in this "
+        "version"},
+       {"/requirements", "[]",
+        "/requirements: found an array of 0, expected no \"requirements\": not available in this "
+        "version"},
+       {"/margin", "{}",
+        "/margin: found an object, expected no \"margin\": not available in this version"},
+       {"/sampling", R"({"design": "latin_hypercube"})",
+        "/sampling/design: found string \"latin_hypercube\", expected \"random\": the other "
+        "designs are "
+        "not available in this version"},
+       {"/sampling", R"({"design": "sobol"})",
+        "/sampling/design: found string \"sobol\", expected \"random\": the other designs are not "
+        "available in this version"}}));
+  CHECK(problems(change) == change.message);
+}
+
+TEST_CASE("All faults of a campaign are told together", "[campaign]") {
+  Json document = test::small_campaign();
+  document["scene"]["name"] = 1;
+  document["dispersions"][0]["apply"] = "times";
+  document["integration"] = {{"rtol", 2}};
+  document["statistics"] = {{"confidence", 2}};
+  CHECK(test::message_of([&] { return read_campaign(document.dump(), "", "c.json"); }) ==
+        "c.json: /scene/name: found 1, expected a string, the scene's name, not empty\n"
+        "c.json: /dispersions/0/apply: found string \"times\", expected \"set\", \"scale\" or "
+        "\"add\"\n"
+        "c.json: /integration/rtol: found 2, expected a number, > 0 and < 1\n"
+        "c.json: /statistics/confidence: found 2, expected a number, > 0 and < 1");
+}
+
+TEST_CASE("Any one change is told in full, or leaves a campaign that reads back to itself",
+          "[campaign]") {
+  const Json document = read(test::small_campaign()).resolved;
+  const char* value = GENERATE("", "null", "true", "-1", "0", "1e308", "2.5", "\"\"", "\"root\"",
+                               "\"hinges.*.latch.stiffness\"", "[]", "[1, 2]", "[[]]", "{}",
+                               R"({"name": "inner"})");
+  std::vector<std::string> places;
+  for (const auto& [pointer, leaf] : document.flatten().items())
+    for (std::string at = pointer; !at.empty(); at.erase(at.rfind('/'))) places.push_back(at);
+  for (const std::string& place : places) {
+    CAPTURE(place, value);
+    const Json changed = test::spoil(document, {place.c_str(), value, ""});
+    try {
+      const Json resolved = read(changed).resolved;
+      CHECK(read(resolved).resolved == resolved);
+    } catch (const SpecError& error) {
+      for (const Problem& problem : error.problems())
+        CHECK_FALSE((problem.found + problem.expected).empty());
+    } // anything else that is thrown fails the test
+  }
+}
+
+TEST_CASE("Files are looked for beside the campaign, and end up inside it", "[campaign]") {
+  const Folder folder;
+  Json document = test::small_campaign();
+  document["scene"] = "scene.json";
+  document["dispersions"][0]["distribution"] = {
+      {"type", "empirical"}, {"file", "k.csv"}, {"column", "k"}};
+  folder.write("scene.json", test::small_scene().dump());
+  folder.write("k.csv", "k\n1.5\n2\n");
+  const Campaign campaign = read_campaign_file(folder.write("campaign.json", document.dump()));
+  CHECK(campaign.scene.name == "small");
+  CHECK(campaign.resolved["dispersions"][0]["distribution"].dump() ==
+        R"({"type":"empirical","values":[1.5,2.0]})");
+  CHECK(read(campaign.resolved).resolved == campaign.resolved);
+}
+
+TEST_CASE("A problem in the scene's own file is told under its name", "[campaign]") {
+  const Folder folder;
+  const auto scene =
+      folder.write("scene.json", test::spoil(test::small_scene(), {"/name", "", ""}).dump());
+  const auto path = folder.write("campaign.json", R"({"scene": "scene.json", "sampling": 3})");
+  CHECK(test::message_of([&] { return read_campaign_file(path); }) ==
+        scene.string() +
+            ": /name: found nothing, expected a string, the scene's name, not empty\n" +
+            path.string() + ": /sampling: found 3, expected an object with the sampling");
+  folder.write("scene.json", "{");
+  CHECK_THAT(test::message_of([&] { return read_campaign_file(path); }),
+             Catch::StartsWith(scene.string() + ": found line 1, column 2: syntax error") &&
+                 Catch::Contains("/sampling: found 3"));
+}
+
+TEST_CASE("A file is a scene or a campaign by its keys", "[campaign]") {
+  const Folder folder;
+  const auto kind = [&](const char* text) {
+    return test::message_of([&] { return read_file(folder.write("f.json", text)); });
+  };
+  CHECK(
+      std::holds_alternative<Scene>(read_file(folder.write("f.json", test::small_scene().dump()))));
+  CHECK(std::holds_alternative<Campaign>(
+      read_file(folder.write("f.json", test::small_campaign().dump()))));
+  CHECK(read_scene_file(folder.write("f.json", test::small_scene().dump())).bodies.size() == 2);
+  CHECK_THAT(kind(R"({"sampling": {}})"),
+             Catch::EndsWith("/scene: found nothing, expected a scene, or "
+                             "the name of the file that holds it"));
+  CHECK_THAT(kind("[]"), Catch::EndsWith("found an array of 0, expected a scene: an object"));
+}
+
+TEST_CASE("Draws are applied in the order of the dispersions", "[campaign]") {
+  Json document = test::small_campaign();
+  document["dispersions"].push_back(parse_json(
+      R"({ "name": "bias", "distribution": { "type": "constant", "value": 1 }, "apply": "add",
+           "to": ["bodies.inner.mass", "hinges.root.spring.torque_stowed"] })"));
+  const Campaign campaign = read(document);
+  Scene scene = campaign.scene;
+  apply(campaign, std::vector<double>{1.5, 7.25, 8.5, 0.125}, campaign.scene, scene);
+  CHECK(scene.hinges[0].spring.torque_stowed == 2 * 1.5 + 0.125);
+  CHECK(scene.hinges[0].spring.torque_latched == 1.4 * 1.5);
+  CHECK(scene.bodies[0].mass == 7.25 + 0.125);
+  CHECK(scene.bodies[1].mass == 8.5);
+}
+
+TEST_CASE("A run leaves nothing to the next, and touches only its targets", "[campaign]") {
+  const Campaign campaign = read(test::small_campaign());
+  Scene scene = campaign.scene;
+  apply(campaign, std::vector<double>{3, 4, 5}, campaign.scene, scene);
+  apply(campaign, std::vector<double>{1, 10, 8}, campaign.scene, scene); // the nominal values
+  CHECK(write_scene(scene) == write_scene(campaign.scene));
+  scene.bodies[0].inertia = 99;
+  apply(campaign, std::vector<double>{1, 10, 8}, campaign.scene, scene);
+  CHECK(scene.bodies[0].inertia == 99);
+}

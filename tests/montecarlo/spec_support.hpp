@@ -1,0 +1,81 @@
+/// For the tests of what reads JSON: a small document to spoil, and the messages that come of it.
+#pragma once
+
+#include "montecarlo/json_parse.hpp"
+#include "montecarlo/json_reader.hpp"
+#include "montecarlo/spec_error.hpp"
+
+#include <string>
+#include <vector>
+
+namespace wingspread::test {
+
+/// A wing of two panels; its second hinge has neither spring nor latch.
+inline Json small_scene() {
+  return parse_json(R"({
+    "name": "small",
+    "base": { "motion": "fixed" },
+    "bodies": [ { "name": "inner", "mass": 10, "inertia": 0.5 },
+                { "name": "outer", "mass": 8, "inertia": 0.25 } ],
+    "hinges": [
+      { "name": "root", "parent": "base", "child": "inner",
+        "parent_point": [0, 0], "child_point": [-0.5, 0.02],
+        "angle": { "stowed": 1.5, "latched": 0 }, "initial_rate": -0.1,
+        "spring": { "torque_stowed": 2, "torque_latched": 1.4 },
+        "harness": { "torque_stowed": 0.1, "torque_latched": 0.2 },
+        "friction": { "coulomb": 0.1, "viscous": 0.01, "regularization_rate": 0.002 },
+        "latch": { "stiffness": 10000, "damping": 100 } },
+      { "name": "mid", "parent": "inner", "child": "outer",
+        "parent_point": [0.5, -0.02], "child_point": [-0.5, -0.02],
+        "angle": { "stowed": -3, "latched": 0 } } ] })");
+}
+
+/// A campaign with that scene and two dispersions.
+inline Json small_campaign() {
+  Json campaign{{"scene", small_scene()}};
+  campaign["dispersions"] = parse_json(R"([
+    { "name": "spring", "distribution": { "type": "normal", "mean": 1, "std": 0.05 },
+      "apply": "scale",
+      "to": ["hinges.root.spring.torque_stowed", "hinges.root.spring.torque_latched"] },
+    { "name": "mass", "distribution": { "type": "uniform", "lower": 7, "upper": 9 },
+      "apply": "set", "each": "bodies.*.mass" } ])");
+  return campaign;
+}
+
+/// One change to a document, and what it leads to.
+struct Spoiled {
+  const char* pointer;
+  const char* value;   ///< JSON; empty: the value is removed
+  const char* message; ///< all problems, one line each
+};
+
+inline Json spoil(Json document, const Spoiled& change) {
+  const Json::json_pointer at(change.pointer);
+  if (*change.value != '\0') {
+    document[at] = parse_json(change.value);
+  } else if (Json& parent = document[at.parent_pointer()]; parent.is_array()) {
+    parent.erase(std::stoul(at.back()));
+  } else {
+    parent.erase(at.back());
+  }
+  return document;
+}
+
+/// The message of the SpecError that `read` throws; empty when it throws none.
+template <class Read> std::string message_of(Read read) {
+  try {
+    (void)read();
+  } catch (const SpecError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The problems that `read` notes when it is given the document.
+template <class Read> std::string problems_of(const Json& document, Read read) {
+  std::vector<Problem> problems;
+  read(JsonCursor(document, "", problems));
+  return SpecError(problems).what();
+}
+
+} // namespace wingspread::test
