@@ -70,7 +70,7 @@ bool CsvReader::next() {
     record_ += physical_;
     quotes += std::ranges::count(physical_, '"');
   }
-  if (record_.ends_with('\r') && quotes % 2 == 0) record_.pop_back();
+  if (record_.ends_with('\r')) record_.pop_back();
   return true;
 }
 

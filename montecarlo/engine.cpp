@@ -10,7 +10,11 @@
 namespace wingspread {
 namespace {
 
-constexpr long chunk_size = 32; // runs; long enough to make the counter and the lock free of charge
+/// Runs in a chunk: enough to make the counter and the lock free of charge, and few enough that the
+/// threads finish together and an interruption loses little.
+long chunk_size(RunRange range, int threads) {
+  return std::clamp<long>(range.size() / (8L * threads), 1, 32);
+}
 
 /// Hands batches on in the order of their chunks, whichever order they are finished in.
 class InOrder {
@@ -62,6 +66,8 @@ template <class Stopped> Batch make_batch(Runner& runner, RunRange range, const 
 
 long make_runs(const RunPlan& plan, RunRange range, int threads, const std::atomic<bool>& stop,
                const BatchSink& sink) {
+  const int team = team_size(threads);
+  const long size = chunk_size(range, team);
   InOrder in_order(sink);
   std::atomic<long> next_chunk = 0;
   std::atomic<bool> broken = false; // by an exception
@@ -70,17 +76,15 @@ long make_runs(const RunPlan& plan, RunRange range, int threads, const std::atom
     Runner runner(plan);
     while (!stopped()) {
       const long chunk = next_chunk++;
-      const long first = range.first + chunk * chunk_size;
+      const long first = range.first + chunk * size;
       if (first >= range.last) break;
-      const RunRange part{first, std::min(first + chunk_size, range.last)};
+      const RunRange part{first, std::min(first + size, range.last)};
       Batch batch = make_batch(runner, part, stopped);
       const bool complete = std::ssize(batch.rows) == part.size();
       in_order.finish(chunk, std::move(batch), complete);
     }
   };
-  const long chunks = (range.size() + chunk_size - 1) / chunk_size;
-  const long team = std::clamp<long>(chunks, 1, team_size(threads));
-  on_team(static_cast<int>(team), work, [&] { broken = true; });
+  on_team(team, work, [&] { broken = true; });
   return in_order.done();
 }
 

@@ -109,8 +109,8 @@ RunPlan::RunPlan(const Campaign& campaign)
 
 void RunPlan::draw(long k, std::span<double> draws) const {
   for (std::size_t i = 0; i < draws.size(); ++i)
-    draws[i] = distributions_[i].quantile(
-        uniform(design_, static_cast<std::uint64_t>(k), streams_[i]));
+    draws[i] =
+        distributions_[i].quantile(uniform(design_, static_cast<std::uint64_t>(k), streams_[i]));
 }
 
 Runner::Runner(const RunPlan& plan)

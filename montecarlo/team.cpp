@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <mutex>
-
 #include <omp.h>
 
 // GCC's OpenMP runtime synchronises with futexes that the thread sanitizer does not see: it would

@@ -191,6 +191,13 @@ TEST_CASE("replicate quantile bounds see what stratification gains, and still co
   CHECK(width < 0.3 * independent_width);
 }
 
+TEST_CASE("replicate quantile bounds judge tied values together") {
+  // Half of each replicate is 1 and half is 2: the replicates agree that the 0.9 quantile is 2.
+  const std::vector<ReplicateValue> tied{{1, 0}, {1, 1}, {2, 0}, {2, 1}};
+  const Bounds bounds = replicate_quantile_bounds(tied, 2, 0.9, 0.95);
+  CHECK((bounds.lower == 2 && bounds.upper == 2));
+}
+
 // By hand: shares 1/4, 2/4, 0/4 have mean 1/4 and standard error 1/4/√3; t of 2 degrees of freedom
 // at 95 % two-sided is 4.30265 (any printed table), so 0.25 ± 0.62103.
 TEST_CASE("replicate proportions: worked by hand") {

@@ -37,6 +37,7 @@ private:
   using State = std::vector<Scalar>;
   using Stepper = boost::numeric::odeint::runge_kutta_fehlberg78<State, Scalar, State, Scalar>;
 
+  /// The state a step of h after y.
   [[nodiscard]] Vector<Scalar> stepped(const Vector<Scalar>& y, const Scalar& h) const {
     const State from(y.begin(), y.end());
     State to(from.size());
@@ -60,7 +61,7 @@ private:
     for (Eigen::Index i = 0; i < y_.size(); ++i) {
       const Scalar size = max<Scalar>(abs(y_(i)), abs(halves(i)));
       const Scalar part = abs(whole(i) - halves(i)) / (absolute(i) + options_.rtol * size);
-      if (!(part <= largest)) largest = part; // a NaN stays
+      if (part > largest || part != part) largest = part; // a NaN stays
     }
     return largest;
   }

@@ -1,0 +1,162 @@
+#include "montecarlo/merge.hpp"
+
+#include "montecarlo/files.hpp"
+#include "montecarlo/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// A folder and its rows.
+struct Part {
+  StoredCampaign stored;
+  Results results;
+};
+
+/// Where a run's row is: in which part, and there in which row.
+struct Place {
+  std::ptrdiff_t part = -1;
+  std::size_t row = 0;
+};
+
+/// "runs 3 to 5, 8": for messages.
+class RunList {
+public:
+  void add(long run) {
+    if (!ranges_.empty() && ranges_.back().last == run)
+      ++ranges_.back().last;
+    else
+      ranges_.push_back({run, run + 1});
+  }
+  [[nodiscard]] bool empty() const { return ranges_.empty(); }
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    for (std::size_t i = 0; i < ranges_.size() && i < most; ++i) {
+      const auto& [first, last] = ranges_[i];
+      text += i == 0 ? "" : ", ";
+      text +=
+          last - first == 1 ? fmt::format("{}", first) : fmt::format("{} to {}", first, last - 1);
+    }
+    if (ranges_.size() > most) text += ", …";
+    return text;
+  }
+
+private:
+  static constexpr std::size_t most = 5;
+  std::vector<RunRange> ranges_;
+};
+
+/// A problem for each folder that is not of the first one's campaign, seed and version.
+void refuse_strangers(const std::vector<Part>& parts) {
+  const Stamp& first = parts.front().stored.stamp;
+  const std::string name = parts.front().stored.folder.string();
+  std::vector<Problem> problems;
+  for (const auto& [stored, results] : parts) {
+    const auto compare = [&](const char* key, const std::string& found, const std::string& ours) {
+      if (found != ours)
+        problems.push_back({(stored.folder / campaign_file).string(),
+                            fmt::format("/wingspread/{}", key), found,
+                            fmt::format("{}, as in {}", ours, name)});
+    };
+    compare("hash", stored.stamp.hash, first.hash);
+    compare("version", stored.stamp.version, first.version);
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+/// The place of each run; a problem for each folder that has runs of those before it.
+std::vector<Place> find_places(const std::vector<Part>& parts, std::vector<Problem>& problems) {
+  std::vector<Place> places(static_cast<std::size_t>(parts.front().stored.campaign.sampling.runs));
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& [stored, results] = parts[p];
+    RunList twice;
+    std::string other;
+    for (std::size_t row = 0; row < results.size(); ++row) {
+      Place& place = places[static_cast<std::size_t>(results.runs[row])];
+      if (place.part >= 0) {
+        twice.add(results.runs[row]);
+        other = parts[static_cast<std::size_t>(place.part)].stored.folder.string();
+      } else {
+        place = {static_cast<std::ptrdiff_t>(p), row};
+      }
+    }
+    if (!twice.empty())
+      problems.push_back({stored.folder.string(), "",
+                          fmt::format("runs {}, which {} has too", twice.text(), other),
+                          "each run in one folder"});
+  }
+  return places;
+}
+
+/// A problem for each folder that lacks runs of its own, and one for runs that no folder should
+/// have had.
+void find_missing(const std::vector<Part>& parts, const std::vector<Place>& places,
+                  std::vector<Problem>& problems) {
+  std::vector<bool> somebodys(places.size(), false);
+  for (const auto& [stored, results] : parts) {
+    const auto [first, last] = stored.runs();
+    RunList missing;
+    for (long run = first; run < last; ++run) {
+      somebodys[static_cast<std::size_t>(run)] = true;
+      if (places[static_cast<std::size_t>(run)].part < 0) missing.add(run);
+    }
+    if (!missing.empty())
+      problems.push_back(
+          {stored.folder.string(), "", fmt::format("no runs {}", missing.text()),
+           fmt::format("{} complete (run it again with --resume)", describe(stored.stamp.shard))});
+  }
+  RunList nobodys;
+  for (std::size_t run = 0; run < places.size(); ++run)
+    if (!somebodys[run]) nobodys.add(static_cast<long>(run));
+  if (!nobodys.empty())
+    problems.push_back({"", "", fmt::format("no folder with runs {}", nobodys.text()),
+                        fmt::format("folders with all of the campaign's {} runs", places.size())});
+}
+
+Results in_order(const std::vector<Part>& parts, const std::vector<Place>& places,
+                 const ResultNames& names) {
+  Results all(names);
+  for (const auto& [part, row] : places)
+    all.append(parts[static_cast<std::size_t>(part)].results.row(row));
+  return all;
+}
+
+std::string runs_text(const Results& results, const ResultNames& names) {
+  std::string text;
+  append_header(text, names);
+  for (std::size_t row = 0; row < results.size(); ++row) append_row(text, results.row(row));
+  return text;
+}
+
+} // namespace
+
+Summary merge(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out) {
+  refuse_used_folder(out, "a new or an empty folder for the merged results");
+  std::vector<Part> parts;
+  for (const auto& folder : folders) {
+    StoredCampaign stored = read_stored_campaign(folder);
+    Results results = read_stored_results(stored).results;
+    parts.push_back({std::move(stored), std::move(results)});
+  }
+  refuse_strangers(parts);
+  std::vector<Problem> problems;
+  const std::vector<Place> places = find_places(parts, problems);
+  find_missing(parts, places, problems);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+
+  StoredCampaign whole = parts.front().stored;
+  whole.folder = out;
+  whole.stamp.shard.reset();
+  const ResultNames names = RunPlan(whole.campaign).names();
+  const Results all = in_order(parts, places, names);
+  make_folder(out);
+  write_file(out / campaign_file, campaign_text(whole.campaign, whole.stamp));
+  write_file(out / runs_file, runs_text(all, names));
+  return write_statistics(whole, all, whole.campaign.statistics);
+}
+
+} // namespace wingspread

@@ -1,0 +1,94 @@
+#include "montecarlo/run_folder.hpp"
+
+#include "montecarlo/files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// Not there, or without a file in its place.
+bool is_new(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) return true;
+  if (!std::filesystem::is_directory(folder)) return false;
+  const auto is_part = [](const std::filesystem::directory_entry& entry) {
+    return entry.path().filename().string().ends_with(part_suffix);
+  };
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_part);
+}
+
+/// Refuses to mix the rows of two campaigns, seeds, shards or versions.
+void refuse_other(const StoredCampaign& there, const Stamp& stamp) {
+  std::vector<Problem> problems;
+  const auto compare = [&](const char* key, const std::string& found, const std::string& ours) {
+    if (found != ours)
+      problems.push_back({(there.folder / campaign_file).string(),
+                          fmt::format("/wingspread/{}", key), found,
+                          fmt::format("{}, to continue what is there", ours)});
+  };
+  compare("hash", there.stamp.hash, stamp.hash);
+  compare("shard", describe(there.stamp.shard), describe(stamp.shard));
+  compare("version", there.stamp.version, stamp.version);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+/// The runs have to follow each other without a gap from the first one on.
+void refuse_gaps(const Results& results, long first, const std::filesystem::path& path) {
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (const long expected = first + static_cast<long>(i); results.runs[i] != expected)
+      throw SpecError({{path.string(), "", fmt::format("run {}", results.runs[i]),
+                        fmt::format("run {}, the next one", expected)}});
+}
+
+} // namespace
+
+void refuse_used_folder(const std::filesystem::path& folder, const char* expected) {
+  if (is_new(folder)) return;
+  const bool is_folder = std::filesystem::is_directory(folder);
+  throw SpecError(
+      {{folder.string(), "", is_folder ? "a folder with files in it" : "a file", expected}});
+}
+
+RunFolder::RunFolder(std::filesystem::path folder, const RunPlan& plan,
+                     const std::optional<Shard>& shard, bool resume)
+    : stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)},
+      path_(stored_.folder / runs_file), results_(plan.names()) {
+  const bool fresh = is_new(stored_.folder);
+  if (!resume)
+    refuse_used_folder(stored_.folder, "a new or an empty folder (--resume continues a campaign)");
+  if (!fresh) {
+    refuse_other(read_stored_campaign(stored_.folder), stored_.stamp);
+    continue_runs();
+  } else {
+    make_folder(stored_.folder);
+    write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
+  }
+  out_.open(path_, std::ios::binary | std::ios::app);
+  if (!out_) throw unwritable(path_);
+  if (std::filesystem::file_size(path_) > 0) return;
+  std::string header;
+  append_header(header, plan.names());
+  if (!(out_ << header << std::flush)) throw unwritable(path_);
+}
+
+void RunFolder::continue_runs() {
+  ResultsFile read = read_stored_results(stored_);
+  refuse_gaps(read.results, stored_.runs().first, path_);
+  if (std::filesystem::exists(path_)) std::filesystem::resize_file(path_, read.complete_bytes);
+  results_ = std::move(read.results);
+}
+
+RunRange RunFolder::remaining() const {
+  const auto [first, last] = stored_.runs();
+  return {first + std::ssize(results_.runs), last};
+}
+
+void RunFolder::add(const Batch& batch) {
+  for (const ResultRow& row : batch.rows) results_.append(row);
+  if (!(out_ << batch.csv << std::flush)) throw unwritable(path_);
+}
+
+} // namespace wingspread
