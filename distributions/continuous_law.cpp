@@ -45,7 +45,7 @@ auto boost_law(const Exponential& l) {
   return bm::exponential_distribution<double, Policy>(l.rate);
 }
 
-template <class L> Interval support_of(const L& law) {
+template <class L> Support support_of(const L& law) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if constexpr (requires { law.lower; })
     return {law.lower, law.upper};
@@ -135,19 +135,19 @@ double inverse_of(const Triangular& l, Tails tails) {
   return l.upper - triangular_distance(l.upper - l.mode, l.mode - l.lower, tails.above);
 }
 
-template <class L> Moments moments_of(const L& law) {
+template <class L> LawMoments moments_of(const L& law) {
   const auto boost = boost_law(law);
   return {bm::mean(boost), bm::standard_deviation(boost)};
 }
 
-Moments moments_of(const Triangular& l) {
+LawMoments moments_of(const Triangular& l) {
   const double rise = l.mode - l.lower;
   const double fall = l.upper - l.mode;
   return {(l.lower + l.mode + l.upper) / 3,
           std::sqrt((rise * rise + rise * fall + fall * fall) / 18)};
 }
 
-Moments moments_of(const Beta& law) {
+LawMoments moments_of(const Beta& law) {
   const auto boost = boost_law(law);
   const double width = law.upper - law.lower;
   return {law.lower + width * bm::mean(boost), width * bm::standard_deviation(boost)};
@@ -155,26 +155,26 @@ Moments moments_of(const Beta& law) {
 
 } // namespace
 
-Interval support(const ContinuousLaw& law) {
+Support support(const ContinuousLaw& law) {
   return std::visit([](const auto& l) { return support_of(l); }, law);
 }
 
 Tails tails(const ContinuousLaw& law, double x) {
-  const Interval within = support(law);
+  const Support within = support(law);
   if (x <= within.lower) return {0, 1};
   if (x >= within.upper) return {1, 0};
   return std::visit([x](const auto& l) { return tails_of(l, x); }, law);
 }
 
 double inverse(const ContinuousLaw& law, Tails tails) {
-  const Interval within = support(law);
+  const Support within = support(law);
   if (tails.below <= 0) return within.lower;
   if (tails.above <= 0) return within.upper;
   const double x = std::visit([tails](const auto& l) { return inverse_of(l, tails); }, law);
   return std::clamp(x, within.lower, within.upper);
 }
 
-Moments continuous_moments(const ContinuousLaw& law) {
+LawMoments continuous_moments(const ContinuousLaw& law) {
   return std::visit([](const auto& l) { return moments_of(l); }, law);
 }
 

@@ -15,13 +15,13 @@ struct Tails {
   double above = 1; ///< P(X > x)
 };
 
-struct Interval {
+struct Support {
   double lower = 0;
   double upper = 0;
 };
 
 /// Where the law's density lives; its ends may be infinite.
-[[nodiscard]] Interval support(const ContinuousLaw& law);
+[[nodiscard]] Support support(const ContinuousLaw& law);
 
 /// The tails at x, which may be outside the support or infinite. Both are accurate: their relative
 /// errors are some epsilon times the conditioning, 1 + |x·density(x)|/tail.
@@ -31,6 +31,6 @@ struct Interval {
 /// Cost: up to some 50 ns, but about 1 µs for gamma and beta (iterative).
 [[nodiscard]] double inverse(const ContinuousLaw& law, Tails tails);
 
-[[nodiscard]] Moments continuous_moments(const ContinuousLaw& law);
+[[nodiscard]] LawMoments continuous_moments(const ContinuousLaw& law);
 
 } // namespace wingspread

@@ -170,12 +170,12 @@ struct DistributionFault {
 /// interval without probability. Empty when the distribution can be prepared.
 [[nodiscard]] std::vector<DistributionFault> faults(const Distribution& distribution);
 
-struct Moments {
+struct LawMoments {
   double mean = 0;
   double standard_deviation = 0;
 };
 
 /// The law's moments, truncation left out (hence of the law). Requires a law without faults.
-[[nodiscard]] Moments moments(const Law& law);
+[[nodiscard]] LawMoments moments(const Law& law);
 
 } // namespace wingspread

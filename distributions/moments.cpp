@@ -7,9 +7,9 @@
 namespace wingspread {
 namespace {
 
-Moments moments_of(const Discrete& law) {
+LawMoments moments_of(const Discrete& law) {
   const double total = std::accumulate(law.weights.begin(), law.weights.end(), 0.);
-  Moments result;
+  LawMoments result;
   for (std::size_t i = 0; i < law.values.size(); ++i)
     result.mean += law.weights[i] / total * law.values[i];
   double variance = 0;
@@ -19,17 +19,17 @@ Moments moments_of(const Discrete& law) {
   return result;
 }
 
-Moments moments_of(const Empirical& law) {
+LawMoments moments_of(const Empirical& law) {
   return moments_of(Discrete{law.values, std::vector<double>(law.values.size(), 1.)});
 }
 
-Moments moments_of(const Constant& law) { return {law.value, 0}; }
+LawMoments moments_of(const Constant& law) { return {law.value, 0}; }
 
-template <Continuous L> Moments moments_of(const L& law) { return continuous_moments(law); }
+template <Continuous L> LawMoments moments_of(const L& law) { return continuous_moments(law); }
 
 } // namespace
 
-Moments moments(const Law& law) {
+LawMoments moments(const Law& law) {
   return std::visit([](const auto& l) { return moments_of(l); }, law);
 }
 

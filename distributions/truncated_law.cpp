@@ -23,8 +23,8 @@ double inverse(const TruncatedLaw& law, Tails at) {
 } // namespace
 
 TruncatedLaw truncated(const ContinuousLaw& law, Truncation truncation) {
-  const Interval whole = support(law);
-  const Interval bounds{std::max(whole.lower, truncation.lower),
+  const Support whole = support(law);
+  const Support bounds{std::max(whole.lower, truncation.lower),
                         std::min(whole.upper, truncation.upper)};
   const Tails lower = tails(law, bounds.lower);
   const Tails upper = tails(law, bounds.upper);
@@ -36,12 +36,12 @@ double quantile(const TruncatedLaw& law, double u) { return inverse(law, {u, 1 -
 double quantile_complement(const TruncatedLaw& law, double q) { return inverse(law, {1 - q, q}); }
 
 double cdf(const TruncatedLaw& law, double x) {
-  const Interval within = law.bounds;
+  const Support within = law.bounds;
   return between(law.lower, tails(law.law, std::clamp(x, within.lower, within.upper))) / law.mass;
 }
 
 double cdf_complement(const TruncatedLaw& law, double x) {
-  const Interval within = law.bounds;
+  const Support within = law.bounds;
   return between(tails(law.law, std::clamp(x, within.lower, within.upper)), law.upper) / law.mass;
 }
 

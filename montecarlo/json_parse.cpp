@@ -69,7 +69,7 @@ private:
   std::string pointer() const {
     std::string path;
     for (const Container& in : open_)
-      path += in.array ? "/" + std::to_string(in.elements - 1) : pointer_token(in.key);
+      path += pointer_token(in.array ? std::to_string(in.elements - 1) : in.key);
     return path;
   }
 

@@ -79,12 +79,19 @@ void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
   object.refuse_others();
 }
 
+std::optional<std::string> read_end(JsonObject& object, std::string_view key,
+                                    std::string_view expected) {
+  std::string name;
+  const auto at = object.require(key, expected);
+  return at && at->read(name, expected) ? std::optional(name) : std::nullopt;
+}
+
 HingeEnds read_hinge(const JsonCursor& at, Hinge& hinge) {
   HingeEnds ends;
   JsonObject object(at, "a hinge: an object");
   object.required("name", hinge.name, "a string, the hinge's name");
-  object.required("parent", ends.parent, "a string, \"base\" or a body's name");
-  object.required("child", ends.child, "a string, a body's name");
+  ends.parent = read_end(object, "parent", "a string, \"base\" or a body's name");
+  ends.child = read_end(object, "child", "a string, a body's name");
   object.required("parent_point", hinge.parent_point, "an array of 2 numbers, m");
   object.required("child_point", hinge.child_point, "an array of 2 numbers, m");
   if (const auto angle = object.require("angle", "an object with the stowed and the latched angle"))

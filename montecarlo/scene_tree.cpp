@@ -65,14 +65,15 @@ bool distinct_names(const std::vector<Body>& bodies) {
 
 /// Looks up both ends of a hinge; false when that failed, with a problem for each name unknown.
 bool link(const JsonCursor& at, const HingeEnds& ends, const Scene& scene, Hinge& hinge) {
-  if (ends.parent.empty() || ends.child.empty()) return false; // noted when it was read
-  const auto parent = ends.parent == base_name ? base_index : body_index(scene, ends.parent);
-  const auto child = body_index(scene, ends.child);
+  if (!ends.parent || !ends.child) return false; // noted when it was read
+  const auto parent = *ends.parent == base_name ? base_index : body_index(scene, *ends.parent);
+  const auto child = body_index(scene, *ends.child);
   if (!parent)
     at.member("parent").refuse("\"base\" or a body's name" +
-                               did_you_mean(ends.parent, body_names(scene, true)));
+                               did_you_mean(*ends.parent, body_names(scene, true)));
   if (!child)
-    at.member("child").refuse("a body's name" + did_you_mean(ends.child, body_names(scene, false)));
+    at.member("child").refuse("a body's name" +
+                              did_you_mean(*ends.child, body_names(scene, false)));
   hinge.parent = parent.value_or(base_index);
   hinge.child = child.value_or(0);
   return parent && child;

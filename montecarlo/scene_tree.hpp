@@ -4,15 +4,16 @@
 #include "core/scene.hpp"
 #include "montecarlo/json_reader.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace wingspread {
 
-/// The names of the bodies that a hinge joins; empty where none could be read.
+/// The names of the bodies that a hinge joins, where they could be read.
 struct HingeEnds {
-  std::string parent;
-  std::string child;
+  std::optional<std::string> parent;
+  std::optional<std::string> child;
 };
 
 /// Notes a problem for each name of a body or hinge that is empty, used twice, `base` for a body,

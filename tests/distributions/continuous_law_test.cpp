@@ -120,7 +120,7 @@ TEST_CASE("the quantile of a point's tails is the point") {
         const auto point = [&](double tail) {
           return at.below <= at.above ? lower_quantile(law, tail) : upper_quantile(law, tail);
         };
-        const Interval scale = support(law);
+        const Support scale = support(law);
         const double size = std::isinf(scale.lower) ? std::abs(x) + std::get<Normal>(law).std : x;
         CHECK(backward_error(point, smaller, x) * std::abs(x / size) < 64 * epsilon);
       }
@@ -128,7 +128,7 @@ TEST_CASE("the quantile of a point's tails is the point") {
 
 TEST_CASE("outside of the support there is no probability") {
   for (const ContinuousLaw& law : reference_laws()) {
-    const Interval within = support(law);
+    const Support within = support(law);
     CHECK(tails(law, -infinity).below == 0);
     CHECK(tails(law, -infinity).above == 1);
     CHECK(tails(law, infinity).below == 1);

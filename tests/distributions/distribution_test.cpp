@@ -118,10 +118,10 @@ TEST_CASE("a law's parameters can be read by name") {
 }
 
 TEST_CASE("the moments of laws whose values can be counted") {
-  const Moments discrete = moments(Discrete{{1, 3}, {3, 1}});
+  const LawMoments discrete = moments(Discrete{{1, 3}, {3, 1}});
   CHECK(discrete.mean == 1.5);
   CHECK(discrete.standard_deviation == Approx(std::sqrt(0.75)).epsilon(1e-15));
-  const Moments data = moments(Empirical{{1, 2, 3, 6}});
+  const LawMoments data = moments(Empirical{{1, 2, 3, 6}});
   CHECK(data.mean == 3);
   CHECK(data.standard_deviation == Approx(std::sqrt(3.5)).epsilon(1e-15)); // of the law: over n
   CHECK(moments(Constant{4}).mean == 4);

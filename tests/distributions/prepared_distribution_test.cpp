@@ -32,7 +32,7 @@ double central_moment(const std::vector<double>& values, double mean, int power)
 
 // Mean and standard deviation within 5 of their standard errors. The error of the standard
 // deviation takes the fourth moment, from the sample itself.
-void check_sample(const std::vector<double>& values, Moments expected) {
+void check_sample(const std::vector<double>& values, LawMoments expected) {
   const auto [mean, std] = expected;
   const double root = std::sqrt(static_cast<double>(values.size()));
   const double variance = central_moment(values, mean, 2);

@@ -157,7 +157,8 @@ TEST_CASE("Any one change is told in full, or leaves a campaign that reads back 
                                "\"hinges.*.latch.stiffness\"", "[]", "[1, 2]", "[[]]", "{}",
                                R"({"name": "inner"})");
   std::vector<std::string> places;
-  for (const auto& [pointer, leaf] : document.flatten().items())
+  const Json leaves = document.flatten();
+  for (const auto& [pointer, leaf] : leaves.items())
     for (std::string at = pointer; !at.empty(); at.erase(at.rfind('/'))) places.push_back(at);
   for (const std::string& place : places) {
     CAPTURE(place, value);

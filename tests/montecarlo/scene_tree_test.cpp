@@ -97,6 +97,7 @@ TEST_CASE("Whatever keeps hinges from being a tree is told", "[scene_tree]") {
        {"ab",
         {"base a", "a panel"},
         "/hinges/1/child: found string \"panel\", expected a body's name"},
+       {"a", {" a"}, "/hinges/0/parent: found string \"\", expected \"base\" or a body's name"},
        {"a", {"a base"}, "/hinges/0/child: found string \"base\", expected a body's name"},
        {"ab",
         {"base a", "a b", "base b"},
