@@ -45,6 +45,18 @@ Outcome integrate(const Wing<double>& wing, const Topology& topology, Workspace<
   return Integrator<double, Topology, M, DormandPrince5<double>>(system, how, goal, observer).run();
 }
 
+/// On a fixed base: the chain of a length known to the compiler, if it has one.
+template <int N = 1>
+Outcome integrate_chain(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how,
+                        const Goal& goal, const Observer& observer) {
+  if constexpr (N <= longest_static_chain) {
+    if (wing.size() == N) return integrate<BaseMotion::fixed>(wing, Chain<N>{}, scratch, how, goal, observer);
+    return integrate_chain<N + 1>(wing, scratch, how, goal, observer);
+  } else {
+    return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
+  }
+}
+
 Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how, const Goal& goal,
                   const Observer& observer) {
   switch (wing.base.motion) {
@@ -54,7 +66,8 @@ Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const In
     return integrate<BaseMotion::free>(wing, wing.tree, scratch, how, goal, observer);
   case BaseMotion::fixed: break;
   }
-  return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
+  if (!is_chain(wing.tree)) return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
+  return integrate_chain(wing, scratch, how, goal, observer);
 }
 
 [[nodiscard]] Outcome invalid(const std::vector<Fault>& faults) {

@@ -41,6 +41,7 @@ private:
 
   void start() {
     step_.t = T(0);
+    system_.want_forces(goal_.peak_force);
     system_.start(step_.x);
     system_(step_.x, step_.dxdt, step_.t);
     if (goal_.peak_force) forces_.start(system_, step_.t);

@@ -121,7 +121,7 @@ public:
     observe(system, t);
   }
 
-  /// The frames of `system` are those of an evaluation at t: takes the forces as they stand.
+  /// The last evaluation of `system` was at t: takes the forces as they stand.
   void observe(const AnySystem& system, const T& t) {
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       before_[i] = magnitude(system, static_cast<int>(i));
@@ -129,7 +129,7 @@ public:
     }
   }
 
-  /// The frames are those of the step's end.
+  /// The last evaluation was at the step's end.
   void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
     bool promising = false;
     for (std::size_t i = 1; i < peaks.size(); ++i) {
@@ -149,7 +149,7 @@ public:
 private:
   [[nodiscard]] static T magnitude(const AnySystem& system, int i) {
     using std::sqrt;
-    const Vec2<T> f = hinge_force(system.work().frames[i]);
+    const Vec2<T>& f = system.work().forces[i];
     return sqrt(dot(f, f));
   }
 

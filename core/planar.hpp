@@ -52,10 +52,6 @@ template <class T> [[nodiscard]] inline Vec2<T> operator*(const Sym2<T>& k, cons
 template <class T> [[nodiscard]] inline Vec2<T> fused(const Sym2<T>& k, const Vec2<T>& a, const Vec2<T>& b) {
   return {fused(k.xx, a.x, fused(k.xy, a.y, b.x)), fused(k.xy, a.x, fused(k.yy, a.y, b.y))};
 }
-/// A − h eᵀ, for h parallel to e
-template <class T> [[nodiscard]] inline Sym2<T> less_outer(const Sym2<T>& a, const Vec2<T>& h, const Vec2<T>& e) {
-  return {fused(-h.x, e.x, a.xx), fused(-h.x, e.y, a.xy), fused(-h.y, e.y, a.yy)};
-}
 /// e3 × a: a turned by +90°
 template <class T> [[nodiscard]] inline Vec2<T> turned(const Vec2<T>& a) { return {-a.y, a.x}; }
 

@@ -41,23 +41,23 @@
 
 #include "core/wing.hpp"
 
-#include <vector>
+#include <type_traits>
 
 namespace wingspread {
 
 /// What the passes know of one body; axes fixed in inertial space.
 template <class T> struct BodyFrame {
-  SineCosine<T> rotation;
-  T angle, rate;       ///< θ, ω
-  T rate_squared;      ///< ω²
-  Vec2<T> mass_moment; ///< m g
-  Vec2<T> arm;         ///< l of this body's hinge, in its parent
-  T moment;            ///< τ_i: input of the inward pass
-  Sym2<T> stiffness;   ///< K_i, kg
-  Vec2<T> bias;        ///< b_i, N
-  Vec2<T> coupling;    ///< e, 1/m
-  T free_acceleration; ///< u, rad/s²
-  Vec2<T> acceleration;///< a_i, m/s²
+  T angle, rate;          ///< θ, ω
+  SineCosine<T> rotation; ///< of θ
+  T minus_rate_squared;   ///< −ω²
+  Vec2<T> mass_moment;    ///< m g
+  Vec2<T> arm;            ///< l of this body's hinge, in its parent
+  T moment;               ///< τ_i: input of the inward pass
+  Sym2<T> stiffness;      ///< K_i, kg
+  Vec2<T> bias;           ///< b_i, N
+  Vec2<T> coupling;       ///< −e, 1/m
+  T free_acceleration;    ///< u, rad/s²
+  Vec2<T> acceleration;   ///< a_i, m/s²
   T angular_acceleration; ///< α_i, rad/s²
 };
 
@@ -66,58 +66,72 @@ template <class T> [[nodiscard]] Vec2<T> hinge_force(const BodyFrame<T>& frame) 
   return fused(frame.stiffness, frame.acceleration, frame.bias);
 }
 
+/// Whether body i hangs on a base that does not move, so that its hinge's point stands still.
+template <BaseMotion M, class Topology>
+[[nodiscard, gnu::always_inline]] inline bool on_fixed_base(const Topology& tree, int i) {
+  return M == BaseMotion::fixed && tree.parent_of(i) == 0;
+}
+
 /// Kinematics of body i from its parent's [Yudintsev, eq. 2], for the relative angle and rate given.
-template <class T, class Topology>
-inline void place(const Wing<T>& wing, const Topology& tree, std::vector<BodyFrame<T>>& frames, int i,
-                  const T& relative_angle, const T& relative_rate) {
+/// Frames: any array of BodyFrame<T>, 0 … n, here as below.
+template <BaseMotion M, class T, class Topology, class Frames>
+[[gnu::always_inline]] inline void place(const Wing<T>& wing, const Topology& tree, Frames& frames, int i,
+                                         const T& relative_angle, const T& relative_rate) {
   const BodyFrame<T>& parent = frames[tree.parent_of(i)];
   BodyFrame<T>& own = frames[i];
-  own.angle = parent.angle + relative_angle;
-  own.rate = parent.rate + relative_rate;
-  own.rate_squared = own.rate * own.rate;
+  const bool first = on_fixed_base<M>(tree, i);
+  own.angle = first ? relative_angle : parent.angle + relative_angle;
+  own.rate = first ? relative_rate : parent.rate + relative_rate;
+  own.minus_rate_squared = -(own.rate * own.rate);
   own.rotation = sine_cosine(own.angle);
   own.mass_moment = rotated(own.rotation, wing.bodies[i].mass_moment);
-  own.arm = rotated(parent.rotation, wing.bodies[i].arm);
+  own.arm = first ? wing.bodies[i].arm : rotated(parent.rotation, wing.bodies[i].arm);
 }
 
 /// The inward pass at body i: eqs. (3), (4), (6). Its children's have been made.
-template <class T, class Topology>
-inline void gather(const Wing<T>& wing, const Topology& tree, std::vector<BodyFrame<T>>& frames, int i) {
+template <class T, class Topology, class Frames>
+[[gnu::always_inline]] inline void gather(const Wing<T>& wing, const Topology& tree, Frames& frames, int i) {
   BodyFrame<T>& own = frames[i];
   const T mass = wing.bodies[i].mass;
-  const T minus_rate_squared = -own.rate_squared;
   Sym2<T> A{mass, T(0), mass};
   Vec2<T> h = turned(own.mass_moment);
   T I = wing.bodies[i].inertia;
-  Vec2<T> c = scaled(minus_rate_squared, own.mass_moment);
+  Vec2<T> c = scaled(own.minus_rate_squared, own.mass_moment);
   T load = own.moment; // τ_i − Σ τ_j − d
   tree.for_each_child(i, [&](int j) {
     const BodyFrame<T>& child = frames[j];
+    const Sym2<T>& K = child.stiffness;
     const Vec2<T> q = turned(child.arm);
-    const Vec2<T> Kq = child.stiffness * q;
-    const Vec2<T> b = fused(minus_rate_squared, child.stiffness * child.arm, child.bias);
-    A = A + child.stiffness;
-    h = h + Kq;
-    I = fused_dot(q, Kq, I);
+    const Vec2<T> b = fused(own.minus_rate_squared, K * child.arm, child.bias);
+    A = A + K;
+    h = h + K * q;
+    I = fused(K.xx, q.x * q.x, I) + fused(K.yy, q.y * q.y, K.xy * (T(2) * q.x * q.y)); // the shortest way from K to I
     c = c + b;
     load = (load - child.moment) - dot(q, b);
   });
-  const T minus_inverse = T(-1) / I;
+  const T minus_inverse = tree.is_leaf(i) ? wing.bodies[i].minus_inverse : T(-1) / I;
   own.coupling = scaled(minus_inverse, h);
   own.free_acceleration = -(load * minus_inverse);
-  own.stiffness = {fused(h.x*h.x, minus_inverse, A.xx), fused(h.x*h.y, minus_inverse, A.xy), fused(h.y*h.y, minus_inverse, A.yy)};
+  own.stiffness = {fused(h.x * h.x, minus_inverse, A.xx), fused(h.x * h.y, minus_inverse, A.xy),
+                   fused(h.y * h.y, minus_inverse, A.yy)};
   own.bias = fused(own.free_acceleration, h, c);
 }
 
 /// The outward pass at body i: eq. (5). @return φ̈_i, rad/s²
-template <class T, class Topology>
-[[nodiscard]] inline T accelerate(const Topology& tree, std::vector<BodyFrame<T>>& frames, int i) {
-  const BodyFrame<T>& parent = frames[tree.parent_of(i)];
-  BodyFrame<T>& own = frames[i];
-  const Vec2<T> carried = fused(-parent.rate_squared, own.arm, parent.acceleration);
+template <BaseMotion M, class Topology, class Frames>
+[[nodiscard, gnu::always_inline]] inline auto accelerate(const Topology& tree, Frames& frames, int i) {
+  const auto& parent = frames[tree.parent_of(i)];
+  auto& own = frames[i];
+  using T = std::decay_t<decltype(own.angle)>;
+  if (on_fixed_base<M>(tree, i)) {
+    own.acceleration = {T(0), T(0)};
+    own.angular_acceleration = own.free_acceleration;
+    return own.angular_acceleration;
+  }
+  const Vec2<T> carried = fused(parent.minus_rate_squared, own.arm, parent.acceleration);
   own.acceleration = fused(parent.angular_acceleration, turned(own.arm), carried);
   own.angular_acceleration = fused_dot(own.coupling, own.acceleration, own.free_acceleration);
-  return own.angular_acceleration - parent.angular_acceleration;
+  return T(own.angular_acceleration - parent.angular_acceleration);
 }
 
 /// Acceleration of a free base's centre of mass, eq. (7), after its inward pass. Sets a_0 and α_0.

@@ -4,6 +4,7 @@
 #include "core/hinge_moment.hpp"
 #include "core/recursion.hpp"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct Layout {
 /// What changes from phase to phase of a run, and scratch space. Owned by the caller, one a thread.
 template <class T> struct Workspace {
   std::vector<BodyFrame<T>> frames;  ///< 0 … n
+  std::vector<Vec2<T>> forces;       ///< 1 … n: on body i at its hinge, at the last evaluation; if asked for
   std::vector<LinearLaw<T>> laws;    ///< 1 … n
   std::vector<char> engaged;         ///< 1 … n: has passed its latched angle
   long evaluations = 0;
@@ -41,11 +43,11 @@ public:
         layout_{Motion == BaseMotion::free ? 3 : 0, topology.bodies(), smoothing.has_value()},
         epsilon_(smoothing.value_or(0)) {
     work_.frames.assign(layout_.bodies + 1, BodyFrame<T>{});
+    work_.forces.assign(layout_.bodies + 1, {T(0), T(0)});
     work_.laws.resize(layout_.bodies + 1);
     work_.engaged.assign(layout_.bodies + 1, false);
     work_.evaluations = 0;
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
-    place_base_at_rest();
   }
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
@@ -75,15 +77,14 @@ public:
     update_law(i);
   }
 
-  /// Kinematics alone: places every body.
+  /// Kinematics alone: places every body in the workspace's frames.
   void place_all(const State<T>& x, const T& t) {
-    place_base(x, t);
-    for (int i = 1; i <= topology_.bodies(); ++i)
-      place(wing_, topology_, work_.frames, i, x[layout_.angle(i)], x[layout_.rate(i)]);
+    place_base(work_.frames[0], x, t);
+    place_bodies(work_.frames, x);
   }
 
   /// Moment of hinge i, N·m.
-  [[nodiscard]] T moment(const State<T>& x, int i) const {
+  [[nodiscard, gnu::always_inline]] inline T moment(const State<T>& x, int i) const {
     const T& angle = x[layout_.angle(i)];
     const T& rate = x[layout_.rate(i)];
     T m = linear_moment(work_.laws[i], angle, rate);
@@ -93,18 +94,19 @@ public:
     return m;
   }
 
-  /// dx/dt. Afterwards the workspace's frames hold the accelerations and hinge forces at x.
+  /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
   void operator()(const State<T>& x, State<T>& dxdt, const T& t) {
     ++work_.evaluations;
-    const int n = topology_.bodies();
-    place_all(x, t);
-    for (int i = 1; i <= n; ++i) work_.frames[i].moment = moment(x, i);
-    for (int i = n; i >= 1; --i) gather(wing_, topology_, work_.frames, i);
-    accelerate_base(dxdt);
-    for (int i = 1; i <= n; ++i) dxdt[layout_.rate(i)] = accelerate(topology_, work_.frames, i);
-    for (int k = 0; k < layout_.freedoms(); ++k) dxdt[k] = x[layout_.freedoms() + k];
-    if (layout_.smoothed) advance_latches(x, dxdt);
+    if constexpr (is_static<Topology>) {
+      std::array<BodyFrame<T>, Topology::bodies() + 1> frames; // in registers
+      evaluate(frames, x, dxdt, t);
+    } else {
+      evaluate(work_.frames, x, dxdt, t);
+    }
   }
+
+  /// Whether evaluations leave the hinge forces in the workspace.
+  void want_forces(bool want) { wants_forces_ = want; }
 
 private:
   void update_law(int i) {
@@ -112,15 +114,33 @@ private:
     work_.laws[i] = linear_law(wing_.hinges[i], acts);
   }
 
-  void place_base_at_rest() {
-    BodyFrame<T>& base = work_.frames[0];
-    base = BodyFrame<T>{};
-    base.rotation = {T(0), T(1)};
+  template <class Frames> [[gnu::always_inline]] void place_bodies(Frames& frames, const State<T>& x) {
+    const T* const angles = x.data() + layout_.base;
+    const T* const rates = angles + layout_.freedoms();
+    topology_.outward([&](int i) { place<Motion>(wing_, topology_, frames, i, angles[i - 1], rates[i - 1]); });
   }
 
-  void place_base(const State<T>& x, const T& t) {
-    BodyFrame<T>& base = work_.frames[0];
-    if constexpr (Motion == BaseMotion::fixed) return;
+  template <class Frames>
+  [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt, const T& t) {
+    place_base(frames[0], x, t);
+    place_bodies(frames, x);
+    topology_.outward([&](int i) { frames[i].moment = moment(x, i); });
+    topology_.inward([&](int i) { gather(wing_, topology_, frames, i); });
+    accelerate_base(frames, dxdt);
+    T* const accelerations = dxdt.data() + layout_.rate(1);
+    topology_.outward([&](int i) { accelerations[i - 1] = accelerate<Motion>(topology_, frames, i); });
+    for (int k = 0; k < layout_.freedoms(); ++k) dxdt[k] = x[layout_.freedoms() + k];
+    if (layout_.smoothed) advance_latches(x, dxdt);
+    if (wants_forces_) topology_.outward([&](int i) { work_.forces[i] = hinge_force(frames[i]); });
+  }
+
+  [[gnu::always_inline]] void place_base(BodyFrame<T>& base, const State<T>& x, const T& t) const {
+    if constexpr (Motion == BaseMotion::fixed) {
+      base.angle = base.rate = base.minus_rate_squared = base.angular_acceleration = T(0);
+      base.acceleration = {T(0), T(0)};
+      base.rotation = {T(0), T(1)};
+      return;
+    }
     if constexpr (Motion == BaseMotion::prescribed) {
       const BaseTerms<T>& given = wing_.base;
       base.rate = fused(given.angular_acceleration, t, given.rate);
@@ -131,15 +151,17 @@ private:
     if constexpr (Motion == BaseMotion::free) {
       base.angle = x[2];
       base.rate = x[layout_.freedoms() + 2];
+      base.moment = T(0);
+      base.mass_moment = {T(0), T(0)};
     }
-    base.rate_squared = base.rate * base.rate;
+    base.minus_rate_squared = -(base.rate * base.rate);
     base.rotation = sine_cosine(base.angle);
   }
 
-  void accelerate_base(State<T>& dxdt) {
+  template <class Frames> [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) const {
     if constexpr (Motion == BaseMotion::free) {
-      BodyFrame<T>& base = work_.frames[0];
-      gather(wing_, topology_, work_.frames, 0);
+      BodyFrame<T>& base = frames[0];
+      gather(wing_, topology_, frames, 0);
       release_base(base);
       const int v = layout_.freedoms();
       dxdt[v] = base.acceleration.x, dxdt[v + 1] = base.acceleration.y;
@@ -158,6 +180,7 @@ private:
   Workspace<T>& work_;
   Layout layout_;
   T epsilon_;
+  bool wants_forces_ = false;
 };
 
 } // namespace wingspread

@@ -1,6 +1,7 @@
 /// Who hangs on whom. Body 0 is the base; the others are numbered outward, each after its parent.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace wingspread {
@@ -13,21 +14,44 @@ struct Tree {
 
   [[nodiscard]] int bodies() const { return static_cast<int>(parent.size()) - 1; }
   [[nodiscard]] int parent_of(int i) const { return parent[i]; }
+  [[nodiscard]] bool is_leaf(int i) const { return first_child[i] < 0; }
+
+  template <class Visit> void outward(Visit visit) const {
+    for (int i = 1; i <= bodies(); ++i) visit(i);
+  }
+  template <class Visit> void inward(Visit visit) const {
+    for (int i = bodies(); i >= 1; --i) visit(i);
+  }
 
   template <class Visit> void for_each_child(int i, Visit visit) const {
     for (int j = first_child[i]; j >= 0; j = next_sibling[j]) visit(j);
   }
 };
 
-/// A chain of N bodies, known to the compiler: loops unroll, intermediate results stay in registers.
+/// A chain of N bodies, known to the compiler: every loop is written out, so that what the passes
+/// hand on stays in registers. Measured at N = 3: 55 ns an evaluation against 80 as a Tree; from about
+/// five bodies on there are too few registers and the Tree is as fast.
 template <int N> struct Chain {
   [[nodiscard]] static constexpr int bodies() { return N; }
   [[nodiscard]] static constexpr int parent_of(int i) { return i - 1; }
+  [[nodiscard]] static constexpr bool is_leaf(int i) { return i == N; }
 
-  template <class Visit> static constexpr void for_each_child(int i, Visit visit) {
+  template <class Visit> [[gnu::always_inline]] static inline void outward(Visit visit) {
+    [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) { (visit(I + 1), ...); }
+    (std::make_integer_sequence<int, N>{});
+  }
+  template <class Visit> [[gnu::always_inline]] static inline void inward(Visit visit) {
+    [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) { (visit(N - I), ...); }
+    (std::make_integer_sequence<int, N>{});
+  }
+  template <class Visit> [[gnu::always_inline]] static inline void for_each_child(int i, Visit visit) {
     if (i < N) visit(i + 1);
   }
 };
+inline constexpr int longest_static_chain = 4;
+
+template <class Topology> inline constexpr bool is_static = false;
+template <int N> inline constexpr bool is_static<Chain<N>> = true;
 
 /// The tree in which body i's parent is parents[i] (parents[0] = −1, parents[i] < i).
 [[nodiscard]] inline Tree make_tree(std::vector<int> parents) {

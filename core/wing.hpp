@@ -18,6 +18,7 @@ template <class T> struct BodyTerms {
   Vec2<T> arm;         ///< c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's frame, m
   Vec2<T> center;      ///< −c_ii, own frame, m
   T central_inertia;   ///< J_i, kg·m²
+  T minus_inverse;     ///< −1/inertia, 1/(kg·m²)
 };
 
 /// A hinge's law (MODEL: spring, harness, friction, latch), about the latched angle.
@@ -80,7 +81,8 @@ template <class T> [[nodiscard]] HingeTerms<T> hinge_terms(const Hinge& hinge) {
 
 template <class T>
 [[nodiscard]] BodyTerms<T> body_terms(double mass, double inertia, const Vec2<T>& center, const Vec2<T>& arm) {
-  return {T(mass), fused(T(mass), dot(center, center), T(inertia)), scaled(T(mass), center), arm, center, T(inertia)};
+  const T about_hinge = fused(T(mass), dot(center, center), T(inertia));
+  return {T(mass), about_hinge, scaled(T(mass), center), arm, center, T(inertia), T(-1) / about_hinge};
 }
 
 } // namespace detail

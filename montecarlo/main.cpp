@@ -1,1 +1,3 @@
-int main() { return 0; }
+#include "montecarlo/cli.hpp"
+
+int main(int argc, char** argv) { return wingspread::command_line(argc, argv); }

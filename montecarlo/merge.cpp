@@ -134,7 +134,8 @@ std::string runs_text(const Results& results, const ResultNames& names) {
 
 } // namespace
 
-Summary merge(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out) {
+Summary merge_folders(const std::vector<std::filesystem::path>& folders,
+                      const std::filesystem::path& out) {
   refuse_used_folder(out, "a new or an empty folder for the merged results");
   std::vector<Part> parts;
   for (const auto& folder : folders) {

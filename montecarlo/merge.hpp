@@ -12,6 +12,7 @@ namespace wingspread {
 /// @param folders of one campaign, seed and version, in any order, with each run in one of them
 /// @param out     new or empty
 /// @throws SpecError with all that keeps them from being merged, and nothing written
-Summary merge(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out);
+Summary merge_folders(const std::vector<std::filesystem::path>& folders,
+                      const std::filesystem::path& out);
 
 } // namespace wingspread

@@ -12,8 +12,10 @@ std::string to_string(const Problem& problem) {
 }
 
 SpecError::SpecError(std::vector<Problem> problems) : problems_(std::move(problems)) {
-  for (const Problem& problem : problems_)
-    message_ += (message_.empty() ? "" : "\n") + to_string(problem);
+  for (const Problem& problem : problems_) {
+    if (!message_.empty()) message_ += '\n';
+    message_ += to_string(problem);
+  }
 }
 
 } // namespace wingspread

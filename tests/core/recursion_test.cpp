@@ -40,11 +40,12 @@ Evaluated<T> evaluate(const Wing<T>& wing, const oracle::WingState<double>& stat
     x[at.rate(i)] = T(state.rates[hinge]);
     if (state.engagement[hinge] > 0) system.engage(i);
   }
+  system.want_forces(true);
   system(x, dxdt, T(0));
   Evaluated<T> out{std::vector<T>(at.bodies), std::vector<Vec2<T>>(at.bodies), {}, T(0)};
   for (int i = 1; i <= at.bodies; ++i) {
     out.hinge[wing.hinge_of[i]] = dxdt[at.rate(i)];
-    out.force[wing.hinge_of[i]] = hinge_force(work.frames[i]);
+    out.force[wing.hinge_of[i]] = work.forces[i];
   }
   out.base = work.frames[0].acceleration;
   out.base_spin = work.frames[0].angular_acceleration;

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <fstream>
+#include <filesystem>
 
 using namespace wingspread;
 
@@ -15,20 +15,6 @@ Campaign read(const Json& document) { return read_campaign(document.dump(), "");
 std::string problems(const test::Spoiled& change) {
   return test::message_of([&] { return read(test::spoil(test::small_campaign(), change)); });
 }
-
-/// A folder of this test's own, empty at first and gone at the end.
-class Folder {
-public:
-  Folder() { std::filesystem::create_directories(path_); }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path write(const char* name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
-
-private:
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() / "wingspread_campaign_test";
-};
 
 bool same(const Dispersion& a, const Dispersion& b) {
   return a.name == b.name && a.apply == b.apply && a.targets == b.targets;
@@ -174,7 +160,7 @@ TEST_CASE("Any one change is told in full, or leaves a campaign that reads back 
 }
 
 TEST_CASE("Files are looked for beside the campaign, and end up inside it", "[campaign]") {
-  const Folder folder;
+  const test::Folder folder;
   Json document = test::small_campaign();
   document["scene"] = "scene.json";
   document["dispersions"][0]["distribution"] = {
@@ -189,7 +175,7 @@ TEST_CASE("Files are looked for beside the campaign, and end up inside it", "[ca
 }
 
 TEST_CASE("A problem in the scene's own file is told under its name", "[campaign]") {
-  const Folder folder;
+  const test::Folder folder;
   const auto scene =
       folder.write("scene.json", test::spoil(test::small_scene(), {"/name", "", ""}).dump());
   const auto path = folder.write("campaign.json", R"({"scene": "scene.json", "sampling": 3})");
@@ -204,7 +190,7 @@ TEST_CASE("A problem in the scene's own file is told under its name", "[campaign
 }
 
 TEST_CASE("A file is a scene or a campaign by its keys", "[campaign]") {
-  const Folder folder;
+  const test::Folder folder;
   const auto kind = [&](const char* text) {
     return test::message_of([&] { return read_file(folder.write("f.json", text)); });
   };

@@ -3,8 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <fstream>
-
 using namespace wingspread;
 
 namespace {
@@ -16,19 +14,17 @@ struct Reading {
 };
 
 Reading read(const std::string& json, const std::string& csv = "") {
-  const auto directory =
-      std::filesystem::temp_directory_path() / "wingspread_distribution_json_test";
-  std::filesystem::create_directories(directory);
-  std::ofstream(directory / "data.csv", std::ios::binary) << csv;
+  const test::Folder folder;
+  folder.write("data.csv", csv);
   Reading reading;
   reading.problems = test::problems_of(parse_json(json), [&](const JsonCursor& at) {
-    reading.distribution = read_distribution(at, directory);
+    reading.distribution = read_distribution(at, folder.path());
   });
   // The folder differs from machine to machine.
-  const std::string folder = directory.string() + "/";
-  for (auto at = reading.problems.find(folder); at != std::string::npos;
-       at = reading.problems.find(folder))
-    reading.problems.erase(at, folder.size());
+  const std::string prefix = folder.path().string() + "/";
+  for (auto at = reading.problems.find(prefix); at != std::string::npos;
+       at = reading.problems.find(prefix))
+    reading.problems.erase(at, prefix.size());
   return reading;
 }
 

@@ -5,7 +5,10 @@
 #include "montecarlo/json_reader.hpp"
 #include "montecarlo/spec_error.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace wingspread::test {
@@ -77,5 +80,29 @@ template <class Read> std::string problems_of(const Json& document, Read read) {
   read(JsonCursor(document, "", problems));
   return SpecError(problems).what();
 }
+
+/// A folder of its own, empty at first and gone at the end. Test cases run side by side, each in a
+/// process: its number is part of the name.
+class Folder {
+public:
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("wingspread_test_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { std::filesystem::remove_all(path_); }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Writes a file; returns its path.
+  std::filesystem::path write(const char* name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+private:
+  std::filesystem::path path_;
+};
 
 } // namespace wingspread::test

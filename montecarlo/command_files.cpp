@@ -1,0 +1,137 @@
+#include "montecarlo/cli.hpp"
+#include "montecarlo/commands.hpp"
+#include "montecarlo/describe.hpp"
+#include "montecarlo/files.hpp"
+#include "montecarlo/run.hpp"
+#include "montecarlo/version.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <memory>
+
+namespace wingspread {
+namespace {
+
+struct SampleOptions {
+  std::filesystem::path campaign, out;
+  std::optional<std::int64_t> runs;
+  std::optional<std::uint64_t> seed;
+};
+
+int check(const std::filesystem::path& file) {
+  const std::variant<Scene, Campaign> read = read_file(file);
+  const auto text = std::visit([](const auto& spec) { return describe(spec); }, read);
+  fmt::print("{}{}", text, text.ends_with('\n') ? "" : "\n");
+  return exit_code::done;
+}
+
+/// `run`, then a column for each draw.
+void write_draws(const RunPlan& plan, std::ostream& out) {
+  std::string line = "run";
+  for (const std::string& name : plan.names().draws) {
+    line += ',';
+    append_csv_cell(line, name);
+  }
+  std::vector<double> draws(plan.names().draws.size());
+  for (long k = 0; k < plan.campaign().sampling.runs && out; ++k) {
+    out << line << '\n';
+    line = std::to_string(k);
+    plan.draw(k, draws);
+    for (const double draw : draws) {
+      line += ',';
+      append_csv_cell(line, draw);
+    }
+  }
+  out << line << '\n' << std::flush;
+}
+
+int sample(const SampleOptions& options) {
+  Campaign campaign = read_campaign_file(options.campaign);
+  override_sampling(campaign, options.runs, options.seed);
+  const RunPlan plan(campaign);
+  if (options.out.empty()) {
+    write_draws(plan, std::cout);
+    return exit_code::done;
+  }
+  std::ofstream out(options.out, std::ios::binary | std::ios::trunc);
+  if (out) write_draws(plan, out);
+  if (!out) throw unwritable(options.out);
+  return exit_code::done;
+}
+
+/// "3.31", or "–" where it does not apply.
+std::string limit(double value) { return value == 0 ? "–" : fmt::format("{:.4g}", value); }
+
+int list_methods() {
+  for (const MethodInfo& method : methods()) {
+    fmt::print("{}\n", method.name);
+    const auto line = [](const char* name, const std::string& value) {
+      if (!value.empty()) fmt::print("  {:<16}{}\n", name, value);
+    };
+    line("kind", method.kind);
+    line("order", method.order == 0 ? "–" : std::to_string(method.order));
+    line("stable |hλ|", fmt::format("{} on the real axis, {} on the imaginary",
+                                    limit(method.real_limit), limit(method.imaginary_limit)));
+    line("interpolation", method.interpolation);
+    line("note", method.note);
+  }
+  return exit_code::done;
+}
+
+} // namespace
+
+std::string version_text() { return fmt::format("wingspread {}", version()); }
+
+void add_check(CLI::App& app, Action& action) {
+  const auto file = std::make_shared<std::filesystem::path>();
+  CLI::App* command =
+      app.add_subcommand("check", "Validate a scene or a campaign, and say what it holds");
+  command->add_option("file", *file, "The scene or campaign, a JSON file")->required();
+  command->footer(
+      R"(All problems are reported together, each with its place; the exit code is then 2.
+
+Example:
+  wingspread check campaign.json)");
+  command->callback([file, &action] { action = [file] { return check(*file); }; });
+}
+
+void add_sample(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<SampleOptions>();
+  CLI::App* command = app.add_subcommand("sample", "The draws of a campaign alone, as CSV");
+  command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
+  command->add_option("--runs", options->runs, "How many runs, in place of the campaign's number")
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("N");
+  command->add_option("--seed", options->seed, "The seed, in place of the campaign's")
+      ->type_name("N");
+  command->add_option("--out", options->out, "Write to this file, not to standard output");
+  command->footer(R"(They are the draws that `run` applies, to the last bit.
+
+Example:
+  wingspread sample campaign.json --runs 100 > draws.csv)");
+  command->callback([options, &action] { action = [options] { return sample(*options); }; });
+}
+
+void add_methods(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("methods", "The integration methods, and what they can do");
+  command->footer("Example:\n  wingspread methods");
+  command->callback([&action] { action = list_methods; });
+}
+
+void add_version(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("version", "The program's version");
+  command->footer("Example:\n  wingspread version");
+  command->callback([&action] {
+    action = [] {
+      fmt::print("{}\n", version_text());
+      return exit_code::done;
+    };
+  });
+}
+
+} // namespace wingspread

@@ -1,0 +1,78 @@
+#include "montecarlo/command_options.hpp"
+
+#include "montecarlo/cli.hpp"
+#include "montecarlo/output_name.hpp"
+#include "montecarlo/progress.hpp"
+#include "montecarlo/table.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// "/t_end" → "--t-end"; what lies deeper is the option's too.
+std::string option_of(std::string_view pointer) {
+  const std::string_view key = pointer.substr(std::min<std::size_t>(1, pointer.size()));
+  std::string option = "--" + std::string(key.substr(0, key.find('/')));
+  std::ranges::replace(option, '_', '-');
+  return option;
+}
+
+std::string title(const StoredCampaign& stored, const Summary& summary) {
+  const Campaign& campaign = stored.campaign;
+  std::string text = fmt::format("{} · {} runs · {}, seed {}", campaign.scene.name, summary.runs,
+                                 design_names[static_cast<std::size_t>(campaign.sampling.design)],
+                                 campaign.sampling.seed);
+  if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
+  if (summary.runs < stored.runs().size())
+    text += fmt::format(" · partial: of {} runs", stored.runs().size());
+  return text;
+}
+
+void print_histograms(const Summary& summary) {
+  for (const OutputSummary& output : summary.outputs)
+    fmt::print("\n{}", draw_histogram(output.name, parse_output_name(output.name).unit,
+                                      output.histogram, table_width));
+}
+
+long count_failed(const Summary& summary) {
+  const auto found = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
+  return found == summary.statuses.end() ? 0 : found->count;
+}
+
+} // namespace
+
+void override_settings(const Json& given, const std::function<void(const JsonCursor&)>& read) {
+  std::vector<Problem> problems;
+  read(JsonCursor(given, "", problems));
+  for (Problem& problem : problems) problem.pointer = option_of(problem.pointer);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+void add_display_options(CLI::App& command, Display& display) {
+  command.add_flag("--table", display.table, "Print the table even when it is not to a terminal");
+  command.add_flag("--histograms", display.histograms,
+                   "Print the table, and each output's histogram below it");
+}
+
+int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display) {
+  if (display.table || display.histograms || is_terminal(stdout)) {
+    fmt::print("{}", summary_table(summary, title(stored, summary), stored.folder.string()));
+    if (display.histograms) print_histograms(summary);
+  } else {
+    for (const char* file :
+         {campaign_file, runs_file, summary_file, histograms_json_file, histograms_csv_file})
+      fmt::print("{}\n", (stored.folder / file).string());
+  }
+  const long failed = count_failed(summary);
+  if (failed == 0) return exit_code::done;
+  fmt::print(stderr, "error: {} of {} runs failed numerically; {} has their reasons\n", failed,
+             summary.runs, (stored.folder / summary_file).string());
+  return exit_code::failed_runs;
+}
+
+} // namespace wingspread

@@ -1,0 +1,150 @@
+#include "montecarlo/cli.hpp"
+#include "montecarlo/command_options.hpp"
+#include "montecarlo/commands.hpp"
+#include "montecarlo/files.hpp"
+#include "montecarlo/interrupt.hpp"
+#include "montecarlo/progress.hpp"
+#include "montecarlo/run_folder.hpp"
+#include "montecarlo/summary_json.hpp"
+#include "montecarlo/team.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <memory>
+#include <thread>
+#include <unistd.h>
+
+namespace wingspread {
+namespace {
+
+constexpr int most_threads = 1024;
+
+struct RunOptions {
+  std::filesystem::path campaign, out;
+  std::optional<std::int64_t> runs;
+  std::optional<std::uint64_t> seed;
+  int threads = 0;
+  bool resume = false;
+  std::string shard;
+  Display display;
+};
+
+/// "2/5"; nothing when it is no shard.
+std::optional<Shard> parse_shard(const std::string& text) {
+  Shard shard;
+  const char *at = text.data(), *end = at + text.size();
+  const auto index = std::from_chars(at, end, shard.index);
+  if (index.ec != std::errc{} || index.ptr == end || *index.ptr != '/') return std::nullopt;
+  const auto of = std::from_chars(index.ptr + 1, end, shard.of);
+  if (of.ec != std::errc{} || of.ptr != end) return std::nullopt;
+  const bool valid = 1 <= shard.index && shard.index <= shard.of && shard.of <= most_shards;
+  return valid ? std::optional(shard) : std::nullopt;
+}
+
+std::string refuse_shard(const std::string& text) {
+  if (parse_shard(text)) return "";
+  return fmt::format("found {}, expected I/N with whole numbers 1 ≤ I ≤ N ≤ {}", text, most_shards);
+}
+
+std::string host_name() {
+  char name[256] = {};
+  return gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
+/// timing.json: what this session did and on what.
+std::string timing_text(const Tally& tally, double seconds, int threads, bool interrupted) {
+  const long made = tally.done - tally.before;
+  return json_text({{"host", host_name()},
+                    {"processors", std::thread::hardware_concurrency()},
+                    {"threads", threads},
+                    {"runs", made},
+                    {"runs_before", tally.before},
+                    {"seconds", seconds},
+                    {"runs_per_second", static_cast<double>(made) / std::max(seconds, 1e-9)},
+                    {"interrupted", interrupted}});
+}
+
+void count(const Results& results, Tally& tally) {
+  tally.done = std::ssize(results.runs);
+  tally.invalid = std::ranges::count(results.status, Status::invalid);
+  tally.failed = std::ranges::count(results.status, Status::failed);
+}
+
+void count(const Batch& batch, Tally& tally) {
+  tally.done += std::ssize(batch.rows);
+  tally.invalid += std::ranges::count(batch.rows, Status::invalid, &ResultRow::status);
+  tally.failed += std::ranges::count(batch.rows, Status::failed, &ResultRow::status);
+}
+
+/// Makes the runs that are left. @return whether it was interrupted
+bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads) {
+  const Interrupt interrupt;
+  const RunRange remaining = folder.remaining();
+  Tally tally{.total = folder.stored().runs().size()};
+  count(folder.results(), tally);
+  tally.before = tally.done;
+  Progress progress(stderr);
+  progress.show(tally);
+  const long made = make_runs(plan, remaining, threads, interrupt.flag(), [&](const Batch& batch) {
+    folder.add(batch);
+    count(batch, tally);
+    progress.show(tally);
+  });
+  const bool interrupted = made < remaining.size();
+  write_file(folder.stored().folder / timing_file,
+             timing_text(tally, progress.seconds(), team_size(threads), interrupted));
+  return interrupted;
+}
+
+int run(const RunOptions& options) {
+  Campaign campaign = read_campaign_file(options.campaign);
+  override_sampling(campaign, options.runs, options.seed);
+  const RunPlan plan(campaign);
+  RunFolder folder(options.out, plan, parse_shard(options.shard), options.resume);
+  const bool interrupted = make_remaining(folder, plan, options.threads);
+  const StoredCampaign& stored = folder.stored();
+  const Summary summary = write_statistics(stored, folder.results(), campaign.statistics);
+  const int shown = show_results(stored, summary, options.display);
+  if (!interrupted) return shown;
+  fmt::print(stderr,
+             "interrupted: {} of {} runs are kept; the same command with --resume goes on\n",
+             summary.runs, stored.runs().size());
+  return exit_code::interrupted;
+}
+
+} // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Run a campaign into a results folder");
+  command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
+  command->add_option("--out", options->out, "The results folder: new, or empty")->required();
+  command->add_option("--runs", options->runs, "How many runs, in place of the campaign's number")
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("N");
+  command->add_option("--seed", options->seed, "The seed, in place of the campaign's")
+      ->type_name("N");
+  command->add_option("--threads", options->threads, "How many threads; all processors if left out")
+      ->check(CLI::Range(1, most_threads))
+      ->type_name("N");
+  command->add_flag("--resume", options->resume,
+                    "Go on where an earlier run into the folder stopped");
+  command->add_option("--shard", options->shard, "Only part I of N of the runs, e.g. 2/5")
+      ->type_name("I/N")
+      ->check(refuse_shard);
+  add_display_options(*command, options->display);
+  command->footer(std::string("Progress goes to standard error, if that is a terminal.\n") +
+                  display_help +
+                  R"(The results do not depend on threads, shards and interruptions.
+
+Example:
+  wingspread run campaign.json --out results/first --runs 2000 --threads 4
+  wingspread run campaign.json --out results/part2 --shard 2/5)");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+} // namespace wingspread

@@ -1,0 +1,29 @@
+/// The commands. Each `add_` adds one to the command line, with its options and its help.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace wingspread {
+
+/// What is to be done once the command line is understood; returns the exit status.
+using Action = std::function<int()>;
+
+void add_run(CLI::App& app, Action& action);
+void add_merge(CLI::App& app, Action& action);
+void add_analyze(CLI::App& app, Action& action);
+void add_simulate(CLI::App& app, Action& action);
+void add_replay(CLI::App& app, Action& action);
+void add_check(CLI::App& app, Action& action);
+void add_sample(CLI::App& app, Action& action);
+void add_methods(CLI::App& app, Action& action);
+void add_version(CLI::App& app, Action& action);
+
+/// "wingspread 0.1.0".
+[[nodiscard]] std::string version_text();
+
+} // namespace wingspread
