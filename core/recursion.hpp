@@ -72,11 +72,11 @@ template <BaseMotion M, class Topology>
   return M == BaseMotion::fixed && tree.parent_of(i) == 0;
 }
 
-/// Kinematics of body i from its parent's [Yudintsev, eq. 2], for the relative angle and rate given.
+/// Absolute angle and rate of body i from its parent's and its own relative ones.
 /// Frames: any array of BodyFrame<T>, 0 … n, here as below.
 template <BaseMotion M, class T, class Topology, class Frames>
-[[gnu::always_inline]] inline void place(const Wing<T>& wing, const Topology& tree, Frames& frames, int i,
-                                         const T& relative_angle, const T& relative_rate) {
+[[gnu::always_inline]] inline void turn(const Topology& tree, Frames& frames, int i, const T& relative_angle,
+                                        const T& relative_rate) {
   const BodyFrame<T>& parent = frames[tree.parent_of(i)];
   BodyFrame<T>& own = frames[i];
   const bool first = on_fixed_base<M>(tree, i);
@@ -84,8 +84,15 @@ template <BaseMotion M, class T, class Topology, class Frames>
   own.rate = first ? relative_rate : parent.rate + relative_rate;
   own.minus_rate_squared = -(own.rate * own.rate);
   own.rotation = sine_cosine(own.angle);
+}
+
+/// Vectors of body i in inertial axes [Yudintsev, eq. 2], once all have been turned.
+template <BaseMotion M, class T, class Topology, class Frames>
+[[gnu::always_inline]] inline void place(const Wing<T>& wing, const Topology& tree, Frames& frames, int i) {
+  BodyFrame<T>& own = frames[i];
   own.mass_moment = rotated(own.rotation, wing.bodies[i].mass_moment);
-  own.arm = first ? wing.bodies[i].arm : rotated(parent.rotation, wing.bodies[i].arm);
+  own.arm = on_fixed_base<M>(tree, i) ? wing.bodies[i].arm
+                                      : rotated(frames[tree.parent_of(i)].rotation, wing.bodies[i].arm);
 }
 
 /// The inward pass at body i: eqs. (3), (4), (6). Its children's have been made.
@@ -98,7 +105,7 @@ template <class T, class Topology, class Frames>
   T I = wing.bodies[i].inertia;
   Vec2<T> c = scaled(own.minus_rate_squared, own.mass_moment);
   T load = own.moment; // τ_i − Σ τ_j − d
-  tree.for_each_child(i, [&](int j) {
+  tree.for_each_child(i, [&](int j) __attribute__((always_inline)) {
     const BodyFrame<T>& child = frames[j];
     const Sym2<T>& K = child.stiffness;
     const Vec2<T> q = turned(child.arm);

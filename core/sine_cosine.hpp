@@ -28,13 +28,13 @@ template <class T> [[nodiscard]] inline SineCosine<T> sine_cosine(const T& angle
 #ifdef __FMA__
 namespace detail {
 
-/// sin r for |r| ≤ π/4, z = r².
-[[nodiscard]] inline double sine_kernel(double r, double z) {
+/// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction, which the rest need not wait for.
+[[nodiscard]] inline double sine_kernel(double r, double r_low, double z) {
   const double zz = z * z;
   const double high = fused(z, 1.58969099521155010221e-10, -2.50507602534068634195e-08);
   const double middle = fused(z, 2.75573137070700676789e-06, -1.98412698298579493134e-04);
   const double low = fused(z, 8.33333333332248946124e-03, -1.66666666666666324348e-01);
-  return fused(z * r, fused(zz, fused(zz, high, middle), low), r);
+  return fused(z * r, fused(zz, fused(zz, high, middle), low), r_low);
 }
 
 /// cos r for |r| ≤ π/4, z = r²; 1 − z/2 is split so that its rounding error is added back.
@@ -66,9 +66,9 @@ template <> [[nodiscard]] inline SineCosine<double> sine_cosine<double>(const do
   const double k = shifted - rounder;
   double r = fused(-k, 0x1.921fb54442d18p0, angle);
   r = fused(-k, 0x1.1a62633145c07p-54, r);
-  r = fused(-k, -0x1.f1976b7ed8fbcp-110, r); // counts only beside a multiple of π/2
+  const double r_low = fused(-k, -0x1.f1976b7ed8fbcp-110, r); // counts only beside a multiple of π/2
   const double z = r * r;
-  const double s = detail::sine_kernel(r, z);
+  const double s = detail::sine_kernel(r, r_low, z);
   const double c = detail::cosine_kernel(z);
   const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(shifted);
   const std::uint64_t swapped = -(quadrant & 1);

@@ -31,6 +31,7 @@ template <class T> struct Workspace {
   std::vector<BodyFrame<T>> frames;  ///< 0 … n
   std::vector<Vec2<T>> forces;       ///< 1 … n: on body i at its hinge, at the last evaluation; if asked for
   std::vector<LinearLaw<T>> laws;    ///< 1 … n
+  std::vector<T> nonlinear;          ///< 1 … n: moments of friction and smoothed latches, N·m
   std::vector<char> engaged;         ///< 1 … n: has passed its latched angle
   long evaluations = 0;
 };
@@ -40,11 +41,12 @@ template <class T, class Topology, BaseMotion Motion> class System {
 public:
   System(const Wing<T>& wing, const Topology& topology, const std::optional<double>& smoothing, Workspace<T>& work)
       : wing_(wing), topology_(topology), work_(work),
-        layout_{Motion == BaseMotion::free ? 3 : 0, topology.bodies(), smoothing.has_value()},
+        layout_{first_coordinate, topology.bodies(), smoothing.has_value()},
         epsilon_(smoothing.value_or(0)) {
     work_.frames.assign(layout_.bodies + 1, BodyFrame<T>{});
     work_.forces.assign(layout_.bodies + 1, {T(0), T(0)});
     work_.laws.resize(layout_.bodies + 1);
+    work_.nonlinear.resize(layout_.bodies + 1);
     work_.engaged.assign(layout_.bodies + 1, false);
     work_.evaluations = 0;
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
@@ -84,14 +86,9 @@ public:
   }
 
   /// Moment of hinge i, N·m.
-  [[nodiscard, gnu::always_inline]] inline T moment(const State<T>& x, int i) const {
-    const T& angle = x[layout_.angle(i)];
-    const T& rate = x[layout_.rate(i)];
-    T m = linear_moment(work_.laws[i], angle, rate);
-    if (wing_.has_coulomb) m = m + coulomb_moment(wing_.hinges[i], rate);
-    if (layout_.smoothed && wing_.hinges[i].has_latch)
-      m = m + smoothed_latch_moment(wing_.hinges[i], angle, rate, x[layout_.latch(i)], epsilon_);
-    return m;
+  [[nodiscard]] T moment(const State<T>& x, int i) const {
+    const T linear = linear_moment(work_.laws[i], x[layout_.angle(i)], x[layout_.rate(i)]);
+    return wing_.has_coulomb || layout_.smoothed ? linear + nonlinear_moment(x, i) : linear;
   }
 
   /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
@@ -109,29 +106,66 @@ public:
   void want_forces(bool want) { wants_forces_ = want; }
 
 private:
+  static constexpr int first_coordinate = Motion == BaseMotion::free ? 3 : 0; ///< φ_1 in q
+  [[nodiscard]] int freedoms() const { return first_coordinate + topology_.bodies(); }
+
   void update_law(int i) {
     const bool acts = work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
     work_.laws[i] = linear_law(wing_.hinges[i], acts);
   }
 
   template <class Frames> [[gnu::always_inline]] void place_bodies(Frames& frames, const State<T>& x) {
-    const T* const angles = x.data() + layout_.base;
-    const T* const rates = angles + layout_.freedoms();
-    topology_.outward([&](int i) { place<Motion>(wing_, topology_, frames, i, angles[i - 1], rates[i - 1]); });
+    const T* const angles = x.data() + first_coordinate;
+    const T* const rates = angles + freedoms();
+    topology_.outward([&](int i) __attribute__((always_inline)) { turn<Motion>(topology_, frames, i, angles[i - 1], rates[i - 1]); });
+    topology_.outward([&](int i) __attribute__((always_inline)) { place<Motion>(wing_, topology_, frames, i); });
+  }
+
+  template <class Frames> [[gnu::always_inline]] void apply_moments(Frames& frames, const State<T>& x) {
+    const T* const angles = x.data() + first_coordinate;
+    const T* const rates = angles + freedoms();
+    const LinearLaw<T>* const laws = work_.laws.data();
+    topology_.outward([&](int i) __attribute__((always_inline)) { frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]); });
+    if (!wing_.has_coulomb && !layout_.smoothed) return;
+    find_nonlinear_moments(x);
+    topology_.outward([&](int i) __attribute__((always_inline)) { frames[i].moment = frames[i].moment + work_.nonlinear[i]; });
+  }
+
+  /// What friction and smoothed latches add, apart from the frames so that these stay in registers.
+  [[gnu::noinline]] void find_nonlinear_moments(const State<T>& x) {
+    for (int i = 1; i <= layout_.bodies; ++i) work_.nonlinear[i] = nonlinear_moment(x, i);
+  }
+
+  [[nodiscard]] T nonlinear_moment(const State<T>& x, int i) const {
+    const T& rate = x[layout_.rate(i)];
+    T m = wing_.has_coulomb ? coulomb_moment(wing_.hinges[i], rate) : T(0);
+    if (layout_.smoothed && wing_.hinges[i].has_latch)
+      m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)], epsilon_);
+    return m;
+  }
+
+  /// q̇ is part of the state.
+  [[gnu::always_inline]] void copy_rates(const State<T>& x, State<T>& dxdt) const {
+    const T* const rates = x.data() + freedoms();
+    T* const velocities = dxdt.data();
+    for (int k = 0; k < first_coordinate; ++k) velocities[k] = rates[k];
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      velocities[first_coordinate + i - 1] = rates[first_coordinate + i - 1];
+    });
   }
 
   template <class Frames>
   [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt, const T& t) {
     place_base(frames[0], x, t);
     place_bodies(frames, x);
-    topology_.outward([&](int i) { frames[i].moment = moment(x, i); });
-    topology_.inward([&](int i) { gather(wing_, topology_, frames, i); });
+    apply_moments(frames, x);
+    topology_.inward([&](int i) __attribute__((always_inline)) { gather(wing_, topology_, frames, i); });
     accelerate_base(frames, dxdt);
-    T* const accelerations = dxdt.data() + layout_.rate(1);
-    topology_.outward([&](int i) { accelerations[i - 1] = accelerate<Motion>(topology_, frames, i); });
-    for (int k = 0; k < layout_.freedoms(); ++k) dxdt[k] = x[layout_.freedoms() + k];
+    T* const accelerations = dxdt.data() + first_coordinate + freedoms();
+    topology_.outward([&](int i) __attribute__((always_inline)) { accelerations[i - 1] = accelerate<Motion>(topology_, frames, i); });
+    copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
-    if (wants_forces_) topology_.outward([&](int i) { work_.forces[i] = hinge_force(frames[i]); });
+    if (wants_forces_) topology_.outward([&](int i) __attribute__((always_inline)) { work_.forces[i] = hinge_force(frames[i]); });
   }
 
   [[gnu::always_inline]] void place_base(BodyFrame<T>& base, const State<T>& x, const T& t) const {
@@ -169,7 +203,7 @@ private:
     }
   }
 
-  void advance_latches(const State<T>& x, State<T>& dxdt) const {
+  [[gnu::noinline]] void advance_latches(const State<T>& x, State<T>& dxdt) const {
     for (int i = 1; i <= layout_.bodies; ++i)
       dxdt[layout_.latch(i)] =
           wing_.hinges[i].has_latch ? engagement_rate(wing_.hinges[i], x[layout_.angle(i)], epsilon_) : T(0);

@@ -104,7 +104,7 @@ void add_sample(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("sample", "The draws of a campaign alone, as CSV");
   command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
   command->add_option("--runs", options->runs, "How many runs, in place of the campaign's number")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()).description(""))
       ->type_name("N");
   command->add_option("--seed", options->seed, "The seed, in place of the campaign's")
       ->type_name("N");

@@ -27,14 +27,11 @@ void add_display_options(CLI::App& command, Display& display);
 
 /// What --help says of it.
 inline constexpr const char* display_help =
-    "Standard output is the table of results if that is a terminal; otherwise the paths of the files
-    "
-    "written, one a line.
-    ";
+    "Standard output is the table of results if that is a terminal; otherwise the paths of the\n"
+    "files written, one a line.\n";
 
-    /// Shows the results and says on standard error when runs failed.
-    /// @return the exit status: whether runs failed numerically
-    int
-    show_results(const StoredCampaign& stored, const Summary& summary, const Display& display);
+/// Shows the results and says on standard error when runs failed.
+/// @return the exit status: whether runs failed numerically
+int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display);
 
 } // namespace wingspread

@@ -124,12 +124,12 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
   command->add_option("--out", options->out, "The results folder: new, or empty")->required();
   command->add_option("--runs", options->runs, "How many runs, in place of the campaign's number")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
+      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()).description(""))
       ->type_name("N");
   command->add_option("--seed", options->seed, "The seed, in place of the campaign's")
       ->type_name("N");
   command->add_option("--threads", options->threads, "How many threads; all processors if left out")
-      ->check(CLI::Range(1, most_threads))
+      ->check(CLI::Range(1, most_threads).description(""))
       ->type_name("N");
   command->add_flag("--resume", options->resume,
                     "Go on where an earlier run into the folder stopped");

@@ -173,7 +173,7 @@ void add_replay(CLI::App& app, Action& action) {
   command->add_option("folder", options->folder, "The results folder")->required();
   command->add_option("--run", options->run, "Which run, as numbered in runs.csv from 0")
       ->required()
-      ->check(CLI::Range(0L, std::numeric_limits<long>::max()))
+      ->check(CLI::Range(0L, std::numeric_limits<long>::max()).description(""))
       ->type_name("K");
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->add_option("--out", options->out, "Write the trajectory to this CSV file");

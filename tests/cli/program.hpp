@@ -1,0 +1,37 @@
+/// Runs the program as a user does, and keeps what it says.
+#pragma once
+
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace wingspread::test {
+
+/// What a finished program leaves behind.
+struct Finished {
+  int code; ///< exit status; 128 + N when signal N ended it
+  std::string out, error;
+};
+
+/// The program, started with these arguments, its two outputs into files of the folder.
+class Program {
+public:
+  Program(const Folder& folder, const std::vector<std::string>& arguments);
+  void send(int signal) const;
+  [[nodiscard]] Finished finish() const;
+
+private:
+  std::filesystem::path out_, error_;
+  pid_t process_ = 0;
+};
+
+/// Starts it and waits for its end.
+[[nodiscard]] Finished run_program(const Folder& folder, const std::vector<std::string>& arguments);
+
+/// Lines of a text.
+[[nodiscard]] std::vector<std::string> lines_of(const std::string& text);
+
+} // namespace wingspread::test

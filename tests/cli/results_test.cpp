@@ -1,0 +1,133 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// A finished campaign in a folder.
+struct Done {
+  Folder folder{};
+  std::filesystem::path path = folder.path() / "r";
+  explicit Done(const Json& json) { (void)run_into(path, campaign_of(json)); }
+
+  [[nodiscard]] Finished program(const std::vector<std::string>& arguments) const {
+    return run_program(folder, arguments);
+  }
+};
+
+} // namespace
+
+TEST_CASE("merge puts shards together, and says where the files are") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(20));
+  const std::string a = folder.path() / "a", b = folder.path() / "b", out = folder.path() / "out";
+  (void)run_into(a, campaign, {.shard = Shard{1, 2}});
+  (void)run_into(b, campaign, {.shard = Shard{2, 2}});
+  const auto refused = run_program(folder, {"merge", a, "--out", out});
+  CHECK(refused.code == 2);
+  CHECK(refused.error == "error: found no folder with runs 10 to 19, expected folders with all of "
+                         "the campaign's 20 runs\n");
+  const auto [code, text, error] = run_program(folder, {"merge", b, a, "--out", out});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(lines_of(text).front() == out + "/campaign.json");
+  const auto whole = folder.path() / "whole";
+  (void)run_into(whole, campaign);
+  CHECK(contents(out) == contents(whole));
+}
+
+TEST_CASE("analyze leaves an untouched folder as it is, and takes other settings") {
+  const Done done(full_campaign(30));
+  const auto before = contents(done.path);
+  const auto [code, out, error] = done.program({"analyze", done.path});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(contents(done.path) == before);
+
+  CHECK(done.program({"analyze", done.path, "--quantiles", "0.25,0.75", "--confidence", "0.5",
+                      "--bins", "4"})
+            .code == 0);
+  const Json summary = parse_json_file(done.path / summary_file);
+  CHECK(summary["confidence"] == 0.5);
+  const Json quantiles = summary["outputs"]["root.latch_time"]["quantiles"];
+  REQUIRE(quantiles.size() == 2);
+  CHECK(quantiles[1]["p"] == 0.75);
+  CHECK(parse_json_file(done.path / histograms_json_file)["root.latch_time"]["counts"].size() == 4);
+}
+
+TEST_CASE("analyze refuses settings by their options") {
+  const Done done(quick_campaign(5));
+  const auto before = contents(done.path);
+  const auto [code, out, error] = done.program(
+      {"analyze", done.path, "--quantiles", "0.5,1.5", "--confidence", "2", "--bins", "few"});
+  CHECK(code == 2);
+  CHECK(out.empty());
+  CHECK(error == "error: --quantiles: found 1.5, expected a number, > 0 and < 1\n"
+                 "error: --confidence: found 2.0, expected a number, > 0 and < 1\n"
+                 "error: --bins: found string \"few\", expected \"auto\" or an integer from 1 to "
+                 "1000000\n");
+  CHECK(contents(done.path) == before);
+}
+
+TEST_CASE("replay makes a run again and finds it the same") {
+  const Done done(full_campaign(12));
+  const Results results = read_stored_results(read_stored_campaign(done.path)).results;
+  for (std::size_t k = 0; k < 12; ++k) {
+    const auto [code, out, error] =
+        done.program({"replay", done.path, "--run", std::to_string(k), "--json"});
+    CHECK(code == 0);
+    CHECK(error.empty());
+    const Json json = parse_json(out);
+    CHECK(json["status"] == to_string(results.status[k]));
+    CHECK(json["run"] == k);
+    CHECK(json["same_as_recorded"] == true);
+    CHECK(json["draws"]["root_spring"] == results.draws[0].values[k]);
+    if (json["latches"].empty()) continue;
+    const std::string first = json["latches"][0]["hinge"];
+    for (const Column& column : results.outputs)
+      if (column.name == first + ".latch_time")
+        CHECK(json["latches"][0]["time"] == column.values[k]);
+  }
+}
+
+TEST_CASE("replay in words, and its trajectory") {
+  const Done done(quick_campaign(4));
+  const auto file = done.folder.path() / "trajectory.csv";
+  const auto [code, out, error] = done.program({"replay", done.path, "--run", "2", "--out", file});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(out.find("\nRun 2 is the one in runs.csv, bit for bit.\n") != std::string::npos);
+  CHECK(out.find("mass.panel_3") != std::string::npos);
+  CHECK(read_text(file).value().starts_with("t,root.angle,root.rate,root.moment,"));
+}
+
+TEST_CASE("replay names what differs from the record") {
+  const Done done(quick_campaign(4));
+  const auto file = done.path / runs_file;
+  std::string text = read_text(file).value();
+  const std::size_t at = text.find("\n2,deployed,") + 12;
+  text.replace(at, text.find(',', at) - at, "1.25");
+  std::ofstream(file, std::ios::binary) << text;
+  const auto [code, out, error] = done.program({"replay", done.path, "--run", "2", "--json"});
+  CHECK(code == 3);
+  CHECK(parse_json(out)["same_as_recorded"] == false);
+  CHECK(error.starts_with("error: run 2, column root_spring: recorded as 1.25, computed as "));
+  CHECK(lines_of(error).size() == 1);
+}
+
+TEST_CASE("replay of a run that is not there") {
+  const Folder folder;
+  const std::string path = folder.path() / "r";
+  (void)run_into(path, campaign_of(quick_campaign(4)), {.shard = Shard{1, 2}});
+  CHECK(run_program(folder, {"replay", path, "--run", "4"}).error ==
+        "error: " + path + ": found no run 4, expected a run from 0 to 3\n");
+  const auto [code, out, error] = run_program(folder, {"replay", path, "--run", "3"});
+  CHECK(code == 0);
+  CHECK(out.find("Run 3 is not in runs.csv") != std::string::npos);
+  CHECK(parse_json(
+            run_program(folder, {"replay", path, "--run", "3", "--json"}).out)["same_as_recorded"]
+            .is_null());
+}

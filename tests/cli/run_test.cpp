@@ -1,0 +1,182 @@
+#include "montecarlo/summary_json.hpp"
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// A campaign's file and a place for its results.
+struct Setting {
+  Folder folder{};
+  std::string campaign{};
+  std::string out = (folder.path() / "r").string();
+
+  explicit Setting(const Json& json) : campaign(folder.write("campaign.json", json.dump())) {}
+
+  [[nodiscard]] Finished run(const std::string& to, std::vector<std::string> options = {}) const {
+    options.insert(options.begin(), {"run", campaign, "--out", to});
+    return run_program(folder, options);
+  }
+};
+
+std::string paths(const std::string& folder) {
+  std::string text;
+  for (const char* file :
+       {campaign_file, runs_file, summary_file, histograms_json_file, histograms_csv_file})
+    text += folder + "/" + file + "\n";
+  return text;
+}
+
+/// Waits until the file has that many lines. @return whether it came to that
+bool wait_for_lines(const std::filesystem::path& file, long lines) {
+  for (int i = 0; i < 3000; ++i) {
+    if (std::ranges::count(read_text(file).value_or(""), '\n') > lines) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+} // namespace
+
+TEST_CASE("a run writes its folder, and its paths to a pipe", "[parallel]") {
+  const Setting setting(quick_campaign(40));
+  const auto [code, out, error] = setting.run(setting.out, {"--threads", "2"});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(out == paths(setting.out));
+  const auto direct = setting.folder.path() / "direct";
+  (void)run_into(direct, campaign_of(quick_campaign(40)));
+  CHECK(contents(setting.out) == contents(direct));
+  const Json timing = parse_json_file(setting.folder.path() / "r" / timing_file);
+  CHECK(timing["threads"] == 2);
+  CHECK(timing["runs"] == 40);
+  CHECK(timing["interrupted"] == false);
+}
+
+TEST_CASE("the table and the histograms, when asked for") {
+  const Setting setting(quick_campaign(20));
+  const auto [code, out, error] = setting.run(setting.out, {"--histograms"});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(out.starts_with("three_panel · 20 runs · random, seed 7\n\nOUTCOME"));
+  CHECK(out.find("\nroot.latch_time, s\n") != std::string::npos);
+  const auto other = setting.run(setting.out + "2", {"--table"});
+  CHECK(other.out.find("OUTCOME") != std::string::npos);
+  CHECK(other.out.find("root.latch_time, s") == std::string::npos);
+}
+
+TEST_CASE("the number of runs and the seed can be given") {
+  const Setting setting(quick_campaign(20));
+  CHECK(setting.run(setting.out, {"--runs", "5", "--seed", "99"}).code == 0);
+  const StoredCampaign stored = read_stored_campaign(setting.out);
+  CHECK(stored.campaign.sampling.runs == 5);
+  CHECK(stored.stamp.seed == 99);
+  CHECK(read_stored_results(stored).results.size() == 5);
+}
+
+TEST_CASE("a bad campaign is refused with all of its problems, and nothing is written") {
+  Json json = quick_campaign(20);
+  json["sampling"]["runs"] = 0;
+  json["scene"]["bodies"][1]["mass"] = -1;
+  const Setting setting(json);
+  const auto [code, out, error] = setting.run(setting.out);
+  CHECK(code == 2);
+  CHECK(out.empty());
+  CHECK(error == "error: " + setting.campaign +
+                     ": /scene/bodies/1/mass: found -1, expected > 0\nerror: " + setting.campaign +
+                     ": /sampling/runs: found 0, expected an integer, ≥ 1\n");
+  CHECK_FALSE(std::filesystem::exists(setting.out));
+}
+
+TEST_CASE("a folder in use is refused, and one that cannot be made") {
+  const Setting setting(quick_campaign(5));
+  CHECK(setting.run(setting.out).code == 0);
+  const auto [code, out, error] = setting.run(setting.out);
+  CHECK(code == 2);
+  CHECK(out.empty());
+  CHECK(error == "error: " + setting.out +
+                     ": found a folder with files in it, expected a new or an empty folder "
+                     "(--resume continues a campaign)\n");
+  const auto below_file = setting.run(setting.campaign + "/r");
+  CHECK(below_file.code == 2);
+  CHECK(below_file.error == "error: " + setting.campaign +
+                                "/r: found Not a directory, expected a folder that can be made\n");
+}
+
+TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
+  Json json = full_campaign(30);
+  json["integration"]["max_steps"] = 600;
+  const Setting setting(json);
+  const auto [code, out, error] = setting.run(setting.out);
+  CHECK(code == 3);
+  CHECK(out == paths(setting.out));
+  const Json summary = parse_json_file(setting.folder.path() / "r" / summary_file);
+  long sum = 0;
+  for (const auto& [status, share] : summary["status"].items()) sum += share["count"].get<long>();
+  CHECK(sum == 30);
+  CHECK(error == "error: " + summary["status"]["failed"]["count"].dump() +
+                     " of 30 runs failed numerically; " + setting.out +
+                     "/summary.json has their reasons\n");
+}
+
+TEST_CASE("an interrupted run keeps what is done, and resuming completes it", "[parallel]") {
+  const Setting setting(quick_campaign(4000));
+  const auto path = setting.folder.path() / "r";
+  const int signal = GENERATE(SIGINT, SIGTERM);
+  const Program program(setting.folder,
+                        {"run", setting.campaign, "--out", setting.out, "--threads", "2"});
+  REQUIRE(wait_for_lines(path / runs_file, 50));
+  program.send(signal);
+  const auto [code, out, error] = program.finish();
+  CHECK(code == 130);
+  CHECK(out == paths(setting.out));
+  const StoredCampaign stored = read_stored_campaign(path);
+  const ResultsFile file = read_stored_results(stored);
+  const std::size_t done = file.results.size();
+  CHECK_FALSE(file.unterminated);
+  CHECK(done >= 50);
+  REQUIRE(done < 4000); // else the machine was too fast to be interrupted
+  const Json summary = parse_json_file(path / summary_file);
+  CHECK(summary["runs"] == done);
+  CHECK(summary["wingspread"]["partial"] == Json{{"done", done}, {"of", 4000}});
+  CHECK(error == "interrupted: " + std::to_string(done) +
+                     " of 4000 runs are kept; the same command with --resume goes on\n");
+  CHECK(parse_json_file(path / timing_file)["interrupted"] == true);
+
+  const auto resumed = setting.run(setting.out, {"--resume", "--threads", "2"});
+  CHECK(resumed.code == 0);
+  CHECK(resumed.error.empty());
+  CHECK(parse_json_file(path / timing_file)["runs_before"] == done);
+  const auto whole = setting.folder.path() / "whole";
+  CHECK(setting.run(whole).code == 0);
+  CHECK(contents(path) == contents(whole));
+}
+
+TEST_CASE("a run that was killed can be resumed", "[parallel]") {
+  const Setting setting(quick_campaign(1000));
+  const auto path = setting.folder.path() / "r";
+  const Program program(setting.folder,
+                        {"run", setting.campaign, "--out", setting.out, "--threads", "2"});
+  REQUIRE(wait_for_lines(path / runs_file, 20));
+  program.send(SIGKILL);
+  CHECK(program.finish().code == 128 + SIGKILL);
+  CHECK(setting.run(setting.out, {"--resume"}).code == 0);
+  const auto whole = setting.folder.path() / "whole";
+  CHECK(setting.run(whole).code == 0);
+  CHECK(contents(path) == contents(whole));
+}
+
+TEST_CASE("resuming what is complete changes nothing") {
+  const Setting setting(quick_campaign(10));
+  CHECK(setting.run(setting.out).code == 0);
+  const auto before = contents(setting.out);
+  CHECK(setting.run(setting.out, {"--resume"}).code == 0);
+  CHECK(contents(setting.out) == before);
+}

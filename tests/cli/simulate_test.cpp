@@ -1,0 +1,125 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("simulate prints strict JSON and writes the trajectory") {
+  const Folder folder;
+  const auto file = folder.path() / "trajectory.csv";
+  const auto [code, out, error] = run_program(
+      folder, {"simulate", three_panel_file(), "--json", "--out", file, "--t-end", "8"});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  const Json json = parse_json(out);
+  CHECK(json["status"] == "deployed");
+  CHECK(json["t_end"] == 8);
+  CHECK(json["latches"][0]["hinge"] == "root");
+  const std::vector<std::string> rows = lines_of(read_text(file).value());
+  CHECK(rows.front() == "t,root.angle,root.rate,root.moment,mid.angle,mid.rate,mid.moment,"
+                        "tip.angle,tip.rate,tip.moment,kinetic,potential,total");
+  CHECK(rows.back().starts_with("8,"));
+}
+
+TEST_CASE("simulate in words") {
+  const Folder folder;
+  const auto [code, out, error] =
+      run_program(folder, {"simulate", three_panel_file(), "--t-end", "7", "--latch", "event"});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(out.starts_with("three_panel: deployed, integrated to 7 s by "));
+}
+
+TEST_CASE("simulate takes a campaign's nominal scene and settings") {
+  const Folder folder;
+  const std::string file = folder.write("campaign.json", quick_campaign(5).dump());
+  const Json json = parse_json(run_program(folder, {"simulate", file, "--json"}).out);
+  CHECK(json["t_end"] == 20); // the campaign's, and not the default of 60
+  const Json tight = parse_json(run_program(folder, {"simulate", file, "--json", "--rtol", "1e-10",
+                                                     "--atol", "1e-12", "--method", "dopri5"})
+                                    .out);
+  CHECK(tight["work"]["steps"] > json["work"]["steps"]);
+  const Json smooth =
+      parse_json(run_program(folder, {"simulate", file, "--json", "--latch", "smoothed:0.01"}).out);
+  CHECK(smooth["peak_moment"]["tip"]["value"] < json["peak_moment"]["tip"]["value"]);
+}
+
+TEST_CASE("simulate refuses settings by their options") {
+  const Folder folder;
+  const auto [code, out, error] = run_program(
+      folder, {"simulate", three_panel_file(), "--rtol", "2", "--atol", "0", "--t-end", "-1",
+               "--latch", "smoothed:-1", "--method", "guess", "--out", folder.path() / "t.csv"});
+  CHECK(code == 2);
+  CHECK(out.empty());
+  CHECK(error.find("error: --method: found string \"guess\", expected \"auto\"") == 0);
+  CHECK(error.find("error: --rtol: found 2.0, expected a number, > 0 and < 1\n") != error.npos);
+  CHECK(error.find("error: --atol: found 0.0, expected a number, > 0\n") != error.npos);
+  CHECK(error.find("error: --latch: found -1.0, expected a number, rad, > 0\n") != error.npos);
+  CHECK(error.find("error: --t-end: found -1.0, expected a number, s, > 0\n") != error.npos);
+  CHECK(lines_of(error).size() == 5);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "t.csv"));
+}
+
+TEST_CASE("a simulation that fails says why") {
+  const Folder folder;
+  Json campaign = quick_campaign(5);
+  campaign["integration"]["max_steps"] = 10;
+  const auto [code, out, error] =
+      run_program(folder, {"simulate", folder.write("campaign.json", campaign.dump()), "--json"});
+  CHECK(code == 3);
+  CHECK(parse_json(out)["status"] == "failed");
+  CHECK(error.starts_with("error: the run failed numerically: the limit of 10 steps was reached"));
+}
+
+TEST_CASE("check says what a file holds, or all that is wrong with it") {
+  const Folder folder;
+  const auto scene = run_program(folder, {"check", three_panel_file()});
+  CHECK(scene.code == 0);
+  CHECK(scene.error.empty());
+  CHECK(scene.out.starts_with("scene three_panel\n"));
+  const std::string file = folder.write("campaign.json", quick_campaign(5).dump());
+  CHECK(run_program(folder, {"check", file}).out.starts_with("campaign\n"));
+
+  Json bad = quick_campaign(5);
+  bad["scene"]["hinges"][0]["friction"] = {{"model", "exact"}};
+  bad["margin"] = Json::object();
+  folder.write("campaign.json", bad.dump());
+  const auto [code, out, error] = run_program(folder, {"check", file});
+  CHECK(code == 2);
+  CHECK(out.empty());
+  CHECK(error == "error: " + file +
+                     ": /scene/hinges/0/friction/model: found string \"exact\", expected "
+                     "\"regularized\": the exact model is not available in this version\n"
+                     "error: " +
+                     file +
+                     ": /margin: found an object, expected no \"margin\": not available in this "
+                     "version\n");
+}
+
+TEST_CASE("sample prints the draws that the runs apply") {
+  const Folder folder;
+  const std::string file = folder.write("campaign.json", quick_campaign(5).dump());
+  const auto path = folder.path() / "r";
+  (void)run_into(path, campaign_of(quick_campaign(5)));
+  std::string expected = "run,root_spring,mass.panel_1,mass.panel_2,mass.panel_3\n";
+  const Results results = read_stored_results(read_stored_campaign(path)).results;
+  for (std::size_t i = 0; i < 5; ++i) {
+    expected += std::to_string(i);
+    for (const double draw : results.row(i).draws) {
+      expected += ',';
+      append_csv_cell(expected, draw);
+    }
+    expected += '\n';
+  }
+  const auto [code, out, error] = run_program(folder, {"sample", file});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(out == expected);
+  const auto csv = folder.path() / "draws.csv";
+  CHECK(run_program(folder, {"sample", file, "--out", csv}).out.empty());
+  CHECK(read_text(csv) == expected);
+  CHECK(lines_of(run_program(folder, {"sample", file, "--runs", "3"}).out).size() == 4);
+  CHECK(run_program(folder, {"sample", file, "--seed", "8"}).out != expected);
+  CHECK(run_program(folder, {"sample", file, "--out", folder.path() / "no" / "d.csv"}).code == 2);
+}

@@ -1,0 +1,76 @@
+/// For the tests of what runs campaigns: a campaign of the seed scene, run into a folder.
+#pragma once
+
+#include "montecarlo/run_folder.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <map>
+
+namespace wingspread::test {
+
+inline std::filesystem::path three_panel_file() {
+  return std::filesystem::path(WINGSPREAD_SOURCE_DIR) / "studies/scenes/three_panel.json";
+}
+
+/// The seed scene with a spring and all masses dispersed; ends at the last latch, in 0.2 ms or so.
+inline Json quick_campaign(int runs) {
+  Json campaign = parse_json(R"({
+    "dispersions": [
+      { "name": "root_spring", "distribution": { "type": "normal", "mean": 1, "std": 0.05 },
+        "apply": "scale",
+        "to": ["hinges.root.spring.torque_stowed", "hinges.root.spring.torque_latched"] },
+      { "name": "mass", "distribution": { "type": "uniform", "lower": 9, "upper": 11 },
+        "apply": "set", "each": "bodies.*.mass" } ],
+    "integration": { "rtol": 1e-6, "atol": 1e-8, "t_end": 20 },
+    "outputs": ["latch_time", "latch_rate", "rate_at"] })");
+  campaign["scene"] = parse_json_file(three_panel_file());
+  campaign["sampling"] = {{"runs", runs}, {"seed", 7}};
+  return campaign;
+}
+
+/// The same with every quantity asked for; some draws are unphysical, and some runs time out.
+inline Json full_campaign(int runs) {
+  Json campaign = quick_campaign(runs);
+  campaign["outputs"] = {"latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at"};
+  campaign["integration"]["t_end"] = 6.75;
+  campaign["dispersions"][1]["distribution"] = {{"type", "normal"}, {"mean", 10}, {"std", 6}};
+  return campaign;
+}
+
+inline Campaign campaign_of(const Json& json) { return read_campaign(json.dump(), ""); }
+
+/// How to run a campaign in a test.
+struct Session {
+  int threads = 1;
+  std::optional<Shard> shard{};
+  bool resume = false;
+  long stop_after = -1; ///< runs; −1: never
+};
+
+/// Runs it into the folder, as the command does; returns how many runs were made.
+inline long run_into(const std::filesystem::path& path, const Campaign& campaign,
+                     const Session& session = {}) {
+  const RunPlan plan(campaign);
+  RunFolder folder(path, plan, session.shard, session.resume);
+  std::atomic<bool> stop = session.stop_after == 0;
+  long seen = 0;
+  const long made =
+      make_runs(plan, folder.remaining(), session.threads, stop, [&](const Batch& batch) {
+        folder.add(batch);
+        seen += std::ssize(batch.rows);
+        if (session.stop_after >= 0 && seen >= session.stop_after) stop = true;
+      });
+  (void)write_statistics(folder.stored(), folder.results(), campaign.statistics);
+  return made;
+}
+
+/// The bytes of every file, less timing.json.
+inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().filename() != timing_file)
+      files[entry.path().filename().string()] = read_text(entry.path()).value_or("(unreadable)");
+  return files;
+}
+
+} // namespace wingspread::test
