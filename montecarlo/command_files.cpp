@@ -1,4 +1,5 @@
 #include "montecarlo/cli.hpp"
+#include "montecarlo/command_options.hpp"
 #include "montecarlo/commands.hpp"
 #include "montecarlo/describe.hpp"
 #include "montecarlo/files.hpp"
@@ -10,7 +11,6 @@
 
 #include <fstream>
 #include <iostream>
-#include <limits>
 #include <memory>
 
 namespace wingspread {
@@ -18,8 +18,7 @@ namespace {
 
 struct SampleOptions {
   std::filesystem::path campaign, out;
-  std::optional<std::int64_t> runs;
-  std::optional<std::uint64_t> seed;
+  SamplingOptions sampling;
 };
 
 int check(const std::filesystem::path& file) {
@@ -51,7 +50,7 @@ void write_draws(const RunPlan& plan, std::ostream& out) {
 
 int sample(const SampleOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
-  override_sampling(campaign, options.runs, options.seed);
+  override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   const RunPlan plan(campaign);
   if (options.out.empty()) {
     write_draws(plan, std::cout);
@@ -103,11 +102,7 @@ void add_sample(CLI::App& app, Action& action) {
   const auto options = std::make_shared<SampleOptions>();
   CLI::App* command = app.add_subcommand("sample", "The draws of a campaign alone, as CSV");
   command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
-  command->add_option("--runs", options->runs, "How many runs, in place of the campaign's number")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()).description(""))
-      ->type_name("N");
-  command->add_option("--seed", options->seed, "The seed, in place of the campaign's")
-      ->type_name("N");
+  add_sampling_options(*command, options->sampling);
   command->add_option("--out", options->out, "Write to this file, not to standard output");
   command->footer(R"(They are the draws that `run` applies, to the last bit.
 

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 #include <utility>
 
 namespace wingspread {
@@ -20,6 +22,14 @@ std::string option_of(std::string_view pointer) {
   std::string option = "--" + std::string(key.substr(0, key.find('/')));
   std::ranges::replace(option, '_', '-');
   return option;
+}
+
+/// CLI11 itself would take -1 for 2^64 − 1.
+std::string refuse_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error == std::errc{} && end == text.data() + text.size()) return "";
+  return fmt::format("found {}, expected an integer from 0 to 2^64 - 1", text);
 }
 
 std::string title(const StoredCampaign& stored, const Summary& summary) {
@@ -51,6 +61,16 @@ void override_settings(const Json& given, const std::function<void(const JsonCur
   read(JsonCursor(given, "", problems));
   for (Problem& problem : problems) problem.pointer = option_of(problem.pointer);
   if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  command.add_option("--runs", sampling.runs, "How many runs, in place of the campaign's number")
+      ->check(CLI::Range(std::int64_t{1}, most).description(""))
+      ->type_name("N");
+  command.add_option("--seed", sampling.seed, "The seed, in place of the campaign's")
+      ->check(refuse_seed)
+      ->type_name("N");
 }
 
 void add_display_options(CLI::App& command, Display& display) {

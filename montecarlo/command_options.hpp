@@ -18,6 +18,13 @@ namespace wingspread {
 /// @throws SpecError that names the options
 void override_settings(const Json& given, const std::function<void(const JsonCursor&)>& read);
 
+/// What replaces the campaign's own sampling.
+struct SamplingOptions {
+  std::optional<std::int64_t> runs;
+  std::optional<std::uint64_t> seed;
+};
+void add_sampling_options(CLI::App& command, SamplingOptions& sampling);
+
 /// How results are shown on standard output.
 struct Display {
   bool table = false;      ///< the table even when standard output is no terminal

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <memory>
 #include <thread>
 #include <unistd.h>
@@ -25,8 +24,7 @@ constexpr int most_threads = 1024;
 
 struct RunOptions {
   std::filesystem::path campaign, out;
-  std::optional<std::int64_t> runs;
-  std::optional<std::uint64_t> seed;
+  SamplingOptions sampling;
   int threads = 0;
   bool resume = false;
   std::string shard;
@@ -102,7 +100,7 @@ bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads) {
 
 int run(const RunOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
-  override_sampling(campaign, options.runs, options.seed);
+  override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   const RunPlan plan(campaign);
   RunFolder folder(options.out, plan, parse_shard(options.shard), options.resume);
   const bool interrupted = make_remaining(folder, plan, options.threads);
@@ -123,11 +121,7 @@ void add_run(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Run a campaign into a results folder");
   command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
   command->add_option("--out", options->out, "The results folder: new, or empty")->required();
-  command->add_option("--runs", options->runs, "How many runs, in place of the campaign's number")
-      ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()).description(""))
-      ->type_name("N");
-  command->add_option("--seed", options->seed, "The seed, in place of the campaign's")
-      ->type_name("N");
+  add_sampling_options(*command, options->sampling);
   command->add_option("--threads", options->threads, "How many threads; all processors if left out")
       ->check(CLI::Range(1, most_threads).description(""))
       ->type_name("N");

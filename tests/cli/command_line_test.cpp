@@ -49,7 +49,8 @@ TEST_CASE("a command line that makes no sense is refused") {
       {{"run", "c.json", "--out", "r", "--threads", "0"},
        "error: --threads: Value 0 not in range 1 to 1024\nerror: see wingspread run --help\n"},
       {{"run", "c.json", "--out", "r", "--seed", "-1"},
-       "error: Could not convert: --seed = -1\nerror: see wingspread run --help\n"},
+       "error: --seed: found -1, expected an integer from 0 to 2^64 - 1\nerror: see wingspread run "
+       "--help\n"},
       {{"simulate", "s.json", "--latch", "smoothed:x"},
        "error: --latch: found smoothed:x, expected event, or smoothed:EPS with EPS in rad, e.g. "
        "smoothed:1e-4\nerror: see wingspread simulate --help\n"}};
