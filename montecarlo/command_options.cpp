@@ -39,7 +39,7 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
                                  campaign.sampling.seed);
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
   if (summary.runs < stored.runs().size())
-    text += fmt::format(" · partial: of {} runs", stored.runs().size());
+    text += fmt::format(" · partial, of {} runs", stored.runs().size());
   return text;
 }
 

@@ -24,23 +24,27 @@ namespace {
 
 double effort = 1; // share of the full repetitions
 
-/// Least time of one call of f over five rounds of `count` calls, ns.
-template <class Function> double time_of(long count, Function f) {
-  count = std::max(1L, static_cast<long>(static_cast<double>(count) * effort));
-  double best = 1e300;
-  for (int round = 0; round < 5; ++round) {
-    const auto start = std::chrono::steady_clock::now();
-    for (long k = 0; k < count; ++k) f();
-    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
-    best = std::min(best, taken.count() / static_cast<double>(count));
-  }
+/// Runs f `count` times; ns a call.
+template <class Function> double round_of(long count, Function& f) {
+  const auto start = std::chrono::steady_clock::now();
+  for (long k = 0; k < count; ++k) f();
+  const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+  return taken.count() / static_cast<double>(count);
+}
+
+/// Least time of one call of f, ns, over five rounds of about 50 ms (or of one call, if that is longer).
+template <class Function> double time_of(Function f) {
+  const double once = round_of(1, f), some = round_of(1 + static_cast<long>(1e5 / once), f);
+  const long count = 1 + static_cast<long>(5e7 * effort / some);
+  double best = some;
+  for (int round = 0; round < 5 && !(some > 1e9); ++round) best = std::min(best, round_of(count, f));
   return best;
 }
 
 /// A clock to read the rest by: additions that each need the last, one a cycle on most processors.
 double cycles_per_ns() {
   unsigned long x = 1;
-  const double block = time_of(1'000'000, [&] {
+  const double block = time_of([&] {
 #pragma GCC unroll 32
     for (int k = 0; k < 32; ++k) asm volatile("add $1, %0" : "+r"(x));
   });
@@ -80,12 +84,11 @@ template <class Topology> EvaluationTime recursion(const Wing<double>& wing, con
   system.start(x);
   dxdt = x;
   const int n = topology.bodies();
-  const long count = 4'000'000 / n;
-  const double dependent = time_of(count, [&] {
+  const double dependent = time_of([&] {
     system(x, dxdt, 0.0);
     for (int i = 0; i < n; ++i) x[i] = fused(1e-300, dxdt[n + i], x[i]);
   });
-  return {dependent, time_of(count, [&] { system(x, dxdt, 0.0); })};
+  return {dependent, time_of([&] { system(x, dxdt, 0.0); })};
 }
 
 template <int N> double dense(const Scene& scene) {
@@ -96,7 +99,7 @@ template <int N> double dense(const Scene& scene) {
   double sum = 0;
   for (int i = 0; i < n; ++i) angle[i] = sum += scene.hinges[i].stowed;
   rate.setZero(), moment.setConstant(2);
-  return time_of(2'000'000 / (n * n), [&] {
+  return time_of([&] {
     chain.accelerate(angle, rate, moment, out);
     for (int i = 0; i < n; ++i) angle[i] = fused(1e-300, out[i], angle[i]);
   });
@@ -128,7 +131,7 @@ Json evaluations() {
 Json one_run(const std::string& name, const Scene& scene, const Integration& how, const Goal& goal) {
   Deployment deployment;
   Outcome out = deployment.run(scene, how, goal);
-  const double ns = time_of(200, [&] { out = deployment.run(scene, how, goal); });
+  const double ns = time_of([&] { out = deployment.run(scene, how, goal); });
   return {{"run", name}, {"us", ns * 1e-3}, {"status", to_string(out.status)}, {"t_end", out.t_end},
           {"steps", out.work.steps}, {"rhs_evaluations", out.work.rhs_evaluations},
           {"ns_per_evaluation", ns / static_cast<double>(out.work.rhs_evaluations)}};
