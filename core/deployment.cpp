@@ -6,11 +6,16 @@ namespace wingspread {
 
 const char* to_string(Status status) {
   switch (status) {
-  case Status::deployed: return "deployed";
-  case Status::stalled: return "stalled";
-  case Status::timed_out: return "timed_out";
-  case Status::invalid: return "invalid";
-  case Status::failed: return "failed";
+  case Status::deployed:
+    return "deployed";
+  case Status::stalled:
+    return "stalled";
+  case Status::timed_out:
+    return "timed_out";
+  case Status::invalid:
+    return "invalid";
+  case Status::failed:
+    return "failed";
   }
   return "unknown";
 }
@@ -20,7 +25,8 @@ const std::vector<MethodInfo>& methods() {
       {"auto", "chooses by itself", 0, 0, 0, "that of the method chosen",
        "the default; in this version always dopri5"},
       {"dopri5", "explicit Runge-Kutta, adaptive", 5, 3.306, 1.0,
-       "quintic Hermite on angle, rate and acceleration; order 5", "Dormand and Prince 5(4), first same as last"},
+       "quintic Hermite on angle, rate and acceleration; order 5",
+       "Dormand and Prince 5(4), first same as last"},
   };
   return list;
 }
@@ -47,26 +53,29 @@ Outcome integrate(const Wing<double>& wing, const Topology& topology, Workspace<
 
 /// On a fixed base: the chain of a length known to the compiler, if it has one.
 template <int N = 1>
-Outcome integrate_chain(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how,
-                        const Goal& goal, const Observer& observer) {
+Outcome integrate_chain(const Wing<double>& wing, Workspace<double>& scratch,
+                        const Integration& how, const Goal& goal, const Observer& observer) {
   if constexpr (N <= longest_static_chain) {
-    if (wing.size() == N) return integrate<BaseMotion::fixed>(wing, Chain<N>{}, scratch, how, goal, observer);
+    if (wing.size() == N)
+      return integrate<BaseMotion::fixed>(wing, Chain<N>{}, scratch, how, goal, observer);
     return integrate_chain<N + 1>(wing, scratch, how, goal, observer);
   } else {
     return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
   }
 }
 
-Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how, const Goal& goal,
-                  const Observer& observer) {
+Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how,
+                  const Goal& goal, const Observer& observer) {
   switch (wing.base.motion) {
   case BaseMotion::prescribed:
     return integrate<BaseMotion::prescribed>(wing, wing.tree, scratch, how, goal, observer);
   case BaseMotion::free:
     return integrate<BaseMotion::free>(wing, wing.tree, scratch, how, goal, observer);
-  case BaseMotion::fixed: break;
+  case BaseMotion::fixed:
+    break;
   }
-  if (!is_chain(wing.tree)) return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
+  if (!is_chain(wing.tree))
+    return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
   return integrate_chain(wing, scratch, how, goal, observer);
 }
 

@@ -72,9 +72,9 @@ struct Work {
 /// Everything one run yields. Vectors over hinges stand in Scene order.
 struct Outcome {
   Status status = Status::failed;
-  std::string reason; ///< why it stalled, was invalid or failed; empty otherwise
-  std::string method; ///< what integrated it
-  double t_end = 0;   ///< where the integration stopped, s
+  std::string reason;              ///< why it stalled, was invalid or failed; empty otherwise
+  std::string method;              ///< what integrated it
+  double t_end = 0;                ///< where the integration stopped, s
   std::vector<LatchEvent> latches; ///< in order of time
   std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
   std::vector<Peak> peak_force;    ///< N; empty when not asked for
@@ -97,10 +97,10 @@ using Observer = std::function<void(const Sample&)>;
 /// An integration method that can be named in a campaign.
 struct MethodInfo {
   std::string name;
-  std::string kind;      ///< e.g. "explicit Runge-Kutta, adaptive"
-  int order;             ///< of the solution that is carried on; 0 where it chooses
-  double real_limit;     ///< largest stable |hλ| on the negative real axis; 0 where it does not apply
-  double imaginary_limit;///< the same on the imaginary axis
+  std::string kind;  ///< e.g. "explicit Runge-Kutta, adaptive"
+  int order;         ///< of the solution that is carried on; 0 where it chooses
+  double real_limit; ///< largest stable |hλ| on the negative real axis; 0 where it does not apply
+  double imaginary_limit;    ///< the same on the imaginary axis
   std::string interpolation; ///< how events and peaks are found inside a step
   std::string note;
 };

@@ -1,4 +1,5 @@
-/// Energy and momentum of a wing: audits of a run, and the projection that keeps a free base's momenta.
+/// Energy and momentum of a wing: audits of a run, and the projection that keeps a free base's
+/// momenta.
 #pragma once
 
 #include "core/system.hpp"
@@ -13,10 +14,10 @@ template <class T> struct Momentum {
 
 /// Mass properties and motion of everything that moves, in inertial axes.
 template <class T> struct Motion {
-  T kinetic = T(0);              ///< ½ Σ (m v² + J ω²), J
-  T mass = T(0);                 ///< Σ m, kg
+  T kinetic = T(0);                 ///< ½ Σ (m v² + J ω²), J
+  T mass = T(0);                    ///< Σ m, kg
   Vec2<T> first_moment{T(0), T(0)}; ///< Σ m r, kg·m
-  T second_moment = T(0);        ///< Σ (m r² + J) about the inertial origin, kg·m²
+  T second_moment = T(0);           ///< Σ (m r² + J) about the inertial origin, kg·m²
   Momentum<T> momentum{{T(0), T(0)}, T(0)};
 
   void add(const T& m, const T& inertia, const Vec2<T>& r, const Vec2<T>& v, const T& rate) {
@@ -29,10 +30,11 @@ template <class T> struct Motion {
   }
 };
 
-/// Adds body i and everything outward of it, from the position and velocity of its parent's hinge point.
+/// Adds body i and everything outward of it, from the position and velocity of its parent's hinge
+/// point.
 template <class T, class Topology>
-void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<BodyFrame<T>>& frames, int parent,
-                 const Vec2<T>& point, const Vec2<T>& velocity, Motion<T>& sum) {
+void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<BodyFrame<T>>& frames,
+                 int parent, const Vec2<T>& point, const Vec2<T>& velocity, Motion<T>& sum) {
   tree.for_each_child(parent, [&](int i) {
     const BodyFrame<T>& own = frames[i];
     const Vec2<T> hinge = point + own.arm;
@@ -44,8 +46,8 @@ void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<Bo
   });
 }
 
-/// Motion of all bodies at (x, t); places the system there. Cost O(n). A prescribed base's origin is
-/// taken to start at rest.
+/// Motion of all bodies at (x, t); places the system there. Cost O(n). A prescribed base's origin
+/// is taken to start at rest.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] Motion<T> motion(System<T, Topology, M>& system, const State<T>& x, const T& t) {
   system.place_all(x, t);
@@ -59,14 +61,15 @@ template <class T, class Topology, BaseMotion M>
   if constexpr (M == BaseMotion::free) {
     const int v = system.layout().freedoms();
     point = {x[0], x[1]}, velocity = {x[v], x[v + 1]};
-    sum.add(system.wing().bodies[0].mass, system.wing().bodies[0].central_inertia, point, velocity, x[v + 2]);
+    sum.add(system.wing().bodies[0].mass, system.wing().bodies[0].central_inertia, point, velocity,
+            x[v + 2]);
   }
   add_outward(system.wing(), system.topology(), frames, 0, point, velocity, sum);
   return sum;
 }
 
-/// Springs', harnesses' and engaged latches' potential, each zero at its latched angle, J. A smoothed
-/// latch counts with the weight it has.
+/// Springs', harnesses' and engaged latches' potential, each zero at its latched angle, J. A
+/// smoothed latch counts with the weight it has.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T potential_energy(const System<T, Topology, M>& system, const State<T>& x) {
   const Layout& at = system.layout();
@@ -76,21 +79,25 @@ template <class T, class Topology, BaseMotion M>
     sum = sum + potential(system.work().laws[i], angle);
     if (at.smoothed) {
       const T y = angle - system.wing().hinges[i].latched;
-      sum = sum + T(0.5) * system.wing().hinges[i].stiffness * y * y * smooth_step(x[at.latch(i)] / system.epsilon());
+      sum = sum + T(0.5) * system.wing().hinges[i].stiffness * y * y *
+                      smooth_step(x[at.latch(i)] / system.epsilon());
     }
   }
   return sum;
 }
 
-/// Gives a free system exactly the momenta it had, by adding a rigid motion of the whole to the base's
-/// velocity and rate; relative rates stay. Invariant manifold projection [Hairer, Lubich & Wanner,
-/// Geometric Numerical Integration, IV.4]: its size is the step's own error, so the order is kept.
+/// Gives a free system exactly the momenta it had, by adding a rigid motion of the whole to the
+/// base's velocity and rate; relative rates stay. Invariant manifold projection [Hairer, Lubich &
+/// Wanner, Geometric Numerical Integration, IV.4]: its size is the step's own error, so the order
+/// is kept.
 template <class T, class Topology>
-void keep_momentum(System<T, Topology, BaseMotion::free>& system, const Momentum<T>& kept, State<T>& x, const T& t) {
+void keep_momentum(System<T, Topology, BaseMotion::free>& system, const Momentum<T>& kept,
+                   State<T>& x, const T& t) {
   const Motion<T> now = motion(system, x, t);
   const Vec2<T> center = scaled(T(1) / now.mass, now.first_moment);
   const Vec2<T> missing = kept.linear - now.momentum.linear;
-  const T missing_about_center = (kept.angular - now.momentum.angular) - dot(turned(center), missing);
+  const T missing_about_center =
+      (kept.angular - now.momentum.angular) - dot(turned(center), missing);
   const T central_inertia = now.second_moment - now.mass * dot(center, center);
   const T rate = missing_about_center / central_inertia;
   const Vec2<T> from_center = Vec2<T>{x[0], x[1]} - center;

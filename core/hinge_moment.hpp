@@ -8,7 +8,8 @@
 /// | S      | state of a smoothed latch, Ṡ = f(φ) [Yudintsev]        | s         |
 /// | ε      | width of its smooth steps: rad in φ, s in S            | rad, s    |
 ///
-///     M = s·(spring − harness) − b φ̇ − τ_c φ̇/√(φ̇² + ω_s²) − [latched] (k y + d φ̇)    [Yudintsev, eq. 6]
+///     M = s·(spring − harness) − b φ̇ − τ_c φ̇/√(φ̇² + ω_s²) − [latched] (k y + d φ̇)    [Yudintsev,
+///     eq. 6]
 ///
 /// All but the Coulomb term is linear in φ and φ̇, and it is kept in that form.
 #pragma once
@@ -17,7 +18,8 @@
 
 namespace wingspread {
 
-/// The linear part of a hinge's moment while its latch keeps its state: drive − stiffness·y − damping·φ̇.
+/// The linear part of a hinge's moment while its latch keeps its state: drive − stiffness·y −
+/// damping·φ̇.
 template <class T> struct LinearLaw {
   T latched;   ///< rad
   T drive;     ///< N·m
@@ -37,7 +39,8 @@ template <class T>
 }
 
 /// Regularized Coulomb friction; smooth, so that a hinge creeps where a real one would stick.
-template <class T> [[nodiscard]] inline T coulomb_moment(const HingeTerms<T>& hinge, const T& rate) {
+template <class T>
+[[nodiscard]] inline T coulomb_moment(const HingeTerms<T>& hinge, const T& rate) {
   using std::sqrt;
   return -(hinge.coulomb * rate) / sqrt(fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
 }
@@ -50,14 +53,15 @@ template <class T> [[nodiscard]] inline T smooth_step(const T& u) {
 
 /// f(φ): how far the hinge is inside the smoothed latch's engagement zone, 0 … 1; the rate of S.
 template <class T>
-[[nodiscard]] inline T engagement_rate(const HingeTerms<T>& hinge, const T& angle, const T& epsilon) {
+[[nodiscard]] inline T engagement_rate(const HingeTerms<T>& hinge, const T& angle,
+                                       const T& epsilon) {
   return smooth_step(hinge.sense * (angle - hinge.latched) / epsilon);
 }
 
 /// Moment of a smoothed latch in state S.
 template <class T>
-[[nodiscard]] inline T smoothed_latch_moment(const HingeTerms<T>& hinge, const T& angle, const T& rate,
-                                             const T& S, const T& epsilon) {
+[[nodiscard]] inline T smoothed_latch_moment(const HingeTerms<T>& hinge, const T& angle,
+                                             const T& rate, const T& S, const T& epsilon) {
   const T full = -fused(hinge.damping, rate, hinge.stiffness * (angle - hinge.latched));
   return smooth_step(S / epsilon) * full;
 }

@@ -20,7 +20,8 @@ public:
   Integrator(AnySystem& system, const Integration& how, const Goal& goal, const Observer& observer)
       : system_(system), at_(system.layout()), how_(how), goal_(goal), observer_(observer),
         control_(Method::error_order) {
-    for (State<T>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_, &scratch_, &dscratch_})
+    for (State<T>* x :
+         {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_, &scratch_, &dscratch_})
       x->assign(at_.size(), T(0));
     moments_.assign(at_.bodies + 1, {});
     for (int i = 1; i <= at_.bodies; ++i) latches_left_ += system_.wing().hinges[i].has_latch;
@@ -30,8 +31,11 @@ public:
     start();
     if (!finite(step_.dxdt)) return fail("the accelerations are not finite at the start");
     while (!finished()) {
-      if (tried_ >= how_.max_steps) return fail("the limit of " + std::to_string(how_.max_steps) + " steps was reached");
-      if (!advance()) return fail("the step size fell below round-off: the equations are too stiff or not finite here");
+      if (tried_ >= how_.max_steps)
+        return fail("the limit of " + std::to_string(how_.max_steps) + " steps was reached");
+      if (!advance())
+        return fail(
+            "the step size fell below round-off: the equations are too stiff or not finite here");
     }
     return report(latches_left_ == 0 && any_latch() ? Status::deployed : Status::timed_out, "");
   }
@@ -80,7 +84,8 @@ private:
   [[nodiscard]] double attempt(const T& h) {
     ++tried_;
     method_.step(system_, step_.x, step_.dxdt, step_.t, h, step_.x1, step_.dxdt1, error_);
-    return strictness() * scaled_error(step_.x, step_.x1, step_.dxdt1, error_, how_.rtol, how_.atol);
+    return strictness() *
+           scaled_error(step_.x, step_.x1, step_.dxdt1, error_, how_.rtol, how_.atol);
   }
 
   /// Up to the first latch the tolerance is this much tighter than asked: the phase takes a few per
@@ -110,7 +115,9 @@ private:
   [[nodiscard]] T gap_rate(const State<T>& x, int i) const {
     return system_.wing().hinges[i].sense * x[at_.rate(i)];
   }
-  [[nodiscard]] bool waits(int i) const { return system_.wing().hinges[i].has_latch && !system_.work().engaged[i]; }
+  [[nodiscard]] bool waits(int i) const {
+    return system_.wing().hinges[i].has_latch && !system_.work().engaged[i];
+  }
 
   /// The earliest fraction of the step at which a waiting hinge reaches its latched angle.
   [[nodiscard]] std::optional<T> first_engagement() const {
@@ -126,8 +133,9 @@ private:
     return first;
   }
 
-  /// Replaces the step by one that ends at the engagement, so that its state has the method's accuracy
-  /// and not the interpolant's, then corrects the instant by Newton's method with real steps.
+  /// Replaces the step by one that ends at the engagement, so that its state has the method's
+  /// accuracy and not the interpolant's, then corrects the instant by Newton's method with real
+  /// steps.
   [[nodiscard]] bool step_to_engagement(const T& s) {
     T h = s * step_.h;
     for (int correction = 0; correction < 4; ++correction) {
@@ -139,7 +147,8 @@ private:
         return false;
       }
       const T late = lateness(step_.x1);
-      if (!(larger(late, T(-late)) > T(1e-7) * h)) { // the rest is linear: its square is below round-off
+      if (!(larger(late, T(-late)) >
+            T(1e-7) * h)) { // the rest is linear: its square is below round-off
         shift(-late);
         h = h - late;
         break;
@@ -166,7 +175,8 @@ private:
 
   /// Moves the step's end by dt, to first order in x.
   void shift(const T& dt) {
-    for (std::size_t k = 0; k < step_.x1.size(); ++k) step_.x1[k] = fused(dt, step_.dxdt1[k], step_.x1[k]);
+    for (std::size_t k = 0; k < step_.x1.size(); ++k)
+      step_.x1[k] = fused(dt, step_.dxdt1[k], step_.x1[k]);
   }
 
   /// Engages every waiting hinge that stands at its latched angle, all at this one instant.
@@ -194,7 +204,8 @@ private:
   }
 
   void record_latch(int i) {
-    LatchEvent event{system_.wing().hinge_of[i], static_cast<double>(step_.t), std::vector<double>(at_.bodies)};
+    LatchEvent event{system_.wing().hinge_of[i], static_cast<double>(step_.t),
+                     std::vector<double>(at_.bodies)};
     for (int j = 1; j <= at_.bodies; ++j)
       event.rates[system_.wing().hinge_of[j]] = static_cast<double>(step_.x[at_.rate(j)]);
     latches_.push_back(std::move(event));
@@ -221,7 +232,8 @@ private:
     if (!(step_.t < T(how_.t_end))) return true;
     if (goal_.to_t_end || latches_left_ > 0 || !any_latch()) return false;
     if (!goal_.peak_moment && !goal_.peak_force) return true;
-    constexpr int interval = 16; // steps between two looks at the bounds: they cost about an evaluation
+    constexpr int interval =
+        16; // steps between two looks at the bounds: they cost about an evaluation
     return ++since_last_look_ % interval == 0 && no_peak_can_rise();
   }
 
@@ -237,14 +249,16 @@ private:
   }
 
   [[nodiscard]] Outcome fail(const std::string& why) {
-    return report(Status::failed, why + ", at t = " + std::to_string(static_cast<double>(step_.t)) + " s");
+    return report(Status::failed,
+                  why + ", at t = " + std::to_string(static_cast<double>(step_.t)) + " s");
   }
 
   // ---- what is told of it
 
   void observe_moments() {
     using std::abs;
-    for (int i = 1; i <= at_.bodies; ++i) moments_[i].raise(T(abs(system_.moment(step_.x, i))), step_.t);
+    for (int i = 1; i <= at_.bodies; ++i)
+      moments_[i].raise(T(abs(system_.moment(step_.x, i))), step_.t);
   }
 
   [[nodiscard]] double energy(const State<T>& x, const T& t) {
@@ -259,7 +273,8 @@ private:
     if (!observer_) return;
     Sample sample;
     sample.t = static_cast<double>(step_.t);
-    sample.angles.resize(at_.bodies), sample.rates.resize(at_.bodies), sample.moments.resize(at_.bodies);
+    sample.angles.resize(at_.bodies), sample.rates.resize(at_.bodies),
+        sample.moments.resize(at_.bodies);
     for (int i = 1; i <= at_.bodies; ++i) {
       const int hinge = system_.wing().hinge_of[i];
       sample.angles[hinge] = static_cast<double>(step_.x[at_.angle(i)]);
@@ -292,7 +307,8 @@ private:
   [[nodiscard]] std::vector<Peak> in_scene_order(const std::vector<PeakOf<T>>& peaks) const {
     std::vector<Peak> out(at_.bodies);
     for (int i = 1; i <= at_.bodies; ++i)
-      out[system_.wing().hinge_of[i]] = {static_cast<double>(peaks[i].value), static_cast<double>(peaks[i].time)};
+      out[system_.wing().hinge_of[i]] = {static_cast<double>(peaks[i].value),
+                                         static_cast<double>(peaks[i].time)};
     return out;
   }
 

@@ -1,5 +1,5 @@
-/// Integration methods behind one interface: a method takes a step and estimates its error; deciding
-/// on it (step_control.hpp), events and peaks (integrator.hpp) are common to all.
+/// Integration methods behind one interface: a method takes a step and estimates its error;
+/// deciding on it (step_control.hpp), events and peaks (integrator.hpp) are common to all.
 ///
 /// A method has `order` of the solution carried on, `error_order` of the estimate, and
 ///
@@ -24,11 +24,14 @@ struct StateAlgebra {
     const std::size_t size = first.size();
     for (std::size_t k = 0; k < size; ++k) operation(first[k], rest[k]...);
   }
-  template <class A, class B, class Op> static void for_each2(A& a, B& b, Op op) { apply(op, a, b); }
+  template <class A, class B, class Op> static void for_each2(A& a, B& b, Op op) {
+    apply(op, a, b);
+  }
   template <class A, class B, class C, class Op> static void for_each3(A& a, B& b, C& c, Op op) {
     apply(op, a, b, c);
   }
-  template <class A, class B, class C, class D, class Op> static void for_each4(A& a, B& b, C& c, D& d, Op op) {
+  template <class A, class B, class C, class D, class Op>
+  static void for_each4(A& a, B& b, C& c, D& d, Op op) {
     apply(op, a, b, c, d);
   }
   template <class A, class B, class C, class D, class E, class Op>
@@ -52,8 +55,8 @@ public:
   static constexpr int error_order = 4;
 
   template <class System>
-  void step(System& system, const State<T>& x, const State<T>& dxdt, const T& t, const T& h, State<T>& x1,
-            State<T>& dxdt1, State<T>& error) {
+  void step(System& system, const State<T>& x, const State<T>& dxdt, const T& t, const T& h,
+            State<T>& x1, State<T>& dxdt1, State<T>& error) {
     stepper_.do_step(std::ref(system), x, dxdt, t, x1, dxdt1, h, error);
   }
 

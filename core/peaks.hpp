@@ -58,17 +58,19 @@ void refine(PeakOf<T>& peak, const T& t, const T& h, const T& s, const T& width,
   using std::abs;
   const T lower = larger(T(s - width), T(0)), upper = smaller(T(s + width), T(1));
   std::uintmax_t iterations = 60;
-  const auto best = boost::math::tools::brent_find_minima([&](const T& at) { return T(-abs(f(at))); }, lower, upper,
-                                                          std::numeric_limits<T>::digits / 2, iterations);
+  const auto best =
+      boost::math::tools::brent_find_minima([&](const T& at) { return T(-abs(f(at))); }, lower,
+                                            upper, std::numeric_limits<T>::digits / 2, iterations);
   peak.raise(T(-best.second), T(t + best.first * h));
 }
 
-/// How far below the peak a sample may lie for the maximum beside it to be looked for, times the peak.
+/// How far below the peak a sample may lie for the maximum beside it to be looked for, times the
+/// peak.
 inline constexpr double sample_margin = 0.95;
 
 /// Raises `peak` to the largest |moment| of hinge i over the step. The hull of the moment's linear
-/// part, with the most that friction and a smoothed latch can add, dismisses most steps; what it does
-/// not is sampled and refined on the interpolant.
+/// part, with the most that friction and a smoothed latch can add, dismisses most steps; what it
+/// does not is sampled and refined on the interpolant.
 template <class T, class AnySystem>
 void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i) {
   using std::abs;
@@ -91,7 +93,8 @@ void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step,
     const T velocity = value(rate, s);
     T m = value(linear, s);
     if (hinge.coulomb > T(0)) m = m + coulomb_moment(hinge, velocity);
-    if (smoothed) m = m - smooth_step(step.cubic(at.latch(i), s) / system.epsilon()) * value(latch, s);
+    if (smoothed)
+      m = m - smooth_step(step.cubic(at.latch(i), s) / system.epsilon()) * value(latch, s);
     return m;
   };
   constexpr int samples = 8;
@@ -141,9 +144,11 @@ public:
     if (!promising) return;
     for (int k = 1; k <= 3; ++k) {
       evaluate(system, step, T(k) / T(4), x, dxdt);
-      for (std::size_t i = 1; i < peaks.size(); ++i) inner_[i][k] = magnitude(system, static_cast<int>(i));
+      for (std::size_t i = 1; i < peaks.size(); ++i)
+        inner_[i][k] = magnitude(system, static_cast<int>(i));
     }
-    for (std::size_t i = 1; i < peaks.size(); ++i) raise(system, step, static_cast<int>(i), x, dxdt);
+    for (std::size_t i = 1; i < peaks.size(); ++i)
+      raise(system, step, static_cast<int>(i), x, dxdt);
   }
 
 private:
@@ -153,7 +158,8 @@ private:
     return sqrt(dot(f, f));
   }
 
-  static void evaluate(AnySystem& system, const Step<T>& step, const T& s, State<T>& x, State<T>& dxdt) {
+  static void evaluate(AnySystem& system, const Step<T>& step, const T& s, State<T>& x,
+                       State<T>& dxdt) {
     step.interpolate(system.layout(), s, x);
     system(x, dxdt, step.t + s * step.h);
   }

@@ -1,7 +1,8 @@
 /// Plane vectors and symmetric 2×2 matrices of the kernel.
 ///
-/// Plain aggregates rather than Eigen's: every product-sum is written as a fused multiply-add (Eigen
-/// leaves that to the compiler's contraction, which is off), and symmetry stores three numbers.
+/// Plain aggregates rather than Eigen's: every product-sum is written as a fused multiply-add
+/// (Eigen leaves that to the compiler's contraction, which is off), and symmetry stores three
+/// numbers.
 #pragma once
 
 #include "core/scalar.hpp"
@@ -34,11 +35,13 @@ template <class T> [[nodiscard]] inline Vec2<T> scaled(const T& s, const Vec2<T>
   return {s * a.x, s * a.y};
 }
 /// s·a + b
-template <class T> [[nodiscard]] inline Vec2<T> fused(const T& s, const Vec2<T>& a, const Vec2<T>& b) {
+template <class T>
+[[nodiscard]] inline Vec2<T> fused(const T& s, const Vec2<T>& a, const Vec2<T>& b) {
   return {fused(s, a.x, b.x), fused(s, a.y, b.y)};
 }
 /// a·b + c
-template <class T> [[nodiscard]] inline T fused_dot(const Vec2<T>& a, const Vec2<T>& b, const T& c) {
+template <class T>
+[[nodiscard]] inline T fused_dot(const Vec2<T>& a, const Vec2<T>& b, const T& c) {
   return fused(a.x, b.x, fused(a.y, b.y, c));
 }
 template <class T> [[nodiscard]] inline T dot(const Vec2<T>& a, const Vec2<T>& b) {
@@ -49,7 +52,8 @@ template <class T> [[nodiscard]] inline Vec2<T> operator*(const Sym2<T>& k, cons
   return {fused(k.xx, a.x, k.xy * a.y), fused(k.xy, a.x, k.yy * a.y)};
 }
 /// K a + b
-template <class T> [[nodiscard]] inline Vec2<T> fused(const Sym2<T>& k, const Vec2<T>& a, const Vec2<T>& b) {
+template <class T>
+[[nodiscard]] inline Vec2<T> fused(const Sym2<T>& k, const Vec2<T>& a, const Vec2<T>& b) {
   return {fused(k.xx, a.x, fused(k.xy, a.y, b.x)), fused(k.xy, a.x, fused(k.yy, a.y, b.y))};
 }
 /// e3 × a: a turned by +90°

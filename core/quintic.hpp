@@ -1,9 +1,11 @@
-/// Quintic Hermite interpolation inside a step, in Bernstein form: the dense output of every method.
+/// Quintic Hermite interpolation inside a step, in Bernstein form: the dense output of every
+/// method.
 ///
-/// A second-order system knows angle, rate and acceleration at both ends of a step, so each angle has
-/// a quintic with error  φ⁽⁶⁾ h⁶/46080  at most, and its derivative one of order h⁵. In Bernstein form a
-/// polynomial lies within the hull of its coefficients [Farin, Curves and Surfaces, ch. 5], which turns
-/// "no crossing in this step" and "no larger peak in this step" into proofs rather than samples.
+/// A second-order system knows angle, rate and acceleration at both ends of a step, so each angle
+/// has a quintic with error  φ⁽⁶⁾ h⁶/46080  at most, and its derivative one of order h⁵. In
+/// Bernstein form a polynomial lies within the hull of its coefficients [Farin, Curves and
+/// Surfaces, ch. 5], which turns "no crossing in this step" and "no larger peak in this step" into
+/// proofs rather than samples.
 #pragma once
 
 #include "core/scalar.hpp"

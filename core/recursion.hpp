@@ -1,12 +1,13 @@
 /// The O(n) recursion: hinge moments in, accelerations and hinge forces out. Stateless.
 ///
 /// It is Vereshchagin's [Yudintsev, eqs. 3-5] with each hinge's own freedom eliminated beforehand.
-/// There a body hands its parent the 3×3 matrix  M* − M* S U⁻¹ Sᵀ M*  and a vector, which C_iᵀ moves to
-/// the parent's centre of mass. Referred to the hinge's own point instead, S = (0; 1), so that row and
-/// column of the angle vanish: once its axis moment is known, only a force crosses a revolute hinge.
-/// What is left is
+/// There a body hands its parent the 3×3 matrix  M* − M* S U⁻¹ Sᵀ M*  and a vector, which C_iᵀ
+/// moves to the parent's centre of mass. Referred to the hinge's own point instead, S = (0; 1), so
+/// that row and column of the angle vanish: once its axis moment is known, only a force crosses a
+/// revolute hinge. What is left is
 ///
-///     f_i = K_i a_i + b_i          the force on body i at its hinge, a_i: acceleration of that point
+///     f_i = K_i a_i + b_i          the force on body i at its hinge, a_i: acceleration of that
+///     point
 ///
 /// with K_i symmetric, 2×2: five numbers a hinge. With axes fixed in inertial space, and for body i
 ///
@@ -18,16 +19,16 @@
 /// | q_j    | e3 × l_j                                                    | 2     | m           |
 /// | a, α   | acceleration of the hinge's point; angular, ω̇               | 2, 1  | m/s², rad/s²|
 /// | τ_i    | moment of hinge i: +τ on body i, −τ on its parent           |       | N·m         |
-/// | A, h, I| the articulated inertia M* about the hinge, in blocks       |       | kg, kg·m, kg·m² |
-/// | c, d   | the force and moment that motion without a and α needs      |       | N, N·m      |
+/// | A, h, I| the articulated inertia M* about the hinge, in blocks       |       | kg, kg·m, kg·m²
+/// | | c, d   | the force and moment that motion without a and α needs      |       | N, N·m      |
 /// | U_i    | of the source, SᵀM*S: the number I here                     |       | kg·m²       |
 ///
 /// Newton and Euler about the hinge, the children's forces eliminated by a_j = a + α q_j − ω² l_j:
 ///
 ///     f = A a + h α + c                                                                       (1)
 ///     τ_i − Σ τ_j = I α + hᵀ a + d                                                            (2)
-///     A = m E2 + Σ K_j            h = e3 × m g + Σ K_j q_j        I = J + m g² + Σ q_jᵀ K_j q_j   (3)
-///     c = −ω² m g + Σ b'_j        d = Σ q_jᵀ b'_j                 b'_j = b_j − ω² K_j l_j         (4)
+///     A = m E2 + Σ K_j            h = e3 × m g + Σ K_j q_j        I = J + m g² + Σ q_jᵀ K_j q_j
+///     (3) c = −ω² m g + Σ b'_j        d = Σ q_jᵀ b'_j                 b'_j = b_j − ω² K_j l_j (4)
 ///
 /// and α eliminated from (1) by (2), with u = (τ_i − Σ τ_j − d)/I and e = h/I:
 ///
@@ -75,8 +76,8 @@ template <BaseMotion M, class Topology>
 /// Absolute angle and rate of body i from its parent's and its own relative ones.
 /// Frames: any array of BodyFrame<T>, 0 … n, here as below.
 template <BaseMotion M, class T, class Topology, class Frames>
-[[gnu::always_inline]] inline void turn(const Topology& tree, Frames& frames, int i, const T& relative_angle,
-                                        const T& relative_rate) {
+[[gnu::always_inline]] inline void turn(const Topology& tree, Frames& frames, int i,
+                                        const T& relative_angle, const T& relative_rate) {
   const BodyFrame<T>& parent = frames[tree.parent_of(i)];
   BodyFrame<T>& own = frames[i];
   const bool first = on_fixed_base<M>(tree, i);
@@ -88,16 +89,19 @@ template <BaseMotion M, class T, class Topology, class Frames>
 
 /// Vectors of body i in inertial axes [Yudintsev, eq. 2], once all have been turned.
 template <BaseMotion M, class T, class Topology, class Frames>
-[[gnu::always_inline]] inline void place(const Wing<T>& wing, const Topology& tree, Frames& frames, int i) {
+[[gnu::always_inline]] inline void place(const Wing<T>& wing, const Topology& tree, Frames& frames,
+                                         int i) {
   BodyFrame<T>& own = frames[i];
   own.mass_moment = rotated(own.rotation, wing.bodies[i].mass_moment);
-  own.arm = on_fixed_base<M>(tree, i) ? wing.bodies[i].arm
-                                      : rotated(frames[tree.parent_of(i)].rotation, wing.bodies[i].arm);
+  own.arm = on_fixed_base<M>(tree, i)
+                ? wing.bodies[i].arm
+                : rotated(frames[tree.parent_of(i)].rotation, wing.bodies[i].arm);
 }
 
 /// The inward pass at body i: eqs. (3), (4), (6). Its children's have been made.
 template <class T, class Topology, class Frames>
-[[gnu::always_inline]] inline void gather(const Wing<T>& wing, const Topology& tree, Frames& frames, int i) {
+[[gnu::always_inline]] inline void gather(const Wing<T>& wing, const Topology& tree, Frames& frames,
+                                          int i) {
   BodyFrame<T>& own = frames[i];
   const T mass = wing.bodies[i].mass;
   Sym2<T> A{mass, T(0), mass};
@@ -105,17 +109,19 @@ template <class T, class Topology, class Frames>
   T I = wing.bodies[i].inertia;
   Vec2<T> c = scaled(own.minus_rate_squared, own.mass_moment);
   T load = own.moment; // τ_i − Σ τ_j − d
-  tree.for_each_child(i, [&](int j) __attribute__((always_inline)) {
-    const BodyFrame<T>& child = frames[j];
-    const Sym2<T>& K = child.stiffness;
-    const Vec2<T> q = turned(child.arm);
-    const Vec2<T> b = fused(own.minus_rate_squared, K * child.arm, child.bias);
-    A = A + K;
-    h = h + K * q;
-    I = fused(K.xx, q.x * q.x, I) + fused(K.yy, q.y * q.y, K.xy * (T(2) * q.x * q.y)); // the shortest way from K to I
-    c = c + b;
-    load = (load - child.moment) - dot(q, b);
-  });
+  tree.for_each_child(
+      i, [&](int j) __attribute__((always_inline)) {
+        const BodyFrame<T>& child = frames[j];
+        const Sym2<T>& K = child.stiffness;
+        const Vec2<T> q = turned(child.arm);
+        const Vec2<T> b = fused(own.minus_rate_squared, K * child.arm, child.bias);
+        A = A + K;
+        h = h + K * q;
+        I = fused(K.xx, q.x * q.x, I) +
+            fused(K.yy, q.y * q.y, K.xy * (T(2) * q.x * q.y)); // the shortest way from K to I
+        c = c + b;
+        load = (load - child.moment) - dot(q, b);
+      });
   const T minus_inverse = tree.is_leaf(i) ? wing.bodies[i].minus_inverse : T(-1) / I;
   own.coupling = scaled(minus_inverse, h);
   own.free_acceleration = -(load * minus_inverse);
@@ -126,7 +132,8 @@ template <class T, class Topology, class Frames>
 
 /// The outward pass at body i: eq. (5). @return φ̈_i, rad/s²
 template <BaseMotion M, class Topology, class Frames>
-[[nodiscard, gnu::always_inline]] inline auto accelerate(const Topology& tree, Frames& frames, int i) {
+[[nodiscard, gnu::always_inline]] inline auto accelerate(const Topology& tree, Frames& frames,
+                                                         int i) {
   const auto& parent = frames[tree.parent_of(i)];
   auto& own = frames[i];
   using T = std::decay_t<decltype(own.angle)>;

@@ -2,7 +2,8 @@
 /// later, packs of runs.
 ///
 /// A number offers + − · /, comparison, and the functions below, found by overload: for a pack a
-/// comparison yields a mask and `select` blends, so the kernel chooses with `select`, never with `if`.
+/// comparison yields a mask and `select` blends, so the kernel chooses with `select`, never with
+/// `if`.
 #pragma once
 
 #include <cmath>
@@ -16,9 +17,12 @@ template <class T> [[nodiscard]] inline T select(bool mask, const T& a, const T&
 
 /// a·b + c. One rounding where the instruction set has it for this type, two elsewhere; written out
 /// because the compiler's own contraction is off and results must not depend on its choices.
-template <class T> [[nodiscard]] inline T fused(const T& a, const T& b, const T& c) { return a * b + c; }
+template <class T> [[nodiscard]] inline T fused(const T& a, const T& b, const T& c) {
+  return a * b + c;
+}
 #ifdef __FMA__
-template <> [[nodiscard]] inline double fused<double>(const double& a, const double& b, const double& c) {
+template <>
+[[nodiscard]] inline double fused<double>(const double& a, const double& b, const double& c) {
   return __builtin_fma(a, b, c);
 }
 #endif
@@ -26,9 +30,14 @@ template <> [[nodiscard]] inline double fused<double>(const double& a, const dou
 /// True when x is neither infinite nor NaN.
 template <class T> [[nodiscard]] inline bool is_finite(const T& x) { return x - x == T(0); }
 
-template <class T> [[nodiscard]] inline T larger(const T& a, const T& b) { return select(a < b, b, a); }
-template <class T> [[nodiscard]] inline T smaller(const T& a, const T& b) { return select(b < a, b, a); }
+template <class T> [[nodiscard]] inline T larger(const T& a, const T& b) {
+  return select(a < b, b, a);
+}
+template <class T> [[nodiscard]] inline T smaller(const T& a, const T& b) {
+  return select(b < a, b, a);
+}
 
-template <class T> inline constexpr double epsilon_of = static_cast<double>(std::numeric_limits<T>::epsilon());
+template <class T>
+inline constexpr double epsilon_of = static_cast<double>(std::numeric_limits<T>::epsilon());
 
 } // namespace wingspread

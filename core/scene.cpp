@@ -15,7 +15,8 @@ public:
     std::ostringstream found;
     found.precision(17);
     found << value;
-    faults.push_back({owner + "." + field, found.str(), std::isfinite(value) ? expected : "a finite number"});
+    faults.push_back(
+        {owner + "." + field, found.str(), std::isfinite(value) ? expected : "a finite number"});
   }
   std::vector<Fault> faults;
 };
@@ -65,7 +66,8 @@ void inspect(const Hinge& hinge, Inspector& check) {
   check.require(true, hinge.harness.torque_latched, owner, "harness.torque_latched", "");
   inspect(hinge.friction, owner, check);
   if (!hinge.latch) return;
-  check.require(hinge.latch->stiffness >= 0, hinge.latch->stiffness, owner, "latch.stiffness", ">= 0");
+  check.require(hinge.latch->stiffness >= 0, hinge.latch->stiffness, owner, "latch.stiffness",
+                ">= 0");
   check.require(hinge.latch->damping >= 0, hinge.latch->damping, owner, "latch.damping", ">= 0");
 }
 
@@ -90,7 +92,8 @@ std::vector<int> outward_order(const Scene& scene) {
   std::vector<bool> is_child(n, false);
   for (int h = 0; h < n; ++h) {
     const Hinge& hinge = scene.hinges[h];
-    const bool known = hinge.parent >= base_index && hinge.parent < n && hinge.child >= 0 && hinge.child < n;
+    const bool known =
+        hinge.parent >= base_index && hinge.parent < n && hinge.child >= 0 && hinge.child < n;
     if (!known || is_child[hinge.child]) return {};
     is_child[hinge.child] = true;
     hinges_of[hinge.parent == base_index ? n : hinge.parent].push_back(h);

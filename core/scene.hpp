@@ -47,17 +47,17 @@ inline constexpr int base_index = -1; ///< `Hinge::parent` of a hinge on the bas
 /// A revolute hinge between a parent body (or the base) and its child.
 struct Hinge {
   std::string name;
-  int parent = base_index;      ///< index into Scene::bodies, or base_index
-  int child = 0;                ///< index into Scene::bodies
+  int parent = base_index;            ///< index into Scene::bodies, or base_index
+  int child = 0;                      ///< index into Scene::bodies
   Eigen::Vector2d parent_point{0, 0}; ///< c_pi, parent's frame, m
   Eigen::Vector2d child_point{0, 0};  ///< c_ii, child's frame, m
-  double stowed = 0;            ///< angle at the start, rad
-  double latched = 0;           ///< angle at which the latch engages, rad
-  double initial_rate = 0;      ///< rad/s
-  LinearTorque spring;          ///< positive deploys
-  LinearTorque harness;         ///< positive resists
+  double stowed = 0;                  ///< angle at the start, rad
+  double latched = 0;                 ///< angle at which the latch engages, rad
+  double initial_rate = 0;            ///< rad/s
+  LinearTorque spring;                ///< positive deploys
+  LinearTorque harness;               ///< positive resists
   Friction friction;
-  std::optional<Latch> latch;   ///< a hinge without one never latches
+  std::optional<Latch> latch; ///< a hinge without one never latches
 };
 
 enum class BaseMotion { fixed, prescribed, free };
@@ -72,8 +72,8 @@ struct Base {
   double angle = 0; ///< rad
   double rate = 0;  ///< rad/s
   // free: a rigid body whose origin is its centre of mass
-  double mass = 0;    ///< kg, > 0
-  double inertia = 0; ///< kg·m², > 0
+  double mass = 0;                ///< kg, > 0
+  double inertia = 0;             ///< kg·m², > 0
   Eigen::Vector2d position{0, 0}; ///< m
   Eigen::Vector2d velocity{0, 0}; ///< m/s
 };
@@ -95,13 +95,14 @@ struct Fault {
 };
 
 /// Every parameter of the scene that is unphysical: non-finite values, masses and inertias ≤ 0,
-/// negative friction, stiffness or damping, a latch with no travel, a static level below the kinetic
-/// one. Empty when the scene can be run. Cost O(n); allocates only when it finds something.
+/// negative friction, stiffness or damping, a latch with no travel, a static level below the
+/// kinetic one. Empty when the scene can be run. Cost O(n); allocates only when it finds something.
 [[nodiscard]] std::vector<Fault> unphysical(const Scene& scene);
 
 /// Hinge indices in an order in which each parent's hinge precedes its children's (depth first, so
 /// that the panels of one wing are neighbours).
-/// Returns an empty vector when the hinges do not form a tree that reaches every body from the base.
+/// Returns an empty vector when the hinges do not form a tree that reaches every body from the
+/// base.
 [[nodiscard]] std::vector<int> outward_order(const Scene& scene);
 
 } // namespace wingspread

@@ -2,17 +2,17 @@
 ///
 /// After the last latch every hinge is a spring and a damper about its own rest, and the energy
 ///
-///     E = T + Σ ½ κ_i (y_i − y*_i)²,    y* = drive/κ                                            (1)
+///     E = T + Σ ½ κ_i (y_i − y*_i)²,    y* = drive/κ (1)
 ///
-/// never grows on a base that is fixed or free (for a free one T is taken about the common centre of
-/// mass, whose energy is constant). With T ≥ ½ Σ J ω² alone, by Cauchy and Schwarz,
+/// never grows on a base that is fixed or free (for a free one T is taken about the common centre
+/// of mass, whose energy is constant). With T ≥ ½ Σ J ω² alone, by Cauchy and Schwarz,
 ///
-///     φ̇_i² ≤ 2 T σ_i,    σ_i = 1/J_i + 1/J_p  (1/J_p = 0 on a fixed base)                       (2)
-///     |M_i| ≤ √(2E) √(κ_i + δ_i² σ_i) + τ_c                                                    (3)
+///     φ̇_i² ≤ 2 T σ_i,    σ_i = 1/J_i + 1/J_p  (1/J_p = 0 on a fixed base) (2) |M_i| ≤ √(2E) √(κ_i
+///     + δ_i² σ_i) + τ_c                                                    (3)
 ///
-/// For the reaction, Gauss's principle: the true accelerations minimise Σ m r̈² + Σ J (ω̇ − L/J)² over
-/// those that the hinges allow, L the net hinge moment on each body; comparing with φ̈ = 0, whose r̈ = γ
-/// is centripetal,
+/// For the reaction, Gauss's principle: the true accelerations minimise Σ m r̈² + Σ J (ω̇ − L/J)²
+/// over those that the hinges allow, L the net hinge moment on each body; comparing with φ̈ = 0,
+/// whose r̈ = γ is centripetal,
 ///
 ///     Σ m r̈² ≤ Z := Σ m γ² + Σ L²/J,    |Y_i| ≤ √(m outward of i) √Z                          (4)
 ///
@@ -26,24 +26,26 @@
 
 namespace wingspread {
 
-/// Energy (1) above rest. None where the proof does not apply: a base that is driven, a hinge without
-/// an engaged latch, or a latch softer than its spring is steep.
+/// Energy (1) above rest. None where the proof does not apply: a base that is driven, a hinge
+/// without an engaged latch, or a latch softer than its spring is steep.
 template <class T, class Topology, BaseMotion M>
-[[nodiscard]] std::optional<T> energy_above_rest(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+[[nodiscard]] std::optional<T> energy_above_rest(System<T, Topology, M>& system, const State<T>& x,
+                                                 const T& t) {
   if constexpr (M == BaseMotion::prescribed) return std::nullopt;
   const Layout& at = system.layout();
   T energy(0);
   for (int i = 1; i <= at.bodies; ++i) {
     const LinearLaw<T> law = linear_law(system.wing().hinges[i], true);
-    const bool holds = system.wing().hinges[i].has_latch && system.work().engaged[i] && law.stiffness > T(0) &&
-                       (!at.smoothed || x[at.latch(i)] >= system.epsilon());
+    const bool holds = system.wing().hinges[i].has_latch && system.work().engaged[i] &&
+                       law.stiffness > T(0) && (!at.smoothed || x[at.latch(i)] >= system.epsilon());
     if (!holds) return std::nullopt;
     const T y = x[at.angle(i)] - law.latched - law.drive / law.stiffness;
     energy = energy + T(0.5) * law.stiffness * y * y;
   }
   const Motion<T> now = motion(system, x, t);
   energy = energy + now.kinetic;
-  if (M == BaseMotion::free) energy = energy - T(0.5) * dot(now.momentum.linear, now.momentum.linear) / now.mass;
+  if (M == BaseMotion::free)
+    energy = energy - T(0.5) * dot(now.momentum.linear, now.momentum.linear) / now.mass;
   return larger(energy, T(0));
 }
 
@@ -72,7 +74,8 @@ void bound_peaks(const System<T, Topology, M>& system, const T& energy, Bounds<T
     const LinearLaw<T> law = linear_law(wing.hinges[i], true);
     T sigma = T(1) / wing.bodies[i].central_inertia;
     if (p != 0 || M == BaseMotion::free) sigma = sigma + T(1) / wing.bodies[p].central_inertia;
-    moment[i] = sqrt(T(2) * energy * fused(law.damping * law.damping, sigma, law.stiffness)) + wing.hinges[i].coulomb;
+    moment[i] = sqrt(T(2) * energy * fused(law.damping * law.damping, sigma, law.stiffness)) +
+                wing.hinges[i].coulomb;
     // what y* adds: the moment at rest is zero by (1), so nothing
     net[i] = net[i] + moment[i];
     net[p] = net[p] + moment[i];

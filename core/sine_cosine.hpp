@@ -1,10 +1,10 @@
 /// Sine and cosine of one angle together.
 ///
-/// For double with FMA: branch-free, ≤ 1.5 ulp for |x| ≤ 1e6 rad (measured in the tests; the angle of
-/// a wing stays below a few turns). Reduction by multiples of π/2 in three parts [Cody & Waite 1980]:
-/// with a fused multiply-add x − k·P1 is exact, since both are multiples of 2⁻⁵² and the difference is
-/// below one. On [−π/4, π/4] the polynomials are those of Sun's fdlibm. Any other number, and double
-/// without FMA, uses its library's functions.
+/// For double with FMA: branch-free, ≤ 1.5 ulp for |x| ≤ 1e6 rad (measured in the tests; the angle
+/// of a wing stays below a few turns). Reduction by multiples of π/2 in three parts [Cody & Waite
+/// 1980]: with a fused multiply-add x − k·P1 is exact, since both are multiples of 2⁻⁵² and the
+/// difference is below one. On [−π/4, π/4] the polynomials are those of Sun's fdlibm. Any other
+/// number, and double without FMA, uses its library's functions.
 #pragma once
 
 #include "core/scalar.hpp"
@@ -28,7 +28,8 @@ template <class T> [[nodiscard]] inline SineCosine<T> sine_cosine(const T& angle
 #ifdef __FMA__
 namespace detail {
 
-/// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction, which the rest need not wait for.
+/// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction, which the rest need not wait
+/// for.
 [[nodiscard]] inline double sine_kernel(double r, double r_low, double z) {
   const double zz = z * z;
   const double high = fused(z, 1.58969099521155010221e-10, -2.50507602534068634195e-08);
@@ -61,12 +62,14 @@ namespace detail {
 } // namespace detail
 
 template <> [[nodiscard]] inline SineCosine<double> sine_cosine<double>(const double& angle) {
-  constexpr double rounder = 0x1.8p52; // adding it leaves the nearest integer in the low mantissa bits
+  constexpr double rounder =
+      0x1.8p52; // adding it leaves the nearest integer in the low mantissa bits
   const double shifted = fused(angle, 0x1.45f306dc9c883p-1, rounder);
   const double k = shifted - rounder;
   double r = fused(-k, 0x1.921fb54442d18p0, angle);
   r = fused(-k, 0x1.1a62633145c07p-54, r);
-  const double r_low = fused(-k, -0x1.f1976b7ed8fbcp-110, r); // counts only beside a multiple of π/2
+  const double r_low =
+      fused(-k, -0x1.f1976b7ed8fbcp-110, r); // counts only beside a multiple of π/2
   const double z = r * r;
   const double s = detail::sine_kernel(r, r_low, z);
   const double c = detail::cosine_kernel(z);

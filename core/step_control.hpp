@@ -8,8 +8,8 @@
 
 namespace wingspread {
 
-/// Largest error in units of its tolerance, atol + rtol·max(|x|, |x1|), over all components; NaN when
-/// anything in the step is not finite, so that `<= 1` refuses it.
+/// Largest error in units of its tolerance, atol + rtol·max(|x|, |x1|), over all components; NaN
+/// when anything in the step is not finite, so that `<= 1` refuses it.
 template <class T>
 [[nodiscard]] double scaled_error(const State<T>& x, const State<T>& x1, const State<T>& dxdt1,
                                   const State<T>& error, double rtol, double atol) {
@@ -23,16 +23,18 @@ template <class T>
   return static_cast<double>(largest + poison);
 }
 
-/// Proportional-integral step control [Hairer, Nørsett & Wanner I, II.4; Gustafsson 1991]: the integral
-/// part keeps steps smooth where stability limits them, as in the ringing after a latch.
+/// Proportional-integral step control [Hairer, Nørsett & Wanner I, II.4; Gustafsson 1991]: the
+/// integral part keeps steps smooth where stability limits them, as in the ringing after a latch.
 class StepControl {
 public:
-  explicit StepControl(int error_order) : exponent_(1.0 / (error_order + 1) - 0.75 * integral_gain) {}
+  explicit StepControl(int error_order)
+      : exponent_(1.0 / (error_order + 1) - 0.75 * integral_gain) {}
 
   /// After an accepted step of scaled error `error` ≤ 1: the factor to the next step.
   [[nodiscard]] double accepted(double error) {
     const double floored = std::max(error, 1e-10);
-    double factor = safety * std::pow(floored, -exponent_) * std::pow(previous_error_, integral_gain);
+    double factor =
+        safety * std::pow(floored, -exponent_) * std::pow(previous_error_, integral_gain);
     factor = std::clamp(factor, least, after_rejection_ ? 1.0 : most);
     previous_error_ = std::max(error, 1e-4);
     after_rejection_ = false;
@@ -62,8 +64,9 @@ private:
 /// A first step whose error is about that of the tolerance, from the sizes of x, ẋ and ẍ
 /// [Hairer, Nørsett & Wanner I, II.4]. One evaluation; `scratch` and `dscratch` are overwritten.
 template <class T, class AnySystem>
-[[nodiscard]] T first_step(AnySystem& system, const State<T>& x, const State<T>& dxdt, const T& t, int order,
-                           double rtol, double atol, const T& longest, State<T>& scratch, State<T>& dscratch) {
+[[nodiscard]] T first_step(AnySystem& system, const State<T>& x, const State<T>& dxdt, const T& t,
+                           int order, double rtol, double atol, const T& longest, State<T>& scratch,
+                           State<T>& dscratch) {
   using std::abs;
   const auto norm = [&](const State<T>& v, const State<T>* less) {
     double largest = 0;
@@ -80,7 +83,8 @@ template <class T, class AnySystem>
   for (std::size_t k = 0; k < x.size(); ++k) scratch[k] = fused(T(h), dxdt[k], x[k]);
   system(scratch, dscratch, t + T(h));
   const double bend = std::max(slope, norm(dscratch, &dxdt) / h);
-  const double next = bend > 1e-15 ? std::pow(0.01 / bend, 1.0 / (order + 1)) : std::max(1e-6, h * 1e-3);
+  const double next =
+      bend > 1e-15 ? std::pow(0.01 / bend, 1.0 / (order + 1)) : std::max(1e-6, h * 1e-3);
   return smaller(T(std::min(100 * h, next)), longest);
 }
 

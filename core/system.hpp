@@ -12,8 +12,8 @@ namespace wingspread {
 
 template <class T> using State = std::vector<T>;
 
-/// Where things stand in the state: q = (x, y, θ_0 of a free base; φ_1 … φ_n), then q̇, then S_1 … S_n
-/// of smoothed latches.
+/// Where things stand in the state: q = (x, y, θ_0 of a free base; φ_1 … φ_n), then q̇, then S_1 …
+/// S_n of smoothed latches.
 struct Layout {
   int base = 0; ///< 3 for a free base, else 0
   int bodies = 0;
@@ -21,27 +21,29 @@ struct Layout {
 
   [[nodiscard]] int freedoms() const { return base + bodies; }
   [[nodiscard]] int size() const { return 2 * freedoms() + (smoothed ? bodies : 0); }
-  [[nodiscard]] int angle(int i) const { return base + i - 1; }            ///< φ_i
-  [[nodiscard]] int rate(int i) const { return freedoms() + angle(i); }    ///< φ̇_i
-  [[nodiscard]] int latch(int i) const { return 2 * freedoms() + i - 1; }  ///< S_i
+  [[nodiscard]] int angle(int i) const { return base + i - 1; }           ///< φ_i
+  [[nodiscard]] int rate(int i) const { return freedoms() + angle(i); }   ///< φ̇_i
+  [[nodiscard]] int latch(int i) const { return 2 * freedoms() + i - 1; } ///< S_i
 };
 
 /// What changes from phase to phase of a run, and scratch space. Owned by the caller, one a thread.
 template <class T> struct Workspace {
-  std::vector<BodyFrame<T>> frames;  ///< 0 … n
-  std::vector<Vec2<T>> forces;       ///< 1 … n: on body i at its hinge, at the last evaluation; if asked for
-  std::vector<LinearLaw<T>> laws;    ///< 1 … n
-  std::vector<T> nonlinear;          ///< 1 … n: moments of friction and smoothed latches, N·m
-  std::vector<char> engaged;         ///< 1 … n: has passed its latched angle
+  std::vector<BodyFrame<T>> frames; ///< 0 … n
+  std::vector<Vec2<T>>
+      forces; ///< 1 … n: on body i at its hinge, at the last evaluation; if asked for
+  std::vector<LinearLaw<T>> laws; ///< 1 … n
+  std::vector<T> nonlinear;       ///< 1 … n: moments of friction and smoothed latches, N·m
+  std::vector<char> engaged;      ///< 1 … n: has passed its latched angle
   long evaluations = 0;
 };
 
 /// dx/dt of one wing. Motion is the base's; Topology a Tree or a Chain<N>.
 template <class T, class Topology, BaseMotion Motion> class System {
 public:
-  System(const Wing<T>& wing, const Topology& topology, const std::optional<double>& smoothing, Workspace<T>& work)
-      : wing_(wing), topology_(topology), work_(work),
-        layout_{first_coordinate, topology.bodies(), smoothing.has_value()},
+  System(const Wing<T>& wing, const Topology& topology, const std::optional<double>& smoothing,
+         Workspace<T>& work)
+      : wing_(wing), topology_(topology),
+        work_(work), layout_{first_coordinate, topology.bodies(), smoothing.has_value()},
         epsilon_(smoothing.value_or(0)) {
     work_.frames.assign(layout_.bodies + 1, BodyFrame<T>{});
     work_.forces.assign(layout_.bodies + 1, {T(0), T(0)});
@@ -114,21 +116,31 @@ private:
     work_.laws[i] = linear_law(wing_.hinges[i], acts);
   }
 
-  template <class Frames> [[gnu::always_inline]] void place_bodies(Frames& frames, const State<T>& x) {
+  template <class Frames>
+  [[gnu::always_inline]] void place_bodies(Frames& frames, const State<T>& x) {
     const T* const angles = x.data() + first_coordinate;
     const T* const rates = angles + freedoms();
-    topology_.outward([&](int i) __attribute__((always_inline)) { turn<Motion>(topology_, frames, i, angles[i - 1], rates[i - 1]); });
-    topology_.outward([&](int i) __attribute__((always_inline)) { place<Motion>(wing_, topology_, frames, i); });
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      turn<Motion>(topology_, frames, i, angles[i - 1], rates[i - 1]);
+    });
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      place<Motion>(wing_, topology_, frames, i);
+    });
   }
 
-  template <class Frames> [[gnu::always_inline]] void apply_moments(Frames& frames, const State<T>& x) {
+  template <class Frames>
+  [[gnu::always_inline]] void apply_moments(Frames& frames, const State<T>& x) {
     const T* const angles = x.data() + first_coordinate;
     const T* const rates = angles + freedoms();
     const LinearLaw<T>* const laws = work_.laws.data();
-    topology_.outward([&](int i) __attribute__((always_inline)) { frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]); });
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
+    });
     if (!wing_.has_coulomb && !layout_.smoothed) return;
     find_nonlinear_moments(x);
-    topology_.outward([&](int i) __attribute__((always_inline)) { frames[i].moment = frames[i].moment + work_.nonlinear[i]; });
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      frames[i].moment = frames[i].moment + work_.nonlinear[i];
+    });
   }
 
   /// What friction and smoothed latches add, apart from the frames so that these stay in registers.
@@ -140,7 +152,8 @@ private:
     const T& rate = x[layout_.rate(i)];
     T m = wing_.has_coulomb ? coulomb_moment(wing_.hinges[i], rate) : T(0);
     if (layout_.smoothed && wing_.hinges[i].has_latch)
-      m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)], epsilon_);
+      m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)],
+                                    epsilon_);
     return m;
   }
 
@@ -155,17 +168,24 @@ private:
   }
 
   template <class Frames>
-  [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt, const T& t) {
+  [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
+                                       const T& t) {
     place_base(frames[0], x, t);
     place_bodies(frames, x);
     apply_moments(frames, x);
-    topology_.inward([&](int i) __attribute__((always_inline)) { gather(wing_, topology_, frames, i); });
+    topology_.inward([&](int i)
+                         __attribute__((always_inline)) { gather(wing_, topology_, frames, i); });
     accelerate_base(frames, dxdt);
     T* const accelerations = dxdt.data() + first_coordinate + freedoms();
-    topology_.outward([&](int i) __attribute__((always_inline)) { accelerations[i - 1] = accelerate<Motion>(topology_, frames, i); });
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      accelerations[i - 1] = accelerate<Motion>(topology_, frames, i);
+    });
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
-    if (wants_forces_) topology_.outward([&](int i) __attribute__((always_inline)) { work_.forces[i] = hinge_force(frames[i]); });
+    if (wants_forces_)
+      topology_.outward([&](int i) __attribute__((always_inline)) {
+        work_.forces[i] = hinge_force(frames[i]);
+      });
   }
 
   [[gnu::always_inline]] void place_base(BodyFrame<T>& base, const State<T>& x, const T& t) const {
@@ -192,7 +212,8 @@ private:
     base.rotation = sine_cosine(base.angle);
   }
 
-  template <class Frames> [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) const {
+  template <class Frames>
+  [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) const {
     if constexpr (Motion == BaseMotion::free) {
       BodyFrame<T>& base = frames[0];
       gather(wing_, topology_, frames, 0);
@@ -205,8 +226,9 @@ private:
 
   [[gnu::noinline]] void advance_latches(const State<T>& x, State<T>& dxdt) const {
     for (int i = 1; i <= layout_.bodies; ++i)
-      dxdt[layout_.latch(i)] =
-          wing_.hinges[i].has_latch ? engagement_rate(wing_.hinges[i], x[layout_.angle(i)], epsilon_) : T(0);
+      dxdt[layout_.latch(i)] = wing_.hinges[i].has_latch
+                                   ? engagement_rate(wing_.hinges[i], x[layout_.angle(i)], epsilon_)
+                                   : T(0);
   }
 
   const Wing<T>& wing_;

@@ -14,11 +14,13 @@ namespace wingspread {
 template <class T> struct BodyTerms {
   T mass;              ///< m_i, kg
   T inertia;           ///< J_i + m_i |c_ii|², kg·m²
-  Vec2<T> mass_moment; ///< −m_i c_ii: m_i times the way from the hinge to the centre of mass, own frame, kg·m
-  Vec2<T> arm;         ///< c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's frame, m
-  Vec2<T> center;      ///< −c_ii, own frame, m
-  T central_inertia;   ///< J_i, kg·m²
-  T minus_inverse;     ///< −1/inertia, 1/(kg·m²)
+  Vec2<T> mass_moment; ///< −m_i c_ii: m_i times the way from the hinge to the centre of mass, own
+                       ///< frame, kg·m
+  Vec2<T> arm; ///< c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's
+               ///< frame, m
+  Vec2<T> center;    ///< −c_ii, own frame, m
+  T central_inertia; ///< J_i, kg·m²
+  T minus_inverse;   ///< −1/inertia, 1/(kg·m²)
 };
 
 /// A hinge's law (MODEL: spring, harness, friction, latch), about the latched angle.
@@ -46,18 +48,20 @@ template <class T> struct BaseTerms {
 template <class T> struct Wing {
   BaseTerms<T> base;
   Tree tree;
-  std::vector<int> hinge_of;        ///< body i → its hinge's index in the scene; [0] unused
-  std::vector<BodyTerms<T>> bodies; ///< 0 … n
-  std::vector<HingeTerms<T>> hinges;///< 0 … n; [0] unused
-  std::vector<T> initial_rates;     ///< 0 … n; rad/s
-  bool has_coulomb = false;         ///< any hinge has it; else its pass is skipped
+  std::vector<int> hinge_of;         ///< body i → its hinge's index in the scene; [0] unused
+  std::vector<BodyTerms<T>> bodies;  ///< 0 … n
+  std::vector<HingeTerms<T>> hinges; ///< 0 … n; [0] unused
+  std::vector<T> initial_rates;      ///< 0 … n; rad/s
+  bool has_coulomb = false;          ///< any hinge has it; else its pass is skipped
 
   [[nodiscard]] int size() const { return tree.bodies(); }
 };
 
 namespace detail {
 
-template <class T> [[nodiscard]] Vec2<T> vec2(const Eigen::Vector2d& v) { return {T(v.x()), T(v.y())}; }
+template <class T> [[nodiscard]] Vec2<T> vec2(const Eigen::Vector2d& v) {
+  return {T(v.x()), T(v.y())};
+}
 
 template <class T> [[nodiscard]] HingeTerms<T> hinge_terms(const Hinge& hinge) {
   const T travel = T(hinge.latched) - T(hinge.stowed);
@@ -80,16 +84,19 @@ template <class T> [[nodiscard]] HingeTerms<T> hinge_terms(const Hinge& hinge) {
 }
 
 template <class T>
-[[nodiscard]] BodyTerms<T> body_terms(double mass, double inertia, const Vec2<T>& center, const Vec2<T>& arm) {
+[[nodiscard]] BodyTerms<T> body_terms(double mass, double inertia, const Vec2<T>& center,
+                                      const Vec2<T>& arm) {
   const T about_hinge = fused(T(mass), dot(center, center), T(inertia));
-  return {T(mass), about_hinge, scaled(T(mass), center), arm, center, T(inertia), T(-1) / about_hinge};
+  return {T(mass), about_hinge, scaled(T(mass), center), arm,
+          center,  T(inertia),  T(-1) / about_hinge};
 }
 
 } // namespace detail
 
 /// The wing of a scene's topology; its numbers are not set yet. Cost O(n).
 /// @param order outward_order(scene), not empty
-template <class T> [[nodiscard]] Wing<T> make_wing(const Scene& scene, const std::vector<int>& order) {
+template <class T>
+[[nodiscard]] Wing<T> make_wing(const Scene& scene, const std::vector<int>& order) {
   const int n = static_cast<int>(order.size());
   std::vector<int> number(n), parents(n + 1, -1);
   Wing<T> wing;
@@ -111,9 +118,9 @@ template <class T> [[nodiscard]] Wing<T> make_wing(const Scene& scene, const std
 template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
   using detail::vec2;
   const Base& base = scene.base;
-  wing.base = {base.motion,   vec2<T>(base.acceleration), T(base.angular_acceleration),
-               T(base.angle), T(base.rate),               vec2<T>(base.position),
-               vec2<T>(base.velocity)};
+  wing.base = {
+      base.motion,  vec2<T>(base.acceleration), T(base.angular_acceleration), T(base.angle),
+      T(base.rate), vec2<T>(base.position),     vec2<T>(base.velocity)};
   wing.bodies[0] = detail::body_terms<T>(base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
   wing.has_coulomb = false;
   for (int i = 1; i <= wing.size(); ++i) {

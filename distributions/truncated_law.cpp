@@ -25,7 +25,7 @@ double inverse(const TruncatedLaw& law, Tails at) {
 TruncatedLaw truncated(const ContinuousLaw& law, Truncation truncation) {
   const Support whole = support(law);
   const Support bounds{std::max(whole.lower, truncation.lower),
-                        std::min(whole.upper, truncation.upper)};
+                       std::min(whole.upper, truncation.upper)};
   const Tails lower = tails(law, bounds.lower);
   const Tails upper = tails(law, bounds.upper);
   return {law, bounds, lower, upper, between(lower, upper)};

@@ -13,7 +13,7 @@ namespace wingspread {
 
 struct TruncatedLaw {
   ContinuousLaw law;
-  Support bounds; ///< [a, b]: the truncation within the law's support
+  Support bounds;  ///< [a, b]: the truncation within the law's support
   Tails lower;     ///< the law's tails at a
   Tails upper;     ///< the law's tails at b
   double mass = 1; ///< m; the law can be drawn from when it is at least the smallest normal double

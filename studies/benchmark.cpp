@@ -1,6 +1,6 @@
-// How long an acceleration evaluation takes against the number of bodies, and how long whole runs take.
-// Prints JSON. Each figure is the least of several repetitions in this one process; compare ratios, for
-// machines are noisy.
+// How long an acceleration evaluation takes against the number of bodies, and how long whole runs
+// take. Prints JSON. Each figure is the least of several repetitions in this one process; compare
+// ratios, for machines are noisy.
 //
 //   build/release/studies/benchmark                      everything
 //   build/release/studies/benchmark --quick              a tenth of the repetitions
@@ -32,12 +32,14 @@ template <class Function> double round_of(long count, Function& f) {
   return taken.count() / static_cast<double>(count);
 }
 
-/// Least time of one call of f, ns, over five rounds of about 50 ms (or of one call, if that is longer).
+/// Least time of one call of f, ns, over five rounds of about 50 ms (or of one call, if that is
+/// longer).
 template <class Function> double time_of(Function f) {
   const double once = round_of(1, f), some = round_of(1 + static_cast<long>(1e5 / once), f);
   const long count = 1 + static_cast<long>(5e7 * effort / some);
   double best = some;
-  for (int round = 0; round < 5 && !(some > 1e9); ++round) best = std::min(best, round_of(count, f));
+  for (int round = 0; round < 5 && !(some > 1e9); ++round)
+    best = std::min(best, round_of(count, f));
   return best;
 }
 
@@ -77,7 +79,8 @@ struct EvaluationTime {
   double dependent, independent; // ns: each needing the last, and not
 };
 
-template <class Topology> EvaluationTime recursion(const Wing<double>& wing, const Topology& topology) {
+template <class Topology>
+EvaluationTime recursion(const Wing<double>& wing, const Topology& topology) {
   Workspace<double> work;
   System<double, Topology, BaseMotion::fixed> system(wing, topology, std::nullopt, work);
   State<double> x, dxdt;
@@ -117,8 +120,11 @@ Json evaluations() {
     if (n == 2) best = recursion(wing, Chain<2>{});
     if (n == 3) best = recursion(wing, Chain<3>{});
     if (n == 4) best = recursion(wing, Chain<4>{});
-    Json row{{"bodies", n}, {"ns", best.dependent}, {"ns_per_body", best.dependent / n},
-             {"ns_independent", best.independent}, {"ns_as_tree", tree.dependent}};
+    Json row{{"bodies", n},
+             {"ns", best.dependent},
+             {"ns_per_body", best.dependent / n},
+             {"ns_independent", best.independent},
+             {"ns_as_tree", tree.dependent}};
     if (n <= 100) {
       const double by_hand = n == 3 ? dense<3>(scene) : dense<Eigen::Dynamic>(scene);
       row["ns_dense_by_hand"] = by_hand, row["dense_over_recursion"] = by_hand / best.dependent;
@@ -128,24 +134,32 @@ Json evaluations() {
   return rows;
 }
 
-Json one_run(const std::string& name, const Scene& scene, const Integration& how, const Goal& goal) {
+Json one_run(const std::string& name, const Scene& scene, const Integration& how,
+             const Goal& goal) {
   Deployment deployment;
   Outcome out = deployment.run(scene, how, goal);
   const double ns = time_of([&] { out = deployment.run(scene, how, goal); });
-  return {{"run", name}, {"us", ns * 1e-3}, {"status", to_string(out.status)}, {"t_end", out.t_end},
-          {"steps", out.work.steps}, {"rhs_evaluations", out.work.rhs_evaluations},
+  return {{"run", name},
+          {"us", ns * 1e-3},
+          {"status", to_string(out.status)},
+          {"t_end", out.t_end},
+          {"steps", out.work.steps},
+          {"rhs_evaluations", out.work.rhs_evaluations},
           {"ns_per_evaluation", ns / static_cast<double>(out.work.rhs_evaluations)}};
 }
 
 Json runs(const std::string& folder) {
   const Scene seed = read_scene_file(folder + "/scenes/three_panel.json");
   Goal all{.audit = false}, moments{.peak_force = false, .audit = false},
-      latches{.peak_moment = false, .peak_force = false, .audit = false}, whole{.audit = false, .to_t_end = true};
+      latches{.peak_moment = false, .peak_force = false, .audit = false},
+      whole{.audit = false, .to_t_end = true};
   Json rows = Json::array();
   for (const double rtol : {1e-6, 1e-8, 1e-10}) {
     Integration how;
     how.rtol = rtol, how.atol = 1e-2 * rtol;
-    const auto name = [&](const std::string& what) { return "three_panel, rtol " + Json(rtol).dump() + ", " + what; };
+    const auto name = [&](const std::string& what) {
+      return "three_panel, rtol " + Json(rtol).dump() + ", " + what;
+    };
     rows.push_back(one_run(name("all outputs"), seed, how, all));
     rows.push_back(one_run(name("latches and peak moments"), seed, how, moments));
     rows.push_back(one_run(name("latches"), seed, how, latches));
@@ -163,9 +177,14 @@ Json runs(const std::string& folder) {
 int main(int count, char** arguments) {
   std::string folder = "studies";
   for (int k = 1; k < count; ++k) {
-    if (std::strcmp(arguments[k], "--quick") == 0) effort = 0.1;
-    else folder = arguments[k];
+    if (std::strcmp(arguments[k], "--quick") == 0)
+      effort = 0.1;
+    else
+      folder = arguments[k];
   }
-  std::cout << Json{{"cycles_per_ns", cycles_per_ns()}, {"evaluation", evaluations()}, {"runs", runs(folder)}}.dump(2)
+  std::cout << Json{{"cycles_per_ns", cycles_per_ns()},
+                    {"evaluation", evaluations()},
+                    {"runs", runs(folder)}}
+                   .dump(2)
             << '\n';
 }

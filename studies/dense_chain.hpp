@@ -29,7 +29,8 @@ public:
       Link& link = links_[i];
       const Hinge& hinge = scene.hinges[i];
       link.center = -hinge.child_point;
-      link.arm = i + 1 < n_ ? Eigen::Vector2d(scene.hinges[i + 1].parent_point + link.center) : Eigen::Vector2d(0, 0);
+      link.arm = i + 1 < n_ ? Eigen::Vector2d(scene.hinges[i + 1].parent_point + link.center)
+                            : Eigen::Vector2d(0, 0);
       link.mass = scene.bodies[i].mass, link.inertia = scene.bodies[i].inertia;
       link.outward = outward; // mass beyond this body
       outward += link.mass;
@@ -40,11 +41,14 @@ public:
   void accelerate(const Vector& angle, const Vector& rate, const Vector& moment, Vector& out) {
     for (int i = 0; i < n_; ++i) {
       const double s = std::sin(angle[i]), c = std::cos(angle[i]);
-      const auto turn = [&](const Eigen::Vector2d& v) { return Eigen::Vector2d(c * v.x() - s * v.y(), s * v.x() + c * v.y()); };
+      const auto turn = [&](const Eigen::Vector2d& v) {
+        return Eigen::Vector2d(c * v.x() - s * v.y(), s * v.x() + c * v.y());
+      };
       const Eigen::Vector2d g = turn(links_[i].center), l = turn(links_[i].arm);
       inner_[i] = links_[i].mass * g + links_[i].outward * l; // Σ m_k v_ik over k ≥ i
       outer_[i] = l;
-      mass_(i, i) = links_[i].inertia + links_[i].mass * g.squaredNorm() + links_[i].outward * l.squaredNorm();
+      mass_(i, i) = links_[i].inertia + links_[i].mass * g.squaredNorm() +
+                    links_[i].outward * l.squaredNorm();
       load_[i] = moment[i] - (i + 1 < n_ ? moment[i + 1] : 0.0);
     }
     // body k > i moves by l_i with θ_i and by v_jk with θ_j: Σ_k m_k v_jk = inner_j

@@ -1,6 +1,5 @@
 // Whole runs against independent ones: another formulation, other integrators, closed forms.
 #include "core/deployment.hpp"
-
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/reference_run.hpp"
 
@@ -20,7 +19,8 @@ Outcome run(const Scene& scene, double rtol, double t_end, bool to_t_end = true)
 
 double relative(double got, double expected) { return std::abs(got / expected - 1); }
 
-void compare(const Outcome& got, const oracle::ReferenceOutcome& expected, double latches, double peaks) {
+void compare(const Outcome& got, const oracle::ReferenceOutcome& expected, double latches,
+             double peaks) {
   REQUIRE(got.latches.size() == expected.latches.size());
   for (std::size_t k = 0; k < got.latches.size(); ++k) {
     const LatchEvent& a = got.latches[k];
@@ -48,7 +48,8 @@ oracle::ReferenceOutcome reference(const Scene& scene, double t_end) {
 } // namespace
 
 TEST_CASE("the three-panel wing gives the figures of an independent model") {
-  // Produced outside this repository by SciPy's DOP853 at rtol 1e-11 on a dense model in absolute angles.
+  // Produced outside this repository by SciPy's DOP853 at rtol 1e-11 on a dense model in absolute
+  // angles.
   const Outcome out = run(oracle::seed_scene(), 1e-10, 12);
   REQUIRE(out.status == Status::deployed);
   REQUIRE(out.latches.size() == 3);
@@ -62,7 +63,8 @@ TEST_CASE("the three-panel wing gives the figures of an independent model") {
   }
   // the tip's peak is at its own engagement: d |φ̇| less the spring that is left, at t⁺
   CHECK(out.peak_moment[2].time == out.latches[2].time);
-  CHECK(out.peak_moment[2].value == Approx(100 * std::abs(out.latches[2].rates[2]) - 0.1).epsilon(1e-12));
+  CHECK(out.peak_moment[2].value ==
+        Approx(100 * std::abs(out.latches[2].rates[2]) - 0.1).epsilon(1e-12));
 }
 
 TEST_CASE("latches, peak moments and peak forces agree with extended precision by another route") {
@@ -74,7 +76,8 @@ TEST_CASE("latches, peak moments and peak forces agree with extended precision b
 
 TEST_CASE("a campaign's run may stop early: no peak is lost by it") {
   const oracle::ReferenceOutcome exact = reference(oracle::seed_scene(), 12);
-  const Outcome whole = run(oracle::seed_scene(), 1e-9, 60), early = run(oracle::seed_scene(), 1e-9, 60, false);
+  const Outcome whole = run(oracle::seed_scene(), 1e-9, 60),
+                early = run(oracle::seed_scene(), 1e-9, 60, false);
   CHECK(whole.t_end == 60);
   CHECK(early.t_end < 20);
   for (int i = 0; i < 3; ++i) {
@@ -125,15 +128,18 @@ TEST_CASE("a free spacecraft keeps both momenta to round-off at any tolerance") 
   for (const double rtol : {1e-4, 1e-8}) {
     const Outcome out = run(scene, rtol, 10);
     auto state = wing.initial_state();
-    for (int i = 0; i < wing.size(); ++i) state.angles[i] = out.final.angles[i], state.rates[i] = out.final.rates[i];
+    for (int i = 0; i < wing.size(); ++i)
+      state.angles[i] = out.final.angles[i], state.rates[i] = out.final.rates[i];
     state.base_position = out.final.base_position.cast<long double>();
     state.base_velocity = out.final.base_velocity.cast<long double>();
     state.base_angle = out.final.base_angle, state.base_rate = out.final.base_rate;
     const auto after = wing.balance(state);
     // relative to the sum of the parts' magnitudes, of which the total is a difference
     const long double size = before.linear_momentum.norm() + std::abs(before.angular_momentum) + 1;
-    CHECK(static_cast<double>((after.linear_momentum - before.linear_momentum).norm() / size) < 1e-12);
-    CHECK(static_cast<double>(std::abs(after.angular_momentum - before.angular_momentum) / size) < 1e-12);
+    CHECK(static_cast<double>((after.linear_momentum - before.linear_momentum).norm() / size) <
+          1e-12);
+    CHECK(static_cast<double>(std::abs(after.angular_momentum - before.angular_momentum) / size) <
+          1e-12);
   }
 }
 
@@ -163,11 +169,13 @@ TEST_CASE("one panel has closed forms before and after its latch") {
   CHECK(relative(std::abs(out.latches[0].rates[0]), speed) < 1e-9);
   // after it: y'' + 2 δ y' + ω² y = torque/inertia in the deploying sense, y(0) = 0, y'(0) = speed.
   // |M| = |torque − k y − d y'|, maximised on a fine grid and refined by its neighbours' parabola
-  const double delta = d / (2 * inertia), omega = std::sqrt(k / inertia - delta * delta), rest = torque / k;
+  const double delta = d / (2 * inertia), omega = std::sqrt(k / inertia - delta * delta),
+               rest = torque / k;
   const auto moment = [&](double s) {
     const double b = (speed - delta * rest) / omega, e = std::exp(-delta * s);
     const double y = rest + e * (-rest * std::cos(omega * s) + b * std::sin(omega * s));
-    const double v = -delta * (y - rest) + e * omega * (rest * std::sin(omega * s) + b * std::cos(omega * s));
+    const double v =
+        -delta * (y - rest) + e * omega * (rest * std::sin(omega * s) + b * std::cos(omega * s));
     return std::abs(torque - k * y - d * v);
   };
   double best = 0;
@@ -193,7 +201,8 @@ TEST_CASE("the smoothed latch tends to the event latch") {
 
 TEST_CASE("the smoothed latch agrees with CVODE on the dense model") {
   oracle::ReferenceOptions options;
-  options.t_end = 9, options.rtol = 1e-10, options.atol = 1e-12, options.max_step = 1e-3, options.smoothing = 1e-3;
+  options.t_end = 9, options.rtol = 1e-10, options.atol = 1e-12, options.max_step = 1e-3,
+  options.smoothing = 1e-3;
   const oracle::ReferenceOutcome exact = oracle::cvode_run(oracle::seed_scene(), options);
   Integration how;
   how.rtol = 1e-9, how.atol = 1e-12, how.t_end = 9, how.smoothing = 1e-3;
@@ -209,8 +218,10 @@ TEST_CASE("what cannot be run says so") {
     scene.hinges[0].friction.coulomb = std::nan("");
     const Outcome out = Deployment().run(scene, {}, {});
     CHECK(out.status == Status::invalid);
-    CHECK_THAT(out.reason, Catch::Contains("bodies." + scene.bodies[1].name + ".mass is -1, expected > 0"));
-    CHECK_THAT(out.reason, Catch::Contains("hinges.root.friction.coulomb is nan, expected a finite number"));
+    CHECK_THAT(out.reason,
+               Catch::Contains("bodies." + scene.bodies[1].name + ".mass is -1, expected > 0"));
+    CHECK_THAT(out.reason,
+               Catch::Contains("hinges.root.friction.coulomb is nan, expected a finite number"));
   }
   SECTION("numbers that overflow fail the run and give no result") {
     scene.hinges[0].spring = {1e300, 1e300};
@@ -243,6 +254,7 @@ TEST_CASE("one workspace serves scenes of different topology") {
   (void)deployment.run(oracle::latching_panel(), {}, {});
   const Outcome again = deployment.run(oracle::seed_scene(), {}, {});
   REQUIRE(first.latches.size() == again.latches.size());
-  for (std::size_t k = 0; k < first.latches.size(); ++k) CHECK(first.latches[k].time == again.latches[k].time);
+  for (std::size_t k = 0; k < first.latches.size(); ++k)
+    CHECK(first.latches[k].time == again.latches[k].time);
   CHECK(first.peak_force[1].value == again.peak_force[1].value);
 }

@@ -15,7 +15,9 @@ Hinge hinge(double stowed, double latched) {
   h.latch = Latch{1000, 10};
   return h;
 }
-HingeTerms<double> terms(double stowed, double latched) { return detail::hinge_terms<double>(hinge(stowed, latched)); }
+HingeTerms<double> terms(double stowed, double latched) {
+  return detail::hinge_terms<double>(hinge(stowed, latched));
+}
 } // namespace
 
 TEST_CASE("spring less harness is linear in the travel and acts towards the latched angle") {
@@ -32,7 +34,8 @@ TEST_CASE("spring less harness is linear in the travel and acts towards the latc
 TEST_CASE("viscous friction and the engaged latch oppose") {
   const HingeTerms<double> h = terms(1, 0);
   CHECK(linear_moment(linear_law(h, false), 0.0, 0.5) == Approx(-0.75 - 3 * 0.5));
-  CHECK(linear_moment(linear_law(h, true), -0.01, 0.5) - linear_moment(linear_law(h, false), -0.01, 0.5) ==
+  CHECK(linear_moment(linear_law(h, true), -0.01, 0.5) -
+            linear_moment(linear_law(h, false), -0.01, 0.5) ==
         Approx(1000 * 0.01 - 10 * 0.5));
 }
 

@@ -1,5 +1,4 @@
 #include "core/quintic.hpp"
-
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -21,7 +20,8 @@ TEST_CASE("a quintic is reproduced, its ends and its derivative with it") {
     const double h = draws.log_uniform(0.01, 10);
     const auto jet = [&](double t) {
       Jet<double> j{0, 0, 0};
-      for (int k = 5; k >= 0; --k) j = {j.value * t + c[k], j.first * t + j.value, j.second * t + 2 * j.first};
+      for (int k = 5; k >= 0; --k)
+        j = {j.value * t + c[k], j.first * t + j.value, j.second * t + 2 * j.first};
       return j;
     };
     const Quintic<double> p = hermite(h, jet(0), jet(h));
@@ -41,7 +41,8 @@ TEST_CASE("interpolation error falls with the sixth power of the step") {
     const double p0 = 1.5707963267948966 - h / 2;
     const Quintic<double> p = hermite(h, wave(1, p0, 0), wave(1, p0, h));
     double worst = 0;
-    for (int k = 1; k < 64; ++k) worst = std::max(worst, std::abs(value(p, k / 64.0) - wave(1, p0, h * k / 64).value));
+    for (int k = 1; k < 64; ++k)
+      worst = std::max(worst, std::abs(value(p, k / 64.0) - wave(1, p0, h * k / 64).value));
     return worst;
   };
   // down to 1e-13, below which round-off stands
@@ -67,7 +68,9 @@ TEST_CASE("the first crossing is found to round-off") {
 TEST_CASE("a crossing that comes back inside the step is not missed") {
   // touches zero from below at s = 0.37 with a hump of height e
   const auto hump = [](double e) {
-    const auto jet = [&](double t) { return Jet<double>{e - (t - 0.37) * (t - 0.37), -2 * (t - 0.37), -2}; };
+    const auto jet = [&](double t) {
+      return Jet<double>{e - (t - 0.37) * (t - 0.37), -2 * (t - 0.37), -2};
+    };
     return hermite(1.0, jet(0), jet(1));
   };
   for (const double e : {1e-2, 1e-4, 1e-8, 1e-12}) {

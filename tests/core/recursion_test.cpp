@@ -1,6 +1,5 @@
 // The recursion against an independent dense formulation (absolute angles, Jacobians, LDLᵀ).
 #include "core/recursion.hpp"
-
 #include "core/system.hpp"
 #include "tests/support/dense_wing.hpp"
 #include "tests/support/random_scenes.hpp"
@@ -31,8 +30,10 @@ Evaluated<T> evaluate(const Wing<T>& wing, const oracle::WingState<double>& stat
   dxdt = x;
   if (M == BaseMotion::free) {
     const int v = at.freedoms();
-    x[0] = T(state.base_position.x()), x[1] = T(state.base_position.y()), x[2] = T(state.base_angle);
-    x[v] = T(state.base_velocity.x()), x[v + 1] = T(state.base_velocity.y()), x[v + 2] = T(state.base_rate);
+    x[0] = T(state.base_position.x()), x[1] = T(state.base_position.y()),
+    x[2] = T(state.base_angle);
+    x[v] = T(state.base_velocity.x()), x[v + 1] = T(state.base_velocity.y()),
+    x[v + 2] = T(state.base_rate);
   }
   for (int i = 1; i <= at.bodies; ++i) {
     const int hinge = wing.hinge_of[i];
@@ -52,23 +53,28 @@ Evaluated<T> evaluate(const Wing<T>& wing, const oracle::WingState<double>& stat
   return out;
 }
 
-template <class T> Evaluated<T> evaluate(const Scene& scene, const oracle::WingState<double>& state) {
+template <class T>
+Evaluated<T> evaluate(const Scene& scene, const oracle::WingState<double>& state) {
   Scene posed = scene; // a prescribed base stands at t = 0 where the state has it
   if (scene.base.motion == BaseMotion::prescribed)
     posed.base.angle = state.base_angle, posed.base.rate = state.base_rate;
   Wing<T> wing = make_wing<T>(posed, outward_order(posed));
   set_parameters(wing, posed);
   switch (scene.base.motion) {
-  case BaseMotion::prescribed: return evaluate<T, BaseMotion::prescribed>(wing, state);
-  case BaseMotion::free: return evaluate<T, BaseMotion::free>(wing, state);
-  case BaseMotion::fixed: break;
+  case BaseMotion::prescribed:
+    return evaluate<T, BaseMotion::prescribed>(wing, state);
+  case BaseMotion::free:
+    return evaluate<T, BaseMotion::free>(wing, state);
+  case BaseMotion::fixed:
+    break;
   }
   return evaluate<T, BaseMotion::fixed>(wing, state);
 }
 
 /// Largest deviation of accelerations and of forces, each relative to the largest of its kind.
 template <class T, class Reference>
-std::pair<double, double> deviation(const Evaluated<T>& got, const oracle::WingResponse<Reference>& expected) {
+std::pair<double, double> deviation(const Evaluated<T>& got,
+                                    const oracle::WingResponse<Reference>& expected) {
   double acceleration = 0, largest = 0, force = 0, largest_force = 0;
   const auto note = [](double& worst, double& scale, double value, double reference) {
     worst = std::max(worst, std::abs(value - reference));
@@ -86,9 +92,9 @@ std::pair<double, double> deviation(const Evaluated<T>& got, const oracle::WingR
 } // namespace
 
 TEST_CASE("accelerations and hinge forces agree with a dense solve over random trees and chains") {
-  // 1200 scenes of 1-30 bodies, all base motions, masses over three decades, latches engaged at random.
-  // The reference is solved in quad, so that what deviates is the recursion's own error: a few hundred
-  // roundings, amplified by the spread of masses.
+  // 1200 scenes of 1-30 bodies, all base motions, masses over three decades, latches engaged at
+  // random. The reference is solved in quad, so that what deviates is the recursion's own error: a
+  // few hundred roundings, amplified by the spread of masses.
   double worst = 0, worst_force = 0;
   for (std::uint64_t seed = 0; seed < 1200; ++seed) {
     oracle::RandomScene options;
@@ -99,7 +105,8 @@ TEST_CASE("accelerations and hinge forces agree with a dense solve over random t
     // quad costs milliseconds for a small wing, and most scenes are small enough
     const auto [acceleration, force] =
         options.bodies <= 12
-            ? deviation(evaluate<double>(scene, state), oracle::DenseWing<Quad>(scene).respond(state.cast<Quad>()))
+            ? deviation(evaluate<double>(scene, state),
+                        oracle::DenseWing<Quad>(scene).respond(state.cast<Quad>()))
             : deviation(evaluate<double>(scene, state),
                         oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
     worst = std::max(worst, acceleration);
@@ -120,7 +127,8 @@ TEST_CASE("a thousand bodies agree with a dense solve") {
     const Scene scene = oracle::random_scene(7, options);
     const auto state = oracle::random_state(8, scene);
     const auto [acceleration, force] =
-        deviation(evaluate<double>(scene, state), oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
+        deviation(evaluate<double>(scene, state),
+                  oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
     CAPTURE(branching, acceleration, force);
     CHECK(acceleration < 1e-10);
     CHECK(force < 1e-10);

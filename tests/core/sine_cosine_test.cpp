@@ -1,12 +1,12 @@
 #include "core/sine_cosine.hpp"
-
 #include "tests/support/random_scenes.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 
 using namespace wingspread;
-using Reference = boost::multiprecision::cpp_bin_float_100; // quad itself loses digits beside multiples of π/2
+using Reference =
+    boost::multiprecision::cpp_bin_float_100; // quad itself loses digits beside multiples of π/2
 
 namespace {
 
@@ -23,7 +23,8 @@ double worst_ulps(double lower, double upper, int count) {
   for (int k = 0; k < count; ++k) {
     const double x = draws.uniform(lower, upper);
     const SineCosine<double> got = sine_cosine(x);
-    worst = std::max({worst, ulps(got.sine, sin(Reference(x))), ulps(got.cosine, cos(Reference(x)))});
+    worst =
+        std::max({worst, ulps(got.sine, sin(Reference(x))), ulps(got.cosine, cos(Reference(x)))});
   }
   return worst;
 }
