@@ -2,6 +2,9 @@
 
 #include "core/integrator.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace wingspread {
 
 const char* to_string(Status status) {
@@ -32,7 +35,7 @@ const std::vector<MethodInfo>& methods() {
 }
 
 struct Deployment::Workspace {
-  std::vector<int> order;
+  std::vector<std::pair<int, int>> tree; ///< (parent, child) of every hinge of the scene before
   Wing<double> wing;
   wingspread::Workspace<double> scratch;
 };
@@ -79,6 +82,12 @@ Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const In
   return integrate_chain(wing, scratch, how, goal, observer);
 }
 
+[[nodiscard]] const Hinge* with_exact_friction(const Scene& scene) {
+  for (const Hinge& hinge : scene.hinges)
+    if (hinge.friction.model == FrictionModel::exact) return &hinge;
+  return nullptr;
+}
+
 [[nodiscard]] Outcome invalid(const std::vector<Fault>& faults) {
   Outcome out;
   out.status = Status::invalid;
@@ -94,10 +103,17 @@ Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const In
 Outcome Deployment::run(const Scene& scene, const Integration& integration, const Goal& goal,
                         const Observer& observer) {
   if (const std::vector<Fault> faults = unphysical(scene); !faults.empty()) return invalid(faults);
-  const std::vector<int> order = outward_order(scene);
-  if (order != workspace_->order || workspace_->wing.size() == 0) {
-    workspace_->wing = make_wing<double>(scene, order);
-    workspace_->order = order;
+  if (const Hinge* exact = with_exact_friction(scene)) {
+    const std::string path = std::string("hinges.").append(exact->name).append(".friction.model");
+    return invalid(
+        {{path, "exact", "regularized (exact friction is not available in this version)"}});
+  }
+  std::vector<std::pair<int, int>> tree(scene.hinges.size());
+  std::transform(scene.hinges.begin(), scene.hinges.end(), tree.begin(),
+                 [](const Hinge& hinge) { return std::pair(hinge.parent, hinge.child); });
+  if (tree != workspace_->tree) {
+    workspace_->wing = make_wing<double>(scene, outward_order(scene));
+    workspace_->tree = std::move(tree);
   }
   set_parameters(workspace_->wing, scene);
   Outcome out = integrate(workspace_->wing, workspace_->scratch, integration, goal, observer);

@@ -14,9 +14,11 @@ namespace wingspread {
 
 /// How a run is integrated.
 struct Integration {
-  std::string method = "auto";     ///< a name from `methods()`
-  double rtol = 1e-8;              ///< relative tolerance per step, of every state component
-  double atol = 1e-10;             ///< absolute tolerance per step, rad, rad/s, m, m/s
+  std::string method = "auto"; ///< a name from `methods()`
+  /// Tolerances per step of every component of the state, both > 0: relative, and absolute (rad,
+  /// rad/s, m, m/s). Up to the first latch, where steps are few and errors carry on, 32 times
+  /// tighter.
+  double rtol = 1e-8, atol = 1e-10;
   std::optional<double> smoothing; ///< ε of the smoothed latch, rad; none: event latch
   double t_end = 60;               ///< s, > 0
   long max_steps = 1'000'000;      ///< tried steps after which the run fails
@@ -30,6 +32,8 @@ struct Goal {
   bool to_t_end = false; ///< integrate to t_end whatever happens
 };
 
+/// A scene without any latch ends `timed_out`. `stalled` needs exact friction, which this version
+/// lacks.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
 
@@ -59,7 +63,8 @@ struct Configuration {
 struct EnergyAudit {
   double initial = 0; ///< kinetic + potential, J
   double final = 0;
-  /// Largest |E(t) − E(0)| up to the first latch (or the end), less nothing for friction, J
+  /// Largest |E(t) − E(0)| up to the first latch (or the end): zero but for errors, unless there is
+  /// friction or the base is driven, J
   double drift_before_first_latch = 0;
 };
 
@@ -106,7 +111,7 @@ struct MethodInfo {
 };
 [[nodiscard]] const std::vector<MethodInfo>& methods();
 
-/// Runs scenes of one topology one after another without allocating again. Not shared by threads:
+/// Runs scenes one after another, keeping what the next can use of the last. Not shared by threads:
 /// each has its own.
 class Deployment {
 public:
@@ -117,7 +122,8 @@ public:
 
   /// Integrates a deployment. Never throws for what the numbers do: an unphysical scene comes back
   /// `invalid`, an integration that cannot go on `failed`, each with its reason.
-  /// @pre outward_order(scene) is not empty; integration.method is one of methods().
+  /// @pre outward_order(scene) is not empty; integration.method is one of methods(); rtol, atol,
+  /// t_end and a given smoothing are > 0.
   [[nodiscard]] Outcome run(const Scene& scene, const Integration& integration, const Goal& goal,
                             const Observer& observer = {});
 

@@ -12,7 +12,8 @@
 
 namespace wingspread {
 
-/// Integrates one wing with one method. All storage is made in the constructor.
+/// Integrates one wing with one method. Storage is made before the first step; a step allocates
+/// nothing.
 template <class T, class Topology, BaseMotion M, class Method> class Integrator {
 public:
   using AnySystem = System<T, Topology, M>;
@@ -50,7 +51,7 @@ private:
     system_(step_.x, step_.dxdt, step_.t);
     if (goal_.peak_force) forces_.start(system_, step_.t);
     observe_moments();
-    if constexpr (M == BaseMotion::free) kept_ = motion(system_, step_.x, step_.t).momentum;
+    if constexpr (M == BaseMotion::free) kept_ = conserved(system_, step_.x, step_.t);
     initial_energy_ = energy(step_.x, step_.t);
     notify();
     choose_first_step();
@@ -70,13 +71,10 @@ private:
     }
     const double factor = control_.accepted(error);
     if (!last || factor < 1) h_ = step_.h * T(factor);
-    bool engaged = false;
-    if (const std::optional<T> s = first_engagement()) {
-      if (!step_to_engagement(*s)) return true; // refused on the way: h_ has been cut
-      engaged = true;
-    }
+    const std::optional<Due> due = first_engagement();
+    if (due && !step_to_engagement(*due)) return true; // refused on the way: h_ has been cut
     if constexpr (M == BaseMotion::free) restore_momentum();
-    finish_step(last && !engaged);
+    finish_step(last && !due, due ? due->hinge : 0);
     return true;
   }
 
@@ -92,17 +90,18 @@ private:
   /// cent of a run's steps, and what is lost in it shifts all that follows.
   [[nodiscard]] double strictness() const { return latches_.empty() ? 32 : 1; }
 
-  void finish_step(bool reaches_end) {
+  void finish_step(bool reaches_end, int due) {
     ++steps_;
     if (goal_.peak_moment)
       for (int i = 1; i <= at_.bodies; ++i) raise_moment(moments_[i], system_, step_, i);
     if (goal_.peak_force) forces_.over_step(system_, step_, scratch_, dscratch_);
     step_.t = reaches_end ? T(how_.t_end) : T(step_.t + step_.h);
+    if (T(how_.t_end) - step_.t <= T(8 * epsilon_of<T>) * step_.t) step_.t = T(how_.t_end);
     std::swap(step_.x, step_.x1);
     std::swap(step_.dxdt, step_.dxdt1);
     if (goal_.audit && latches_.empty()) watch_energy();
     notify();
-    engage_those_there();
+    engage_those_there(due);
   }
 
   // ---- engagement
@@ -119,58 +118,53 @@ private:
     return system_.wing().hinges[i].has_latch && !system_.work().engaged[i];
   }
 
-  /// The earliest fraction of the step at which a waiting hinge reaches its latched angle.
-  [[nodiscard]] std::optional<T> first_engagement() const {
-    std::optional<T> first;
+  /// An engagement inside the step.
+  struct Due {
+    int hinge;
+    T s; ///< fraction of the step
+  };
+
+  /// The earliest one, by the interpolant, whose word on whether it happens is final.
+  [[nodiscard]] std::optional<Due> first_engagement() const {
+    std::optional<Due> first;
     for (int i = 1; i <= at_.bodies; ++i) {
       if (!waits(i)) continue;
       const HingeTerms<T>& hinge = system_.wing().hinges[i];
       Quintic<T> angle = step_.coordinate(at_.angle(i), at_.freedoms());
       for (T& c : angle) c = hinge.sense * (c - hinge.latched);
       const std::optional<T> s = first_nonnegative(angle);
-      if (s && (!first || *s < *first)) first = s;
+      if (s && (!first || *s < first->s)) first = Due{i, *s};
     }
     return first;
   }
 
   /// Replaces the step by one that ends at the engagement, so that its state has the method's
   /// accuracy and not the interpolant's, then corrects the instant by Newton's method with real
-  /// steps.
-  [[nodiscard]] bool step_to_engagement(const T& s) {
-    T h = s * step_.h;
-    for (int correction = 0; correction < 4; ++correction) {
-      h = larger(h, T(8 * epsilon_of<T>) * larger(step_.t, step_.h));
+  /// steps. A hinge that only grazes its latched angle has no useful Newton step: there the
+  /// interpolant's instant stands.
+  [[nodiscard]] bool step_to_engagement(const Due& due) {
+    const T longest = step_.h, shortest = T(8 * epsilon_of<T>) * larger(step_.t, longest);
+    T h = due.s * longest;
+    for (int correction = 0;; ++correction) {
+      h = smaller(larger(h, shortest), longest);
       const double error = attempt(h);
       if (!(error <= 1)) {
         ++rejected_;
         h_ = h * T(control_.rejected(error));
         return false;
       }
-      const T late = lateness(step_.x1);
-      if (!(larger(late, T(-late)) >
-            T(1e-7) * h)) { // the rest is linear: its square is below round-off
+      const T rate = gap_rate(step_.x1, due.hinge), late = gap(step_.x1, due.hinge) / rate;
+      const T size = larger(late, T(-late));
+      if (!(rate > T(0)) || !(size < T(1e-2) * h) || correction == 3) break;
+      if (!(size > T(1e-7) * h)) { // the rest is linear: its square is below round-off
         shift(-late);
         h = h - late;
         break;
       }
       h = h - late;
     }
-    step_.h = h;
+    step_.h = smaller(h, longest);
     return true;
-  }
-
-  /// How long ago the hinge nearest to its latched angle passed it (negative: in how long it will).
-  [[nodiscard]] T lateness(const State<T>& x) const {
-    T nearest(0);
-    bool found = false;
-    for (int i = 1; i <= at_.bodies; ++i) {
-      if (!waits(i) || !(gap_rate(x, i) > T(0))) continue;
-      const T late = gap(x, i) / gap_rate(x, i);
-      if (!found || late > nearest) nearest = late;
-      found = true;
-    }
-    const T most = T(0.5) * step_.h; // a grazing hinge has no useful Newton step
-    return smaller(larger(nearest, T(-most)), most);
   }
 
   /// Moves the step's end by dt, to first order in x.
@@ -179,12 +173,15 @@ private:
       step_.x1[k] = fused(dt, step_.dxdt1[k], step_.x1[k]);
   }
 
-  /// Engages every waiting hinge that stands at its latched angle, all at this one instant.
-  void engage_those_there() {
+  /// Engages the hinge that was due (0: none), and with it every waiting one that stands at its
+  /// latched angle, all at this one instant.
+  void engage_those_there(int due) {
     const T instant = T(4096 * epsilon_of<T>) * larger(step_.t, T(1e-3)); // not to be told apart
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
-      if (!waits(i) || !(gap(step_.x, i) + instant * gap_rate(step_.x, i) >= T(0))) continue;
+      if (!waits(i)) continue;
+      const T soon = gap(step_.x, i) + instant * larger(gap_rate(step_.x, i), T(0));
+      if (i != due && !(soon >= T(0))) continue;
       system_.engage(i);
       --latches_left_;
       record_latch(i);
@@ -262,7 +259,7 @@ private:
   }
 
   [[nodiscard]] double energy(const State<T>& x, const T& t) {
-    return static_cast<double>(T(motion(system_, x, t).kinetic + potential_energy(system_, x)));
+    return static_cast<double>(T(kinetic_energy(system_, x, t) + potential_energy(system_, x)));
   }
 
   void watch_energy() {
@@ -281,7 +278,7 @@ private:
       sample.rates[hinge] = static_cast<double>(step_.x[at_.rate(i)]);
       sample.moments[hinge] = static_cast<double>(system_.moment(step_.x, i));
     }
-    sample.kinetic = static_cast<double>(motion(system_, step_.x, step_.t).kinetic);
+    sample.kinetic = static_cast<double>(kinetic_energy(system_, step_.x, step_.t));
     sample.potential = static_cast<double>(potential_energy(system_, step_.x));
     observer_(sample);
   }
@@ -345,7 +342,7 @@ private:
   std::vector<PeakOf<T>> moments_;
   ForcePeaks<T, AnySystem> forces_;
   Bounds<T> bounds_;
-  Momentum<T> kept_{};
+  Conserved<T> kept_{};
   std::vector<LatchEvent> latches_;
   int latches_left_ = 0;
   long tried_ = 0, steps_ = 0, rejected_ = 0, since_last_look_ = 0;

@@ -96,7 +96,7 @@ struct Fault {
 
 /// Every parameter of the scene that is unphysical: non-finite values, masses and inertias ≤ 0,
 /// negative friction, stiffness or damping, a latch with no travel, a static level below the
-/// kinetic one. Empty when the scene can be run. Cost O(n); allocates only when it finds something.
+/// kinetic one. Empty when the scene can be run. Cost O(n).
 [[nodiscard]] std::vector<Fault> unphysical(const Scene& scene);
 
 /// Hinge indices in an order in which each parent's hinge precedes its children's (depth first, so

@@ -43,16 +43,15 @@ template <class T, class Topology, BaseMotion M>
     energy = energy + T(0.5) * law.stiffness * y * y;
   }
   const Motion<T> now = motion(system, x, t);
-  energy = energy + now.kinetic;
-  if (M == BaseMotion::free)
-    energy = energy - T(0.5) * dot(now.momentum.linear, now.momentum.linear) / now.mass;
-  return larger(energy, T(0));
+  energy = energy + (M == BaseMotion::free ? now.central_kinetic() : now.kinetic);
+  return energy + T(64 * epsilon_of<T>) * now.kinetic; // what the difference may have lost
 }
 
 /// Bounds on what every hinge will see from now on.
 template <class T> struct Bounds {
-  std::vector<T> moment; ///< 1 … n, N·m
-  std::vector<T> force;  ///< 1 … n, N
+  std::vector<T> moment;                         ///< 1 … n, N·m
+  std::vector<T> force;                          ///< 1 … n, N
+  std::vector<T> net, hinge_gamma, outward_mass; ///< scratch
 };
 
 /// (2)-(4) for an energy above rest. Cost O(n).
@@ -64,7 +63,9 @@ void bound_peaks(const System<T, Topology, M>& system, const T& energy, Bounds<T
   bounds.moment.assign(n + 1, T(0));
   bounds.force.assign(n + 1, T(0));
   std::vector<T>&moment = bounds.moment, &force = bounds.force;
-  std::vector<T> net(n + 1, T(0)), hinge_gamma(n + 1, T(0)), outward_mass(n + 1, T(0));
+  std::vector<T>&net = bounds.net, &hinge_gamma = bounds.hinge_gamma,
+  &outward_mass = bounds.outward_mass;
+  for (std::vector<T>* v : {&net, &hinge_gamma, &outward_mass}) v->assign(n + 1, T(0));
   T Z(0);
   const auto spin = [&](int i) { // bound on ω_i²
     return i == 0 && M == BaseMotion::fixed ? T(0) : T(2) * energy / wing.bodies[i].central_inertia;

@@ -108,6 +108,7 @@ TEST_CASE("energy before the first latch drifts less than 1e-9 at the defaults")
 }
 
 TEST_CASE("random wings with every base motion agree with the reference") {
+  std::size_t latches = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     oracle::RandomScene options;
     options.bodies = 1 + static_cast<int>(seed % 4);
@@ -118,7 +119,9 @@ TEST_CASE("random wings with every base motion agree with the reference") {
     const Outcome got = run(scene, 1e-11, 1.5);
     REQUIRE(got.status != Status::failed);
     compare(got, reference(scene, 1.5), 1e-8, 1e-7);
+    latches += got.latches.size();
   }
+  CHECK(latches >= 8);
 }
 
 TEST_CASE("a free spacecraft keeps both momenta to round-off at any tolerance") {
@@ -257,4 +260,130 @@ TEST_CASE("one workspace serves scenes of different topology") {
   for (std::size_t k = 0; k < first.latches.size(); ++k)
     CHECK(first.latches[k].time == again.latches[k].time);
   CHECK(first.peak_force[1].value == again.peak_force[1].value);
+}
+
+TEST_CASE("a workspace tells a star from a chain of as many bodies") {
+  Scene chain = oracle::seed_scene(), star = chain;
+  for (Hinge& hinge : star.hinges) hinge.parent = base_index;
+  Deployment deployment;
+  (void)deployment.run(star, {}, {});
+  const Outcome after = deployment.run(chain, {}, {}), fresh = Deployment().run(chain, {}, {});
+  REQUIRE(after.latches.size() == fresh.latches.size());
+  for (std::size_t k = 0; k < fresh.latches.size(); ++k)
+    CHECK(after.latches[k].time == fresh.latches[k].time);
+}
+
+TEST_CASE("an early end loses no peak on random wings") {
+  int early_ends = 0;
+  for (std::uint64_t seed = 100; seed < 160; ++seed) {
+    oracle::RandomScene options;
+    options.bodies = 1 + static_cast<int>(seed % 3);
+    options.mass_lower = 1, options.mass_upper = 20;
+    options.motion = seed % 2 == 0 ? BaseMotion::fixed : BaseMotion::free;
+    const Scene scene = oracle::random_scene(seed, options);
+    const Outcome whole = run(scene, 1e-7, 15), early = run(scene, 1e-7, 15, false);
+    if (whole.status != Status::deployed) continue;
+    early_ends += early.t_end < whole.t_end;
+    CAPTURE(seed);
+    for (std::size_t i = 0; i < whole.peak_moment.size(); ++i) {
+      CHECK(early.peak_moment[i].value == whole.peak_moment[i].value);
+      CHECK(early.peak_force[i].value == whole.peak_force[i].value);
+    }
+  }
+  CHECK(early_ends >= 5);
+}
+
+namespace {
+
+/// One panel on its hinge in its centre of mass's line; spring from `torque` to none, latch at
+/// `latched`.
+Scene swinging_panel(double latched, double torque, double viscous) {
+  Scene scene = oracle::latching_panel();
+  scene.hinges[0].stowed = -1.5707963267948966;
+  scene.hinges[0].latched = latched;
+  scene.hinges[0].spring = {torque, 0};
+  scene.hinges[0].friction.viscous = viscous;
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("a hinge that creeps up to its latched angle neither fails nor crawls") {
+  // found by search: each once drove the step to round-off
+  const double cases[][3] = {{1, 100, 25.926150258616033}, {3.1, 200, 34.001761356457635}};
+  for (const auto& [latched, torque, viscous] : cases) {
+    const Outcome out = Deployment().run(swinging_panel(latched, torque, viscous), {}, {});
+    CAPTURE(latched, out.reason, out.work.steps, out.work.rejected);
+    CHECK(out.status != Status::failed);
+    CHECK(out.work.steps + out.work.rejected < 20'000);
+  }
+}
+
+TEST_CASE("a grazing latch leaves its neighbour alone") {
+  // A swings between -1 and 1 under a spring that is linear in the angle; its latch stands just
+  // about at the turning point. B, beside it on the same fixed base, knows nothing of it.
+  Scene scene = oracle::latching_panel();
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[1].name = "other";
+  Hinge b = scene.hinges[0];
+  b.name = "b", b.child = 1;
+  scene.hinges.push_back(b);
+  Hinge& a = scene.hinges[0];
+  a.stowed = -1;
+  const double b_time = std::sqrt(2 * 1.5707963267948966 * 3 / 2);
+  int latched = 0, passed = 0;
+  for (const double rtol : {1e-4, 1e-6, 1e-8}) {
+    double below = 0.99, above = 1.01; // bisect what decides whether A latches
+    for (int k = 0; k < 48; ++k) {
+      a.latched = 0.5 * (below + above);
+      a.spring = {2, -2 * a.latched}; // -2 φ whatever the latched angle
+      const Outcome out = run(scene, rtol, 6);
+      REQUIRE(out.status != Status::failed);
+      const auto of_b = std::find_if(out.latches.begin(), out.latches.end(),
+                                     [](const LatchEvent& e) { return e.hinge == 1; });
+      REQUIRE(of_b != out.latches.end());
+      CAPTURE(rtol, a.latched);
+      CHECK(relative(of_b->time, b_time) < 20 * rtol);
+      (out.latches.size() == 2 ? below : above) = a.latched;
+      ++(out.latches.size() == 2 ? latched : passed);
+    }
+    CHECK(std::abs(below - 1) < 50 * rtol); // the threshold is the amplitude
+  }
+  CHECK(latched > 0);
+  CHECK(passed > 0);
+}
+
+TEST_CASE("a run may end at the instant of a latch") {
+  const Scene scene = oracle::latching_panel();
+  const double t = run(scene, 1e-8, 5).latches.at(0).time;
+  for (const int ulps : {-4, -1, 0, 1, 2, 4, 5, 50}) {
+    double t_end = t;
+    for (int k = 0; k < std::abs(ulps); ++k) t_end = std::nextafter(t_end, ulps > 0 ? 1e9 : 0);
+    const Outcome out = run(scene, 1e-8, t_end);
+    CAPTURE(ulps, out.reason);
+    CHECK(out.status != Status::failed);
+    CHECK(out.t_end <= t_end);
+  }
+}
+
+TEST_CASE("where a free spacecraft is and how fast it flies changes nothing in its wings") {
+  Scene scene = oracle::two_wing_free_spacecraft();
+  const Outcome here = run(scene, 1e-8, 10);
+  for (const auto& [position, velocity] : {std::pair(1e5, 0.0), {7e6, 7500.0}, {1e8, 0.0}}) {
+    scene.base.position.x() = position, scene.base.velocity.y() = velocity;
+    const Outcome out = run(scene, 1e-8, 10);
+    REQUIRE(out.latches.size() == here.latches.size());
+    for (std::size_t k = 0; k < here.latches.size(); ++k)
+      CHECK(relative(out.latches[k].time, here.latches[k].time) < 1e-7);
+    for (std::size_t i = 0; i < here.peak_moment.size(); ++i)
+      CHECK(relative(out.peak_moment[i].value, here.peak_moment[i].value) < 1e-6);
+  }
+}
+
+TEST_CASE("exact friction is refused rather than taken for the regularized one") {
+  Scene scene = oracle::seed_scene();
+  scene.hinges[1].friction.model = FrictionModel::exact;
+  const Outcome out = Deployment().run(scene, {}, {});
+  CHECK(out.status == Status::invalid);
+  CHECK_THAT(out.reason, Catch::Contains("hinges.mid.friction.model"));
 }
