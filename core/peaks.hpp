@@ -47,7 +47,8 @@ template <class T> struct PeakOf {
   T time = T(0);
 
   void raise(const T& candidate, const T& when) {
-    if (candidate > value) value = candidate, time = when;
+    if (candidate > value && is_finite(candidate))
+      value = candidate, time = when; // what overflows fails the run
   }
 };
 
@@ -182,7 +183,7 @@ private:
   [[nodiscard]] static bool at_an_end_for_sure(const std::array<T, 5>& f, int best) {
     using std::abs;
     if (best != 0 && best != 4) return false;
-    const T a = best == 0 ? f[0] : f[4], b = best == 0 ? f[1] : f[3], c = best == 0 ? f[2] : f[2];
+    const T a = best == 0 ? f[0] : f[4], b = best == 0 ? f[1] : f[3], c = f[2];
     const T slope = T(3) * a - T(4) * b + c; // towards the end, times 2 spacings
     const T curvature = a - T(2) * b + c;
     return slope > T(2) * abs(curvature);

@@ -59,7 +59,7 @@ Json energy_json(const EnergyAudit& energy) {
 
 Json outcome_json(const Scene& scene, const Outcome& outcome) {
   const bool ran = outcome.status != Status::invalid;
-  const auto if_ran = [ran](Json json) { return ran ? json : Json(nullptr); };
+  const auto if_ran = [ran](const Json& json) { return ran ? json : Json(nullptr); };
   return {{"status", to_string(outcome.status)},
           {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
           {"method", if_ran(outcome.method)},

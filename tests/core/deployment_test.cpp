@@ -233,6 +233,16 @@ TEST_CASE("what cannot be run says so") {
     CHECK(!out.reason.empty());
     for (const Peak& peak : out.peak_moment) CHECK(std::isfinite(peak.value));
   }
+  SECTION("what overflows in the middle of a run is rejected, then fails it") {
+    scene.hinges[0].latch = Latch{1e308, 100}; // the root's engagement sends the rates past 1e154
+    const Outcome out = Deployment().run(scene, {}, {});
+    CHECK(out.status == Status::failed);
+    CHECK_THAT(out.reason, Catch::Contains("step size") && Catch::Contains("at t = 4.81"));
+    CHECK(out.latches.size() == 1);
+    CHECK(out.work.rejected >= 3);
+    for (const Peak& peak : out.peak_moment) CHECK(std::isfinite(peak.value));
+    for (const Peak& peak : out.peak_force) CHECK(std::isfinite(peak.value));
+  }
   SECTION("a latch too stiff for the method reaches the limit of steps") {
     for (Hinge& hinge : scene.hinges) hinge.latch = Latch{1e9, 1e5};
     Integration how;
