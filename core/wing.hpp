@@ -23,7 +23,7 @@ template <class T> struct BodyTerms {
   T minus_inverse;   ///< −1/inertia, 1/(kg·m²)
 };
 
-/// A hinge's law (MODEL: spring, harness, friction, latch), about the latched angle.
+/// A hinge's law (spring, harness, friction, latch), about the latched angle.
 template <class T> struct HingeTerms {
   T stowed, latched; ///< rad
   T sense;           ///< sign(latched − stowed)
