@@ -34,6 +34,17 @@ const std::vector<MethodInfo>& methods() {
   return list;
 }
 
+std::string methods_used(const Outcome& outcome) {
+  std::vector<std::string> names;
+  std::string text;
+  for (const Phase& phase : outcome.phases) {
+    if (std::find(names.begin(), names.end(), phase.method) != names.end()) continue;
+    names.push_back(phase.method);
+    text += (text.empty() ? "" : ", ") + phase.method;
+  }
+  return text;
+}
+
 struct Deployment::Workspace {
   std::vector<std::pair<int, int>> tree; ///< (parent, child) of every hinge of the scene before
   Wing<double> wing;
@@ -117,7 +128,7 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
   }
   set_parameters(workspace_->wing, scene);
   Outcome out = integrate(workspace_->wing, workspace_->scratch, integration, goal, observer);
-  out.method = "dopri5";
+  out.phases = {{"dopri5", 0, out.t_end, out.work.steps}};
   return out;
 }
 

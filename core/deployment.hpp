@@ -22,6 +22,7 @@ struct Integration {
   std::optional<double> smoothing; ///< ε of the smoothed latch, rad; none: event latch
   double t_end = 60;               ///< s, > 0
   long max_steps = 1'000'000;      ///< tried steps after which the run fails
+  double step = 1e-4;              ///< s, > 0; of a method with a fixed step, no other uses it
 };
 
 /// What is asked of a run: it computes no more, and goes no further than that needs.
@@ -30,6 +31,7 @@ struct Goal {
   bool peak_force = true;
   bool audit = true;     ///< watch the energy up to the first latch
   bool to_t_end = false; ///< integrate to t_end whatever happens
+  bool first_latch_only = false; ///< end at the first latch
 };
 
 /// A scene without any latch ends `timed_out`. `stalled` needs exact friction, which this version
@@ -74,11 +76,18 @@ struct Work {
   long rhs_evaluations = 0;
 };
 
+/// A stretch of a run that one method integrated.
+struct Phase {
+  std::string method;
+  double from = 0, to = 0; ///< s
+  long steps = 0;          ///< accepted
+};
+
 /// Everything one run yields. Vectors over hinges stand in Scene order.
 struct Outcome {
   Status status = Status::failed;
   std::string reason;              ///< why it stalled, was invalid or failed; empty otherwise
-  std::string method;              ///< what integrated it
+  std::vector<Phase> phases;       ///< what integrated it, in order of time
   double t_end = 0;                ///< where the integration stopped, s
   std::vector<LatchEvent> latches; ///< in order of time
   std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
@@ -87,6 +96,9 @@ struct Outcome {
   EnergyAudit energy;
   Work work;
 };
+
+/// The methods of an outcome's phases, each once, in order of first use: "dopri5, rosenbrock_w".
+[[nodiscard]] std::string methods_used(const Outcome& outcome);
 
 /// One sample of a trajectory: every accepted step, and both sides of an engagement.
 struct Sample {

@@ -227,6 +227,7 @@ private:
 
   [[nodiscard]] bool finished() {
     if (!(step_.t < T(how_.t_end))) return true;
+    if (goal_.first_latch_only && any_latch()) return true;
     if (goal_.to_t_end || latches_left_ > 0 || !any_latch()) return false;
     if (!goal_.peak_moment && !goal_.peak_force) return true;
     constexpr int interval =

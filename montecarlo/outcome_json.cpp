@@ -62,7 +62,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
   const auto if_ran = [ran](const Json& json) { return ran ? json : Json(nullptr); };
   return {{"status", to_string(outcome.status)},
           {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
-          {"method", if_ran(outcome.method)},
+          {"method", if_ran(methods_used(outcome))},
           {"t_end", if_ran(number(outcome.t_end))},
           {"latches", latches_json(scene, outcome)},
           {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},

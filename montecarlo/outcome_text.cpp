@@ -13,7 +13,7 @@ std::string ending(const Scene& scene, const Outcome& outcome) {
   std::string text = fmt::format("{}: {}", scene.name, status);
   if (!outcome.reason.empty()) text += fmt::format(" ({})", outcome.reason);
   if (outcome.status == Status::invalid) return text + '\n';
-  return text + fmt::format(", integrated to {:.6g} s by {}\n", outcome.t_end, outcome.method);
+  return text + fmt::format(", integrated to {:.6g} s by {}\n", outcome.t_end, methods_used(outcome));
 }
 
 std::string latches(const Scene& scene, const Outcome& outcome) {
