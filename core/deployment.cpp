@@ -24,12 +24,30 @@ const char* to_string(Status status) {
 }
 
 const std::vector<MethodInfo>& methods() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  static const std::string quintic =
+      "quintic Hermite on angle, rate and acceleration, order 5; events and peaks then by a step of "
+      "the method";
+  static const std::string quintic_of_long_steps =
+      quintic + "; steps limited to about a quarter of what oscillates";
   static const std::vector<MethodInfo> list{
-      {"auto", "chooses by itself", 0, 0, 0, "that of the method chosen",
-       "the default; in this version always dopri5"},
-      {"dopri5", "explicit Runge-Kutta, adaptive", 5, 3.307, 0.997,
-       "quintic Hermite on angle, rate and acceleration; order 5",
+        {"auto", "chooses by itself", 0, 0, 0, "that of the method active",
+       "the default: explicit in each phase until stability holds its steps back, then rosenbrock_w "
+       "if that gets further; the outcome's phases say what was used"},
+      {"runge_kutta4", "explicit Runge-Kutta, fixed step", 4, 2.785, 2.828, quintic,
+       "takes the step given; fails where it misses the tolerance, by comparison with one of twice "
+       "the size"},
+      {"cash_karp54", "explicit Runge-Kutta, adaptive", 5, 3.678, 0, quintic, "Cash and Karp 5(4)"},
+      {"dopri5", "explicit Runge-Kutta, adaptive", 5, 3.307, 0.997, quintic,
        "Dormand and Prince 5(4), first same as last"},
+      {"fehlberg78", "explicit Runge-Kutta, adaptive", 8, 4.377, 0, quintic_of_long_steps,
+       "Fehlberg 8(7), for tight tolerances"},
+      {"bulirsch_stoer", "explicit extrapolation, adaptive order and step", 0, 0, 0,
+       quintic_of_long_steps, "modified midpoint rule, orders 4 to 16"},
+      {"adams_bashforth_moulton", "explicit multistep, adaptive order and step", 0, 0, 0,
+       quintic_of_long_steps, "orders 1 to 8, predict-evaluate-correct-evaluate"},
+      {"rosenbrock_w", "linearly implicit Rosenbrock-W, adaptive", 3, infinity, infinity, quintic,
+       "ROS34PW2 3(2), L-stable; the solve is the recursion with each hinge's inertia raised"},
   };
   return list;
 }
@@ -62,7 +80,7 @@ template <BaseMotion M, class Topology>
 Outcome integrate(const Wing<double>& wing, const Topology& topology, Workspace<double>& scratch,
                   const Integration& how, const Goal& goal, const Observer& observer) {
   System<double, Topology, M> system(wing, topology, how.smoothing, scratch);
-  return Integrator<double, Topology, M, DormandPrince5<double>>(system, how, goal, observer).run();
+  return Integrator<double, Topology, M>(system, how, goal, observer).run();
 }
 
 /// On a fixed base: the chain of a length known to the compiler, if it has one.
@@ -93,12 +111,6 @@ Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const In
   return integrate_chain(wing, scratch, how, goal, observer);
 }
 
-[[nodiscard]] const Hinge* with_exact_friction(const Scene& scene) {
-  for (const Hinge& hinge : scene.hinges)
-    if (hinge.friction.model == FrictionModel::exact) return &hinge;
-  return nullptr;
-}
-
 [[nodiscard]] Outcome invalid(const std::vector<Fault>& faults) {
   Outcome out;
   out.status = Status::invalid;
@@ -114,11 +126,6 @@ Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const In
 Outcome Deployment::run(const Scene& scene, const Integration& integration, const Goal& goal,
                         const Observer& observer) {
   if (const std::vector<Fault> faults = unphysical(scene); !faults.empty()) return invalid(faults);
-  if (const Hinge* exact = with_exact_friction(scene)) {
-    const std::string path = std::string("hinges.").append(exact->name).append(".friction.model");
-    return invalid(
-        {{path, "exact", "regularized (exact friction is not available in this version)"}});
-  }
   std::vector<std::pair<int, int>> tree(scene.hinges.size());
   std::transform(scene.hinges.begin(), scene.hinges.end(), tree.begin(),
                  [](const Hinge& hinge) { return std::pair(hinge.parent, hinge.child); });
@@ -127,9 +134,7 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
     workspace_->tree = std::move(tree);
   }
   set_parameters(workspace_->wing, scene);
-  Outcome out = integrate(workspace_->wing, workspace_->scratch, integration, goal, observer);
-  out.phases = {{"dopri5", 0, out.t_end, out.work.steps}};
-  return out;
+  return integrate(workspace_->wing, workspace_->scratch, integration, goal, observer);
 }
 
 } // namespace wingspread

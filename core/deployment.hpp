@@ -34,8 +34,8 @@ struct Goal {
   bool first_latch_only = false; ///< end at the first latch
 };
 
-/// A scene without any latch ends `timed_out`. `stalled` needs exact friction, which this version
-/// lacks.
+/// `stalled`: a hinge has not latched, and there is proof that none will any more. A scene without any
+/// latch ends `timed_out`.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
 

@@ -91,7 +91,7 @@ template <class T, class Topology, BaseMotion M>
   T sum(0);
   for (int i = 1; i <= at.bodies; ++i) {
     const T& angle = x[at.angle(i)];
-    sum = sum + potential(system.work().laws[i], angle);
+    sum = sum + potential(system.law_without_friction(i), angle);
     if (at.smoothed) {
       const T y = angle - system.wing().hinges[i].latched;
       sum = sum + T(0.5) * system.wing().hinges[i].stiffness * y * y *

@@ -8,10 +8,13 @@
 /// | S      | state of a smoothed latch, Ṡ = f(φ) [Yudintsev]        | s         |
 /// | ε      | width of its smooth steps: rad in φ, s in S            | rad, s    |
 ///
-///     M = s·(spring − harness) − b φ̇ − τ_c φ̇/√(φ̇² + ω_s²) − [latched] (k y + d φ̇)    [Yudintsev,
-///     eq. 6]
+///     M = s·(spring − harness) − b φ̇ + friction − [latched] (k y + d φ̇)    [Yudintsev, eq. 6]
 ///
-/// All but the Coulomb term is linear in φ and φ̇, and it is kept in that form.
+///     friction, regularized:  −τ_c φ̇/√(φ̇² + ω_s²)
+///     friction, exact:        −τ_c sign φ̇ while the hinge slides; what holds it, up to τ_s, while
+///                             it sticks
+///
+/// All but the regularized friction is linear in φ and φ̇ from event to event, and kept in that form.
 #pragma once
 
 #include "core/wing.hpp"
@@ -22,15 +25,18 @@ namespace wingspread {
 /// damping·φ̇.
 template <class T> struct LinearLaw {
   T latched;   ///< rad
-  T drive;     ///< N·m
+  T drive;     ///< N·m; with the friction of a hinge that slides
   T stiffness; ///< N·m/rad
   T damping;   ///< N·m·s/rad
 };
 
-template <class T> [[nodiscard]] LinearLaw<T> linear_law(const HingeTerms<T>& hinge, bool engaged) {
+/// @param friction of a sliding hinge, N·m
+template <class T>
+[[nodiscard]] LinearLaw<T> linear_law(const HingeTerms<T>& hinge, bool engaged,
+                                      const T& friction = T(0)) {
   const T k = engaged ? hinge.stiffness : T(0);
   const T d = engaged ? hinge.damping : T(0);
-  return {hinge.latched, hinge.drive, k - hinge.drive_slope, d + hinge.viscous};
+  return {hinge.latched, hinge.drive + friction, k - hinge.drive_slope, d + hinge.viscous};
 }
 
 template <class T>
@@ -43,6 +49,14 @@ template <class T>
 [[nodiscard]] inline T coulomb_moment(const HingeTerms<T>& hinge, const T& rate) {
   using std::sqrt;
   return -(hinge.coulomb * rate) / sqrt(fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
+}
+
+/// −d/dφ̇ of it: the damping that it is for small changes, N·m·s/rad.
+template <class T>
+[[nodiscard]] inline T coulomb_damping(const HingeTerms<T>& hinge, const T& rate) {
+  using std::sqrt;
+  const T slip = hinge.slip_rate * hinge.slip_rate, square = fused(rate, rate, slip);
+  return hinge.coulomb * slip / (square * sqrt(square));
 }
 
 /// h0 + Δh u²(3 − 2u) from 0 to 1 over u ∈ [0, 1]; constant outside.
@@ -66,7 +80,7 @@ template <class T>
   return smooth_step(S / epsilon) * full;
 }
 
-/// Potential energy of the linear law, zero at the latched angle, J.
+/// Potential energy of a linear law without friction, zero at the latched angle, J.
 template <class T> [[nodiscard]] inline T potential(const LinearLaw<T>& law, const T& angle) {
   const T y = angle - law.latched;
   return y * fused(T(0.5) * law.stiffness, y, -law.drive);

@@ -69,35 +69,51 @@ void refine(PeakOf<T>& peak, const T& t, const T& h, const T& s, const T& width,
 /// peak.
 inline constexpr double sample_margin = 0.95;
 
-/// Raises `peak` to the largest |moment| of hinge i over the step. The hull of the moment's linear
-/// part, with the most that friction and a smoothed latch can add, dismisses most steps; what it
-/// does not is sampled and refined on the interpolant.
-template <class T, class AnySystem>
-void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i) {
-  using std::abs;
-  const Layout& at = system.layout();
-  const LinearLaw<T>& law = system.work().laws[i];
-  const HingeTerms<T>& hinge = system.wing().hinges[i];
-  const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
-  const Quintic<T> rate = derivative(angle, step.h);
-  Quintic<T> linear, latch;
-  for (int k = 0; k < 6; ++k) {
-    linear[k] = linear_moment(law, angle[k], rate[k]);
-    latch[k] = fused(hinge.stiffness, angle[k] - hinge.latched, hinge.damping * rate[k]);
+/// The moment of one hinge over a step, by the dense output.
+template <class T, class AnySystem> class MomentOverStep {
+public:
+  MomentOverStep(const AnySystem& system, const Step<T>& step, int i)
+      : hinge_(system.wing().hinges[i]), step_(step), latch_state_(system.layout().latch(i)),
+        epsilon_(system.epsilon()), smoothed_(system.layout().smoothed && hinge_.has_latch) {
+    const Layout& at = system.layout();
+    const LinearLaw<T>& law = system.work().laws[i];
+    const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
+    rate_ = derivative(angle, step.h);
+    for (int k = 0; k < 6; ++k) {
+      linear_[k] = linear_moment(law, angle[k], rate_[k]);
+      latch_[k] = fused(hinge_.stiffness, angle[k] - hinge_.latched, hinge_.damping * rate_[k]);
+    }
   }
-  const bool smoothed = at.smoothed && hinge.has_latch;
-  T most = bound(linear) + hinge.coulomb;
-  if (smoothed) most = most + bound(latch);
-  if (!(most > peak.value)) return;
 
-  const auto moment = [&](const T& s) {
-    const T velocity = value(rate, s);
-    T m = value(linear, s);
-    if (hinge.coulomb > T(0)) m = m + coulomb_moment(hinge, velocity);
-    if (smoothed)
-      m = m - smooth_step(step.cubic(at.latch(i), s) / system.epsilon()) * value(latch, s);
+  /// No |moment| in the step is larger, by the hulls of the polynomials.
+  [[nodiscard]] T most() const {
+    const T linear = bound(linear_) + hinge_.coulomb;
+    return smoothed_ ? linear + bound(latch_) : linear;
+  }
+
+  [[nodiscard]] T operator()(const T& s) const {
+    T m = value(linear_, s);
+    if (hinge_.coulomb > T(0)) m = m + coulomb_moment(hinge_, value(rate_, s));
+    if (smoothed_)
+      m = m - smooth_step(step_.cubic(latch_state_, s) / epsilon_) * value(latch_, s);
     return m;
-  };
+  }
+
+private:
+  const HingeTerms<T>& hinge_;
+  const Step<T>& step_;
+  int latch_state_;
+  T epsilon_;
+  bool smoothed_;
+  Quintic<T> rate_, linear_, latch_;
+};
+
+/// Raises `peak` to the largest |moment| over the step as the dense output has it. Most steps are
+/// dismissed by the hull; the others are sampled, and refined beside the largest sample.
+template <class T, class AnySystem>
+void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
+                          const Step<T>& step) {
+  using std::abs;
   constexpr int samples = 8;
   T best(-1), where(0);
   for (int k = 0; k <= samples; ++k) {
@@ -110,6 +126,45 @@ void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step,
   refine(peak, step.t, step.h, where, T(1) / T(samples), moment);
 }
 
+/// Raises `peak` to the largest |moment| of hinge i over the step. What the dense output finds inside
+/// is made sure of by a step of the method that ends there: the peak has the method's accuracy, not
+/// the interpolant's.
+/// @param probe probe(s) steps there and returns the state, after an evaluation at it
+template <class T, class AnySystem, class Probe>
+void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
+                  Probe&& probe) {
+  using std::abs;
+  const MomentOverStep<T, AnySystem> moment(system, step, i);
+  if (!(moment.most() > peak.value)) return;
+  PeakOf<T> candidate = peak;
+  raise_by_interpolant(candidate, moment, step);
+  if (!(candidate.value > peak.value)) return;
+  const T s = (candidate.time - step.t) / step.h;
+  constexpr double at_an_end = 1e-5; // there the interpolant is right to round-off
+  if (s < T(at_an_end) || s > T(1 - at_an_end)) {
+    peak = candidate;
+    return;
+  }
+  peak.raise(T(abs(moment(T(0)))), step.t);
+  peak.raise(T(abs(system.moment(probe(s), i))), candidate.time);
+  peak.raise(T(abs(moment(T(1)))), step.t + step.h);
+}
+
+/// The same for a hinge that sticks, whose moment takes an evaluation to know: it is at most its
+/// linear part and the static limit; what that does not dismiss is sampled.
+/// @param hold hold(s) evaluates on the dense output; s = 1 last
+template <class T, class AnySystem, class Hold>
+void raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
+                       Hold&& hold) {
+  using std::abs;
+  const T most = MomentOverStep<T, AnySystem>(system, step, i).most();
+  if (!(most + system.wing().hinges[i].limit > peak.value)) return;
+  for (int k = 1; k <= 4; ++k) {
+    const T s = T(k) / T(4);
+    peak.raise(T(abs(system.moment(hold(s), i))), step.t + s * step.h);
+  }
+}
+
 /// Raises every hinge's `peaks` to its largest |reaction| over the step, given those at both ends.
 /// A step with an end within a quarter of a peak is sampled at three inner points by evaluating the
 /// recursion on the dense output, and refined beside the largest.
@@ -117,12 +172,10 @@ template <class T, class AnySystem> class ForcePeaks {
 public:
   std::vector<PeakOf<T>> peaks; ///< 1 … n
 
-  void start(const AnySystem& system, const T& t) {
-    const int n = system.layout().bodies;
-    peaks.assign(n + 1, {});
-    before_.assign(n + 1, T(0));
-    inner_.assign(n + 1, {});
-    observe(system, t);
+  void start(int bodies) {
+    peaks.assign(bodies + 1, {});
+    before_.assign(bodies + 1, T(0));
+    inner_.assign(bodies + 1, {});
   }
 
   /// The last evaluation of `system` was at t: takes the forces as they stand.
@@ -133,8 +186,10 @@ public:
     }
   }
 
-  /// The last evaluation was at the step's end.
-  void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
+  /// The last evaluation was at the step's end. @param probe as of raise_moment
+  template <class Probe>
+  void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt,
+                 Probe&& probe) {
     bool promising = false;
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       const T end = magnitude(system, static_cast<int>(i));
@@ -149,7 +204,7 @@ public:
         inner_[i][k] = magnitude(system, static_cast<int>(i));
     }
     for (std::size_t i = 1; i < peaks.size(); ++i)
-      raise(system, step, static_cast<int>(i), x, dxdt);
+      raise(system, step, static_cast<int>(i), x, dxdt, probe);
   }
 
 private:
@@ -165,17 +220,25 @@ private:
     system(x, dxdt, step.t + s * step.h);
   }
 
-  void raise(AnySystem& system, const Step<T>& step, int i, State<T>& x, State<T>& dxdt) {
+  template <class Probe>
+  void raise(AnySystem& system, const Step<T>& step, int i, State<T>& x, State<T>& dxdt,
+             Probe&& probe) {
     int best = 0;
     for (int k = 1; k <= 4; ++k)
       if (inner_[i][k] > inner_[i][best]) best = k;
     if (inner_[i][best] < T(sample_margin) * peaks[i].value) return;
-    peaks[i].raise(inner_[i][best], step.t + T(best) / T(4) * step.h);
+    peaks[i].raise(inner_[i][0], step.t);
+    peaks[i].raise(inner_[i][4], step.t + step.h);
     if (at_an_end_for_sure(inner_[i], best)) return;
-    refine(peaks[i], step.t, step.h, T(best) / T(4), T(1) / T(4), [&](const T& s) {
+    PeakOf<T> candidate = peaks[i];
+    candidate.raise(inner_[i][best], step.t + T(best) / T(4) * step.h);
+    refine(candidate, step.t, step.h, T(best) / T(4), T(1) / T(4), [&](const T& s) {
       evaluate(system, step, s, x, dxdt);
       return magnitude(system, i);
     });
+    if (!(candidate.value > peaks[i].value)) return;
+    (void)probe(T((candidate.time - step.t) / step.h));
+    peaks[i].raise(magnitude(system, i), candidate.time);
   }
 
   /// The samples rise or fall towards an end so steeply that a parabola through the last three has

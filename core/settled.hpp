@@ -8,7 +8,7 @@
 /// of mass, whose energy is constant). With T ≥ ½ Σ J ω² alone, by Cauchy and Schwarz,
 ///
 ///     φ̇_i² ≤ 2 T σ_i,    σ_i = 1/J_i + 1/J_p  (1/J_p = 0 on a fixed base) (2) |M_i| ≤ √(2E) √(κ_i
-///     + δ_i² σ_i) + τ_c                                                    (3)
+///     + δ_i² σ_i) + τ_s                                                    (3)
 ///
 /// For the reaction, Gauss's principle: the true accelerations minimise Σ m r̈² + Σ J (ω̇ − L/J)²
 /// over those that the hinges allow, L the net hinge moment on each body; comparing with φ̈ = 0,
@@ -76,7 +76,7 @@ void bound_peaks(const System<T, Topology, M>& system, const T& energy, Bounds<T
     T sigma = T(1) / wing.bodies[i].central_inertia;
     if (p != 0 || M == BaseMotion::free) sigma = sigma + T(1) / wing.bodies[p].central_inertia;
     moment[i] = sqrt(T(2) * energy * fused(law.damping * law.damping, sigma, law.stiffness)) +
-                wing.hinges[i].coulomb;
+                wing.hinges[i].coulomb + wing.hinges[i].limit;
     // what y* adds: the moment at rest is zero by (1), so nothing
     net[i] = net[i] + moment[i];
     net[p] = net[p] + moment[i];

@@ -30,23 +30,22 @@ public:
   explicit StepControl(int error_order)
       : exponent_(1.0 / (error_order + 1) - 0.75 * integral_gain) {}
 
-  /// After an accepted step of scaled error `error` ≤ 1: the factor to the next step.
-  [[nodiscard]] double accepted(double error) {
+  /// After a try of scaled error `error`: the factor to the next step, or, where it is rejected
+  /// (error > 1, or NaN), to the next try.
+  [[nodiscard]] double factor(double error) const {
+    if (!std::isfinite(error)) return 0.1;
+    if (error > 1) return std::max(least, safety * std::pow(error, -exponent_));
     const double floored = std::max(error, 1e-10);
-    double factor =
+    const double wanted =
         safety * std::pow(floored, -exponent_) * std::pow(previous_error_, integral_gain);
-    factor = std::clamp(factor, least, after_rejection_ ? 1.0 : most);
-    previous_error_ = std::max(error, 1e-4);
-    after_rejection_ = false;
-    return factor;
+    return std::clamp(wanted, least, after_rejection_ ? 1.0 : most);
   }
 
-  /// After a rejected one (error > 1, or NaN): the factor to the next try.
-  [[nodiscard]] double rejected(double error) {
-    after_rejection_ = true;
-    if (!std::isfinite(error)) return 0.1;
-    return std::max(least, safety * std::pow(error, -exponent_));
+  void accepted(double error) {
+    previous_error_ = std::max(error, 1e-4);
+    after_rejection_ = false;
   }
+  void rejected() { after_rejection_ = true; }
 
   /// Forgets the history: the right-hand side has changed.
   void restart() {

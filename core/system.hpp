@@ -1,8 +1,8 @@
 /// The right-hand side of a wing's equations of motion, and the layout of its state.
 #pragma once
 
+#include "core/augmented.hpp"
 #include "core/hinge_moment.hpp"
-#include "core/recursion.hpp"
 
 #include <array>
 #include <optional>
@@ -26,6 +26,22 @@ struct Layout {
   [[nodiscard]] int latch(int i) const { return 2 * freedoms() + i - 1; } ///< S_i
 };
 
+/// What the exact friction of a hinge does: oppose a motion, or hold it.
+enum class Contact : signed char { backward = -1, none = 0, forward = 1, stuck = 2 };
+
+/// What the augmented recursion works on.
+template <class T> struct Augmented {
+  std::vector<BodyFrame<T>> frames;        ///< 0 … n
+  std::vector<AugmentedFrame<T>> bodies;   ///< 0 … n
+  std::vector<HingeConstraint<T>> hinges;  ///< 0 … n
+
+  void resize(int n) {
+    frames.assign(n + 1, BodyFrame<T>{});
+    bodies.assign(n + 1, AugmentedFrame<T>{});
+    hinges.assign(n + 1, HingeConstraint<T>{});
+  }
+};
+
 /// What changes from phase to phase of a run, and scratch space. Owned by the caller, one a thread.
 template <class T> struct Workspace {
   std::vector<BodyFrame<T>> frames; ///< 0 … n
@@ -34,6 +50,11 @@ template <class T> struct Workspace {
   std::vector<LinearLaw<T>> laws; ///< 1 … n
   std::vector<T> nonlinear;       ///< 1 … n: moments of friction and smoothed latches, N·m
   std::vector<char> engaged;      ///< 1 … n: has passed its latched angle
+  std::vector<Contact> contact;   ///< 1 … n: what its exact friction does
+  std::vector<T> holding;         ///< 1 … n: axis moment at the last evaluation with a hinge stuck
+  int stuck = 0;                  ///< how many stick
+  Augmented<T> held;   ///< of the evaluation while hinges stick
+  Augmented<T> linear; ///< of the linear solves
   long evaluations = 0;
 };
 
@@ -50,6 +71,11 @@ public:
     work_.laws.resize(layout_.bodies + 1);
     work_.nonlinear.resize(layout_.bodies + 1);
     work_.engaged.assign(layout_.bodies + 1, false);
+    work_.contact.assign(layout_.bodies + 1, Contact::none);
+    work_.holding.assign(layout_.bodies + 1, T(0));
+    work_.stuck = 0;
+    work_.held.resize(layout_.bodies);
+    work_.linear.resize(layout_.bodies);
     work_.evaluations = 0;
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
   }
@@ -81,14 +107,38 @@ public:
     update_law(i);
   }
 
+  /// Records what the exact friction of hinge i does from now on.
+  void touch(int i, Contact contact) {
+    work_.stuck += (contact == Contact::stuck) - (work_.contact[i] == Contact::stuck);
+    work_.contact[i] = contact;
+    work_.held.hinges[i].locked = work_.linear.hinges[i].locked = contact == Contact::stuck;
+    update_law(i);
+  }
+  [[nodiscard]] bool sticks(int i) const { return work_.contact[i] == Contact::stuck; }
+
+  /// The hinge's law as its latch now stands, without friction: what has a potential.
+  [[nodiscard]] LinearLaw<T> law_without_friction(int i) const {
+    return linear_law(wing_.hinges[i], latch_acts(i));
+  }
+
   /// Kinematics alone: places every body in the workspace's frames.
   void place_all(const State<T>& x, const T& t) {
     place_base(work_.frames[0], x, t);
     place_bodies(work_.frames, x);
   }
 
-  /// Moment of hinge i, N·m.
+  /// Moment of hinge i, N·m; if it sticks, what held it at the last evaluation.
   [[nodiscard]] T moment(const State<T>& x, int i) const {
+    return sticks(i) ? work_.holding[i] : sliding_moment(x, i);
+  }
+
+  /// The friction that hinge i, which sticks, needed at the last evaluation, at x, N·m.
+  [[nodiscard]] T holding_friction(const State<T>& x, int i) const {
+    return work_.holding[i] - sliding_moment(x, i);
+  }
+
+  /// What the moment of hinge i is without the friction that holds it, N·m.
+  [[nodiscard]] T sliding_moment(const State<T>& x, int i) const {
     const T linear = linear_moment(work_.laws[i], x[layout_.angle(i)], x[layout_.rate(i)]);
     return wing_.has_coulomb || layout_.smoothed ? linear + nonlinear_moment(x, i) : linear;
   }
@@ -96,7 +146,9 @@ public:
   /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
   void operator()(const State<T>& x, State<T>& dxdt, const T& t) {
     ++work_.evaluations;
-    if constexpr (is_static<Topology>) {
+    if (work_.stuck > 0) {
+      evaluate_stuck(x, dxdt, t);
+    } else if constexpr (is_static<Topology>) {
       std::array<BodyFrame<T>, Topology::bodies() + 1> frames; // in registers
       evaluate(frames, x, dxdt, t);
     } else {
@@ -107,13 +159,106 @@ public:
   /// Whether evaluations leave the hinge forces in the workspace.
   void want_forces(bool want) { wants_forces_ = want; }
 
+  // ---- linear solves: (M + E) q̈ = τ, E = c_d D + c_k K over the hinges, by the recursion itself
+
+  /// Damping and stiffness of hinge i in the linear model at x: what can make the equations stiff.
+  struct Resistance {
+    T damping;   ///< N·m·s/rad, ≥ 0
+    T stiffness; ///< N·m/rad, ≥ 0
+  };
+  [[nodiscard]] Resistance resistance(const State<T>& x, int i) const {
+    const LinearLaw<T>& law = work_.laws[i];
+    Resistance r{law.damping, larger(law.stiffness, T(0))};
+    if (wing_.hinges[i].coulomb > T(0))
+      r.damping = r.damping + coulomb_damping(wing_.hinges[i], x[layout_.rate(i)]);
+    if (layout_.smoothed && wing_.hinges[i].has_latch) {
+      const T weight = smooth_step(x[layout_.latch(i)] / epsilon_);
+      r.damping = fused(weight, wing_.hinges[i].damping, r.damping);
+      r.stiffness = fused(weight, wing_.hinges[i].stiffness, r.stiffness);
+    }
+    return r;
+  }
+
+  /// Factorizes M + E at (x, t) for the added inertias of the hinges, E(i). Cost O(n), about half an
+  /// evaluation.
+  template <class AddedInertia>
+  void factorize_at(const State<T>& x, const T& t, AddedInertia&& added) {
+    Augmented<T>& parts = work_.linear;
+    place_base(parts.frames[0], x, t);
+    place_bodies(parts.frames, x);
+    for (int i = 1; i <= layout_.bodies; ++i) parts.hinges[i].added_inertia = added(i);
+    factorize_placed(parts);
+  }
+
+  /// Solves (M + E) q̈ = τ with the last factorization: τ(i) of the hinges, none on a free base.
+  /// @param qdd freedoms() numbers: those of a free base first
+  template <class Moment> void solve(Moment&& tau, T* qdd) {
+    Augmented<T>& parts = work_.linear;
+    topology_.inward([&](int i) {
+      load<false>(topology_, parts.frames, parts.bodies, i, T(tau(i)));
+    });
+    parts.bodies[0].acceleration = {T(0), T(0)};
+    parts.bodies[0].angular_acceleration = T(0);
+    if constexpr (Motion == BaseMotion::free) release<false>(parts, qdd);
+    topology_.outward([&](int i) {
+      qdd[first_coordinate + i - 1] =
+          accelerate_augmented<false>(topology_, parts.frames, parts.bodies, i);
+    });
+  }
+
 private:
   static constexpr int first_coordinate = Motion == BaseMotion::free ? 3 : 0; ///< φ_1 in q
   [[nodiscard]] int freedoms() const { return first_coordinate + topology_.bodies(); }
 
+  [[nodiscard]] bool latch_acts(int i) const {
+    return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
+  }
+
   void update_law(int i) {
-    const bool acts = work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
-    work_.laws[i] = linear_law(wing_.hinges[i], acts);
+    const Contact contact = work_.contact[i];
+    const T friction = contact == Contact::forward    ? -wing_.hinges[i].kinetic
+                       : contact == Contact::backward ? wing_.hinges[i].kinetic
+                                                      : T(0);
+    work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction);
+  }
+
+  void factorize_placed(Augmented<T>& parts) {
+    topology_.inward([&](int i) {
+      factorize(wing_, topology_, parts.frames, parts.bodies, i, parts.hinges[i]);
+    });
+    if constexpr (Motion == BaseMotion::free)
+      factorize(wing_, topology_, parts.frames, parts.bodies, 0, parts.hinges[0]);
+  }
+
+  /// @param qdd the base's three accelerations
+  template <bool moving> void release(Augmented<T>& parts, T* qdd) {
+    load<moving>(topology_, parts.frames, parts.bodies, 0, T(0));
+    release_augmented_base(parts.bodies[0]);
+    qdd[0] = parts.bodies[0].acceleration.x, qdd[1] = parts.bodies[0].acceleration.y;
+    qdd[2] = parts.bodies[0].angular_acceleration;
+  }
+
+  /// The right-hand side with hinges locked by friction; leaves what holds them in the workspace.
+  [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
+    Augmented<T>& parts = work_.held;
+    std::vector<BodyFrame<T>>& frames = parts.frames;
+    place_base(frames[0], x, t);
+    place_bodies(frames, x);
+    apply_moments(frames, x);
+    factorize_placed(parts);
+    topology_.inward(
+        [&](int i) { load<true>(topology_, frames, parts.bodies, i, frames[i].moment); });
+    parts.bodies[0].acceleration = frames[0].acceleration;
+    parts.bodies[0].angular_acceleration = frames[0].angular_acceleration;
+    if constexpr (Motion == BaseMotion::free) release<true>(parts, &dxdt[layout_.freedoms()]);
+    topology_.outward([&](int i) {
+      dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology_, frames, parts.bodies, i);
+      const T& parents = parts.bodies[topology_.parent_of(i)].angular_acceleration;
+      work_.holding[i] = axis_moment(parts.bodies[i], parents);
+      if (wants_forces_) work_.forces[i] = augmented_force(parts.bodies[i], parents);
+    });
+    copy_rates(x, dxdt);
+    if (layout_.smoothed) advance_latches(x, dxdt);
   }
 
   template <class Frames>

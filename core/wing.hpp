@@ -29,9 +29,11 @@ template <class T> struct HingeTerms {
   T sense;           ///< sign(latched − stowed)
   T drive;           ///< s·(spring − harness) at the latched angle, N·m
   T drive_slope;     ///< its derivative by φ, N·m/rad
-  T coulomb;         ///< N·m
+  T coulomb;         ///< of the regularized friction, N·m
   T viscous;         ///< N·m·s/rad
   T slip_rate;       ///< ω_s of the regularized friction, rad/s
+  T kinetic;         ///< τ_c of the exact friction, N·m
+  T limit;           ///< τ_s of the exact friction, the most that it can hold, N·m
   bool has_latch;
   T stiffness; ///< of the latch once engaged, N·m/rad
   T damping;   ///< N·m·s/rad
@@ -52,7 +54,8 @@ template <class T> struct Wing {
   std::vector<BodyTerms<T>> bodies;  ///< 0 … n
   std::vector<HingeTerms<T>> hinges; ///< 0 … n; [0] unused
   std::vector<T> initial_rates;      ///< 0 … n; rad/s
-  bool has_coulomb = false;          ///< any hinge has it; else its pass is skipped
+  bool has_coulomb = false;  ///< any hinge has regularized friction; else its pass is skipped
+  bool can_stick = false;    ///< any hinge has exact friction
 
   [[nodiscard]] int size() const { return tree.bodies(); }
 };
@@ -74,7 +77,10 @@ template <class T> [[nodiscard]] HingeTerms<T> hinge_terms(const Hinge& hinge) {
   terms.sense = sense;
   terms.drive = sense * at_latched;
   terms.drive_slope = sense * (at_latched - at_stowed) / travel;
-  terms.coulomb = T(hinge.friction.coulomb);
+  const bool exact = hinge.friction.model == FrictionModel::exact;
+  terms.coulomb = T(exact ? 0 : hinge.friction.coulomb);
+  terms.kinetic = T(exact ? hinge.friction.coulomb : 0);
+  terms.limit = exact ? T(hinge.friction.static_level.value_or(hinge.friction.coulomb)) : T(0);
   terms.viscous = T(hinge.friction.viscous);
   terms.slip_rate = T(hinge.friction.regularization_rate);
   terms.has_latch = hinge.latch.has_value();
@@ -122,7 +128,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
       base.motion,  vec2<T>(base.acceleration), T(base.angular_acceleration), T(base.angle),
       T(base.rate), vec2<T>(base.position),     vec2<T>(base.velocity)};
   wing.bodies[0] = detail::body_terms<T>(base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
-  wing.has_coulomb = false;
+  wing.has_coulomb = wing.can_stick = false;
   for (int i = 1; i <= wing.size(); ++i) {
     const Hinge& hinge = scene.hinges[wing.hinge_of[i]];
     const Body& body = scene.bodies[hinge.child];
@@ -133,7 +139,8 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
     wing.bodies[i] = detail::body_terms<T>(body.mass, body.inertia, center, arm);
     wing.hinges[i] = detail::hinge_terms<T>(hinge);
     wing.initial_rates[i] = T(hinge.initial_rate);
-    wing.has_coulomb = wing.has_coulomb || hinge.friction.coulomb > 0;
+    wing.has_coulomb = wing.has_coulomb || wing.hinges[i].coulomb > T(0);
+    wing.can_stick = wing.can_stick || wing.hinges[i].limit > T(0);
   }
 }
 
