@@ -48,6 +48,9 @@ const std::vector<MethodInfo>& methods() {
        quintic_of_long_steps, "orders 1 to 8, predict-evaluate-correct-evaluate"},
       {"rosenbrock_w", "linearly implicit Rosenbrock-W, adaptive", 3, infinity, infinity, quintic,
        "ROS34PW2 3(2), L-stable; the solve is the recursion with each hinge's inertia raised"},
+      {"seulex", "linearly implicit extrapolation, adaptive order and step", 0, infinity, infinity,
+       quintic_of_long_steps,
+       "linearly implicit Euler with n = 2, 3, 4, … substeps, orders 3 to 12; the same solve"},
   };
   return list;
 }

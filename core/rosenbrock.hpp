@@ -85,6 +85,41 @@ inline constexpr RosenbrockTableau ros34pw2(
     {3.7810903145819369e-1, -9.6042292212423178e-2, 5.0000000000000000e-1,
      2.1793326075422950e-1});
 
+/// (1 − ηJ)⁻¹ by (3) and (4), with η = hγ.
+template <class T> class LinearlyImplicit {
+public:
+  /// M + E at the step's start. Cost about half an evaluation.
+  template <class System> void factorize(System& system, const Start<T>& from, const T& eta) {
+    const Layout& at = system.layout();
+    eta_ = eta;
+    added_.resize(at.bodies + 1), spring_.resize(at.bodies + 1);
+    solved_.resize(at.freedoms());
+    for (int i = 1; i <= at.bodies; ++i) {
+      const auto hinge = system.resistance(from.x, i);
+      spring_[i] = eta * hinge.stiffness;
+      added_[i] = eta * (hinge.damping + spring_[i]);
+    }
+    system.factorize_at(from.x, from.t, [&](int i) { return added_[i]; });
+  }
+
+  /// R ← (1 − ηJ)⁻¹ R. Cost about half an evaluation.
+  template <class System> void solve(System& system, State<T>& R) {
+    const Layout& at = system.layout();
+    system.solve(
+        [&](int i) { return fused(added_[i], R[at.rate(i)], spring_[i] * R[at.angle(i)]); },
+        solved_.data());
+    const int v = at.freedoms();
+    for (int k = 0; k < v; ++k) {
+      R[v + k] = R[v + k] - solved_[k];
+      R[k] = fused(eta_, R[v + k], R[k]);
+    }
+  }
+
+private:
+  T eta_ = T(0);
+  State<T> added_, spring_, solved_;
+};
+
 template <class T> struct RosenbrockW {
   static constexpr int order = 3, error_order = 2;
   static constexpr double stable_real = 0; ///< L-stable
@@ -93,9 +128,9 @@ template <class T> struct RosenbrockW {
   template <class System>
   void estimate(System& system, const Start<T>& from, const T& h, State<T>& x1, State<T>& dxdt1,
                 State<T>& error) {
-    resize(from.x.size(), system.layout());
+    for (State<T>& u : U_) u.resize(from.x.size());
     const T hg = h * T(tableau.gamma);
-    factorize(system, from, hg);
+    linear_.factorize(system, from, hg);
     for (int i = 0; i < RosenbrockTableau::stages; ++i) {
       if (i > 0) {
         combine(from.x, tableau.a[i], i, x1);
@@ -110,22 +145,6 @@ template <class T> struct RosenbrockW {
   }
 
 private:
-  void resize(std::size_t size, const Layout& at) {
-    for (State<T>& u : U_) u.resize(size);
-    added_.resize(at.bodies + 1), spring_.resize(at.bodies + 1);
-    solved_.resize(at.freedoms());
-  }
-
-  /// M + E at the step's start.
-  template <class System> void factorize(System& system, const Start<T>& from, const T& hg) {
-    for (int i = 1; i <= system.layout().bodies; ++i) {
-      const auto hinge = system.resistance(from.x, i);
-      spring_[i] = hg * hinge.stiffness;
-      added_[i] = hg * (hinge.damping + spring_[i]);
-    }
-    system.factorize_at(from.x, from.t, [&](int i) { return added_[i]; });
-  }
-
   /// out = x + Σ_j<count w_j U_j
   void combine(const State<T>& x, const RosenbrockTableau::Row& w, int count, State<T>& out) const {
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -137,25 +156,18 @@ private:
 
   /// Eqs. (2)-(4): U_i from f at its stage.
   template <class System> void stage(System& system, const State<T>& f, int i, const T& hg) {
-    const Layout& at = system.layout();
     State<T>& U = U_[i];
     for (std::size_t k = 0; k < f.size(); ++k) {
       T sum(0);
       for (int j = 0; j < i; ++j) sum = fused(T(tableau.c[i][j]), U_[j][k], sum);
       U[k] = fused(T(tableau.gamma), sum, hg * f[k]);
     }
-    system.solve(
-        [&](int b) { return fused(added_[b], U[at.rate(b)], spring_[b] * U[at.angle(b)]); },
-        solved_.data());
-    const int v = at.freedoms();
-    for (int k = 0; k < v; ++k) {
-      U[v + k] = U[v + k] - solved_[k];
-      U[k] = fused(hg, U[v + k], U[k]);
-    }
+    linear_.solve(system, U);
   }
 
+  LinearlyImplicit<T> linear_;
   std::array<State<T>, RosenbrockTableau::stages> U_;
-  State<T> zero_, added_, spring_, solved_;
+  State<T> zero_;
 };
 
 } // namespace wingspread

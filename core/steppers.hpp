@@ -3,7 +3,7 @@
 
 #include "core/deployment.hpp"
 #include "core/peaks.hpp"
-#include "core/rosenbrock.hpp"
+#include "core/seulex.hpp"
 
 #include <array>
 #include <string_view>
@@ -17,11 +17,12 @@ enum class Method {
   fehlberg78,
   bulirsch_stoer,
   adams_bashforth_moulton,
-  rosenbrock_w
+  rosenbrock_w,
+  seulex
 };
-inline constexpr std::array<std::string_view, 7> method_names{
+inline constexpr std::array<std::string_view, 8> method_names{
     "runge_kutta4",   "cash_karp54",             "dopri5",      "fehlberg78",
-    "bulirsch_stoer", "adams_bashforth_moulton", "rosenbrock_w"};
+    "bulirsch_stoer", "adams_bashforth_moulton", "rosenbrock_w", "seulex"};
 
 [[nodiscard]] inline std::string name_of(Method method) {
   return std::string(method_names[static_cast<std::size_t>(method)]);
@@ -45,6 +46,8 @@ public:
       return visit(adams_bashforth_moulton_);
     case Method::rosenbrock_w:
       return visit(rosenbrock_w_);
+    case Method::seulex:
+      return visit(seulex_);
     case Method::dopri5:
       break;
     }
@@ -59,12 +62,13 @@ private:
   BulirschStoer<T> bulirsch_stoer_;
   AdamsBashforthMoulton<T> adams_bashforth_moulton_;
   Adaptive<T, RosenbrockW<T>> rosenbrock_w_;
+  Seulex<T> seulex_;
 };
 
 /// Steps of these grow so long that the quintic through a step's ends may miss what happens inside.
 [[nodiscard]] constexpr bool takes_long_steps(Method method) {
   return method == Method::fehlberg78 || method == Method::bulirsch_stoer ||
-         method == Method::adams_bashforth_moulton;
+         method == Method::adams_bashforth_moulton || method == Method::seulex;
 }
 
 /// The error of the quintic over a step against its tolerance, in hundredths of what the coordinates
