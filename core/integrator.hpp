@@ -157,14 +157,16 @@ private:
       holding_.observe(system_, step_.x);
     }
     notify();
-    if (!happens(due) && choice_.after_step(static_cast<double>(step_.h))) change_method();
+    if (happens(due)) return;
+    if (choice_.after_step(static_cast<double>(step_.h), system_.work().evaluations)) change_method();
+    if (choice_.wants_radius()) choice_.set_radius(radius_.estimate(system_, step_.x, step_.t));
   }
 
   // ---- peaks
 
   void find_peaks() {
     probed_ = false;
-    const auto probe = [this](const T& s) -> const State<T>& { return step_inside(s); };
+    const auto probe = [this](const T& s) { return step_inside(s); };
     const auto hold = [this](const T& s) -> const State<T>& {
       step_.interpolate(at_, s, scratch_);
       system_(scratch_, dscratch_, step_.t + s * step_.h);
@@ -179,14 +181,18 @@ private:
       (void)step_inside(T(1)); // what it will keep must be the step accepted
   }
 
+  struct Inside {
+    const State<T>&x, &dxdt;
+  };
+
   /// The state at t + s·h by a step of the method; the last evaluation is there.
-  const State<T>& step_inside(const T& s) {
+  Inside step_inside(const T& s) {
     probed_ = true;
     steppers_.with(choice_.active(), [&](auto& stepper) {
       return stepper.attempt(system_, Start<T>{step_.t, step_.x, step_.dxdt}, T(s * step_.h),
                              scratch_, dscratch_);
     });
-    return scratch_;
+    return {scratch_, dscratch_};
   }
 
   void observe_moments() {

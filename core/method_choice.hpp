@@ -2,8 +2,8 @@
 ///
 /// A phase begins with an explicit method, which resolves the shock of a latch best: of order 5, or,
 /// below a tolerance measured to be the break-even, of order 8. Once what is fast has died out and its
-/// steps are held back by stability and no longer by accuracy, the Rosenbrock-W method is tried; it
-/// keeps the work where it gets further per evaluation, and gives it back where it does not.
+/// steps are held back by stability and no longer by accuracy, the linearly implicit extrapolation is
+/// tried; it keeps the work where it gets further for its cost, and gives it back where it does not.
 ///
 /// Whether stability holds a step back is seen from h·ρ, ρ the spectral radius of the linear model
 /// [0 E2; −M⁻¹K −M⁻¹D] of springs, latches and friction at the present configuration.
@@ -102,11 +102,12 @@ public:
   [[nodiscard]] bool wants_radius() const { return automatic_ && steps_ % 32 == 31; }
   void set_radius(double radius) { radius_ = radius; }
 
-  /// A step of h was accepted. @return whether another method goes on from here
-  [[nodiscard]] bool after_step(double h) {
+  /// A step of h was accepted. @param evaluations of the run so far
+  /// @return whether another method goes on from here
+  [[nodiscard]] bool after_step(double h, long evaluations) {
     if (!automatic_) return false;
     ++steps_;
-    return active_ == explicit_ ? leave_explicit(h) : leave_implicit(h);
+    return active_ == explicit_ ? leave_explicit(h, evaluations) : leave_implicit(h, evaluations);
   }
 
   /// The step that the method now active should try first.
@@ -115,14 +116,12 @@ public:
   }
 
 private:
-  static constexpr double break_even = 3e-8; // rtol; see the work-precision study
+  static constexpr double break_even = 2e-8; // rtol; see the work-precision study
   static constexpr int enough = 10;          // steps in a row held back by stability
-  static constexpr int trial = 12;           // steps that the implicit method has to prove itself
+  static constexpr int trial = 5;            // steps that the implicit method has to get going
   static constexpr int first_patience = 64;  // steps before it is tried again, doubled each time
-
-  /// Cost of a step in evaluations.
-  [[nodiscard]] double explicit_cost() const { return explicit_ == Method::fehlberg78 ? 13 : 6; }
-  static constexpr double implicit_cost = 6.5; // 4 evaluations, 1 factorization, 4 solves
+  /// Cost of an evaluation with the solves that go with it, in those of an explicit method (measured).
+  static constexpr double implicit_cost = 1.65;
 
   [[nodiscard]] double stable_step() const {
     const double limit = explicit_ == Method::fehlberg78 ? Fehlberg78<double>::stable_real
@@ -130,22 +129,37 @@ private:
     return radius_ > 0 ? limit / radius_ : 1e300;
   }
 
-  [[nodiscard]] bool leave_explicit(double h) {
+  /// Starts to measure how far a stretch of steps gets.
+  void measure_from(long evaluations) {
+    travelled_ = 0;
+    evaluations_ = evaluations;
+  }
+  [[nodiscard]] double speed_until(long evaluations) const {
+    return travelled_ / static_cast<double>(std::max(evaluations - evaluations_, 1L));
+  }
+
+  [[nodiscard]] bool leave_explicit(double h, long evaluations) {
     if (wait_ > 0) --wait_;
-    held_back_ = h > 0.4 * stable_step() ? held_back_ + 1 : 0;
-    travelled_ = held_back_ > 1 ? travelled_ + h : h;
-    if (held_back_ < enough || wait_ > 0) return false;
-    speed_ = travelled_ / (held_back_ * explicit_cost());
-    active_ = Method::rosenbrock_w;
-    tried_ = 0, travelled_ = 0;
+    travelled_ += h;
+    if (!(h > 0.4 * stable_step())) {
+      held_back_ = 0;
+      measure_from(evaluations);
+      return false;
+    }
+    if (++held_back_ < enough || wait_ > 0) return false;
+    explicit_speed_ = speed_until(evaluations);
+    active_ = Method::seulex;
+    tried_ = 0;
     return true;
   }
 
-  [[nodiscard]] bool leave_implicit(double h) {
+  [[nodiscard]] bool leave_implicit(double h, long evaluations) {
     travelled_ += h;
-    if (++tried_ < trial) return false;
-    const bool pays = travelled_ / (tried_ * implicit_cost) > speed_;
-    tried_ = 0, travelled_ = 0;
+    ++tried_;
+    if (tried_ == trial - 2) measure_from(evaluations); // it has found its order and step
+    if (tried_ < trial) return false;
+    const bool pays = speed_until(evaluations) / implicit_cost > explicit_speed_;
+    tried_ = trial - 3;
     if (pays) return false;
     active_ = explicit_;
     held_back_ = 0;
@@ -156,8 +170,8 @@ private:
 
   bool automatic_;
   Method explicit_ = Method::dopri5, active_ = Method::dopri5;
-  double radius_ = 0, travelled_ = 0, speed_ = 0;
-  long steps_ = 0;
+  double radius_ = 0, travelled_ = 0, explicit_speed_ = 0;
+  long steps_ = 0, evaluations_ = 0;
   int held_back_ = 0, tried_ = 0, wait_ = 0, patience_ = first_patience;
 };
 

@@ -91,6 +91,13 @@ public:
     return smoothed_ ? linear + bound(latch_) : linear;
   }
 
+  /// d²/dt² at s, by differences.
+  [[nodiscard]] T bend(const T& s) const {
+    const T width = T(1) / T(32), at = smaller(larger(s, width), T(T(1) - width));
+    const T apart = width * step_.h;
+    return ((*this)(T(at + width)) - T(2) * (*this)(at) + (*this)(T(at - width))) / (apart * apart);
+  }
+
   [[nodiscard]] T operator()(const T& s) const {
     T m = value(linear_, s);
     if (hinge_.coulomb > T(0)) m = m + coulomb_moment(hinge_, value(rate_, s));
@@ -126,10 +133,23 @@ void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& m
   refine(peak, step.t, step.h, where, T(1) / T(samples), moment);
 }
 
+/// dM/dt of hinge i, which slides or has no exact friction, at a state and its derivative; without a
+/// smoothed latch, N·m/s.
+template <class T, class AnySystem>
+[[nodiscard]] T moment_rate(const AnySystem& system, const State<T>& x, const State<T>& dxdt, int i) {
+  const Layout& at = system.layout();
+  const LinearLaw<T>& law = system.work().laws[i];
+  const T& rate = x[at.rate(i)];
+  const T damping = system.wing().hinges[i].coulomb > T(0)
+                        ? law.damping + coulomb_damping(system.wing().hinges[i], rate)
+                        : law.damping;
+  return -fused(law.stiffness, rate, damping * dxdt[at.rate(i)]);
+}
+
 /// Raises `peak` to the largest |moment| of hinge i over the step. What the dense output finds inside
-/// is made sure of by a step of the method that ends there: the peak has the method's accuracy, not
-/// the interpolant's.
-/// @param probe probe(s) steps there and returns the state, after an evaluation at it
+/// is made sure of by steps of the method that end there, the instant corrected by Newton's method: the
+/// peak has the method's accuracy, not the interpolant's.
+/// @param probe probe(s) steps there and returns the state and its derivative
 template <class T, class AnySystem, class Probe>
 void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
                   Probe&& probe) {
@@ -146,8 +166,18 @@ void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step,
     return;
   }
   peak.raise(T(abs(moment(T(0)))), step.t);
-  peak.raise(T(abs(system.moment(probe(s), i))), candidate.time);
   peak.raise(T(abs(moment(T(1)))), step.t + step.h);
+  const T bend = moment.bend(s);
+  T at = s;
+  for (int correction = 0; correction < 4; ++correction) {
+    const auto& [x, dxdt] = probe(at);
+    const T M = system.moment(x, i);
+    peak.raise(T(abs(M)), step.t + at * step.h);
+    const T late = system.layout().smoothed ? T(0) : T(moment_rate(system, x, dxdt, i) / bend);
+    const T gain = T(0.5) * late * late * abs(bend);
+    at = at - late / step.h;
+    if (!(M * bend < T(0)) || !(gain > T(1e-12) * abs(M)) || !(at > T(0)) || !(at < T(1))) break;
+  }
 }
 
 /// The same for a hinge that sticks, whose moment takes an evaluation to know: it is at most its
@@ -237,7 +267,7 @@ private:
       return magnitude(system, i);
     });
     if (!(candidate.value > peaks[i].value)) return;
-    (void)probe(T((candidate.time - step.t) / step.h));
+    probe(T((candidate.time - step.t) / step.h));
     peaks[i].raise(magnitude(system, i), candidate.time);
   }
 
