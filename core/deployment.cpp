@@ -41,7 +41,10 @@ const std::vector<MethodInfo>& methods() {
       {"dopri5", "explicit Runge-Kutta, adaptive", 5, 3.307, 0.997, quintic,
        "Dormand and Prince 5(4), first same as last"},
       {"fehlberg78", "explicit Runge-Kutta, adaptive", 8, 4.377, 0, quintic_of_long_steps,
-       "Fehlberg 8(7), for tight tolerances"},
+       "Fehlberg 8(7); its estimate sees a step's ends alone, so that a friction that changes sign "
+       "inside may pass unnoticed: prefer dop853"},
+      {"dop853", "explicit Runge-Kutta, adaptive", 8, 5.17, 0, quintic_of_long_steps,
+       "Dormand and Prince 8(5,3), for tight tolerances"},
       {"bulirsch_stoer", "explicit extrapolation, adaptive order and step", 0, 0, 0,
        quintic_of_long_steps, "modified midpoint rule, orders 4 to 16"},
       {"adams_bashforth_moulton", "explicit multistep, adaptive order and step", 0, 0, 0,

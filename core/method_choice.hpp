@@ -79,7 +79,7 @@ class MethodChoice {
 public:
   /// @param asked a name from `methods()`
   MethodChoice(const std::string& asked, double rtol) : automatic_(asked == "auto") {
-    explicit_ = rtol < break_even ? Method::fehlberg78 : Method::dopri5;
+    explicit_ = rtol < break_even ? Method::dop853 : Method::dopri5;
     for (std::size_t k = 0; k < method_names.size(); ++k)
       if (method_names[k] == asked) explicit_ = static_cast<Method>(k);
     active_ = explicit_;
@@ -116,15 +116,16 @@ public:
   }
 
 private:
-  static constexpr double break_even = 2e-8; // rtol; see the work-precision study
+  static constexpr double break_even = 5e-4; // rtol; see the work-precision study
   static constexpr int enough = 10;          // steps in a row held back by stability
   static constexpr int trial = 5;            // steps that the implicit method has to get going
-  static constexpr int first_patience = 64;  // steps before it is tried again, doubled each time
+  static constexpr int first_patience = 64;  // steps before it is tried again, doubled each time up to
+  static constexpr int longest_patience = 512;
   /// Cost of an evaluation with the solves that go with it, in those of an explicit method (measured).
-  static constexpr double implicit_cost = 1.65;
+  static constexpr double implicit_cost = 1.5;
 
   [[nodiscard]] double stable_step() const {
-    const double limit = explicit_ == Method::fehlberg78 ? Fehlberg78<double>::stable_real
+    const double limit = explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
                                                          : DormandPrince5<double>::stable_real;
     return radius_ > 0 ? limit / radius_ : 1e300;
   }
@@ -164,7 +165,7 @@ private:
     active_ = explicit_;
     held_back_ = 0;
     wait_ = patience_;
-    patience_ *= 2;
+    patience_ = std::min(2 * patience_, longest_patience);
     return true;
   }
 

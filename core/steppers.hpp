@@ -3,6 +3,7 @@
 
 #include "core/deployment.hpp"
 #include "core/peaks.hpp"
+#include "core/dop853.hpp"
 #include "core/seulex.hpp"
 
 #include <array>
@@ -15,13 +16,14 @@ enum class Method {
   cash_karp54,
   dopri5,
   fehlberg78,
+  dop853,
   bulirsch_stoer,
   adams_bashforth_moulton,
   rosenbrock_w,
   seulex
 };
-inline constexpr std::array<std::string_view, 8> method_names{
-    "runge_kutta4",   "cash_karp54",             "dopri5",      "fehlberg78",
+inline constexpr std::array<std::string_view, 9> method_names{
+    "runge_kutta4",   "cash_karp54",             "dopri5",       "fehlberg78", "dop853",
     "bulirsch_stoer", "adams_bashforth_moulton", "rosenbrock_w", "seulex"};
 
 [[nodiscard]] inline std::string name_of(Method method) {
@@ -40,6 +42,8 @@ public:
       return visit(cash_karp54_);
     case Method::fehlberg78:
       return visit(fehlberg78_);
+    case Method::dop853:
+      return visit(dop853_);
     case Method::bulirsch_stoer:
       return visit(bulirsch_stoer_);
     case Method::adams_bashforth_moulton:
@@ -59,6 +63,7 @@ private:
   Adaptive<T, CashKarp54<T>> cash_karp54_;
   Adaptive<T, DormandPrince5<T>> dopri5_;
   Adaptive<T, Fehlberg78<T>> fehlberg78_;
+  Adaptive<T, DormandPrince853<T>> dop853_;
   BulirschStoer<T> bulirsch_stoer_;
   AdamsBashforthMoulton<T> adams_bashforth_moulton_;
   Adaptive<T, RosenbrockW<T>> rosenbrock_w_;
@@ -67,7 +72,7 @@ private:
 
 /// Steps of these grow so long that the quintic through a step's ends may miss what happens inside.
 [[nodiscard]] constexpr bool takes_long_steps(Method method) {
-  return method == Method::fehlberg78 || method == Method::bulirsch_stoer ||
+  return method == Method::fehlberg78 || method == Method::dop853 || method == Method::bulirsch_stoer ||
          method == Method::adams_bashforth_moulton || method == Method::seulex;
 }
 
