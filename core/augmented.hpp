@@ -1,10 +1,10 @@
 /// The O(n) recursion for hinges that are locked or carry an inertia of their own.
 ///
-/// A hinge with an added inertia E takes the moment τ − E φ̈; one that is locked takes whatever keeps
-/// φ̈ = 0, the limit E → ∞. Its axis moment then depends on the parent's rotation, so that a moment
-/// crosses the hinge as well as a force, and the source's 3×3 form [Yudintsev, eqs. 3-5] is needed,
-/// here referred to the hinge's point as in recursion.hpp, whose symbols and equation numbers (1)-(7)
-/// these continue:
+/// A hinge with an added inertia E takes the moment τ − E φ̈; one that is locked takes whatever
+/// keeps φ̈ = 0, the limit E → ∞. Its axis moment then depends on the parent's rotation, so that a
+/// moment crosses the hinge as well as a force, and the source's 3×3 form [Yudintsev, eqs. 3-5] is
+/// needed, here referred to the hinge's point as in recursion.hpp, whose symbols and equation
+/// numbers (1)-(7) these continue:
 ///
 /// | symbol  | meaning                                                   | shape   | unit        |
 /// |---------|-----------------------------------------------------------|---------|-------------|
@@ -13,14 +13,14 @@
 /// | α_p     | angular acceleration of the parent                        |         | rad/s²      |
 /// | n       | axis moment on body i: f, n cross the hinge               |         | N·m         |
 ///
-///     φ̈ = u − eᵀ a − g α_p         u = (τ − d)/U     e = h/U     g = I/U                         (8)
-///     f = K a + H α_p + b          K = A − h eᵀ      H = (1 − g) h     b = c + h u               (9)
-///     n = Hᵀ a + N α_p + m         N = (1 − g) I     m = d + I u                                (10)
+///     φ̈ = u − eᵀ a − g α_p         u = (τ − d)/U     e = h/U     g = I/U (8) f = K a + H α_p + b
+///     K = A − h eᵀ      H = (1 − g) h     b = c + h u               (9) n = Hᵀ a + N α_p + m N =
+///     (1 − g) I     m = d + I u                                (10)
 ///
 /// with, in place of (3) and (4), for the children j of a body
 ///
-///     h += K q + H     I += qᵀ K q + 2 qᵀ H + N                                                 (11)
-///     c += b'          d += qᵀ b' + m − ω² Hᵀ l         b' = b − ω² K l                         (12)
+///     h += K q + H     I += qᵀ K q + 2 qᵀ H + N (11) c += b'          d += qᵀ b' + m − ω² Hᵀ l b'
+///     = b − ω² K l                         (12)
 ///
 /// E = 0 gives g = 1, H = 0, N = 0, m = τ: the equations of recursion.hpp.
 ///
@@ -35,14 +35,14 @@ namespace wingspread {
 /// What the passes know of one body beside its BodyFrame.
 template <class T> struct AugmentedFrame {
   // factorization
-  Sym2<T> K;      ///< kg
-  Vec2<T> H;      ///< kg·m
-  T N;            ///< kg·m²
-  Vec2<T> h;      ///< kg·m
-  T I;            ///< kg·m²
-  Vec2<T> e;      ///< 1/m
-  T g;            ///< 1
-  T inverse;      ///< 1/U, 0 when locked, 1/(kg·m²)
+  Sym2<T> K; ///< kg
+  Vec2<T> H; ///< kg·m
+  T N;       ///< kg·m²
+  Vec2<T> h; ///< kg·m
+  T I;       ///< kg·m²
+  Vec2<T> e; ///< 1/m
+  T g;       ///< 1
+  T inverse; ///< 1/U, 0 when locked, 1/(kg·m²)
   // load
   Vec2<T> b; ///< N
   T m;       ///< N·m
@@ -84,8 +84,8 @@ void factorize(const Wing<T>& wing, const Topology& tree, const Frames& frames, 
   own.N = rest * own.I;
 }
 
-/// Eqs. (10), (12) at body i, the children's made, for a hinge moment τ. With `moving`, the loads of
-/// the bodies' rates too; without, those of τ alone, as in solving (M + E) φ̈ = τ.
+/// Eqs. (10), (12) at body i, the children's made, for a hinge moment τ. With `moving`, the loads
+/// of the bodies' rates too; without, those of τ alone, as in solving (M + E) φ̈ = τ.
 template <bool moving, class T, class Topology, class Frames, class Augmented>
 void load(const Topology& tree, const Frames& frames, Augmented& bodies, int i, const T& tau) {
   AugmentedFrame<T>& own = bodies[i];
@@ -124,8 +124,7 @@ T accelerate_augmented(const Topology& tree, const Frames& frames,
   const Vec2<T>& l = frames[i].arm;
   own.acceleration = fused(parent.angular_acceleration, turned(l), parent.acceleration);
   if (moving) own.acceleration = fused(frames[p].minus_rate_squared, l, own.acceleration);
-  const T relative =
-      own.u - dot(own.e, own.acceleration) - own.g * parent.angular_acceleration;
+  const T relative = own.u - dot(own.e, own.acceleration) - own.g * parent.angular_acceleration;
   own.angular_acceleration = parent.angular_acceleration + relative;
   return relative;
 }

@@ -24,46 +24,47 @@ template <class AnySystem> [[nodiscard]] int sliding_sense(const AnySystem& syst
   return contact == Contact::stuck ? 0 : static_cast<int>(contact);
 }
 
-/// Sorts the hinges with exact friction at (x, t): those in motion slide; of those at rest, all that
-/// can be held stick, and the others set out in the direction of what moves them. Evaluates; at the
-/// end dxdt is the derivative with the contacts as they are then.
+/// Sorts the hinges with exact friction at (x, t): those in motion slide; of those at rest, all
+/// that can be held stick, and the others set out in the direction of what moves them. Evaluates;
+/// at the end dxdt is the derivative with the contacts as they are then.
 ///
-/// All at rest are locked first, and all that exceed their limits released at once, until none does:
-/// independent of the hinges' order. One that would then run against its own friction is locked
-/// again, once.
-/// @param let_go a hinge whose release is due: it is held no more though rounding may say so; 0: none
+/// All at rest are locked first, and all that exceed their limits released at once, until none
+/// does: independent of the hinges' order. One that would then run against its own friction is
+/// locked again; after 64 of these, which no wing has needed, the rest slide as they are.
+/// @param let_go a hinge whose release is due: it is held no more though rounding may say so; 0:
+/// none
 template <class T, class AnySystem>
 void settle_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int let_go) {
   using std::abs;
   const Layout& at = system.layout();
   const auto direction = [](const T& v) { return v > T(0) ? Contact::forward : Contact::backward; };
-  std::vector<char> resting(at.bodies + 1, false), locked_again(at.bodies + 1, false);
+  std::vector<char> resting(at.bodies + 1, false);
   for (int i = 1; i <= at.bodies; ++i) {
     if (!(system.wing().hinges[i].limit > T(0))) continue;
     const T& rate = x[at.rate(i)];
     resting[i] = rate == T(0);
     system.touch(i, resting[i] ? Contact::stuck : direction(rate));
   }
-  const T slack(let_go != 0 ? 1 - release_tolerance : 1 + 1e-12);
+  int relocks = 0;
+  const T slack(let_go != 0 ? 1 + release_tolerance : 1 + 1e-12);
   for (bool changed = true; changed;) {
     changed = false;
     system(x, dxdt, t);
     std::vector<std::pair<int, Contact>> moves;
     for (int i = 1; i <= at.bodies; ++i) {
-      if (!system.sticks(i) || locked_again[i]) continue;
+      if (!system.sticks(i)) continue;
       const T friction = system.holding_friction(x, i);
       if (i == let_go || abs(friction) > slack * system.wing().hinges[i].limit)
         moves.emplace_back(i, direction(T(-friction)));
     }
     let_go = 0;
     for (int i = 1; moves.empty() && i <= at.bodies; ++i) {
-      if (!resting[i] || system.sticks(i) || locked_again[i]) continue;
+      if (!resting[i] || system.sticks(i) || ++relocks > 64) continue;
       const T along = T(sliding_sense(system, i)) * dxdt[at.rate(i)];
       if (along > T(-release_tolerance) * system.wing().hinges[i].limit /
                       system.wing().bodies[i].central_inertia)
         continue;
       moves.emplace_back(i, Contact::stuck);
-      locked_again[i] = true;
     }
     for (const auto& [i, contact] : moves) system.touch(i, contact);
     changed = !moves.empty();
@@ -81,10 +82,21 @@ template <class T> [[nodiscard]] Quintic<T> over_s(const Quintic<T>& p) {
   return raised;
 }
 
+/// The cubic with values a, b and slopes da, db at the ends of a step of h, as one of degree five.
+template <class T>
+[[nodiscard]] Quintic<T> cubic(const T& h, const T& a, const T& da, const T& b, const T& db) {
+  const T third = h / T(3), inner = fused(third, da, a), outer = fused(-third, db, b);
+  const std::array<T, 5> d{a, (a + T(3) * inner) / T(4), (inner + outer) / T(2),
+                           (T(3) * outer + b) / T(4), b};
+  Quintic<T> raised{d[0], T(0), T(0), T(0), T(0), d[4]};
+  for (int k = 1; k < 5; ++k) raised[k] = fused(T(k) / T(5), d[k - 1] - d[k], d[k]);
+  return raised;
+}
+
 } // namespace detail
 
-/// p without its root at s = 0: p/s, or p/s² where p/s is zero there but for rounding (a hinge let go
-/// at its limit, with τ_s = τ_c, has no acceleration yet).
+/// p without its root at s = 0: p/s, or p/s² where p/s is zero there but for rounding (a hinge let
+/// go at its limit, with τ_s = τ_c, has no acceleration yet).
 template <class T> [[nodiscard]] Quintic<T> without_root_at_start(const Quintic<T>& p) {
   using std::abs;
   const Quintic<T> once = detail::over_s(p);
@@ -97,7 +109,13 @@ template <class T, class AnySystem>
 [[nodiscard]] std::optional<T> first_rest(const AnySystem& system, const Step<T>& step, int i) {
   const Layout& at = system.layout();
   const T against(-sliding_sense(system, i));
+  using std::abs;
   Quintic<T> rate = derivative(step.coordinate(at.angle(i), at.freedoms()), step.h);
+  const int r = at.rate(i);
+  const T angle = larger(T(abs(step.x[at.angle(i)])), T(abs(step.x1[at.angle(i)])));
+  const T moved = step.h * larger(T(abs(step.x[r])), T(abs(step.x1[r])));
+  if (T(64 * epsilon_of<T>) * angle > T(1e-6) * moved) // the angle's rounding would drown it
+    rate = detail::cubic(step.h, step.x[r], step.dxdt[r], step.x1[r], step.dxdt1[r]);
   for (T& c : rate) c = against * c;
   if (step.x[at.rate(i)] == T(0)) rate = without_root_at_start(rate);
   return first_nonnegative(rate);
@@ -142,7 +160,8 @@ public:
         if (at(i, s) > T(0)) {
           const T root = locate(lower, s, [&](const T& z) { return at(i, z); });
           const T width(1e-3);
-          const T slope = (at(i, T(root + width)) - at(i, T(root - width))) / (T(2) * width * step.h);
+          const T slope =
+              (at(i, T(root + width)) - at(i, T(root - width))) / (T(2) * width * step.h);
           if (!first || root < first->s) first = Release<T>{i, root, slope};
           break;
         }
@@ -157,7 +176,8 @@ public:
   template <class AnySystem>
   [[nodiscard]] static T excess(const AnySystem& system, const State<T>& x, int i) {
     using std::abs;
-    return abs(system.holding_friction(x, i)) - system.wing().hinges[i].limit;
+    return abs(system.holding_friction(x, i)) -
+           T(1 + 2 * release_tolerance) * system.wing().hinges[i].limit;
   }
 
 private:

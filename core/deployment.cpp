@@ -25,15 +25,15 @@ const char* to_string(Status status) {
 
 const std::vector<MethodInfo>& methods() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  static const std::string quintic =
-      "quintic Hermite on angle, rate and acceleration, order 5; events and peaks then by a step of "
-      "the method";
+  static const std::string quintic = "quintic Hermite on angle, rate and acceleration, order 5; "
+                                     "events and peaks then by a step of "
+                                     "the method";
   static const std::string quintic_of_long_steps =
       quintic + "; steps limited to about a quarter of what oscillates";
   static const std::vector<MethodInfo> list{
-        {"auto", "chooses by itself", 0, 0, 0, "that of the method active",
-       "the default: explicit in each phase until stability holds its steps back, then rosenbrock_w "
-       "if that gets further; the outcome's phases say what was used"},
+      {"auto", "chooses by itself", 0, 0, 0, "that of the method active",
+       "the default: dopri5 or, below rtol 5e-4, dop853 until stability holds its steps back, then "
+       "seulex where that gets further; the outcome's phases say what was used"},
       {"runge_kutta4", "explicit Runge-Kutta, fixed step", 4, 2.785, 2.828, quintic,
        "takes the step given; fails where it misses the tolerance, by comparison with one of twice "
        "the size"},

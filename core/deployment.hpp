@@ -29,13 +29,13 @@ struct Integration {
 struct Goal {
   bool peak_moment = true;
   bool peak_force = true;
-  bool audit = true;     ///< watch the energy up to the first latch
-  bool to_t_end = false; ///< integrate to t_end whatever happens
+  bool audit = true;             ///< watch the energy up to the first latch
+  bool to_t_end = false;         ///< integrate to t_end whatever happens
   bool first_latch_only = false; ///< end at the first latch
 };
 
-/// `stalled`: a hinge has not latched, and there is proof that none will any more. A scene without any
-/// latch ends `timed_out`.
+/// `stalled`: a hinge has not latched, and there is proof that none will any more. A scene without
+/// any latch ends `timed_out`.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
 

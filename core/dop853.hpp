@@ -1,8 +1,8 @@
 /// Dormand and Prince's explicit Runge-Kutta formula of order 8 with estimates of order 5 and 3
 /// [Hairer, Nørsett & Wanner I, II.5 and II.10; coefficients as in E. Hairer's DOP853].
 ///
-/// Unlike Fehlberg's 8(7), whose estimate sees the ends of a step alone, its estimates weigh stages all
-/// over the step: a friction that changes sign inside is noticed.
+/// Unlike Fehlberg's 8(7), whose estimate sees the ends of a step alone, its estimates weigh stages
+/// all over the step: a friction that changes sign inside is noticed.
 #pragma once
 
 #include "core/methods.hpp"
@@ -109,9 +109,8 @@ public:
                 State<T>& error) {
     const std::size_t size = from.x.size();
     k_[0] = from.dxdt;
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (stage<I + 1>(system, from, h, x1), ...);
-    }(std::make_index_sequence<dop853::stages - 1>{});
+    [&]<std::size_t... I>(std::index_sequence<I...>) { (stage<I + 1>(system, from, h, x1), ...); }
+    (std::make_index_sequence<dop853::stages - 1>{});
     using std::sqrt;
     for (std::size_t c = 0; c < size; ++c) {
       const T e5 = weighted<dop853::error_5>(c), e3 = weighted<dop853::error_3>(c);
@@ -136,7 +135,8 @@ private:
     T sum(0);
     [&]<std::size_t... J>(std::index_sequence<J...>) {
       ((w[J] != 0 ? void(sum = fused(T(w[J]), k_[J][c], sum)) : void()), ...);
-    }(std::make_index_sequence<dop853::stages>{});
+    }
+    (std::make_index_sequence<dop853::stages>{});
     return sum;
   }
 

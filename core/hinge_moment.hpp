@@ -14,7 +14,8 @@
 ///     friction, exact:        −τ_c sign φ̇ while the hinge slides; what holds it, up to τ_s, while
 ///                             it sticks
 ///
-/// All but the regularized friction is linear in φ and φ̇ from event to event, and kept in that form.
+/// All but the regularized friction is linear in φ and φ̇ from event to event, and kept in that
+/// form.
 #pragma once
 
 #include "core/wing.hpp"

@@ -1,9 +1,10 @@
 /// `auto`: which method integrates, chosen anew while the run goes on.
 ///
-/// A phase begins with an explicit method, which resolves the shock of a latch best: of order 5, or,
-/// below a tolerance measured to be the break-even, of order 8. Once what is fast has died out and its
-/// steps are held back by stability and no longer by accuracy, the linearly implicit extrapolation is
-/// tried; it keeps the work where it gets further for its cost, and gives it back where it does not.
+/// A phase begins with an explicit method, which resolves the shock of a latch best: of order 5,
+/// or, below a tolerance measured to be the break-even, of order 8. Once what is fast has died out
+/// and its steps are held back by stability and no longer by accuracy, the linearly implicit
+/// extrapolation is tried; it keeps the work where it gets further for its cost, and gives it back
+/// where it does not.
 ///
 /// Whether stability holds a step back is seen from h·ρ, ρ the spectral radius of the linear model
 /// [0 E2; −M⁻¹K −M⁻¹D] of springs, latches and friction at the present configuration.
@@ -34,8 +35,8 @@ public:
 private:
   static constexpr int passes = 8;
 
-  /// Geometric mean of the growth over some passes, in the norm max(|v|, weight·|q|): with q one pass
-  /// behind v and weight ≈ |λ|, a complex pair does not make it oscillate.
+  /// Geometric mean of the growth over some passes, in the norm max(|v|, weight·|q|): with q one
+  /// pass behind v and weight ≈ |λ|, a complex pair does not make it oscillate.
   template <class AnySystem> double growth(AnySystem& system, const State<T>& x, double weight) {
     double logarithm = 0, before = norm(weight);
     for (int pass = 0; pass < passes; ++pass) {
@@ -43,7 +44,8 @@ private:
       const double after = norm(weight);
       if (!(after > 1e-200) || !(before > 1e-200)) return 0;
       logarithm += std::log(after / before);
-      for (std::size_t k = 0; k < v_.size(); ++k) q_[k] = q_[k] / T(after), v_[k] = v_[k] / T(after);
+      for (std::size_t k = 0; k < v_.size(); ++k)
+        q_[k] = q_[k] / T(after), v_[k] = v_[k] / T(after);
       before = 1;
     }
     return std::exp(logarithm / passes);
@@ -119,14 +121,16 @@ private:
   static constexpr double break_even = 5e-4; // rtol; see the work-precision study
   static constexpr int enough = 10;          // steps in a row held back by stability
   static constexpr int trial = 5;            // steps that the implicit method has to get going
-  static constexpr int first_patience = 64;  // steps before it is tried again, doubled each time up to
+  static constexpr int first_patience =
+      64; // steps before it is tried again, doubled each time up to
   static constexpr int longest_patience = 512;
-  /// Cost of an evaluation with the solves that go with it, in those of an explicit method (measured).
+  /// Cost of an evaluation with the solves that go with it, in those of an explicit method
+  /// (measured).
   static constexpr double implicit_cost = 1.5;
 
   [[nodiscard]] double stable_step() const {
     const double limit = explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
-                                                         : DormandPrince5<double>::stable_real;
+                                                     : DormandPrince5<double>::stable_real;
     return radius_ > 0 ? limit / radius_ : 1e300;
   }
 

@@ -80,7 +80,8 @@ private:
     const auto all = std::tie(args...);
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       apply(std::get<sizeof...(I)>(all), std::get<I>(all)...);
-    }(std::make_index_sequence<sizeof...(Args) - 1>{});
+    }
+    (std::make_index_sequence<sizeof...(Args) - 1>{});
   }
 };
 
@@ -117,8 +118,8 @@ template <class T> struct DormandPrince5 {
   boost::numeric::odeint::runge_kutta_dopri5<State<T>, T, State<T>, T, StateAlgebra> stepper;
 };
 
-/// Formulas whose last stage is not at the step's end: one evaluation more gives the derivative there,
-/// which is also the next step's first.
+/// Formulas whose last stage is not at the step's end: one evaluation more gives the derivative
+/// there, which is also the next step's first.
 template <class T, class Stepper> struct WithoutLastStage {
   template <class System>
   void estimate(System& system, const Start<T>& from, const T& h, State<T>& x1, State<T>& dxdt1,
@@ -137,9 +138,9 @@ struct CashKarp54
   static constexpr double stable_real = 3.678, stable_imaginary = 0;
 };
 
-/// Its estimate, (41/840)·h·(k1 + k11 − k12 − k13), has stages at the step's ends alone: it is blind to
-/// pure quadratures, such as the state of a smoothed latch. For those components a Boole rule on the
-/// dense output stands in.
+/// Its estimate, (41/840)·h·(k1 + k11 − k12 − k13), has stages at the step's ends alone: it is
+/// blind to pure quadratures, such as the state of a smoothed latch. For those components a Boole
+/// rule on the dense output stands in.
 template <class T>
 struct Fehlberg78
     : WithoutLastStage<T, boost::numeric::odeint::runge_kutta_fehlberg78<State<T>, T, State<T>, T,
@@ -165,8 +166,7 @@ public:
                                 State<T>& dxdt1) {
     error_.resize(from.x.size());
     formula_.estimate(system, from, h, x1, dxdt1, error_);
-    const double error =
-        scaled_error(from.x, x1, dxdt1, error_, tolerance_.rtol, tolerance_.atol);
+    const double error = scaled_error(from.x, x1, dxdt1, error_, tolerance_.rtol, tolerance_.atol);
     return {error, control_.factor(error)};
   }
 
@@ -180,9 +180,9 @@ private:
   State<T> error_;
 };
 
-/// The classical Runge-Kutta formula with a fixed step. Two steps are taken as one and compared with
-/// one of twice the size [Hairer, Nørsett & Wanner I, II.4], so that a step that misses the tolerance
-/// is known; it cannot be mended, and fails the run.
+/// The classical Runge-Kutta formula with a fixed step. Two steps are taken as one and compared
+/// with one of twice the size [Hairer, Nørsett & Wanner I, II.4], so that a step that misses the
+/// tolerance is known; it cannot be mended, and fails the run.
 template <class T> class RungeKutta4 {
 public:
   static constexpr int order = 4;
@@ -246,14 +246,13 @@ private:
   [[nodiscard]] static bool all_finite(const State<T>& x) {
     return is_finite(StateAlgebra::norm_inf(x));
   }
-  std::optional<
-      boost::numeric::odeint::bulirsch_stoer<State<T>, T, State<T>, T, StateAlgebra>>
+  std::optional<boost::numeric::odeint::bulirsch_stoer<State<T>, T, State<T>, T, StateAlgebra>>
       stepper_;
 };
 
-/// Adams-Bashforth-Moulton of variable order (1 to 8) and step, predict-evaluate-correct-evaluate, on
-/// odeint's divided differences. Order and step follow Shampine and Gordon: one order up or down when
-/// the estimate there promises less error.
+/// Adams-Bashforth-Moulton of variable order (1 to 8) and step, predict-evaluate-correct-evaluate,
+/// on odeint's divided differences. Order and step follow Shampine and Gordon: one order up or down
+/// when the estimate there promises less error.
 template <class T> class AdamsBashforthMoulton {
 public:
   static constexpr int order = 1; ///< of the first step after a restart
@@ -274,8 +273,7 @@ public:
     stepper_.do_step_impl(std::ref(system), from.x, from.t, x1, h_, error_);
     system(x1, dxdt1, from.t + h);
     x_ = x1, dxdt_ = dxdt1;
-    const double error =
-        scaled_error(from.x, x1, dxdt1, error_, tolerance_.rtol, tolerance_.atol);
+    const double error = scaled_error(from.x, x1, dxdt1, error_, tolerance_.rtol, tolerance_.atol);
     if (!std::isfinite(error)) return {error, 0.1};
     const double wanted =
         0.9 * std::pow(std::max(error, 1e-10), -1.0 / (static_cast<double>(current()) + 1));
@@ -301,8 +299,7 @@ private:
   [[nodiscard]] double estimate(std::size_t k) {
     auto& history = stepper_.coeff();
     const T weight = h_ * history.gs[k];
-    for (std::size_t c = 0; c < error_.size(); ++c)
-      error_[c] = weight * history.phi[1][k].m_v[c];
+    for (std::size_t c = 0; c < error_.size(); ++c) error_[c] = weight * history.phi[1][k].m_v[c];
     return scaled_error(x_, x_, dxdt_, error_, tolerance_.rtol, tolerance_.atol);
   }
 

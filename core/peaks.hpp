@@ -101,8 +101,7 @@ public:
   [[nodiscard]] T operator()(const T& s) const {
     T m = value(linear_, s);
     if (hinge_.coulomb > T(0)) m = m + coulomb_moment(hinge_, value(rate_, s));
-    if (smoothed_)
-      m = m - smooth_step(step_.cubic(latch_state_, s) / epsilon_) * value(latch_, s);
+    if (smoothed_) m = m - smooth_step(step_.cubic(latch_state_, s) / epsilon_) * value(latch_, s);
     return m;
   }
 
@@ -133,10 +132,11 @@ void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& m
   refine(peak, step.t, step.h, where, T(1) / T(samples), moment);
 }
 
-/// dM/dt of hinge i, which slides or has no exact friction, at a state and its derivative; without a
-/// smoothed latch, N·m/s.
+/// dM/dt of hinge i, which slides or has no exact friction, at a state and its derivative; without
+/// a smoothed latch, N·m/s.
 template <class T, class AnySystem>
-[[nodiscard]] T moment_rate(const AnySystem& system, const State<T>& x, const State<T>& dxdt, int i) {
+[[nodiscard]] T moment_rate(const AnySystem& system, const State<T>& x, const State<T>& dxdt,
+                            int i) {
   const Layout& at = system.layout();
   const LinearLaw<T>& law = system.work().laws[i];
   const T& rate = x[at.rate(i)];
@@ -146,9 +146,9 @@ template <class T, class AnySystem>
   return -fused(law.stiffness, rate, damping * dxdt[at.rate(i)]);
 }
 
-/// Raises `peak` to the largest |moment| of hinge i over the step. What the dense output finds inside
-/// is made sure of by steps of the method that end there, the instant corrected by Newton's method: the
-/// peak has the method's accuracy, not the interpolant's.
+/// Raises `peak` to the largest |moment| of hinge i over the step. What the dense output finds
+/// inside is made sure of by steps of the method that end there, the instant corrected by Newton's
+/// method: the peak has the method's accuracy, not the interpolant's.
 /// @param probe probe(s) steps there and returns the state and its derivative
 template <class T, class AnySystem, class Probe>
 void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,

@@ -18,8 +18,7 @@ template <class T, class Topology, BaseMotion M>
   const Layout& at = system.layout();
   Sample sample;
   sample.t = static_cast<double>(t);
-  sample.angles.resize(at.bodies), sample.rates.resize(at.bodies),
-      sample.moments.resize(at.bodies);
+  sample.angles.resize(at.bodies), sample.rates.resize(at.bodies), sample.moments.resize(at.bodies);
   for (int i = 1; i <= at.bodies; ++i) {
     const int hinge = system.wing().hinge_of[i];
     sample.angles[hinge] = static_cast<double>(x[at.angle(i)]);

@@ -1,19 +1,18 @@
 /// A Rosenbrock-W method for stiff latches, whose linear solve is the recursion itself.
 ///
-/// With u = (q, v), q̇ = v, v̇ = a(t, q, v), and the latches' (and springs', friction's) stiffness and
-/// damping alone as Jacobian,
+/// With u = (q, v), q̇ = v, v̇ = a(t, q, v), and the latches' (and springs', friction's) stiffness
+/// and damping alone as Jacobian,
 ///
-///     J = [ 0  E2 ; −M⁻¹K  −M⁻¹D ],    K, D diagonal over the hinges, M at the step's start         (1)
+///     J = [ 0  E2 ; −M⁻¹K  −M⁻¹D ],    K, D diagonal over the hinges, M at the step's start (1)
 ///
-/// a W-method keeps its order whatever J is; J decides its stability. In the usual variables without
-/// products by J [Hairer & Wanner II, IV.7], each stage i solves
+/// a W-method keeps its order whatever J is; J decides its stability. In the usual variables
+/// without products by J [Hairer & Wanner II, IV.7], each stage i solves
 ///
-///     (1 − hγJ) U_i = R,    R = hγ f(t + α_i h, u + Σ_j a_ij U_j) + γ Σ_j c_ij U_j                (2)
+///     (1 − hγJ) U_i = R,    R = hγ f(t + α_i h, u + Σ_j a_ij U_j) + γ Σ_j c_ij U_j (2)
 ///
 /// and eliminating the half of q,
 ///
-///     U_v = R_v − (M + E)⁻¹ (E R_v + hγ K R_q),    E = hγ D + h²γ² K                             (3)
-///     U_q = R_q + hγ U_v                                                                         (4)
+///     U_v = R_v − (M + E)⁻¹ (E R_v + hγ K R_q),    E = hγ D + h²γ² K (3) U_q = R_q + hγ U_v (4)
 ///
 /// (M + E)⁻¹ is augmented.hpp's: each hinge carries the inertia E. O(n), no matrix.
 ///
@@ -82,8 +81,7 @@ inline constexpr RosenbrockTableau ros34pw2(
       {-9.0338057013044082e-1, 5.4180672388095326e-2, ros34pw2_gamma, 0},
       {2.4212380706095346e-1, -1.2232505839045147, 5.4526025533510214e-1, ros34pw2_gamma}}},
     {2.4212380706095346e-1, -1.2232505839045147, 1.5452602553351020, ros34pw2_gamma},
-    {3.7810903145819369e-1, -9.6042292212423178e-2, 5.0000000000000000e-1,
-     2.1793326075422950e-1});
+    {3.7810903145819369e-1, -9.6042292212423178e-2, 5.0000000000000000e-1, 2.1793326075422950e-1});
 
 /// (1 − ηJ)⁻¹ by (3) and (4), with η = hγ.
 template <class T> class LinearlyImplicit {

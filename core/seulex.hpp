@@ -2,12 +2,12 @@
 ///
 /// A step H is taken in n substeps of h = H/n,
 ///
-///     x_{k+1} = x_k + (1 − hJ)⁻¹ h f(x_k)                                                       (1)
+///     x_{k+1} = x_k + (1 − hJ)⁻¹ h f(x_k) (1)
 ///
 /// with one J for all of it, that of rosenbrock.hpp. For any fixed J the error has an expansion in
 /// powers of h [P. Deuflhard, SIAM Review 27 (1985) 505-535], so that the results of n = 2, 3, 4, …
-/// extrapolate to h = 0 by Aitken and Neville: column k is of order k. Order and step follow the work
-/// per unit of time [Hairer & Wanner II, IV.9: the code SEULEX, of which this is the W form].
+/// extrapolate to h = 0 by Aitken and Neville: column k is of order k. Order and step follow the
+/// work per unit of time [Hairer & Wanner II, IV.9: the code SEULEX, of which this is the W form].
 #pragma once
 
 #include "core/rosenbrock.hpp"
@@ -61,7 +61,7 @@ public:
   }
 
 private:
-  static constexpr int most = 12; ///< rows
+  static constexpr int most = 12;                                       ///< rows
   [[nodiscard]] static constexpr int count(int row) { return row + 2; } ///< n of a row
 
   /// Work of the rows up to j, in evaluations: n − 1 evaluations, n solves, one factorization each.
@@ -130,8 +130,10 @@ private:
       verdict.factor *= work(j + 1) / work(j);
     }
     next_target_ = std::clamp(next_target_, 3, most - 1);
-    if (!verdict.accepted()) verdict.factor = std::min(verdict.factor, 0.7);
-    else if (after_rejection_) verdict.factor = std::min(verdict.factor, 1.0);
+    if (!verdict.accepted())
+      verdict.factor = std::min(verdict.factor, 0.7);
+    else if (after_rejection_)
+      verdict.factor = std::min(verdict.factor, 1.0);
   }
 
   LinearlyImplicit<T> linear_;

@@ -1,16 +1,15 @@
 /// Proof that no hinge can reach its latch any more.
 ///
-/// For hinge i to reach its latch, the kinetic energy T and what all springs can still give must pay
-/// for the friction on its way:
+/// For hinge i to reach its latch, the kinetic energy T and what all springs can still give must
+/// pay for the friction on its way:
 ///
-///     T + g_i + Σ_{j≠i} G_j ≥ 0                                                                  (1)
-///     g_i = P_i(φ_i) − P_i(latched) − τ_i |φ_latched − φ_i|                                      (2)
-///     G_j = max over φ of  P_j(φ_j) − P_j(φ) − τ_j |φ − φ_j|   ≥ 0                               (3)
+///     T + g_i + Σ_{j≠i} G_j ≥ 0 (1) g_i = P_i(φ_i) − P_i(latched) − τ_i |φ_latched − φ_i| (2) G_j
+///     = max over φ of  P_j(φ_j) − P_j(φ) − τ_j |φ − φ_j|   ≥ 0                               (3)
 ///
-/// P: potential of spring, harness and engaged latch, beyond the latched angle with the latch, which
-/// can only take energy; τ: the kinetic level of exact friction, 0 for a regularized one, which may
-/// creep for nothing. On a free base T is taken about the common centre of mass. Where (1) fails for
-/// every unlatched hinge, none will ever latch.
+/// P: potential of spring, harness and engaged latch, beyond the latched angle with the latch,
+/// which can only take energy; τ: the kinetic level of exact friction, 0 for a regularized one,
+/// which may creep for nothing. On a free base T is taken about the common centre of mass. Where
+/// (1) fails for every unlatched hinge, none will ever latch.
 #pragma once
 
 #include "core/energy.hpp"
@@ -55,8 +54,8 @@ template <class T>
 } // namespace detail
 
 /// Energy that every unlatched hinge would lack to reach its latch, J: the least of them, > 0. None
-/// where there is no proof: one may reach it, no hinge waits, the base is driven, or a smoothed latch
-/// may bring energy in. Cost O(n).
+/// where there is no proof: one may reach it, no hinge waits, the base is driven, or a smoothed
+/// latch may bring energy in. Cost O(n).
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] std::optional<T> energy_missing(System<T, Topology, M>& system, const State<T>& x,
                                               const T& t) {
@@ -68,8 +67,8 @@ template <class T, class Topology, BaseMotion M>
   T budget = M == BaseMotion::free ? now.central_kinetic() : now.kinetic;
   T scale = now.kinetic;
   for (int i = 1; i <= at.bodies; ++i) {
-    const T given = detail::most_given(system.wing().hinges[i], system.work().engaged[i],
-                                       x[at.angle(i)]);
+    const T given =
+        detail::most_given(system.wing().hinges[i], system.work().engaged[i], x[at.angle(i)]);
     budget = budget + given;
     scale = scale + abs(given);
   }
@@ -88,8 +87,9 @@ template <class T, class Topology, BaseMotion M>
   return least;
 }
 
-/// Whether a wing that does not move in itself is loaded the same for ever: on a fixed or free base,
-/// and on one that is driven without rotation, or rotates about a point at rest at a constant rate.
+/// Whether a wing that does not move in itself is loaded the same for ever: on a fixed or free
+/// base, and on one that is driven without rotation, or rotates about a point at rest at a constant
+/// rate.
 template <class T> [[nodiscard]] bool loads_are_constant(const Wing<T>& wing) {
   if (wing.base.motion != BaseMotion::prescribed) return true;
   const BaseTerms<T>& base = wing.base;

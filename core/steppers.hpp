@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/deployment.hpp"
-#include "core/peaks.hpp"
 #include "core/dop853.hpp"
+#include "core/peaks.hpp"
 #include "core/seulex.hpp"
 
 #include <array>
@@ -22,9 +22,15 @@ enum class Method {
   rosenbrock_w,
   seulex
 };
-inline constexpr std::array<std::string_view, 9> method_names{
-    "runge_kutta4",   "cash_karp54",             "dopri5",       "fehlberg78", "dop853",
-    "bulirsch_stoer", "adams_bashforth_moulton", "rosenbrock_w", "seulex"};
+inline constexpr std::array<std::string_view, 9> method_names{"runge_kutta4",
+                                                              "cash_karp54",
+                                                              "dopri5",
+                                                              "fehlberg78",
+                                                              "dop853",
+                                                              "bulirsch_stoer",
+                                                              "adams_bashforth_moulton",
+                                                              "rosenbrock_w",
+                                                              "seulex"};
 
 [[nodiscard]] inline std::string name_of(Method method) {
   return std::string(method_names[static_cast<std::size_t>(method)]);
@@ -72,14 +78,15 @@ private:
 
 /// Steps of these grow so long that the quintic through a step's ends may miss what happens inside.
 [[nodiscard]] constexpr bool takes_long_steps(Method method) {
-  return method == Method::fehlberg78 || method == Method::dop853 || method == Method::bulirsch_stoer ||
-         method == Method::adams_bashforth_moulton || method == Method::seulex;
+  return method == Method::fehlberg78 || method == Method::dop853 ||
+         method == Method::bulirsch_stoer || method == Method::adams_bashforth_moulton ||
+         method == Method::seulex;
 }
 
-/// The error of the quintic over a step against its tolerance, in hundredths of what the coordinates
-/// move: near 1 a step spans a quarter of a period. Estimated by the difference to the cubic at the
-/// middle, h/32 (φ̇0 − φ̇1) + h²/64 (φ̈0 + φ̈1). @return > 1 if the step is too long; the difference
-/// grows with h³
+/// The error of the quintic over a step against its tolerance, in hundredths of what the
+/// coordinates move: near 1 a step spans a quarter of a period. Estimated by the difference to the
+/// cubic at the middle, h/32 (φ̇0 − φ̇1) + h²/64 (φ̈0 + φ̈1). @return > 1 if the step is too long; the
+/// difference grows with h³
 template <class T>
 [[nodiscard]] double roughness(const Layout& at, const T& h, const State<T>& dxdt,
                                const State<T>& dxdt1, double atol) {
@@ -106,9 +113,11 @@ template <class T, class AnySystem>
     const HingeTerms<T>& hinge = system.wing().hinges[i];
     if (!hinge.has_latch) continue;
     const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
-    const auto f = [&](double s) { return engagement_rate(hinge, value(angle, T(s)), system.epsilon()); };
-    const T boole = step.h / T(90) *
-                    (T(7) * (f(0) + f(1)) + T(32) * (f(0.25) + f(0.75)) + T(12) * f(0.5));
+    const auto f = [&](double s) {
+      return engagement_rate(hinge, value(angle, T(s)), system.epsilon());
+    };
+    const T boole =
+        step.h / T(90) * (T(7) * (f(0) + f(1)) + T(32) * (f(0.25) + f(0.75)) + T(12) * f(0.5));
     const T S = step.x1[at.latch(i)], gained = S - step.x[at.latch(i)];
     worst = std::max(worst, static_cast<double>(T(abs(gained - boole))) /
                                 (tolerance.atol + tolerance.rtol * static_cast<double>(S)));

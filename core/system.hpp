@@ -31,9 +31,9 @@ enum class Contact : signed char { backward = -1, none = 0, forward = 1, stuck =
 
 /// What the augmented recursion works on.
 template <class T> struct Augmented {
-  std::vector<BodyFrame<T>> frames;        ///< 0 … n
-  std::vector<AugmentedFrame<T>> bodies;   ///< 0 … n
-  std::vector<HingeConstraint<T>> hinges;  ///< 0 … n
+  std::vector<BodyFrame<T>> frames;       ///< 0 … n
+  std::vector<AugmentedFrame<T>> bodies;  ///< 0 … n
+  std::vector<HingeConstraint<T>> hinges; ///< 0 … n
 
   void resize(int n) {
     frames.assign(n + 1, BodyFrame<T>{});
@@ -51,10 +51,10 @@ template <class T> struct Workspace {
   std::vector<T> nonlinear;       ///< 1 … n: moments of friction and smoothed latches, N·m
   std::vector<char> engaged;      ///< 1 … n: has passed its latched angle
   std::vector<Contact> contact;   ///< 1 … n: what its exact friction does
-  std::vector<T> holding;         ///< 1 … n: axis moment at the last evaluation with a hinge stuck
-  int stuck = 0;                  ///< how many stick
-  Augmented<T> held;   ///< of the evaluation while hinges stick
-  Augmented<T> linear; ///< of the linear solves
+  std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation with a hinge stuck
+  int stuck = 0;          ///< how many stick
+  Augmented<T> held;      ///< of the evaluation while hinges stick
+  Augmented<T> linear;    ///< of the linear solves
   long evaluations = 0;
 };
 
@@ -179,8 +179,8 @@ public:
     return r;
   }
 
-  /// Factorizes M + E at (x, t) for the added inertias of the hinges, E(i). Cost O(n), about half an
-  /// evaluation.
+  /// Factorizes M + E at (x, t) for the added inertias of the hinges, E(i). Cost O(n), about half
+  /// an evaluation.
   template <class AddedInertia>
   void factorize_at(const State<T>& x, const T& t, AddedInertia&& added) {
     Augmented<T>& parts = work_.linear;
@@ -194,9 +194,8 @@ public:
   /// @param qdd freedoms() numbers: those of a free base first
   template <class Moment> void solve(Moment&& tau, T* qdd) {
     Augmented<T>& parts = work_.linear;
-    topology_.inward([&](int i) {
-      load<false>(topology_, parts.frames, parts.bodies, i, T(tau(i)));
-    });
+    topology_.inward(
+        [&](int i) { load<false>(topology_, parts.frames, parts.bodies, i, T(tau(i))); });
     parts.bodies[0].acceleration = {T(0), T(0)};
     parts.bodies[0].angular_acceleration = T(0);
     if constexpr (Motion == BaseMotion::free) release<false>(parts, qdd);

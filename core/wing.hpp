@@ -54,8 +54,8 @@ template <class T> struct Wing {
   std::vector<BodyTerms<T>> bodies;  ///< 0 … n
   std::vector<HingeTerms<T>> hinges; ///< 0 … n; [0] unused
   std::vector<T> initial_rates;      ///< 0 … n; rad/s
-  bool has_coulomb = false;  ///< any hinge has regularized friction; else its pass is skipped
-  bool can_stick = false;    ///< any hinge has exact friction
+  bool has_coulomb = false; ///< any hinge has regularized friction; else its pass is skipped
+  bool can_stick = false;   ///< any hinge has exact friction
 
   [[nodiscard]] int size() const { return tree.bodies(); }
 };

@@ -28,26 +28,15 @@ void refuse_unavailable(JsonObject& campaign, DesignKind design) {
         .refuse("\"random\": the other designs are not available in this version");
 }
 
-/// A scene that this version can run; a problem for each hinge that asks for more.
-Scene read_available_scene(const JsonCursor& at) {
-  Scene scene = read_scene(at);
-  for (std::size_t i = 0; i < scene.hinges.size(); ++i)
-    if (scene.hinges[i].friction.model == FrictionModel::exact)
-      at.refuse("string \"exact\"",
-                "\"regularized\": the exact model is not available in this version",
-                fmt::format("/hinges/{}/friction/model", i));
-  return scene;
-}
-
 /// A scene that stands in the campaign, or in the file that is named there.
 Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& directory) {
-  if (!at.value().is_string()) return read_available_scene(at);
+  if (!at.value().is_string()) return read_scene(at);
   const std::filesystem::path path = directory / at.value().get<std::string>();
   const auto text = read_text(path);
   try {
     if (text) {
       const Json document = parse_json(*text, path.string());
-      return read_available_scene(JsonCursor(document, path.string(), at.problems()));
+      return read_scene(JsonCursor(document, path.string(), at.problems()));
     }
     at.refuse(fmt::format("no file that can be read at \"{}\"", path.string()), expected_scene);
   } catch (const SpecError& error) {
@@ -90,14 +79,6 @@ Campaign read_document(const Json& document, const std::filesystem::path& direct
   return campaign;
 }
 
-/// @throws SpecError with all that is wrong
-Scene read_scene_document(const Json& document, const std::string& file) {
-  std::vector<Problem> problems;
-  Scene scene = read_available_scene(JsonCursor(document, file, problems));
-  if (!problems.empty()) throw SpecError(std::move(problems));
-  return scene;
-}
-
 void apply_draw(Apply how, double draw, double& target) {
   switch (how) {
   case Apply::set:
@@ -124,7 +105,7 @@ Campaign read_campaign_file(const std::filesystem::path& path) {
 }
 
 Scene read_scene_file(const std::filesystem::path& path) {
-  return read_scene_document(parse_json_file(path), path.string());
+  return read_scene(parse_json_file(path), path.string());
 }
 
 std::variant<Scene, Campaign> read_file(const std::filesystem::path& path) {
@@ -133,7 +114,7 @@ std::variant<Scene, Campaign> read_file(const std::filesystem::path& path) {
   const auto has = [&](const char* key) { return document.contains(key); };
   if (std::ranges::any_of(campaign_keys, has))
     return read_document(document, path.parent_path(), path.string());
-  return read_scene_document(document, path.string());
+  return read_scene(document, path.string());
 }
 
 void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,

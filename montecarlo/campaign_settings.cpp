@@ -8,15 +8,26 @@ namespace wingspread {
 namespace {
 
 constexpr std::int64_t most_bins = 1'000'000;
+constexpr std::string_view fixed_step_method = "runge_kutta4";
 
 bool is_positive(const double& number) { return number > 0; }
 bool is_proper_share(const double& number) { return number > 0 && number < 1; }
 bool is_at_least_1(const std::int64_t& number) { return number >= 1; }
 
-void read_method(const JsonCursor& at, std::string& method) {
+/// @return false when it noted a problem
+bool read_method(const JsonCursor& at, std::string& method) {
   std::vector<std::string_view> names;
   for (const MethodInfo& info : methods()) names.push_back(info.name);
-  if (const auto index = at.choice(names)) method = names[*index];
+  const auto index = at.choice(names);
+  if (index) method = names[*index];
+  return index.has_value();
+}
+
+/// A step that the method would ignore.
+void refuse_step(const JsonCursor& at, std::string_view method) {
+  at.refuse(fmt::format("no step with the method \"{}\" (only used by a method with a fixed step: "
+                        "{})",
+                        method, fixed_step_method));
 }
 
 void read_latch_form(const JsonCursor& at, std::optional<double>& smoothing) {
@@ -50,6 +61,8 @@ void read_bins(const JsonCursor& at, Bins& bins) {
 
 } // namespace
 
+bool has_fixed_step(std::string_view method) { return method == fixed_step_method; }
+
 Outputs default_outputs() {
   return {OutputFamily::latch_time, OutputFamily::latch_rate, OutputFamily::peak_moment,
           OutputFamily::peak_force};
@@ -66,7 +79,13 @@ void read_sampling(const JsonCursor& at, Sampling& sampling) {
 
 void read_integration(const JsonCursor& at, Integration& integration) {
   JsonObject object(at, "an object with the integration");
-  if (const auto method = object.find("method")) read_method(*method, integration.method);
+  const auto method = object.find("method");
+  const bool known = !method || read_method(*method, integration.method);
+  const auto step = object.find("step");
+  if (step && known && !has_fixed_step(integration.method))
+    refuse_step(*step, integration.method);
+  else
+    object.optional("step", integration.step, "a number, s, > 0", is_positive);
   object.optional("rtol", integration.rtol, "a number, > 0 and < 1", is_proper_share);
   object.optional("atol", integration.atol, "a number, > 0", is_positive);
   if (const auto latch = object.find("latch")) read_latch_form(*latch, integration.smoothing);
@@ -106,9 +125,11 @@ Json write_sampling(const Sampling& sampling) {
 Json write_integration(const Integration& integration) {
   const Json latch =
       integration.smoothing ? Json{{"smoothed", *integration.smoothing}} : Json("event");
-  return {{"method", integration.method}, {"rtol", integration.rtol},
-          {"atol", integration.atol},     {"latch", latch},
-          {"t_end", integration.t_end},   {"max_steps", integration.max_steps}};
+  Json json{{"method", integration.method}, {"rtol", integration.rtol},
+            {"atol", integration.atol},     {"latch", latch},
+            {"t_end", integration.t_end},   {"max_steps", integration.max_steps}};
+  if (has_fixed_step(integration.method)) json["step"] = integration.step;
+  return json;
 }
 
 Json write_outputs(const Outputs& outputs) {

@@ -29,6 +29,9 @@ inline constexpr std::array<std::string_view, 5> output_family_names{
     "latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at"};
 using Outputs = std::set<OutputFamily>;
 
+/// Whether the method takes the step it is given: no other has a use for `Integration::step`.
+[[nodiscard]] bool has_fixed_step(std::string_view method);
+
 /// All but `rate_at`, whose number grows with the square of the hinges'.
 [[nodiscard]] Outputs default_outputs();
 

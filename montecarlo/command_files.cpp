@@ -3,7 +3,9 @@
 #include "montecarlo/commands.hpp"
 #include "montecarlo/describe.hpp"
 #include "montecarlo/files.hpp"
+#include "montecarlo/method_list.hpp"
 #include "montecarlo/run.hpp"
+#include "montecarlo/summary_json.hpp"
 #include "montecarlo/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -62,22 +64,8 @@ int sample(const SampleOptions& options) {
   return exit_code::done;
 }
 
-/// "3.31", or "–" where it does not apply.
-std::string limit(double value) { return value == 0 ? "–" : fmt::format("{:.4g}", value); }
-
-int list_methods() {
-  for (const MethodInfo& method : methods()) {
-    fmt::print("{}\n", method.name);
-    const auto line = [](const char* name, const std::string& value) {
-      if (!value.empty()) fmt::print("  {:<16}{}\n", name, value);
-    };
-    line("kind", method.kind);
-    line("order", method.order == 0 ? "–" : std::to_string(method.order));
-    line("stable |hλ|", fmt::format("{} on the real axis, {} on the imaginary",
-                                    limit(method.real_limit), limit(method.imaginary_limit)));
-    line("interpolation", method.interpolation);
-    line("note", method.note);
-  }
+int list_methods(bool json) {
+  fmt::print("{}", json ? json_text(methods_json(methods())) : methods_text(methods()));
   return exit_code::done;
 }
 
@@ -112,10 +100,12 @@ Example:
 }
 
 void add_methods(CLI::App& app, Action& action) {
+  const auto json = std::make_shared<bool>(false);
   CLI::App* command =
       app.add_subcommand("methods", "The integration methods, and what they can do");
+  command->add_flag("--json", *json, "Print them as JSON");
   command->footer("Example:\n  wingspread methods");
-  command->callback([&action] { action = list_methods; });
+  command->callback([json, &action] { action = [json] { return list_methods(*json); }; });
 }
 
 void add_version(CLI::App& app, Action& action) {

@@ -23,7 +23,7 @@ struct SimulateOptions {
   std::filesystem::path scene, out;
   bool json = false;
   std::optional<std::string> method, latch;
-  std::optional<double> rtol, atol, t_end;
+  std::optional<double> step, rtol, atol, t_end;
 };
 
 struct ReplayOptions {
@@ -65,6 +65,7 @@ std::string refuse_latch(const std::string& text) {
 void apply_options(const SimulateOptions& options, Integration& integration) {
   Json given = Json::object();
   if (options.method) given["method"] = *options.method;
+  if (options.step) given["step"] = *options.step;
   if (options.rtol) given["rtol"] = *options.rtol;
   if (options.atol) given["atol"] = *options.atol;
   if (options.t_end) given["t_end"] = *options.t_end;
@@ -151,6 +152,7 @@ void add_simulate(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->add_option("--out", options->out, "Write the trajectory to this CSV file");
   command->add_option("--method", options->method, "See wingspread methods");
+  command->add_option("--step", options->step, "The step of a method with a fixed one, s");
   command->add_option("--rtol", options->rtol, "Relative tolerance of a step");
   command->add_option("--atol", options->atol, "Absolute tolerance of a step, rad and rad/s");
   command->add_option("--t-end", options->t_end, "Where to stop, s");

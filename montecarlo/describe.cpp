@@ -43,7 +43,7 @@ std::string describe_friction(const Friction& friction) {
   const double static_level = friction.static_level.value_or(friction.coulomb);
   if (friction.coulomb == 0 && friction.viscous == 0 && static_level == 0) return "";
   const std::string model =
-      exact ? fmt::format("static {} N·m", static_level)
+      exact ? fmt::format("exact, static {} N·m", static_level)
             : fmt::format("regularized at {} rad/s", friction.regularization_rate);
   return fmt::format("; friction {} N·m, {} N·m·s/rad, {}", friction.coulomb, friction.viscous,
                      model);
@@ -108,8 +108,10 @@ std::string describe_sampling(const Sampling& sampling) {
 std::string describe_integration(const Integration& integration) {
   const std::string latch =
       integration.smoothing ? fmt::format("smoothed over {} rad", *integration.smoothing) : "event";
-  return fmt::format("method {}, rtol {}, atol {}, latch {}, up to {} s and {} steps",
-                     integration.method, integration.rtol, integration.atol, latch,
+  const std::string step =
+      has_fixed_step(integration.method) ? fmt::format(", step {} s", integration.step) : "";
+  return fmt::format("method {}{}, rtol {}, atol {}, latch {}, up to {} s and {} steps",
+                     integration.method, step, integration.rtol, integration.atol, latch,
                      integration.t_end, integration.max_steps);
 }
 

@@ -20,6 +20,16 @@ Json by_hinge(const Scene& scene, const std::vector<double>& values) {
   return json;
 }
 
+Json phases_json(const std::vector<Phase>& phases) {
+  Json json = Json::array();
+  for (const Phase& phase : phases)
+    json.push_back({{"method", phase.method},
+                    {"from", number(phase.from)},
+                    {"to", number(phase.to)},
+                    {"steps", phase.steps}});
+  return json;
+}
+
 Json latches_json(const Scene& scene, const Outcome& outcome) {
   Json json = Json::array();
   for (const LatchEvent& latch : outcome.latches)
@@ -63,6 +73,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
   return {{"status", to_string(outcome.status)},
           {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
           {"method", if_ran(methods_used(outcome))},
+          {"phases", if_ran(phases_json(outcome.phases))},
           {"t_end", if_ran(number(outcome.t_end))},
           {"latches", latches_json(scene, outcome)},
           {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},

@@ -1,7 +1,8 @@
 /// One run in full, for `simulate --json` and `replay --json`.
 ///
 /// Strict JSON: what did not happen is null, as is what was not asked for. Latches stand in order
-/// of time. Beside the keys of the contract: `method` and `reason`.
+/// of time. Beside the keys of the contract: `reason`, `method` (those of the phases) and
+/// `phases`.
 #pragma once
 
 #include "core/deployment.hpp"

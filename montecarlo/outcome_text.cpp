@@ -1,11 +1,28 @@
 #include "montecarlo/outcome_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 
 namespace wingspread {
 namespace {
+
+constexpr std::size_t most_phases = 4;
+
+/// "to 60 s by dopri5"; of several phases "to 60 s: dopri5 to 4.82 s, rosenbrock_w to 60 s".
+std::string extent(const Outcome& outcome) {
+  const std::string end = fmt::format("to {:.6g} s", outcome.t_end);
+  if (outcome.phases.size() <= 1) return fmt::format("{} by {}", end, methods_used(outcome));
+  std::vector<std::string> parts;
+  for (const Phase& phase :
+       std::span(outcome.phases).first(std::min(outcome.phases.size(), most_phases)))
+    parts.push_back(fmt::format("{} to {:.4g} s", phase.method, phase.to));
+  const std::size_t left = outcome.phases.size() - parts.size();
+  return fmt::format("{}: {}", end, fmt::join(parts, ", ")) +
+         (left == 0 ? "" : fmt::format(" and {} more {}", left, left == 1 ? "phase" : "phases"));
+}
 
 std::string ending(const Scene& scene, const Outcome& outcome) {
   std::string status = to_string(outcome.status);
@@ -13,7 +30,7 @@ std::string ending(const Scene& scene, const Outcome& outcome) {
   std::string text = fmt::format("{}: {}", scene.name, status);
   if (!outcome.reason.empty()) text += fmt::format(" ({})", outcome.reason);
   if (outcome.status == Status::invalid) return text + '\n';
-  return text + fmt::format(", integrated to {:.6g} s by {}\n", outcome.t_end, methods_used(outcome));
+  return text + fmt::format(", integrated {}\n", extent(outcome));
 }
 
 std::string latches(const Scene& scene, const Outcome& outcome) {

@@ -54,20 +54,23 @@ void read_torque(const JsonCursor& at, LinearTorque& torque) {
   object.refuse_others();
 }
 
+/// What the other model of friction has is refused, and never ignored.
+void refuse_static(JsonObject& friction) {
+  if (const auto at = friction.find("static"))
+    at->refuse("no static level with the regularized model (\"model\": \"exact\" has one)");
+}
+
 void read_friction(const JsonCursor& at, Friction& friction) {
   JsonObject object(at, "an object with the friction's parameters");
   object.optional("coulomb", friction.coulomb, "a number, N·m, ≥ 0");
   object.optional("viscous", friction.viscous, "a number, N·m·s/rad, ≥ 0");
-  object.optional_choice("model", friction.model, friction_model_names);
-  // Known to either model, so that switching between them takes one word.
+  const bool known = object.optional_choice("model", friction.model, friction_model_names);
   object.optional("regularization_rate", friction.regularization_rate, "a number, rad/s, > 0");
-  if (const auto level = object.find("static")) {
-    const bool exact = friction.model == FrictionModel::exact;
-    double value = 0;
-    if (level->read(value, "a number, N·m, ≥ coulomb")) friction.static_level = value;
-    if (!exact)
-      level->refuse("no static level with the regularized model (\"model\": \"exact\" has one)");
-  }
+  double static_level = 0;
+  if (const auto level = object.find("static");
+      level && level->read(static_level, "a number, N·m, ≥ coulomb"))
+    friction.static_level = static_level;
+  if (known && friction.model == FrictionModel::regularized) refuse_static(object);
   object.refuse_others();
 }
 
@@ -157,8 +160,9 @@ Json write_torque(const LinearTorque& torque) {
 Json write_friction(const Friction& friction) {
   Json json{{"model", friction_model_names[static_cast<std::size_t>(friction.model)]},
             {"coulomb", friction.coulomb},
-            {"viscous", friction.viscous},
-            {"regularization_rate", friction.regularization_rate}};
+            {"viscous", friction.viscous}};
+  if (friction.model == FrictionModel::regularized)
+    json["regularization_rate"] = friction.regularization_rate;
   if (friction.static_level) json["static"] = *friction.static_level;
   return json;
 }

@@ -1,5 +1,7 @@
 #include "montecarlo/summary.hpp"
 
+#include "montecarlo/reason_pattern.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -38,11 +40,22 @@ StatusShare status_share(const Results& results, Status status, double confidenc
 }
 
 std::vector<ReasonCount> count_reasons(const Results& results) {
-  std::map<std::pair<Status, std::string>, long> counts;
-  for (std::size_t row = 0; row < results.size(); ++row)
-    if (!results.reason[row].empty()) ++counts[{results.status[row], results.reason[row]}];
+  struct Group {
+    ReasonPattern pattern;
+    long count = 0;
+  };
+  std::map<std::pair<Status, std::vector<std::string>>, Group> groups; // by status and words
+  for (std::size_t row = 0; row < results.size(); ++row) {
+    if (results.reason[row].empty()) continue;
+    const ReasonPattern pattern = pattern_of(results.reason[row]);
+    Group& group =
+        groups.try_emplace({results.status[row], pattern.words}, Group{pattern, 0}).first->second;
+    widen(group.pattern, pattern);
+    ++group.count;
+  }
   std::vector<ReasonCount> reasons;
-  for (const auto& [key, count] : counts) reasons.push_back({key.first, key.second, count});
+  for (const auto& [key, group] : groups)
+    reasons.push_back({key.first, to_string(group.pattern), group.count});
   std::ranges::stable_sort(reasons, [](const ReasonCount& a, const ReasonCount& b) {
     return a.status != b.status ? a.status < b.status : a.count > b.count;
   });

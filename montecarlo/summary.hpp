@@ -30,7 +30,7 @@ struct StatusShare {
   Bounds bounds;
 };
 
-/// How many runs of one status gave this reason.
+/// How many runs of one status gave this reason; "…" for the numbers in which theirs differ.
 struct ReasonCount {
   Status status;
   std::string reason;

@@ -1,3 +1,4 @@
+#include "montecarlo/method_list.hpp"
 #include "montecarlo/version.hpp"
 #include "tests/cli/program.hpp"
 
@@ -70,6 +71,8 @@ TEST_CASE("the version and the methods") {
   const auto [code, out, error] = run_program(folder, {"methods"});
   CHECK(code == 0);
   CHECK(error.empty());
-  for (const MethodInfo& method : methods())
-    CHECK(out.find(method.name + "\n  kind            " + method.kind) != std::string::npos);
+  CHECK(out == methods_text(methods()));
+  const auto json = run_program(folder, {"methods", "--json"});
+  CHECK(json.code == 0);
+  CHECK(parse_json(json.out) == methods_json(methods()));
 }

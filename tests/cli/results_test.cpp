@@ -58,6 +58,28 @@ TEST_CASE("analyze leaves an untouched folder as it is, and takes other settings
   CHECK(parse_json_file(done.path / histograms_json_file)["root.latch_time"]["counts"].size() == 4);
 }
 
+TEST_CASE("analyze counts what stalled with its reason, and takes it for no failure") {
+  const Done done(quick_campaign(6));
+  const StoredCampaign stored = read_stored_campaign(done.path);
+  const Results results = read_stored_results(stored).results;
+  std::string csv;
+  append_header(csv, RunPlan(stored.campaign).names());
+  for (std::size_t k = 0; k < 6; ++k) {
+    ResultRow row = results.row(k);
+    if (k % 2 == 0) row.status = Status::stalled, row.reason = "friction holds tip";
+    append_row(csv, row);
+  }
+  std::ofstream(done.path / runs_file, std::ios::binary) << csv;
+  const auto [code, out, error] = done.program({"analyze", done.path, "--table"});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(out.find("\n  stalled" + std::string(50, ' ') + "3 ") != out.npos);
+  CHECK(out.find("\n  stalled          3  friction holds tip\n") != out.npos);
+  const Json summary = parse_json_file(done.path / summary_file);
+  CHECK(summary["status"]["stalled"]["count"] == 3);
+  CHECK(summary["reasons"][0]["reason"] == "friction holds tip");
+}
+
 TEST_CASE("analyze refuses settings by their options") {
   const Done done(quick_campaign(5));
   const auto before = contents(done.path);

@@ -113,6 +113,7 @@ TEST_CASE("a folder in use is refused, and one that cannot be made") {
 TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
   Json json = full_campaign(30);
   json["integration"]["max_steps"] = 600;
+  json["integration"]["method"] = "dopri5"; // others need fewer
   const Setting setting(json);
   const auto [code, out, error] = setting.run(setting.out);
   CHECK(code == 3);
@@ -124,6 +125,23 @@ TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
   CHECK(error == "error: " + summary["status"]["failed"]["count"].dump() +
                      " of 30 runs failed numerically; " + setting.out +
                      "/summary.json has their reasons\n");
+}
+
+TEST_CASE("runs that stall are counted with their reasons, and are no failures") {
+  Json json = quick_campaign(12);
+  for (Json& hinge : json["scene"]["hinges"])
+    hinge["friction"] = {{"model", "exact"}, {"coulomb", 2.5}, {"static", 3}};
+  const Setting setting(json);
+  const auto [code, out, error] = setting.run(setting.out);
+  CHECK(code == 0);
+  CHECK(error.empty());
+  const Results results = read_stored_results(read_stored_campaign(setting.out)).results;
+  CHECK(std::ranges::count(results.status, Status::stalled) == 12);
+  CHECK(std::ranges::count(results.reason, "") == 0);
+  const Json summary = parse_json_file(setting.folder.path() / "r" / summary_file);
+  CHECK(summary["status"]["stalled"]["count"] == 12);
+  CHECK(summary["status"]["failed"]["count"] == 0);
+  CHECK(summary["outputs"]["deployment_time"]["missing"] == 12);
 }
 
 TEST_CASE("an interrupted run keeps what is done, and resuming completes it", "[parallel]") {

@@ -25,10 +25,11 @@ TEST_CASE("simulate prints strict JSON and writes the trajectory") {
 TEST_CASE("simulate in words") {
   const Folder folder;
   const auto [code, out, error] =
-      run_program(folder, {"simulate", three_panel_file(), "--t-end", "7", "--latch", "event"});
+      run_program(folder, {"simulate", three_panel_file(), "--t-end", "7", "--latch", "event",
+                           "--method", "dopri5"});
   CHECK(code == 0);
   CHECK(error.empty());
-  CHECK(out.starts_with("three_panel: deployed, integrated to 7 s by "));
+  CHECK(out.starts_with("three_panel: deployed, integrated to 7 s by dopri5\n"));
 }
 
 TEST_CASE("simulate takes a campaign's nominal scene and settings") {
@@ -43,6 +44,59 @@ TEST_CASE("simulate takes a campaign's nominal scene and settings") {
   const Json smooth =
       parse_json(run_program(folder, {"simulate", file, "--json", "--latch", "smoothed:0.01"}).out);
   CHECK(smooth["peak_moment"]["tip"]["value"] != json["peak_moment"]["tip"]["value"]);
+}
+
+TEST_CASE("simulate takes the step of a method with a fixed one, and of no other") {
+  const Folder folder;
+  const auto simulate = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"simulate", three_panel_file(), "--json", "--t-end", "1"});
+    return run_program(folder, options);
+  };
+  const auto refused = simulate({"--step", "0.001"});
+  CHECK(refused.code == 2);
+  CHECK(refused.error == "error: --step: found 0.001, expected no step with the method \"auto\" "
+                         "(only used by a method with a fixed step: runge_kutta4)\n");
+  const auto steps = [&](const char* step) {
+    const auto [code, out, error] = simulate({"--method", "runge_kutta4", "--step", step});
+    REQUIRE(code == 0);
+    const Json json = parse_json(out);
+    CHECK(json["method"] == "runge_kutta4");
+    return json["work"]["steps"].get<long>();
+  };
+  const long coarse = steps("0.002");
+  CHECK(coarse > 200);
+  CHECK(std::abs(steps("0.001") - 2 * coarse) <= 2); // the last may be what rounding leaves
+}
+
+TEST_CASE("a wing that friction holds stalls, which is a result and no error") {
+  const Folder folder;
+  Json scene = parse_json_file(three_panel_file());
+  // Springs of 0.75 to 2 N·m against at least 3.
+  for (Json& hinge : scene["hinges"])
+    hinge["friction"] = {{"model", "exact"}, {"coulomb", 2.5}, {"static", 3}};
+  const std::string file = folder.write("scene.json", scene.dump());
+  const auto [code, out, error] = run_program(folder, {"simulate", file, "--json"});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  const Json json = parse_json(out);
+  CHECK(json["status"] == "stalled");
+  CHECK(json["reason"].is_string());
+  CHECK(json["latches"].empty());
+  const auto check = run_program(folder, {"check", file});
+  CHECK(check.code == 0);
+  CHECK(check.out.find("friction 2.5 N·m, 0 N·m·s/rad, exact, static 3 N·m;") != std::string::npos);
+}
+
+TEST_CASE("a wing whose springs overcome exact friction deploys") {
+  const Folder folder;
+  Json scene = parse_json_file(three_panel_file());
+  for (Json& hinge : scene["hinges"])
+    hinge["friction"] = {{"model", "exact"}, {"coulomb", 0.02}, {"static", 0.03}};
+  const std::string file = folder.write("scene.json", scene.dump());
+  const auto [code, out, error] =
+      run_program(folder, {"simulate", file, "--json", "--t-end", "20"});
+  CHECK(code == 0);
+  CHECK(parse_json(out)["status"] == "deployed");
 }
 
 TEST_CASE("simulate refuses settings by their options") {
@@ -82,15 +136,15 @@ TEST_CASE("check says what a file holds, or all that is wrong with it") {
   CHECK(run_program(folder, {"check", file}).out.starts_with("campaign\n"));
 
   Json bad = quick_campaign(5);
-  bad["scene"]["hinges"][0]["friction"] = {{"model", "exact"}};
+  bad["scene"]["hinges"][0]["friction"] = {{"model", "dry"}};
   bad["margin"] = Json::object();
   folder.write("campaign.json", bad.dump());
   const auto [code, out, error] = run_program(folder, {"check", file});
   CHECK(code == 2);
   CHECK(out.empty());
   CHECK(error == "error: " + file +
-                     ": /scene/hinges/0/friction/model: found string \"exact\", expected "
-                     "\"regularized\": the exact model is not available in this version\n"
+                     ": /scene/hinges/0/friction/model: found string \"dry\", expected "
+                     "\"regularized\" or \"exact\"\n"
                      "error: " +
                      file +
                      ": /margin: found an object, expected no \"margin\": not available in this "

@@ -70,6 +70,35 @@ TEST_CASE("Integration is read over its defaults, and written in full", "[campai
   }
 }
 
+TEST_CASE("A step is written for the method that takes it, and for no other",
+          "[campaign_settings]") {
+  Integration integration;
+  CHECK_FALSE(write_integration(integration).contains("step"));
+  integration.method = "runge_kutta4";
+  integration.step = 0.002;
+  CHECK(write_integration(integration).at("step") == 0.002);
+  CHECK(has_fixed_step("runge_kutta4"));
+  CHECK_FALSE(has_fixed_step("auto"));
+}
+
+TEST_CASE("A step is read with the method that takes it", "[campaign_settings]") {
+  const auto [integration, problems] =
+      read(R"({"step": 0.002, "method": "runge_kutta4"})", Integration{}, read_integration);
+  CHECK(problems.empty());
+  CHECK(integration.step == 0.002);
+  // An option that follows the file's settings: the method is the file's.
+  CHECK(read(R"({"step": 0.001})", integration, read_integration).settings.step == 0.001);
+  CHECK(read(R"({"method": "runge_kutta4"})", Integration{}, read_integration).settings.step ==
+        1e-4);
+  const auto [json, message] = GENERATE(values<Case>(
+      {{R"({"method": "runge_kutta4", "step": 0})", "/step: found 0, expected a number, s, > 0"},
+       {R"({"method": "runge_kutta4", "step": -1e-3})",
+        "/step: found -0.001, expected a number, s, > 0"},
+       {R"({"method": "runge_kutta4", "step": "1 ms"})",
+        "/step: found string \"1 ms\", expected a number, s, > 0"}}));
+  CHECK(read(json, Integration{}, read_integration).problems == message);
+}
+
 TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
   const auto [json, message] = GENERATE(values<Case>(
       {{"[]", "found an array of 0, expected an object with the integration"},
@@ -77,6 +106,12 @@ TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
        {R"({"rtol": 1})", "/rtol: found 1, expected a number, > 0 and < 1"},
        {R"({"atol": -1e-9})", "/atol: found -1e-09, expected a number, > 0"},
        {R"({"t_end": 0})", "/t_end: found 0, expected a number, s, > 0"},
+       {R"({"step": 1e-3})",
+        "/step: found 0.001, expected no step with the method \"auto\" (only used by a method with "
+        "a fixed step: runge_kutta4)"},
+       {R"({"method": "dopri5", "step": 0})",
+        "/step: found 0, expected no step with the method \"dopri5\" (only used by a method with a "
+        "fixed step: runge_kutta4)"},
        {R"({"max_steps": 0})", "/max_steps: found 0, expected an integer, ≥ 1"},
        {R"({"latch": "smooth"})", "/latch: found string \"smooth\", expected \"event\" or { "
                                   "\"smoothed\": a number, rad, > 0 }"},
@@ -85,8 +120,8 @@ TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
         "/latch/smoothed: found 0, expected a number, rad, > 0\n"
         "/latch/x: found the unknown key \"x\", expected \"smoothed\""},
        {R"({"tend": 1})",
-        "/tend: found the unknown key \"tend\", expected \"method\", \"rtol\", "
-        "\"atol\", \"latch\", \"t_end\" or \"max_steps\" (did you mean \"t_end\"?)"}}));
+        "/tend: found the unknown key \"tend\", expected \"method\", \"step\", "
+        "\"rtol\", \"atol\", \"latch\", \"t_end\" or \"max_steps\" (did you mean \"t_end\"?)"}}));
   CHECK(read(json, Integration{}, read_integration).problems == message);
 }
 
@@ -94,6 +129,9 @@ TEST_CASE("An unknown method is told with the known ones", "[campaign_settings]"
   CHECK_THAT(read(R"({"method": "euler?"})", Integration{}, read_integration).problems,
              Catch::StartsWith("/method: found string \"euler?\", expected \"") &&
                  Catch::Contains("\"auto\""));
+  // Which method takes a step is then anyone's guess: one problem, and not two.
+  CHECK_THAT(read(R"({"method": "euler?", "step": 1})", Integration{}, read_integration).problems,
+             !Catch::Contains("/step"));
 }
 
 TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_settings]") {

@@ -230,18 +230,31 @@ TEST_CASE("A run leaves nothing to the next, and touches only its targets", "[ca
   CHECK(scene.bodies[0].inertia == 99);
 }
 
-TEST_CASE("Exact friction is not available yet, wherever the scene stands", "[campaign]") {
+TEST_CASE("Exact friction is read and resolved wherever the scene stands", "[campaign]") {
   const test::Folder folder;
-  const Json scene =
-      test::spoil(test::small_scene(), {"/hinges/1/friction", R"({"model": "exact"})", ""});
-  const std::string found = "/hinges/1/friction/model: found string \"exact\", expected "
-                            "\"regularized\": the exact model is not available in this version";
-  CHECK(test::message_of([&] { return read({{"scene", scene}}); }) == "/scene" + found);
+  const Json friction{{"model", "exact"}, {"coulomb", 0.1}, {"viscous", 0.01}, {"static", 0.15}};
+  Json scene = test::small_scene();
+  scene["hinges"][1]["friction"] = friction;
   const auto file = folder.write("scene.json", scene.dump());
-  for (const auto& message :
-       {test::message_of([&] { return read_scene_file(file); }),
-        test::message_of([&] { return read_file(file); }), test::message_of([&] {
-          return read_campaign(R"({"scene": "scene.json"})", folder.path());
-        })})
-    CHECK(message == file.string() + ": " + found);
+  const Campaign inside = read({{"scene", scene}});
+  const Campaign beside = read_campaign(R"({"scene": "scene.json"})", folder.path());
+  for (const Scene& read : {inside.scene, beside.scene, read_scene_file(file)}) {
+    CHECK(read.hinges[1].friction.model == FrictionModel::exact);
+    CHECK(read.hinges[1].friction.static_level == 0.15);
+  }
+  CHECK(inside.resolved["scene"]["hinges"][1]["friction"] == friction);
+  CHECK(read(inside.resolved).resolved == inside.resolved);
+}
+
+TEST_CASE("A fixed step is part of what tells campaigns apart", "[campaign]") {
+  const auto hash_with = [](const Json& integration) {
+    Json document = test::small_campaign();
+    document["integration"] = integration;
+    const Campaign campaign = read(document);
+    CHECK(read(campaign.resolved).resolved == campaign.resolved);
+    return campaign_hash(campaign.resolved);
+  };
+  const std::string by_default = hash_with({{"method", "runge_kutta4"}});
+  CHECK(hash_with({{"method", "runge_kutta4"}, {"step", 1e-4}}) == by_default);
+  CHECK(hash_with({{"method", "runge_kutta4"}, {"step", 2e-4}}) != by_default);
 }

@@ -29,7 +29,7 @@ TEST_CASE("A base is described by its motion, and friction by its model", "[desc
       describe(read_scene(document)),
       Catch::Contains("base: free, mass 100 kg, inertia 20 kg·m², position (0, 0) m, velocity "
                       "(0, 0) m/s, angle 0 rad, rate 0 rad/s\n") &&
-          Catch::Contains("friction 0.5 N·m, 0 N·m·s/rad, static 0.5 N·m; no latch"));
+          Catch::Contains("friction 0.5 N·m, 0 N·m·s/rad, exact, static 0.5 N·m; no latch"));
   document["base"] = {{"motion", "prescribed"}, {"rate", 0.5}};
   CHECK_THAT(describe(read_scene(document)),
              Catch::Contains("base: prescribed, acceleration (0, 0) m/s², angular acceleration 0 "
@@ -61,6 +61,14 @@ TEST_CASE("A campaign is described with what varies and how it is run", "[descri
         "steps\n"
         "outputs: latch_time, latch_rate, peak_moment, peak_force\n"
         "statistics: quantiles 0.01 0.5 0.99, confidence 0.95, bins auto\n");
+}
+
+TEST_CASE("A fixed step is described with its method", "[describe]") {
+  Campaign campaign = read_campaign(test::small_campaign().dump(), "");
+  campaign.integration.method = "runge_kutta4";
+  campaign.integration.step = 0.002;
+  CHECK_THAT(describe(campaign),
+             Catch::Contains("integration: method runge_kutta4, step 0.002 s, rtol 1e-08"));
 }
 
 TEST_CASE("What a campaign sets otherwise is described too", "[describe]") {

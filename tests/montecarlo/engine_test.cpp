@@ -77,14 +77,15 @@ TEST_CASE("what the sink throws comes out of the engine, and ends it", "[paralle
 TEST_CASE("every run has a status, and a reason unless it deployed or timed out", "[parallel]") {
   Json json = full_campaign(80);
   json["integration"]["max_steps"] = 600;
+  json["integration"]["method"] = "dopri5"; // others need fewer
   const Campaign campaign = campaign_of(json);
   const RunPlan plan(campaign);
   std::map<Status, long> counts;
   (void)make_runs(plan, {0, 80}, 2, never, [&](const Batch& batch) {
     for (const ResultRow& row : batch.rows) {
       ++counts[row.status];
-      const bool bad = row.status == Status::invalid || row.status == Status::failed;
-      CHECK(row.reason.empty() == !bad);
+      const bool plain = row.status == Status::deployed || row.status == Status::timed_out;
+      CHECK(row.reason.empty() == plain);
     }
   });
   long sum = 0;

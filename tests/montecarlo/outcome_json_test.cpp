@@ -20,6 +20,23 @@ Outcome simulate(const Scene& scene, double t_end) {
   return Deployment().run(scene, integration, goal);
 }
 
+/// As a run may end that nothing fails but the friction.
+Outcome stalled(Outcome outcome) {
+  outcome.status = Status::stalled;
+  outcome.reason = "friction holds root";
+  outcome.phases = {{"dopri5", 0, outcome.t_end, outcome.work.steps}};
+  return outcome;
+}
+
+/// Phases of one second each, by two methods in turn.
+Outcome with_phases(Outcome outcome, int count) {
+  outcome.phases.clear();
+  for (int i = 0; i < count; ++i)
+    outcome.phases.push_back({i % 2 == 0 ? "dopri5" : "rosenbrock_w", i + 0.0, i + 1.0, 10 + i});
+  outcome.t_end = count;
+  return outcome;
+}
+
 std::vector<std::string> keys(const Json& json) {
   std::vector<std::string> list;
   for (const auto& [key, value] : json.items()) list.push_back(key);
@@ -32,9 +49,9 @@ TEST_CASE("the seed scene's outcome as JSON") {
   const Scene scene = read_scene_file(three_panel_file());
   const Outcome outcome = simulate(scene, 10);
   const Json json = parse_json(json_text(outcome_json(scene, outcome)));
-  CHECK(keys(json) == std::vector<std::string>{"status", "reason", "method", "t_end", "latches",
-                                               "peak_moment", "peak_force", "final", "energy",
-                                               "work"});
+  CHECK(keys(json) == std::vector<std::string>{"status", "reason", "method", "phases", "t_end",
+                                               "latches", "peak_moment", "peak_force", "final",
+                                               "energy", "work"});
   CHECK(json["status"] == "deployed");
   CHECK(json["reason"].is_null());
   CHECK(json["t_end"] == 10);
@@ -70,13 +87,20 @@ TEST_CASE("what did not happen, or is not known, is null") {
     CHECK(json["latches"] == Json::array());
     CHECK(json["peak_moment"]["root"]["value"] == 2.0);
   }
+  SECTION("stalled: with its reason, and peaks up to the end") {
+    const Json json = outcome_json(scene, stalled(simulate(scene, 1)));
+    CHECK(json["status"] == "stalled");
+    CHECK(json["reason"] == "friction holds root");
+    CHECK(json["peak_moment"]["root"]["value"] == 2.0);
+  }
   SECTION("invalid") {
     scene.bodies[0].mass = -1;
     const Json json = outcome_json(scene, simulate(scene, 1));
     CHECK(json["status"] == "invalid");
     CHECK(json["reason"].get<std::string>().starts_with("bodies.panel_1.mass is -1"));
     CHECK(json["latches"] == Json::array());
-    for (const char* key : {"method", "t_end", "peak_moment", "peak_force", "final", "energy"})
+    for (const char* key :
+         {"method", "phases", "t_end", "peak_moment", "peak_force", "final", "energy"})
       CHECK(json[key].is_null());
   }
   SECTION("failed") {
@@ -89,13 +113,52 @@ TEST_CASE("what did not happen, or is not known, is null") {
   }
 }
 
+TEST_CASE("a run's phases follow one another, and name their methods") {
+  const Scene scene = read_scene_file(three_panel_file());
+  const Outcome outcome = simulate(scene, 10);
+  double reached = 0;
+  long steps = 0;
+  const Json made = outcome_json(scene, outcome);
+  for (const Json& phase : made["phases"]) {
+    CHECK(keys(phase) == std::vector<std::string>{"method", "from", "to", "steps"});
+    CHECK(phase["from"] == reached);
+    reached = phase["to"];
+    steps += phase["steps"].get<long>();
+  }
+  CHECK(reached == 10);
+  CHECK(steps == outcome.work.steps);
+  const Json json = outcome_json(scene, with_phases(outcome, 3));
+  CHECK(json["method"] == "dopri5, rosenbrock_w");
+  CHECK(json["phases"].size() == 3);
+  CHECK(json["phases"][1].dump() == R"({"method":"rosenbrock_w","from":1.0,"to":2.0,"steps":11})");
+}
+
+TEST_CASE("the phases in words, the first four of them") {
+  const Scene scene = read_scene_file(three_panel_file());
+  const Outcome outcome = simulate(scene, 10);
+  const auto first_line = [&](int phases) {
+    const std::string text = outcome_text(scene, with_phases(outcome, phases));
+    return text.substr(0, text.find('\n'));
+  };
+  const std::string four = ": dopri5 to 1 s, rosenbrock_w to 2 s, dopri5 to 3 s, "
+                           "rosenbrock_w to 4 s";
+  CHECK(first_line(1) == "three_panel: deployed, integrated to 1 s by dopri5");
+  CHECK(first_line(2) ==
+        "three_panel: deployed, integrated to 2 s: dopri5 to 1 s, rosenbrock_w to 2 s");
+  CHECK(first_line(4) == "three_panel: deployed, integrated to 4 s" + four);
+  CHECK(first_line(5) == "three_panel: deployed, integrated to 5 s" + four + " and 1 more phase");
+  CHECK(first_line(9) == "three_panel: deployed, integrated to 9 s" + four + " and 5 more phases");
+}
+
 TEST_CASE("the outcome in words") {
   Scene scene = read_scene_file(three_panel_file());
   const std::string text = outcome_text(scene, simulate(scene, 10));
-  CHECK(text.starts_with("three_panel: deployed, integrated to 10 s by dopri5\n"));
+  CHECK(text.starts_with("three_panel: deployed, integrated to 10 s"));
   CHECK(text.find("root                        4.819271       -1.267827") != std::string::npos);
   CHECK(text.find("root                        250.4651") != std::string::npos);
   CHECK(outcome_text(scene, simulate(scene, 1)).find("no hinge latched") != std::string::npos);
+  CHECK(outcome_text(scene, stalled(simulate(scene, 1)))
+            .starts_with("three_panel: stalled (friction holds root), integrated to 1 s by "));
   scene.bodies[0].mass = -1;
   CHECK(outcome_text(scene, simulate(scene, 1)) ==
         "three_panel: invalid (bodies.panel_1.mass is -1, expected > 0)\n");

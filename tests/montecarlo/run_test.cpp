@@ -101,8 +101,8 @@ TEST_CASE("outputs are taken from the outcome, and missing where they did not ha
   // latch
   check_same(outputs_of(outcome), {3, -1.5, 10, 30, -0.5, 2, 0.25, 20, 40, 0.125, 3});
 
-  SECTION("timed out: peaks up to the end, and no deployment time") {
-    outcome.status = Status::timed_out;
+  SECTION("stalled or timed out: peaks up to the end, and no deployment time") {
+    outcome.status = GENERATE(Status::stalled, Status::timed_out);
     outcome.latches.pop_back();
     check_same(outputs_of(outcome), {none, none, 10, 30, -0.5, 2, 0.25, 20, 40, none, none});
   }
@@ -195,6 +195,19 @@ TEST_CASE("an unphysical draw makes an invalid run, with its reason") {
   CHECK(row.draws[1] == -2);
   CHECK(std::ranges::all_of(row.outputs, [](double value) { return std::isnan(value); }));
   CHECK(row.latch_order.empty());
+}
+
+TEST_CASE("a draw may raise the kinetic friction over the static one: that run is invalid") {
+  Json json = quick_campaign(1);
+  json["scene"]["hinges"][1]["friction"] = {{"model", "exact"}, {"coulomb", 0.25}, {"static", 0.5}};
+  json["dispersions"] = parse_json(R"([
+    { "name": "static", "distribution": { "type": "constant", "value": 0.5 }, "apply": "scale",
+      "to": ["hinges.mid.friction.static"] },
+    { "name": "kinetic", "distribution": { "type": "constant", "value": 0.125 }, "apply": "add",
+      "to": ["hinges.mid.friction.coulomb"] } ])");
+  const ResultRow row = Runner(RunPlan(campaign_of(json))).run(0);
+  CHECK(row.status == Status::invalid);
+  CHECK(row.reason == "hinges.mid.friction.static is 0.25, expected >= friction.coulomb");
 }
 
 TEST_CASE("a draw beyond a double makes an invalid run, and has no number") {

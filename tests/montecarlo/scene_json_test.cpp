@@ -150,6 +150,8 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
        {"/hinges/0/friction/static", "0.2",
         "/hinges/0/friction/static: found 0.2, expected no static level with the regularized model "
         "(\"model\": \"exact\" has one)"},
+       {"/hinges/0/friction", R"({"model": "dry", "static": 0.25})",
+        "/hinges/0/friction/model: found string \"dry\", expected \"regularized\" or \"exact\""},
        {"/hinges/0/friction", R"({"model": "exact", "coulomb": 0.5, "static": 0.25})",
         "/hinges/0/friction/static: found 0.25, expected >= friction.coulomb"},
        {"/hinges/0/latch", "true",
@@ -200,6 +202,10 @@ TEST_CASE("A written scene states every default", "[scene_json]") {
         R"("harness":{"torque_stowed":0.0,"torque_latched":0.0},)"
         R"("friction":{"model":"regularized","coulomb":0.0,"viscous":0.0,)"
         R"("regularization_rate":0.001}})");
+  const Json exact =
+      test::spoil(test::small_scene(), {"/hinges/1/friction", R"({"model": "exact"})", ""});
+  CHECK(write_scene(read_scene(exact))["hinges"][1]["friction"].dump() ==
+        R"({"model":"exact","coulomb":0.0,"viscous":0.0})");
   const Json free = test::spoil(test::small_scene(),
                                 {"/base", R"({"motion": "free", "mass": 1, "inertia": 2})", ""});
   CHECK(write_scene(read_scene(free))["base"].dump() ==

@@ -131,7 +131,7 @@ TEST_CASE("many reasons and latch orders are cut, and the rest counted") {
                     {},
                     {},
                     "order " + std::to_string(run % 1200),
-                    "reason " + std::to_string(run % 120)});
+                    "reason_" + std::to_string(run % 120)});
   const Json json = summary_json(summarize(results, {}), {});
   CHECK(json["reasons"].size() == most_reasons);
   CHECK(json["latch_order"].size() == most_latch_orders);

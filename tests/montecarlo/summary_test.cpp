@@ -77,6 +77,25 @@ TEST_CASE("a summary counts latch orders and reasons, the most frequent first") 
   CHECK(summary.reasons[2].status == Status::invalid);
 }
 
+TEST_CASE("reasons that differ in their numbers alone are one") {
+  Results results(ResultNames{{}, {}});
+  const auto add = [&](Status status, const char* reason) {
+    results.append({std::ssize(results.runs), status, {}, {}, "", reason});
+  };
+  add(Status::stalled, "root lacks 0.5 J, from t = 3 s on");
+  add(Status::invalid, "mass is -1, expected > 0");
+  add(Status::stalled, "every hinge sticks, from t = 2 s on");
+  add(Status::stalled, "root lacks 0.25 J, from t = 3 s on");
+  add(Status::invalid, "mass is -2, expected > 0");
+  add(Status::failed, "mass is -2, expected > 0"); // of another status
+  const std::vector<ReasonCount> reasons = summarize(results, {}).reasons;
+  REQUIRE(reasons.size() == 4);
+  CHECK((reasons[0].reason == "root lacks … J, from t = 3 s on" && reasons[0].count == 2));
+  CHECK((reasons[1].reason == "every hinge sticks, from t = 2 s on" && reasons[1].count == 1));
+  CHECK((reasons[2].reason == "mass is …, expected > 0" && reasons[2].count == 2));
+  CHECK((reasons[3].status == Status::failed && reasons[3].count == 1));
+}
+
 TEST_CASE("a summary correlates each draw with each output and with deployed") {
   const Summary summary = summarize(ten_runs(), {});
   CHECK(summary.correlations.size() == 6);

@@ -74,6 +74,7 @@ TEST_CASE("the table shows outcomes, reasons, latch orders, outputs by hinge, an
                            "Each output over the runs in which it happened, of 100.",
                            "FILES  out: runs.csv, summary.json, histograms.json, histograms.csv\n"})
     CHECK_THAT(table, Catch::Contains(part));
+  CHECK_THAT(table, Catch::Contains("  stalled" + std::string(49, ' ') + "10    10.000 %"));
 }
 
 TEST_CASE("the table stays within its width and leaves no blanks behind") {
