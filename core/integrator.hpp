@@ -77,6 +77,18 @@ private:
     if (due && !step_to_event(*due)) return why_no_step_.empty();
     if constexpr (M == BaseMotion::free) restore_momentum();
     finish_step(last && !due, due);
+    return angles_are_known();
+  }
+
+  /// A double cannot tell the sine of an angle this large to the accuracy that is promised.
+  [[nodiscard]] bool angles_are_known() {
+    using std::abs;
+    constexpr double largest = 1e8; // rad
+    for (int i = 1; i <= at_.bodies; ++i)
+      if (!(abs(step_.x[at_.angle(i)]) < T(largest))) {
+        why_no_step_ = "a hinge has turned past 1e8 rad";
+        return false;
+      }
     return true;
   }
 

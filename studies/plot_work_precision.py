@@ -21,6 +21,7 @@ PHASES = {"A": ("to the first latch", ("time", "rate")),
 COSTS = {"us": "µs of processor time a run", "evaluations": "right-hand side evaluations a run"}
 QUANTITIES = {"time": "latch times", "rate": "latch rates", "moment": "peak moments"}
 LATCHES = ("event", "smoothed")
+TAB10 = plt.get_cmap("tab10").colors
 LEVELS = [10.0 ** -decade for decade in range(3, 10)]
 FLOOR = 1e-16  # below it an error of doubles means nothing
 
@@ -59,7 +60,7 @@ def read_disagreement(path):
 
 def styles(methods):
     """A line style for each method: auto black and wide, CVODE dashed, the others by colour."""
-    markers, colours = iter("osD^vP*Xhp<>"), iter(plt.get_cmap("tab10").colors * 2)
+    markers, colours = iter("osD^vP*Xhp<>"), iter([*TAB10[:7], *TAB10[8:]] * 2)  # its grey is CVODE's
     style = {}
     for method in methods:
         if method == "auto":
@@ -173,14 +174,16 @@ def draw_figure(points, phase, cost, style, apart, folder):
             axes.set_title(f"{latch} latch: {QUANTITIES[quantity]}", fontsize=10)
             axes.set_xlabel("RMS relative error", fontsize=9)
         low, high = row[0].get_ylim()  # shared by the row
-        row[0].set_ylim(low, high * (high / low) ** 0.4)  # room for the crosses
+        crossed = sum(any(point["bad"] for point in its) for its in chosen.values())
+        row[0].set_ylim(low, high * (high / low) ** (0.05 * crossed))  # room for the crosses
         for quantity, axes in zip(quantities, row):
             draw_all_bad(axes, chosen, quantity, style)
         row[0].set_ylabel(COSTS[cost], fontsize=9)
     scenes = int(max(p["scenes"] for its in points.values() for p in its))
-    figure.suptitle(f"{phase}: {title}; {scenes} dispersed three-panel wings\nyellow: the lower-left envelope; "
-                    "a cross and a hollow mark: so many scenes failed or latched in another order; "
-                    "grey: closer than the references agree", fontsize=10)
+    figure.suptitle(f"{phase}: {title}; {scenes} dispersed three-panel wings\n"
+                    "yellow: the lower-left envelope; grey: closer than the references agree\n"
+                    "a cross and a hollow mark: so many scenes failed or latched in another order",
+                    fontsize=10)
     handles, labels = grid[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncol=min(5, len(labels)), fontsize=9, frameon=False)
     figure.tight_layout(rect=(0, 0.025 + 0.02 * math.ceil(len(labels) / 5), 1, 0.985))
