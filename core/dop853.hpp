@@ -113,9 +113,9 @@ public:
     (std::make_index_sequence<dop853::stages - 1>{});
     using std::sqrt;
     for (std::size_t c = 0; c < size; ++c) {
-      const T e5 = weighted<dop853::error_5>(c), e3 = weighted<dop853::error_3>(c);
+      const T e5 = weighted(dop853::error_5, c), e3 = weighted(dop853::error_3, c);
       const T both = fused(e5, e5, T(0.01) * e3 * e3);
-      x1[c] = fused(h, weighted<dop853::b>(c), from.x[c]);
+      x1[c] = fused(h, weighted(dop853::b, c), from.x[c]);
       error[c] = both > T(0) ? T(h * e5 * e5 / sqrt(both)) : both; // NaN stays NaN
     }
     system(x1, dxdt1, from.t + h);
@@ -125,13 +125,13 @@ private:
   template <std::size_t I, class System>
   void stage(System& system, const Start<T>& from, const T& h, State<T>& x) {
     for (std::size_t c = 0; c < x.size(); ++c)
-      x[c] = fused(h, weighted<dop853::a[I]>(c), from.x[c]);
+      x[c] = fused(h, weighted(dop853::a[I], c), from.x[c]);
     k_[I].resize(x.size());
     system(x, k_[I], from.t + T(dop853::nodes[I]) * h);
   }
 
   /// Σ_j w_j k_j of component c, zeros left out.
-  template <const dop853::Row& w> [[nodiscard]] T weighted(std::size_t c) const {
+  [[nodiscard, gnu::always_inline]] T weighted(const dop853::Row& w, std::size_t c) const {
     T sum(0);
     [&]<std::size_t... J>(std::index_sequence<J...>) {
       ((w[J] != 0 ? void(sum = fused(T(w[J]), k_[J][c], sum)) : void()), ...);
