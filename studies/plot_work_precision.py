@@ -10,10 +10,7 @@ import math
 import pathlib
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+from charts import number, plt, save, styles
 from matplotlib.ticker import LogLocator, NullFormatter
 
 PHASES = {"A": ("to the first latch", ("time", "rate")),
@@ -21,13 +18,8 @@ PHASES = {"A": ("to the first latch", ("time", "rate")),
 COSTS = {"us": "µs of processor time a run", "evaluations": "right-hand side evaluations a run"}
 QUANTITIES = {"time": "latch times", "rate": "latch rates", "moment": "peak moments"}
 LATCHES = ("event", "smoothed")
-TAB10 = plt.get_cmap("tab10").colors
 LEVELS = [10.0 ** -decade for decade in range(3, 10)]
 FLOOR = 1e-16  # below it an error of doubles means nothing
-
-
-def number(text):
-    return float(text) if text else math.nan
 
 
 def read_points(path):
@@ -56,21 +48,6 @@ def read_disagreement(path):
                     key = latch, quantity
                     apart[key] = max(apart.get(key, 0), off)
     return apart
-
-
-def styles(methods):
-    """A line style for each method: auto black and wide, CVODE dashed, the others by colour."""
-    markers, colours = iter("osD^vP*Xhp<>"), iter([*TAB10[:7], *TAB10[8:]] * 2)  # its grey is CVODE's
-    style = {}
-    for method in methods:
-        if method == "auto":
-            style[method] = dict(color="black", marker="", linewidth=4, alpha=0.35)
-        elif method.startswith("cvode"):
-            style[method] = dict(color="0.35" if "adams" in method else "0.6", marker=next(markers),
-                                 linewidth=1, linestyle="--", markersize=4)
-        else:
-            style[method] = dict(color=next(colours), marker=next(markers), linewidth=1.2, markersize=4.5)
-    return style
 
 
 def front(points, error, cost):
@@ -187,11 +164,7 @@ def draw_figure(points, phase, cost, style, apart, folder):
     handles, labels = grid[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncol=min(5, len(labels)), fontsize=9, frameon=False)
     figure.tight_layout(rect=(0, 0.025 + 0.02 * math.ceil(len(labels) / 5), 1, 0.985))
-    name = f"work_precision_{phase}_{cost}"
-    for suffix in (".png", ".svg"):
-        figure.savefig(folder / (name + suffix), dpi=110)
-    plt.close(figure)
-    print(f"drawn: {folder / (name + '.png')}")
+    save(figure, folder / f"work_precision_{phase}_{cost}")
 
 
 def worst(point):

@@ -1,6 +1,6 @@
 /// An independent oracle of the mechanics: the wing as one dense system in absolute angles.
 ///
-/// It shares nothing with the recursion of MODEL.md §3 but the parameters. The generalized
+/// It shares nothing with the recursion but the parameters. The generalized
 /// coordinates are q = (x_0, y_0, θ_0, θ_1 … θ_n): the base's origin and the absolute angle of the
 /// base and of every body. Then
 ///
@@ -16,7 +16,7 @@
 /// | J_j    | Jacobian of body j's centre of mass               | 2×(n+3) | m, 1   |
 /// | b_j    | its acceleration at q̈ = 0                         | 2       | m/s²   |
 /// | M      | mass matrix                                       | (n+3)²  | kg …   |
-/// | Q      | ±hinge moments (MODEL.md §4)                      | n + 3   | N·m    |
+/// | Q      | ±hinge moments                      | n + 3   | N·m    |
 /// | f_i    | force of hinge i on its child, inertial axes      | 2       | N      |
 #pragma once
 
@@ -42,7 +42,7 @@ template <class Scalar> using Columns2 = Eigen::Matrix<Scalar, 2, Eigen::Dynamic
 template <class Scalar> struct WingState {
   Vector<Scalar> angles;     ///< φ, n, rad
   Vector<Scalar> rates;      ///< φ̇, n, rad/s
-  Vector<Scalar> engagement; ///< n, 0: latch open, 1: engaged, between: smoothed (MODEL.md §4)
+  Vector<Scalar> engagement; ///< n, 0: latch open, 1: engaged, between: smoothed
   Vector2<Scalar> base_position = Vector2<Scalar>::Zero(); ///< m
   Vector2<Scalar> base_velocity = Vector2<Scalar>::Zero(); ///< m/s
   Scalar base_angle{0};                                    ///< θ_0, rad
@@ -69,12 +69,12 @@ template <class Scalar> struct WingResponse {
 /// Energies and momenta of the bodies, and of the base when it is free.
 template <class Scalar> struct WingBalance {
   Scalar kinetic;                  ///< J
-  Scalar potential;                ///< springs and harnesses left, latches stored (MODEL.md §5), J
+  Scalar potential;                ///< springs and harnesses left, latches stored, J
   Vector2<Scalar> linear_momentum; ///< kg·m/s
   Scalar angular_momentum;         ///< about the inertial origin, kg·m²/s
 };
 
-/// The smooth step u²(3 − 2u), 0 below u = 0 and 1 above u = 1 (MODEL.md §3, §4).
+/// The smooth step u²(3 − 2u), 0 below u = 0 and 1 above u = 1.
 template <class Scalar> [[nodiscard]] Scalar smooth_step(const Scalar& u) {
   if (u <= 0) return Scalar(0);
   if (u >= 1) return Scalar(1);
@@ -95,7 +95,7 @@ public:
   /// origin.
   [[nodiscard]] WingState<Scalar> initial_state() const;
 
-  /// The moment across each hinge, n, N·m (MODEL.md §4).
+  /// The moment across each hinge, n, N·m.
   [[nodiscard]] Vector<Scalar> moments(const WingState<Scalar>& state) const;
 
   /// Accelerations, moments and reactions. Cost O(n³).

@@ -75,7 +75,7 @@ Hinge random_hinge(const RandomScene& options, Draws& draws) {
   return hinge;
 }
 
-/// A panel hinge of the seed scene: the latch of MODEL.md §6, latched at 0.
+/// A panel hinge of the seed scene: the latch latched at 0.
 Hinge panel_hinge(std::string name, int parent, int child, double stowed, LinearTorque spring) {
   Hinge hinge;
   hinge.name = std::move(name);

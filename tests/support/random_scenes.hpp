@@ -47,7 +47,7 @@ struct RandomScene {
 /// the base where and as its motion allows.
 [[nodiscard]] WingState<double> random_state(std::uint64_t seed, const Scene& scene);
 
-/// The three-panel scene of MODEL.md §6.
+/// The three-panel seed scene.
 [[nodiscard]] Scene seed_scene();
 
 /// A tumbling free spacecraft with two mirrored three-panel wings, the left one's springs 3 %
