@@ -116,7 +116,8 @@ struct MethodInfo {
   std::string name;
   std::string kind;  ///< e.g. "explicit Runge-Kutta, adaptive"
   int order;         ///< of the solution that is carried on; 0 where it chooses
-  double real_limit; ///< largest stable |hλ| on the negative real axis; 0 where it does not apply
+  double real_limit; ///< largest stable |hλ| on the negative real axis; 0 where there is none, or
+                     ///< none for all its orders
   double imaginary_limit;    ///< the same on the imaginary axis
   std::string interpolation; ///< how events and peaks are found inside a step
   std::string note;
@@ -142,6 +143,48 @@ public:
 private:
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;
+};
+
+/// How many runs are integrated at once in one thread.
+enum class InstructionSet { scalar, avx2, avx512 };
+[[nodiscard]] const char* to_string(InstructionSet set);
+/// Those that this processor and this build have, narrowest first.
+[[nodiscard]] const std::vector<InstructionSet>& instruction_sets();
+/// Runs at once: 1, 4 or 8.
+[[nodiscard]] int lanes_of(InstructionSet set);
+
+/// How full the lanes of packs were.
+struct Occupancy {
+  long tries = 0;  ///< steps that the engine made, all lanes counted
+  long busy = 0;   ///< those in lanes with a run
+  long scalar = 0; ///< steps made outside the engine
+  long looks = 0;  ///< tries after which the run itself was asked
+  Occupancy& operator+=(const Occupancy& other);
+};
+
+/// Runs many scenes, several at once in the lanes of vector registers. Each outcome has the bits
+/// that Deployment::run gives. Not shared by threads: each has its own.
+class DeploymentPack {
+public:
+  /// next(scene) sets a scene to that of the run that comes next and returns its name; none when
+  /// there are no more. All have the bodies and hinges of the first.
+  using Next = std::function<std::optional<long>(Scene&)>;
+  /// done(name, outcome), in the order in which the runs end.
+  using Done = std::function<void(long, Outcome&&)>;
+
+  DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal);
+  ~DeploymentPack();
+  DeploymentPack(DeploymentPack&&) noexcept;
+  DeploymentPack& operator=(DeploymentPack&&) noexcept;
+
+  /// @pre as of Deployment::run, for every scene; scene: the structure
+  Occupancy run(Scene scene, const Next& next, const Done& done);
+
+private:
+  InstructionSet set_;
+  Integration how_;
+  Goal goal_;
+  std::unique_ptr<Deployment> alone_;
 };
 
 } // namespace wingspread

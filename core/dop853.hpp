@@ -101,7 +101,7 @@ inline constexpr Row error_3 = [] {
 template <class T> class DormandPrince853 {
 public:
   static constexpr int order = 8, error_order = 7;
-  static constexpr double stable_real = 5.17;
+  static constexpr double stable_real = 6.394, stable_imaginary = 5.960;
 
   /// The error is h ε5²/√(ε5² + 0.01 ε3²), ε5 and ε3 the estimates: of order 8 where both shrink.
   template <class System>
@@ -116,7 +116,7 @@ public:
       const T e5 = weighted(dop853::error_5, c), e3 = weighted(dop853::error_3, c);
       const T both = fused(e5, e5, T(0.01) * e3 * e3);
       x1[c] = fused(h, weighted(dop853::b, c), from.x[c]);
-      error[c] = both > T(0) ? T(h * e5 * e5 / sqrt(both)) : both; // NaN stays NaN
+      error[c] = select(both > T(0), T(h * e5 * e5 / sqrt(both)), both); // NaN stays NaN
     }
     system(x1, dxdt1, from.t + h);
   }

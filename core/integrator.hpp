@@ -31,121 +31,225 @@ public:
   }
 
   [[nodiscard]] Outcome run() {
+    begin();
+    while (!ended_) take(make_try());
+    return std::move(outcome_);
+  }
+
+  // ---- a run as a dialogue: it asks for a step of its method and is told the verdict
+
+  /// What is asked for: a step from `step()` over h into x1 and dxdt1.
+  struct Try {
+    T h;
+    State<T>*x1, *dxdt1;
+  };
+
+  /// Starts anew, with the system's parameters as they now are.
+  void begin() {
     start();
-    if (!finite(step_.dxdt)) return fail("the accelerations are not finite at the start");
-    while (!finished()) {
-      if (tried_ >= how_.max_steps)
-        return fail("the limit of " + std::to_string(how_.max_steps) + " steps was reached");
-      if (!advance()) return fail(why_no_step_);
+    if (finite(step_.dxdt))
+      go_on();
+    else
+      fail("the accelerations are not finite at the start");
+  }
+
+  /// Whether the run is over; if not, a step is asked for.
+  [[nodiscard]] bool ended() const { return ended_; }
+  /// @pre ended()
+  [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
+
+  /// Makes the step that is asked for.
+  [[nodiscard]] Verdict make_try() {
+    return steppers_.with(choice_.active(), [&](auto& stepper) {
+      return stepper.attempt(system_, Start<T>{step_.t, step_.x, step_.dxdt}, try_.h, *try_.x1,
+                             *try_.dxdt1);
+    });
+  }
+
+  // ---- the same where steps are made elsewhere, several runs at once
+
+  /// Whether an engine of packs for this method can make the step that is asked for.
+  [[nodiscard]] bool fits_pack(Method method) const {
+    return choice_.active() == method && !system_.wing().can_stick;
+  }
+  [[nodiscard]] const Try& asked() const { return try_; }
+  [[nodiscard]] bool asks_for_step() const { return stage_ == Stage::step; }
+  [[nodiscard]] Step<T>& step() { return step_; }
+  [[nodiscard]] ForcePeaks<T, AnySystem>& forces() { return forces_; }
+  [[nodiscard]] const std::vector<PeakOf<T>>& moments() const { return moments_; }
+
+  /// The verdict on a step of this scaled error.
+  [[nodiscard]] Verdict verdict_of(double error) {
+    return steppers_.with(choice_.active(), [&](auto& stepper) -> Verdict {
+      if constexpr (requires { stepper.verdict(error); }) return stepper.verdict(error);
+      return {error, 1};
+    });
+  }
+
+  /// The step asked for has been made, and no event, peak or bound can lie in it: goes on without
+  /// knowing the state, if no more is to be done. @return whether it did; if not, nothing has
+  /// changed
+  [[nodiscard]] bool pass(Verdict verdict, double rough) {
+    if (M == BaseMotion::free || stage_ != Stage::step || last_) return false;
+    if (verdict.accepted() && takes_long_steps(choice_.active())) limit_roughness(rough, verdict);
+    if (!verdict.accepted() || look_is_due() || choice_.radius_is_due()) return false;
+    const T next = step_.h * T(verdict.factor), then = step_.t + step_.h;
+    const bool near_an_end = !(T(how_.t_end) - then > T(8 * epsilon_of<T>) * then) ||
+                             !(next > T(1e-9) * then) || tried_ + 1 >= how_.max_steps;
+    if (near_an_end) return false;
+    ++tried_;
+    verdict_ = verdict;
+    h_ = next;
+    due_.reset();
+    count_step();
+    step_.t = then;
+    if (choice_.after_step(static_cast<double>(step_.h), system_.work().evaluations))
+      change_method();
+    if (!goal_.to_t_end) ++since_last_look_;
+    try_step();
+    return true;
+  }
+
+  /// The step asked for has been made, and the system's last evaluation was at its end.
+  void take(const Verdict& verdict) {
+    switch (stage_) {
+    case Stage::step:
+      return take_step(verdict);
+    case Stage::event:
+      return take_step_to_event(verdict);
+    case Stage::force:
+      return take_force();
+    case Stage::moment:
+      return take_moment();
+    case Stage::repeat:
+      return finish_step();
     }
-    const Status status = ending();
-    return report(status, status == Status::stalled ? why_stalled_ : "");
+  }
+
+  /// What a step may lose now. Up to the first latch 32 times less than asked: the phase takes a
+  /// few per cent of a run's steps, and what is lost in it shifts all that follows.
+  [[nodiscard]] Tolerance tolerance() const {
+    const double finer = latches_.empty() && choice_.active() != Method::runge_kutta4 ? 32 : 1;
+    return {how_.rtol / finer, how_.atol / finer};
   }
 
 private:
   struct Due;
 
+  /// What the step asked for is for.
+  enum class Stage {
+    step,   ///< to go on
+    event,  ///< to end at the event that is due
+    force,  ///< to make sure of a peak force inside the step accepted
+    moment, ///< the same of a peak moment
+    repeat  ///< to leave the method as the step accepted did
+  };
+
+  void ask(Stage stage, const T& h, State<T>& x1, State<T>& dxdt1) {
+    stage_ = stage;
+    try_ = {h, &x1, &dxdt1};
+  }
+
   // ---- the run, step by step
 
   void start() {
+    ended_ = stalled_ = false;
+    outcome_ = {};
+    tried_ = steps_ = rejected_ = since_last_look_ = 0;
+    largest_drift_ = 0;
+    why_stalled_.clear();
+    latches_.clear();
+    phases_.clear();
+    moments_.assign(at_.bodies + 1, {});
+    latches_left_ = 0;
+    for (int i = 1; i <= at_.bodies; ++i) latches_left_ += system_.wing().hinges[i].has_latch;
+    h_ = T(0);
     step_.t = T(0);
+    system_.reset();
     system_.want_forces(goal_.peak_force);
     system_.start(step_.x);
     if constexpr (M == BaseMotion::free) kept_ = conserved(system_, step_.x, step_.t);
     initial_energy_ = total_energy(system_, step_.x, step_.t);
     if (goal_.peak_force) forces_.start(at_.bodies);
+    choice_ = MethodChoice(how_.method, how_.rtol);
     restart(0);
   }
 
-  /// Accepts one step, with what happens in it. @return false if no step can be accepted
-  [[nodiscard]] bool advance() {
+  /// Ends the run, or asks for the next step.
+  void go_on() {
+    if (finished()) {
+      const Status status = ending();
+      return end(status, status == Status::stalled ? why_stalled_ : "");
+    }
+    try_step();
+  }
+
+  void try_step() {
+    if (tried_ >= how_.max_steps)
+      return fail("the limit of " + std::to_string(how_.max_steps) + " steps was reached");
     const T limit = T(how_.t_end) - step_.t;
     const T wanted = smaller(h_, longest_step());
-    const bool last = wanted >= limit * T(1 - 1e-12);
-    step_.h = last ? limit : wanted;
-    if (!(step_.h > T(4 * epsilon_of<T>) * step_.t)) {
-      why_no_step_ =
-          "the step size fell below round-off: the equations are too stiff or not finite here";
-      return false;
-    }
-    const Verdict verdict = attempt(step_.h);
+    last_ = wanted >= limit * T(1 - 1e-12);
+    step_.h = last_ ? limit : wanted;
+    if (!(step_.h > T(4 * epsilon_of<T>) * step_.t))
+      return fail(
+          "the step size fell below round-off: the equations are too stiff or not finite here");
+    ask(Stage::step, step_.h, step_.x1, step_.dxdt1);
+  }
+
+  void take_step(const Verdict& given) {
+    const Verdict verdict = judged(given);
     if (!verdict.accepted()) return refuse(verdict);
     verdict_ = verdict;
-    h_ = last ? larger(h_, T(step_.h * T(verdict.factor))) : step_.h * T(verdict.factor);
-    if (last && verdict.factor < 1) h_ = step_.h * T(verdict.factor);
-    const std::optional<Due> due = first_event();
-    if (due && !step_to_event(*due)) return why_no_step_.empty();
-    if constexpr (M == BaseMotion::free) restore_momentum();
-    finish_step(last && !due, due);
-    return angles_are_known();
+    h_ = last_ ? larger(h_, T(step_.h * T(verdict.factor))) : step_.h * T(verdict.factor);
+    if (last_ && verdict.factor < 1) h_ = step_.h * T(verdict.factor);
+    due_ = first_event();
+    if (!due_) return accept();
+    correction_ = 0;
+    longest_ = step_.h;
+    try_step_to_event(due_->s * longest_);
   }
 
-  /// A double cannot tell the sine of an angle this large to the accuracy that is promised.
-  [[nodiscard]] bool angles_are_known() {
-    using std::abs;
-    constexpr double largest = 1e8; // rad
-    for (int i = 1; i <= at_.bodies; ++i)
-      if (!(abs(step_.x[at_.angle(i)]) < T(largest))) {
-        why_no_step_ = "a hinge has turned past 1e8 rad";
-        return false;
-      }
-    return true;
-  }
-
-  /// One try of the method from step_.x over h.
-  [[nodiscard]] Verdict attempt(const T& h) {
+  /// Counts a try, and adds what else a step must satisfy where the method takes long ones: a dense
+  /// output that shows what happens inside.
+  [[nodiscard]] Verdict judged(Verdict verdict) {
     ++tried_;
     const Method method = choice_.active();
-    step_.h = h;
-    Verdict verdict = steppers_.with(method, [&](auto& stepper) {
-      return stepper.attempt(system_, Start<T>{step_.t, step_.x, step_.dxdt}, h, step_.x1,
-                             step_.dxdt1);
-    });
-    if (verdict.accepted() && takes_long_steps(method)) judge_interpolant(method, verdict);
+    if (!verdict.accepted() || !takes_long_steps(method)) return verdict;
+    // whether a hinge that grazes its latch reaches it is the interpolant's word
+    const double finer = method == Method::bulirsch_stoer ? 10 : 1;
+    const T rough = roughness(at_, step_.h, step_.dxdt, step_.dxdt1, T(how_.atol));
+    limit_roughness(finer * static_cast<double>(rough), verdict);
+    if (!verdict.accepted() || method != Method::fehlberg78 || !at_.smoothed) return verdict;
+    const double quadrature = quadrature_error<T>(system_, step_, tolerance());
+    if (quadrature > 1) verdict = {quadrature, std::max(0.2, 0.8 * std::pow(quadrature, -1.0 / 6))};
     return verdict;
   }
 
-  /// What else a step must satisfy where the method takes long ones: a dense output that shows what
-  /// happens inside.
-  void judge_interpolant(Method method, Verdict& verdict) const {
-    // whether a hinge that grazes its latch reaches it is the interpolant's word
-    const double finer = method == Method::bulirsch_stoer ? 10 : 1;
-    const double rough = finer * roughness(at_, step_.h, step_.dxdt, step_.dxdt1, how_.atol);
-    if (rough > 1)
-      verdict = {2, std::max(0.2, 0.8 * std::pow(rough, -1.0 / 3))};
-    else if (rough > 0.1)
-      verdict.factor = std::min(verdict.factor, 0.9 * std::pow(rough, -1.0 / 3));
-    if (method != Method::fehlberg78 || !at_.smoothed) return;
-    const double quadrature = quadrature_error<T>(system_, step_, tolerance());
-    if (quadrature > 1) verdict = {quadrature, std::max(0.2, 0.8 * std::pow(quadrature, -1.0 / 6))};
-  }
-
-  /// Cuts the step after a rejection. @return false where the method cannot
-  [[nodiscard]] bool refuse(const Verdict& verdict) {
+  /// Cuts the step after a rejection; fails where the method cannot.
+  void refuse(const Verdict& verdict) {
     ++rejected_;
     const bool fixed = steppers_.with(choice_.active(), [](auto& stepper) {
       stepper.rejected();
       return std::decay_t<decltype(stepper)>::fixed_step;
     });
-    if (fixed) {
-      why_no_step_ =
-          std::isfinite(verdict.error)
-              ? "the fixed step of " + in_words(how_.step) + " s misses the tolerance " +
-                    in_words(verdict.error) + "-fold"
-              : "the fixed step of " + in_words(how_.step) + " s gives numbers that are not finite";
-      return false;
-    }
+    if (fixed)
+      return fail(std::isfinite(verdict.error)
+                      ? "the fixed step of " + in_words(how_.step) + " s misses the tolerance " +
+                            in_words(verdict.error) + "-fold"
+                      : "the fixed step of " + in_words(how_.step) +
+                            " s gives numbers that are not finite");
     h_ = step_.h * T(verdict.factor);
-    return true;
+    try_step();
   }
 
-  /// Up to the first latch the tolerance is this much tighter than asked: the phase takes a few per
-  /// cent of a run's steps, and what is lost in it shifts all that follows.
-  [[nodiscard]] double strictness() const {
-    return latches_.empty() && choice_.active() != Method::runge_kutta4 ? 32 : 1;
-  }
-  [[nodiscard]] Tolerance tolerance() const {
-    return {how_.rtol / strictness(), how_.atol / strictness()};
+  /// A double cannot tell the sine of an angle this large to the accuracy that is promised.
+  [[nodiscard]] bool angles_are_known() const {
+    using std::abs;
+    constexpr double largest = 1e8; // rad
+    for (int i = 1; i <= at_.bodies; ++i)
+      if (!(abs(step_.x[at_.angle(i)]) < T(largest))) return false;
+    return true;
   }
 
   /// While hinges stick nothing need change in the state: then the base's motion limits the step,
@@ -161,10 +265,58 @@ private:
     return spin > T(0) ? smaller(rest, T(T(turn) / spin)) : rest;
   }
 
-  void finish_step(bool reaches_end, const std::optional<Due>& due) {
-    ++steps_;
-    find_peaks();
-    steppers_.with(choice_.active(), [&](auto& stepper) { stepper.accepted(verdict_); });
+  // ---- a step accepted: its peaks, some of them made sure of by steps of the method inside it,
+  // then what it brings about
+
+  void accept() {
+    if constexpr (M == BaseMotion::free) restore_momentum();
+    probed_ = false;
+    due_moment_ = 0;
+    if (goal_.peak_force) forces_.over_step(system_, step_, scratch_, dscratch_);
+    probe_next();
+  }
+
+  /// Asks for the next step inside the one accepted, or goes on behind it.
+  void probe_next() {
+    if (goal_.peak_force && forces_.doubtful()) return probe(Stage::force, *forces_.doubtful());
+    while (goal_.peak_moment && ++due_moment_ <= at_.bodies) {
+      if (system_.sticks(due_moment_)) {
+        raise_held_moment(moments_[due_moment_], system_, step_, due_moment_,
+                          [this](const T& s) -> const State<T>& {
+                            step_.interpolate(at_, s, scratch_);
+                            system_(scratch_, dscratch_, step_.t + s * step_.h);
+                            return scratch_;
+                          });
+        continue;
+      }
+      doubt_ = raise_moment(moments_[due_moment_], system_, step_, due_moment_);
+      if (doubt_) return probe(Stage::moment, doubt_->s);
+    }
+    if (probed_ && choice_.active() == Method::adams_bashforth_moulton)
+      return probe(Stage::repeat, T(1)); // what it will keep must be the step accepted
+    finish_step();
+  }
+
+  void probe(Stage stage, const T& s) {
+    probed_ = true;
+    ask(stage, T(s * step_.h), scratch_, dscratch_);
+  }
+
+  void take_force() {
+    forces_.settle(system_);
+    probe_next();
+  }
+
+  void take_moment() {
+    if (settle_moment(*doubt_, moments_[due_moment_], system_, step_, due_moment_, scratch_,
+                      dscratch_))
+      return probe(Stage::moment, doubt_->s);
+    probe_next();
+  }
+
+  void finish_step() {
+    const bool reaches_end = last_ && !due_;
+    count_step();
     step_.t = reaches_end ? T(how_.t_end) : T(step_.t + step_.h);
     if (T(how_.t_end) - step_.t <= T(8 * epsilon_of<T>) * step_.t) step_.t = T(how_.t_end);
     std::swap(step_.x, step_.x1);
@@ -175,51 +327,26 @@ private:
       holding_.observe(system_, step_.x);
     }
     notify();
-    if (happens(due)) return;
-    if (choice_.after_step(static_cast<double>(step_.h), system_.work().evaluations))
-      change_method();
-    if (choice_.wants_radius()) choice_.set_radius(radius_.estimate(system_, step_.x, step_.t));
-  }
-
-  // ---- peaks
-
-  void find_peaks() {
-    probed_ = false;
-    const auto probe = [this](const T& s) { return step_inside(s); };
-    const auto hold = [this](const T& s) -> const State<T>& {
-      step_.interpolate(at_, s, scratch_);
-      system_(scratch_, dscratch_, step_.t + s * step_.h);
-      return scratch_;
-    };
-    if (goal_.peak_force) forces_.over_step(system_, step_, scratch_, dscratch_, probe);
-    for (int i = 1; goal_.peak_moment && i <= at_.bodies; ++i) {
-      if (system_.sticks(i))
-        raise_held_moment(moments_[i], system_, step_, i, hold);
-      else
-        raise_moment(moments_[i], system_, step_, i, probe);
+    if (!happens(due_)) {
+      if (choice_.after_step(static_cast<double>(step_.h), system_.work().evaluations))
+        change_method();
+      if (choice_.wants_radius()) choice_.set_radius(radius_.estimate(system_, step_.x, step_.t));
     }
-    if (probed_ && choice_.active() == Method::adams_bashforth_moulton)
-      (void)step_inside(T(1)); // what it will keep must be the step accepted
-  }
-
-  struct Inside {
-    const State<T>&x, &dxdt;
-  };
-
-  /// The state at t + s·h by a step of the method; the last evaluation is there.
-  Inside step_inside(const T& s) {
-    probed_ = true;
-    steppers_.with(choice_.active(), [&](auto& stepper) {
-      return stepper.attempt(system_, Start<T>{step_.t, step_.x, step_.dxdt}, T(s * step_.h),
-                             scratch_, dscratch_);
-    });
-    return {scratch_, dscratch_};
+    if (angles_are_known())
+      go_on();
+    else
+      fail("a hinge has turned past 1e8 rad");
   }
 
   void observe_moments() {
     using std::abs;
     for (int i = 1; i <= at_.bodies; ++i)
       moments_[i].raise(T(abs(system_.moment(step_.x, i))), step_.t);
+  }
+
+  void count_step() {
+    ++steps_;
+    steppers_.with(choice_.active(), [&](auto& stepper) { stepper.accepted(verdict_); });
   }
 
   // ---- events
@@ -291,32 +418,30 @@ private:
   }
 
   /// Replaces the step by one that ends at the event, so that its state has the method's accuracy
-  /// and not the interpolant's, then corrects the instant by Newton's method with real steps. A
+  /// and not the interpolant's; the instant is corrected by Newton's method with real steps. A
   /// hinge that only grazes its latched angle has no useful Newton step: there the interpolant's
   /// instant stands.
-  [[nodiscard]] bool step_to_event(const Due& due) {
-    const T longest = step_.h, shortest = T(8 * epsilon_of<T>) * larger(step_.t, longest);
-    T h = due.s * longest;
-    for (int correction = 0;; ++correction) {
-      h = smaller(larger(h, shortest), longest);
-      const Verdict verdict = attempt(h);
-      if (!verdict.accepted()) {
-        (void)refuse(verdict);
-        return false;
+  void try_step_to_event(const T& h) {
+    const T shortest = T(8 * epsilon_of<T>) * larger(step_.t, longest_);
+    step_.h = smaller(larger(h, shortest), longest_);
+    ask(Stage::event, step_.h, step_.x1, step_.dxdt1);
+  }
+
+  void take_step_to_event(const Verdict& given) {
+    const Verdict verdict = judged(given);
+    if (!verdict.accepted()) return refuse(verdict);
+    verdict_ = verdict;
+    const Indicator at = indicator(*due_);
+    const T late = at.value / at.slope, size = larger(late, T(-late));
+    if (at.slope > T(0) && size < T(1e-2) * step_.h && correction_ < 3) {
+      if (size > T(1e-7) * step_.h) {
+        ++correction_;
+        return try_step_to_event(step_.h - late);
       }
-      verdict_ = verdict;
-      const Indicator at = indicator(due);
-      const T late = at.value / at.slope, size = larger(late, T(-late));
-      if (!(at.slope > T(0)) || !(size < T(1e-2) * h) || correction == 3) break;
-      if (!(size > T(1e-7) * h)) { // the rest is linear: its square is below round-off
-        shift(-late);
-        h = h - late;
-        break;
-      }
-      h = h - late;
+      shift(-late); // the rest is linear: its square is below round-off
+      step_.h = smaller(T(step_.h - late), longest_);
     }
-    step_.h = smaller(h, longest);
-    return true;
+    accept();
   }
 
   /// Moves the step's end by dt, to first order in x.
@@ -449,12 +574,17 @@ private:
     if (goal_.first_latch_only && any_latch()) return true;
     if (goal_.to_t_end) return false;
     if (rests_for_ever() && (latches_left_ > 0 || any_latch())) return true;
-    constexpr int interval = 16; // steps between two looks at the proofs: they cost an evaluation
-    const bool look = ++since_last_look_ % interval == 0;
+    const bool look = look_is_due();
+    ++since_last_look_;
     if (latches_left_ > 0) return look && lacks_energy() && !goal_.peak_moment && !goal_.peak_force;
     if (!any_latch()) return false;
     if (!goal_.peak_moment && !goal_.peak_force) return true;
     return look && no_peak_can_rise();
+  }
+
+  [[nodiscard]] bool look_is_due() const {
+    constexpr int interval = 16; // steps between two looks at the proofs: they cost an evaluation
+    return !goal_.to_t_end && since_last_look_ % interval == interval - 1;
   }
 
   /// All hinges stick, under a load that stays as it is.
@@ -496,9 +626,8 @@ private:
     return true;
   }
 
-  [[nodiscard]] Outcome fail(const std::string& why) {
-    return report(Status::failed,
-                  why + ", at t = " + std::to_string(static_cast<double>(step_.t)) + " s");
+  void fail(const std::string& why) {
+    end(Status::failed, why + ", at t = " + std::to_string(static_cast<double>(step_.t)) + " s");
   }
 
   // ---- what is told of it
@@ -512,9 +641,10 @@ private:
     if (observer_) observer_(sample_at(system_, step_.x, step_.t));
   }
 
-  [[nodiscard]] Outcome report(Status status, std::string reason) {
+  void end(Status status, std::string reason) {
     close_phase();
-    Outcome out;
+    ended_ = true;
+    Outcome& out = outcome_;
     out.status = status;
     out.reason = std::move(reason);
     out.phases = std::move(phases_);
@@ -525,7 +655,6 @@ private:
     out.work = {steps_, rejected_, system_.work().evaluations};
     out.final = configuration_at(system_, step_.x, step_.t);
     out.energy = {initial_energy_, total_energy(system_, step_.x, step_.t), largest_drift_};
-    return out;
   }
 
   /// Four significant digits.
@@ -551,6 +680,15 @@ private:
   Steppers<T> steppers_;
   Verdict verdict_{0, 1}; ///< of the step last accepted
   Step<T> step_;
+  Stage stage_ = Stage::step;
+  Try try_{};
+  bool last_ = false, ended_ = false;
+  std::optional<Due> due_;                 ///< the event that ends the step
+  int correction_ = 0;                     ///< of its instant
+  T longest_ = T(0);                       ///< the step in which it was found
+  int due_moment_ = 0;                     ///< the hinge whose moment is looked at
+  std::optional<DoubtfulMoment<T>> doubt_; ///< of it
+  Outcome outcome_;
   State<T> scratch_, dscratch_;
   T h_ = T(0);
   std::vector<PeakOf<T>> moments_;
@@ -563,7 +701,7 @@ private:
   std::vector<Phase> phases_;
   int latches_left_ = 0;
   bool stalled_ = false; ///< no hinge can reach its latch any more
-  std::string why_stalled_, why_no_step_;
+  std::string why_stalled_;
   long tried_ = 0, steps_ = 0, rejected_ = 0, since_last_look_ = 0;
   double initial_energy_ = 0, largest_drift_ = 0;
 };

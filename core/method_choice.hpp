@@ -102,6 +102,8 @@ public:
 
   /// Whether ρ should be measured anew before the next step.
   [[nodiscard]] bool wants_radius() const { return automatic_ && steps_ % 32 == 31; }
+  /// Whether it should be after the next step.
+  [[nodiscard]] bool radius_is_due() const { return automatic_ && steps_ % 32 == 30; }
   void set_radius(double radius) { radius_ = radius; }
 
   /// A step of h was accepted. @param evaluations of the run so far

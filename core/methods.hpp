@@ -90,6 +90,14 @@ struct Tolerance {
   double rtol = 1e-8, atol = 1e-10;
 };
 
+/// `scaled_error` for a method's own use.
+template <class T>
+[[nodiscard]] double in_tolerances(const State<T>& x, const State<T>& x1, const State<T>& dxdt1,
+                                   const State<T>& error, const Tolerance& tolerance) {
+  return static_cast<double>(
+      scaled_error(x, x1, dxdt1, error, T(tolerance.rtol), T(tolerance.atol)));
+}
+
 /// What a method thinks of its step.
 struct Verdict {
   double error;  ///< in units of the tolerance: accepted if ≤ 1; NaN if anything is not finite
@@ -135,7 +143,7 @@ struct CashKarp54
     : WithoutLastStage<T, boost::numeric::odeint::runge_kutta_cash_karp54<State<T>, T, State<T>, T,
                                                                           StateAlgebra>> {
   static constexpr int order = 5, error_order = 4;
-  static constexpr double stable_real = 3.678, stable_imaginary = 0;
+  static constexpr double stable_real = 3.734, stable_imaginary = 0;
 };
 
 /// Its estimate, (41/840)·h·(k1 + k11 − k12 − k13), has stages at the step's ends alone: it is
@@ -146,14 +154,13 @@ struct Fehlberg78
     : WithoutLastStage<T, boost::numeric::odeint::runge_kutta_fehlberg78<State<T>, T, State<T>, T,
                                                                          StateAlgebra>> {
   static constexpr int order = 8, error_order = 7;
-  static constexpr double stable_real = 4.377, stable_imaginary = 0;
+  static constexpr double stable_real = 5.008, stable_imaginary = 2.365;
 };
 
 /// A formula with step control.
 template <class T, class Formula> class Adaptive {
 public:
   static constexpr int order = Formula::order;
-  static constexpr double stable_real = Formula::stable_real;
   static constexpr bool fixed_step = false;
 
   void restart(const Tolerance& tolerance) {
@@ -166,9 +173,11 @@ public:
                                 State<T>& dxdt1) {
     error_.resize(from.x.size());
     formula_.estimate(system, from, h, x1, dxdt1, error_);
-    const double error = scaled_error(from.x, x1, dxdt1, error_, tolerance_.rtol, tolerance_.atol);
-    return {error, control_.factor(error)};
+    return verdict(in_tolerances(from.x, x1, dxdt1, error_, tolerance_));
   }
+
+  /// On a step of this scaled error.
+  [[nodiscard]] Verdict verdict(double error) const { return {error, control_.factor(error)}; }
 
   void accepted(const Verdict& verdict) { control_.accepted(verdict.error); }
   void rejected() { control_.rejected(); }
@@ -186,7 +195,7 @@ private:
 template <class T> class RungeKutta4 {
 public:
   static constexpr int order = 4;
-  static constexpr double stable_real = 2.785;
+  static constexpr double stable_real = 2.785, stable_imaginary = 2.828; ///< of each of the two
   static constexpr bool fixed_step = true;
 
   void restart(const Tolerance& tolerance) { tolerance_ = tolerance; }
@@ -203,7 +212,7 @@ public:
     stepper_.do_step(std::ref(system), from.x, from.dxdt, from.t, error_, h);
     system(x1, dxdt1, from.t + h);
     for (std::size_t k = 0; k < x1.size(); ++k) error_[k] = (x1[k] - error_[k]) / T(15);
-    return {scaled_error(from.x, x1, dxdt1, error_, tolerance_.rtol, tolerance_.atol), 1};
+    return {in_tolerances(from.x, x1, dxdt1, error_, tolerance_), 1};
   }
 
   void accepted(const Verdict& /*verdict*/) {}
@@ -273,7 +282,7 @@ public:
     stepper_.do_step_impl(std::ref(system), from.x, from.t, x1, h_, error_);
     system(x1, dxdt1, from.t + h);
     x_ = x1, dxdt_ = dxdt1;
-    const double error = scaled_error(from.x, x1, dxdt1, error_, tolerance_.rtol, tolerance_.atol);
+    const double error = in_tolerances(from.x, x1, dxdt1, error_, tolerance_);
     if (!std::isfinite(error)) return {error, 0.1};
     const double wanted =
         0.9 * std::pow(std::max(error, 1e-10), -1.0 / (static_cast<double>(current()) + 1));
@@ -300,7 +309,7 @@ private:
     auto& history = stepper_.coeff();
     const T weight = h_ * history.gs[k];
     for (std::size_t c = 0; c < error_.size(); ++c) error_[c] = weight * history.phi[1][k].m_v[c];
-    return scaled_error(x_, x_, dxdt_, error_, tolerance_.rtol, tolerance_.atol);
+    return in_tolerances(x_, x_, dxdt_, error_, tolerance_);
   }
 
   void choose_order() {

@@ -7,6 +7,7 @@
 #include <boost/math/tools/minima.hpp>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace wingspread {
@@ -146,38 +147,51 @@ template <class T, class AnySystem>
   return -fused(law.stiffness, rate, damping * dxdt[at.rate(i)]);
 }
 
-/// Raises `peak` to the largest |moment| of hinge i over the step. What the dense output finds
-/// inside is made sure of by steps of the method that end there, the instant corrected by Newton's
-/// method: the peak has the method's accuracy, not the interpolant's.
-/// @param probe probe(s) steps there and returns the state and its derivative
-template <class T, class AnySystem, class Probe>
-void raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
-                  Probe&& probe) {
+/// A maximum of |moment| inside a step, known by the dense output alone.
+template <class T> struct DoubtfulMoment {
+  T s;    ///< fraction of the step
+  T bend; ///< d²M/dt² there
+  int corrections = 0;
+};
+
+/// Raises `peak` to the largest |moment| of hinge i over the step where that lies at one of its
+/// ends. A maximum inside that the dense output finds must be made sure of by a step of the method
+/// that ends there: then the peak has the method's accuracy, not the interpolant's.
+/// @return where; `settle_moment` takes it from there
+template <class T, class AnySystem>
+[[nodiscard]] std::optional<DoubtfulMoment<T>>
+raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i) {
   using std::abs;
   const MomentOverStep<T, AnySystem> moment(system, step, i);
-  if (!(moment.most() > peak.value)) return;
+  if (!(moment.most() > peak.value)) return std::nullopt;
   PeakOf<T> candidate = peak;
   raise_by_interpolant(candidate, moment, step);
-  if (!(candidate.value > peak.value)) return;
+  if (!(candidate.value > peak.value)) return std::nullopt;
   const T s = (candidate.time - step.t) / step.h;
   constexpr double at_an_end = 1e-5; // there the interpolant is right to round-off
   if (s < T(at_an_end) || s > T(1 - at_an_end)) {
     peak = candidate;
-    return;
+    return std::nullopt;
   }
   peak.raise(T(abs(moment(T(0)))), step.t);
   peak.raise(T(abs(moment(T(1)))), step.t + step.h);
-  const T bend = moment.bend(s);
-  T at = s;
-  for (int correction = 0; correction < 4; ++correction) {
-    const auto& [x, dxdt] = probe(at);
-    const T M = system.moment(x, i);
-    peak.raise(T(abs(M)), step.t + at * step.h);
-    const T late = system.layout().smoothed ? T(0) : T(moment_rate(system, x, dxdt, i) / bend);
-    const T gain = T(0.5) * late * late * abs(bend);
-    at = at - late / step.h;
-    if (!(M * bend < T(0)) || !(gain > T(1e-12) * abs(M)) || !(at > T(0)) || !(at < T(1))) break;
-  }
+  return DoubtfulMoment<T>{s, moment.bend(s)};
+}
+
+/// A step of the method to `doubt.s` gave (x, dxdt): raises the peak, and corrects the instant by
+/// Newton's method. @return whether a step to the new `doubt.s` is worth making
+template <class T, class AnySystem>
+[[nodiscard]] bool settle_moment(DoubtfulMoment<T>& doubt, PeakOf<T>& peak, const AnySystem& system,
+                                 const Step<T>& step, int i, const State<T>& x,
+                                 const State<T>& dxdt) {
+  using std::abs;
+  const T M = system.moment(x, i);
+  peak.raise(T(abs(M)), step.t + doubt.s * step.h);
+  const T late = system.layout().smoothed ? T(0) : T(moment_rate(system, x, dxdt, i) / doubt.bend);
+  const T gain = T(0.5) * late * late * abs(doubt.bend);
+  doubt.s = doubt.s - late / step.h;
+  return M * doubt.bend < T(0) && gain > T(1e-12) * abs(M) && doubt.s > T(0) && doubt.s < T(1) &&
+         ++doubt.corrections < 4;
 }
 
 /// The same for a hinge that sticks, whose moment takes an evaluation to know: it is at most its
@@ -206,7 +220,11 @@ public:
     peaks.assign(bodies + 1, {});
     before_.assign(bodies + 1, T(0));
     inner_.assign(bodies + 1, {});
+    doubts_.clear();
   }
+
+  /// |reaction| at the start of the next step, 1 … n, N.
+  [[nodiscard]] std::vector<T>& before() { return before_; }
 
   /// The last evaluation of `system` was at t: takes the forces as they stand.
   void observe(const AnySystem& system, const T& t) {
@@ -216,10 +234,8 @@ public:
     }
   }
 
-  /// The last evaluation was at the step's end. @param probe as of raise_moment
-  template <class Probe>
-  void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt,
-                 Probe&& probe) {
+  /// The last evaluation was at the step's end. What lies inside the step is left in doubt.
+  void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
     bool promising = false;
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       const T end = magnitude(system, static_cast<int>(i));
@@ -234,10 +250,29 @@ public:
         inner_[i][k] = magnitude(system, static_cast<int>(i));
     }
     for (std::size_t i = 1; i < peaks.size(); ++i)
-      raise(system, step, static_cast<int>(i), x, dxdt, probe);
+      raise(system, step, static_cast<int>(i), x, dxdt);
+  }
+
+  /// Where a step of the method must make sure of a maximum found by the dense output, as a
+  /// fraction of the step; none if nothing is in doubt.
+  [[nodiscard]] std::optional<T> doubtful() const {
+    if (doubts_.empty()) return std::nullopt;
+    return doubts_.back().s;
+  }
+
+  /// That step has been made, and its last evaluation was there.
+  void settle(const AnySystem& system) {
+    const Doubt doubt = doubts_.back();
+    doubts_.pop_back();
+    peaks[doubt.hinge].raise(magnitude(system, doubt.hinge), doubt.time);
   }
 
 private:
+  struct Doubt {
+    int hinge;
+    T s, time;
+  };
+
   [[nodiscard]] static T magnitude(const AnySystem& system, int i) {
     using std::sqrt;
     const Vec2<T>& f = system.work().forces[i];
@@ -250,9 +285,7 @@ private:
     system(x, dxdt, step.t + s * step.h);
   }
 
-  template <class Probe>
-  void raise(AnySystem& system, const Step<T>& step, int i, State<T>& x, State<T>& dxdt,
-             Probe&& probe) {
+  void raise(AnySystem& system, const Step<T>& step, int i, State<T>& x, State<T>& dxdt) {
     int best = 0;
     for (int k = 1; k <= 4; ++k)
       if (inner_[i][k] > inner_[i][best]) best = k;
@@ -266,9 +299,8 @@ private:
       evaluate(system, step, s, x, dxdt);
       return magnitude(system, i);
     });
-    if (!(candidate.value > peaks[i].value)) return;
-    probe(T((candidate.time - step.t) / step.h));
-    peaks[i].raise(magnitude(system, i), candidate.time);
+    if (candidate.value > peaks[i].value)
+      doubts_.push_back({i, T((candidate.time - step.t) / step.h), candidate.time});
   }
 
   /// The samples rise or fall towards an end so steeply that a parabola through the last three has
@@ -284,6 +316,7 @@ private:
 
   std::vector<T> before_;
   std::vector<std::array<T, 5>> inner_;
+  std::vector<Doubt> doubts_; ///< last in, first out
 };
 
 } // namespace wingspread

@@ -120,7 +120,6 @@ private:
 
 template <class T> struct RosenbrockW {
   static constexpr int order = 3, error_order = 2;
-  static constexpr double stable_real = 0; ///< L-stable
   static constexpr const RosenbrockTableau& tableau = ros34pw2;
 
   template <class System>

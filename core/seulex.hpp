@@ -100,7 +100,7 @@ private:
 
   [[nodiscard]] double column_error(const State<T>& x, int j) {
     for (std::size_t c = 0; c < x.size(); ++c) error_[c] = table_[0][c] - table_[1][c];
-    errors_[j] = scaled_error(x, table_[0], table_[0], error_, tolerance_.rtol, tolerance_.atol);
+    errors_[j] = in_tolerances(x, table_[0], table_[0], error_, tolerance_);
     return errors_[j];
   }
 

@@ -7,7 +7,7 @@
 /// number, and double without FMA, uses its library's functions.
 #pragma once
 
-#include "core/scalar.hpp"
+#include "core/pack.hpp"
 
 #include <bit>
 #include <cstdint>
@@ -28,55 +28,64 @@ template <class T> [[nodiscard]] inline SineCosine<T> sine_cosine(const T& angle
 #ifdef __FMA__
 namespace detail {
 
+/// The bits of a number, and a number of bits.
+[[nodiscard]] inline std::int64_t bits_of(double x) { return std::bit_cast<std::int64_t>(x); }
+[[nodiscard]] inline double number_of(std::int64_t bits) { return std::bit_cast<double>(bits); }
+template <int W> [[nodiscard]] inline auto bits_of(const Pack<W>& x) {
+  return reinterpret_cast<typename Pack<W>::Bits>(x.v);
+}
+template <class Bits> [[nodiscard]] inline auto number_of(Bits bits) {
+  constexpr int width = sizeof(Bits) / 8;
+  return Pack<width>(reinterpret_cast<typename Pack<width>::Vector>(bits));
+}
+
 /// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction, which the rest need not wait
 /// for.
-[[nodiscard]] inline double sine_kernel(double r, double r_low, double z) {
-  const double zz = z * z;
-  const double high = fused(z, 1.58969099521155010221e-10, -2.50507602534068634195e-08);
-  const double middle = fused(z, 2.75573137070700676789e-06, -1.98412698298579493134e-04);
-  const double low = fused(z, 8.33333333332248946124e-03, -1.66666666666666324348e-01);
-  return fused(z * r, fused(zz, fused(zz, high, middle), low), r_low);
+template <class P> [[nodiscard]] inline P sine_kernel(const P& r, const P& r_low, const P& z) {
+  const P zz = z * z;
+  const P high = fused(z, P(1.58969099521155010221e-10), P(-2.50507602534068634195e-08));
+  const P middle = fused(z, P(2.75573137070700676789e-06), P(-1.98412698298579493134e-04));
+  const P low = fused(z, P(8.33333333332248946124e-03), P(-1.66666666666666324348e-01));
+  return fused(P(z * r), fused(zz, fused(zz, high, middle), low), r_low);
 }
 
 /// cos r for |r| ≤ π/4, z = r²; 1 − z/2 is split so that its rounding error is added back.
-[[nodiscard]] inline double cosine_kernel(double z) {
-  const double zz = z * z;
-  const double high = fused(z, -1.13596475577881948265e-11, 2.08757232129817482790e-09);
-  const double middle = fused(z, -2.75573143513906633035e-07, 2.48015872894767294178e-05);
-  const double low = fused(z, -1.38888888888741095749e-03, 4.16666666666666019037e-02);
-  const double p = fused(zz, fused(zz, high, middle), low);
-  const double w = fused(z, -0.5, 1.0);
-  return w + fused(zz, p, fused(z, -0.5, 1.0 - w));
+template <class P> [[nodiscard]] inline P cosine_kernel(const P& z) {
+  const P zz = z * z;
+  const P high = fused(z, P(-1.13596475577881948265e-11), P(2.08757232129817482790e-09));
+  const P middle = fused(z, P(-2.75573143513906633035e-07), P(2.48015872894767294178e-05));
+  const P low = fused(z, P(-1.38888888888741095749e-03), P(4.16666666666666019037e-02));
+  const P p = fused(zz, fused(zz, high, middle), low);
+  const P w = fused(z, P(-0.5), P(1.0));
+  return w + fused(zz, p, fused(z, P(-0.5), P(P(1.0) - w)));
 }
 
-[[nodiscard]] inline double flip_sign(double x, std::uint64_t sign_bit) {
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ sign_bit);
-}
-
-/// Bits of a where the mask is set, of b elsewhere: a blend that no compiler turns into a jump.
-[[nodiscard]] inline double blend(std::uint64_t mask, double a, double b) {
-  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(a) & mask) |
-                               (std::bit_cast<std::uint64_t>(b) & ~mask));
+/// For double and packs of it.
+template <class P> [[nodiscard]] inline SineCosine<P> branch_free_sine_cosine(const P& angle) {
+  const P rounder(0x1.8p52); // adding it leaves the nearest integer in the low mantissa bits
+  const P shifted = fused(angle, P(0x1.45f306dc9c883p-1), rounder);
+  const P minus_k = rounder - shifted;
+  P r = fused(minus_k, P(0x1.921fb54442d18p0), angle);
+  r = fused(minus_k, P(0x1.1a62633145c07p-54), r);
+  // counts only beside a multiple of π/2
+  const P r_low = fused(minus_k, P(-0x1.f1976b7ed8fbcp-110), r);
+  const P z = r * r;
+  const auto s = bits_of(sine_kernel(r, r_low, z)), c = bits_of(cosine_kernel(z));
+  const auto quadrant = bits_of(shifted);
+  // bits where the mask is set of one, elsewhere of the other: a blend that is never a jump
+  const auto swapped = -(quadrant & 1), difference = s ^ c;
+  const auto sine = s ^ (difference & swapped), cosine = c ^ (difference & swapped);
+  return {number_of(sine ^ ((quadrant & 2) << 62)),
+          number_of(cosine ^ (((quadrant + 1) & 2) << 62))};
 }
 
 } // namespace detail
 
 template <> [[nodiscard]] inline SineCosine<double> sine_cosine<double>(const double& angle) {
-  constexpr double rounder =
-      0x1.8p52; // adding it leaves the nearest integer in the low mantissa bits
-  const double shifted = fused(angle, 0x1.45f306dc9c883p-1, rounder);
-  const double k = shifted - rounder;
-  double r = fused(-k, 0x1.921fb54442d18p0, angle);
-  r = fused(-k, 0x1.1a62633145c07p-54, r);
-  const double r_low =
-      fused(-k, -0x1.f1976b7ed8fbcp-110, r); // counts only beside a multiple of π/2
-  const double z = r * r;
-  const double s = detail::sine_kernel(r, r_low, z);
-  const double c = detail::cosine_kernel(z);
-  const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(shifted);
-  const std::uint64_t swapped = -(quadrant & 1);
-  return {detail::flip_sign(detail::blend(swapped, c, s), (quadrant & 2) << 62),
-          detail::flip_sign(detail::blend(swapped, s, c), ((quadrant + 1) & 2) << 62)};
+  return detail::branch_free_sine_cosine(angle);
+}
+template <int W> [[nodiscard]] inline SineCosine<Pack<W>> sine_cosine(const Pack<W>& angle) {
+  return detail::branch_free_sine_cosine(angle);
 }
 #endif
 

@@ -11,16 +11,16 @@ namespace wingspread {
 /// Largest error in units of its tolerance, atol + rtol·max(|x|, |x1|), over all components; NaN
 /// when anything in the step is not finite, so that `<= 1` refuses it.
 template <class T>
-[[nodiscard]] double scaled_error(const State<T>& x, const State<T>& x1, const State<T>& dxdt1,
-                                  const State<T>& error, double rtol, double atol) {
+[[nodiscard]] T scaled_error(const State<T>& x, const State<T>& x1, const State<T>& dxdt1,
+                             const State<T>& error, const T& rtol, const T& atol) {
   using std::abs;
   T largest(0), poison(0);
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const T tolerance = fused(T(rtol), larger(T(abs(x[k])), T(abs(x1[k]))), T(atol));
+    const T tolerance = fused(rtol, larger(T(abs(x[k])), T(abs(x1[k]))), atol);
     largest = larger(largest, T(abs(error[k]) / tolerance));
     poison = poison + (x1[k] - x1[k]) + (dxdt1[k] - dxdt1[k]) + (error[k] - error[k]); // 0, or NaN
   }
-  return static_cast<double>(largest + poison);
+  return largest + poison;
 }
 
 /// Proportional-integral step control [Hairer, Nørsett & Wanner I, II.4; Gustafsson 1991]: the

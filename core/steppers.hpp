@@ -88,17 +88,25 @@ private:
 /// cubic at the middle, h/32 (φ̇0 − φ̇1) + h²/64 (φ̈0 + φ̈1). @return > 1 if the step is too long; the
 /// difference grows with h³
 template <class T>
-[[nodiscard]] double roughness(const Layout& at, const T& h, const State<T>& dxdt,
-                               const State<T>& dxdt1, double atol) {
+[[nodiscard]] T roughness(const Layout& at, const T& h, const State<T>& dxdt, const State<T>& dxdt1,
+                          const T& atol) {
   using std::abs;
   T worst(0);
   for (int k = 0; k < at.freedoms(); ++k) {
     const int a = at.freedoms() + k;
     const T gap = fused(T(h / T(32)), dxdt[k] - dxdt1[k], h * h / T(64) * (dxdt[a] + dxdt1[a]));
-    const T move = fused(h, larger(T(abs(dxdt[k])), T(abs(dxdt1[k]))), T(1e3 * atol));
+    const T move = fused(h, larger(T(abs(dxdt[k])), T(abs(dxdt1[k]))), T(T(1e3) * atol));
     worst = larger(worst, T(abs(gap)) / (T(0.01) * move));
   }
-  return static_cast<double>(worst);
+  return worst;
+}
+
+/// Makes a verdict obey the roughness of its step.
+inline void limit_roughness(double rough, Verdict& verdict) {
+  if (rough > 1)
+    verdict = {2, std::max(0.2, 0.8 * std::pow(rough, -1.0 / 3))};
+  else if (rough > 0.1)
+    verdict.factor = std::min(verdict.factor, 0.9 * std::pow(rough, -1.0 / 3));
 }
 
 /// The error of Fehlberg's quadrature of a smoothed latch's state (Fehlberg78 is blind to it), in

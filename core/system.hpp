@@ -66,6 +66,11 @@ public:
       : wing_(wing), topology_(topology),
         work_(work), layout_{first_coordinate, topology.bodies(), smoothing.has_value()},
         epsilon_(smoothing.value_or(0)) {
+    reset();
+  }
+
+  /// Forgets what has happened: no hinge is latched or stuck; the wing's numbers may have changed.
+  void reset() {
     work_.frames.assign(layout_.bodies + 1, BodyFrame<T>{});
     work_.forces.assign(layout_.bodies + 1, {T(0), T(0)});
     work_.laws.resize(layout_.bodies + 1);

@@ -2,7 +2,7 @@
 // gives none: a wrong number that looks like an answer is the failure.
 //
 // Two more such scenes are tested elsewhere: the steps at which each method's ringing latch turns
-// unstable (methods_test.cpp), and chains of a thousand panels (recursion_test.cpp, "a thousand
+// unstable (stability_test.cpp), and chains of a thousand panels (recursion_test.cpp, "a thousand
 // bodies agree with a dense solve"; what they cost, studies/benchmark.cpp).
 #include "tests/support/closed_forms.hpp"
 #include "tests/support/reference_run.hpp"

@@ -59,7 +59,7 @@ TEST_CASE("the seed scene's outcome as JSON") {
   const Json& first = json["latches"][0];
   CHECK(keys(first) == std::vector<std::string>{"hinge", "time", "rate", "rates"});
   CHECK(first["hinge"] == "root");
-  // MODEL.md §6: an independent model, DOP853 at rtol 1e-11; printed to these digits
+  // An independent model, DOP853 at rtol 1e-11; printed to these digits
   CHECK(first["time"].get<double>() == Approx(4.819271).epsilon(0).margin(5e-7));
   CHECK(first["rate"].get<double>() == Approx(-1.267827).epsilon(0).margin(6e-7));
   CHECK(first["rates"]["root"] == first["rate"]);

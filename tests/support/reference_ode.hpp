@@ -62,7 +62,7 @@ public:
     return state;
   }
 
-  /// ẏ, with Ṡ = the smooth step of the overtravel over [0, ε] (MODEL.md §4).
+  /// ẏ, with Ṡ = the smooth step of the overtravel over [0, ε].
   [[nodiscard]] Vector<Scalar> derivative(const Vector<Scalar>& y) const {
     const WingResponse<Scalar> response = wing_.respond(state(y));
     Vector<Scalar> result(dimension());

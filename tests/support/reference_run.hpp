@@ -39,7 +39,7 @@ struct ReferencePeak {
 /// What a reference run yields. Vectors over hinges stand in Scene order.
 struct ReferenceOutcome {
   std::vector<ReferenceLatch> latches;    ///< in order of time
-  std::vector<ReferencePeak> peak_moment; ///< of |M| (MODEL.md §4), N·m
+  std::vector<ReferencePeak> peak_moment; ///< of |M|, N·m
   std::vector<ReferencePeak> peak_force;  ///< of |f|, N
   WingState<double> final;
   WingBalance<double> initial_balance, final_balance;

@@ -94,7 +94,7 @@ TEST_CASE("a panel under a constant moment latches when it should, and rings as 
   }
 }
 
-TEST_CASE("the seed scene gives the figures of MODEL.md §6") {
+TEST_CASE("the seed scene gives the figures") {
   // produced there by DOP853 at rtol 1e-11 with a dense mass matrix; half a unit of the last digit
   for (const Reference& reference : references) {
     INFO(reference.name);

@@ -1,0 +1,165 @@
+/// Many runs of one structure through the lanes of an engine of packs: a lane whose run has ended
+/// takes the next at once.
+///
+/// A run is asked only when a step is rejected, ends the run, or may hold an event or a peak; until
+/// then its state lives in the engine. What a run does is the same as alone, bit for bit: an engine
+/// makes its steps, and decides nothing.
+#pragma once
+
+#include "core/integrator.hpp"
+#include "core/pack_engine.hpp"
+
+#include <array>
+#include <memory>
+#include <optional>
+
+namespace wingspread {
+
+template <class Topology, BaseMotion M> class Lanes {
+  using AnySystem = System<double, Topology, M>;
+
+  struct Lane {
+    Lane(const Wing<double>& structure, const Topology& topology, const Integration& how,
+         const Goal& goal)
+        : wing(structure), system(wing, topology, how.smoothing, work),
+          run(system, how, goal, nobody) {}
+
+    Observer nobody;
+    Wing<double> wing;
+    Workspace<double> work;
+    AnySystem system;
+    Integrator<double, Topology, M> run;
+    long name = 0;
+    bool busy = false;
+    bool knows = false; ///< the run knows the state at its step's start
+  };
+
+public:
+  /// @param method of the engine
+  Lanes(const Wing<double>& structure, const Topology& topology, PackEngine& engine, Method method,
+        const Integration& how, const Goal& goal)
+      : engine_(engine), method_(method), how_(how), goal_(goal) {
+    for (int l = 0; l < engine.width(); ++l)
+      lanes_[l] = std::make_unique<Lane>(structure, topology, how, goal);
+  }
+
+  /// @param next next(wing) sets a wing's numbers to those of the run that comes next and returns
+  ///             its name; none when there are no more
+  /// @param done done(name, outcome), in the order in which the runs end
+  template <class Next, class Done> Occupancy run(Next&& next, Done&& done) {
+    count_ = {};
+    for (int l = 0; l < engine_.width(); ++l) refill(l, next, done);
+    for (LaneSet busy = busy_lanes(); busy != 0; busy = busy_lanes()) {
+      PerLane<double> h{};
+      for (int l = 0; l < engine_.width(); ++l)
+        if (has(busy, l)) h[l] = lanes_[l]->run.asked().h;
+      const long evaluations = engine_.attempt(h);
+      const LaneSet looks = engine_.worth_a_look();
+      LaneSet passed = 0;
+      for (int l = 0; l < engine_.width(); ++l) {
+        ++count_.tries;
+        if (!has(busy, l)) continue;
+        ++count_.busy;
+        if (settle(l, evaluations, has(looks, l), next, done)) passed |= 1U << l;
+      }
+      engine_.accept(passed);
+      for (int l = 0; l < engine_.width(); ++l)
+        if (has(passed, l) && !lanes_[l]->run.fits_pack(method_)) leave(l, next, done);
+    }
+    return count_;
+  }
+
+private:
+  [[nodiscard]] LaneSet busy_lanes() const {
+    LaneSet busy = 0;
+    for (int l = 0; l < engine_.width(); ++l) busy |= (lanes_[l]->busy ? 1U : 0U) << l;
+    return busy;
+  }
+
+  /// The engine has made the lane's step. @return whether the run passes on to the step's end as it
+  /// is
+  template <class Next, class Done>
+  [[nodiscard]] bool settle(int l, long evaluations, bool look, Next&& next, Done&& done) {
+    Lane& lane = *lanes_[l];
+    lane.work.evaluations += evaluations;
+    const Verdict verdict = lane.run.verdict_of(engine_.error(l));
+    if (!look && lane.run.pass(verdict, engine_.roughness(l))) {
+      lane.knows = false;
+      return true;
+    }
+    ++count_.looks;
+    learn(l);
+    const auto& asked = lane.run.asked();
+    engine_.get_end(l, *asked.x1, *asked.dxdt1, lane.work.forces);
+    lane.run.take(verdict);
+    carry_on(l, next, done);
+    return false;
+  }
+
+  /// The run has gone over to a method that the engine has not.
+  template <class Next, class Done> void leave(int l, Next&& next, Done&& done) {
+    learn(l);
+    carry_on(l, next, done);
+  }
+
+  /// Tells the run the state at its step's start.
+  void learn(int l) {
+    Lane& lane = *lanes_[l];
+    if (!lane.knows) engine_.get_start(l, lane.run.step(), lane.run.forces().before());
+    lane.knows = true;
+  }
+
+  /// Makes the steps that the engine cannot; then the lane is ready for it, with this run or the
+  /// next.
+  template <class Next, class Done> void carry_on(int l, Next&& next, Done&& done) {
+    Lane& lane = *lanes_[l];
+    for (; !lane.run.ended() && !lane.run.fits_pack(method_); ++count_.scalar)
+      lane.run.take(lane.run.make_try());
+    if (!lane.run.ended()) {
+      if (lane.run.asks_for_step()) show(l);
+      return;
+    }
+    done(lane.name, lane.run.outcome());
+    refill(l, next, done);
+  }
+
+  template <class Next, class Done> void refill(int l, Next&& next, Done&& done) {
+    Lane& lane = *lanes_[l];
+    for (;;) {
+      const std::optional<long> name = next(lane.wing);
+      lane.busy = name.has_value();
+      if (!name) return;
+      lane.name = *name;
+      lane.run.begin();
+      for (; !lane.run.ended() && !lane.run.fits_pack(method_); ++count_.scalar)
+        lane.run.take(lane.run.make_try());
+      if (!lane.run.ended()) break;
+      done(lane.name, lane.run.outcome());
+    }
+    engine_.set_wing(l, lane.wing);
+    lane.knows = true;
+    show(l);
+  }
+
+  /// Gives the engine what it needs for the run's next steps.
+  void show(int l) {
+    Lane& lane = *lanes_[l];
+    const Tolerance tolerance = lane.run.tolerance();
+    Watch watch;
+    if (goal_.peak_moment) watch.moments = &lane.run.moments();
+    if (goal_.peak_force)
+      watch.forces = &lane.run.forces().peaks, watch.force_before = &lane.run.forces().before();
+    watch.rtol = tolerance.rtol, watch.atol = tolerance.atol;
+    watch.atol_of_interpolant = how_.atol;
+    engine_.set_run(l, lane.work, lane.run.step(), watch);
+  }
+
+  PackEngine& engine_;
+  Method method_;
+  const Integration& how_;
+  const Goal& goal_;
+  std::array<std::unique_ptr<Lane>, most_lanes> lanes_;
+  Occupancy count_;
+};
+
+} // namespace wingspread

@@ -1,0 +1,227 @@
+/// The engine of packs, for an instruction set's own translation unit: the templates of the scalar
+/// path over Pack<W>.
+#pragma once
+
+#include "core/dop853.hpp"
+#include "core/pack_engine.hpp"
+#include "core/steppers.hpp"
+
+#include <optional>
+
+namespace wingspread {
+
+template <int W, class Topology, BaseMotion M, class Formula>
+class PackStepper : public PackEngine {
+  using P = Pack<W>;
+  using Mask = typename P::Mask;
+  using AnySystem = System<P, Topology, M>;
+
+public:
+  PackStepper(const Wing<double>& wing, const Topology& topology, const PackShape& shape)
+      : shape_(shape), topology_(topology), system_(make(wing), topology_, std::nullopt, work_),
+        at_(system_.layout()) {
+    for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
+      x->assign(at_.size(), P(0.0));
+    const std::size_t n = at_.bodies + 1;
+    for (std::vector<P>* v : {&waits_, &moments_, &forces_, &force_before_, &force_after_})
+      v->assign(n, P(0.0));
+    step_.t = P(0.0);
+    rtol_ = atol_ = rough_atol_ = P(1.0);
+    error_size_ = roughness_ = P(0.0);
+    system_.want_forces(shape.forces);
+  }
+
+  [[nodiscard]] int width() const override { return W; }
+
+  void set_wing(int lane, const Wing<double>& wing) override {
+    const auto set = [lane](P& to, double from) { to.v[lane] = from; };
+    const auto set2 = [lane](Vec2<P>& to, const Vec2<double>& from) {
+      to.x.v[lane] = from.x, to.y.v[lane] = from.y;
+    };
+    BaseTerms<P>& base = wing_.base;
+    set2(base.acceleration, wing.base.acceleration);
+    set(base.angular_acceleration, wing.base.angular_acceleration);
+    set(base.angle, wing.base.angle), set(base.rate, wing.base.rate);
+    for (int i = 0; i <= at_.bodies; ++i) {
+      BodyTerms<P>& body = wing_.bodies[i];
+      const BodyTerms<double>& from = wing.bodies[i];
+      set(body.mass, from.mass), set(body.inertia, from.inertia);
+      set2(body.mass_moment, from.mass_moment), set2(body.arm, from.arm);
+      set(body.minus_inverse, from.minus_inverse);
+    }
+    for (int i = 1; i <= at_.bodies; ++i) {
+      HingeTerms<P>& hinge = wing_.hinges[i];
+      const HingeTerms<double>& from = wing.hinges[i];
+      set(hinge.latched, from.latched), set(hinge.sense, from.sense);
+      set(hinge.coulomb, from.coulomb), set(hinge.slip_rate, from.slip_rate);
+      hinge.has_latch = hinge.has_latch || from.has_latch;
+    }
+    wing_.has_coulomb = wing_.has_coulomb || wing.has_coulomb;
+  }
+
+  void set_run(int lane, const Workspace<double>& work, const Step<double>& step,
+               const Watch& watch) override {
+    for (int i = 1; i <= at_.bodies; ++i) {
+      LinearLaw<P>& law = work_.laws[i];
+      const LinearLaw<double>& from = work.laws[i];
+      law.latched.v[lane] = from.latched, law.drive.v[lane] = from.drive;
+      law.stiffness.v[lane] = from.stiffness, law.damping.v[lane] = from.damping;
+      waits_[i].v[lane] = work.engaged[i] ? 0 : 1;
+      moments_[i].v[lane] = watch.moments ? (*watch.moments)[i].value : 0;
+      forces_[i].v[lane] = watch.forces ? (*watch.forces)[i].value : 0;
+      force_before_[i].v[lane] = watch.force_before ? (*watch.force_before)[i] : 0;
+    }
+    step_.t.v[lane] = step.t;
+    for (int k = 0; k < at_.size(); ++k)
+      step_.x[k].v[lane] = step.x[k], step_.dxdt[k].v[lane] = step.dxdt[k];
+    rtol_.v[lane] = watch.rtol, atol_.v[lane] = watch.atol;
+    rough_atol_.v[lane] = watch.atol_of_interpolant;
+  }
+
+  void get_start(int lane, Step<double>& step, std::vector<double>& forces) const override {
+    for (int k = 0; k < at_.size(); ++k)
+      step.x[k] = step_.x[k].v[lane], step.dxdt[k] = step_.dxdt[k].v[lane];
+    if (!shape_.forces) return;
+    for (int i = 1; i <= at_.bodies; ++i) forces[i] = force_before_[i].v[lane];
+  }
+
+  void get_end(int lane, State<double>& x1, State<double>& dxdt1,
+               std::vector<Vec2<double>>& forces) const override {
+    for (int k = 0; k < at_.size(); ++k)
+      x1[k] = step_.x1[k].v[lane], dxdt1[k] = step_.dxdt1[k].v[lane];
+    if (!shape_.forces) return;
+    for (int i = 1; i <= at_.bodies; ++i)
+      forces[i] = {work_.forces[i].x.v[lane], work_.forces[i].y.v[lane]};
+  }
+
+  long attempt(const PerLane<double>& h) override {
+    for (int lane = 0; lane < W; ++lane) step_.h.v[lane] = h[lane];
+    const long before = work_.evaluations;
+    const Start<P> from{step_.t, step_.x, step_.dxdt};
+    formula_.estimate(system_, from, step_.h, step_.x1, step_.dxdt1, error_);
+    error_size_ = scaled_error(step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
+    if constexpr (Formula::order > 5)
+      roughness_ = wingspread::roughness(at_, step_.h, step_.dxdt, step_.dxdt1, rough_atol_);
+    screen();
+    return work_.evaluations - before;
+  }
+
+  [[nodiscard]] double error(int lane) const override { return error_size_.v[lane]; }
+  [[nodiscard]] double roughness(int lane) const override { return roughness_.v[lane]; }
+  [[nodiscard]] LaneSet worth_a_look() const override { return looks_; }
+
+  void accept(LaneSet lanes) override {
+    Mask accepted{};
+    for (int lane = 0; lane < W; ++lane) accepted.bits[lane] = has(lanes, lane) ? -1 : 0;
+    for (int k = 0; k < at_.size(); ++k) {
+      step_.x[k] = select(accepted, step_.x1[k], step_.x[k]);
+      step_.dxdt[k] = select(accepted, step_.dxdt1[k], step_.dxdt[k]);
+    }
+    step_.t = select(accepted, P(step_.t + step_.h), step_.t);
+    if (!shape_.forces) return;
+    for (int i = 1; i <= at_.bodies; ++i)
+      force_before_[i] = select(accepted, force_after_[i], force_before_[i]);
+  }
+
+private:
+  /// A wing of this structure, with harmless numbers in every lane.
+  const Wing<P>& make(const Wing<double>& wing) {
+    wing_.tree = wing.tree;
+    wing_.base.motion = wing.base.motion;
+    const P one(1.0), zero(0.0);
+    const Vec2<P> none{zero, zero};
+    wing_.base.acceleration = none;
+    wing_.base.angular_acceleration = wing_.base.angle = wing_.base.rate = zero;
+    wing_.bodies.assign(wing.bodies.size(), {one, one, none, none, none, one, P(-1.0)});
+    HingeTerms<P> hinge{};
+    hinge.sense = hinge.slip_rate = one;
+    hinge.stowed = hinge.latched = hinge.drive = hinge.drive_slope = hinge.coulomb = zero;
+    hinge.viscous = hinge.kinetic = hinge.limit = hinge.stiffness = hinge.damping = zero;
+    wing_.hinges.assign(wing.hinges.size(), hinge);
+    return wing_;
+  }
+
+  /// Which lanes the run itself must look at: all tests are those it begins with.
+  void screen() {
+    Mask look{};
+    for (int i = 1; i <= at_.bodies; ++i) {
+      const HingeTerms<P>& hinge = wing_.hinges[i];
+      look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
+      if (hinge.has_latch) look = look || (waits_[i] > P(0.0) && may_engage(i));
+      if (shape_.moments) {
+        const MomentOverStep<P, AnySystem> moment(system_, step_, i);
+        look = look || !(moment.most() <= moments_[i]);
+      }
+      if (!shape_.forces) continue;
+      const Vec2<P>& force = work_.forces[i];
+      force_after_[i] = sqrt(dot(force, force));
+      look = look || P(1.25) * larger(force_before_[i], force_after_[i]) > forces_[i];
+    }
+    looks_ = 0;
+    for (int lane = 0; lane < W; ++lane) looks_ |= (look.bits[lane] ? 1U : 0U) << lane;
+  }
+
+  [[nodiscard]] Mask may_engage(int i) const {
+    const HingeTerms<P>& hinge = wing_.hinges[i];
+    Mask any{};
+    for (const P& c : step_.coordinate(at_.angle(i), at_.freedoms()))
+      any = any || !(hinge.sense * (c - hinge.latched) < P(0.0));
+    return any;
+  }
+
+  PackShape shape_;
+  Topology topology_;
+  Wing<P> wing_;
+  Workspace<P> work_;
+  AnySystem system_;
+  Layout at_;
+  Formula formula_;
+  Step<P> step_;
+  State<P> error_;
+  P rtol_, atol_, rough_atol_, error_size_, roughness_;
+  std::vector<P> waits_, moments_, forces_, force_before_, force_after_;
+  LaneSet looks_ = 0;
+};
+
+namespace detail {
+
+template <int W, BaseMotion M, class Topology>
+[[nodiscard]] std::unique_ptr<PackEngine>
+pack_stepper(const Wing<double>& wing, const Topology& topology, const PackShape& shape) {
+  using P = Pack<W>;
+  if (shape.eighth_order)
+    return std::make_unique<PackStepper<W, Topology, M, DormandPrince853<P>>>(wing, topology,
+                                                                              shape);
+  return std::make_unique<PackStepper<W, Topology, M, DormandPrince5<P>>>(wing, topology, shape);
+}
+
+template <int W, int N = 1>
+[[nodiscard]] std::unique_ptr<PackEngine> chain_stepper(const Wing<double>& wing,
+                                                        const PackShape& shape) {
+  if constexpr (N <= longest_static_chain) {
+    if (wing.size() == N) return pack_stepper<W, BaseMotion::fixed>(wing, Chain<N>{}, shape);
+    return chain_stepper<W, N + 1>(wing, shape);
+  } else {
+    return pack_stepper<W, BaseMotion::fixed>(wing, wing.tree, shape);
+  }
+}
+
+} // namespace detail
+
+/// The stepper of a structure, in packs of W.
+template <int W>
+[[nodiscard]] std::unique_ptr<PackEngine> make_pack_stepper(const Wing<double>& wing,
+                                                            const PackShape& shape) {
+  switch (shape.motion) {
+  case BaseMotion::prescribed:
+    return detail::pack_stepper<W, BaseMotion::prescribed>(wing, wing.tree, shape);
+  case BaseMotion::free:
+    return detail::pack_stepper<W, BaseMotion::free>(wing, wing.tree, shape);
+  case BaseMotion::fixed:
+    break;
+  }
+  if (is_chain(wing.tree)) return detail::chain_stepper<W>(wing, shape);
+  return detail::pack_stepper<W, BaseMotion::fixed>(wing, wing.tree, shape);
+}
+
+} // namespace wingspread
