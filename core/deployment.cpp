@@ -202,7 +202,7 @@ DeploymentPack::DeploymentPack(DeploymentPack&&) noexcept = default;
 DeploymentPack& DeploymentPack::operator=(DeploymentPack&&) noexcept = default;
 
 Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
-  const Method method = MethodChoice(how_.method, how_.rtol).active();
+  const Method method = MethodChoice(how_.method, how_.rtol, how_.smoothing.has_value()).active();
   const bool in_packs = set_ != InstructionSet::scalar && !how_.smoothing && !goal_.audit &&
                         (method == Method::dopri5 || method == Method::dop853);
   if (!in_packs) {

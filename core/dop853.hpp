@@ -133,7 +133,7 @@ private:
   /// Σ_j w_j k_j of component c, zeros left out.
   [[nodiscard, gnu::always_inline]] T weighted(const dop853::Row& w, std::size_t c) const {
     T sum(0);
-    [&]<std::size_t... J>(std::index_sequence<J...>) {
+    [&]<std::size_t... J>(std::index_sequence<J...>) __attribute__((always_inline)) {
       ((w[J] != 0 ? void(sum = fused(T(w[J]), k_[J][c], sum)) : void()), ...);
     }
     (std::make_index_sequence<dop853::stages>{});

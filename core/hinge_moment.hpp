@@ -41,48 +41,53 @@ template <class T>
 }
 
 template <class T>
-[[nodiscard]] inline T linear_moment(const LinearLaw<T>& law, const T& angle, const T& rate) {
+[[nodiscard, gnu::always_inline]] inline T linear_moment(const LinearLaw<T>& law, const T& angle,
+                                                         const T& rate) {
   return fused(-law.damping, rate, fused(-law.stiffness, angle - law.latched, law.drive));
 }
 
 /// Regularized Coulomb friction; smooth, so that a hinge creeps where a real one would stick.
 template <class T>
-[[nodiscard]] inline T coulomb_moment(const HingeTerms<T>& hinge, const T& rate) {
+[[nodiscard, gnu::always_inline]] inline T coulomb_moment(const HingeTerms<T>& hinge,
+                                                          const T& rate) {
   using std::sqrt;
   return -(hinge.coulomb * rate) / sqrt(fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
 }
 
 /// −d/dφ̇ of it: the damping that it is for small changes, N·m·s/rad.
 template <class T>
-[[nodiscard]] inline T coulomb_damping(const HingeTerms<T>& hinge, const T& rate) {
+[[nodiscard, gnu::always_inline]] inline T coulomb_damping(const HingeTerms<T>& hinge,
+                                                           const T& rate) {
   using std::sqrt;
   const T slip = hinge.slip_rate * hinge.slip_rate, square = fused(rate, rate, slip);
   return hinge.coulomb * slip / (square * sqrt(square));
 }
 
 /// h0 + Δh u²(3 − 2u) from 0 to 1 over u ∈ [0, 1]; constant outside.
-template <class T> [[nodiscard]] inline T smooth_step(const T& u) {
+template <class T> [[nodiscard, gnu::always_inline]] inline T smooth_step(const T& u) {
   const T v = smaller(larger(u, T(0)), T(1));
   return v * v * fused(T(-2), v, T(3));
 }
 
 /// f(φ): how far the hinge is inside the smoothed latch's engagement zone, 0 … 1; the rate of S.
 template <class T>
-[[nodiscard]] inline T engagement_rate(const HingeTerms<T>& hinge, const T& angle,
-                                       const T& epsilon) {
+[[nodiscard, gnu::always_inline]] inline T engagement_rate(const HingeTerms<T>& hinge,
+                                                           const T& angle, const T& epsilon) {
   return smooth_step(hinge.sense * (angle - hinge.latched) / epsilon);
 }
 
 /// Moment of a smoothed latch in state S.
 template <class T>
-[[nodiscard]] inline T smoothed_latch_moment(const HingeTerms<T>& hinge, const T& angle,
-                                             const T& rate, const T& S, const T& epsilon) {
+[[nodiscard, gnu::always_inline]] inline T smoothed_latch_moment(const HingeTerms<T>& hinge,
+                                                                 const T& angle, const T& rate,
+                                                                 const T& S, const T& epsilon) {
   const T full = -fused(hinge.damping, rate, hinge.stiffness * (angle - hinge.latched));
   return smooth_step(S / epsilon) * full;
 }
 
 /// Potential energy of a linear law without friction, zero at the latched angle, J.
-template <class T> [[nodiscard]] inline T potential(const LinearLaw<T>& law, const T& angle) {
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T potential(const LinearLaw<T>& law, const T& angle) {
   const T y = angle - law.latched;
   return y * fused(T(0.5) * law.stiffness, y, -law.drive);
 }

@@ -23,7 +23,7 @@ public:
 
   Integrator(AnySystem& system, const Integration& how, const Goal& goal, const Observer& observer)
       : system_(system), at_(system.layout()), how_(how), goal_(goal), observer_(observer),
-        choice_(how.method, how.rtol) {
+        choice_(how.method, how.rtol, how.smoothing.has_value()) {
     for (State<T>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &scratch_, &dscratch_})
       x->assign(at_.size(), T(0));
     moments_.assign(at_.bodies + 1, {});
@@ -171,7 +171,7 @@ private:
     if constexpr (M == BaseMotion::free) kept_ = conserved(system_, step_.x, step_.t);
     initial_energy_ = total_energy(system_, step_.x, step_.t);
     if (goal_.peak_force) forces_.start(at_.bodies);
-    choice_ = MethodChoice(how_.method, how_.rtol);
+    choice_ = MethodChoice(how_.method, how_.rtol, at_.smoothed);
     restart(0);
   }
 

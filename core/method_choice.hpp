@@ -80,8 +80,10 @@ private:
 class MethodChoice {
 public:
   /// @param asked a name from `methods()`
-  MethodChoice(const std::string& asked, double rtol) : automatic_(asked == "auto") {
-    explicit_ = rtol < break_even ? Method::dop853 : Method::dopri5;
+  /// @param smoothed whether latches are: their steps have two derivatives, and order 8 gains
+  /// nothing
+  MethodChoice(const std::string& asked, double rtol, bool smoothed) : automatic_(asked == "auto") {
+    explicit_ = rtol < break_even && !smoothed ? Method::dop853 : Method::dopri5;
     for (std::size_t k = 0; k < method_names.size(); ++k)
       if (method_names[k] == asked) explicit_ = static_cast<Method>(k);
     active_ = explicit_;

@@ -11,29 +11,34 @@
 
 namespace wingspread {
 
-template <class T> [[nodiscard]] inline T select(bool mask, const T& a, const T& b) {
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T select(bool mask, const T& a, const T& b) {
   return mask ? a : b;
 }
 
 /// a·b + c. One rounding where the instruction set has it for this type, two elsewhere; written out
 /// because the compiler's own contraction is off and results must not depend on its choices.
-template <class T> [[nodiscard]] inline T fused(const T& a, const T& b, const T& c) {
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T fused(const T& a, const T& b, const T& c) {
   return a * b + c;
 }
 #ifdef __FMA__
 template <>
-[[nodiscard]] inline double fused<double>(const double& a, const double& b, const double& c) {
+[[nodiscard, gnu::always_inline]] inline double fused<double>(const double& a, const double& b,
+                                                              const double& c) {
   return __builtin_fma(a, b, c);
 }
 #endif
 
 /// True when x is neither infinite nor NaN.
-template <class T> [[nodiscard]] inline bool is_finite(const T& x) { return x - x == T(0); }
+template <class T> [[nodiscard, gnu::always_inline]] inline bool is_finite(const T& x) {
+  return x - x == T(0);
+}
 
-template <class T> [[nodiscard]] inline T larger(const T& a, const T& b) {
+template <class T> [[nodiscard, gnu::always_inline]] inline T larger(const T& a, const T& b) {
   return select(a < b, b, a);
 }
-template <class T> [[nodiscard]] inline T smaller(const T& a, const T& b) {
+template <class T> [[nodiscard, gnu::always_inline]] inline T smaller(const T& a, const T& b) {
   return select(b < a, b, a);
 }
 

@@ -19,7 +19,8 @@ template <class T> struct SineCosine {
   T cosine;
 };
 
-template <class T> [[nodiscard]] inline SineCosine<T> sine_cosine(const T& angle) {
+template <class T>
+[[nodiscard, gnu::always_inline]] inline SineCosine<T> sine_cosine(const T& angle) {
   using std::cos;
   using std::sin;
   return {sin(angle), cos(angle)};
@@ -29,19 +30,24 @@ template <class T> [[nodiscard]] inline SineCosine<T> sine_cosine(const T& angle
 namespace detail {
 
 /// The bits of a number, and a number of bits.
-[[nodiscard]] inline std::int64_t bits_of(double x) { return std::bit_cast<std::int64_t>(x); }
-[[nodiscard]] inline double number_of(std::int64_t bits) { return std::bit_cast<double>(bits); }
-template <int W> [[nodiscard]] inline auto bits_of(const Pack<W>& x) {
+[[nodiscard, gnu::always_inline]] inline std::int64_t bits_of(double x) {
+  return std::bit_cast<std::int64_t>(x);
+}
+[[nodiscard, gnu::always_inline]] inline double number_of(std::int64_t bits) {
+  return std::bit_cast<double>(bits);
+}
+template <int W> [[nodiscard, gnu::always_inline]] inline auto bits_of(const Pack<W>& x) {
   return reinterpret_cast<typename Pack<W>::Bits>(x.v);
 }
-template <class Bits> [[nodiscard]] inline auto number_of(Bits bits) {
+template <class Bits> [[nodiscard, gnu::always_inline]] inline auto number_of(Bits bits) {
   constexpr int width = sizeof(Bits) / 8;
   return Pack<width>(reinterpret_cast<typename Pack<width>::Vector>(bits));
 }
 
 /// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction, which the rest need not wait
 /// for.
-template <class P> [[nodiscard]] inline P sine_kernel(const P& r, const P& r_low, const P& z) {
+template <class P>
+[[nodiscard, gnu::always_inline]] inline P sine_kernel(const P& r, const P& r_low, const P& z) {
   const P zz = z * z;
   const P high = fused(z, P(1.58969099521155010221e-10), P(-2.50507602534068634195e-08));
   const P middle = fused(z, P(2.75573137070700676789e-06), P(-1.98412698298579493134e-04));
@@ -50,7 +56,7 @@ template <class P> [[nodiscard]] inline P sine_kernel(const P& r, const P& r_low
 }
 
 /// cos r for |r| ≤ π/4, z = r²; 1 − z/2 is split so that its rounding error is added back.
-template <class P> [[nodiscard]] inline P cosine_kernel(const P& z) {
+template <class P> [[nodiscard, gnu::always_inline]] inline P cosine_kernel(const P& z) {
   const P zz = z * z;
   const P high = fused(z, P(-1.13596475577881948265e-11), P(2.08757232129817482790e-09));
   const P middle = fused(z, P(-2.75573143513906633035e-07), P(2.48015872894767294178e-05));
@@ -61,7 +67,8 @@ template <class P> [[nodiscard]] inline P cosine_kernel(const P& z) {
 }
 
 /// For double and packs of it.
-template <class P> [[nodiscard]] inline SineCosine<P> branch_free_sine_cosine(const P& angle) {
+template <class P>
+[[nodiscard, gnu::always_inline]] inline SineCosine<P> branch_free_sine_cosine(const P& angle) {
   const P rounder(0x1.8p52); // adding it leaves the nearest integer in the low mantissa bits
   const P shifted = fused(angle, P(0x1.45f306dc9c883p-1), rounder);
   const P minus_k = rounder - shifted;
@@ -81,10 +88,13 @@ template <class P> [[nodiscard]] inline SineCosine<P> branch_free_sine_cosine(co
 
 } // namespace detail
 
-template <> [[nodiscard]] inline SineCosine<double> sine_cosine<double>(const double& angle) {
+template <>
+[[nodiscard, gnu::always_inline]] inline SineCosine<double>
+sine_cosine<double>(const double& angle) {
   return detail::branch_free_sine_cosine(angle);
 }
-template <int W> [[nodiscard]] inline SineCosine<Pack<W>> sine_cosine(const Pack<W>& angle) {
+template <int W>
+[[nodiscard, gnu::always_inline]] inline SineCosine<Pack<W>> sine_cosine(const Pack<W>& angle) {
   return detail::branch_free_sine_cosine(angle);
 }
 #endif

@@ -26,6 +26,8 @@ struct RunOptions {
   std::filesystem::path campaign, out;
   SamplingOptions sampling;
   int threads = 0;
+  int lanes = 0;   ///< 0: as the instruction set has
+  std::string isa; ///< none: the widest
   bool resume = false;
   std::string shard;
   Display display;
@@ -48,17 +50,42 @@ std::string refuse_shard(const std::string& text) {
   return fmt::format("found {}, expected I/N with whole numbers 1 ≤ I ≤ N ≤ {}", text, most_shards);
 }
 
+/// The one asked for; refused where this processor has not got it.
+InstructionSet instruction_set(const std::string& name, int lanes) {
+  const std::vector<InstructionSet>& sets = instruction_sets();
+  const auto fits = [&](InstructionSet set) {
+    return (name.empty() || name == to_string(set)) && (lanes == 0 || lanes == lanes_of(set));
+  };
+  const auto found = std::find_if(sets.rbegin(), sets.rend(), fits);
+  if (found != sets.rend()) return *found;
+  std::vector<std::string> offered;
+  for (const InstructionSet set : sets)
+    offered.push_back(fmt::format("{} ({})", to_string(set), lanes_of(set)));
+  throw CLI::ValidationError(
+      name.empty()
+          ? fmt::format("--lanes {}", lanes)
+          : fmt::format("--isa {}{}", name, lanes ? fmt::format(" --lanes {}", lanes) : ""),
+      fmt::format("this processor has not got that; it offers (lanes): {}",
+                  fmt::join(offered, ", ")));
+}
+
 std::string host_name() {
   char name[256] = {};
   return gethostname(name, sizeof name - 1) == 0 ? name : "";
 }
 
 /// timing.json: what this session did and on what.
-std::string timing_text(const Tally& tally, double seconds, int threads, bool interrupted) {
+std::string timing_text(const Tally& tally, double seconds, int threads, InstructionSet set,
+                        const Occupancy& lanes, bool interrupted) {
   const long made = tally.done - tally.before;
   return json_text({{"host", host_name()},
                     {"processors", std::thread::hardware_concurrency()},
                     {"threads", threads},
+                    {"instruction_set", to_string(set)},
+                    {"lanes", lanes_of(set)},
+                    {"lane_occupancy", lanes.tries > 0 ? Json(static_cast<double>(lanes.busy) /
+                                                              static_cast<double>(lanes.tries))
+                                                       : Json()},
                     {"runs", made},
                     {"runs_before", tally.before},
                     {"seconds", seconds},
@@ -79,7 +106,7 @@ void count(const Batch& batch, Tally& tally) {
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
-bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads) {
+bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads, InstructionSet set) {
   const Interrupt interrupt;
   const RunRange remaining = folder.remaining();
   Tally tally{.total = folder.stored().runs().size()};
@@ -87,23 +114,26 @@ bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads) {
   tally.before = tally.done;
   Progress progress(stderr);
   progress.show(tally);
-  const long made = make_runs(plan, remaining, threads, interrupt.flag(), [&](const Batch& batch) {
+  const auto keep = [&](const Batch& batch) {
     folder.add(batch);
     count(batch, tally);
     progress.show(tally);
-  });
+  };
+  Occupancy lanes;
+  const long made = make_runs(plan, remaining, threads, interrupt.flag(), keep, set, &lanes);
   const bool interrupted = made < remaining.size();
   write_file(folder.stored().folder / timing_file,
-             timing_text(tally, progress.seconds(), team_size(threads), interrupted));
+             timing_text(tally, progress.seconds(), team_size(threads), set, lanes, interrupted));
   return interrupted;
 }
 
 int run(const RunOptions& options) {
+  const InstructionSet set = instruction_set(options.isa, options.lanes);
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   const RunPlan plan(campaign);
   RunFolder folder(options.out, plan, parse_shard(options.shard), options.resume);
-  const bool interrupted = make_remaining(folder, plan, options.threads);
+  const bool interrupted = make_remaining(folder, plan, options.threads, set);
   const StoredCampaign& stored = folder.stored();
   const Summary summary = write_statistics(stored, folder.results(), campaign.statistics);
   const int shown = show_results(stored, summary, options.display);
@@ -125,15 +155,25 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--threads", options->threads, "How many threads; all processors if left out")
       ->check(CLI::Range(1, most_threads).description(""))
       ->type_name("N");
+  command
+      ->add_option("--lanes", options->lanes,
+                   "How many runs a thread makes at once: 1, 4 or 8; the most if left out")
+      ->check(CLI::IsMember({1, 4, 8}).description(""))
+      ->type_name("L");
+  command
+      ->add_option("--isa", options->isa,
+                   "The instruction set: scalar, avx2 or avx512; the widest if left out")
+      ->check(CLI::IsMember({"scalar", "avx2", "avx512"}).description(""))
+      ->type_name("NAME");
   command->add_flag("--resume", options->resume,
                     "Go on where an earlier run into the folder stopped");
   command->add_option("--shard", options->shard, "Only part I of N of the runs, e.g. 2/5")
       ->type_name("I/N")
       ->check(refuse_shard);
   add_display_options(*command, options->display);
-  command->footer(std::string("Progress goes to standard error, if that is a terminal.\n") +
-                  display_help +
-                  R"(The results do not depend on threads, shards and interruptions.
+  command->footer(
+      std::string("Progress goes to standard error, if that is a terminal.\n") + display_help +
+      R"(The results do not depend on threads, lanes, instruction sets, shards and interruptions.
 
 Example:
   wingspread run campaign.json --out results/first --runs 2000 --threads 4

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -124,23 +126,49 @@ Runner::Replay Runner::replay(long k, const Observer& observer) {
   return make(k, goal, observer);
 }
 
+Occupancy Runner::run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
+                          const std::function<void(ResultRow&&)>& done) {
+  std::map<long, std::vector<double>> draws; // of the runs in the lanes
+  const auto next_scene = [&](Scene& scene) {
+    const std::optional<long> k = next();
+    if (k) set_scene(*k, draws[*k], scene);
+    return k;
+  };
+  const auto ended = [&](long k, Outcome&& outcome) {
+    done(row_of(k, std::move(draws.extract(k).mapped()), outcome));
+  };
+  return DeploymentPack(set, plan_->campaign().integration, goal_)
+      .run(plan_->campaign().scene, next_scene, ended);
+}
+
 Runner::Replay Runner::make(long k, const Goal& goal, const Observer& observer) {
-  const Campaign& campaign = plan_->campaign();
+  std::vector<double> draws;
+  set_scene(k, draws, scene_);
   Replay made;
-  ResultRow& row = made.row;
+  made.outcome = deployment_.run(scene_, plan_->campaign().integration, goal, observer);
+  made.row = row_of(k, std::move(draws), made.outcome);
+  return made;
+}
+
+void Runner::set_scene(long k, std::vector<double>& draws, Scene& scene) const {
+  const Campaign& campaign = plan_->campaign();
+  draws.resize(campaign.dispersions.size());
+  plan_->draw(k, draws);
+  apply(campaign, draws, campaign.scene, scene);
+}
+
+ResultRow Runner::row_of(long k, std::vector<double>&& draws, Outcome& outcome) const {
+  ResultRow row;
   row.run = k;
-  row.draws.resize(campaign.dispersions.size());
-  plan_->draw(k, row.draws);
-  apply(campaign, row.draws, campaign.scene, scene_);
+  row.draws = std::move(draws);
   // A draw that overflowed is in the reason of its invalid run; the table has room for numbers.
   std::ranges::transform(row.draws, row.draws.begin(), finite_or_none);
-  made.outcome = deployment_.run(scene_, campaign.integration, goal, observer);
-  row.status = made.outcome.status;
-  row.reason = made.outcome.reason;
-  row.latch_order = latch_order(scene_, made.outcome);
+  row.status = outcome.status;
+  row.reason = outcome.reason;
+  row.latch_order = latch_order(plan_->campaign().scene, outcome);
   for (const OutputColumn& column : plan_->columns())
-    row.outputs.push_back(output_of(column, made.outcome));
-  return made;
+    row.outputs.push_back(output_of(column, outcome));
+  return row;
 }
 
 } // namespace wingspread

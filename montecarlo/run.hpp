@@ -90,8 +90,16 @@ public:
   };
   [[nodiscard]] Replay replay(long k, const Observer& observer);
 
+  /// The rows of the runs that `next` names until it names none, several at once; each row is that
+  /// of `run`. @param done takes them in the order in which they end
+  Occupancy run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
+                    const std::function<void(ResultRow&&)>& done);
+
 private:
   [[nodiscard]] Replay make(long k, const Goal& goal, const Observer& observer);
+  /// Draws for run k into `draws` and sets the scene to it.
+  void set_scene(long k, std::vector<double>& draws, Scene& scene) const;
+  [[nodiscard]] ResultRow row_of(long k, std::vector<double>&& draws, Outcome& outcome) const;
 
   const RunPlan* plan_;
   Goal goal_;
