@@ -92,7 +92,9 @@ public:
   [[nodiscard]] bool pass(Verdict verdict, double rough) {
     if (M == BaseMotion::free || stage_ != Stage::step || last_) return false;
     if (verdict.accepted() && takes_long_steps(choice_.active())) limit_roughness(rough, verdict);
-    if (!verdict.accepted() || look_is_due() || choice_.radius_is_due()) return false;
+    if (!verdict.accepted() || look_is_due() || choice_.radius_is_due() ||
+        choice_.may_leave(static_cast<double>(step_.h)))
+      return false;
     const T next = step_.h * T(verdict.factor), then = step_.t + step_.h;
     const bool near_an_end = !(T(how_.t_end) - then > T(8 * epsilon_of<T>) * then) ||
                              !(next > T(1e-9) * then) || tried_ + 1 >= how_.max_steps;
@@ -103,8 +105,7 @@ public:
     due_.reset();
     count_step();
     step_.t = then;
-    if (choice_.after_step(static_cast<double>(step_.h), system_.work().evaluations))
-      change_method();
+    (void)choice_.after_step(static_cast<double>(step_.h), system_.work().evaluations, 0);
     if (!goal_.to_t_end) ++since_last_look_;
     try_step();
     return true;
@@ -328,8 +329,9 @@ private:
     }
     notify();
     if (!happens(due_)) {
-      if (choice_.after_step(static_cast<double>(step_.h), system_.work().evaluations))
-        change_method();
+      const double h = static_cast<double>(step_.h);
+      const double quick = choice_.may_leave(h) ? quickness() : 0;
+      if (choice_.after_step(h, system_.work().evaluations, quick)) change_method();
       if (choice_.wants_radius()) choice_.set_radius(radius_.estimate(system_, step_.x, step_.t));
     }
     if (angles_are_known())
@@ -513,6 +515,24 @@ private:
   }
 
   // ---- methods
+
+  /// The frequency of what still moves, 1/s: largest acceleration over largest rate or, if larger,
+  /// a latched hinge's rate over its way from rest; in a swing one of the two is always as large as
+  /// its frequency.
+  [[nodiscard]] double quickness() const {
+    using std::abs;
+    T swing(0), fastest(0), acceleration(0);
+    for (int i = 1; i <= at_.bodies; ++i) {
+      const LinearLaw<T>& law = system_.work().laws[i];
+      const T rate = abs(step_.x[at_.rate(i)]);
+      fastest = larger(fastest, rate);
+      acceleration = larger(acceleration, T(abs(step_.dxdt[at_.rate(i)])));
+      if (!system_.work().engaged[i] || !(law.stiffness > T(0))) continue;
+      const T way = step_.x[at_.angle(i)] - law.latched - law.drive / law.stiffness;
+      if (way != T(0)) swing = larger(swing, T(rate / abs(way)));
+    }
+    return fastest > T(0) ? static_cast<double>(larger(swing, T(acceleration / fastest))) : 0;
+  }
 
   /// `auto` goes on with another one.
   void change_method() {

@@ -108,12 +108,21 @@ public:
   [[nodiscard]] bool radius_is_due() const { return automatic_ && steps_ % 32 == 30; }
   void set_radius(double radius) { radius_ = radius; }
 
+  /// Whether after a step of h another method may have to be thought of: `after_step` then needs to
+  /// know how quickly things change.
+  [[nodiscard]] bool may_leave(double h) const {
+    return automatic_ && (active_ != explicit_ || (held_back_ + 1 >= enough && wait_ <= 1 &&
+                                                   h > held_back * stable_step()));
+  }
+
   /// A step of h was accepted. @param evaluations of the run so far
+  /// @param quickness by how much the motion changes in a unit of time, 1/s
   /// @return whether another method goes on from here
-  [[nodiscard]] bool after_step(double h, long evaluations) {
+  [[nodiscard]] bool after_step(double h, long evaluations, double quickness) {
     if (!automatic_) return false;
     ++steps_;
-    return active_ == explicit_ ? leave_explicit(h, evaluations) : leave_implicit(h, evaluations);
+    return active_ == explicit_ ? leave_explicit(h, evaluations, quickness)
+                                : leave_implicit(h, evaluations);
   }
 
   /// The step that the method now active should try first.
@@ -124,7 +133,11 @@ public:
 private:
   static constexpr double break_even = 5e-4; // rtol; see the work-precision study
   static constexpr int enough = 10;          // steps in a row held back by stability
-  static constexpr int trial = 5;            // steps that the implicit method has to get going
+  static constexpr double held_back = 0.4;   // of the stable step: what such a step has at least
+  /// An implicit step costs as much as about ten explicit ones, and cannot be much longer than the
+  /// motion takes to change: where the stable step is a larger part of that, it cannot pay.
+  static constexpr double worth_trying = 0.05;
+  static constexpr int trial = 5; // steps that the implicit method has to get going
   static constexpr int first_patience =
       64; // steps before it is tried again, doubled each time up to
   static constexpr int longest_patience = 512;
@@ -147,15 +160,19 @@ private:
     return travelled_ / static_cast<double>(std::max(evaluations - evaluations_, 1L));
   }
 
-  [[nodiscard]] bool leave_explicit(double h, long evaluations) {
+  [[nodiscard]] bool leave_explicit(double h, long evaluations, double quickness) {
     if (wait_ > 0) --wait_;
     travelled_ += h;
-    if (!(h > 0.4 * stable_step())) {
+    if (!(h > held_back * stable_step())) {
       held_back_ = 0;
       measure_from(evaluations);
       return false;
     }
     if (++held_back_ < enough || wait_ > 0) return false;
+    if (!(stable_step() * quickness < worth_trying)) {
+      wait_ = enough;
+      return false;
+    }
     explicit_speed_ = speed_until(evaluations);
     active_ = Method::seulex;
     tried_ = 0;
