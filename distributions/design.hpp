@@ -1,36 +1,73 @@
 /// How a campaign's runs fill the unit cube: the rule that turns (seed, run, name) into u in (0,
 /// 1).
 ///
-///   u = uniform(design, run, name)  →  dependence between dispersions  →  quantile(u) = the value
+///   u = design(run, name)  →  dependence between dispersions  →  quantile(u) = the value
 ///
-/// A dispersion sees only its own u; what couples several of them (a Gaussian copula) works on one
+/// A dispersion sees only its own u; what couples several of them (dependence.hpp) works on one
 /// run's u, between the design and the quantiles, and leaves each of them uniform.
+///
+/// A design that stratifies is repeated independently, so that its error can be judged: of R
+/// replicates, run k belongs to replicate k mod R, and is number ⌊k/R⌋ there. So the runs made up
+/// to any moment are spread evenly over the replicates, and a longer campaign of a design that does
+/// not depend on the number of runs begins with the shorter one.
+///
+///   symbol  meaning
+///   N, R    runs in all, replicates
+///   n       runs of a replicate, N/R rounded up or down
+///   i       number of a run within its replicate
 #pragma once
 
 #include "distributions/random_stream.hpp"
+#include "distributions/sobol_sequence.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace wingspread {
 
 enum class DesignKind {
-  random,          ///< independent draws; run k is the same whatever the number of runs
-  latin_hypercube, ///< each dispersion once in each of `runs` strata
-  sobol            ///< scrambled Sobol' points
+  random,          ///< independent draws; replicates do not matter
+  latin_hypercube, ///< in each replicate, each dispersion once in each of n strata
+  sobol ///< in each replicate, Sobol' points with a nested uniform scrambling of their own
 };
 
 struct Design {
   DesignKind kind = DesignKind::random;
   std::uint64_t seed = 1;
-  std::uint64_t runs = 0; ///< how many in all; only a design that stratifies depends on it
+  std::uint64_t runs = 0;       ///< N; only a Latin hypercube depends on it
+  std::uint64_t replicates = 1; ///< R, ≥ 1
 };
 
-/// Whether this version can draw by the rule. What reads a campaign refuses those it cannot.
-[[nodiscard]] constexpr bool is_available(DesignKind kind) { return kind == DesignKind::random; }
+/// Which replicate of the design a run is in. Independent draws have none: then it says nothing.
+[[nodiscard]] constexpr std::uint64_t replicate_of(const Design& design, std::uint64_t run) {
+  return run % design.replicates;
+}
 
-/// The dispersion's u in the run, strictly within (0, 1); pure, so safe in any thread.
-/// Throws std::logic_error for a design that is not available: even a build without assertions must
-/// not draw by another rule than the one asked for. Cost: one Philox block, some 20 ns.
-[[nodiscard]] double uniform(const Design& design, std::uint64_t run, StreamName dispersion);
+/// Indices of the names in their order by bytes: what must not depend on the order in which a
+/// campaign lists its dispersions goes by this one.
+[[nodiscard]] std::vector<std::size_t> order_by_name(const std::vector<std::string>& names);
+
+/// A design for a campaign's dispersions. Immutable, so one object serves all threads.
+///
+/// A draw depends on (seed, kind, R, run, name), and besides on N for a Latin hypercube, and for
+/// Sobol' points on the dimension that the name is given: its rank among the campaign's names. So
+/// the order of the dispersions in the file changes nothing; a dispersion that is added or renamed
+/// changes the Sobol' points of those after it.
+class PreparedDesign {
+public:
+  /// @pre the names differ; for Sobol' points there are at most most_sobol_dimensions
+  PreparedDesign(const Design& design, const std::vector<std::string>& names);
+
+  /// The dispersion's u in the run: an odd multiple of 2⁻⁵³, so strictly within (0, 1) with 1 − u
+  /// exact. Pure. Cost: about 0.02 µs random, 0.4 µs Latin hypercube, 0.15 µs Sobol'.
+  [[nodiscard]] double uniform(std::uint64_t run, std::size_t dispersion) const;
+
+private:
+  Design design_;
+  std::vector<StreamName> streams_;
+  std::vector<SobolDimension> dimensions_; ///< of each dispersion, for Sobol' points
+};
 
 } // namespace wingspread

@@ -32,6 +32,10 @@ double PreparedDistribution::quantile_complement(double q) const {
   return std::visit([q](const auto& law) { return wingspread::quantile_complement(law, q); }, law_);
 }
 
+double PreparedDistribution::quantile(Tails at) const {
+  return at.below <= at.above ? quantile(at.below) : quantile_complement(at.above);
+}
+
 double PreparedDistribution::cdf(double x) const {
   return std::visit([x](const auto& law) { return wingspread::cdf(law, x); }, law_);
 }

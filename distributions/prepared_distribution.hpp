@@ -25,6 +25,9 @@ public:
   /// The value that a share q of all draws exceeds; q in [0, 1].
   [[nodiscard]] double quantile_complement(double q) const;
 
+  /// The value with the given tails, found from the smaller of the two.
+  [[nodiscard]] double quantile(Tails at) const;
+
   [[nodiscard]] double cdf(double x) const;            ///< P(X ≤ x)
   [[nodiscard]] double cdf_complement(double x) const; ///< P(X > x)
 

@@ -6,11 +6,11 @@
 ///
 ///   word       holds
 ///   key 0      the campaign's seed
-///   key 1      0, kept for other uses than a dispersion's draws
-///   counter 0  the block within the stream (four numbers each)
-///   counter 1  the run
+///   key 1      what the numbers are for: 0 for a dispersion's own draws, else a StreamUse
+///   counter 0  the block within the stream (four numbers each); of a design, its level or round
+///   counter 1  the run; of a design, what the level or round depends on
 ///   counter 2  the hash of the dispersion's name
-///   counter 3  0, kept likewise
+///   counter 3  the design's replicate; 0 for draws
 #pragma once
 
 #include <array>
@@ -51,6 +51,20 @@ using PhiloxBlock = std::array<std::uint64_t, 4>;
 
 /// The stream's first number in (0, 1): the draw of a dispersion in a run.
 [[nodiscard]] double uniform(std::uint64_t seed, std::uint64_t run, StreamName name);
+
+/// What a design needs random numbers for, besides draws.
+enum class StreamUse : std::uint64_t { scrambling = 1, permutation = 2, stratum = 3 };
+
+/// The random numbers of a dispersion in one replicate of a design.
+struct ReplicateStream {
+  std::uint64_t seed;
+  StreamName name;
+  std::uint64_t replicate;
+
+  [[nodiscard]] PhiloxBlock block(StreamUse use, std::uint64_t level, std::uint64_t at) const {
+    return philox({seed, static_cast<std::uint64_t>(use)}, {level, at, name.hash, replicate});
+  }
+};
 
 /// All numbers of one stream, one after the other: a uniform random bit generator for std and
 /// Boost.Random. Its first number is the one behind `uniform`. Period 2⁶⁶.

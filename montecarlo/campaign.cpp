@@ -1,7 +1,9 @@
 #include "montecarlo/campaign.hpp"
 
 #include "distributions/random_stream.hpp"
+#include "montecarlo/correlations.hpp"
 #include "montecarlo/json_reader.hpp"
+#include "montecarlo/run.hpp"
 #include "montecarlo/scene_json.hpp"
 
 #include <fmt/format.h>
@@ -17,15 +19,69 @@ constexpr const char* expected_scene = "a scene, or the name of the file that ho
 constexpr const char* stamp_key = "wingspread"; // holds version, seed and hash in a results folder
 
 /// What the format names and this version cannot do: refused here, and never ignored.
-void refuse_unavailable(JsonObject& campaign, DesignKind design) {
-  for (const char* key : {"correlations", "requirements", "margin"})
-    if (const auto at = campaign.find(key))
-      at->refuse(fmt::format("no \"{}\": not available in this version", key));
-  if (!is_available(design))
-    campaign.at()
-        .member("sampling")
-        .member("design")
-        .refuse("\"random\": the other designs are not available in this version");
+void refuse_unavailable(JsonObject& campaign) {
+  if (const auto at = campaign.find("margin"))
+    at->refuse("no \"margin\": not available in this version");
+}
+
+/// More dispersions than Sobol' points have coordinates.
+void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, std::size_t dispersions) {
+  if (sampling.design == DesignKind::sobol && dispersions > most_sobol_dimensions)
+    at.refuse(fmt::format("{} dispersions", dispersions),
+              fmt::format("up to {} with the design \"sobol\"", most_sobol_dimensions));
+}
+
+/// What holds for independent draws only is refused with the designs whose draws depend on each
+/// other, rather than left to mislead.
+void refuse_dependent_draws(const JsonCursor& at, const char* what, DesignKind design) {
+  if (design == DesignKind::random) return;
+  at.refuse(fmt::format("{} with the design \"{}\"", what,
+                        design_names[static_cast<std::size_t>(design)]),
+            "the design \"random\": their statistics are exact for independent draws, and hold for "
+            "no others");
+}
+
+std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs) {
+  std::vector<std::string> names;
+  for (OutputColumn& column : output_columns(scene, outputs))
+    names.push_back(std::move(column.name));
+  return names;
+}
+
+Outputs all_outputs() {
+  Outputs outputs = default_outputs();
+  outputs.insert(OutputFamily::rate_at);
+  return outputs;
+}
+
+/// Requirements and widths to stop at: what names the campaign's outputs, and needs its draws to be
+/// independent.
+/// @param scene null when it or its outputs are wrong themselves: then no output is missed
+class GuaranteeReader {
+public:
+  GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design)
+      : known_(scene), design_(design) {
+    if (!known_) return;
+    names_ = output_names(*scene, outputs);
+    all_names_ = output_names(*scene, all_outputs());
+  }
+  void read(const JsonCursor& at, std::vector<Requirement>& requirements) const {
+    read_requirements(at, known_ ? &names_ : nullptr, all_names_, requirements);
+    if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
+  }
+  void read(const JsonCursor& at, StoppingRule& until) const {
+    read_stopping_rule(at, known_ ? &names_ : nullptr, until);
+    if (!until.empty()) refuse_dependent_draws(at, "widths to stop at", design_);
+  }
+
+private:
+  bool known_;
+  DesignKind design_;
+  std::vector<std::string> names_, all_names_;
+};
+
+GuaranteeReader guarantee_reader(const Campaign& campaign) {
+  return {&campaign.scene, campaign.outputs, campaign.sampling.design};
 }
 
 /// A scene that stands in the campaign, or in the file that is named there.
@@ -46,12 +102,19 @@ Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& direc
 }
 
 Json write_campaign(const Campaign& campaign, Json dispersions) {
-  return {{"scene", write_scene(campaign.scene)},
-          {"dispersions", std::move(dispersions)},
-          {"sampling", write_sampling(campaign.sampling)},
-          {"integration", write_integration(campaign.integration)},
-          {"outputs", write_outputs(campaign.outputs)},
-          {"statistics", write_statistics(campaign.statistics)}};
+  Json json{{"scene", write_scene(campaign.scene)},
+            {"dispersions", std::move(dispersions)},
+            {"sampling", write_sampling(campaign.sampling)},
+            {"integration", write_integration(campaign.integration)},
+            {"outputs", write_outputs(campaign.outputs)},
+            {"statistics", write_statistics(campaign.statistics)}};
+  // Not there when there are none: what a campaign does not use does not change its hash.
+  if (!campaign.correlations.empty())
+    json["correlations"] = write_correlations(campaign.correlations, campaign.dispersions);
+  if (!campaign.requirements.empty())
+    json["requirements"] = write_requirements(campaign.requirements);
+  if (!campaign.until.empty()) json["until"] = write_stopping_rule(campaign.until);
+  return json;
 }
 
 /// @throws SpecError with all that is wrong
@@ -64,13 +127,25 @@ Campaign read_document(const Json& document, const std::filesystem::path& direct
     campaign.scene = read_scene_member(*scene, directory);
   const Scene* usable = problems.empty() ? &campaign.scene : nullptr;
   Dispersions dispersions{{}, Json::array()};
-  if (const auto list = object.find("dispersions"))
-    dispersions = read_dispersions(*list, usable, directory);
+  const auto list = object.find("dispersions");
+  if (list) dispersions = read_dispersions(*list, usable, directory);
+  const bool named = problems.empty();
   if (const auto at = object.find("sampling")) read_sampling(*at, campaign.sampling);
   if (const auto at = object.find("integration")) read_integration(*at, campaign.integration);
+  const std::size_t before_outputs = problems.size();
   if (const auto at = object.find("outputs")) read_outputs(*at, campaign.outputs);
+  if (problems.size() > before_outputs) usable = nullptr;
   if (const auto at = object.find("statistics")) read_statistics(*at, campaign.statistics);
-  refuse_unavailable(object, campaign.sampling.design);
+  if (const auto at = object.find("correlations"))
+    campaign.correlations = read_correlations(*at, named ? &dispersions.list : nullptr);
+  if (list) refuse_dimensions(*list, campaign.sampling, dispersions.list.size());
+  const GuaranteeReader guarantees(usable, campaign.outputs, campaign.sampling.design);
+  if (const auto at = object.find("requirements")) guarantees.read(*at, campaign.requirements);
+  if (const auto at = object.find("until")) guarantees.read(*at, campaign.until);
+  if (!campaign.statistics.tolerance.empty())
+    refuse_dependent_draws(object.at().member("statistics").member("tolerance"), "tolerance limits",
+                           campaign.sampling.design);
+  refuse_unavailable(object);
   (void)object.find(stamp_key); // known, and of no account
   object.refuse_others();
   if (!problems.empty()) throw SpecError(std::move(problems));
@@ -119,9 +194,32 @@ std::variant<Scene, Campaign> read_file(const std::filesystem::path& path) {
 
 void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
                        std::optional<std::uint64_t> seed) {
+  if (runs && has_replicates(campaign.sampling) && *runs < campaign.sampling.replicates)
+    throw SpecError({{"", "--runs", std::to_string(*runs),
+                      fmt::format("at least {}, one for each of the campaign's replicates",
+                                  campaign.sampling.replicates)}});
   campaign.sampling.runs = runs.value_or(campaign.sampling.runs);
   campaign.sampling.seed = seed.value_or(campaign.sampling.seed);
   campaign.resolved["sampling"] = write_sampling(campaign.sampling);
+}
+
+void override_stopping(Campaign& campaign, const JsonCursor& at) {
+  guarantee_reader(campaign).read(at, campaign.until);
+  campaign.resolved["until"] = write_stopping_rule(campaign.until);
+}
+
+std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
+                                                const Campaign& campaign) {
+  const Json document = parse_json_file(path);
+  std::vector<Problem> problems;
+  std::vector<Requirement> requirements;
+  guarantee_reader(campaign).read(JsonCursor(document, path.string(), problems), requirements);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  return requirements;
+}
+
+long count_looks(const Campaign& campaign) {
+  return count_looks(campaign.until, campaign.sampling.runs);
 }
 
 std::string campaign_hash(const Json& resolved) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "core/scene.hpp"
+#include "distributions/dependence.hpp"
 #include "montecarlo/campaign_settings.hpp"
 #include "montecarlo/dispersion.hpp"
 #include "montecarlo/json_parse.hpp"
+#include "montecarlo/requirement.hpp"
+#include "montecarlo/stopping.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,10 +22,13 @@ namespace wingspread {
 struct Campaign {
   Scene scene; ///< nominal
   std::vector<Dispersion> dispersions;
+  std::vector<RankCorrelation> correlations; ///< between dispersions; their matrix is possible
   Sampling sampling;
   Integration integration;
   Outputs outputs = default_outputs();
   StatisticsSpec statistics;
+  std::vector<Requirement> requirements;
+  StoppingRule until; ///< it may stop before all of its runs are made
   /// The same in full as JSON: defaults explicit, the scene and empirical values in place of their
   /// files. Reads back to the same campaign, wherever it is put.
   Json resolved;
@@ -44,8 +50,21 @@ struct Campaign {
 [[nodiscard]] std::variant<Scene, Campaign> read_file(const std::filesystem::path& path);
 
 /// Replaces the number of runs and the seed, where given; `resolved` follows. @pre runs ≥ 1
+/// @throws SpecError when the runs are fewer than the design's replicates
 void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
                        std::optional<std::uint64_t> seed);
+
+/// Replaces the widths at which it stops by those that stand here, and notes what is wrong with
+/// them; `resolved` follows.
+void override_stopping(Campaign& campaign, const JsonCursor& at);
+
+/// Reads requirements that stand in a file of their own, by the campaign's rules: an array.
+/// @throws SpecError with all that is wrong
+[[nodiscard]] std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
+                                                              const Campaign& campaign);
+
+/// At how many numbers of runs it may stop.
+[[nodiscard]] long count_looks(const Campaign& campaign);
 
 /// What tells campaigns apart: 16 hexadecimal digits that depend on the resolved campaign alone,
 /// less its key "wingspread". Stable across platforms and runs of the program.

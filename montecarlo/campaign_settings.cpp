@@ -8,6 +8,7 @@ namespace wingspread {
 namespace {
 
 constexpr std::int64_t most_bins = 1'000'000;
+constexpr std::int64_t most_replicates = 1'000'000;
 constexpr std::string_view fixed_step_method = "runge_kutta4";
 
 bool is_positive(const double& number) { return number > 0; }
@@ -30,6 +31,14 @@ void refuse_step(const JsonCursor& at, std::string_view method) {
                         method, fixed_step_method));
 }
 
+/// More replicates than runs, or than there is any use for.
+void refuse_replicates(const JsonCursor& at, const Sampling& sampling) {
+  if (sampling.replicates > most_replicates)
+    at.refuse(fmt::format("at most {}", most_replicates));
+  else if (sampling.replicates > sampling.runs)
+    at.refuse(fmt::format("at most the number of runs, {}", sampling.runs));
+}
+
 void read_latch_form(const JsonCursor& at, std::optional<double>& smoothing) {
   constexpr std::string_view expected = "\"event\" or { \"smoothed\": a number, rad, > 0 }";
   if (at.value() == "event") return smoothing.reset();
@@ -50,6 +59,28 @@ void read_quantiles(const JsonCursor& at, std::vector<double>& quantiles) {
   }
 }
 
+void read_tolerance(const JsonCursor& at, std::vector<ToleranceSpec>& tolerance) {
+  if (!at.value().is_array()) return void(at.refuse("an array of tolerance limits"));
+  tolerance.clear();
+  for (const JsonCursor& element : at.elements()) {
+    ToleranceSpec& spec = tolerance.emplace_back();
+    JsonObject object(element, "an object with probability and confidence");
+    object.required("probability", spec.probability, "a number, > 0 and < 1", is_proper_share);
+    object.required("confidence", spec.confidence, "a number, > 0 and < 1", is_proper_share);
+    object.optional_choice("side", spec.side, side_names);
+    object.refuse_others();
+  }
+}
+
+Json write_tolerance(const std::vector<ToleranceSpec>& tolerance) {
+  Json list = Json::array();
+  for (const auto& [probability, confidence, side] : tolerance)
+    list.push_back({{"probability", probability},
+                    {"confidence", confidence},
+                    {"side", side_names[static_cast<std::size_t>(side)]}});
+  return list;
+}
+
 void read_bins(const JsonCursor& at, Bins& bins) {
   if (at.value() == "auto") return void(bins = AutoBins{});
   const std::string expected = fmt::format("\"auto\" or an integer from 1 to {}", most_bins);
@@ -63,6 +94,11 @@ void read_bins(const JsonCursor& at, Bins& bins) {
 
 bool has_fixed_step(std::string_view method) { return method == fixed_step_method; }
 
+Design design_of(const Sampling& sampling) {
+  return {sampling.design, sampling.seed, static_cast<std::uint64_t>(sampling.runs),
+          static_cast<std::uint64_t>(sampling.replicates)};
+}
+
 Outputs default_outputs() {
   return {OutputFamily::latch_time, OutputFamily::latch_rate, OutputFamily::peak_moment,
           OutputFamily::peak_force};
@@ -74,6 +110,8 @@ void read_sampling(const JsonCursor& at, Sampling& sampling) {
   object.optional("runs", sampling.runs, "an integer, ≥ 1", is_at_least_1);
   object.optional("seed", sampling.seed, "an integer from 0 to 2^64 - 1");
   object.optional("replicates", sampling.replicates, "an integer, ≥ 1", is_at_least_1);
+  const auto replicates = object.find("replicates");
+  if (replicates && has_replicates(sampling)) refuse_replicates(*replicates, sampling);
   object.refuse_others();
 }
 
@@ -112,6 +150,8 @@ void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
     read_quantiles(*quantiles, statistics.quantiles);
   object.optional("confidence", statistics.confidence, "a number, > 0 and < 1", is_proper_share);
   if (const auto bins = object.find("bins")) read_bins(*bins, statistics.bins);
+  if (const auto tolerance = object.find("tolerance"))
+    read_tolerance(*tolerance, statistics.tolerance);
   object.refuse_others();
 }
 
@@ -141,9 +181,11 @@ Json write_outputs(const Outputs& outputs) {
 
 Json write_statistics(const StatisticsSpec& statistics) {
   const int* count = std::get_if<int>(&statistics.bins);
-  return {{"quantiles", statistics.quantiles},
-          {"confidence", statistics.confidence},
-          {"bins", count ? Json(*count) : Json("auto")}};
+  Json json{{"quantiles", statistics.quantiles},
+            {"confidence", statistics.confidence},
+            {"bins", count ? Json(*count) : Json("auto")}};
+  if (!statistics.tolerance.empty()) json["tolerance"] = write_tolerance(statistics.tolerance);
+  return json;
 }
 
 } // namespace wingspread

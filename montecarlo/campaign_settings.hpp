@@ -22,6 +22,15 @@ struct Sampling {
   std::uint64_t seed = 1;
   std::int64_t replicates = 1; ///< independent repetitions of a design, ≥ 1
 };
+
+/// Whether the runs are in replicates, at most as many as runs: independent draws are not, whatever
+/// number is given.
+[[nodiscard]] constexpr bool has_replicates(const Sampling& sampling) {
+  return sampling.design != DesignKind::random;
+}
+
+[[nodiscard]] Design design_of(const Sampling& sampling);
+
 inline constexpr std::array<std::string_view, 3> design_names{"random", "latin_hypercube", "sobol"};
 
 enum class OutputFamily { latch_time, latch_rate, peak_moment, peak_force, rate_at };

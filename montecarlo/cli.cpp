@@ -19,8 +19,9 @@ constexpr const char* footer = R"(Example:
   wingspread run campaign.json --out results/first
   wingspread replay results/first --run 17
 
-Exit codes: 0 done; 2 bad input, nothing was done; 3 some runs failed numerically; 130 interrupted,
-what is done is kept (run again with --resume).)";
+Exit codes: 0 done, requirements met; 1 done, a requirement is not shown to be met; 2 bad input,
+nothing was done; 3 some runs failed numerically; 130 interrupted, what is done is kept (run again
+with --resume).)";
 
 /// Every line of the message, marked as an error.
 int refuse(std::string_view message) {
@@ -64,6 +65,7 @@ int command_line(int argc, const char* const* argv) {
   add_sample(app, action);
   add_analyze(app, action);
   add_merge(app, action);
+  add_size(app, action);
   add_methods(app, action);
   add_version(app, action);
   try {

@@ -37,8 +37,12 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
   std::string text = fmt::format("{} · {} runs · {}, seed {}", campaign.scene.name, summary.runs,
                                  design_names[static_cast<std::size_t>(campaign.sampling.design)],
                                  campaign.sampling.seed);
+  if (summary.replicates > 0)
+    text += fmt::format(", {} replicate{}", summary.replicates, summary.replicates == 1 ? "" : "s");
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
-  if (summary.runs < stored.runs().size())
+  if (summary.stopped)
+    text += fmt::format(" · stopped, of {} at most", stored.runs().size());
+  else if (summary.runs < stored.runs().size())
     text += fmt::format(" · partial, of {} runs", stored.runs().size());
   return text;
 }
@@ -52,6 +56,18 @@ void print_histograms(const Summary& summary) {
 long count_failed(const Summary& summary) {
   const auto found = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
   return found == summary.statuses.end() ? 0 : found->count;
+}
+
+/// Says which requirements are not met. @return whether all are
+bool report_requirements(const Summary& summary) {
+  bool met = true;
+  for (const Verdict& verdict : summary.requirements) {
+    if (verdict.decision == Decision::pass) continue;
+    met = false;
+    fmt::print(stderr, "not met: {}: {}: {}\n", to_string(verdict.requirement),
+               to_string(verdict.decision), evidence(verdict));
+  }
+  return met;
 }
 
 } // namespace
@@ -88,8 +104,9 @@ int show_results(const StoredCampaign& stored, const Summary& summary, const Dis
          {campaign_file, runs_file, summary_file, histograms_json_file, histograms_csv_file})
       fmt::print("{}\n", (stored.folder / file).string());
   }
+  const bool met = stored.stamp.shard || report_requirements(summary);
   const long failed = count_failed(summary);
-  if (failed == 0) return exit_code::done;
+  if (failed == 0) return met ? exit_code::done : exit_code::not_met;
   fmt::print(stderr, "error: {} of {} runs failed numerically; {} has their reasons\n", failed,
              summary.runs, (stored.folder / summary_file).string());
   return exit_code::failed_runs;

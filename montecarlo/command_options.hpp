@@ -37,8 +37,9 @@ inline constexpr const char* display_help =
     "Standard output is the table of results if that is a terminal; otherwise the paths of the\n"
     "files written, one a line.\n";
 
-/// Shows the results and says on standard error when runs failed.
-/// @return the exit status: whether runs failed numerically
+/// Shows the results, and says on standard error when runs failed and requirements are not met.
+/// @return the exit status: that runs failed numerically comes before a requirement that is not
+///   met, and a shard alone is not held to those
 int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display);
 
 } // namespace wingspread

@@ -21,6 +21,7 @@ struct AnalyzeOptions {
   std::vector<double> quantiles;
   std::optional<double> confidence;
   std::string bins;
+  std::filesystem::path requirements;
   Display display;
 };
 
@@ -37,13 +38,15 @@ Json bins_given(const std::string& text) {
 }
 
 int analyze(const AnalyzeOptions& options) {
-  const StoredCampaign stored = read_stored_campaign(options.folder);
+  StoredCampaign stored = read_any_campaign(options.folder);
   StatisticsSpec spec = stored.campaign.statistics;
   Json given = Json::object();
   if (!options.quantiles.empty()) given["quantiles"] = options.quantiles;
   if (options.confidence) given["confidence"] = *options.confidence;
   if (!options.bins.empty()) given["bins"] = bins_given(options.bins);
   override_settings(given, [&](const JsonCursor& at) { read_statistics(at, spec); });
+  if (!options.requirements.empty())
+    stored.campaign.requirements = read_requirements_file(options.requirements, stored.campaign);
   const Summary summary = write_statistics(stored, read_stored_results(stored).results, spec);
   return show_results(stored, summary, options.display);
 }
@@ -75,9 +78,16 @@ void add_analyze(CLI::App& app, Action& action) {
       ->delimiter(',');
   command->add_option("--confidence", options->confidence, "Of all bounds, e.g. 0.99");
   command->add_option("--bins", options->bins, "Of the histograms: a number, or auto");
+  command->add_option("--requirements", options->requirements,
+                      "In place of the campaign's: a JSON file, an array of requirements");
   add_display_options(*command, options->display);
   command->footer(std::string("Rewrites summary.json, histograms.json and histograms.csv.\n") +
-                  display_help + R"(
+                  display_help +
+                  R"(Exit code 1 says that a requirement is not shown to be met.
+
+For the runs of another tool, put a campaign.json beside its runs.csv, with as many runs in its
+"sampling"; the columns run, status, latch_order, the draws and the outputs may stand in any order.
+
 Example:
   wingspread analyze results/first --quantiles 0.001,0.5,0.999 --histograms)");
   command->callback([options, &action] { action = [options] { return analyze(*options); }; });

@@ -30,6 +30,7 @@ struct RunOptions {
   std::string isa; ///< none: the widest
   bool resume = false;
   std::string shard;
+  std::vector<std::string> until;
   Display display;
 };
 
@@ -108,7 +109,6 @@ void count(const Batch& batch, Tally& tally) {
 /// Makes the runs that are left. @return whether it was interrupted
 bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads, InstructionSet set) {
   const Interrupt interrupt;
-  const RunRange remaining = folder.remaining();
   Tally tally{.total = folder.stored().runs().size()};
   count(folder.results(), tally);
   tally.before = tally.done;
@@ -120,17 +120,39 @@ bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads, Instruc
     progress.show(tally);
   };
   Occupancy lanes;
-  const long made = make_runs(plan, remaining, threads, interrupt.flag(), keep, set, &lanes);
-  const bool interrupted = made < remaining.size();
+  bool interrupted = false;
+  while (!interrupted) {
+    const RunRange remaining = folder.remaining();
+    if (remaining.size() == 0) break;
+    const long made = make_runs(plan, remaining, threads, interrupt.flag(), keep, set, &lanes);
+    interrupted = made < remaining.size();
+  }
   write_file(folder.stored().folder / timing_file,
              timing_text(tally, progress.seconds(), team_size(threads), set, lanes, interrupted));
   return interrupted;
+}
+
+/// The widths at which to stop, in place of the campaign's; as it is where none are given.
+void override_until(Campaign& campaign, const std::vector<std::string>& until) {
+  if (until.empty()) return;
+  Json goals = Json::array();
+  for (const std::string& text : until) goals.push_back(parse_width_goal(text).value());
+  override_settings({{"until", goals}},
+                    [&](const JsonCursor& at) { override_stopping(campaign, at.member("until")); });
+}
+
+std::string refuse_until(const std::string& text) {
+  if (parse_width_goal(text)) return "";
+  return fmt::format("found \"{}\", expected e.g. \"root.peak_moment@0.99 5\" (its 0.99 quantile "
+                     "known to within 5 N·m), \"root.peak_moment@0.99 2%\" or \"deployed 0.01\"",
+                     text);
 }
 
 int run(const RunOptions& options) {
   const InstructionSet set = instruction_set(options.isa, options.lanes);
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
+  override_until(campaign, options.until);
   const RunPlan plan(campaign);
   RunFolder folder(options.out, plan, parse_shard(options.shard), options.resume);
   const bool interrupted = make_remaining(folder, plan, options.threads, set);
@@ -170,14 +192,32 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--shard", options->shard, "Only part I of N of the runs, e.g. 2/5")
       ->type_name("I/N")
       ->check(refuse_shard);
+  command
+      ->add_option("--until", options->until,
+                   "Stop when a confidence interval is that narrow, e.g. \"deployed 0.01\"")
+      ->type_name("WIDTH")
+      ->allow_extra_args(false)
+      ->check(refuse_until);
   add_display_options(*command, options->display);
   command->footer(
       std::string("Progress goes to standard error, if that is a terminal.\n") + display_help +
       R"(The results do not depend on threads, lanes, instruction sets, shards and interruptions.
+Exit code 1 says that a requirement of the campaign is not shown to be met.
+
+--until names an interval and how wide it may be, from its lower to its upper bound, at the
+campaign's confidence; several have to be reached together:
+  "root.peak_moment@0.99 5"    of the 0.99 quantile, in N·m
+  "root.peak_moment@0.99 2%"   the same, as a share of the quantile
+  "deployed 0.01"              of the share of runs that deploy (or stall, …: any status)
+They are looked at after 1000, 2000, 4000, … runs and nowhere else, so that a campaign stops at
+the same run however it is made; its number of runs is the most it makes. Each look is a chance to
+be misled: all bounds and verdicts of such a campaign share their risk out among its checkpoints,
+and hold wherever it stopped. Not for shards, nor for draws that depend on each other.
 
 Example:
   wingspread run campaign.json --out results/first --runs 2000 --threads 4
-  wingspread run campaign.json --out results/part2 --shard 2/5)");
+  wingspread run campaign.json --out results/part2 --shard 2/5
+  wingspread run campaign.json --out results/sure --until "root.peak_moment@0.99 2%")");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

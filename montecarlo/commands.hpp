@@ -16,6 +16,7 @@ using Action = std::function<int()>;
 void add_run(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
 void add_analyze(CLI::App& app, Action& action);
+void add_size(CLI::App& app, Action& action);
 void add_simulate(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);

@@ -1,11 +1,15 @@
 #include "montecarlo/confidence.hpp"
 
+#include "montecarlo/statistics.hpp"
+
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/beta.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <ranges>
 
@@ -16,40 +20,32 @@ namespace {
 using Binomial = boost::math::binomial_distribution<double>;
 
 /// Student's t that leaves (1 − confidence)/2 above it.
-double student_quantile(int replicates, double confidence) {
-  const boost::math::students_t student(replicates - 1);
+double student_quantile(long degrees, double confidence) {
+  const boost::math::students_t student(static_cast<double>(degrees));
   return boost::math::quantile(boost::math::complement(student, (1 - confidence) / 2));
 }
 
-/// A proportion over replicates of sizes n_r with hits h_r, F = Σh/Σn, kept up as hits come in.
-/// Standard error of a ratio estimator: s² = R/(R − 1) · Σ(h_r − F n_r)² / (Σn)²
-/// (W. G. Cochran, Sampling Techniques, 3rd ed. (1977), eq. 6.13 without the finite-population
-/// factor). The sums are of whole numbers, hence exact.
-class ReplicateShare {
-public:
-  explicit ReplicateShare(std::span<const long> sizes)
-      : sizes_(sizes.begin(), sizes.end()), hits_(sizes.size(), 0.0),
-        total_(std::reduce(sizes_.begin(), sizes_.end())),
-        nn_(std::inner_product(sizes_.begin(), sizes_.end(), sizes_.begin(), 0.0)) {}
-
-  void add(std::size_t replicate, double count) {
-    double& h = hits_[replicate];
-    hh_ += count * (2 * h + count);
-    hn_ += count * sizes_[replicate];
-    h += count;
-    sum_ += count;
-  }
-  [[nodiscard]] double value() const { return sum_ / total_; }
-  [[nodiscard]] double standard_error() const {
-    const double replicates = static_cast<double>(sizes_.size());
-    const double residual = hh_ - 2 * value() * hn_ + value() * value() * nn_;
-    return std::sqrt(std::max(0.0, residual) * replicates / (replicates - 1)) / total_;
-  }
-
-private:
-  std::vector<double> sizes_, hits_;
-  double total_, nn_, sum_ = 0, hh_ = 0, hn_ = 0;
+/// A proportion over replicates, and its standard error.
+struct Share {
+  double value, error;
 };
+
+/// Of replicates of sizes n_r with hits h_r, F = Σh/Σn. As of a ratio estimator:
+/// s² = R/(R − 1) · Σ(h_r − F n_r)² / (Σn)² (W. G. Cochran, Sampling Techniques, 3rd ed. (1977),
+/// eq. 6.13 without the finite-population factor). The differences, times Σn, are of whole numbers:
+/// where the replicates agree the error is exactly 0.
+Share share_of(std::span<const long> hits, std::span<const long> sizes) {
+  const auto hit = static_cast<double>(std::reduce(hits.begin(), hits.end()));
+  const auto all = static_cast<double>(std::reduce(sizes.begin(), sizes.end()));
+  double squares = 0;
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    const double difference =
+        static_cast<double>(hits[r]) * all - hit * static_cast<double>(sizes[r]);
+    squares += difference * difference;
+  }
+  const auto replicates = static_cast<double>(sizes.size());
+  return {hit / all, std::sqrt(squares * replicates / (replicates - 1)) / (all * all)};
+}
 
 std::vector<long> replicate_sizes(std::span<const ReplicateValue> values, int replicates) {
   std::vector<long> sizes(static_cast<std::size_t>(replicates), 0);
@@ -76,6 +72,12 @@ double clopper_pearson_upper(long hits, long n, double confidence) {
 Interval clopper_pearson(long hits, long n, double confidence) {
   const double one_sided = (1 + confidence) / 2;
   return {clopper_pearson_lower(hits, n, one_sided), clopper_pearson_upper(hits, n, one_sided)};
+}
+
+Interval clopper_pearson_of_share(double share, double n, double confidence) {
+  const double hits = share * n, tail = (1 - confidence) / 2;
+  return {hits > 0 ? boost::math::ibeta_inv(hits, n - hits + 1, tail) : 0,
+          hits < n ? boost::math::ibetac_inv(hits + 1, n - hits, tail) : 1};
 }
 
 RankBounds quantile_rank_bounds(long n, double p, double confidence) {
@@ -108,29 +110,46 @@ Bounds quantile_bounds(std::span<const double> sorted, double p, double confiden
 Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted, int replicates, double p,
                                  double confidence) {
   if (replicates < 2 || sorted.empty()) return {};
-  const double t = student_quantile(replicates, confidence);
-  ReplicateShare share(replicate_sizes(sorted, replicates));
-  Bounds bounds;
-  for (std::size_t i = 0; i < sorted.size() && !bounds.upper; ++i) {
-    share.add(static_cast<std::size_t>(sorted[i].replicate), 1);
-    if (i + 1 < sorted.size() && sorted[i + 1].value == sorted[i].value) continue;
-    const double reach = t * share.standard_error();
-    if (!bounds.lower && share.value() + reach >= p) bounds.lower = sorted[i].value;
-    if (share.value() - reach >= p) bounds.upper = sorted[i].value;
-  }
-  return bounds;
+  const long n = std::ssize(sorted);
+  const double value = sorted[static_cast<std::size_t>(quantile_rank(n, p) - 1)].value;
+  const auto tied = std::ranges::equal_range(sorted, value, {}, &ReplicateValue::value);
+  const std::vector<long> sizes = replicate_sizes(sorted, replicates);
+  const auto error_below = [&](auto end) {
+    return share_of(replicate_sizes({sorted.begin(), end}, replicates), sizes).error;
+  };
+  const double error = std::max(error_below(tied.begin()), error_below(tied.end()));
+  if (!(error > 0)) return {};
+  const double reach = student_quantile(replicates - 1, confidence) * error;
+  const auto at_share = [&](double share) -> std::optional<double> {
+    const double rank = std::ceil(static_cast<double>(n) * share);
+    if (rank < 1 || rank > static_cast<double>(n)) return std::nullopt;
+    return sorted[static_cast<std::size_t>(rank) - 1].value;
+  };
+  return {at_share(p - reach), at_share(p + reach)};
+}
+
+double replicate_mean_error(std::span<const ReplicateValue> values, int replicates, double mean) {
+  if (replicates < 2 || values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> deviations(static_cast<std::size_t>(replicates), 0.0);
+  for (const auto& [value, replicate] : values)
+    deviations[static_cast<std::size_t>(replicate)] += value - mean;
+  const double squares =
+      std::inner_product(deviations.begin(), deviations.end(), deviations.begin(), 0.0);
+  return std::sqrt(squares * replicates / (replicates - 1.0)) / static_cast<double>(values.size());
 }
 
 Bounds replicate_proportion_bounds(std::span<const long> hits, std::span<const long> sizes,
                                    double confidence) {
   assert(hits.size() == sizes.size());
   if (sizes.size() < 2) return {};
-  ReplicateShare share(sizes);
-  for (std::size_t r = 0; r < hits.size(); ++r) share.add(r, static_cast<double>(hits[r]));
-  const double error = share.standard_error();
+  const auto [share, error] = share_of(hits, sizes);
   if (!(error > 0)) return {};
-  const double reach = student_quantile(static_cast<int>(sizes.size()), confidence) * error;
-  return {std::max(0.0, share.value() - reach), std::min(1.0, share.value() + reach)};
+  const long n = std::reduce(sizes.begin(), sizes.end());
+  const double t_ratio =
+      student_quantile(n - 1, confidence) / student_quantile(std::ssize(sizes) - 1, confidence);
+  const double effective = share * (1 - share) / (error * error) * t_ratio * t_ratio;
+  const Interval interval = clopper_pearson_of_share(share, effective, confidence);
+  return {interval.lower, interval.upper};
 }
 
 } // namespace wingspread

@@ -2,15 +2,18 @@
 
 #include "montecarlo/distribution_json.hpp"
 #include "montecarlo/scene_json.hpp"
+#include "montecarlo/tolerance.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <bit>
 
 namespace wingspread {
 namespace {
 
 /// "three bodies" in digits: "1 body", "3 bodies".
-std::string count(std::size_t n, const char* one, const char* many) {
+template <class Number> std::string count(Number n, const char* one, const char* many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
@@ -99,10 +102,31 @@ std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion
       apply_names[static_cast<std::size_t>(dispersion.apply)], fmt::join(targets, ", "));
 }
 
+/// What a design that stratifies makes of the numbers; nothing for independent draws.
+std::string describe_replicates(const Sampling& sampling) {
+  if (!has_replicates(sampling)) return "";
+  const auto each = static_cast<std::uint64_t>(sampling.runs / sampling.replicates);
+  const bool even = sampling.runs % sampling.replicates == 0;
+  const bool uneven_net =
+      sampling.design == DesignKind::sobol && !(even && std::has_single_bit(each));
+  std::string text;
+  if (sampling.replicates > 1)
+    text = fmt::format(", {} replicates of {} runs", sampling.replicates,
+                       even ? fmt::format("{}", each) : fmt::format("{} or {}", each, each + 1));
+  if (uneven_net) text += "; Sobol' points are at their best in powers of two";
+  if (sampling.replicates == 1) text += "; one replicate, so no bounds";
+  return text;
+}
+
 std::string describe_sampling(const Sampling& sampling) {
   return fmt::format("{}, {}, seed {}", design_names[static_cast<std::size_t>(sampling.design)],
                      count(static_cast<std::size_t>(sampling.runs), "run", "runs"), sampling.seed) +
-         (sampling.replicates > 1 ? fmt::format(", {} replicates", sampling.replicates) : "");
+         describe_replicates(sampling);
+}
+
+std::string describe_correlation(const Campaign& campaign, const RankCorrelation& correlation) {
+  return fmt::format("{} and {}: Spearman {}", campaign.dispersions[correlation.first].name,
+                     campaign.dispersions[correlation.second].name, correlation.spearman);
 }
 
 std::string describe_integration(const Integration& integration) {
@@ -128,6 +152,31 @@ std::string describe_statistics(const StatisticsSpec& statistics) {
                      statistics.confidence, bins ? std::to_string(*bins) : "auto");
 }
 
+/// With what the number of runs can show of it.
+std::string describe_requirement(const Campaign& campaign, const Requirement& requirement) {
+  const long runs = campaign.sampling.runs;
+  const double p = requirement.probability;
+  const double c = at_each_look(requirement.confidence, count_looks(campaign));
+  const std::string text = to_string(requirement);
+  if (const auto allowed = allowed_failures(runs, p, c))
+    return fmt::format("{}: {} of {} may break it", text, *allowed, count(runs, "run", "runs"));
+  const auto least = runs_to_show(p, c, 0);
+  return fmt::format("{}: cannot be shown with {}, it takes {}", text, count(runs, "run", "runs"),
+                     least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
+}
+
+std::string describe_guarantees(const Campaign& campaign) {
+  std::string text;
+  for (const auto& [probability, confidence, side] : campaign.statistics.tolerance)
+    text += fmt::format("tolerance limits: {} probability, {} confidence, {}\n", probability,
+                        confidence, side_names[static_cast<std::size_t>(side)]);
+  for (const Requirement& requirement : campaign.requirements)
+    text += "requirement: " + describe_requirement(campaign, requirement) + "\n";
+  for (const WidthGoal& goal : campaign.until)
+    text += "until the interval's width is: " + to_string(goal) + "\n";
+  return text;
+}
+
 } // namespace
 
 std::string describe(const Scene& scene) {
@@ -148,10 +197,15 @@ std::string describe(const Campaign& campaign) {
                      count(campaign.dispersions.size(), "dispersion", "dispersions") + "\n";
   for (const Dispersion& dispersion : campaign.dispersions)
     text += fmt::format("  {}\n", describe_dispersion(campaign.scene, dispersion));
+  if (!campaign.correlations.empty())
+    text += count(campaign.correlations.size(), "correlation", "correlations") + "\n";
+  for (const RankCorrelation& correlation : campaign.correlations)
+    text += fmt::format("  {}\n", describe_correlation(campaign, correlation));
   text += "sampling: " + describe_sampling(campaign.sampling) + "\n";
   text += "integration: " + describe_integration(campaign.integration) + "\n";
   text += "outputs: " + describe_outputs(campaign.outputs) + "\n";
-  return text + "statistics: " + describe_statistics(campaign.statistics) + "\n";
+  text += "statistics: " + describe_statistics(campaign.statistics) + "\n";
+  return text + describe_guarantees(campaign);
 }
 
 } // namespace wingspread

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <map>
 #include <utility>
 
 namespace wingspread {
@@ -58,12 +60,77 @@ std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
   return path;
 }
 
+/// Which replicate of the campaign's design each row is from; none for independent draws. Only the
+/// replicates of which there are rows count: of the first runs, or of a shard, it can be fewer.
+Replication replication_of(const Sampling& sampling, const Results& results) {
+  if (!has_replicates(sampling)) return {};
+  const Design design = design_of(sampling);
+  Replication replication;
+  std::map<std::uint64_t, int> numbers;
+  for (const long run : results.runs) {
+    const std::uint64_t replicate = replicate_of(design, static_cast<std::uint64_t>(run));
+    replication.of_row.push_back(
+        numbers.try_emplace(replicate, static_cast<int>(numbers.size())).first->second);
+  }
+  replication.replicates = std::max(1, static_cast<int>(numbers.size()));
+  return replication;
+}
+
 /// The stamp for summary.json, which also says when runs are missing.
-Json about(const StoredCampaign& stored, std::size_t done) {
+Json about(const StoredCampaign& stored, const Summary& summary) {
   Json json = write_stamp(stored.stamp);
-  if (std::cmp_less(done, stored.runs().size()))
-    json["partial"] = {{"done", done}, {"of", stored.runs().size()}};
+  if (stored.foreign) json["foreign"] = true;
+  if (summary.runs < stored.runs().size() && !summary.stopped)
+    json["partial"] = {{"done", summary.runs}, {"of", stored.runs().size()}};
   return json;
+}
+
+/// The widths that decide when the campaign stops: at its own confidence, whatever the summary's.
+std::vector<WidthFound> widths_of(const Campaign& campaign, const Results& results) {
+  return find_widths(campaign.until, results,
+                     at_each_look(campaign.statistics.confidence, count_looks(campaign)));
+}
+
+/// The statistics, their confidence shared out among the looks that the campaign may take.
+Summary summarize(const StoredCampaign& stored, const Results& results,
+                  const StatisticsSpec& spec) {
+  const Campaign& campaign = stored.campaign;
+  const long looks = count_looks(campaign);
+  StatisticsSpec at_a_look = spec;
+  at_a_look.confidence = at_each_look(spec.confidence, looks);
+  Summary summary = summarize(results, at_a_look, replication_of(campaign.sampling, results));
+  summary.confidence = spec.confidence;
+  summary.looks = looks;
+  for (const Requirement& requirement : campaign.requirements)
+    summary.requirements.push_back(judge(requirement, results, looks));
+  for (std::size_t i = 0; i < results.outputs.size(); ++i)
+    for (const ToleranceSpec& tolerance : spec.tolerance)
+      summary.outputs[i].tolerance.push_back(
+          {tolerance, output_limits(results, results.outputs[i], tolerance, looks)});
+  summary.until = widths_of(campaign, results);
+  summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
+  return summary;
+}
+
+StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be_foreign) {
+  const std::filesystem::path path = refuse_missing(folder);
+  StoredCampaign stored{folder, read_campaign_file(path), {}};
+  const Json document = parse_json_file(path);
+  if (may_be_foreign && !document.contains(stamp_key)) {
+    stored.stamp = stamp_of(stored.campaign, {});
+    stored.foreign = true;
+    return stored;
+  }
+  std::vector<Problem> problems;
+  stored.stamp = read_stamp(JsonCursor(document, path.string(), problems));
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  const std::string hash = campaign_hash(stored.campaign.resolved);
+  if (stored.stamp.hash != hash || stored.stamp.seed != stored.campaign.sampling.seed)
+    throw SpecError(
+        {{path.string(), fmt::format("/{}/hash", stamp_key),
+          fmt::format("\"{}\", with a campaign and seed of hash \"{}\"", stored.stamp.hash, hash),
+          "a campaign that nobody changed after it was run"}});
+  return stored;
 }
 
 } // namespace
@@ -90,20 +157,18 @@ std::string campaign_text(const Campaign& campaign, const Stamp& stamp) {
   return json_text(json);
 }
 
+bool is_complete(const StoredCampaign& stored, const Results& results) {
+  const long done = std::ssize(results.runs), runs = stored.runs().size();
+  if (done >= runs) return true;
+  return is_checkpoint(done, runs) && are_met(widths_of(stored.campaign, results));
+}
+
 StoredCampaign read_stored_campaign(const std::filesystem::path& folder) {
-  const std::filesystem::path path = refuse_missing(folder);
-  StoredCampaign stored{folder, read_campaign_file(path), {}};
-  const Json document = parse_json_file(path);
-  std::vector<Problem> problems;
-  stored.stamp = read_stamp(JsonCursor(document, path.string(), problems));
-  if (!problems.empty()) throw SpecError(std::move(problems));
-  const std::string hash = campaign_hash(stored.campaign.resolved);
-  if (stored.stamp.hash != hash || stored.stamp.seed != stored.campaign.sampling.seed)
-    throw SpecError(
-        {{path.string(), fmt::format("/{}/hash", stamp_key),
-          fmt::format("\"{}\", with a campaign and seed of hash \"{}\"", stored.stamp.hash, hash),
-          "a campaign that nobody changed after it was run"}});
-  return stored;
+  return read_campaign_of(folder, false);
+}
+
+StoredCampaign read_any_campaign(const std::filesystem::path& folder) {
+  return read_campaign_of(folder, true);
 }
 
 ResultsFile read_stored_results(const StoredCampaign& stored) {
@@ -112,21 +177,26 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
   if (!std::filesystem::exists(path)) return {Results(names), 0, false};
   std::ifstream in(path, std::ios::binary);
   if (!in) throw SpecError({{path.string(), "", "a file that cannot be read", "the runs' rows"}});
-  ResultsFile read = read_results(in, path.string(), names, UnterminatedRow::drop);
+  ResultsFile read = read_results(in, path.string(), names,
+                                  stored.foreign ? UnterminatedRow::read : UnterminatedRow::drop);
   const auto [first, last] = stored.runs();
   for (const long run : read.results.runs)
     if (run < first || run >= last)
       throw SpecError({{path.string(), "", fmt::format("run {}", run),
                         fmt::format("runs from {} up to {}, those of {}", first, last - 1,
                                     describe(stored.stamp.shard))}});
+  if (stored.foreign && !is_complete(stored, read.results))
+    throw SpecError(
+        {{path.string(), "", fmt::format("{} runs", read.results.size()),
+          fmt::format("all {} of the campaign: whatever became of them", last - first)}});
   return read;
 }
 
 Summary write_statistics(const StoredCampaign& stored, const Results& results,
                          const StatisticsSpec& spec) {
-  Summary summary = summarize(results, spec);
+  Summary summary = summarize(stored, results, spec);
   write_file(stored.folder / summary_file,
-             json_text(summary_json(summary, about(stored, results.size()))));
+             json_text(summary_json(summary, about(stored, summary))));
   write_file(stored.folder / histograms_json_file, json_text(histograms_json(summary)));
   write_file(stored.folder / histograms_csv_file, histograms_csv(summary));
   return summary;

@@ -59,13 +59,25 @@ struct StoredCampaign {
   std::filesystem::path folder;
   Campaign campaign;
   Stamp stamp;
+  bool foreign = false; ///< without a stamp of its own: its rows were not made by this program
   [[nodiscard]] RunRange runs() const { return shard_runs(campaign.sampling.runs, stamp.shard); }
 };
+
+/// Whether these are all the runs that there will be: the folder's, or as many as it takes to the
+/// checkpoint at which the campaign stops.
+/// @pre the results are the folder's first runs
+[[nodiscard]] bool is_complete(const StoredCampaign& stored, const Results& results);
 
 /// Reads campaign.json. @throws SpecError when it is missing, broken, or not what its hash says
 [[nodiscard]] StoredCampaign read_stored_campaign(const std::filesystem::path& folder);
 
-/// Reads runs.csv, less a last line that was cut off; nothing when there is no such file.
+/// The same, or a campaign that nobody has stamped, beside the runs.csv of another tool.
+/// @throws SpecError as read_stored_campaign does, less for the stamp that is not there
+[[nodiscard]] StoredCampaign read_any_campaign(const std::filesystem::path& folder);
+
+/// Reads runs.csv, less a last line that was cut off; nothing when there is no such file. Of
+/// another tool's file nothing is left out: it may do without the last line's end, and has all
+/// runs, for those that it lost would flatter the rest.
 /// @throws SpecError when it is broken, or has a run that is not the folder's
 [[nodiscard]] ResultsFile read_stored_results(const StoredCampaign& stored);
 

@@ -68,6 +68,12 @@ void refuse_strangers(const std::vector<Part>& parts) {
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
+void refuse_stopping(const StoredCampaign& stored) {
+  if (!stored.campaign.until.empty())
+    throw SpecError({{(stored.folder / campaign_file).string(), "/until",
+                      "a campaign that stops at a width", "one that can have shards"}});
+}
+
 /// The place of each run; a problem for each folder that has runs of those before it.
 std::vector<Place> find_places(const std::vector<Part>& parts, std::vector<Problem>& problems) {
   std::vector<Place> places(static_cast<std::size_t>(parts.front().stored.campaign.sampling.runs));
@@ -144,6 +150,7 @@ Summary merge_folders(const std::vector<std::filesystem::path>& folders,
     parts.push_back({std::move(stored), std::move(results)});
   }
   refuse_strangers(parts);
+  refuse_stopping(parts.front().stored);
   std::vector<Problem> problems;
   const std::vector<Place> places = find_places(parts, problems);
   find_missing(parts, places, problems);

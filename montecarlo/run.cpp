@@ -54,6 +54,13 @@ double number_of(const OutputColumn& column, const Outcome& outcome) {
   return none;
 }
 
+ResultNames result_names(const Campaign& campaign, const std::vector<OutputColumn>& columns) {
+  ResultNames names;
+  std::ranges::transform(campaign.dispersions, std::back_inserter(names.draws), &Dispersion::name);
+  std::ranges::transform(columns, std::back_inserter(names.outputs), &OutputColumn::name);
+  return names;
+}
+
 } // namespace
 
 std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs) {
@@ -99,20 +106,22 @@ std::string latch_order(const Scene& scene, const Outcome& outcome) {
 
 RunPlan::RunPlan(const Campaign& campaign)
     : campaign_(&campaign), columns_(output_columns(campaign.scene, campaign.outputs)),
-      design_{campaign.sampling.design, campaign.sampling.seed,
-              static_cast<std::uint64_t>(campaign.sampling.runs)} {
-  for (const Dispersion& dispersion : campaign.dispersions) {
-    names_.draws.push_back(dispersion.name);
+      names_(result_names(campaign, columns_)), design_(design_of(campaign.sampling), names_.draws),
+      copula_(order_by_name(names_.draws), campaign.correlations) {
+  for (const Dispersion& dispersion : campaign.dispersions)
     distributions_.emplace_back(dispersion.distribution);
-    streams_.push_back(stream_name(dispersion.name));
-  }
-  std::ranges::transform(columns_, std::back_inserter(names_.outputs), &OutputColumn::name);
 }
 
 void RunPlan::draw(long k, std::span<double> draws) const {
   for (std::size_t i = 0; i < draws.size(); ++i)
-    draws[i] =
-        distributions_[i].quantile(uniform(design_, static_cast<std::uint64_t>(k), streams_[i]));
+    draws[i] = design_.uniform(static_cast<std::uint64_t>(k), i);
+  if (copula_.is_independent()) {
+    for (std::size_t i = 0; i < draws.size(); ++i) draws[i] = distributions_[i].quantile(draws[i]);
+    return;
+  }
+  std::vector<Tails> coupled(draws.size());
+  copula_.couple(draws, coupled);
+  for (std::size_t i = 0; i < draws.size(); ++i) draws[i] = distributions_[i].quantile(coupled[i]);
 }
 
 Runner::Runner(const RunPlan& plan)

@@ -68,9 +68,9 @@ private:
   const Campaign* campaign_;
   std::vector<OutputColumn> columns_;
   ResultNames names_;
-  Design design_;
   std::vector<PreparedDistribution> distributions_;
-  std::vector<StreamName> streams_;
+  PreparedDesign design_;
+  GaussianCopula copula_;
 };
 
 /// Makes runs one after another; each thread has its own.

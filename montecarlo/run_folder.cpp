@@ -20,8 +20,16 @@ bool is_new(const std::filesystem::path& folder) {
   return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_part);
 }
 
+/// Why a campaign cannot be continued with another number of runs.
+std::string fixed_runs(const Sampling& sampling) {
+  return sampling.design == DesignKind::latin_hypercube
+             ? "a Latin hypercube's strata, and so all of its draws, depend on the number of runs; "
+               "run it into a new folder"
+             : "the number of runs is part of a campaign; run it into a new folder";
+}
+
 /// Refuses to mix the rows of two campaigns, seeds, shards or versions.
-void refuse_other(const StoredCampaign& there, const Stamp& stamp) {
+void refuse_other(const StoredCampaign& there, const Campaign& campaign, const Stamp& stamp) {
   std::vector<Problem> problems;
   const auto compare = [&](const char* key, const std::string& found, const std::string& ours) {
     if (found != ours)
@@ -29,10 +37,22 @@ void refuse_other(const StoredCampaign& there, const Stamp& stamp) {
                           fmt::format("/wingspread/{}", key), found,
                           fmt::format("{}, to continue what is there", ours)});
   };
+  const Sampling &found = there.campaign.sampling, &ours = campaign.sampling;
+  if (found.runs != ours.runs)
+    problems.push_back({(there.folder / campaign_file).string(), "/sampling/runs",
+                        std::to_string(found.runs),
+                        fmt::format("{}: {}", ours.runs, fixed_runs(ours))});
   compare("hash", there.stamp.hash, stamp.hash);
   compare("shard", describe(there.stamp.shard), describe(stamp.shard));
   compare("version", there.stamp.version, stamp.version);
   if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+/// A shard cannot tell what all runs up to a checkpoint come to.
+void refuse_stopping_shard(const Campaign& campaign, const std::optional<Shard>& shard) {
+  if (shard && !campaign.until.empty())
+    throw SpecError({{"", "", describe(shard) + " of a campaign that stops at a width",
+                      "all runs: only they tell when to stop"}});
 }
 
 /// The runs have to follow each other without a gap from the first one on.
@@ -56,11 +76,12 @@ RunFolder::RunFolder(std::filesystem::path folder, const RunPlan& plan,
                      const std::optional<Shard>& shard, bool resume)
     : stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)},
       path_(stored_.folder / runs_file), results_(plan.names()) {
+  refuse_stopping_shard(stored_.campaign, shard);
   const bool fresh = is_new(stored_.folder);
   if (!resume)
     refuse_used_folder(stored_.folder, "a new or an empty folder (--resume continues a campaign)");
   if (!fresh) {
-    refuse_other(read_stored_campaign(stored_.folder), stored_.stamp);
+    refuse_other(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);
     continue_runs();
   } else {
     make_folder(stored_.folder);
@@ -82,8 +103,11 @@ void RunFolder::continue_runs() {
 }
 
 RunRange RunFolder::remaining() const {
-  const auto [first, last] = stored_.runs();
-  return {first + std::ssize(results_.runs), last};
+  const RunRange runs = stored_.runs();
+  const long done = std::ssize(results_.runs);
+  if (is_complete(stored_, results_)) return {runs.first + done, runs.first + done};
+  const bool may_stop = !stored_.campaign.until.empty();
+  return {runs.first + done, may_stop ? next_checkpoint(done, runs.size()) : runs.last};
 }
 
 void RunFolder::add(const Batch& batch) {

@@ -14,12 +14,14 @@ public:
   /// Opens the folder, and makes it with its campaign.json if it is not there.
   ///
   /// To resume: the folder is new, or has the same campaign, seed, shard and version; what was cut
-  /// off at the end of runs.csv is taken away. Not to resume: it is new, or empty.
+  /// off at the end of runs.csv is taken away. Not to resume: it is new, or empty. A campaign that
+  /// may stop has no shards: only all runs up to a checkpoint can tell.
   /// @throws SpecError otherwise, with nothing written; and when it cannot be written
   RunFolder(std::filesystem::path folder, const RunPlan& plan, const std::optional<Shard>& shard,
             bool resume);
 
-  /// The runs that are still to be made.
+  /// The next runs to be made: all that are left or, of a campaign that may stop, those up to the
+  /// next checkpoint. None when it is complete. Cost: at a checkpoint, that of its statistics.
   [[nodiscard]] RunRange remaining() const;
   [[nodiscard]] const StoredCampaign& stored() const { return stored_; }
   [[nodiscard]] const Results& results() const { return results_; }

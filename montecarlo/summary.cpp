@@ -82,18 +82,15 @@ std::vector<ReplicateValue> with_replicates(const Column& column, const Replicat
   return values;
 }
 
-std::vector<QuantileEstimate> estimate_quantiles(const Column& column,
-                                                 std::span<const double> sorted,
-                                                 const StatisticsSpec& spec,
-                                                 const Replication& replication) {
-  std::vector<ReplicateValue> replicated;
-  if (replication.replicates > 0) replicated = with_replicates(column, replication);
+/// @param replicated the same values with their replicates, if there are any
+std::vector<QuantileEstimate> estimate_quantiles(std::span<const double> sorted,
+                                                 std::span<const ReplicateValue> replicated,
+                                                 const StatisticsSpec& spec, int replicates) {
   std::vector<QuantileEstimate> estimates;
   for (const double p : spec.quantiles) {
     const Bounds bounds =
-        replication.replicates > 0
-            ? replicate_quantile_bounds(replicated, replication.replicates, p, spec.confidence)
-            : quantile_bounds(sorted, p, spec.confidence);
+        replicates > 0 ? replicate_quantile_bounds(replicated, replicates, p, spec.confidence)
+                       : quantile_bounds(sorted, p, spec.confidence);
     estimates.push_back({p, quantile(sorted, p), bounds});
   }
   return estimates;
@@ -103,8 +100,18 @@ OutputSummary summarize_output(const Column& column, const StatisticsSpec& spec,
                                const Replication& replication) {
   // Sorted values make even the last bits independent of the order of the rows.
   const std::vector<double> sorted = sorted_present(column.values);
-  return {column.name, moments(sorted), std::ssize(column.values) - std::ssize(sorted),
-          estimate_quantiles(column, sorted, spec, replication), histogram(sorted, spec.bins)};
+  const Moments all = moments(sorted);
+  const int replicates = replication.replicates;
+  std::vector<ReplicateValue> replicated;
+  if (replicates > 0) replicated = with_replicates(column, replication);
+  const double mean_error = replicates > 0 ? replicate_mean_error(replicated, replicates, all.mean)
+                                           : all.std / std::sqrt(static_cast<double>(all.count));
+  return {column.name,
+          all,
+          mean_error,
+          std::ssize(column.values) - std::ssize(sorted),
+          estimate_quantiles(sorted, replicated, spec, replicates),
+          histogram(sorted, spec.bins)};
 }
 
 Column deployed_column(const Results& results) {

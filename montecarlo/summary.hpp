@@ -10,8 +10,11 @@
 #include "montecarlo/results.hpp"
 #include "montecarlo/statistics.hpp"
 #include "montecarlo/statistics_spec.hpp"
+#include "montecarlo/stopping.hpp"
+#include "montecarlo/verdict.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wingspread {
@@ -48,12 +51,19 @@ struct QuantileEstimate {
   Bounds bounds;
 };
 
+struct ToleranceEstimate {
+  ToleranceSpec spec;
+  Bounds limits;
+};
+
 struct OutputSummary {
   std::string name;
-  Moments moments;  ///< over the runs in which it happened; `moments.count` of them
-  long missing = 0; ///< runs in which it did not
+  Moments moments;       ///< over the runs in which it happened; `moments.count` of them
+  double mean_error = 0; ///< standard error of the mean; NaN where nothing tells it
+  long missing = 0;      ///< runs in which it did not
   std::vector<QuantileEstimate> quantiles;
   Histogram histogram;
+  std::vector<ToleranceEstimate> tolerance{}; ///< over all runs (verdict.hpp)
 };
 
 /// Between a draw and an output, or `deployed`: 1 where the run deployed and 0 where it did not
@@ -62,6 +72,10 @@ struct DrawCorrelation {
   std::string draw, output;
   Correlation value;
 };
+
+/// Why there are no bounds where draws depend on each other and nothing tells how far.
+inline constexpr std::string_view one_replicate =
+    "no bounds: the draws of one replicate depend on each other; take two replicates or more";
 
 struct Summary {
   long runs = 0;
@@ -73,6 +87,11 @@ struct Summary {
   long without_latch = 0;                    ///< runs in which no hinge latched
   std::vector<OutputSummary> outputs;        ///< in the order of the columns
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
+  // What the campaign asks for beyond its statistics; write_statistics (folder.hpp) adds it.
+  std::vector<Verdict> requirements{};
+  std::vector<WidthFound> until{}; ///< the widths that decide when it stops
+  bool stopped = false;            ///< they did, before all runs were made
+  long looks = 1; ///< numbers of runs at which it could have: each bound's α is shared among them
 };
 
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs: each column is sorted once.

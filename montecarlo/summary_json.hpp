@@ -16,6 +16,8 @@ namespace wingspread {
 /// and `latch_order_omitted` hold their runs.
 inline constexpr std::size_t most_reasons = 100;
 inline constexpr std::size_t most_latch_orders = 1000;
+/// Of the runs that break a requirement the worst, up to this many; `broken_omitted` counts others.
+inline constexpr std::size_t most_broken = 1000;
 
 /// summary.json.
 /// @param about what the caller says of the campaign and the program; the value of "wingspread".

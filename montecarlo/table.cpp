@@ -63,6 +63,7 @@ std::string outcomes(const Summary& summary) {
   for (const StatusShare& share : summary.statuses)
     text += fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", words(to_string(share.status)), share.count,
                         percent(share.rate), percent_bounds(share.bounds));
+  if (summary.replicates == 1) text += fmt::format("  {}\n", one_replicate);
   return text;
 }
 
@@ -159,6 +160,65 @@ std::string outputs(const Summary& summary) {
   return text;
 }
 
+std::string number(const std::optional<double>& value) { return value ? number(*value) : "–"; }
+
+/// A line for each output and each limit asked for.
+std::string tolerance(const Summary& summary) {
+  std::string text;
+  for (const OutputSummary& output : summary.outputs)
+    for (const auto& [spec, limits] : output.tolerance) {
+      const std::string content =
+          fmt::format("{:.10g} % at {:.10g} %", 100 * spec.probability, 100 * spec.confidence);
+      text +=
+          fmt::format("  {:<42}{:<28}{:>14}{:>14}\n", shortened(output.name, 41),
+                      shortened(content, 27), spec.side == Side::upper ? "" : number(limits.lower),
+                      spec.side == Side::lower ? "–" : number(limits.upper));
+    }
+  if (text.empty()) return "";
+  return fmt::format("\n{:<44}{:<28}{:>14}{:>14}\n", "TOLERANCE LIMITS", "content, confidence",
+                     "lower", "upper") +
+         text;
+}
+
+/// The worst of the runs that break a requirement, and how to see the first again.
+std::string broken_runs(const Verdict& verdict, std::string_view folder) {
+  constexpr std::size_t most = 6;
+  if (verdict.broken.empty() || folder.empty()) return "";
+  std::string text = "    " + replay_command(folder, verdict.broken.front());
+  for (std::size_t i = 1; i < std::min(verdict.broken.size(), most); ++i)
+    text += fmt::format("{}{}", i == 1 ? "   and " : ", ", verdict.broken[i]);
+  return text + (verdict.broken.size() > most ? ", …\n" : "\n");
+}
+
+std::string requirements(const Summary& summary, std::string_view folder) {
+  if (summary.requirements.empty()) return "";
+  std::string text = fmt::format("\n{:<46}{:<10}{:>8}{:>8}{:>13}{:>13}\n", "REQUIREMENT", "verdict",
+                                 "broken", "may", "observed", "guaranteed");
+  for (const Verdict& verdict : summary.requirements) {
+    const bool share = verdict.requirement.output == deployed_output;
+    text +=
+        fmt::format("  {:<44}{:<10}{:>8}{:>8}{:>13}{:>13}\n",
+                    shortened(to_string(verdict.requirement), 43), to_string(verdict.decision),
+                    verdict.broken.size(), verdict.allowed ? std::to_string(*verdict.allowed) : "–",
+                    share ? percent(verdict.share) : number(verdict.observed),
+                    share ? percent(verdict.guaranteed_share) : number(verdict.guaranteed));
+    if (verdict.decision != Decision::pass)
+      text += "    " + shortened(evidence(verdict), table_width - 4) + '\n';
+    text += broken_runs(verdict, folder);
+  }
+  return text;
+}
+
+std::string stopping(const Summary& summary) {
+  if (summary.until.empty()) return "";
+  std::string text =
+      fmt::format("\n{:<58}{:>20}{:>20}\n", "UNTIL THE INTERVAL'S WIDTH IS", "found", "reached");
+  for (const auto& [goal, width, met] : summary.until)
+    text += fmt::format("  {:<56}{:>20}{:>20}\n", shortened(to_string(goal), 55), number(width),
+                        met ? "yes" : "no");
+  return text;
+}
+
 std::string files(std::string_view folder) {
   if (folder.empty()) return "";
   return fmt::format("\nFILES  {}: runs.csv, summary.json, histograms.json, histograms.csv\n",
@@ -193,7 +253,8 @@ std::string bar(long eighths) {
 
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
   return shortened(title, table_width) + '\n' + outcomes(summary) + reasons(summary) +
-         latch_orders(summary) + outputs(summary) + files(folder);
+         latch_orders(summary) + outputs(summary) + tolerance(summary) +
+         requirements(summary, folder) + stopping(summary) + files(folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

@@ -9,8 +9,8 @@ using namespace wingspread::test;
 
 TEST_CASE("every command explains itself, with an example") {
   const Folder folder;
-  for (const char* command :
-       {"run", "simulate", "replay", "check", "sample", "analyze", "merge", "methods", "version"}) {
+  for (const char* command : {"run", "simulate", "replay", "check", "sample", "analyze", "merge",
+                              "size", "methods", "version"}) {
     CAPTURE(command);
     const auto [code, out, error] = run_program(folder, {command, "--help"});
     CHECK(code == 0);
@@ -20,7 +20,8 @@ TEST_CASE("every command explains itself, with an example") {
   }
   const auto [code, out, error] = run_program(folder, {"--help"});
   CHECK(code == 0);
-  CHECK(out.find("Exit codes: 0 done; 2 bad input") != std::string::npos);
+  CHECK(out.find("Exit codes: 0 done, requirements met; 1 done, a requirement is not") !=
+        std::string::npos);
 }
 
 TEST_CASE("a command line that makes no sense is refused") {

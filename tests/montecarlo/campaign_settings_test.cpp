@@ -36,6 +36,7 @@ TEST_CASE("Sampling is read over its defaults, and written in full", "[campaign_
   CHECK(read(R"({"design": "sobol"})", Sampling{}, read_sampling).settings.design ==
         DesignKind::sobol);
   CHECK(read(R"({"replicates": 16})", Sampling{}, read_sampling).settings.replicates == 16);
+  CHECK(read(R"({"replicates": 16, "runs": 8})", Sampling{}, read_sampling).problems.empty());
 }
 
 TEST_CASE("Each fault of the sampling is told", "[campaign_settings]") {
@@ -45,6 +46,10 @@ TEST_CASE("Each fault of the sampling is told", "[campaign_settings]") {
        {R"({"runs": 1.5})", "/runs: found 1.5, expected an integer, ≥ 1"},
        {R"({"seed": -1})", "/seed: found -1, expected an integer from 0 to 2^64 - 1"},
        {R"({"replicates": "2"})", "/replicates: found string \"2\", expected an integer, ≥ 1"},
+       {R"({"design": "sobol", "runs": 8, "replicates": 9})",
+        "/replicates: found 9, expected at most the number of runs, 8"},
+       {R"({"design": "latin_hypercube", "runs": 8000000, "replicates": 1000001})",
+        "/replicates: found 1000001, expected at most 1000000"},
        {R"({"design": "lhs"})",
         "/design: found string \"lhs\", expected \"random\", \"latin_hypercube\" or \"sobol\""},
        {R"({"run": 1})",
@@ -179,7 +184,29 @@ TEST_CASE("Each fault of the statistics is told", "[campaign_settings]") {
        {R"({"bins": "fd"})",
         "/bins: found string \"fd\", expected \"auto\" or an integer from 1 to 1000000"},
        {R"({"bin": 3})",
-        "/bin: found the unknown key \"bin\", expected \"quantiles\", \"confidence\" or "
-        "\"bins\" (did you mean \"bins\"?)"}}));
+        "/bin: found the unknown key \"bin\", expected \"quantiles\", \"confidence\", "
+        "\"bins\" or \"tolerance\" (did you mean \"bins\"?)"}}));
   CHECK(read(json, StatisticsSpec{}, read_statistics).problems == message);
+}
+
+TEST_CASE("Tolerance limits are read, and each fault of them is told", "[campaign_settings]") {
+  const char* json = R"({"tolerance": [{"probability": 0.95, "confidence": 0.9},
+                                       {"probability": 0.9, "confidence": 0.5, "side": "both"}]})";
+  const auto [statistics, problems] = read(json, StatisticsSpec{}, read_statistics);
+  CHECK(problems.empty());
+  REQUIRE(statistics.tolerance.size() == 2);
+  CHECK(
+      (statistics.tolerance[0].side == Side::upper && statistics.tolerance[1].side == Side::both));
+  CHECK(write_statistics(statistics)["tolerance"].dump() ==
+        R"([{"probability":0.95,"confidence":0.9,"side":"upper"},)"
+        R"({"probability":0.9,"confidence":0.5,"side":"both"}])");
+  CHECK(read(R"({"tolerance": [{"probability": 1, "side": "left"}, 3]})", StatisticsSpec{},
+             read_statistics)
+            .problems ==
+        "/tolerance/0/probability: found 1, expected a number, > 0 and < 1\n"
+        "/tolerance/0/confidence: found nothing, expected a number, > 0 and < 1\n"
+        "/tolerance/0/side: found string \"left\", expected \"upper\", \"lower\" or \"both\"\n"
+        "/tolerance/1: found 3, expected an object with probability and confidence");
+  CHECK(read(R"({"tolerance": 1})", StatisticsSpec{}, read_statistics).problems ==
+        "/tolerance: found 1, expected an array of tolerance limits");
 }

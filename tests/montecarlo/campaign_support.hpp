@@ -53,13 +53,14 @@ inline long run_into(const std::filesystem::path& path, const Campaign& campaign
   const RunPlan plan(campaign);
   RunFolder folder(path, plan, session.shard, session.resume);
   std::atomic<bool> stop = session.stop_after == 0;
-  long seen = 0;
-  const long made =
-      make_runs(plan, folder.remaining(), session.threads, stop, [&](const Batch& batch) {
-        folder.add(batch);
-        seen += std::ssize(batch.rows);
-        if (session.stop_after >= 0 && seen >= session.stop_after) stop = true;
-      });
+  long made = 0;
+  const auto keep = [&](const Batch& batch) {
+    folder.add(batch);
+    made += std::ssize(batch.rows);
+    if (session.stop_after >= 0 && made >= session.stop_after) stop = true;
+  };
+  while (!stop && folder.remaining().size() > 0)
+    (void)make_runs(plan, folder.remaining(), session.threads, stop, keep);
   (void)write_statistics(folder.stored(), folder.results(), campaign.statistics);
   return made;
 }

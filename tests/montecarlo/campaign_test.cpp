@@ -79,6 +79,39 @@ TEST_CASE("Runs and seed may be replaced, and what is resolved follows", "[campa
   CHECK(read(campaign.resolved).resolved == campaign.resolved);
 }
 
+TEST_CASE("The runs are not made fewer than a design's replicates", "[campaign]") {
+  const auto refusal = [](const char* design) {
+    Json document = test::small_campaign();
+    document["sampling"] = {{"design", design}, {"runs", 64}, {"replicates", 16}};
+    Campaign campaign = read(document);
+    override_sampling(campaign, 16, std::nullopt);
+    return test::message_of([&] {
+      override_sampling(campaign, 15, std::nullopt);
+      return 0;
+    });
+  };
+  CHECK(refusal("sobol") == "--runs: found 15, expected at least 16, one for each of the "
+                            "campaign's replicates");
+  CHECK(refusal("random").empty()); // where replicates do not matter
+}
+
+TEST_CASE("More dispersions than Sobol' points have coordinates are refused", "[campaign]") {
+  Json document = test::small_campaign();
+  for (int i = 0; i < 3665; ++i)
+    document["dispersions"].push_back(
+        {{"name", "bias_" + std::to_string(i)},
+         {"distribution", {{"type", "uniform"}, {"lower", 0}, {"upper", 1}}},
+         {"apply", "add"},
+         {"to", {"bodies.inner.mass"}}});
+  const auto refusal = [&](const char* design) {
+    document["sampling"]["design"] = design;
+    return test::message_of([&] { return read(document); });
+  };
+  CHECK(refusal("sobol") ==
+        "/dispersions: found 3668 dispersions, expected up to 3667 with the design \"sobol\"");
+  CHECK(refusal("latin_hypercube").empty());
+}
+
 TEST_CASE("Each fault of a campaign is told", "[campaign]") {
   const test::Spoiled change = GENERATE(values<test::Spoiled>(
       {{"", "[]", "found an array of 0, expected a campaign: an object"},
@@ -97,29 +130,67 @@ TEST_CASE("Each fault of a campaign is told", "[campaign]") {
        {"/output", "[]",
         "/output: found the unknown key \"output\", expected \"scene\", \"dispersions\", "
         "\"sampling\", \"integration\", \"outputs\", \"statistics\", \"correlations\", "
-        "\"requirements\", \"margin\" or \"wingspread\" (did you mean \"outputs\"?)"}}));
+        "\"requirements\", \"until\", \"margin\" or \"wingspread\" (did you mean \"outputs\"?)"}}));
   CAPTURE(change.pointer, change.value);
   CHECK(problems(change) == change.message);
 }
 
 TEST_CASE("What this version cannot do is refused, not ignored", "[campaign]") {
-  const test::Spoiled change = GENERATE(values<test::Spoiled>(
-      {{"/correlations", R"([{"between": ["spring", "mass.inner"], "spearman": 0.6}])",
-        "/correlations: found an array of 1, expected no \"correlations\": not available in this "
-        "version"},
-       {"/requirements", "[]",
-        "/requirements: found an array of 0, expected no \"requirements\": not available in this "
-        "version"},
-       {"/margin", "{}",
-        "/margin: found an object, expected no \"margin\": not available in this version"},
-       {"/sampling", R"({"design": "latin_hypercube"})",
-        "/sampling/design: found string \"latin_hypercube\", expected \"random\": the other "
-        "designs are "
-        "not available in this version"},
-       {"/sampling", R"({"design": "sobol"})",
-        "/sampling/design: found string \"sobol\", expected \"random\": the other designs are not "
-        "available in this version"}}));
-  CHECK(problems(change) == change.message);
+  CHECK(problems({"/margin", "{}", ""}) ==
+        "/margin: found an object, expected no \"margin\": not available in this version");
+}
+
+TEST_CASE("What holds for independent draws only is refused with other designs", "[campaign]") {
+  const std::string design = GENERATE("latin_hypercube", "sobol");
+  Json document = test::small_campaign();
+  document["sampling"] = {{"design", design}};
+  document["correlations"] =
+      parse_json(R"([{ "between": ["spring", "mass.inner"], "spearman": 0.5 }])");
+  document["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.99, "confidence": 0.9 }])");
+  document["until"] = parse_json(R"([{ "output": "stalled", "width": 0.01 }])");
+  document["statistics"] = {{"tolerance", {{{"probability", 0.95}, {"confidence", 0.95}}}}};
+  const std::string message = test::message_of([&] { return read(document); });
+  const std::string reason = " with the design \"" + design +
+                             "\", expected the design \"random\": their statistics are exact for "
+                             "independent draws, and hold for no others";
+  CHECK_THAT(message,
+             Catch::Contains("/requirements: found requirements" + reason) &&
+                 Catch::Contains("/until: found widths to stop at" + reason) &&
+                 Catch::Contains("/statistics/tolerance: found tolerance limits" + reason));
+}
+
+TEST_CASE("Requirements and widths name the campaign's outputs", "[campaign]") {
+  Json document = test::small_campaign();
+  document["outputs"] = {"latch_time"};
+  document["requirements"] = parse_json(
+      R"([{ "output": "root.latch_time", "max": 9, "probability": 0.99, "confidence": 0.9 }])");
+  document["until"] =
+      parse_json(R"([{ "output": "root.latch_time", "quantile": 0.5, "relative_width": 0.01 }])");
+  Campaign campaign = read(document);
+  CHECK(campaign.resolved["requirements"].dump() ==
+        R"([{"output":"root.latch_time","max":9.0,"probability":0.99,"confidence":0.9}])");
+  CHECK(campaign.resolved["until"] == document["until"]);
+  CHECK(read(campaign.resolved).resolved == campaign.resolved);
+  CHECK(count_looks(campaign) == 1); // of 1000 runs
+  override_sampling(campaign, 5000, {});
+  CHECK(count_looks(campaign) == 4);
+  document["requirements"][0]["output"] = "root.peak_force";
+  document["until"][0]["output"] = "root.latch_tim";
+  CHECK(
+      test::message_of([&] { return read(document); }) ==
+      "/requirements/0/output: found string \"root.peak_force\", expected an output that the "
+      "campaign asks for (\"peak_force\" is not in its \"outputs\")\n"
+      "/until/0/output: found string \"root.latch_tim\", expected an output of the campaign, or a "
+      "status (did you mean \"root.latch_time\"?)");
+}
+
+TEST_CASE("A campaign that asks for nothing new keeps its hash", "[campaign]") {
+  Json document = test::small_campaign();
+  const Json before = read(document).resolved;
+  document["requirements"] = Json::array();
+  document["until"] = Json::array();
+  CHECK(read(document).resolved == before);
 }
 
 TEST_CASE("All faults of a campaign are told together", "[campaign]") {
@@ -257,4 +328,31 @@ TEST_CASE("A fixed step is part of what tells campaigns apart", "[campaign]") {
   const std::string by_default = hash_with({{"method", "runge_kutta4"}});
   CHECK(hash_with({{"method", "runge_kutta4"}, {"step", 1e-4}}) == by_default);
   CHECK(hash_with({{"method", "runge_kutta4"}, {"step", 2e-4}}) != by_default);
+}
+
+TEST_CASE("Correlated independent draws may have requirements, and all of it reads back",
+          "[campaign]") {
+  Json document = test::small_campaign();
+  document["correlations"] =
+      parse_json(R"([{ "between": ["spring", "mass.inner"], "spearman": 0.5 }])");
+  document["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.99, "confidence": 0.9 }])");
+  document["until"] = parse_json(R"([{ "output": "stalled", "width": 0.01 }])");
+  const Campaign campaign = read(document);
+  CHECK((campaign.correlations.size() == 1 && campaign.requirements.size() == 1));
+  CHECK(campaign.until.size() == 1);
+  CHECK(read(campaign.resolved).resolved == campaign.resolved);
+}
+
+TEST_CASE("An output that is not known is told beside the faults of other parts", "[campaign]") {
+  Json document = test::small_campaign();
+  document["correlations"] = parse_json(R"([{ "between": ["spring", "no"], "spearman": 0.5 }])");
+  document["requirements"] =
+      parse_json(R"([{ "output": "deploys", "probability": 0.99, "confidence": 0.9 }])");
+  const auto message = [&] { return test::message_of([&] { return read(document); }); };
+  CHECK_THAT(message(), Catch::Contains("/correlations/0/between/1: ") &&
+                            Catch::Contains("/requirements/0/output: found string \"deploys\""));
+  document["outputs"] = {"no_family"}; // then nobody knows which outputs there are
+  CHECK_THAT(message(),
+             Catch::Contains("/outputs/0: ") && !Catch::Contains("/requirements/0/output"));
 }

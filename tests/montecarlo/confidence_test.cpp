@@ -22,10 +22,9 @@ double band(double share, int trials) { return 5 * std::sqrt(share * (1 - share)
 
 } // namespace
 
-// STATISTICS: 3/1000 at 95 % two-sided, 0/1000 one-sided. The others: scipy 1.10.1,
-// special.betaincinv(k, n − k + 1, 0.025) and betaincinv(k + 1, n − k, 0.975). (Its proportion_ci
-// stops its root search at 2e-12.)
-TEST_CASE("Clopper–Pearson: published values") {
+// scipy 1.10.1, special.betaincinv(k, n − k + 1, 0.025) and betaincinv(k + 1, n − k, 0.975). (Its
+// proportion_ci stops its root search at 2e-12.)
+TEST_CASE("Clopper–Pearson: values of the inverse beta function") {
   const auto check = [](long hits, long n, double lower, double upper, double tolerance) {
     const Interval interval = clopper_pearson(hits, n, 0.95);
     CHECK(interval.lower == Approx(lower).epsilon(tolerance).margin(0));
@@ -78,8 +77,8 @@ TEST_CASE("quantile ranks: values of an exhaustive search") {
   }
 }
 
-// STATISTICS, table of Wilks' sizes: the r-th largest of so many, but not of one fewer, is an upper
-// bound with one-sided confidence c; two-sided that is 2c − 1.
+// scipy 1.10.1, stats.binom.cdf, n found by bisection: the r-th largest of so many, but not of one
+// fewer, is an upper bound with one-sided confidence c; two-sided that is 2c − 1.
 TEST_CASE("quantile ranks: Wilks' sample sizes") {
   struct Case {
     double p, c;
@@ -163,16 +162,31 @@ std::vector<ReplicateValue> independent(int replicates, int n, std::mt19937_64& 
 
 } // namespace
 
-TEST_CASE("replicate quantile bounds cover about as often as they say") {
+TEST_CASE("replicate quantile bounds cover about as often as they say, on either side") {
   constexpr int trials = 4000;
   std::mt19937_64 random(44);
-  int covered = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    const Bounds bounds = replicate_quantile_bounds(independent(16, 50, random), 16, 0.9, 0.95);
-    if (*bounds.lower <= 0.9 && 0.9 <= *bounds.upper) ++covered;
+  for (const auto& [replicates, p] : {std::pair{2, 0.5}, {4, 0.9}, {16, 0.9}, {16, 0.98}}) {
+    CAPTURE(replicates, p);
+    int above = 0, below = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      const auto values = independent(replicates, 1024 / replicates, random);
+      const Bounds bounds = replicate_quantile_bounds(values, replicates, p, 0.95);
+      if (bounds.lower && *bounds.lower > p) ++above;
+      if (bounds.upper && *bounds.upper < p) ++below;
+    }
+    // Student's t on counts is an approximation: half a point on top of the binomial band.
+    const double most = 0.025 + 0.005 + band(0.025, trials);
+    CHECK((above < most * trials && below < most * trials));
   }
-  // Student's t on counts is an approximation: two points on top of the binomial band.
-  CHECK(static_cast<double>(covered) / trials == Approx(0.95).margin(0.02 + band(0.95, trials)));
+}
+
+TEST_CASE("replicate quantile bounds are not there where so few values lie beyond") {
+  std::mt19937_64 random(46);
+  const auto values = independent(16, 64, random);
+  const Bounds high = replicate_quantile_bounds(values, 16, 0.999, 0.95);
+  CHECK((high.lower && !high.upper));
+  const Bounds low = replicate_quantile_bounds(values, 16, 0.001, 0.95);
+  CHECK((!low.lower && low.upper));
 }
 
 TEST_CASE("replicate quantile bounds see what stratification gains, and still cover") {
@@ -192,21 +206,68 @@ TEST_CASE("replicate quantile bounds see what stratification gains, and still co
 }
 
 TEST_CASE("replicate quantile bounds judge tied values together") {
-  // Half of each replicate is 1 and half is 2: the replicates agree that the 0.9 quantile is 2.
-  const std::vector<ReplicateValue> tied{{1, 0}, {1, 1}, {2, 0}, {2, 1}};
-  const Bounds bounds = replicate_quantile_bounds(tied, 2, 0.9, 0.95);
-  CHECK((bounds.lower == 2 && bounds.upper == 2));
+  // 1 in half of the first replicate and in three quarters of the second, 2 in the rest: F is 5/8
+  // up to 1 and has the error √(2/1 · 2 · 4²)/8² = 1/8; t of one degree of freedom is 1 at 50 %.
+  const std::vector<ReplicateValue> tied{{1, 0}, {1, 0}, {1, 1}, {1, 1},
+                                         {1, 1}, {2, 0}, {2, 0}, {2, 1}};
+  const auto bounds = [&](double p) { return replicate_quantile_bounds(tied, 2, p, 0.5); };
+  CHECK((bounds(0.4).lower == 1 && bounds(0.4).upper == 1));
+  CHECK((bounds(0.6).lower == 1 && bounds(0.6).upper == 2));
+  CHECK((bounds(0.8).lower == 2 && bounds(0.8).upper == 2));
+  CHECK((bounds(0.9).lower == 2 && !bounds(0.9).upper));
 }
 
-// By hand: shares 1/4, 2/4, 0/4 have mean 1/4 and standard error 1/4/√3; t of 2 degrees of freedom
-// at 95 % two-sided is 4.30265 (any printed table), so 0.25 ± 0.62103.
+// scipy 1.10.1: shares 1/4, 2/4, 0/4 have mean 1/4 and standard error 1/4/√3, so nine draws' worth
+// less (t_11/t_2)²; beta.ppf(q, x, n − x + 1) and (x + 1, n − x) with x = n/4.
 TEST_CASE("replicate proportions: worked by hand") {
   const std::array<long, 3> hits{1, 2, 0}, sizes{4, 4, 4};
   const Bounds wide = replicate_proportion_bounds(hits, sizes, 0.95);
-  CHECK((wide.lower == 0 &&
-         wide.upper.value() == Approx(0.25 + 4.30265 * 0.25 / std::sqrt(3.0)).epsilon(1e-5)));
-  const Bounds narrow = replicate_proportion_bounds(hits, sizes, 0.5); // t = 0.816497
-  CHECK(*narrow.lower == Approx(0.25 - 0.816497 * 0.25 / std::sqrt(3.0)).epsilon(1e-5));
+  CHECK(wide.lower.value() == Approx(0.0006096481163780891).epsilon(1e-9));
+  CHECK(wide.upper.value() == Approx(0.9136044550442545).epsilon(1e-9));
+  const Bounds narrow = replicate_proportion_bounds(hits, sizes, 0.5);
+  CHECK(narrow.lower.value() == Approx(0.10683927104434382).epsilon(1e-9));
+  CHECK(narrow.upper.value() == Approx(0.45982656264883065).epsilon(1e-9));
+}
+
+TEST_CASE("replicate proportions cover, few hits or many") {
+  constexpr int trials = 4000;
+  std::mt19937_64 random(47);
+  for (const auto& [replicates, p] : {std::pair{2, 0.3}, {16, 0.003}, {16, 0.01}, {16, 0.3}}) {
+    CAPTURE(replicates, p);
+    const std::vector<long> sizes(static_cast<std::size_t>(replicates), 1024 / replicates);
+    int above = 0, below = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      std::vector<long> hits(sizes.size(), 0);
+      for (int run = 0; run < 1024; ++run)
+        if (uniform(random) < p) ++hits[static_cast<std::size_t>(run % replicates)];
+      const Bounds bounds = replicate_proportion_bounds(hits, sizes, 0.95);
+      if (bounds.lower && *bounds.lower > p) ++above;
+      if (bounds.upper && *bounds.upper < p) ++below;
+    }
+    const double most = 0.025 + 0.005 + band(0.025, trials);
+    CHECK((above < most * trials && below < most * trials));
+  }
+}
+
+TEST_CASE("replicates that agree do so whatever round-off says, and however many there are") {
+  for (const long size : {3L, 7L, 1'000'003L}) {
+    const std::vector<long> hits(5, 1), sizes(5, size);
+    CHECK_FALSE(replicate_proportion_bounds(hits, sizes, 0.95).lower);
+  }
+  // All agree but for one hit: worth some 10¹¹ independent draws.
+  std::vector<long> hits(16, 31'250), sizes(16, 62'500);
+  ++hits[0];
+  const Bounds bounds = replicate_proportion_bounds(hits, sizes, 0.95);
+  CHECK((*bounds.lower < 0.500001 && *bounds.upper > 0.5 && *bounds.upper < 0.50001));
+}
+
+// By hand: of replicates {1, 3}, {2}, {6} the mean is 3; the sums of deviations are −2, −1, 3,
+// their squares' sum 14, and √(14 · 3/2)/4 = √21/4.
+TEST_CASE("a mean's error from replicates: worked by hand") {
+  const std::vector<ReplicateValue> values{{1, 0}, {2, 1}, {3, 0}, {6, 2}};
+  CHECK(replicate_mean_error(values, 3, 3) == Approx(std::sqrt(21.0) / 4).epsilon(1e-15));
+  CHECK(std::isnan(replicate_mean_error(values, 1, 3)));
+  CHECK(std::isnan(replicate_mean_error({}, 3, 3)));
 }
 
 TEST_CASE("no replicate bounds without a spread to judge from") {

@@ -71,6 +71,28 @@ TEST_CASE("A fixed step is described with its method", "[describe]") {
              Catch::Contains("integration: method runge_kutta4, step 0.002 s, rtol 1e-08"));
 }
 
+TEST_CASE("Replicates and correlations are described", "[describe]") {
+  Json document = test::small_campaign();
+  document["correlations"] =
+      parse_json(R"([{"between": ["spring", "mass.inner"], "spearman": 0.5}])");
+  const auto sampling = [&](const char* design, long runs, long replicates) {
+    document["sampling"] = {{"design", design}, {"runs", runs}, {"replicates", replicates}};
+    const std::string text = describe(read_campaign(document.dump(), ""));
+    CHECK_THAT(text, Catch::Contains("1 correlation\n  spring and mass.inner: Spearman 0.5\n"));
+    const std::size_t start = text.find("sampling: ") + 10;
+    return text.substr(start, text.find('\n', start) - start);
+  };
+  CHECK(sampling("sobol", 4096, 16) == "sobol, 4096 runs, seed 1, 16 replicates of 256 runs");
+  CHECK(sampling("sobol", 4100, 16) ==
+        "sobol, 4100 runs, seed 1, 16 replicates of 256 or 257 runs; Sobol' points are at their "
+        "best in powers of two");
+  CHECK(sampling("sobol", 1000, 1) == "sobol, 1000 runs, seed 1; Sobol' points are at their best "
+                                      "in powers of two; one replicate, so no bounds");
+  CHECK(sampling("latin_hypercube", 100, 3) ==
+        "latin_hypercube, 100 runs, seed 1, 3 replicates of 33 or 34 runs");
+  CHECK(sampling("random", 100, 1) == "random, 100 runs, seed 1");
+}
+
 TEST_CASE("What a campaign sets otherwise is described too", "[describe]") {
   const Json document{{"scene", test::small_scene()},
                       {"sampling", {{"runs", 1}, {"replicates", 2}}},
@@ -79,7 +101,24 @@ TEST_CASE("What a campaign sets otherwise is described too", "[describe]") {
                       {"statistics", {{"bins", 8}}}};
   const std::string text = describe(read_campaign(document.dump(), ""));
   CHECK_THAT(text, Catch::Contains("0 dispersions\n") &&
-                       Catch::Contains("sampling: random, 1 run, seed 1, 2 replicates\n") &&
+                       Catch::Contains("sampling: random, 1 run, seed 1\n") &&
                        Catch::Contains("latch smoothed over 0.5 rad") &&
                        Catch::Contains("outputs: none\n") && Catch::Contains("bins 8\n"));
+}
+
+TEST_CASE("What a campaign asks for is described with what its runs can show", "[describe]") {
+  Json document = test::small_campaign();
+  document["sampling"] = {{"runs", 1000}};
+  document["statistics"] = {{"tolerance", {{{"probability", 0.95}, {"confidence", 0.9}}}}};
+  document["requirements"] = parse_json(R"([
+    { "output": "root.peak_moment", "max": 400, "probability": 0.99, "confidence": 0.9 },
+    { "output": "deployed", "probability": 0.99865, "confidence": 0.9 } ])");
+  const std::string text = describe(read_campaign(document.dump(), ""));
+  CHECK(text.substr(text.find("tolerance")) ==
+        "tolerance limits: 0.95 probability, 0.9 confidence, upper\n"
+        "requirement: root.peak_moment ≤ 400 N·m, 99 % at 90 %: 5 of 1000 runs may break it\n"
+        "requirement: deployed, 99.865 % at 90 %: cannot be shown with 1000 runs, it takes 1705\n");
+  document["until"] = parse_json(R"([{ "output": "deployed", "width": 0.01 }])");
+  CHECK_THAT(describe(read_campaign(document.dump(), "")),
+             Catch::EndsWith("until the interval's width is: deployed 0.01\n"));
 }

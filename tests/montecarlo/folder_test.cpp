@@ -124,3 +124,68 @@ TEST_CASE("results that lack runs say so in their summary") {
   (void)run_into(path, campaign_of(quick_campaign(200)), {.resume = true});
   CHECK_FALSE(parse_json_file(path / summary_file)["wingspread"].contains("partial"));
 }
+
+TEST_CASE("requirements are judged from the folder, and those of a file in their place") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  Json json = quick_campaign(300);
+  json["requirements"] = parse_json(R"([
+    { "output": "root.latch_time", "max": 100, "probability": 0.99, "confidence": 0.9 } ])");
+  (void)run_into(path, campaign_of(json));
+  const Json judged = parse_json_file(path / summary_file)["requirements"];
+  REQUIRE(judged.size() == 1);
+  CHECK(judged[0]["verdict"] == "pass");
+  StoredCampaign stored = read_stored_campaign(path);
+  CHECK(write_requirements(stored.campaign.requirements) == json["requirements"]);
+  const auto file = folder.write("q.json", R"([
+    { "output": "deployed", "probability": 0.999, "confidence": 0.9 } ])");
+  stored.campaign.requirements = read_requirements_file(file, stored.campaign);
+  const Summary summary =
+      write_statistics(stored, read_stored_results(stored).results, stored.campaign.statistics);
+  CHECK(summary.requirements.at(0).decision == Decision::undecided);
+  folder.write("q.json", R"([ { "output": "root.x", "probability": 0.9, "confidence": 0.9 } ])");
+  CHECK(message_of([&] { return read_requirements_file(file, stored.campaign); }) ==
+        file.string() +
+            ": /0/output: found string \"root.x\", expected an output of the campaign, "
+            "or \"deployed\"\n" +
+            file.string() +
+            ": /0: found neither max nor min, expected one of them (for both, two requirements)");
+}
+
+TEST_CASE("a campaign without a stamp is another tool's, and read in full") {
+  const Folder folder;
+  folder.write(campaign_file, quick_campaign(3).dump());
+  std::string csv = "status,run,latch_order";
+  const Campaign campaign = campaign_of(quick_campaign(3));
+  const ResultNames names = RunPlan(campaign).names();
+  for (const auto* list : {&names.outputs, &names.draws})
+    for (const std::string& name : *list) csv += "," + name;
+  for (const char* run : {"0", "1", "2"}) { // the last line without an end
+    csv += std::string("\r\ndeployed,") + run + ",root";
+    for (std::size_t i = 0; i < names.outputs.size() + names.draws.size(); ++i) csv += ",1.5";
+  }
+  folder.write(runs_file, csv);
+  CHECK(message_of([&] { return read_stored_campaign(folder.path()); }).find("/wingspread") !=
+        std::string::npos);
+  const StoredCampaign stored = read_any_campaign(folder.path());
+  CHECK(stored.foreign);
+  const Results results = read_stored_results(stored).results;
+  CHECK(results.size() == 3);
+  (void)write_statistics(stored, results, campaign.statistics);
+  const Json summary = parse_json_file(folder.path() / summary_file);
+  CHECK(summary["wingspread"]["foreign"] == true);
+  CHECK_FALSE(summary["wingspread"].contains("partial"));
+  CHECK(summary["outputs"]["root.latch_time"]["mean"] == 1.5);
+}
+
+TEST_CASE("tolerance limits are of the runs in the folder") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  Json json = quick_campaign(100);
+  json["statistics"] = {
+      {"tolerance", {{{"probability", 0.95}, {"confidence", 0.95}, {"side", "both"}}}}};
+  (void)run_into(path, campaign_of(json));
+  const Json output = parse_json_file(path / summary_file)["outputs"]["root.latch_time"];
+  CHECK(output["tolerance"][0]["lower"] == output["min"]); // order 1 of 100 runs
+  CHECK(output["tolerance"][0]["upper"] == output["max"]);
+}

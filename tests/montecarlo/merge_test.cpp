@@ -94,3 +94,16 @@ TEST_CASE("shards are not merged into a folder in use, nor from what is none") {
   CHECK(shards.refusal({shards.parts[0], shards.folder.path() / "no"}) ==
         "no: found no such folder, expected a results folder");
 }
+
+TEST_CASE("a campaign that stops at a width is not merged") {
+  const Folder folder;
+  Json json = quick_campaign(10);
+  json["until"] = parse_json(R"([{ "output": "deployed", "width": 0.5 }])");
+  const auto path = folder.path() / "r";
+  (void)run_into(path, campaign_of(json));
+  CHECK(message_of([&] { return merge_folders({path}, folder.path() / "out"); }) ==
+        (path / campaign_file).string() +
+            ": /until: found a campaign that stops at a width, expected "
+            "one that can have shards");
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "out"));
+}

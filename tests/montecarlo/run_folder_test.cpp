@@ -1,3 +1,4 @@
+#include "montecarlo/merge.hpp"
 #include "montecarlo/run_folder.hpp"
 #include "montecarlo/version.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
@@ -34,6 +35,74 @@ TEST_CASE("the files do not depend on threads and interruptions", "[parallel]") 
     done += run_into(broken, campaign, {.threads = 3, .resume = true, .stop_after = 14});
   CHECK(sessions > 1);
   CHECK(contents(broken) == contents(whole));
+}
+
+TEST_CASE("that holds for every design, and for correlated dispersions", "[parallel]") {
+  const Folder folder;
+  for (const char* design : {"random", "latin_hypercube", "sobol"}) {
+    Json json = quick_campaign(40);
+    json["sampling"].update({{"design", design}, {"replicates", 3}});
+    json["correlations"] =
+        parse_json(R"([{ "between": ["root_spring", "mass.panel_2"], "spearman": 0.7 }])");
+    if (design == std::string("random")) {
+      json["requirements"] = parse_json(R"([
+        { "output": "root.latch_time", "max": 5, "probability": 0.9, "confidence": 0.9 } ])");
+      json["statistics"] = {{"tolerance", {{{"probability", 0.9}, {"confidence", 0.9}}}}};
+    }
+    const Campaign campaign = campaign_of(json);
+    const auto here = folder.path() / design, whole = here / "whole", broken = here / "broken";
+    (void)run_into(whole, campaign);
+    for (long done = 0; done < 40;)
+      done += run_into(broken, campaign, {.threads = 2, .resume = true, .stop_after = 9});
+    CHECK(contents(broken) == contents(whole));
+    std::vector<std::filesystem::path> parts;
+    for (long i = 1; i <= 3; ++i) {
+      parts.push_back(here / std::to_string(i));
+      (void)run_into(parts.back(), campaign, {.threads = 2, .shard = Shard{i, 3}});
+    }
+    (void)merge_folders(parts, here / "merged");
+    CHECK(contents(here / "merged") == contents(whole));
+    const Json summary = parse_json(contents(whole)[summary_file]);
+    CHECK_THAT(
+        summary["definitions"]["rate_bounds"].get<std::string>(),
+        Catch::StartsWith(design == std::string("random") ? "Clopper-Pearson" : "Korn-Graubard"));
+  }
+}
+
+TEST_CASE("of replicates only those count of which there are runs") {
+  const Folder folder;
+  Json json = quick_campaign(64);
+  json["sampling"].update({{"design", "sobol"}, {"replicates", 16}});
+  const Campaign campaign = campaign_of(json);
+  const auto bounds = [&](const Session& session, const char* name) {
+    (void)run_into(folder.path() / name, campaign, session);
+    return parse_json_file(folder.path() / name / summary_file)["definitions"]["quantile_bounds"]
+        .get<std::string>();
+  };
+  CHECK_THAT(bounds({}, "all"), Catch::EndsWith("over 16 independent replicates"));
+  CHECK_THAT(bounds({.shard = Shard{8, 8}}, "part"), Catch::EndsWith("over 8 independent "
+                                                                     "replicates"));
+  CHECK_THAT(bounds({.shard = Shard{64, 64}}, "one"), Catch::StartsWith("no bounds: "));
+}
+
+TEST_CASE("a campaign is not continued with another number of runs, least of all a Latin one") {
+  const Folder folder;
+  const auto path = folder.path() / "r", file = path / campaign_file;
+  const auto sized = [](const char* design, int runs) {
+    Json json = quick_campaign(runs);
+    json["sampling"]["design"] = design;
+    return campaign_of(json);
+  };
+  (void)run_into(path, sized("latin_hypercube", 4));
+  CHECK_THAT(refusal(path, sized("latin_hypercube", 6), {.resume = true}),
+             Catch::StartsWith(file.string() +
+                               ": /sampling/runs: found 4, expected 6: a Latin hypercube's strata, "
+                               "and so all of its draws, depend on the number of runs; run it into "
+                               "a new folder\n"));
+  CHECK_THAT(
+      refusal(path, sized("sobol", 6), {.resume = true}),
+      Catch::Contains("found 4, expected 6: the number of runs is part of a campaign; run it "
+                      "into a new folder\n"));
 }
 
 TEST_CASE("a folder that was left at any byte is completed to the same bytes") {

@@ -59,12 +59,13 @@ TEST_CASE("summary.json: its keys, in order") {
   CHECK(keys(json) == std::vector<std::string>{"wingspread", "runs", "confidence", "status",
                                                "reasons", "reasons_omitted", "latch_order",
                                                "latch_order_omitted", "latch_order_missing",
-                                               "outputs", "correlations", "definitions"});
+                                               "outputs", "correlations", "requirements",
+                                               "definitions"});
   CHECK(keys(json["status"]) ==
         std::vector<std::string>{"deployed", "stalled", "timed_out", "invalid", "failed"});
   CHECK(keys(json["outputs"]["root.latch_time"]) ==
-        std::vector<std::string>{"unit", "count", "missing", "mean", "std", "min", "max",
-                                 "skewness", "kurtosis", "quantiles"});
+        std::vector<std::string>{"unit", "count", "missing", "mean", "mean_error", "std", "min",
+                                 "max", "skewness", "kurtosis", "quantiles"});
   CHECK(keys(json["correlations"]) == std::vector<std::string>{"k", "fixed"});
   CHECK(keys(json["correlations"]["k"]) ==
         std::vector<std::string>{"root.latch_time", "never", "deployed"});
@@ -103,7 +104,36 @@ TEST_CASE("summary.json says why a bound is null") {
   const Json single = summary_json(summarize(results, {}, {1, {0, 0}}), {});
   CHECK(single["outputs"]["t"]["quantiles"][0]["note"] ==
         "no bounds: the draws of one replicate depend on each other; take two replicates or more");
-  CHECK(single["definitions"]["rate_bounds"] == "Student's t over 1 independent replicates");
+  for (const char* bounds : {"rate_bounds", "quantile_bounds", "mean_error"})
+    CHECK(single["definitions"][bounds] == single["outputs"]["t"]["quantiles"][0]["note"]);
+  CHECK(single["status"]["deployed"]["note"] == single["definitions"]["rate_bounds"]);
+  CHECK(single["outputs"]["t"]["mean_error"].is_null());
+}
+
+TEST_CASE("summary.json has bounds from replicates, and says where they agree too well") {
+  Results results(ResultNames{{}, {"t"}});
+  for (long run = 0; run < 40; ++run)
+    results.append({run,
+                    run % 7 == 0 ? Status::stalled : Status::deployed,
+                    {},
+                    {static_cast<double>(run * run % 11)},
+                    "",
+                    ""});
+  Replication halves{2, {}};
+  for (int run = 0; run < 40; ++run) halves.of_row.push_back(run < 20 ? 0 : 1);
+  const Json json = summary_json(summarize(results, {{0.5, 0.999}, 0.5, AutoBins{}}, halves), {});
+  CHECK(json["status"]["failed"]["note"] ==
+        "no bounds: all replicates agree, which says nothing about the error");
+  CHECK(json["status"]["failed"]["upper"].is_null());
+  CHECK(json["outputs"]["t"]["mean_error"].is_number());
+  CHECK(json["definitions"]["mean_error"] == "spread of the means of 2 independent replicates");
+  CHECK(json["definitions"]["quantile_bounds"] ==
+        "Woodruff: inverse of the pooled distribution, Student's t over 2 independent replicates");
+  CHECK(json["outputs"]["t"]["quantiles"].size() == 2);
+  CHECK(json["outputs"]["t"]["quantiles"][1]["note"] ==
+        "40 values in 2 replicates are too few, or agree too well, for every bound at a confidence "
+        "of 0.5");
+  CHECK(json["definitions"]["requirements"] == "none: the draws depend on each other");
 }
 
 TEST_CASE("the files are strict JSON, whatever did not happen") {
@@ -159,4 +189,57 @@ TEST_CASE("histograms.json and histograms.csv hold the same histograms") {
     CHECK(std::stod(cells[4]) == json["density"][i]);
   }
   CHECK_FALSE(reader.next()); // `never` has no bins
+}
+
+TEST_CASE("summary.json: requirements with their evidence, and the runs to be seen again") {
+  Summary summary = some_summary(300);
+  Results results(ResultNames{{}, {"root.latch_time"}});
+  for (long run = 0; run < 3000; ++run)
+    results.append({run, run < 1200 ? Status::stalled : Status::deployed, {}, {12}, "", ""});
+  const Requirement time{"T-1", "root.latch_time", 11.5, {}, .9, .95};
+  summary.requirements = {judge(time, results), judge({"", "deployed", {}, {}, .5, .9}, results),
+                          judge({"", "deployed", {}, {}, .9999, .9}, results)};
+  const Json json = summary_json(summary, {})["requirements"];
+  REQUIRE(json.size() == 3);
+  CHECK(json[0]["name"] == "T-1");
+  CHECK(json[0]["verdict"] == "fail");
+  CHECK(json[0]["failures"] == Json::parse(R"({"seen": 3000, "allowed": 272})"));
+  CHECK((json[0]["margin"].is_null() && json[0]["guaranteed"]["value"].is_null()));
+  CHECK((json[0]["broken"].size() == most_broken && json[0]["broken_omitted"] == 2000));
+  CHECK(json[0]["replay"] == "wingspread replay DIR --run 0");
+  CHECK(json[1]["verdict"] == "pass");
+  CHECK(json[1]["observed"] == Json::parse(R"({"share": 0.6})"));
+  CHECK(json[1]["margin"] > 0);
+  CHECK(json[2]["verdict"] == "fail"); // too few to show it, and enough to disprove it
+  CHECK(json[2]["failures"]["allowed"].is_null());
+  CHECK(json[2]["least_runs"] == 23025);
+  check_strict(json);
+}
+
+TEST_CASE("summary.json: tolerance limits, or why there is none") {
+  Summary summary = some_summary(300);
+  summary.outputs[0].tolerance = {{{.95, .95, Side::both}, {1.5, 2.5}},
+                                  {{.95, .95, Side::upper}, {}},
+                                  {{.999, .95, Side::lower}, {}}};
+  const Json json = summary_json(summary, {})["outputs"]["root.latch_time"]["tolerance"];
+  CHECK(json[0].dump() ==
+        R"({"probability":0.95,"confidence":0.95,"side":"both","lower":1.5,"upper":2.5})");
+  CHECK(json[1]["note"] == "no number: too many runs did not deploy or are without a value");
+  CHECK_FALSE(json[1].contains("lower"));
+  CHECK(json[2]["note"] == "300 runs are too few: it takes 2995");
+  CHECK(json[2]["lower"].is_null());
+}
+
+TEST_CASE("summary.json: when a campaign stops, and what that does to its bounds") {
+  Summary summary = some_summary(300);
+  CHECK_FALSE(summary_json(summary, {}).contains("until"));
+  summary.until = {{{"root.latch_time", .5, .01, true}, .05, false}};
+  summary.looks = 5;
+  const Json json = summary_json(summary, {});
+  CHECK(json["until"].dump() ==
+        R"({"stopped":false,"checkpoints":5,"widths":[{"output":"root.latch_time",)"
+        R"("quantile":0.5,"relative_width":0.01,"found":0.05,"met":false}]})");
+  CHECK(json["definitions"]["rate_bounds"] ==
+        "Clopper-Pearson, two-sided, at a confidence of 0.99 each, to hold at whichever of 5 "
+        "checkpoints the campaign stops");
 }

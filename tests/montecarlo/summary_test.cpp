@@ -55,6 +55,7 @@ TEST_CASE("a summary of an output is over the runs in which it happened, and say
   CHECK(latch_time.name == "root.latch_time");
   CHECK((latch_time.moments.count == 8 && latch_time.missing == 2));
   CHECK(latch_time.moments.mean == 10 + 140.0 / 8);
+  CHECK(latch_time.mean_error == latch_time.moments.std / std::sqrt(8));
   CHECK(latch_time.quantiles[0].value == 19); // the fourth of eight
   CHECK(latch_time.quantiles[0].bounds.upper);
   CHECK_FALSE(latch_time.quantiles[1].bounds.upper);
@@ -115,10 +116,13 @@ TEST_CASE("without independent draws the bounds come from the replicates") {
   CHECK(summary.replicates == 2);
   CHECK(*summary.statuses[0].bounds.lower != clopper_pearson(8, 10, 0.5).lower);
   CHECK(summary.outputs[1].quantiles[0].bounds.lower);
+  // 5 − k is 0.5 on average; the replicates' sums of deviations are −2 and 2: √(8 · 2/1)/10
+  CHECK(summary.outputs[1].mean_error == Approx(0.4));
   const Replication one{1, std::vector<int>(10, 0)};
   const Summary none_from_one = summarize(results, {}, one);
   CHECK_FALSE(none_from_one.statuses[0].bounds.lower);
   CHECK_FALSE(none_from_one.outputs[0].quantiles[1].bounds.lower);
+  CHECK(std::isnan(none_from_one.outputs[0].mean_error));
 }
 
 TEST_CASE("no runs, or none in which anything happened, still have a summary") {

@@ -151,3 +151,23 @@ TEST_CASE("a drawn histogram puts bins together and loses no count") {
   CHECK(sum == histogram.total());
   CHECK(draw_histogram("x", "N", {}, 80) == "x, N\n  no values\n");
 }
+
+TEST_CASE("the table shows what the campaign asks for, and which runs to look at") {
+  const Results results = some_results();
+  Summary summary = summarize(results, {});
+  const Requirement peak{"", "tip.peak_moment", 2e6, {}, .8, .9},
+      deploys{"", "deployed", {}, {}, .99, .9};
+  summary.requirements = {judge(peak, results), judge(deploys, results)};
+  summary.outputs[2].tolerance = {{{.95, .9, Side::upper}, {{}, 1000098.}}};
+  summary.until = {{{"deployed", {}, .01, false}, .127, false}};
+  const std::string table = summary_table(summary, "t", "out");
+  for (const char* part :
+       {"  tip.peak_moment ≤ 2000000 N·m, 80 % at 90 % pass            10      14   1.0001e+06",
+        "  deployed, 99 % at 90 %                      fail            10       –     90.000 %",
+        "    10 of 100 runs break it: disproved\n",
+        "    wingspread replay out --run 9   and 19, 29, 39, 49, 59, …\n",
+        "  tip.peak_moment                           95 % at 90 %", "UNTIL THE INTERVAL'S WIDTH IS",
+        "  deployed 0.01"})
+    CHECK_THAT(table, Catch::Contains(part));
+  for (const std::string& line : lines(table)) CHECK(columns(line) <= table_width);
+}

@@ -70,7 +70,20 @@ def check_stability_map(folder):
     return ("stability_limits", "stability_regions")
 
 
-CHECKS = {"stiffness": check_stiffness, "latch_model": check_latch_model, "stability_map": check_stability_map}
+def check_design_error(folder):
+    rows = read_rows(folder / "design_error.csv")
+    check(len(rows) == 3 * 4 * 3 * 5, "three designs at four sizes, five statistics of three outputs")
+    sigma = {row["output"]: row["reference"] for row in rows if row["statistic"] == "std"}
+    for row in rows:
+        if row["statistic"] == "mean":
+            ratio = row["rms_error"] / (sigma[row["output"]] / math.sqrt(row["runs"]))
+            check(ratio < 2.5, f"no worse than independent draws: {ratio}, {row}")
+            check(ratio > 0.3 or row["design"] != "random", f"independent draws gain nothing: {ratio}, {row}")
+    return ("design_error",)
+
+
+CHECKS = {"stiffness": check_stiffness, "latch_model": check_latch_model, "stability_map": check_stability_map,
+          "design_error": check_design_error}
 
 
 def main(name, driver, folder):
@@ -78,7 +91,8 @@ def main(name, driver, folder):
     shutil.rmtree(folder, ignore_errors=True)
     subprocess.run([driver, "--quick", "--out", folder], check=True)
     figures = CHECKS[name](folder)
-    subprocess.run([sys.executable, "studies/plot_accuracy.py", folder], check=True)
+    plot = "plot_design_error.py" if name == "design_error" else "plot_accuracy.py"
+    subprocess.run([sys.executable, f"studies/{plot}", folder], check=True)
     for figure in figures:
         for suffix in (".png", ".svg"):
             check((folder / (figure + suffix)).stat().st_size > 5000, f"{figure}{suffix} is drawn")

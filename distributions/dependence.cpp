@@ -1,0 +1,117 @@
+#include "distributions/dependence.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <boost/math/distributions/normal.hpp>
+
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Normal01 = boost::math::normal_distribution<double>;
+
+constexpr double converged = 1e-10;
+constexpr int most_projections = 2000;
+
+/// Φ⁻¹(u), from the smaller tail.
+double normal_score(double u) {
+  const Normal01 normal;
+  return u <= 0.5 ? boost::math::quantile(normal, u)
+                  : boost::math::quantile(boost::math::complement(normal, 1 - u));
+}
+
+Tails normal_tails(double z) {
+  const Normal01 normal;
+  return {boost::math::cdf(normal, z), boost::math::cdf(boost::math::complement(normal, z))};
+}
+
+/// The nearest matrix of which no eigenvalue is below `smallest`.
+Matrix with_eigenvalues_from(const Matrix& matrix, double smallest) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrix);
+  const auto raised = solver.eigenvalues().cwiseMax(smallest);
+  return solver.eigenvectors() * raised.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+} // namespace
+
+double normal_correlation(double spearman) { return 2 * std::sin(std::numbers::pi * spearman / 6); }
+
+double spearman_correlation(double normal_r) {
+  return 6 * std::asin(normal_r / 2) / std::numbers::pi;
+}
+
+Matrix normal_correlations(std::size_t count, std::span<const RankCorrelation> correlations) {
+  const auto size = static_cast<Eigen::Index>(count);
+  Matrix matrix = Matrix::Identity(size, size);
+  for (const auto& [first, second, spearman] : correlations) {
+    const auto i = static_cast<Eigen::Index>(first), j = static_cast<Eigen::Index>(second);
+    matrix(i, j) = matrix(j, i) = normal_correlation(spearman);
+  }
+  return matrix;
+}
+
+std::optional<Matrix> cholesky(const Matrix& matrix) {
+  const Eigen::Index n = matrix.rows();
+  const double rounding = 64 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  Matrix factor = Matrix::Zero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j; i < n; ++i) {
+      double rest = matrix(i, j);
+      for (Eigen::Index k = 0; k < j; ++k) rest -= factor(i, k) * factor(j, k);
+      if (i == j && !(rest > rounding)) return std::nullopt;
+      factor(i, j) = i == j ? std::sqrt(rest) : rest / factor(j, j);
+    }
+  return factor;
+}
+
+Matrix nearest_correlations(const Matrix& matrix, double smallest) {
+  assert(0 < smallest && smallest < 1);
+  Matrix nearest = matrix, correction = Matrix::Zero(matrix.rows(), matrix.cols());
+  for (int projection = 0; projection < most_projections; ++projection) {
+    const Matrix corrected = nearest - correction;
+    const Matrix possible = with_eigenvalues_from(corrected, smallest);
+    correction = possible - corrected;
+    nearest = possible;
+    nearest.diagonal().setOnes();
+    if ((nearest - possible).norm() <= converged * nearest.norm()) break;
+  }
+  return nearest;
+}
+
+GaussianCopula::GaussianCopula(std::vector<std::size_t> order,
+                               std::span<const RankCorrelation> correlations)
+    : independent_(correlations.empty()) {
+  if (independent_) return;
+  const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+  const Matrix all = normal_correlations(order.size(), correlations);
+  Matrix ordered(all.rows(), all.cols());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = 0; j < order.size(); ++j)
+      ordered(index(i), index(j)) = all(index(order[i]), index(order[j]));
+  const std::optional<Matrix> factor = cholesky(ordered);
+  assert(factor);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    Row row{order[i], (*factor)(index(i), index(i)), {}};
+    for (std::size_t j = 0; j < i; ++j)
+      if (const double weight = (*factor)(index(i), index(j)); weight != 0)
+        row.weights.emplace_back(order[j], weight);
+    rows_.push_back(std::move(row));
+  }
+}
+
+void GaussianCopula::couple(std::span<const double> u, std::span<Tails> coupled) const {
+  for (std::size_t i = 0; i < u.size(); ++i) coupled[i] = {u[i], 1 - u[i]};
+  for (const Row& row : rows_) {
+    if (row.weights.empty()) continue;
+    double z = row.own * normal_score(u[row.target]);
+    for (const auto& [before, weight] : row.weights) z += weight * normal_score(u[before]);
+    coupled[row.target] = normal_tails(z);
+  }
+}
+
+} // namespace wingspread

@@ -1,0 +1,79 @@
+/// Dispersions that vary together: a Gaussian copula with the rank correlations asked for.
+///
+///   symbol  meaning
+///   u, u'   a run's coordinates in (0, 1) as the design gives them, and coupled
+///   ρ       Spearman's coefficient of two of the u'
+///   r       correlation of their normal variables, z' = Φ⁻¹(u')
+///   L       Cholesky's factor of the matrix of all r
+///
+///   r = 2 sin(πρ/6) (1) z' = L Φ⁻¹(u),  u' = Φ(z') (2)
+///
+/// Source of (1): K. Pearson (1907); W. H. Kruskal, J. Amer. Statist. Assoc. 53 (1958) 814–861.
+/// Each u' is uniform, so every law keeps its shape, truncated and stepped ones too. ρ is also that
+/// of the draws of continuous laws; ties, in laws with steps, take some of it away.
+#pragma once
+
+#include "distributions/continuous_law.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace wingspread {
+
+/// ρ of two dispersions, by their indices. Those of which none is named are independent.
+struct RankCorrelation {
+  std::size_t first = 0, second = 0;
+  double spearman = 0; ///< ρ, > −1 and < 1
+};
+
+[[nodiscard]] double normal_correlation(double spearman);   ///< (1)
+[[nodiscard]] double spearman_correlation(double normal_r); ///< its inverse
+
+/// The symmetric matrix of all r of `count` dispersions, 1 on the diagonal.
+/// @pre no pair is named twice
+[[nodiscard]] Eigen::MatrixXd normal_correlations(std::size_t count,
+                                                  std::span<const RankCorrelation> correlations);
+
+/// L, lower triangular; nothing when the matrix is not positive definite by more than rounding.
+/// By hand: a library's sums depend on how it was compiled, and draws must not.
+[[nodiscard]] std::optional<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix);
+
+/// The correlation matrix nearest to a symmetric one with a unit diagonal, by Frobenius' norm,
+/// among those of which no eigenvalue is below `smallest`: alternating projections with Dykstra's
+/// correction. Source: N. J. Higham, IMA J. Numer. Anal. 22 (2002) 329–343, algorithm 3.3.
+/// @pre 0 < smallest < 1
+[[nodiscard]] Eigen::MatrixXd nearest_correlations(const Eigen::MatrixXd& matrix, double smallest);
+
+/// Couples a run's coordinates. Immutable, so one object serves all threads.
+class GaussianCopula {
+public:
+  /// @param order of elimination: a permutation of the dispersions. Each follows those before it,
+  /// so
+  ///   what is first in its group is what the design gave, and so is what no correlation names.
+  /// @pre their matrix is positive definite
+  GaussianCopula(std::vector<std::size_t> order, std::span<const RankCorrelation> correlations);
+
+  /// Whether there is nothing to couple.
+  [[nodiscard]] bool is_independent() const { return independent_; }
+
+  /// (2), with both tails of each u', either as accurate as it is small.
+  /// @param u       each strictly within (0, 1), with 1 − u exact
+  /// @param coupled as long. Cost: some 50 ns for each u and each of its correlations
+  void couple(std::span<const double> u, std::span<Tails> coupled) const;
+
+private:
+  /// One dispersion's part of (2).
+  struct Row {
+    std::size_t target;
+    double own;                                          ///< L's diagonal
+    std::vector<std::pair<std::size_t, double>> weights; ///< dispersions before it, L's row
+  };
+  std::vector<Row> rows_;
+  bool independent_ = true;
+};
+
+} // namespace wingspread

@@ -1,0 +1,39 @@
+/// A Latin hypercube's coordinates, each computed alone.
+///
+/// M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239–245: of n points, each
+/// coordinate falls once into each of n equal strata; which point into which is a random
+/// permutation for each coordinate, and its place within the stratum is random.
+///
+/// The permutation of n strata has to be evaluated at one point without knowing the others: a
+/// Feistel network over ℤ_a × ℤ_b with a·b ≥ n, walked on until it is below n (J. Black,
+/// P. Rogaway, "Ciphers with arbitrary finite domains", CT-RSA 2002), then turned by a random
+/// shift.
+///
+///   symbol  meaning
+///   i, n    the point, how many there are
+///   s       its stratum, [s/n, (s + 1)/n)
+///   a, b    the network's halves: a = ⌈√n⌉, b = ⌈n/a⌉
+///
+/// For any key it is a permutation. Over all keys, and random round functions, the shift makes
+/// every point's stratum exactly uniform, so that means are unbiased; and two points' strata are
+/// any two with equal probability but for a part of about a⁻¹⁵: it is carried on only where halves
+/// coincide in round after round.
+#pragma once
+
+#include "distributions/random_stream.hpp"
+
+#include <cstdint>
+
+namespace wingspread {
+
+/// The stratum of point i, a permutation of 0 … n − 1. @pre i < n
+/// Cost: 17 Philox blocks, and rarely more; some 0.3 µs.
+[[nodiscard]] std::uint64_t latin_stratum(std::uint64_t i, std::uint64_t n,
+                                          const ReplicateStream& stream);
+
+/// The coordinate of point i: uniform over those odd multiples of 2⁻⁵³ that lie in its stratum,
+/// [s/n, (s + 1)/n) to the last bit. (From 2⁵² points on strata can lack numbers of their own.)
+[[nodiscard]] double latin_coordinate(std::uint64_t i, std::uint64_t n,
+                                      const ReplicateStream& stream);
+
+} // namespace wingspread

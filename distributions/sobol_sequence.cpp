@@ -1,0 +1,36 @@
+#include "distributions/sobol_sequence.hpp"
+
+#include <boost/random/sobol.hpp>
+
+#include <bit>
+#include <cassert>
+
+namespace wingspread {
+namespace {
+
+using Engine = boost::random::sobol_engine<std::uint64_t, 64>;
+static_assert(boost::random::default_sobol_table::max_dimension == most_sobol_dimensions);
+
+} // namespace
+
+// The engine's point n is (1) over the digits of n's Gray code n ⊕ ⌊n/2⌋, which for n = 2ʲ⁺¹ − 1 is
+// 2ʲ: that point is v_j. As the engine leaves out point 0, seed(n − 1) takes it to point n.
+std::vector<SobolDimension> sobol_dimensions(std::size_t count) {
+  assert(count <= most_sobol_dimensions);
+  std::vector<SobolDimension> dimensions(count);
+  if (count == 0) return dimensions;
+  Engine engine(count);
+  for (std::size_t j = 0; j < 64; ++j) {
+    engine.seed((~std::uint64_t{0} >> (63 - j)) - 1);
+    for (SobolDimension& dimension : dimensions) dimension[j] = engine();
+  }
+  return dimensions;
+}
+
+std::uint64_t sobol_coordinate(const SobolDimension& dimension, std::uint64_t k) {
+  std::uint64_t x = 0;
+  for (; k != 0; k &= k - 1) x ^= dimension[static_cast<std::size_t>(std::countr_zero(k))];
+  return x;
+}
+
+} // namespace wingspread

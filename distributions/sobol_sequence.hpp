@@ -1,0 +1,36 @@
+/// Sobol' points, each computed alone.
+///
+///   symbol  meaning
+///   x       a coordinate: 64 binary digits after the point, as an unsigned number
+///   v_j     a dimension's direction numbers
+///
+///   x_k = ⊕ v_j over the binary digits j of k that are 1 (1)
+///
+/// Points 0 … 2ᵐ − 1, and any later block of 2ᵐ that begins at a multiple of it, are a digital
+/// (t, m, s)-net. In Gray-code order, as generators produce them one by one, it is the same blocks.
+/// The direction numbers are those of Boost.Random's sobol_engine: S. Joe, F. Y. Kuo, "Constructing
+/// Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30 (2008)
+/// 2635–2654. The engine leaves out the point 0, without which there is no net; so only its
+/// direction numbers are used.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wingspread {
+
+/// As many as Boost has direction numbers for.
+inline constexpr std::size_t most_sobol_dimensions = 3667;
+
+/// The direction numbers of one dimension.
+using SobolDimension = std::array<std::uint64_t, 64>;
+
+/// Those of the first `count` dimensions. @pre count ≤ most_sobol_dimensions
+[[nodiscard]] std::vector<SobolDimension> sobol_dimensions(std::size_t count);
+
+/// (1): the coordinate of point k. Cost: one ⊕ for each 1 in k.
+[[nodiscard]] std::uint64_t sobol_coordinate(const SobolDimension& dimension, std::uint64_t k);
+
+} // namespace wingspread
