@@ -517,21 +517,25 @@ private:
   // ---- methods
 
   /// The frequency of what still moves, 1/s: largest acceleration over largest rate or, if larger,
-  /// a latched hinge's rate over its way from rest; in a swing one of the two is always as large as
-  /// its frequency.
+  /// the rate of a latched hinge over its way from rest; in a swing one of the two is always as
+  /// large as its frequency. Swings a thousand times slower than the fastest hinge do not count.
   [[nodiscard]] double quickness() const {
     using std::abs;
-    T swing(0), fastest(0), acceleration(0);
+    T fastest(0), acceleration(0), swing(0);
+    for (int i = 1; i <= at_.bodies; ++i) {
+      fastest = larger(fastest, T(abs(step_.x[at_.rate(i)])));
+      acceleration = larger(acceleration, T(abs(step_.dxdt[at_.rate(i)])));
+    }
+    if (!(fastest > T(0))) return 0;
     for (int i = 1; i <= at_.bodies; ++i) {
       const LinearLaw<T>& law = system_.work().laws[i];
       const T rate = abs(step_.x[at_.rate(i)]);
-      fastest = larger(fastest, rate);
-      acceleration = larger(acceleration, T(abs(step_.dxdt[at_.rate(i)])));
-      if (!system_.work().engaged[i] || !(law.stiffness > T(0))) continue;
+      if (!system_.work().engaged[i] || !(law.stiffness > T(0)) || rate < T(1e-3) * fastest)
+        continue;
       const T way = step_.x[at_.angle(i)] - law.latched - law.drive / law.stiffness;
       if (way != T(0)) swing = larger(swing, T(rate / abs(way)));
     }
-    return fastest > T(0) ? static_cast<double>(larger(swing, T(acceleration / fastest))) : 0;
+    return static_cast<double>(larger(swing, T(acceleration / fastest)));
   }
 
   /// `auto` goes on with another one.

@@ -103,9 +103,9 @@ public:
   }
 
   /// Whether ρ should be measured anew before the next step.
-  [[nodiscard]] bool wants_radius() const { return automatic_ && steps_ % 32 == 31; }
+  [[nodiscard]] bool wants_radius() const { return automatic_ && steps_ % 64 == 63; }
   /// Whether it should be after the next step.
-  [[nodiscard]] bool radius_is_due() const { return automatic_ && steps_ % 32 == 30; }
+  [[nodiscard]] bool radius_is_due() const { return automatic_ && steps_ % 64 == 62; }
   void set_radius(double radius) { radius_ = radius; }
 
   /// Whether after a step of h another method may have to be thought of: `after_step` then needs to
@@ -131,12 +131,13 @@ public:
   }
 
 private:
-  static constexpr double break_even = 5e-4; // rtol; see the work-precision study
+  static constexpr double break_even = 5e-3; // rtol; see the work-precision study
   static constexpr int enough = 10;          // steps in a row held back by stability
+  static constexpr int long_enough = 100;    // to try without promise
   static constexpr double held_back = 0.4;   // of the stable step: what such a step has at least
   /// An implicit step costs as much as about ten explicit ones, and cannot be much longer than the
   /// motion takes to change: where the stable step is a larger part of that, it cannot pay.
-  static constexpr double worth_trying = 0.05;
+  static constexpr double worth_trying = 0.02;
   static constexpr int trial = 5; // steps that the implicit method has to get going
   static constexpr int first_patience =
       64; // steps before it is tried again, doubled each time up to
@@ -169,7 +170,7 @@ private:
       return false;
     }
     if (++held_back_ < enough || wait_ > 0) return false;
-    if (!(stable_step() * quickness < worth_trying)) {
+    if (!(stable_step() * quickness < worth_trying) && held_back_ < long_enough) {
       wait_ = enough;
       return false;
     }

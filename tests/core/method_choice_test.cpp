@@ -61,16 +61,16 @@ Outcome run(const Scene& scene, double rtol, const std::string& method = "auto")
 } // namespace
 
 TEST_CASE("auto begins with dop853, at loose tolerances with dopri5") {
-  for (const double rtol : {1e-2, 1e-3, 6e-4})
+  for (const double rtol : {1e-1, 1e-2, 6e-3})
     CHECK(method_at(run(seed_scene(), rtol), 0) == "dopri5");
-  for (const double rtol : {4e-4, 1e-6, 1e-8, 1e-12})
+  for (const double rtol : {4e-3, 1e-3, 1e-6, 1e-8, 1e-12})
     CHECK(method_at(run(seed_scene(), rtol), 0) == "dop853");
 }
 
 TEST_CASE("where nothing is stiff auto stays with the method that it begins with") {
   Scene scene = harmonic_panel();
   CHECK(methods_used(run(scene, 1e-8)) == "dop853");
-  CHECK(methods_used(run(scene, 1e-3)) == "dopri5");
+  CHECK(methods_used(run(scene, 1e-2)) == "dopri5");
   // mildly stiff: tried at most
   const Outcome out = run(seed_scene(), 1e-8);
   CHECK(out.status == Status::deployed);
@@ -79,11 +79,11 @@ TEST_CASE("where nothing is stiff auto stays with the method that it begins with
 
 TEST_CASE("behind stiff latches auto goes on with seulex, and says so") {
   const Scene scene = with_latches({1e4, 1e4});
-  for (const double rtol : {1e-3, 1e-6}) {
+  for (const double rtol : {1e-2, 1e-3, 1e-6}) {
     const Outcome out = run(scene, rtol);
     CAPTURE(rtol, methods_used(out));
     REQUIRE(out.latches.size() == 3);
-    CHECK(methods_used(out) == (rtol < 5e-4 ? "dop853, seulex" : "dopri5, seulex"));
+    CHECK(methods_used(out) == (rtol < 5e-3 ? "dop853, seulex" : "dopri5, seulex"));
     for (const Phase& phase : out.phases) // not before the first latch
       if (phase.method == "seulex") CHECK(phase.from > out.latches[0].time);
     for (const LatchEvent& latch : out.latches) // whose shock it leaves to the explicit method
@@ -101,11 +101,11 @@ TEST_CASE(
     double rtol, at_most; ///< of the evaluations that the explicit method takes
   };
   for (const Case& c :
-       {Case{{1e4, 1e4}, 1e-3, 0.03}, Case{{1e4, 1e4}, 1e-6, 0.06}, Case{{1e9, 1e5}, 1e-6, 0.03},
+       {Case{{1e4, 1e4}, 1e-3, 0.04}, Case{{1e4, 1e4}, 1e-6, 0.06}, Case{{1e9, 1e5}, 1e-6, 0.04},
         Case{{1e6, 1e3}, 1e-6, 1.1}, Case{{1e4, 100}, 1e-6, 1.1}, Case{{1e4, 100}, 1e-10, 1.1}}) {
     const Scene scene = with_latches(c.latch);
     const Outcome chosen = run(scene, c.rtol),
-                  plain = run(scene, c.rtol, c.rtol < 5e-4 ? "dop853" : "dopri5");
+                  plain = run(scene, c.rtol, c.rtol < 5e-3 ? "dop853" : "dopri5");
     CAPTURE(c.latch.stiffness, c.latch.damping, c.rtol, chosen.work.rhs_evaluations,
             plain.work.rhs_evaluations, plain.reason);
     CHECK(chosen.status == Status::deployed);
