@@ -26,8 +26,6 @@ public:
         choice_(how.method, how.rtol, how.smoothing.has_value()) {
     for (State<T>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &scratch_, &dscratch_})
       x->assign(at_.size(), T(0));
-    moments_.assign(at_.bodies + 1, {});
-    for (int i = 1; i <= at_.bodies; ++i) latches_left_ += system_.wing().hinges[i].has_latch;
   }
 
   [[nodiscard]] Outcome run() {
