@@ -100,10 +100,10 @@ inline constexpr Row error_3 = [] {
 
 template <class T> class DormandPrince853 {
 public:
-  static constexpr int order = 8, error_order = 7;
+  static constexpr int order = 8, error_order = 7, evaluations = 12;
   static constexpr double stable_real = 6.394, stable_imaginary = 5.960;
 
-  /// The error is h ε5²/√(ε5² + 0.01 ε3²), ε5 and ε3 the estimates: of order 8 where both shrink.
+  /// @param error h ε5, the estimate of order 5
   template <class System>
   void estimate(System& system, const Start<T>& from, const T& h, State<T>& x1, State<T>& dxdt1,
                 State<T>& error) {
@@ -111,14 +111,30 @@ public:
     k_[0] = from.dxdt;
     [&]<std::size_t... I>(std::index_sequence<I...>) { (stage<I + 1>(system, from, h, x1), ...); }
     (std::make_index_sequence<dop853::stages - 1>{});
-    using std::sqrt;
+    error_3_.resize(size);
     for (std::size_t c = 0; c < size; ++c) {
-      const T e5 = weighted(dop853::error_5, c), e3 = weighted(dop853::error_3, c);
-      const T both = fused(e5, e5, T(0.01) * e3 * e3);
       x1[c] = fused(h, weighted(dop853::b, c), from.x[c]);
-      error[c] = select(both > T(0), T(h * e5 * e5 / sqrt(both)), both); // NaN stays NaN
+      error[c] = h * weighted(dop853::error_5, c);
+      error_3_[c] = h * weighted(dop853::error_3, c);
     }
     system(x1, dxdt1, from.t + h);
+  }
+
+  /// Of the step last estimated, scaled: ε5²/√(ε5² + 0.01 ε3²) of the largest ε5 and ε3, of order 8
+  /// where both shrink. NaN as of `wingspread::scaled_error`.
+  [[nodiscard]] T scaled_error(const State<T>& x, const State<T>& x1, const State<T>& dxdt1,
+                               const State<T>& error, const T& rtol, const T& atol) const {
+    using std::abs, std::sqrt;
+    T e5(0), e3(0), poison(0);
+    for (std::size_t c = 0; c < x.size(); ++c) {
+      const T scale = T(1) / fused(rtol, larger(T(abs(x[c])), T(abs(x1[c]))), atol);
+      e5 = larger(e5, T(abs(error[c]) * scale));
+      e3 = larger(e3, T(abs(error_3_[c]) * scale));
+      poison =
+          poison + (x1[c] - x1[c]) + (dxdt1[c] - dxdt1[c]) + (error[c] - error[c]); // 0, or NaN
+    }
+    const T both = fused(e5, e5, T(0.01) * e3 * e3);
+    return select(both > T(0), T(e5 * e5 / sqrt(both)), both) + poison;
   }
 
 private:
@@ -127,7 +143,11 @@ private:
     for (std::size_t c = 0; c < x.size(); ++c)
       x[c] = fused(h, weighted(dop853::a[I], c), from.x[c]);
     k_[I].resize(x.size());
-    system(x, k_[I], from.t + T(dop853::nodes[I]) * h);
+    const T t = from.t + T(dop853::nodes[I]) * h;
+    if constexpr (requires { system.stage(x, k_[I], t); })
+      system.stage(x, k_[I], t);
+    else
+      system(x, k_[I], t);
   }
 
   /// Σ_j w_j k_j of component c, zeros left out.
@@ -141,6 +161,7 @@ private:
   }
 
   std::array<State<T>, dop853::stages> k_;
+  State<T> error_3_;
 };
 
 } // namespace wingspread

@@ -3,6 +3,8 @@
 
 #include "core/contact.hpp"
 #include "core/method_choice.hpp"
+#include "core/pack_engine.hpp"
+#include "core/peak_bounds.hpp"
 #include "core/record.hpp"
 #include "core/settled.hpp"
 #include "core/stall.hpp"
@@ -10,6 +12,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -71,7 +74,6 @@ public:
     return choice_.active() == method && !system_.wing().can_stick;
   }
   [[nodiscard]] const Try& asked() const { return try_; }
-  [[nodiscard]] bool asks_for_step() const { return stage_ == Stage::step; }
   [[nodiscard]] Step<T>& step() { return step_; }
   [[nodiscard]] ForcePeaks<T, AnySystem>& forces() { return forces_; }
   [[nodiscard]] const std::vector<PeakOf<T>>& moments() const { return moments_; }
@@ -84,29 +86,39 @@ public:
     });
   }
 
-  /// The step asked for has been made, and no event, peak or bound can lie in it: goes on without
-  /// knowing the state, if no more is to be done. @return whether it did; if not, nothing has
-  /// changed
-  [[nodiscard]] bool pass(Verdict verdict, double rough) {
-    if (M == BaseMotion::free || stage_ != Stage::step || last_) return false;
-    if (verdict.accepted() && takes_long_steps(choice_.active())) limit_roughness(rough, verdict);
-    if (!verdict.accepted() || look_is_due() || choice_.radius_is_due() ||
-        choice_.may_leave(static_cast<double>(step_.h)))
-      return false;
-    const T next = step_.h * T(verdict.factor), then = step_.t + step_.h;
-    const bool near_an_end = !(T(how_.t_end) - then > T(8 * epsilon_of<T>) * then) ||
-                             !(next > T(1e-9) * then) || tried_ + 1 >= how_.max_steps;
-    if (near_an_end) return false;
-    ++tried_;
-    verdict_ = verdict;
-    h_ = next;
-    due_.reset();
-    count_step();
-    step_.t = then;
-    (void)choice_.after_step(static_cast<double>(step_.h), system_.work().evaluations, 0);
-    if (!goal_.to_t_end) ++since_last_look_;
-    try_step();
-    return true;
+  /// How far an engine may go from here without a word. @pre fits_pack(its method)
+  [[nodiscard]] Stretch stretch() {
+    Stretch s;
+    s.h = static_cast<double>(try_.h);
+    s.memory = memory();
+    s.t_end = how_.t_end;
+    const bool plain = stage_ == Stage::step && !last_;
+    s.tries =
+        plain ? std::min({how_.max_steps - tried_ - 1, choice_.steps_to_radius(), steps_to_look()})
+              : 0;
+    s.held_back_step = choice_.held_back_step();
+    s.last_free = static_cast<double>(choice_.last_free().steps - choice_.steps());
+    s.enough = MethodChoice::enough;
+    s.wait = static_cast<double>(choice_.wait_until() - choice_.steps());
+    return s;
+  }
+
+  /// An engine has gone so far; the step that is asked for is now the one it made last.
+  /// @param each evaluations of a try
+  void catch_up(const Progress& progress, long each) {
+    long& evaluations = system_.count_evaluations();
+    const long before = evaluations;
+    evaluations += (progress.tries + 1) * each;
+    if (progress.tries == 0) return;
+    tried_ += progress.tries;
+    steps_ += progress.steps;
+    rejected_ += progress.tries - progress.steps;
+    if (proofs_may_end()) since_last_look_ += progress.steps;
+    step_.t = T(progress.t);
+    step_.h = try_.h = T(progress.h);
+    memory() = progress.memory;
+    choice_.catch_up(progress.steps, progress.last_free,
+                     {progress.free_time, before + progress.tries_to_free * each});
   }
 
   /// The step asked for has been made, and the system's last evaluation was at its end.
@@ -151,8 +163,16 @@ private:
 
   // ---- the run, step by step
 
+  /// Of the step control of a method that an engine has.
+  [[nodiscard]] StepMemory<double>& memory() {
+    return steppers_.with(choice_.active(), [](auto& stepper) -> StepMemory<double>& {
+      if constexpr (requires { stepper.memory(); }) return stepper.memory();
+      std::abort();
+    });
+  }
+
   void start() {
-    ended_ = stalled_ = false;
+    ended_ = stalled_ = bounds_ready_ = false;
     outcome_ = {};
     tried_ = steps_ = rejected_ = since_last_look_ = 0;
     largest_drift_ = 0;
@@ -329,7 +349,8 @@ private:
     if (!happens(due_)) {
       const double h = static_cast<double>(step_.h);
       const double quick = choice_.may_leave(h) ? quickness() : 0;
-      if (choice_.after_step(h, system_.work().evaluations, quick)) change_method();
+      const MethodChoice::Mark now{static_cast<double>(step_.t), system_.work().evaluations};
+      if (choice_.after_step(h, now, quick)) change_method();
       if (choice_.wants_radius()) choice_.set_radius(radius_.estimate(system_, step_.x, step_.t));
     }
     if (angles_are_known())
@@ -507,7 +528,7 @@ private:
     if (goal_.peak_force) forces_.observe(system_, step_.t);
     if (system_.work().stuck > 0) holding_.observe(system_, step_.x);
     notify();
-    choice_.restart(choice_.automatic() ? radius_.estimate(system_, step_.x, step_.t) : 0);
+    choice_.restart(static_cast<double>(step_.t), system_.work().evaluations);
     begin_phase();
     choose_first_step();
   }
@@ -596,17 +617,25 @@ private:
     if (goal_.first_latch_only && any_latch()) return true;
     if (goal_.to_t_end) return false;
     if (rests_for_ever() && (latches_left_ > 0 || any_latch())) return true;
-    const bool look = look_is_due();
+    if (!proofs_may_end()) return latches_left_ == 0 && any_latch() && !wants_peaks();
+    const bool look = steps_to_look() == 0;
     ++since_last_look_;
-    if (latches_left_ > 0) return look && lacks_energy() && !goal_.peak_moment && !goal_.peak_force;
-    if (!any_latch()) return false;
-    if (!goal_.peak_moment && !goal_.peak_force) return true;
-    return look && no_peak_can_rise();
+    return look && (latches_left_ > 0 ? lacks_energy() : no_peak_can_rise());
   }
 
-  [[nodiscard]] bool look_is_due() const {
-    constexpr int interval = 16; // steps between two looks at the proofs: they cost an evaluation
-    return !goal_.to_t_end && since_last_look_ % interval == interval - 1;
+  [[nodiscard]] bool wants_peaks() const { return goal_.peak_moment || goal_.peak_force; }
+
+  /// Whether the run may end, from here to the next event, by a proof that nothing more can happen.
+  [[nodiscard]] bool proofs_may_end() const {
+    if (goal_.to_t_end) return false;
+    return latches_left_ > 0 ? !wants_peaks() : any_latch() && wants_peaks();
+  }
+
+  /// Steps until the proofs are tried: they cost an evaluation and more.
+  [[nodiscard]] long steps_to_look() const {
+    const int interval = latches_left_ > 0 ? 64 : 16;
+    if (!proofs_may_end()) return std::numeric_limits<long>::max();
+    return interval - 1 - since_last_look_ % interval;
   }
 
   /// All hinges stick, under a load that stays as it is.
@@ -640,7 +669,9 @@ private:
   [[nodiscard]] bool no_peak_can_rise() {
     const std::optional<T> energy = energy_above_rest(system_, step_.x, step_.t);
     if (!energy) return false;
-    bound_peaks(system_, *energy, bounds_);
+    if (!bounds_ready_) bounds_.prepare(system_);
+    bounds_ready_ = true;
+    bounds_.bound(system_, *energy);
     for (int i = 1; i <= at_.bodies; ++i) {
       if (goal_.peak_moment && bounds_.moment[i] > moments_[i].value) return false;
       if (goal_.peak_force && bounds_.force[i] > forces_.peaks[i].value) return false;
@@ -717,7 +748,8 @@ private:
   ForcePeaks<T, AnySystem> forces_;
   bool probed_ = false; ///< the method has made steps inside the one accepted
   Holding<T> holding_;
-  Bounds<T> bounds_;
+  PeakBounds<T> bounds_;
+  bool bounds_ready_ = false;
   Conserved<T> kept_{};
   std::vector<LatchEvent> latches_;
   std::vector<Phase> phases_;

@@ -1,8 +1,8 @@
 /// Many runs of one structure through the lanes of an engine of packs: a lane whose run has ended
 /// takes the next at once.
 ///
-/// A run is asked only when a step is rejected, ends the run, or may hold an event or a peak; until
-/// then its state lives in the engine. What a run does is the same as alone, bit for bit: an engine
+/// A run is asked only when a step ends it, or may hold an event or a peak; until then its state
+/// lives in the engine. What a run does is the same as alone, bit for bit: an engine
 /// makes its steps, and decides nothing.
 #pragma once
 
@@ -31,7 +31,6 @@ template <class Topology, BaseMotion M> class Lanes {
     Integrator<double, Topology, M> run;
     long name = 0;
     bool busy = false;
-    bool knows = false; ///< the run knows the state at its step's start
   };
 
 public:
@@ -49,64 +48,29 @@ public:
   template <class Next, class Done> Occupancy run(Next&& next, Done&& done) {
     count_ = {};
     for (int l = 0; l < engine_.width(); ++l) refill(l, next, done);
-    for (LaneSet busy = busy_lanes(); busy != 0; busy = busy_lanes()) {
-      PerLane<double> h{};
+    const long before = engine_.rounds();
+    while (busy_ > 0) {
+      const LaneSet asking = engine_.advance();
       for (int l = 0; l < engine_.width(); ++l)
-        if (has(busy, l)) h[l] = lanes_[l]->run.asked().h;
-      const long evaluations = engine_.attempt(h);
-      const LaneSet looks = engine_.worth_a_look();
-      LaneSet passed = 0;
-      for (int l = 0; l < engine_.width(); ++l) {
-        ++count_.tries;
-        if (!has(busy, l)) continue;
-        ++count_.busy;
-        if (settle(l, evaluations, has(looks, l), next, done)) passed |= 1U << l;
-      }
-      engine_.accept(passed);
-      for (int l = 0; l < engine_.width(); ++l)
-        if (has(passed, l) && !lanes_[l]->run.fits_pack(method_)) leave(l, next, done);
+        if (has(asking, l)) answer(l, next, done);
     }
+    count_.tries = (engine_.rounds() - before) * engine_.width();
     return count_;
   }
 
 private:
-  [[nodiscard]] LaneSet busy_lanes() const {
-    LaneSet busy = 0;
-    for (int l = 0; l < engine_.width(); ++l) busy |= (lanes_[l]->busy ? 1U : 0U) << l;
-    return busy;
-  }
-
-  /// The engine has made the lane's step. @return whether the run passes on to the step's end as it
-  /// is
-  template <class Next, class Done>
-  [[nodiscard]] bool settle(int l, long evaluations, bool look, Next&& next, Done&& done) {
+  /// The engine has come to a step of the lane that its run must know.
+  template <class Next, class Done> void answer(int l, Next&& next, Done&& done) {
     Lane& lane = *lanes_[l];
-    lane.work.evaluations += evaluations;
-    const Verdict verdict = lane.run.verdict_of(engine_.error(l));
-    if (!look && lane.run.pass(verdict, engine_.roughness(l))) {
-      lane.knows = false;
-      return true;
-    }
+    const Progress progress = engine_.progress(l);
     ++count_.looks;
-    learn(l);
+    count_.busy += progress.tries + 1;
+    lane.run.catch_up(progress, engine_.evaluations_per_try());
+    if (progress.steps > 0) engine_.get_start(l, lane.run.step(), lane.run.forces().before());
     const auto& asked = lane.run.asked();
     engine_.get_end(l, *asked.x1, *asked.dxdt1, lane.work.forces);
-    lane.run.take(verdict);
+    lane.run.take(lane.run.verdict_of(engine_.error(l)));
     carry_on(l, next, done);
-    return false;
-  }
-
-  /// The run has gone over to a method that the engine has not.
-  template <class Next, class Done> void leave(int l, Next&& next, Done&& done) {
-    learn(l);
-    carry_on(l, next, done);
-  }
-
-  /// Tells the run the state at its step's start.
-  void learn(int l) {
-    Lane& lane = *lanes_[l];
-    if (!lane.knows) engine_.get_start(l, lane.run.step(), lane.run.forces().before());
-    lane.knows = true;
   }
 
   /// Makes the steps that the engine cannot; then the lane is ready for it, with this run or the
@@ -115,10 +79,7 @@ private:
     Lane& lane = *lanes_[l];
     for (; !lane.run.ended() && !lane.run.fits_pack(method_); ++count_.scalar)
       lane.run.take(lane.run.make_try());
-    if (!lane.run.ended()) {
-      if (lane.run.asks_for_step()) show(l);
-      return;
-    }
+    if (!lane.run.ended()) return show(l);
     done(lane.name, lane.run.outcome());
     refill(l, next, done);
   }
@@ -127,8 +88,9 @@ private:
     Lane& lane = *lanes_[l];
     for (;;) {
       const std::optional<long> name = next(lane.wing);
+      busy_ += (name ? 1 : 0) - (lane.busy ? 1 : 0);
       lane.busy = name.has_value();
-      if (!name) return;
+      if (!name) return engine_.set_idle(l);
       lane.name = *name;
       lane.run.begin();
       for (; !lane.run.ended() && !lane.run.fits_pack(method_); ++count_.scalar)
@@ -137,7 +99,6 @@ private:
       done(lane.name, lane.run.outcome());
     }
     engine_.set_wing(l, lane.wing);
-    lane.knows = true;
     show(l);
   }
 
@@ -151,7 +112,7 @@ private:
       watch.forces = &lane.run.forces().peaks, watch.force_before = &lane.run.forces().before();
     watch.rtol = tolerance.rtol, watch.atol = tolerance.atol;
     watch.atol_of_interpolant = how_.atol;
-    engine_.set_run(l, lane.work, lane.run.step(), watch);
+    engine_.set_run(l, lane.work, lane.run.step(), watch, lane.run.stretch());
   }
 
   PackEngine& engine_;
@@ -160,6 +121,7 @@ private:
   const Goal& goal_;
   std::array<std::unique_ptr<Lane>, most_lanes> lanes_;
   Occupancy count_;
+  int busy_ = 0; ///< lanes with a run
 };
 
 } // namespace wingspread

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wingspread {
 
@@ -33,22 +34,24 @@ public:
   }
 
 private:
-  static constexpr int passes = 8;
-
-  /// Geometric mean of the growth over some passes, in the norm max(|v|, weight·|q|): with q one
+  /// Geometric mean of the growth over eight passes, in the norm max(|v|, weight·|q|): with q one
   /// pass behind v and weight ≈ |λ|, a complex pair does not make it oscillate.
   template <class AnySystem> double growth(AnySystem& system, const State<T>& x, double weight) {
-    double logarithm = 0, before = norm(weight);
-    for (int pass = 0; pass < passes; ++pass) {
-      apply(system, x);
-      const double after = norm(weight);
-      if (!(after > 1e-200) || !(before > 1e-200)) return 0;
-      logarithm += std::log(after / before);
-      for (std::size_t k = 0; k < v_.size(); ++k)
-        q_[k] = q_[k] / T(after), v_[k] = v_[k] / T(after);
-      before = 1;
+    double before = norm(weight), mean = 1;
+    for (int pair = 0; pair < 4; ++pair) {
+      double both = 1;
+      for (int pass = 0; pass < 2; ++pass) {
+        apply(system, x);
+        const double after = norm(weight);
+        if (!(after > 1e-200) || !(before > 1e-200)) return 0;
+        both *= std::sqrt(after / before);
+        const T scale(1 / after);
+        for (std::size_t k = 0; k < v_.size(); ++k) q_[k] = scale * q_[k], v_[k] = scale * v_[k];
+        before = 1;
+      }
+      mean *= std::sqrt(std::sqrt(both));
     }
-    return std::exp(logarithm / passes);
+    return mean;
   }
 
   /// (q, v) → (v, −M⁻¹(Kq + Dv))
@@ -92,37 +95,67 @@ public:
   [[nodiscard]] Method active() const { return active_; }
   [[nodiscard]] bool automatic() const { return automatic_; }
 
-  /// A phase begins. @param radius ρ there, 1/s
-  void restart(double radius) {
+  /// A place in a run.
+  struct Mark {
+    double time = 0;
+    long evaluations = 0; ///< of the run
+    long steps = 0;       ///< of the phase
+  };
+
+  /// A phase begins. ρ counts as 0 until it is measured.
+  void restart(double time, long evaluations) {
     active_ = explicit_;
-    radius_ = radius;
+    radius_ = 0;
     steps_ = 0;
-    held_back_ = 0;
+    from_ = {time, evaluations};
     patience_ = first_patience;
-    wait_ = 0;
+    wait_until_ = 0;
   }
 
   /// Whether ρ should be measured anew before the next step.
-  [[nodiscard]] bool wants_radius() const { return automatic_ && steps_ % 64 == 63; }
-  /// Whether it should be after the next step.
-  [[nodiscard]] bool radius_is_due() const { return automatic_ && steps_ % 64 == 62; }
+  [[nodiscard]] bool wants_radius() const {
+    return automatic_ && steps_ % radius_interval == first_radius;
+  }
   void set_radius(double radius) { radius_ = radius; }
 
   /// Whether after a step of h another method may have to be thought of: `after_step` then needs to
   /// know how quickly things change.
   [[nodiscard]] bool may_leave(double h) const {
-    return automatic_ && (active_ != explicit_ || (held_back_ + 1 >= enough && wait_ <= 1 &&
-                                                   h > held_back * stable_step()));
+    return automatic_ &&
+           (active_ != explicit_ || (steps_ + 1 >= earliest_leave() && h > held_back_step()));
   }
 
-  /// A step of h was accepted. @param evaluations of the run so far
+  /// A step of h was accepted. @param now but for its steps
   /// @param quickness by how much the motion changes in a unit of time, 1/s
   /// @return whether another method goes on from here
-  [[nodiscard]] bool after_step(double h, long evaluations, double quickness) {
+  [[nodiscard]] bool after_step(double h, Mark now, double quickness) {
     if (!automatic_) return false;
-    ++steps_;
-    return active_ == explicit_ ? leave_explicit(h, evaluations, quickness)
-                                : leave_implicit(h, evaluations);
+    now.steps = ++steps_;
+    return active_ == explicit_ ? leave_explicit(h, now, quickness) : leave_implicit(now);
+  }
+
+  // ---- steps made elsewhere with the explicit method
+
+  /// Steps that may be accepted before ρ is due.
+  [[nodiscard]] long steps_to_radius() const {
+    if (!automatic_) return std::numeric_limits<long>::max();
+    return (radius_interval + first_radius - 1 - steps_ % radius_interval) % radius_interval;
+  }
+  /// Steps longer than this are held back by stability, s.
+  [[nodiscard]] double held_back_step() const { return held_back * stable_step(); }
+  static constexpr int enough = 10; ///< steps in a row held back by stability
+  /// Steps made in this phase; those before which no other method is thought of, whatever happens;
+  /// and the last that was not held back.
+  [[nodiscard]] long steps() const { return steps_; }
+  [[nodiscard]] long wait_until() const { return wait_until_; }
+  [[nodiscard]] const Mark& last_free() const { return from_; }
+  /// So many steps have been accepted; the `free`-th (≤ 0: none) was the last not held back, with
+  /// `then` at its end.
+  void catch_up(long steps, long free, Mark then) {
+    if (!automatic_) return;
+    then.steps = steps_ + free;
+    if (free > 0) from_ = then;
+    steps_ += steps;
   }
 
   /// The step that the method now active should try first.
@@ -131,10 +164,14 @@ public:
   }
 
 private:
-  static constexpr double break_even = 5e-3; // rtol; see the work-precision study
-  static constexpr int enough = 10;          // steps in a row held back by stability
-  static constexpr int long_enough = 100;    // to try without promise
-  static constexpr double held_back = 0.4;   // of the stable step: what such a step has at least
+  [[nodiscard]] long earliest_leave() const { return std::max(from_.steps + enough, wait_until_); }
+
+  static constexpr double break_even = 5e-3;  // rtol; see the work-precision study
+  static constexpr int radius_interval = 128; // steps between two measurements of ρ
+  static constexpr int first_radius = 15;     // steps to the first: short phases need none
+  static constexpr int long_enough = 1000;    // to try without promise
+  static constexpr int between_looks = 32;    // steps, where there was no promise
+  static constexpr double held_back = 0.4;    // of the stable step: what such a step has at least
   /// An implicit step costs as much as about ten explicit ones, and cannot be much longer than the
   /// motion takes to change: where the stable step is a larger part of that, it cannot pay.
   static constexpr double worth_trying = 0.02;
@@ -152,54 +189,47 @@ private:
     return radius_ > 0 ? limit / radius_ : 1e300;
   }
 
-  /// Starts to measure how far a stretch of steps gets.
-  void measure_from(long evaluations) {
-    travelled_ = 0;
-    evaluations_ = evaluations;
-  }
-  [[nodiscard]] double speed_until(long evaluations) const {
-    return travelled_ / static_cast<double>(std::max(evaluations - evaluations_, 1L));
+  [[nodiscard]] double speed_until(const Mark& now) const {
+    return (now.time - from_.time) /
+           static_cast<double>(std::max(now.evaluations - from_.evaluations, 1L));
   }
 
-  [[nodiscard]] bool leave_explicit(double h, long evaluations, double quickness) {
-    if (wait_ > 0) --wait_;
-    travelled_ += h;
-    if (!(h > held_back * stable_step())) {
-      held_back_ = 0;
-      measure_from(evaluations);
+  [[nodiscard]] bool leave_explicit(double h, const Mark& now, double quickness) {
+    if (!(h > held_back_step())) {
+      from_ = now;
       return false;
     }
-    if (++held_back_ < enough || wait_ > 0) return false;
-    if (!(stable_step() * quickness < worth_trying) && held_back_ < long_enough) {
-      wait_ = enough;
+    if (steps_ < earliest_leave()) return false;
+    if (!(stable_step() * quickness < worth_trying) && steps_ < from_.steps + long_enough) {
+      wait_until_ = steps_ + between_looks;
       return false;
     }
-    explicit_speed_ = speed_until(evaluations);
+    explicit_speed_ = speed_until(now);
     active_ = Method::seulex;
     tried_ = 0;
     return true;
   }
 
-  [[nodiscard]] bool leave_implicit(double h, long evaluations) {
-    travelled_ += h;
+  [[nodiscard]] bool leave_implicit(const Mark& now) {
     ++tried_;
-    if (tried_ == trial - 2) measure_from(evaluations); // it has found its order and step
+    if (tried_ == trial - 2) from_ = now; // it has found its order and step
     if (tried_ < trial) return false;
-    const bool pays = speed_until(evaluations) / implicit_cost > explicit_speed_;
+    const bool pays = speed_until(now) / implicit_cost > explicit_speed_;
     tried_ = trial - 3;
     if (pays) return false;
     active_ = explicit_;
-    held_back_ = 0;
-    wait_ = patience_;
+    from_ = now;
+    wait_until_ = steps_ + patience_;
     patience_ = std::min(2 * patience_, longest_patience);
     return true;
   }
 
   bool automatic_;
   Method explicit_ = Method::dopri5, active_ = Method::dopri5;
-  double radius_ = 0, travelled_ = 0, explicit_speed_ = 0;
-  long steps_ = 0, evaluations_ = 0;
-  int held_back_ = 0, tried_ = 0, wait_ = 0, patience_ = first_patience;
+  double radius_ = 0, explicit_speed_ = 0;
+  long steps_ = 0, wait_until_ = 0;
+  Mark from_; ///< where the steps began that are held back, or the measure of the implicit method
+  int tried_ = 0, patience_ = first_patience;
 };
 
 } // namespace wingspread

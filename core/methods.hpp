@@ -114,7 +114,7 @@ template <class T> struct Start {
 /// Formulas that estimate the error of a step, by odeint: `estimate` fills x1, dxdt1 and error.
 /// `stable_real`, `stable_imaginary`: largest stable |hλ| on the half-axes (tests measure them).
 template <class T> struct DormandPrince5 {
-  static constexpr int order = 5, error_order = 4;
+  static constexpr int order = 5, error_order = 4, evaluations = 6;
   static constexpr double stable_real = 3.307, stable_imaginary = 0.997;
 
   template <class System>
@@ -165,7 +165,7 @@ public:
 
   void restart(const Tolerance& tolerance) {
     tolerance_ = tolerance;
-    control_.restart();
+    memory_ = {};
   }
 
   template <class System>
@@ -173,18 +173,22 @@ public:
                                 State<T>& dxdt1) {
     error_.resize(from.x.size());
     formula_.estimate(system, from, h, x1, dxdt1, error_);
-    return verdict(in_tolerances(from.x, x1, dxdt1, error_, tolerance_));
+    return verdict(static_cast<double>(scaled_error_of(formula_, from.x, x1, dxdt1, error_,
+                                                       T(tolerance_.rtol), T(tolerance_.atol))));
   }
 
   /// On a step of this scaled error.
-  [[nodiscard]] Verdict verdict(double error) const { return {error, control_.factor(error)}; }
+  [[nodiscard]] Verdict verdict(double error) const {
+    return {error, step_factor(Formula::error_order, error, memory_)};
+  }
+  [[nodiscard]] StepMemory<double>& memory() { return memory_; }
 
-  void accepted(const Verdict& verdict) { control_.accepted(verdict.error); }
-  void rejected() { control_.rejected(); }
+  void accepted(const Verdict& verdict) { memory_.accepted(verdict.error); }
+  void rejected() { memory_.rejected(); }
 
 private:
   Formula formula_;
-  StepControl control_{Formula::error_order};
+  StepMemory<double> memory_;
   Tolerance tolerance_;
   State<T> error_;
 };

@@ -6,6 +6,7 @@
 
 #include "core/scalar.hpp"
 
+#include <bit>
 #include <cstdint>
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -104,5 +105,24 @@ template <int W> [[nodiscard, gnu::always_inline]] inline Pack<W> abs(const Pack
   return reinterpret_cast<typename Pack<W>::Vector>(reinterpret_cast<Bits>(a.v) &
                                                     (0x7fffffffffffffff - Bits{}));
 }
+
+namespace detail {
+
+/// The bits of a number, and a number of bits.
+[[nodiscard, gnu::always_inline]] inline std::int64_t bits_of(double x) {
+  return std::bit_cast<std::int64_t>(x);
+}
+[[nodiscard, gnu::always_inline]] inline double number_of(std::int64_t bits) {
+  return std::bit_cast<double>(bits);
+}
+template <int W> [[nodiscard, gnu::always_inline]] inline auto bits_of(const Pack<W>& x) {
+  return reinterpret_cast<typename Pack<W>::Bits>(x.v);
+}
+template <class Bits> [[nodiscard, gnu::always_inline]] inline auto number_of(Bits bits) {
+  constexpr int width = sizeof(Bits) / 8;
+  return Pack<width>(reinterpret_cast<typename Pack<width>::Vector>(bits));
+}
+
+} // namespace detail
 
 } // namespace wingspread

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/peaks.hpp"
+#include "core/step_control.hpp"
 
 #include <array>
 #include <cstdint>
@@ -31,6 +32,29 @@ struct Watch {
   double atol_of_interpolant = 0; ///< of its roughness
 };
 
+/// How far a lane may go by itself, by plain steps, before its run must be asked.
+struct Stretch {
+  double h = 0; ///< the step to try first, s
+  StepMemory<double> memory;
+  long tries = 0;   ///< that may be made before
+  double t_end = 0; ///< s; a step from which the next may reach it asks
+  /// One longer than this asks, s, where `enough` have been made since the last that was not, and
+  /// `wait` altogether (both counted from here; the last may lie in the past).
+  double held_back_step = 0;
+  double last_free = 0, enough = 0, wait = 0;
+};
+
+/// How far it has gone.
+struct Progress {
+  long tries = 0, steps = 0; ///< made, and accepted; without the one that is asked about
+  double t = 0, h = 0;       ///< of that one, s
+  StepMemory<double> memory;
+  /// The last step accepted that was not longer than `held_back_step`: which one (≤ 0: none), after
+  /// how many tries, and its end.
+  long last_free = 0, tries_to_free = 0;
+  double free_time = 0;
+};
+
 class PackEngine {
 public:
   PackEngine() = default;
@@ -39,26 +63,32 @@ public:
   virtual ~PackEngine() = default;
 
   [[nodiscard]] virtual int width() const = 0;
+  [[nodiscard]] virtual int evaluations_per_try() const = 0;
 
   /// A new run takes the lane: its numbers. @pre a wing of the engine's structure
   virtual void set_wing(int lane, const Wing<double>& wing) = 0;
   /// Its laws and waiting latches, state and derivative, and what is watched, as they are now.
   virtual void set_run(int lane, const Workspace<double>& work, const Step<double>& step,
-                       const Watch& watch) = 0;
-  /// State and derivative of the lane at its step's start, and the forces' magnitudes there.
+                       const Watch& watch, const Stretch& stretch) = 0;
+  /// There is no more run for the lane.
+  virtual void set_idle(int lane) = 0;
+
+  /// Makes steps in every lane until some must ask: the step just made holds, or may hold, an
+  /// event, a peak, an angle past bounds or the end of the stretch. @return these lanes; the others
+  /// have gone on
+  virtual LaneSet advance() = 0;
+  /// Tries made in every lane so far.
+  [[nodiscard]] virtual long rounds() const = 0;
+
+  // ---- of a lane that asks
+
+  [[nodiscard]] virtual Progress progress(int lane) const = 0;
+  [[nodiscard]] virtual double error(int lane) const = 0; ///< as Verdict::error
+  /// State and derivative at its step's start, and the forces' magnitudes there.
   virtual void get_start(int lane, Step<double>& step, std::vector<double>& forces) const = 0;
-  /// The same at the end of the step last tried; the forces themselves.
+  /// The same at the step's end; the forces themselves.
   virtual void get_end(int lane, State<double>& x1, State<double>& dxdt1,
                        std::vector<Vec2<double>>& forces) const = 0;
-
-  /// A step of h in every lane, and the judgement of it. @return evaluations made
-  virtual long attempt(const PerLane<double>& h) = 0;
-  [[nodiscard]] virtual double error(int lane) const = 0;     ///< as Verdict::error
-  [[nodiscard]] virtual double roughness(int lane) const = 0; ///< as of steppers.hpp
-  /// Lanes in which an event, a peak or an angle past bounds may lie inside the step.
-  [[nodiscard]] virtual LaneSet worth_a_look() const = 0;
-  /// Goes on from the step's end in these lanes.
-  virtual void accept(LaneSet lanes) = 0;
 };
 
 /// What an engine is made for.

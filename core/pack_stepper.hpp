@@ -27,11 +27,14 @@ public:
       v->assign(n, P(0.0));
     step_.t = P(0.0);
     rtol_ = atol_ = rough_atol_ = P(1.0);
-    error_size_ = roughness_ = P(0.0);
+    error_size_ = busy_ = due_ = shown_ = steps_ = t_end_ = step_.h = P(0.0);
+    held_back_step_ = last_free_ = enough_ = wait_ = tries_to_free_ = free_time_ = P(0.0);
     system_.want_forces(shape.forces);
   }
 
   [[nodiscard]] int width() const override { return W; }
+  [[nodiscard]] int evaluations_per_try() const override { return Formula::evaluations; }
+  [[nodiscard]] long rounds() const override { return round_; }
 
   void set_wing(int lane, const Wing<double>& wing) override {
     const auto set = [lane](P& to, double from) { to.v[lane] = from; };
@@ -60,7 +63,7 @@ public:
   }
 
   void set_run(int lane, const Workspace<double>& work, const Step<double>& step,
-               const Watch& watch) override {
+               const Watch& watch, const Stretch& stretch) override {
     for (int i = 1; i <= at_.bodies; ++i) {
       LinearLaw<P>& law = work_.laws[i];
       const LinearLaw<double>& from = work.laws[i];
@@ -76,7 +79,20 @@ public:
       step_.x[k].v[lane] = step.x[k], step_.dxdt[k].v[lane] = step.dxdt[k];
     rtol_.v[lane] = watch.rtol, atol_.v[lane] = watch.atol;
     rough_atol_.v[lane] = watch.atol_of_interpolant;
+    step_.h.v[lane] = stretch.h;
+    memory_.log_error.v[lane] = stretch.memory.log_error;
+    memory_.most.v[lane] = stretch.memory.most;
+    busy_.v[lane] = 1;
+    shown_.v[lane] = static_cast<double>(round_);
+    due_.v[lane] = static_cast<double>(round_) + static_cast<double>(stretch.tries);
+    steps_.v[lane] = 0;
+    t_end_.v[lane] = stretch.t_end;
+    held_back_step_.v[lane] = stretch.held_back_step;
+    last_free_.v[lane] = stretch.last_free;
+    enough_.v[lane] = stretch.enough, wait_.v[lane] = stretch.wait;
   }
+
+  void set_idle(int lane) override { busy_.v[lane] = step_.h.v[lane] = 0; }
 
   void get_start(int lane, Step<double>& step, std::vector<double>& forces) const override {
     for (int k = 0; k < at_.size(); ++k)
@@ -94,33 +110,33 @@ public:
       forces[i] = {work_.forces[i].x.v[lane], work_.forces[i].y.v[lane]};
   }
 
-  long attempt(const PerLane<double>& h) override {
-    for (int lane = 0; lane < W; ++lane) step_.h.v[lane] = h[lane];
-    const long before = work_.evaluations;
-    const Start<P> from{step_.t, step_.x, step_.dxdt};
-    formula_.estimate(system_, from, step_.h, step_.x1, step_.dxdt1, error_);
-    error_size_ = scaled_error(step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
-    if constexpr (Formula::order > 5)
-      roughness_ = wingspread::roughness(at_, step_.h, step_.dxdt, step_.dxdt1, rough_atol_);
-    screen();
-    return work_.evaluations - before;
+  LaneSet advance() override {
+    for (;;) {
+      const Start<P> from{step_.t, step_.x, step_.dxdt};
+      formula_.estimate(system_, from, step_.h, step_.x1, step_.dxdt1, error_);
+      ++round_;
+      const Judgement judgement = judge();
+      const Mask asks = busy_ > P(0.0) && must_ask(judgement);
+      go_on(judgement, !asks);
+      LaneSet asking = 0;
+      for (int lane = 0; lane < W; ++lane) asking |= (asks.bits[lane] ? 1U : 0U) << lane;
+      if (asking != 0) return asking;
+    }
   }
 
   [[nodiscard]] double error(int lane) const override { return error_size_.v[lane]; }
-  [[nodiscard]] double roughness(int lane) const override { return roughness_.v[lane]; }
-  [[nodiscard]] LaneSet worth_a_look() const override { return looks_; }
 
-  void accept(LaneSet lanes) override {
-    Mask accepted{};
-    for (int lane = 0; lane < W; ++lane) accepted.bits[lane] = has(lanes, lane) ? -1 : 0;
-    for (int k = 0; k < at_.size(); ++k) {
-      step_.x[k] = select(accepted, step_.x1[k], step_.x[k]);
-      step_.dxdt[k] = select(accepted, step_.dxdt1[k], step_.dxdt[k]);
-    }
-    step_.t = select(accepted, P(step_.t + step_.h), step_.t);
-    if (!shape_.forces) return;
-    for (int i = 1; i <= at_.bodies; ++i)
-      force_before_[i] = select(accepted, force_after_[i], force_before_[i]);
+  [[nodiscard]] Progress progress(int lane) const override {
+    const auto at = [lane](const P& p) { return p.v[lane]; };
+    const auto count = [lane](const P& p) { return static_cast<long>(p.v[lane]); };
+    return {round_ - 1 - count(shown_),
+            count(steps_),
+            at(step_.t),
+            at(step_.h),
+            {at(memory_.log_error), at(memory_.most)},
+            count(last_free_),
+            count(tries_to_free_),
+            at(free_time_)};
   }
 
 private:
@@ -141,8 +157,66 @@ private:
     return wing_;
   }
 
-  /// Which lanes the run itself must look at: all tests are those it begins with.
-  void screen() {
+  struct Judgement {
+    Mask accepted;
+    P next; ///< step, or try
+  };
+
+  /// As Adaptive::verdict and limit_roughness.
+  [[nodiscard]] Judgement judge() {
+    error_size_ = scaled_error_of(formula_, step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
+    Mask accepted = error_size_ <= P(1.0);
+    P factor = step_factor(Formula::error_order, error_size_, memory_);
+    if constexpr (Formula::order > 5) {
+      const P rough = roughness(at_, step_.h, step_.dxdt, step_.dxdt1, rough_atol_);
+      const Mask too_rough = rough > P(1.0);
+      const P most = factor_by_roughness(rough);
+      factor = select(accepted, select(too_rough, most, smaller(factor, most)), factor);
+      accepted = accepted && !too_rough;
+    }
+    return {accepted, step_.h * factor};
+  }
+
+  /// Which lanes' runs must be told of the step: what follows from it is not a plain step.
+  [[nodiscard]] Mask must_ask(const Judgement& judgement) {
+    const Mask& accepted = judgement.accepted;
+    const P& next = judgement.next;
+    const P end = step_.t + step_.h, now = select(accepted, end, step_.t);
+    const Mask late = due_ < P(static_cast<double>(round_));
+    const Mask at_an_end = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
+    if constexpr (M == BaseMotion::free) return late || at_an_end || accepted;
+    const P made = steps_ + P(1.0);
+    const Mask may_leave =
+        step_.h > held_back_step_ && made >= last_free_ + enough_ && made >= wait_;
+    return late || at_an_end || (accepted && (may_leave || worth_a_look()));
+  }
+
+  /// Accepts, or tries again, in these lanes.
+  void go_on(const Judgement& judgement, const Mask& these) {
+    const Mask accepted = these && judgement.accepted;
+    for (int k = 0; k < at_.size(); ++k) {
+      step_.x[k] = select(accepted, step_.x1[k], step_.x[k]);
+      step_.dxdt[k] = select(accepted, step_.dxdt1[k], step_.dxdt[k]);
+    }
+    if (shape_.forces)
+      for (int i = 1; i <= at_.bodies; ++i)
+        force_before_[i] = select(accepted, force_after_[i], force_before_[i]);
+    step_.t = select(accepted, P(step_.t + step_.h), step_.t);
+    steps_ = select(accepted, P(steps_ + P(1.0)), steps_);
+    const Mask free = accepted && !(step_.h > held_back_step_);
+    last_free_ = select(free, steps_, last_free_);
+    tries_to_free_ = select(free, P(P(static_cast<double>(round_)) - shown_), tries_to_free_);
+    free_time_ = select(free, step_.t, free_time_);
+    StepMemory<P> after = memory_;
+    after.accepted(error_size_);
+    memory_.log_error = select(accepted, after.log_error, memory_.log_error);
+    memory_.most = select(accepted, after.most, select(these, P(1.0), memory_.most));
+    step_.h = select(these, judgement.next, step_.h);
+  }
+
+  /// Lanes in which an event, a peak or an angle past bounds may lie inside the step: all tests are
+  /// those that the run itself begins with.
+  [[nodiscard]] Mask worth_a_look() {
     Mask look{};
     for (int i = 1; i <= at_.bodies; ++i) {
       const HingeTerms<P>& hinge = wing_.hinges[i];
@@ -157,8 +231,7 @@ private:
       force_after_[i] = sqrt(dot(force, force));
       look = look || P(1.25) * larger(force_before_[i], force_after_[i]) > forces_[i];
     }
-    looks_ = 0;
-    for (int lane = 0; lane < W; ++lane) looks_ |= (look.bits[lane] ? 1U : 0U) << lane;
+    return look;
   }
 
   [[nodiscard]] Mask may_engage(int i) const {
@@ -178,9 +251,13 @@ private:
   Formula formula_;
   Step<P> step_;
   State<P> error_;
-  P rtol_, atol_, rough_atol_, error_size_, roughness_;
+  P rtol_, atol_, rough_atol_, error_size_;
   std::vector<P> waits_, moments_, forces_, force_before_, force_after_;
-  LaneSet looks_ = 0;
+  StepMemory<P> memory_;
+  // as in Stretch and Progress; rounds are counted as doubles
+  P busy_, due_, shown_, steps_, t_end_, held_back_step_, last_free_, enough_, wait_,
+      tries_to_free_, free_time_;
+  long round_ = 0;
 };
 
 namespace detail {

@@ -9,9 +9,6 @@
 
 #include "core/pack.hpp"
 
-#include <bit>
-#include <cstdint>
-
 namespace wingspread {
 
 template <class T> struct SineCosine {
@@ -28,21 +25,6 @@ template <class T>
 
 #ifdef __FMA__
 namespace detail {
-
-/// The bits of a number, and a number of bits.
-[[nodiscard, gnu::always_inline]] inline std::int64_t bits_of(double x) {
-  return std::bit_cast<std::int64_t>(x);
-}
-[[nodiscard, gnu::always_inline]] inline double number_of(std::int64_t bits) {
-  return std::bit_cast<double>(bits);
-}
-template <int W> [[nodiscard, gnu::always_inline]] inline auto bits_of(const Pack<W>& x) {
-  return reinterpret_cast<typename Pack<W>::Bits>(x.v);
-}
-template <class Bits> [[nodiscard, gnu::always_inline]] inline auto number_of(Bits bits) {
-  constexpr int width = sizeof(Bits) / 8;
-  return Pack<width>(reinterpret_cast<typename Pack<width>::Vector>(bits));
-}
 
 /// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction, which the rest need not wait
 /// for.

@@ -1,6 +1,7 @@
 /// Accepting steps and choosing their size.
 #pragma once
 
+#include "core/power.hpp"
 #include "core/system.hpp"
 
 #include <algorithm>
@@ -23,42 +24,44 @@ template <class T>
   return largest + poison;
 }
 
+/// The same by the formula's own rule, if it has one.
+template <class T, class Formula>
+[[nodiscard]] T scaled_error_of(const Formula& formula, const State<T>& x, const State<T>& x1,
+                                const State<T>& dxdt1, const State<T>& error, const T& rtol,
+                                const T& atol) {
+  if constexpr (requires { formula.scaled_error(x, x1, dxdt1, error, rtol, atol); })
+    return formula.scaled_error(x, x1, dxdt1, error, rtol, atol);
+  else
+    return scaled_error(x, x1, dxdt1, error, rtol, atol);
+}
+
+/// What step control knows of the steps before.
+template <class P> struct StepMemory {
+  P log_error = P(-13.287712379549449); ///< log2 of the last accepted one's scaled error, ≥ 1e-4
+  P most = P(10);                       ///< of the next factor: 1 after a rejection
+
+  void accepted(const P& error) {
+    log_error = larger(log2_roughly(larger(error, P(1e-10))), P(-13.287712379549449));
+    most = P(10);
+  }
+  void rejected() { most = P(1); }
+};
+
 /// Proportional-integral step control [Hairer, Nørsett & Wanner I, II.4; Gustafsson 1991]: the
 /// integral part keeps steps smooth where stability limits them, as in the ringing after a latch.
-class StepControl {
-public:
-  explicit StepControl(int error_order)
-      : exponent_(1.0 / (error_order + 1) - 0.75 * integral_gain) {}
-
-  /// After a try of scaled error `error`: the factor to the next step, or, where it is rejected
-  /// (error > 1, or NaN), to the next try.
-  [[nodiscard]] double factor(double error) const {
-    if (!std::isfinite(error)) return 0.1;
-    if (error > 1) return std::max(least, safety * std::pow(error, -exponent_));
-    const double floored = std::max(error, 1e-10);
-    const double wanted =
-        safety * std::pow(floored, -exponent_) * std::pow(previous_error_, integral_gain);
-    return std::clamp(wanted, least, after_rejection_ ? 1.0 : most);
-  }
-
-  void accepted(double error) {
-    previous_error_ = std::max(error, 1e-4);
-    after_rejection_ = false;
-  }
-  void rejected() { after_rejection_ = true; }
-
-  /// Forgets the history: the right-hand side has changed.
-  void restart() {
-    previous_error_ = 1e-4;
-    after_rejection_ = false;
-  }
-
-private:
-  static constexpr double safety = 0.9, least = 0.2, most = 10, integral_gain = 0.04;
-  double exponent_;
-  double previous_error_ = 1e-4;
-  bool after_rejection_ = false;
-};
+/// @param error scaled, of a try with an estimate of order `error_order`
+/// @return the factor to the next step, or, where the try is rejected (error > 1, or NaN), to the
+///         next try
+template <class P>
+[[nodiscard]] P step_factor(int error_order, const P& error, const StepMemory<P>& memory) {
+  constexpr double safety = 0.9, least = 0.2, integral_gain = 0.04;
+  const P exponent(0.75 * integral_gain - 1.0 / (error_order + 1));
+  const auto finite = error < P(1e100), accepted = error <= P(1);
+  const P known = select(finite, larger(error, P(1e-10)), P(1));
+  const P history = select(accepted, P(P(integral_gain) * memory.log_error), P(0));
+  const P wanted = P(safety) * exp2_roughly(fused(exponent, log2_roughly(known), history));
+  return select(finite, smaller(larger(wanted, P(least)), memory.most), P(0.1));
+}
 
 /// A first step whose error is about that of the tolerance, from the sizes of x, ẋ and ẍ
 /// [Hairer, Nørsett & Wanner I, II.4]. One evaluation; `scratch` and `dscratch` are overwritten.

@@ -101,12 +101,18 @@ template <class T>
   return worst;
 }
 
+/// The largest factor to the next step, or try, that a step's roughness leaves.
+template <class P> [[nodiscard]] P factor_by_roughness(const P& rough) {
+  const P root = exp2_roughly(P(P(-1.0 / 3) * log2_roughly(larger(rough, P(0.1)))));
+  return select(rough > P(1), larger(P(P(0.8) * root), P(0.2)),
+                select(rough > P(0.1), P(P(0.9) * root), P(1e10)));
+}
+
 /// Makes a verdict obey the roughness of its step.
 inline void limit_roughness(double rough, Verdict& verdict) {
-  if (rough > 1)
-    verdict = {2, std::max(0.2, 0.8 * std::pow(rough, -1.0 / 3))};
-  else if (rough > 0.1)
-    verdict.factor = std::min(verdict.factor, 0.9 * std::pow(rough, -1.0 / 3));
+  const double factor = factor_by_roughness(rough);
+  verdict =
+      rough > 1 ? Verdict{2, factor} : Verdict{verdict.error, std::min(verdict.factor, factor)};
 }
 
 /// The error of Fehlberg's quadrature of a smoothed latch's state (Fehlberg78 is blind to it), in

@@ -61,6 +61,8 @@ template <class T> struct Workspace {
 /// dx/dt of one wing. Motion is the base's; Topology a Tree or a Chain<N>.
 template <class T, class Topology, BaseMotion Motion> class System {
 public:
+  static constexpr BaseMotion motion = Motion;
+
   System(const Wing<T>& wing, const Topology& topology, const std::optional<double>& smoothing,
          Workspace<T>& work)
       : wing_(wing), topology_(topology),
@@ -90,6 +92,8 @@ public:
   [[nodiscard]] const Topology& topology() const { return topology_; }
   [[nodiscard]] const Workspace<T>& work() const { return work_; }
   [[nodiscard]] const T& epsilon() const { return epsilon_; }
+  /// For those made elsewhere.
+  [[nodiscard]] long& count_evaluations() { return work_.evaluations; }
 
   /// The state at t = 0.
   void start(State<T>& x) const {
@@ -149,17 +153,10 @@ public:
   }
 
   /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
-  void operator()(const State<T>& x, State<T>& dxdt, const T& t) {
-    ++work_.evaluations;
-    if (work_.stuck > 0) {
-      evaluate_stuck(x, dxdt, t);
-    } else if constexpr (is_static<Topology>) {
-      std::array<BodyFrame<T>, Topology::bodies() + 1> frames; // in registers
-      evaluate(frames, x, dxdt, t);
-    } else {
-      evaluate(work_.frames, x, dxdt, t);
-    }
-  }
+  void operator()(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<true>(x, dxdt, t); }
+
+  /// The same inside a step, where nobody asks for the forces.
+  void stage(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<false>(x, dxdt, t); }
 
   /// Whether evaluations leave the hinge forces in the workspace.
   void want_forces(bool want) { wants_forces_ = want; }
@@ -211,6 +208,19 @@ public:
   }
 
 private:
+  template <bool forces>
+  [[gnu::always_inline]] void evaluate(const State<T>& x, State<T>& dxdt, const T& t) {
+    ++work_.evaluations;
+    if (work_.stuck > 0) {
+      evaluate_stuck(x, dxdt, t);
+    } else if constexpr (is_static<Topology>) {
+      std::array<BodyFrame<T>, Topology::bodies() + 1> frames; // in registers
+      evaluate<forces>(frames, x, dxdt, t);
+    } else {
+      evaluate<forces>(work_.frames, x, dxdt, t);
+    }
+  }
+
   static constexpr int first_coordinate = Motion == BaseMotion::free ? 3 : 0; ///< φ_1 in q
   [[nodiscard]] int freedoms() const { return first_coordinate + topology_.bodies(); }
 
@@ -316,7 +326,7 @@ private:
     });
   }
 
-  template <class Frames>
+  template <bool forces, class Frames>
   [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
                                        const T& t) {
     place_base(frames[0], x, t);
@@ -331,7 +341,7 @@ private:
     });
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
-    if (wants_forces_)
+    if (forces && wants_forces_)
       topology_.outward([&](int i) __attribute__((always_inline)) {
         work_.forces[i] = hinge_force(frames[i]);
       });
