@@ -109,6 +109,7 @@ public:
     steps_ = 0;
     from_ = {time, evaluations};
     patience_ = first_patience;
+    pause_ = first_pause;
     wait_until_ = 0;
   }
 
@@ -168,10 +169,11 @@ private:
 
   static constexpr double break_even = 5e-3;  // rtol; see the work-precision study
   static constexpr int radius_interval = 128; // steps between two measurements of ρ
-  static constexpr int first_radius = 15;     // steps to the first: short phases need none
-  static constexpr int long_enough = 1000;    // to try without promise
-  static constexpr int between_looks = 32;    // steps, where there was no promise
-  static constexpr double held_back = 0.4;    // of the stable step: what such a step has at least
+  static constexpr int first_radius = 7;      // steps to the first: short phases need none
+  static constexpr int long_enough = 400;     // to try without promise
+  /// Steps until it is thought of again where there was no promise; doubled each time.
+  static constexpr int first_pause = 10, longest_pause = 80;
+  static constexpr double held_back = 0.4; // of the stable step: what such a step has at least
   /// An implicit step costs as much as about ten explicit ones, and cannot be much longer than the
   /// motion takes to change: where the stable step is a larger part of that, it cannot pay.
   static constexpr double worth_trying = 0.02;
@@ -201,7 +203,8 @@ private:
     }
     if (steps_ < earliest_leave()) return false;
     if (!(stable_step() * quickness < worth_trying) && steps_ < from_.steps + long_enough) {
-      wait_until_ = steps_ + between_looks;
+      wait_until_ = steps_ + pause_;
+      pause_ = std::min(2 * pause_, longest_pause);
       return false;
     }
     explicit_speed_ = speed_until(now);
@@ -229,7 +232,7 @@ private:
   double radius_ = 0, explicit_speed_ = 0;
   long steps_ = 0, wait_until_ = 0;
   Mark from_; ///< where the steps began that are held back, or the measure of the implicit method
-  int tried_ = 0, patience_ = first_patience;
+  int tried_ = 0, patience_ = first_patience, pause_ = first_pause;
 };
 
 } // namespace wingspread

@@ -152,7 +152,7 @@ private:
 
   /// Forces on the hinges where the wing, at rest in the workspace's frames, begins to accelerate.
   template <class AnySystem, class Force>
-  void find_reactions(const AnySystem& system, const State<T>& accelerations, Force&& force) {
+  void find_reactions(const AnySystem& system, const State<T>& accelerations, Force&& on) {
     const Wing<T>& wing = system.wing();
     const std::vector<BodyFrame<T>>& frames = system.work().frames;
     const int n = system.layout().bodies;
@@ -161,11 +161,11 @@ private:
       const int p = wing.tree.parent_of(i);
       alpha_[i] = alpha_[p] + accelerations[i - 1];
       hinge_[i] = fused(alpha_[p], turned(frames[i].arm), hinge_[p]);
-      force(i) =
+      on(i) =
           fused(alpha_[i], turned(frames[i].mass_moment), scaled(wing.bodies[i].mass, hinge_[i]));
     }
     for (int i = n; i >= 1; --i)
-      if (const int p = wing.tree.parent_of(i); p != 0) force(p) = force(p) + force(i);
+      if (const int p = wing.tree.parent_of(i); p != 0) on(p) = on(p) + on(i);
   }
 
   /// η and Γ, of √(2E) = 1.

@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace wingspread;
 using namespace wingspread::oracle;
 using std::numbers::pi;
@@ -28,10 +30,24 @@ ReferenceOutcome regularized_run(const Scene& scene, double width, double t_end)
   return cvode_run(regularized(scene, width), options);
 }
 
+/// Latches by time; those within 1e-9 of each other by hinge.
+template <class AnyOutcome> auto in_order(const AnyOutcome& out) {
+  auto latches = out.latches;
+  auto instant = latches.begin(); // where the present one begins
+  for (auto latch = latches.begin(); latch != latches.end(); ++latch) {
+    if (latch != latches.begin() && latch->time - (latch - 1)->time > 1e-9 * latch->time)
+      instant = latch;
+    std::rotate(std::upper_bound(instant, latch, *latch,
+                                 [](const auto& a, const auto& b) { return a.hinge < b.hinge; }),
+                latch, latch + 1);
+  }
+  return latches;
+}
+
 /// What is compared of a run: times and rates of its latches, angles and rates at its end.
 template <class AnyOutcome> std::vector<double> figures(const AnyOutcome& out, std::size_t hinges) {
   std::vector<double> result;
-  for (const auto& latch : out.latches)
+  for (const auto& latch : in_order(out))
     result.insert(result.end(), {latch.time, latch.rates[latch.hinge]});
   for (std::size_t i = 0; i < hinges; ++i)
     result.insert(result.end(), {out.final.angles[i], out.final.rates[i]});
@@ -40,7 +56,7 @@ template <class AnyOutcome> std::vector<double> figures(const AnyOutcome& out, s
 
 template <class AnyOutcome> std::vector<int> latch_order(const AnyOutcome& out) {
   std::vector<int> result;
-  for (const auto& latch : out.latches) result.push_back(latch.hinge);
+  for (const auto& latch : in_order(out)) result.push_back(latch.hinge);
   return result;
 }
 
@@ -193,15 +209,17 @@ TEST_CASE("wings with exact friction are the limit of wings with regularized fri
     for (Hinge& hinge : scene.hinges) rub(hinge, 0.2);
     const Limit limit(scene, 7);
     const DenseWing<long double> wing(regularized(scene, 1));
-    with_every_method(scene, within(1e-9, 7, 1e-4), to_the_end, MayGiveUp::implicit,
-                      [&](const Outcome& out) {
-                        limit.check(out);
-                        CHECK(out.latches[0].time == out.latches[1].time);
-                        const auto after = wing.balance(state_of(out, wing));
-                        // parts of up to √(2·240 kg·2.3 J) kg·m/s of which zero is the sum
-                        CHECK(after.linear_momentum.norm() < 1e-12L * 33);
-                        CHECK(std::abs(after.angular_momentum) < 1e-12L * 33);
-                      });
+    with_every_method(
+        scene, within(1e-9, 7, 1e-4), to_the_end, MayGiveUp::implicit, [&](const Outcome& out) {
+          limit.check(out);
+          // one instant, but for the round-off that extrapolation magnifies
+          const bool extrapolated = methods_used(out) == "seulex";
+          CHECK(out.latches[1].time - out.latches[0].time <= (extrapolated ? 1e-9 : 0));
+          const auto after = wing.balance(state_of(out, wing));
+          // parts of up to √(2·240 kg·2.3 J) kg·m/s of which zero is the sum
+          CHECK(after.linear_momentum.norm() < 1e-12L * 33);
+          CHECK(std::abs(after.angular_momentum) < 1e-12L * 33);
+        });
   }
 }
 

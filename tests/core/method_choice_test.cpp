@@ -52,7 +52,7 @@ void check_phases(const Outcome& out) {
 Outcome run(const Scene& scene, double rtol, const std::string& method = "auto") {
   Integration how = within(rtol, 12, 1e-4);
   how.method = method;
-  const Outcome out = Deployment().run(scene, how, {});
+  const Outcome out = Deployment().run(scene, how, {.to_t_end = true});
   CAPTURE(method, rtol, methods_used(out));
   check_phases(out);
   return out;
