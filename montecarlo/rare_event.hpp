@@ -3,6 +3,7 @@
 ///   z → u = Φ(z) → dependence, quantiles → draws → run → g (performance.hpp)
 #pragma once
 
+#include "montecarlo/interrupt.hpp"
 #include "montecarlo/performance.hpp"
 #include "montecarlo/subset_simulation.hpp"
 
@@ -38,9 +39,6 @@ struct RareResult {
   std::array<long, 5> statuses{};        ///< of all runs made, in the order of Status
   std::optional<LikeliestRun> likeliest; ///< none when the event was not met
 };
-
-/// Nothing came of it: it was asked to stop.
-struct Stopped {};
 
 /// @param stop     once true, no further run is begun and Stopped is thrown
 /// @param progress told how many runs there have been, on the calling thread
