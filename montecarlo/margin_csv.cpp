@@ -48,6 +48,7 @@ void append_verdict(std::string& row, const Verdict& verdict) {
   append(row, to_string(requirement));
   append(row, requirement.output);
   append_optional(row, requirement.max ? requirement.max : requirement.min);
+  append_numbers(row, {requirement.probability, requirement.confidence});
   append(row, to_string(verdict.decision));
   row += fmt::format(",{},", verdict.broken.size());
   if (verdict.allowed) row += fmt::format("{}", *verdict.allowed);
@@ -99,9 +100,10 @@ void append_point(std::string& csv, const TravelPoint& point) {
 } // namespace
 
 std::string margin_csv(const Campaign& campaign, const MarginResult& result) {
-  std::string csv = "search,scale,case,runs,deployed,deployed_lower,deployed_upper,requirement,"
-                    "output,limit,verdict,broken,allowed,share,guaranteed_share,observed,"
-                    "guaranteed\n";
+  std::string csv =
+      "search,scale,case,runs,deployed,deployed_lower,deployed_upper,requirement,"
+      "output,limit,probability,confidence,verdict,broken,allowed,share,guaranteed_share,observed,"
+      "guaranteed\n";
   for (const MarginSearch& search : result.searches)
     for (const auto& [scale, look] : search.seen)
       for (std::size_t which = 0; which < look.size(); ++which) {

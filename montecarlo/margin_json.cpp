@@ -15,6 +15,7 @@ Json verdict_json(const Verdict& verdict, const std::string& which_case) {
   Json json{{"case", which_case}};
   json.update(write_requirements({&verdict.requirement, 1}).front());
   json["verdict"] = to_string(verdict.decision);
+  json["disproved"] = verdict.disproved;
   json["failures"] = {{"seen", verdict.broken.size()},
                       {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)}};
   json["observed"] = {{"share", number(verdict.share)}};
@@ -80,12 +81,14 @@ private:
       set_by["failing"] = evidence(condition, *edge.failing);
       json["set_by"].push_back(std::move(set_by));
     }
+    json["as_well"] = Json::array();
+    for (const std::size_t condition : edge.as_well) json["as_well"].push_back(name(condition));
     return json;
   }
 
   [[nodiscard]] Json window(const Window& window) const {
-    return {{"lower", edge(lower_edge(window, looks_))},
-            {"upper", edge(upper_edge(window, looks_))}};
+    return {{"lower", edge(lower_edge(search_, window))},
+            {"upper", edge(upper_edge(search_, window))}};
   }
 
   [[nodiscard]] Json verdicts(const ScaleLook& look) const {
@@ -204,8 +207,9 @@ Json definitions() {
       {"window", "the widest stretch of scales at which every requirement is shown in every case"},
       {"edge", "the outermost scale that passes; what sets it fails at fails_at, within the "
                "tolerance; range_end: nothing fails up to the end of the range"},
+      {"as_well", "what fails there by the same runs, which do not deploy"},
       {"verdict", "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; what did not "
-                  "deploy or happen counts against it"},
+                  "deploy or happen counts against it; disproved: the opposite is shown"},
       {"recommended", "geometric mean of the edges"},
       {"out_of_order", "draws that break a requirement at a scale, though not at one further out; "
                        "where there are none, the edge holds at the requirement's confidence"},

@@ -1,6 +1,7 @@
 #include "montecarlo/margin_report.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace wingspread {
 namespace {
@@ -13,10 +14,20 @@ std::string_view kind_of(const std::vector<Window>& holds) {
   return upper ? "upper" : "always";
 }
 
-MarginEdge edge(double passing, const std::optional<double>& failing, const Looks& looks) {
-  if (!failing) return {passing, failing, {}};
-  const Failing& conditions = looks.at(*failing);
-  return {passing, failing, {conditions.begin(), conditions.end()}};
+/// Whether a condition is broken by nothing but runs that did not deploy.
+bool lacks_deployment(const Verdict& verdict, const CaseLook& look) {
+  const long deployed = look.statuses[static_cast<std::size_t>(Status::deployed)];
+  return std::ssize(verdict.broken) == verdict.runs - deployed;
+}
+
+MarginEdge edge(const MarginSearch& search, double passing, const std::optional<double>& failing) {
+  MarginEdge edge{passing, failing, {}, {}};
+  if (!failing) return edge;
+  const ScaleLook& look = search.seen.at(*failing);
+  const Failing why = telling(look);
+  edge.set_by.assign(why.begin(), why.end());
+  std::ranges::set_difference(wingspread::failing(look), why, std::back_inserter(edge.as_well));
+  return edge;
 }
 
 } // namespace
@@ -37,12 +48,32 @@ std::vector<ConditionReport> conditions(const MarginReport& report, const Margin
   return all;
 }
 
-MarginEdge lower_edge(const Window& window, const Looks& looks) {
-  return edge(window.lower, window.below, looks);
+MarginEdge lower_edge(const MarginSearch& search, const Window& window) {
+  return edge(search, window.lower, window.below);
 }
 
-MarginEdge upper_edge(const Window& window, const Looks& looks) {
-  return edge(window.upper, window.above, looks);
+MarginEdge upper_edge(const MarginSearch& search, const Window& window) {
+  return edge(search, window.upper, window.above);
+}
+
+Failing telling(const ScaleLook& look) {
+  Failing all;
+  std::size_t first = 0; // condition of the case
+  for (const CaseLook& each : look) {
+    std::optional<std::size_t> deployment; // the condition that stands for its want
+    for (std::size_t k = 0; k < each.verdicts.size(); ++k) {
+      const Verdict& verdict = each.verdicts[k];
+      if (verdict.decision == Decision::pass) continue;
+      const bool is_deployed = verdict.requirement.output == deployed_output;
+      if (!is_deployed && !lacks_deployment(verdict, each))
+        all.insert(first + k);
+      else if (is_deployed || !deployment)
+        deployment = first + k;
+    }
+    if (deployment) all.insert(*deployment);
+    first += each.verdicts.size();
+  }
+  return all;
 }
 
 bool is_met(const MarginResult& result) {

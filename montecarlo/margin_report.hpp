@@ -43,12 +43,17 @@ struct ConditionReport {
 
 /// An edge of a window.
 struct MarginEdge {
-  double passing;                  ///< the outermost scale that passes
-  std::optional<double> failing;   ///< the next one out; none at the end of the range
-  std::vector<std::size_t> set_by; ///< the conditions that fail there
+  double passing;                   ///< the outermost scale that passes
+  std::optional<double> failing;    ///< the next one out; none at the end of the range
+  std::vector<std::size_t> set_by;  ///< those of the conditions that fail there which tell why
+  std::vector<std::size_t> as_well; ///< and those that fail by the same runs, which do not deploy
 };
-[[nodiscard]] MarginEdge lower_edge(const Window& window, const Looks& looks);
-[[nodiscard]] MarginEdge upper_edge(const Window& window, const Looks& looks);
+[[nodiscard]] MarginEdge lower_edge(const MarginSearch& search, const Window& window);
+[[nodiscard]] MarginEdge upper_edge(const MarginSearch& search, const Window& window);
+
+/// The conditions that fail, less those that fail for runs alone which did not deploy, when in
+/// their case that "deployed" is required, or another condition before them, says so already.
+[[nodiscard]] Failing telling(const ScaleLook& look);
 
 /// Whether every search has a window that is confirmed: what the command's exit status says.
 [[nodiscard]] bool is_met(const MarginResult& result);

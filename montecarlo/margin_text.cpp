@@ -69,27 +69,37 @@ private:
     return fmt::format("  {:<20}{:>8}  {}\n", label, scale, shortened(text, table_width - 32));
   }
 
-  /// "pass: 2 of 2000 runs break it, and 2 may".
-  [[nodiscard]] static std::string seen(const Verdict& verdict) {
-    return fmt::format("{}: {} of {} runs break it, and {} may", to_string(verdict.decision),
-                       verdict.broken.size(), verdict.runs, verdict.allowed.value_or(0));
+  /// A condition on the labelled line, or below it.
+  [[nodiscard]] std::string first_or_next(bool first, const char* label, double scale,
+                                          std::size_t condition) const {
+    return first ? line(label, scale, name(condition))
+                 : fmt::format("{:32}{}\n", "", shortened(name(condition), table_width - 32));
+  }
+
+  /// "at 1.18: pass: 2 of 2000 runs break it, and 2 may".
+  [[nodiscard]] std::string at(std::size_t condition, double scale) const {
+    const Verdict& seen = verdict(condition, scale);
+    return fmt::format("{:34}at {}: {}: {} of {} runs break it, and {} may\n", "", scale,
+                       to_string(seen.decision), seen.broken.size(), seen.runs,
+                       seen.allowed.value_or(0));
   }
 
   [[nodiscard]] std::string edge(const char* label, const MarginEdge& edge) const {
     if (!edge.failing) return line(label, edge.passing, "end of the range: nothing fails up to it");
-    std::string text = fmt::format("  {:<20}{:>8}\n", label, edge.passing);
-    for (const std::size_t condition : edge.set_by) {
-      text += fmt::format("{:32}{}\n", "", shortened(name(condition), table_width - 32));
-      for (const double scale : {edge.passing, *edge.failing})
-        text += fmt::format("{:34}at {}: {}\n", "", scale, seen(verdict(condition, scale)));
-    }
+    std::string text;
+    for (const std::size_t condition : edge.set_by)
+      text += first_or_next(text.empty(), label, edge.passing, condition) +
+              at(condition, edge.passing) + at(condition, *edge.failing);
+    if (!edge.as_well.empty())
+      text += fmt::format("{:32}and {} more, by the same runs that do not deploy\n", "",
+                          edge.as_well.size());
     return text;
   }
 
   [[nodiscard]] std::string window(const Window& window) const {
-    return edge("weakest springs", lower_edge(window, looks_)) +
+    return edge("weakest springs", lower_edge(search_, window)) +
            line("recommended", *search_.recommended, confirmation()) +
-           edge("strongest springs", upper_edge(window, looks_));
+           edge("strongest springs", upper_edge(search_, window));
   }
 
   [[nodiscard]] std::string confirmation() const {
@@ -125,16 +135,13 @@ private:
   }
 
   [[nodiscard]] std::string present() const {
-    const auto found = looks_.find(1);
-    if (found == looks_.end()) return "";
-    if (found->second.empty()) return line("present springs", 1, "all requirements are met");
+    const auto found = search_.seen.find(1);
+    if (found == search_.seen.end()) return "";
+    const Failing why = telling(found->second);
+    if (why.empty()) return line("present springs", 1, "all requirements are met");
     std::string text;
-    for (const std::size_t condition : found->second) {
-      const std::string what =
-          fmt::format("{}: {}", to_string(verdict(condition, 1).decision), name(condition));
-      text += text.empty() ? line("present springs", 1, what)
-                           : fmt::format("{:32}{}\n", "", shortened(what, table_width - 32));
-    }
+    for (const std::size_t condition : why)
+      text += first_or_next(text.empty(), "present springs", 1, condition) + at(condition, 1);
     return text;
   }
 
@@ -178,7 +185,7 @@ private:
       text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale,
                           percent(static_cast<double>(deployed) / static_cast<double>(runs)),
                           fmt::format("{:.3f} – {:.3f} %", 100 * bounds.lower, 100 * bounds.upper),
-                          shortened(outputs_of(looks_.at(scale)), table_width - 48));
+                          shortened(outputs_of(telling(look)), table_width - 48));
     }
     return text;
   }
@@ -228,7 +235,8 @@ std::string motorization(const MarginReport& report) {
   const MotorizationSpec& spec = report.campaign.margin->motorization;
   const auto& quantiles = report.campaign.statistics.quantiles;
   std::string text =
-      fmt::format("\nSTATIC MOTORIZATION MARGINS, least over the travel: {} ({}), {} ({})\n",
+      fmt::format("\nSTATIC MOTORIZATION MARGINS, least over the travel; 0 or more is enough\n"
+                  "{} ({}), {} ({})\n",
                   ecss_standard, ecss_basis_names[static_cast<std::size_t>(spec.ecss_basis)],
                   nasa_standard, nasa_basis_names[static_cast<std::size_t>(spec.nasa_basis)]);
   const std::string quantile =

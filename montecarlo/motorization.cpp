@@ -1,13 +1,14 @@
 #include "montecarlo/motorization.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace wingspread {
 namespace {
 
 double torque_at(const LinearTorque& torque, double x) {
-  return torque.torque_stowed + (torque.torque_latched - torque.torque_stowed) * x;
+  return std::lerp(torque.torque_stowed, torque.torque_latched, x); // exact at the ends
 }
 
 double margin(double available, double required) {

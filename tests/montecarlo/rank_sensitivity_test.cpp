@@ -40,7 +40,7 @@ std::vector<double> combination(const Columns& x, const std::vector<double>& wei
 Results results_of(const Columns& x, const std::vector<double>& y) {
   Results results;
   for (std::size_t j = 0; j < x.size(); ++j)
-    results.draws.push_back({"x" + std::to_string(j), x[j]});
+    results.draws.push_back({std::string("x") += std::to_string(j), x[j]});
   results.outputs.push_back({"y", y});
   for (std::size_t k = 0; k < y.size(); ++k) {
     results.runs.push_back(static_cast<long>(k));

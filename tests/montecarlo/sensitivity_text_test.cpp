@@ -76,7 +76,7 @@ TEST_CASE("what is undefined is null, an empty cell and a dash; many are cut sho
   RankSensitivity all;
   OutputRanks output{"x.latch_time", 3, 2, {}, true};
   for (int j = 0; j < 12; ++j) {
-    all.dispersions.push_back("d" + std::to_string(j));
+    all.dispersions.push_back(std::string("d") += std::to_string(j));
     const double value = j == 0 ? std::nan("") : j / 20.0;
     output.effects.push_back({{value, {}}, {std::nan(""), {}}});
   }
