@@ -122,14 +122,14 @@ private:
     return fmt::format("{} – {}", std::min(passing, failing), std::max(passing, failing));
   }
 
-  /// "from 1.18 up to 1.63".
+  /// "1.18 to 1.63", "from 1.18", "up to 1.63"; each stretch of them.
   [[nodiscard]] std::string holds(std::size_t condition) const {
     if (conditions_[condition].kind == "never") return "nowhere";
     std::string text;
     for (const auto& [lower, upper, below, above] : conditions_[condition].holds) {
       if (!text.empty()) text += ", ";
-      if (below) text += "from " + between(lower, *below);
-      if (above) text += (below ? " up to " : "up to ") + between(upper, *above);
+      if (below) text += (above ? "" : "from ") + between(lower, *below);
+      if (above) text += (below ? " to " : "up to ") + between(upper, *above);
     }
     return text.empty() ? "everywhere" : text;
   }
@@ -146,10 +146,16 @@ private:
   }
 
   [[nodiscard]] std::string requirements() const {
-    std::string text = fmt::format("\n{:<54}{:<36}{:>10}\n", "REQUIREMENT", "holds", "disorder");
-    for (std::size_t k = 0; k < conditions_.size(); ++k)
-      text += fmt::format("  {:<52}{:<36}{:>10}\n", shortened(name(k), 51), shortened(holds(k), 35),
-                          disorder(k));
+    std::string text = fmt::format("\n{:<54}{:>10}  {}\n", "REQUIREMENT", "disorder", "holds");
+    const std::string* previous = nullptr; // case
+    for (std::size_t k = 0; k < conditions_.size(); ++k) {
+      const auto& each = conditions_[k];
+      if (report_.result.cases.size() > 1 && !(previous && *previous == each.which_case))
+        text += each.which_case + '\n';
+      previous = &each.which_case;
+      text += fmt::format("  {:<52}{:>10}  {}\n", shortened(each.requirement, 51), disorder(k),
+                          shortened(holds(k), table_width - 66));
+    }
     return text;
   }
 
