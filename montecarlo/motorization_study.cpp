@@ -128,8 +128,7 @@ struct HingeStudy {
     for (std::int64_t k = 1; k < spec.motorization.points - 1; ++k)
       places.push_back(static_cast<double>(k) / cells);
     std::ranges::sort(places);
-    const auto twice = std::ranges::unique(places);
-    places.erase(twice.begin(), twice.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     return places;
   }
 
