@@ -18,12 +18,6 @@ namespace {
 constexpr const char* expected_scene = "a scene, or the name of the file that holds it";
 constexpr const char* stamp_key = "wingspread"; // holds version, seed and hash in a results folder
 
-/// What the format names and this version cannot do: refused here, and never ignored.
-void refuse_unavailable(JsonObject& campaign) {
-  if (const auto at = campaign.find("margin"))
-    at->refuse("no \"margin\": not available in this version");
-}
-
 /// More dispersions than Sobol' points have coordinates.
 void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, std::size_t dispersions) {
   if (sampling.design == DesignKind::sobol && dispersions > most_sobol_dimensions)
@@ -114,6 +108,7 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
   if (!campaign.requirements.empty())
     json["requirements"] = write_requirements(campaign.requirements);
   if (!campaign.until.empty()) json["until"] = write_stopping_rule(campaign.until);
+  if (campaign.margin) json["margin"] = write_margin(*campaign.margin, campaign.scene);
   return json;
 }
 
@@ -125,10 +120,11 @@ Campaign read_document(const Json& document, const std::filesystem::path& direct
   JsonObject object(JsonCursor(document, file, problems), "a campaign: an object");
   if (const auto scene = object.require("scene", expected_scene))
     campaign.scene = read_scene_member(*scene, directory);
-  const Scene* usable = problems.empty() ? &campaign.scene : nullptr;
+  const Scene* const scene = problems.empty() ? &campaign.scene : nullptr;
+  const Scene* usable = scene; // to look outputs up
   Dispersions dispersions{{}, Json::array()};
   const auto list = object.find("dispersions");
-  if (list) dispersions = read_dispersions(*list, usable, directory);
+  if (list) dispersions = read_dispersions(*list, scene, directory);
   const bool named = problems.empty();
   if (const auto at = object.find("sampling")) read_sampling(*at, campaign.sampling);
   if (const auto at = object.find("integration")) read_integration(*at, campaign.integration);
@@ -145,7 +141,7 @@ Campaign read_document(const Json& document, const std::filesystem::path& direct
   if (!campaign.statistics.tolerance.empty())
     refuse_dependent_draws(object.at().member("statistics").member("tolerance"), "tolerance limits",
                            campaign.sampling.design);
-  refuse_unavailable(object);
+  if (const auto at = object.find("margin")) campaign.margin = read_margin(*at, scene);
   (void)object.find(stamp_key); // known, and of no account
   object.refuse_others();
   if (!problems.empty()) throw SpecError(std::move(problems));

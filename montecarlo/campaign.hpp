@@ -6,6 +6,7 @@
 #include "montecarlo/campaign_settings.hpp"
 #include "montecarlo/dispersion.hpp"
 #include "montecarlo/json_parse.hpp"
+#include "montecarlo/margin_spec.hpp"
 #include "montecarlo/requirement.hpp"
 #include "montecarlo/stopping.hpp"
 
@@ -28,7 +29,8 @@ struct Campaign {
   Outputs outputs = default_outputs();
   StatisticsSpec statistics;
   std::vector<Requirement> requirements;
-  StoppingRule until; ///< it may stop before all of its runs are made
+  StoppingRule until;               ///< it may stop before all of its runs are made
+  std::optional<MarginSpec> margin; ///< what `wingspread margin` sizes; of no account to its runs
   /// The same in full as JSON: defaults explicit, the scene and empirical values in place of their
   /// files. Reads back to the same campaign, wherever it is put.
   Json resolved;

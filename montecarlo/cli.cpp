@@ -66,6 +66,9 @@ int command_line(int argc, const char* const* argv) {
   add_analyze(app, action);
   add_merge(app, action);
   add_size(app, action);
+  add_sensitivity(app, action);
+  add_rare(app, action);
+  add_margin(app, action);
   add_methods(app, action);
   add_version(app, action);
   try {

@@ -79,14 +79,25 @@ void override_settings(const Json& given, const std::function<void(const JsonCur
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
+void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
+  command.add_option("--seed", seed, "The seed, in place of the campaign's")
+      ->check(refuse_seed)
+      ->type_name("N");
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  constexpr int most_threads = 1024;
+  command.add_option("--threads", threads, "How many threads; all processors if left out")
+      ->check(CLI::Range(1, most_threads).description(""))
+      ->type_name("N");
+}
+
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   command.add_option("--runs", sampling.runs, "How many runs, in place of the campaign's number")
       ->check(CLI::Range(std::int64_t{1}, most).description(""))
       ->type_name("N");
-  command.add_option("--seed", sampling.seed, "The seed, in place of the campaign's")
-      ->check(refuse_seed)
-      ->type_name("N");
+  add_seed_option(command, sampling.seed);
 }
 
 void add_display_options(CLI::App& command, Display& display) {

@@ -23,6 +23,8 @@ struct SamplingOptions {
   std::optional<std::int64_t> runs;
   std::optional<std::uint64_t> seed;
 };
+void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed);
+void add_threads_option(CLI::App& command, int& threads);
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling);
 
 /// How results are shown on standard output.

@@ -20,8 +20,6 @@
 namespace wingspread {
 namespace {
 
-constexpr int most_threads = 1024;
-
 struct RunOptions {
   std::filesystem::path campaign, out;
   SamplingOptions sampling;
@@ -174,9 +172,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
   command->add_option("--out", options->out, "The results folder: new, or empty")->required();
   add_sampling_options(*command, options->sampling);
-  command->add_option("--threads", options->threads, "How many threads; all processors if left out")
-      ->check(CLI::Range(1, most_threads).description(""))
-      ->type_name("N");
+  add_threads_option(*command, options->threads);
   command
       ->add_option("--lanes", options->lanes,
                    "How many runs a thread makes at once: 1, 4 or 8; the most if left out")

@@ -21,6 +21,9 @@ void add_simulate(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_sample(CLI::App& app, Action& action);
+void add_sensitivity(CLI::App& app, Action& action);
+void add_rare(CLI::App& app, Action& action);
+void add_margin(CLI::App& app, Action& action);
 void add_methods(CLI::App& app, Action& action);
 void add_version(CLI::App& app, Action& action);
 

@@ -165,6 +165,17 @@ std::string describe_requirement(const Campaign& campaign, const Requirement& re
                      least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
 }
 
+std::string describe_margin(const MarginSpec& margin, const Scene& scene) {
+  std::vector<std::string> paths;
+  for (const ParameterRef& parameter : margin.scaled) paths.push_back(path_of(scene, parameter));
+  return fmt::format("{} scaled by {} to {}, {}, {}", fmt::join(paths, ", "), margin.lower,
+                     margin.upper,
+                     margin.mode == MarginMode::joint ? "all together" : "hinge by hinge",
+                     !margin.one_spring_out ? "no spring lost"
+                     : margin.nominal       ? "with and without a spring lost"
+                                            : "with a spring lost");
+}
+
 std::string describe_guarantees(const Campaign& campaign) {
   std::string text;
   for (const auto& [probability, confidence, side] : campaign.statistics.tolerance)
@@ -174,6 +185,8 @@ std::string describe_guarantees(const Campaign& campaign) {
     text += "requirement: " + describe_requirement(campaign, requirement) + "\n";
   for (const WidthGoal& goal : campaign.until)
     text += "until the interval's width is: " + to_string(goal) + "\n";
+  if (campaign.margin)
+    text += "margin: " + describe_margin(*campaign.margin, campaign.scene) + "\n";
   return text;
 }
 

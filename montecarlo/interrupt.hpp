@@ -6,6 +6,9 @@
 
 namespace wingspread {
 
+/// Thrown where what was begun cannot be finished: it was asked to stop.
+struct Stopped {};
+
 /// While one exists, SIGINT and SIGTERM raise a flag and do not end the program; a second one does.
 /// One at a time.
 class Interrupt {

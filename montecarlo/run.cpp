@@ -112,16 +112,27 @@ RunPlan::RunPlan(const Campaign& campaign)
     distributions_.emplace_back(dispersion.distribution);
 }
 
+RunPlan::RunPlan(const Campaign& campaign, UnitPoints points) : RunPlan(campaign) {
+  points_ = std::move(points);
+}
+
 void RunPlan::draw(long k, std::span<double> draws) const {
-  for (std::size_t i = 0; i < draws.size(); ++i)
-    draws[i] = design_.uniform(static_cast<std::uint64_t>(k), i);
+  if (points_)
+    points_(k, draws);
+  else
+    for (std::size_t i = 0; i < draws.size(); ++i)
+      draws[i] = design_.uniform(static_cast<std::uint64_t>(k), i);
+  to_draws(draws);
+}
+
+void RunPlan::to_draws(std::span<double> point) const {
   if (copula_.is_independent()) {
-    for (std::size_t i = 0; i < draws.size(); ++i) draws[i] = distributions_[i].quantile(draws[i]);
+    for (std::size_t i = 0; i < point.size(); ++i) point[i] = distributions_[i].quantile(point[i]);
     return;
   }
-  std::vector<Tails> coupled(draws.size());
-  copula_.couple(draws, coupled);
-  for (std::size_t i = 0; i < draws.size(); ++i) draws[i] = distributions_[i].quantile(coupled[i]);
+  std::vector<Tails> coupled(point.size());
+  copula_.couple(point, coupled);
+  for (std::size_t i = 0; i < point.size(); ++i) point[i] = distributions_[i].quantile(coupled[i]);
 }
 
 Runner::Runner(const RunPlan& plan)

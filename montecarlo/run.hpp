@@ -9,6 +9,7 @@
 #include "montecarlo/campaign.hpp"
 #include "montecarlo/results.hpp"
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,11 +51,17 @@ struct OutputColumn {
 /// The names of the hinges that latched, in order of time: "root>mid>tip".
 [[nodiscard]] std::string latch_order(const Scene& scene, const Outcome& outcome);
 
+/// Another rule than the campaign's design that puts runs into the unit cube; pure.
+/// @param u one for each dispersion in their order, to be set; each strictly within (0, 1)
+using UnitPoints = std::function<void(long run, std::span<double> u)>;
+
 /// What all runs of a campaign share, worked out once. Immutable, so one plan serves all threads.
 class RunPlan {
 public:
   /// @pre the campaign outlives the plan
   explicit RunPlan(const Campaign& campaign);
+  /// The campaign's runs at other points than its own.
+  RunPlan(const Campaign& campaign, UnitPoints points);
 
   [[nodiscard]] const Campaign& campaign() const { return *campaign_; }
   [[nodiscard]] const ResultNames& names() const { return names_; }
@@ -64,6 +71,9 @@ public:
   /// @param draws as many as the campaign has dispersions
   void draw(long k, std::span<double> draws) const;
 
+  /// From a point of the unit cube to the draws there, in place: dependence, then quantiles. Pure.
+  void to_draws(std::span<double> point) const;
+
 private:
   const Campaign* campaign_;
   std::vector<OutputColumn> columns_;
@@ -71,6 +81,7 @@ private:
   std::vector<PreparedDistribution> distributions_;
   PreparedDesign design_;
   GaussianCopula copula_;
+  UnitPoints points_; ///< empty: the design's
 };
 
 /// Makes runs one after another; each thread has its own.

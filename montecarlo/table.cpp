@@ -24,17 +24,6 @@ std::string words(std::string_view name) {
   return text;
 }
 
-/// The first `width` characters, the last of them "…" when there are more.
-std::string shortened(std::string_view text, std::size_t width) {
-  const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
-  if (static_cast<std::size_t>(std::ranges::count_if(text, starts)) <= width)
-    return std::string(text);
-  std::size_t end = 0;
-  for (std::size_t characters = 0; characters < width; ++end)
-    if (starts(text[end])) ++characters;
-  return std::string(text.substr(0, end - 1)) + "…";
-}
-
 std::string percent(double share) {
   return std::isnan(share) ? "–" : fmt::format("{:.3f} %", 100 * share);
 }
@@ -250,6 +239,16 @@ std::string bar(long eighths) {
 }
 
 } // namespace
+
+std::string shortened(std::string_view text, std::size_t width) {
+  const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  if (static_cast<std::size_t>(std::ranges::count_if(text, starts)) <= width)
+    return std::string(text);
+  std::size_t end = 0;
+  for (std::size_t characters = 0; characters < width; ++end)
+    if (starts(text[end])) ++characters;
+  return std::string(text.substr(0, end - 1)) + "…";
+}
 
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
   return shortened(title, table_width) + '\n' + outcomes(summary) + reasons(summary) +

@@ -10,6 +10,9 @@ namespace wingspread {
 
 inline constexpr int table_width = 100;
 
+/// The first `width` characters, the last of them "…" when there are more.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
+
 /// Outcomes with their shares and bounds, why runs did not deploy, latch orders, and the mean,
 /// standard deviation and quantiles of every output, hinge by hinge; then what the campaign asks
 /// for: tolerance limits, requirements with the runs that break them, widths to stop at.

@@ -137,7 +137,7 @@ TEST_CASE("check says what a file holds, or all that is wrong with it") {
 
   Json bad = quick_campaign(5);
   bad["scene"]["hinges"][0]["friction"] = {{"model", "dry"}};
-  bad["margin"] = Json::object();
+  bad["margin"] = {{"range", {0.5, 2}}};
   folder.write("campaign.json", bad.dump());
   const auto [code, out, error] = run_program(folder, {"check", file});
   CHECK(code == 2);
@@ -147,8 +147,8 @@ TEST_CASE("check says what a file holds, or all that is wrong with it") {
                      "\"regularized\" or \"exact\"\n"
                      "error: " +
                      file +
-                     ": /margin: found an object, expected no \"margin\": not available in this "
-                     "version\n");
+                     ": /margin/scale: found nothing, expected the paths of the parameters to "
+                     "size\n");
 }
 
 TEST_CASE("sample prints the draws that the runs apply") {

@@ -135,11 +135,6 @@ TEST_CASE("Each fault of a campaign is told", "[campaign]") {
   CHECK(problems(change) == change.message);
 }
 
-TEST_CASE("What this version cannot do is refused, not ignored", "[campaign]") {
-  CHECK(problems({"/margin", "{}", ""}) ==
-        "/margin: found an object, expected no \"margin\": not available in this version");
-}
-
 TEST_CASE("What holds for independent draws only is refused with other designs", "[campaign]") {
   const std::string design = GENERATE("latin_hypercube", "sobol");
   Json document = test::small_campaign();

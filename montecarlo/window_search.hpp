@@ -1,0 +1,67 @@
+/// The window of scales in which several conditions hold at once: which of them fails where, each
+/// edge located to a tolerance, with what was seen on either side of it.
+///
+/// A grid over the range comes first, so that a condition that comes and goes is noticed. Then
+/// cells between neighbouring scales are halved (by ratio) down to the tolerance, those and only
+/// those that may hold an edge of the window:
+///
+///     F(a) ∩ F(b) = ∅, not both empty,   F(s): the conditions that fail at scale s             (1)
+///
+/// A condition that fails at both ends of a cell fails all through it, unless it comes and goes
+/// within the cell; where each one fails at one end only, or none at one end, a window may begin or
+/// end, or lie within. So a window is not missed for being narrower than a cell, and where there is
+/// none, every cell has a condition that rules it out. Then, for the sake of the proof, the edges
+/// of every single condition are located as well.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace wingspread {
+
+/// The conditions that fail at a scale, by number.
+using Failing = std::set<std::size_t>;
+/// What was seen, by scale.
+using Looks = std::map<double, Failing>;
+
+struct SearchRange {
+  double lower, upper; ///< 0 < lower < upper
+  long points;         ///< of the grid, evenly by ratio, ≥ 2
+  double tolerance;    ///< largest ratio of an edge's two sides, less 1; > 0
+};
+
+/// Neighbouring scales that pass.
+struct Window {
+  double lower, upper;         ///< the outermost that were seen to pass
+  std::optional<double> below; ///< the next scale down, which fails; none at the range's end
+  std::optional<double> above; ///< the next one up
+};
+
+/// Looks at the grid, at 1 if that is in the range, and at as many scales more as it takes. Scales
+/// are numbers of few digits, so that they are what a report prints.
+/// @param judge pure; what it throws ends the search
+[[nodiscard]] Looks search_window(const SearchRange& range,
+                                  const std::function<Failing(double)>& judge);
+
+/// The windows at whose scales `passes` holds, upwards.
+[[nodiscard]] std::vector<Window> windows_where(const Looks& looks,
+                                                const std::function<bool(const Failing&)>& passes);
+/// Those of all conditions together, and those of a single one.
+[[nodiscard]] std::vector<Window> windows_of(const Looks& looks);
+[[nodiscard]] std::vector<Window> windows_of(const Looks& looks, std::size_t condition);
+
+/// The widest, by ratio; the lowest of equals. Null without any.
+[[nodiscard]] const Window* widest(const std::vector<Window>& windows);
+
+/// The scale in the middle of the widest window, by ratio: as many times stronger than its weakest
+/// springs as its strongest are stronger than this. It was looked at, and passes.
+[[nodiscard]] std::optional<double> recommended(const Looks& looks, double tolerance);
+
+/// The fewest conditions that leave no scale to pass, of the lowest numbers: one that never holds,
+/// else two that never hold together, else all that ever fail. Empty when there is a window.
+[[nodiscard]] std::vector<std::size_t> closed_by(const Looks& looks);
+
+} // namespace wingspread

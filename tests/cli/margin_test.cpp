@@ -1,0 +1,184 @@
+#include "montecarlo/margin_report.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+struct Place {
+  Folder folder{};
+  std::string out = (folder.path() / "m").string();
+
+  [[nodiscard]] Finished operator()(const std::vector<std::string>& arguments) const {
+    return run_program(folder, arguments);
+  }
+  [[nodiscard]] std::string file(const Json& json, const char* name = "campaign.json") const {
+    return folder.write(name, json.dump());
+  }
+  [[nodiscard]] Finished margin(const Json& json) const {
+    return (*this)({"margin", file(json), "--out", out});
+  }
+  [[nodiscard]] Json found() const { return parse_json_file(out + "/" + margin_json_file); }
+};
+
+} // namespace
+
+TEST_CASE("margin, from a requirement missed to new springs that meet it") {
+  const Place program;
+  Json json = one_panel_margin(300);
+  for (Json& torque : json["scene"]["hinges"][0]["spring"]) torque = 0.75 * torque.get<double>();
+  const std::string campaign = program.file(json), out = program.out;
+  CHECK(program({"run", campaign, "--out", out + "1"}).code == 1); // missed
+  const auto [code, text, error] = program({"margin", campaign, "--out", out});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK_THAT(text, Catch::StartsWith("one_panel · margin · 300 runs a scale and case") &&
+                       Catch::Contains("weakest springs") && Catch::Contains("strongest springs") &&
+                       Catch::Contains("all requirements are met") &&
+                       Catch::Contains("ECSS-E-ST-33-01C") && Catch::Contains("NASA-STD-5017B"));
+  for (const std::string& line : lines_of(text)) // characters, not bytes
+    CHECK(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }) <= 100);
+  const Json found = program.found(), search = found["searches"][0];
+  CHECK(found["met"] == true);
+  CHECK(search["present"]["passes"] == false);
+  CHECK(search["present"]["failing"][0]["output"] == "deployed");
+  CHECK(search["window"]["lower"]["set_by"][0]["requirement"] == "deployed, 97 % at 90 %");
+  CHECK(search["window"]["upper"]["set_by"][0]["requirement"] ==
+        "root.latch_rate ≥ -0.8 rad/s, 97 % at 90 %");
+  CHECK(search["recommended"]["confirmation"]["passes"] == true);
+  // the new springs meet the requirements, with the campaign's draws and with others
+  const std::string resized = out + "/recommended.json";
+  CHECK(program({"run", resized, "--out", out + "2"}).code == 0);
+  CHECK(program({"run", resized, "--out", out + "3", "--seed", "99"}).code == 0);
+  CHECK(program({"check", resized}).code == 0);
+}
+
+TEST_CASE("campaigns at a hair's breadth of the edges, one by one: met within, missed outside") {
+  const Place program;
+  const Json json = one_panel_margin(300);
+  CHECK(program.margin(json).code == 0);
+  const Json window = program.found()["searches"][0]["window"];
+  for (const char* edge : {"lower", "upper"})
+    for (const bool within : {true, false}) {
+      const double scale = window[edge][within ? "scale" : "fails_at"];
+      Json sized = json;
+      sized["dispersions"].push_back({{"name", "scale"},
+                                      {"distribution", {{"type", "constant"}, {"value", scale}}},
+                                      {"apply", "scale"},
+                                      {"to", json["margin"]["scale"]}});
+      const std::string there = program.out + edge + (within ? "1" : "2");
+      CHECK(program({"run", program.file(sized), "--out", there}).code == (within ? 0 : 1));
+    }
+}
+
+TEST_CASE("margin's files have the same bytes for any threads", "[parallel]") {
+  const Place program;
+  Json json = one_panel_margin(200);
+  json["margin"]["cases"] = {"nominal", "one_spring_out"};
+  json["margin"]["range"] = {0.5, 3};
+  json["requirements"].erase(1);
+  const std::string campaign = program.file(json);
+  std::map<std::string, std::string> first;
+  for (const char* threads : {"1", "3"}) {
+    const std::string out = program.out + threads;
+    const auto finished =
+        program({"margin", campaign, "--out", out, "--threads", threads, "--json"});
+    CHECK(finished.code == 0);
+    auto files = contents(out);
+    CHECK(finished.out == files[margin_json_file]);
+    files["stdout"] = finished.out;
+    if (!first.empty()) CHECK(files == first);
+    first = files;
+  }
+  CHECK(first.size() == 5); // margin.json, margin.csv, motorization.csv, recommended.json
+}
+
+TEST_CASE("margin's tables have a row for everything") {
+  const Place program;
+  Json json = one_panel_margin(200);
+  json["margin"]["motorization"] = {{"points", 3}};
+  CHECK(program.margin(json).code == 0);
+  const Json found = program.found();
+  const std::size_t looks = found["searches"][0]["looks"];
+  const auto rows = lines_of(*read_text(program.out + "/margin.csv"));
+  CHECK(rows.size() == 1 + 2 * looks);
+  CHECK(rows[0] == "search,scale,case,runs,deployed,deployed_lower,deployed_upper,requirement,"
+                   "output,limit,probability,confidence,verdict,broken,allowed,share,"
+                   "guaranteed_share,observed,guaranteed");
+  CHECK_THAT(rows[1], Catch::StartsWith("joint,0.5,nominal,200,0,0,") &&
+                          Catch::Contains(",fail,200,2,0,0,,"));
+  const auto places = lines_of(*read_text(program.out + "/motorization.csv"));
+  CHECK(places.size() == 1 + 2 * 3); // at scale 1 and the recommended one
+  CHECK_THAT(places[0], Catch::StartsWith("scale,hinge,travel,angle,available,") &&
+                            Catch::Contains(",ecss,ecss@0.01,ecss@0.5,ecss@0.99,"));
+  CHECK(places[1].starts_with("1,root,0,1.570796326794896"));
+}
+
+TEST_CASE("margin says which requirements leave no window, and exits 1") {
+  const Place program;
+  Json json = one_panel_margin(200);
+  json["requirements"][1] = {
+      {"output", "root.peak_moment"}, {"max", 40}, {"probability", 0.97}, {"confidence", 0.9}};
+  const auto [code, text, error] = program.margin(json);
+  CHECK(code == 1);
+  CHECK(error == "not met: joint: no scale of the springs in the range meets all requirements\n");
+  CHECK_THAT(text, Catch::Contains("EMPTY: no scale meets all requirements.\n"));
+  const Json search = program.found()["searches"][0];
+  CHECK(search["window"].is_null());
+  CHECK(search["closed_by"][0]["requirement"] == "root.peak_moment ≤ 40 N·m, 97 % at 90 %");
+  CHECK_FALSE(std::filesystem::exists(program.out + "/recommended.json"));
+}
+
+TEST_CASE("margin, hinge by hinge, reports each") {
+  const Place program;
+  Json json = quick_campaign(60);
+  json["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.9, "confidence": 0.9 }])");
+  json["margin"] = parse_json(R"({ "scale": ["hinges.*.spring.torque_stowed"],
+                                   "range": [0.9, 1.1], "points": 2, "mode": "each" })");
+  const auto finished = program.margin(json);
+  CHECK(finished.code == 0);
+  CHECK_THAT(finished.out, Catch::Contains("hinge root alone") &&
+                               Catch::Contains("hinge mid alone") &&
+                               Catch::Contains("end of the range: nothing fails up to it"));
+  CHECK(program.found()["searches"].size() == 3);
+}
+
+TEST_CASE("margin refuses a used folder, and what it cannot show, before anything runs") {
+  const Place program;
+  Json json = one_panel_margin(50);
+  const auto refused = program.margin(json);
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, Catch::Contains("/sampling/runs: found 50, expected at least 76"));
+  CHECK_FALSE(std::filesystem::exists(program.out));
+  json["sampling"]["runs"] = 80;
+  json["integration"]["max_steps"] = 2; // all fail
+  const auto failed = program.margin(json);
+  CHECK(failed.code == 3);
+  CHECK_THAT(failed.error, Catch::Contains("runs failed numerically, and count against"));
+  const auto used = program.margin(json);
+  CHECK(used.code == 2);
+  CHECK_THAT(used.error, Catch::Contains("a folder with files in it, expected a new or an empty"));
+}
+
+TEST_CASE("margin interrupted keeps the scales that were finished", "[parallel]") {
+  const Place program;
+  const Json json = one_panel_margin(2'000'000);
+  const Program running(program.folder,
+                        {"margin", program.file(json), "--out", program.out, "--threads", "2"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  running.send(SIGINT);
+  const Finished finished = running.finish();
+  CHECK(finished.code == 130);
+  CHECK_THAT(finished.error, Catch::StartsWith("interrupted: the scales that were finished"));
+  CHECK(std::filesystem::exists(program.out + "/margin.csv"));
+  CHECK_FALSE(std::filesystem::exists(program.out + "/margin.json"));
+}

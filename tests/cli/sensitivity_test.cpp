@@ -1,0 +1,111 @@
+#include "montecarlo/sensitivity_folder.hpp"
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+std::string file_with(const Folder& folder, const Json& json) {
+  const std::string path = folder.path() / "campaign.json";
+  std::ofstream(path) << json.dump();
+  return path;
+}
+
+} // namespace
+
+TEST_CASE("sensitivity of a results folder: a table, two files, and JSON") {
+  const Folder folder;
+  const std::string path = folder.path() / "r";
+  (void)run_into(path, campaign_of(full_campaign(60)));
+  const auto [code, out, error] = run_program(folder, {"sensitivity", path});
+  CHECK(code == 0);
+  CHECK(out.starts_with("three_panel · 60 runs · rank correlations\n"));
+  CHECK(out.find("without it left out") != std::string::npos); // invalid draws have no outputs
+  const std::string written = *read_text(path + "/sensitivity.json");
+  CHECK(run_program(folder, {"sensitivity", path, "--json"}).out == written);
+  CHECK(parse_json(written)["wingspread"]["hash"] ==
+        parse_json_file(path + "/summary.json")["wingspread"]["hash"]);
+  CHECK(std::filesystem::exists(path + "/sensitivity.csv"));
+  const Json other =
+      parse_json(run_program(folder, {"sensitivity", path, "--json", "--confidence", "0.5"}).out);
+  CHECK(other["confidence"] == 0.5);
+  const auto refused = run_program(folder, {"sensitivity", path, "--samples", "8", "--resume"});
+  CHECK(refused.code == 2);
+  CHECK(lines_of(refused.error).size() == 2);
+}
+
+TEST_CASE("sensitivity of a campaign: the same for any threads, kept and gone on with") {
+  const Folder folder;
+  const std::string file = file_with(folder, quick_campaign(10)), out = folder.path() / "s";
+  const auto one = run_program(folder, {"sensitivity", file, "--samples", "16", "--threads", "1",
+                                        "--resamples", "50", "--json"});
+  CHECK(one.code == 0);
+  const auto kept = run_program(folder, {"sensitivity", file, "--samples", "16", "--threads", "3",
+                                         "--resamples", "50", "--json", "--out", out});
+  CHECK(kept.out == one.out);
+  CHECK(*read_text(out + "/sensitivity.json") == one.out);
+  CHECK(run_program(folder, {"sensitivity", out, "--resamples", "50", "--json"}).out == one.out);
+  CHECK(run_program(folder, {"sensitivity", file, "--samples", "16", "--out", out}).code == 2);
+  const auto again = run_program(folder, {"sensitivity", file, "--samples", "16", "--resamples",
+                                          "50", "--json", "--out", out, "--resume"});
+  CHECK(again.code == 0);
+  CHECK(again.out == one.out);
+  CHECK(parse_json(one.out)["runs"] == 16 * 6);
+  CHECK(run_program(folder, {"sensitivity", file, "--samples", "16", "--seed", "9", "--resamples",
+                             "50", "--json"})
+            .out != one.out);
+  CHECK(run_program(folder, {"sensitivity", file, "--samples", "1"}).code == 2);
+  CHECK(run_program(folder, {"analyze", out}).code == 2); // it is no sample of the campaign
+}
+
+TEST_CASE("rare says how likely, by which levels, and whether counting would have done") {
+  const Folder folder;
+  Json json = quick_campaign(10);
+  const std::string file = file_with(folder, json);
+  const std::vector<std::string> asked{"rare",      file, "--output",  "root.latch_time",
+                                       "--above",   "6",  "--samples", "100",
+                                       "--repeats", "2",  "--json"};
+  const auto with_threads = [&](const char* threads) {
+    std::vector<std::string> arguments = asked;
+    arguments.insert(arguments.end(), {"--threads", threads});
+    return run_program(folder, arguments);
+  };
+  const auto one = with_threads("1");
+  CHECK(one.code == 0);
+  CHECK(with_threads("3").out == one.out);
+  const Json found = parse_json(one.out);
+  CHECK(found["event"] == "root.latch_time > 6");
+  CHECK(found["repeats"].size() == 2);
+  CHECK(found["lower"] <= found["probability"]);
+  CHECK(found["probability"] <= found["upper"]);
+  const auto text = run_program(folder, {"rare", file, "--output", "root.latch_time", "--above",
+                                         "5", "--samples", "100", "--repeats", "2"});
+  CHECK(text.code == 0);
+  CHECK(text.out.find("P(root.latch_time > 5) = ") != std::string::npos);
+  CHECK(text.out.find("Plain sampling would have been enough") != std::string::npos);
+}
+
+TEST_CASE("rare refuses half an event, and an odd number of samples") {
+  const Folder folder;
+  const std::string file = file_with(folder, quick_campaign(10));
+  for (const std::vector<std::string>& extra :
+       {std::vector<std::string>{"--output", "root.latch_time"},
+        {"--above", "3"},
+        {"--output", "root.latch_time", "--above", "3", "--below", "2"},
+        {"--samples", "105"},
+        {"--samples", "50"},
+        {"--repeats", "0"},
+        {"--confidence", "2"},
+        {"--output", "root.speed", "--above", "1"}}) {
+    std::vector<std::string> arguments{"rare", file};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    const auto [code, out, error] = run_program(folder, arguments);
+    INFO(extra.front() << ' ' << error);
+    CHECK(code == 2);
+    CHECK(out.empty());
+    CHECK(error.starts_with("error: "));
+  }
+}
