@@ -4,6 +4,8 @@
 
 #include "core/pack.hpp"
 
+#include <initializer_list>
+
 namespace wingspread {
 
 /// log2 x, absolute error ≤ 5e-8. @pre x is positive, normal and finite

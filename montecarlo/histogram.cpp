@@ -11,11 +11,11 @@ namespace wingspread {
 
 namespace {
 
-struct Range {
+struct Extent {
   double lower, upper;
 };
 
-Range range_of(std::span<const double> sorted) {
+Extent range_of(std::span<const double> sorted) {
   const double lower = sorted.front(), upper = sorted.back();
   if (lower < upper) return {lower, upper};
   const double half = lower == 0 ? 0.5 : std::abs(lower) / 2;
@@ -33,14 +33,14 @@ int auto_bins(std::span<const double> sorted) {
 }
 
 /// The number of bins that leaves at least four roundings between neighbouring edges.
-int with_room(int bins, const Range& range) {
+int with_room(int bins, const Extent& range) {
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
   const double room =
       (range.upper - range.lower) / (4 * std::numeric_limits<double>::epsilon() * largest);
   return static_cast<int>(std::clamp(std::floor(room), 1.0, static_cast<double>(bins)));
 }
 
-std::vector<double> edges_of(const Range& range, int bins) {
+std::vector<double> edges_of(const Extent& range, int bins) {
   std::vector<double> edges;
   for (int i = 0; i <= bins; ++i)
     edges.push_back(std::lerp(range.lower, range.upper, static_cast<double>(i) / bins));
@@ -58,7 +58,7 @@ double Histogram::density(std::size_t bin) const {
 
 Histogram histogram(std::span<const double> sorted, const Bins& bins) {
   if (sorted.empty()) return {};
-  const Range range = range_of(sorted);
+  const Extent range = range_of(sorted);
   const int* fixed = std::get_if<int>(&bins);
   Histogram result{edges_of(range, with_room(fixed ? *fixed : auto_bins(sorted), range)), {}};
   auto from = sorted.begin();

@@ -1,3 +1,4 @@
+#include "montecarlo/json_number.hpp"
 #include "montecarlo/margin_report.hpp"
 #include "montecarlo/run.hpp"
 
@@ -7,9 +8,6 @@
 namespace wingspread {
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
-
 /// A requirement's verdict in a case at a scale.
 Json verdict_json(const Verdict& verdict, const std::string& which_case) {
   Json json{{"case", which_case}};
@@ -18,11 +16,11 @@ Json verdict_json(const Verdict& verdict, const std::string& which_case) {
   json["disproved"] = verdict.disproved;
   json["failures"] = {{"seen", verdict.broken.size()},
                       {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)}};
-  json["observed"] = {{"share", number(verdict.share)}};
-  json["guaranteed"] = {{"share", number(verdict.guaranteed_share)}};
+  json["observed"] = {{"share", json_number(verdict.share)}};
+  json["guaranteed"] = {{"share", json_number(verdict.guaranteed_share)}};
   if (verdict.requirement.output != deployed_output) {
-    json["observed"]["value"] = number(verdict.observed);
-    json["guaranteed"]["value"] = number(verdict.guaranteed);
+    json["observed"]["value"] = json_number(verdict.observed);
+    json["guaranteed"]["value"] = json_number(verdict.guaranteed);
   }
   return json;
 }
@@ -73,7 +71,7 @@ private:
 
   [[nodiscard]] Json edge(const MarginEdge& edge) const {
     Json json{{"scale", edge.passing}, {"range_end", !edge.failing}};
-    json["fails_at"] = number(edge.failing);
+    json["fails_at"] = json_number(edge.failing);
     json["set_by"] = Json::array();
     for (const std::size_t condition : edge.set_by) {
       Json set_by = name(condition);
@@ -131,8 +129,9 @@ private:
       each["edges"] = conditions_[k].kind;
       each["holds"] = Json::array();
       for (const auto& [lower, upper, below, above] : conditions_[k].holds)
-        each["holds"].push_back(
-            {{"from", lower}, {"to", upper}, {"fails_at", {number(below), number(above)}}});
+        each["holds"].push_back({{"from", lower},
+                                 {"to", upper},
+                                 {"fails_at", {json_number(below), json_number(above)}}});
       if (const auto& disorder = conditions_[k].out_of_order)
         each["out_of_order"] = {{"below", disorder->lower}, {"above", disorder->upper}};
       json.push_back(std::move(each));
@@ -150,10 +149,10 @@ private:
 Json spread_json(const MarginSpread& spread, std::span<const double> probabilities) {
   Json quantiles = Json::array();
   for (std::size_t k = 0; k < spread.quantiles.size(); ++k)
-    quantiles.push_back({{"p", probabilities[k]}, {"value", number(spread.quantiles[k])}});
+    quantiles.push_back({{"p", probabilities[k]}, {"value", json_number(spread.quantiles[k])}});
   return {{"quantiles", quantiles},
-          {"share_below_0", number(spread.share_short)},
-          {"least", number(spread.least)},
+          {"share_below_0", json_number(spread.share_short)},
+          {"least", json_number(spread.least)},
           {"worst_run", spread.worst_run}};
 }
 
@@ -163,7 +162,7 @@ Json draws_of_run(const Campaign& campaign, const RunPlan& plan, long run) {
   if (run < 0) return json;
   plan.draw(run, draws);
   for (std::size_t i = 0; i < draws.size(); ++i)
-    json[campaign.dispersions[i].name] = number(draws[i]);
+    json[campaign.dispersions[i].name] = json_number(draws[i]);
   return json;
 }
 
@@ -172,7 +171,7 @@ Json hinge_json(const MarginReport& report, const RunPlan& plan, const HingeMoto
   const Hinge& hinge = report.campaign.scene.hinges[each.hinge];
   Json json{{"hinge", hinge.name}};
   for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
-    Json entry{{"nominal", number(each.worst[kind])},
+    Json entry{{"nominal", json_number(each.worst[kind])},
                {"angle", hinge.stowed + (hinge.latched - hinge.stowed) * each.worst_at[kind]}};
     entry["draws"] = spread_json(each.worst_spread[kind], report.campaign.statistics.quantiles);
     entry["draws"]["worst_draw"] =

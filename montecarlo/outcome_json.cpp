@@ -1,5 +1,7 @@
 #include "montecarlo/outcome_json.hpp"
 
+#include "montecarlo/json_number.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -9,14 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json vector(const Eigen::Vector2d& v) { return Json::array({number(v.x()), number(v.y())}); }
+Json vector(const Eigen::Vector2d& v) {
+  return Json::array({json_number(v.x()), json_number(v.y())});
+}
 
 /// A number for each hinge, by name.
 Json by_hinge(const Scene& scene, const std::vector<double>& values) {
   Json json = Json::object();
-  for (std::size_t i = 0; i < values.size(); ++i) json[scene.hinges[i].name] = number(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    json[scene.hinges[i].name] = json_number(values[i]);
   return json;
 }
 
@@ -24,8 +27,8 @@ Json phases_json(const std::vector<Phase>& phases) {
   Json json = Json::array();
   for (const Phase& phase : phases)
     json.push_back({{"method", phase.method},
-                    {"from", number(phase.from)},
-                    {"to", number(phase.to)},
+                    {"from", json_number(phase.from)},
+                    {"to", json_number(phase.to)},
                     {"steps", phase.steps}});
   return json;
 }
@@ -34,8 +37,8 @@ Json latches_json(const Scene& scene, const Outcome& outcome) {
   Json json = Json::array();
   for (const LatchEvent& latch : outcome.latches)
     json.push_back({{"hinge", scene.hinges[latch.hinge].name},
-                    {"time", number(latch.time)},
-                    {"rate", number(latch.rates[latch.hinge])},
+                    {"time", json_number(latch.time)},
+                    {"rate", json_number(latch.rates[latch.hinge])},
                     {"rates", by_hinge(scene, latch.rates)}});
   return json;
 }
@@ -44,8 +47,8 @@ Json peaks_json(const Scene& scene, const std::vector<Peak>& peaks, Status statu
   if (peaks.empty() || status == Status::failed) return nullptr;
   Json json = Json::object();
   for (std::size_t i = 0; i < peaks.size(); ++i)
-    json[scene.hinges[i].name] = {{"value", number(peaks[i].value)},
-                                  {"time", number(peaks[i].time)}};
+    json[scene.hinges[i].name] = {{"value", json_number(peaks[i].value)},
+                                  {"time", json_number(peaks[i].time)}};
   return json;
 }
 
@@ -54,15 +57,15 @@ Json final_json(const Scene& scene, const Configuration& final) {
           {"rates", by_hinge(scene, final.rates)},
           {"base",
            {{"position", vector(final.base_position)},
-            {"angle", number(final.base_angle)},
+            {"angle", json_number(final.base_angle)},
             {"velocity", vector(final.base_velocity)},
-            {"rate", number(final.base_rate)}}}};
+            {"rate", json_number(final.base_rate)}}}};
 }
 
 Json energy_json(const EnergyAudit& energy) {
-  return {{"initial", number(energy.initial)},
-          {"final", number(energy.final)},
-          {"drift_before_first_latch", number(energy.drift_before_first_latch)}};
+  return {{"initial", json_number(energy.initial)},
+          {"final", json_number(energy.final)},
+          {"drift_before_first_latch", json_number(energy.drift_before_first_latch)}};
 }
 
 } // namespace
@@ -74,7 +77,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
           {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
           {"method", if_ran(methods_used(outcome))},
           {"phases", if_ran(phases_json(outcome.phases))},
-          {"t_end", if_ran(number(outcome.t_end))},
+          {"t_end", if_ran(json_number(outcome.t_end))},
           {"latches", latches_json(scene, outcome)},
           {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},
           {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},

@@ -31,11 +31,10 @@ OutputColumn column_named(const Scene& scene, const std::string& name) {
 }
 
 Goal goal_for(const std::optional<OutputColumn>& column) {
-  using Quantity = OutputColumn::Quantity;
   Goal goal;
   goal.audit = false;
-  goal.peak_moment = column && column->quantity == Quantity::peak_moment;
-  goal.peak_force = column && column->quantity == Quantity::peak_force;
+  goal.peak_moment = column && column->quantity == OutputColumn::Quantity::peak_moment;
+  goal.peak_force = column && column->quantity == OutputColumn::Quantity::peak_force;
   return goal;
 }
 

@@ -15,7 +15,6 @@ namespace wingspread {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 

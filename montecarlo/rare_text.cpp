@@ -1,5 +1,6 @@
 #include "montecarlo/rare_text.hpp"
 
+#include "montecarlo/json_number.hpp"
 #include "montecarlo/results.hpp"
 
 #include <fmt/format.h>
@@ -11,17 +12,15 @@
 namespace wingspread {
 namespace {
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json estimate_json(const SubsetEstimate& estimate, const RareEvent& event) {
   Json levels = Json::array();
   for (const SubsetLevel& level : estimate.levels)
-    levels.push_back({{"threshold", number(level_of(event, level.threshold))},
+    levels.push_back({{"threshold", json_number(level_of(event, level.threshold))},
                       {"share", level.share},
                       {"chain_correlation", level.correlation},
-                      {"variation", number(level.variation)},
-                      {"moves_taken", number(level.taken)}});
-  return {{"probability", estimate.probability}, {"variation", number(estimate.variation)},
+                      {"variation", json_number(level.variation)},
+                      {"moves_taken", json_number(level.taken)}});
+  return {{"probability", estimate.probability}, {"variation", json_number(estimate.variation)},
           {"reached", estimate.reached},         {"stuck", estimate.stuck},
           {"runs", estimate.evaluations},        {"levels", levels}};
 }
@@ -29,7 +28,7 @@ Json estimate_json(const SubsetEstimate& estimate, const RareEvent& event) {
 Json likeliest_json(const LikeliestRun& run, const Campaign& campaign) {
   Json draws = Json::object();
   for (std::size_t i = 0; i < run.draws.size(); ++i)
-    draws[campaign.dispersions[i].name] = number(run.draws[i]);
+    draws[campaign.dispersions[i].name] = json_number(run.draws[i]);
   return {{"distance", run.distance},
           {"status", to_string(run.status)},
           {"reason", run.reason},
@@ -102,11 +101,11 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
           {"lower", all.interval.lower},
           {"upper", all.interval.upper},
           {"variation",
-           {{"value", number(all.variation)},
-            {"from_chains", number(all.from_chains)},
-            {"from_repeats", number(all.from_spread)}}},
+           {{"value", json_number(all.variation)},
+            {"from_chains", json_number(all.from_chains)},
+            {"from_repeats", json_number(all.from_spread)}}},
           {"runs", all.evaluations},
-          {"plain_runs", number(all.plain_runs)},
+          {"plain_runs", json_number(all.plain_runs)},
           {"plain_sampling_is_enough", all.plain_is_enough()},
           {"definitions",
            {{"probability", "mean of independent subset simulations; when the event was not "

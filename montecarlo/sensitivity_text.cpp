@@ -1,6 +1,7 @@
 #include "montecarlo/sensitivity_text.hpp"
 
 #include "montecarlo/csv.hpp"
+#include "montecarlo/json_number.hpp"
 #include "montecarlo/output_name.hpp"
 #include "montecarlo/statistics.hpp"
 
@@ -18,18 +19,17 @@ namespace {
 constexpr std::size_t most_lines = 8; ///< of an output's table
 constexpr std::size_t name_width = 30;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json value_json(double value, const Bounds& bounds) {
-  const auto bound = [](const std::optional<double>& b) { return b ? number(*b) : Json(nullptr); };
-  return {{"value", number(value)}, {"lower", bound(bounds.lower)}, {"upper", bound(bounds.upper)}};
+  return {{"value", json_number(value)},
+          {"lower", json_number(bounds.lower)},
+          {"upper", json_number(bounds.upper)}};
 }
 
 Bounds bounds_of(const Interval& interval) { return {interval.lower, interval.upper}; }
 
 void append_value(std::string& line, double value, const Bounds& bounds) {
-  const double none = std::nan("");
-  for (const double cell : {value, bounds.lower.value_or(none), bounds.upper.value_or(none)}) {
+  for (const double cell :
+       {value, bounds.lower.value_or(undefined), bounds.upper.value_or(undefined)}) {
     line += ',';
     append_csv_cell(line, cell);
   }
@@ -166,8 +166,8 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
     }
     outputs[name] = {{"rows", indices.rows},
                      {"left_out", indices.left_out},
-                     {"mean", number(indices.mean)},
-                     {"variance", number(indices.variance)},
+                     {"mean", json_number(indices.mean)},
+                     {"variance", json_number(indices.variance)},
                      {"dispersions", effects}};
   }
   return {{"wingspread", about},

@@ -10,8 +10,6 @@
 namespace wingspread {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
 /// The rows that have all their values.
 std::vector<std::span<const double>> complete_rows(std::span<const double> values,
                                                    std::size_t points) {

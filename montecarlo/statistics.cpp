@@ -10,8 +10,6 @@ namespace wingspread {
 
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
 /// The mean as shift + rest: the shift takes away what all values have in common, exactly where it
 /// is large, so that deviations do not cancel.
 struct ShiftedMean {

@@ -6,10 +6,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace wingspread {
+
+/// What has no value.
+inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 /// Compensated sum: its error does not grow with the number of terms.
 /// Source: A. Neumaier, ZAMM 54 (1974) 39–51, method IV.

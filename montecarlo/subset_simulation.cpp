@@ -16,7 +16,6 @@
 namespace wingspread {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr long chain_length = 10;   // L
 constexpr double aimed_at = 0.44;   // share of moves taken
 constexpr double first_scale = 0.6; // λ of the first chains

@@ -114,7 +114,7 @@ OutputSummary summarize_output(const Column& column, const StatisticsSpec& spec,
           histogram(sorted, spec.bins)};
 }
 
-Column deployed_column(const Results& results) {
+Column success_column(const Results& results) {
   Column column{"deployed", {}};
   std::ranges::transform(results.status, std::back_inserter(column.values),
                          [](Status status) { return status == Status::deployed ? 1.0 : 0.0; });
@@ -122,7 +122,7 @@ Column deployed_column(const Results& results) {
 }
 
 std::vector<DrawCorrelation> correlate(const Results& results) {
-  const Column deployed = deployed_column(results);
+  const Column deployed = success_column(results);
   std::vector<const Column*> outputs;
   for (const Column& output : results.outputs) outputs.push_back(&output);
   outputs.push_back(&deployed);

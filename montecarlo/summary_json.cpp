@@ -1,5 +1,6 @@
 #include "montecarlo/summary_json.hpp"
 
+#include "montecarlo/json_number.hpp"
 #include "montecarlo/output_name.hpp"
 
 #include <fmt/format.h>
@@ -13,9 +14,6 @@ namespace wingspread {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
 constexpr std::string_view replicates_agree =
     "no bounds: all replicates agree, which says nothing about the error";
@@ -62,9 +60,9 @@ Json statuses_json(const Summary& summary) {
   Json json = Json::object();
   for (const StatusShare& share : summary.statuses) {
     Json entry{{"count", share.count},
-               {"rate", number(share.rate)},
-               {"lower", number(share.bounds.lower)},
-               {"upper", number(share.bounds.upper)}};
+               {"rate", json_number(share.rate)},
+               {"lower", json_number(share.bounds.lower)},
+               {"upper", json_number(share.bounds.upper)}};
     if (!share.bounds.lower && summary.replicates > 0)
       entry["note"] = summary.replicates == 1 ? one_replicate : replicates_agree;
     json[to_string(share.status)] = std::move(entry);
@@ -117,9 +115,9 @@ Json quantiles_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
   for (const auto& [p, value, bounds] : output.quantiles) {
     Json entry{{"p", p},
-               {"value", number(value)},
-               {"lower", number(bounds.lower)},
-               {"upper", number(bounds.upper)}};
+               {"value", json_number(value)},
+               {"lower", json_number(bounds.lower)},
+               {"upper", json_number(bounds.upper)}};
     if (!bounds.lower || !bounds.upper) entry["note"] = missing_bound(summary, output);
     json.push_back(std::move(entry));
   }
@@ -142,8 +140,8 @@ Json tolerance_json(const Summary& summary, const OutputSummary& output) {
     Json entry{{"probability", spec.probability},
                {"confidence", spec.confidence},
                {"side", side_names[static_cast<std::size_t>(spec.side)]}};
-    if (spec.side != Side::upper) entry["lower"] = number(limits.lower);
-    if (spec.side != Side::lower) entry["upper"] = number(limits.upper);
+    if (spec.side != Side::upper) entry["lower"] = json_number(limits.lower);
+    if (spec.side != Side::lower) entry["upper"] = json_number(limits.upper);
     const bool missing =
         (spec.side != Side::upper && !limits.lower) || (spec.side != Side::lower && !limits.upper);
     if (missing) entry["note"] = missing_limit(summary, spec);
@@ -157,13 +155,13 @@ Json output_json(const Summary& summary, const OutputSummary& output) {
   Json json{{"unit", parse_output_name(output.name).unit},
             {"count", m.count},
             {"missing", output.missing},
-            {"mean", number(m.mean)},
-            {"mean_error", number(output.mean_error)},
-            {"std", number(m.std)},
-            {"min", number(m.min)},
-            {"max", number(m.max)},
-            {"skewness", number(m.skewness)},
-            {"kurtosis", number(m.kurtosis)},
+            {"mean", json_number(m.mean)},
+            {"mean_error", json_number(output.mean_error)},
+            {"std", json_number(m.std)},
+            {"min", json_number(m.min)},
+            {"max", json_number(m.max)},
+            {"skewness", json_number(m.skewness)},
+            {"kurtosis", json_number(m.kurtosis)},
             {"quantiles", quantiles_json(summary, output)}};
   if (!output.tolerance.empty()) json["tolerance"] = tolerance_json(summary, output);
   return json;
@@ -181,16 +179,16 @@ void add_broken(Json& json, const Verdict& verdict) {
 Json verdict_json(const Summary& summary, const Verdict& verdict) {
   Json json = write_requirements({&verdict.requirement, 1}).front();
   json["verdict"] = to_string(verdict.decision);
-  json["margin"] = number(verdict.margin);
+  json["margin"] = json_number(verdict.margin);
   json["evidence"] = evidence(verdict);
   json["runs"] = verdict.runs;
   json["failures"] = {{"seen", verdict.broken.size()},
                       {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)}};
-  json["observed"] = {{"share", number(verdict.share)}};
+  json["observed"] = {{"share", json_number(verdict.share)}};
   json["guaranteed"] = {{"share", verdict.guaranteed_share}};
   if (verdict.requirement.output != deployed_output) {
-    json["observed"]["value"] = number(verdict.observed);
-    json["guaranteed"]["value"] = number(verdict.guaranteed);
+    json["observed"]["value"] = json_number(verdict.observed);
+    json["guaranteed"]["value"] = json_number(verdict.guaranteed);
   }
   if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
   if (summary.looks > 1) json["confidence_at_each_look"] = verdict.confidence;
@@ -210,7 +208,7 @@ Json until_json(const Summary& summary) {
   Json goals = Json::array();
   for (const auto& [goal, width, met] : summary.until) {
     Json json = write_stopping_rule({goal}).front();
-    json["found"] = number(width);
+    json["found"] = json_number(width);
     json["met"] = met;
     goals.push_back(std::move(json));
   }
@@ -221,8 +219,8 @@ Json correlations_json(const Summary& summary) {
   Json json = Json::object();
   for (const auto& [draw, output, value] : summary.correlations)
     json[draw][output] = {{"count", value.count},
-                          {"pearson", number(value.pearson)},
-                          {"spearman", number(value.spearman)}};
+                          {"pearson", json_number(value.pearson)},
+                          {"spearman", json_number(value.spearman)}};
   return json;
 }
 

@@ -38,7 +38,7 @@ double share_of(long count, long runs) {
 }
 
 /// Five significant digits, trailing zeros among them, so that columns line up.
-std::string number(double value) {
+std::string in_words(double value) {
   if (std::isnan(value)) return "–";
   std::string text = fmt::format("{:#.5g}", value);
   if (text.ends_with('.')) text.pop_back();
@@ -116,7 +116,7 @@ std::string output_line(const OutputSummary& output, std::span<const NumberColum
   std::string text = fmt::format("  {:<24}{:<6}{:>8}", shortened(label(name), 23), name.unit,
                                  output.moments.count);
   for (const NumberColumn& column : columns)
-    text += fmt::format("{:>12}", number(column.value(output)));
+    text += fmt::format("{:>12}", in_words(column.value(output)));
   return text + '\n';
 }
 
@@ -149,7 +149,7 @@ std::string outputs(const Summary& summary) {
   return text;
 }
 
-std::string number(const std::optional<double>& value) { return value ? number(*value) : "–"; }
+std::string in_words(const std::optional<double>& value) { return value ? in_words(*value) : "–"; }
 
 /// A line for each output and each limit asked for.
 std::string tolerance(const Summary& summary) {
@@ -158,10 +158,10 @@ std::string tolerance(const Summary& summary) {
     for (const auto& [spec, limits] : output.tolerance) {
       const std::string content =
           fmt::format("{:.10g} % at {:.10g} %", 100 * spec.probability, 100 * spec.confidence);
-      text +=
-          fmt::format("  {:<42}{:<28}{:>14}{:>14}\n", shortened(output.name, 41),
-                      shortened(content, 27), spec.side == Side::upper ? "" : number(limits.lower),
-                      spec.side == Side::lower ? "–" : number(limits.upper));
+      text += fmt::format("  {:<42}{:<28}{:>14}{:>14}\n", shortened(output.name, 41),
+                          shortened(content, 27),
+                          spec.side == Side::upper ? "" : in_words(limits.lower),
+                          spec.side == Side::lower ? "–" : in_words(limits.upper));
     }
   if (text.empty()) return "";
   return fmt::format("\n{:<44}{:<28}{:>14}{:>14}\n", "TOLERANCE LIMITS", "content, confidence",
@@ -189,8 +189,8 @@ std::string requirements(const Summary& summary, std::string_view folder) {
         fmt::format("  {:<44}{:<10}{:>8}{:>8}{:>13}{:>13}\n",
                     shortened(to_string(verdict.requirement), 43), to_string(verdict.decision),
                     verdict.broken.size(), verdict.allowed ? std::to_string(*verdict.allowed) : "–",
-                    share ? percent(verdict.share) : number(verdict.observed),
-                    share ? percent(verdict.guaranteed_share) : number(verdict.guaranteed));
+                    share ? percent(verdict.share) : in_words(verdict.observed),
+                    share ? percent(verdict.guaranteed_share) : in_words(verdict.guaranteed));
     if (verdict.decision != Decision::pass)
       text += "    " + shortened(evidence(verdict), table_width - 4) + '\n';
     text += broken_runs(verdict, folder);
@@ -203,7 +203,7 @@ std::string stopping(const Summary& summary) {
   std::string text =
       fmt::format("\n{:<58}{:>20}{:>20}\n", "UNTIL THE INTERVAL'S WIDTH IS", "found", "reached");
   for (const auto& [goal, width, met] : summary.until)
-    text += fmt::format("  {:<56}{:>20}{:>20}\n", shortened(to_string(goal), 55), number(width),
+    text += fmt::format("  {:<56}{:>20}{:>20}\n", shortened(to_string(goal), 55), in_words(width),
                         met ? "yes" : "no");
   return text;
 }
