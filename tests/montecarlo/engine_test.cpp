@@ -42,24 +42,24 @@ TEST_CASE("any part of the runs is that part of the whole", "[parallel]") {
 }
 
 TEST_CASE("stopping hands on what is done without a gap", "[parallel]") {
-  const Campaign campaign = campaign_of(quick_campaign(400));
+  const Campaign campaign = campaign_of(quick_campaign(4000));
   const RunPlan plan(campaign);
-  const std::string whole = lines(plan, {0, 400}, 2);
+  const std::string whole = lines(plan, {0, 4000}, 2);
   for (const long after : {0L, 1L, 30L, 150L}) {
     std::atomic<bool> stop = after == 0;
     std::string text;
     long seen = 0;
-    const long made = make_runs(plan, {0, 400}, 3, stop, [&](const Batch& batch) {
+    const long made = make_runs(plan, {0, 4000}, 3, stop, [&](const Batch& batch) {
       text += batch.csv;
       seen += std::ssize(batch.rows);
       if (seen >= after) stop = true;
     });
     CHECK(made == seen);
     CHECK(made >= after);
-    CHECK(made < 400);
+    CHECK(made < 4000);
     CHECK(whole.starts_with(text));
     CHECK(std::ranges::count(text, '\n') == made);
-    CHECK(text + lines(plan, {made, 400}, 2) == whole);
+    CHECK(text + lines(plan, {made, 4000}, 2) == whole);
   }
 }
 
