@@ -33,7 +33,8 @@ const std::vector<MethodInfo>& methods() {
       quintic + "; steps limited to about a quarter of what oscillates";
   static const std::vector<MethodInfo> list{
       {"auto", "chooses by itself", 0, 0, 0, "that of the method active",
-       "the default: dopri5 or, below rtol 5e-3, dop853 until stability holds its steps back, then "
+       "the default: dopri5 or, below rtol 5e-3 (5e-4 with smoothed latches), dop853 until "
+       "stability holds its steps back, then "
        "seulex where that gets further; the outcome's phases say what was used"},
       {"runge_kutta4", "explicit Runge-Kutta, fixed step", 4, RungeKutta4<double>::stable_real,
        RungeKutta4<double>::stable_imaginary, quintic,

@@ -83,10 +83,10 @@ private:
 class MethodChoice {
 public:
   /// @param asked a name from `methods()`
-  /// @param smoothed whether latches are: their steps have two derivatives, and order 8 gains
-  /// nothing
+  /// @param smoothed whether latches are: order 8 then pays at tighter tolerances only
   MethodChoice(const std::string& asked, double rtol, bool smoothed) : automatic_(asked == "auto") {
-    explicit_ = rtol < break_even && !smoothed ? Method::dop853 : Method::dopri5;
+    const double limit = smoothed ? break_even_smoothed : break_even;
+    explicit_ = rtol < limit ? Method::dop853 : Method::dopri5;
     for (std::size_t k = 0; k < method_names.size(); ++k)
       if (method_names[k] == asked) explicit_ = static_cast<Method>(k);
     active_ = explicit_;
@@ -167,7 +167,8 @@ public:
 private:
   [[nodiscard]] long earliest_leave() const { return std::max(from_.steps + enough, wait_until_); }
 
-  static constexpr double break_even = 5e-3;  // rtol; see the work-precision study
+  static constexpr double break_even = 5e-3; // rtol; see the work-precision study
+  static constexpr double break_even_smoothed = 5e-4;
   static constexpr int radius_interval = 128; // steps between two measurements of ρ
   static constexpr int first_radius = 7;      // steps to the first: short phases need none
   static constexpr int long_enough = 400;     // to try without promise

@@ -65,6 +65,12 @@ TEST_CASE("auto begins with dop853, at loose tolerances with dopri5") {
     CHECK(method_at(run(seed_scene(), rtol), 0) == "dopri5");
   for (const double rtol : {4e-3, 1e-3, 1e-6, 1e-8, 1e-12})
     CHECK(method_at(run(seed_scene(), rtol), 0) == "dop853");
+  for (const double rtol : {1e-3, 1e-4}) { // later where latches are smoothed
+    Integration how = within(rtol, 1, 1e-4);
+    how.smoothing = 1e-3;
+    CHECK(methods_used(Deployment().run(seed_scene(), how, {})) ==
+          (rtol < 5e-4 ? "dop853" : "dopri5"));
+  }
 }
 
 TEST_CASE("where nothing is stiff auto stays with the method that it begins with") {
