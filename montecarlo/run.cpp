@@ -1,5 +1,7 @@
 #include "montecarlo/run.hpp"
 
+#include "montecarlo/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,10 +12,9 @@
 namespace wingspread {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 using Quantity = OutputColumn::Quantity;
 
-double finite_or_none(double value) { return std::isfinite(value) ? value : none; }
+double finite_or_none(double value) { return std::isfinite(value) ? value : undefined; }
 
 void add_rates_at(const Scene& scene, int hinge, std::vector<OutputColumn>& columns) {
   for (int other = 0; other < std::ssize(scene.hinges); ++other)
@@ -28,13 +29,13 @@ const LatchEvent* latch_of(int hinge, const Outcome& outcome) {
 }
 
 double peak_of(int hinge, const std::vector<Peak>& peaks, Status status) {
-  return peaks.empty() || status == Status::failed ? none : peaks[hinge].value;
+  return peaks.empty() || status == Status::failed ? undefined : peaks[hinge].value;
 }
 
 double number_of(const OutputColumn& column, const Outcome& outcome) {
   const auto at_latch = [&](int hinge, auto value) {
     const LatchEvent* latch = latch_of(hinge, outcome);
-    return latch ? value(*latch) : none;
+    return latch ? value(*latch) : undefined;
   };
   const auto rate = [&](const LatchEvent& latch) { return latch.rates[column.hinge]; };
   switch (column.quantity) {
@@ -49,9 +50,9 @@ double number_of(const OutputColumn& column, const Outcome& outcome) {
   case Quantity::peak_force:
     return peak_of(column.hinge, outcome.peak_force, outcome.status);
   case Quantity::deployment_time:
-    return outcome.status == Status::deployed ? outcome.latches.back().time : none;
+    return outcome.status == Status::deployed ? outcome.latches.back().time : undefined;
   }
-  return none;
+  return undefined;
 }
 
 ResultNames result_names(const Campaign& campaign, const std::vector<OutputColumn>& columns) {
