@@ -94,9 +94,17 @@ public:
     }
   }
 
-  /// No |moment| in the step is larger, by the hulls of the polynomials.
+  /// No |moment| in the step is larger, by the hulls of the polynomials; friction opposes the rate,
+  /// so that it adds to one side only where the rate keeps its sign.
   [[nodiscard]] T most() const {
-    const T linear = bound(linear_) + hinge_.coulomb;
+    T low = linear_[0], high = linear_[0], slowest = rate_[0], fastest = rate_[0];
+    for (int k = 1; k < 6; ++k) {
+      low = smaller(low, linear_[k]), high = larger(high, linear_[k]);
+      slowest = smaller(slowest, rate_[k]), fastest = larger(fastest, rate_[k]);
+    }
+    low = low - select(fastest > T(0), hinge_.coulomb, T(0));
+    high = high + select(slowest < T(0), hinge_.coulomb, T(0));
+    const T linear = larger(high, T(-low));
     return smoothed_ ? linear + bound(latch_) : linear;
   }
 
