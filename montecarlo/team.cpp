@@ -1,5 +1,7 @@
 #include "montecarlo/team.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <omp.h>
@@ -71,6 +73,24 @@ void on_team(int threads, const std::function<void()>& work,
   Shift shift{work, on_exception};
   start_and_join(team_size(threads), shift);
   if (shift.first) std::rethrow_exception(shift.first);
+}
+
+void for_each_task(int threads, std::size_t count, const std::function<void(std::size_t)>& task) {
+  std::atomic<std::size_t> next = 0;
+  const auto most = static_cast<int>(std::clamp<std::size_t>(count, 1, 1024));
+  on_team(
+      std::min(team_size(threads), most),
+      [&] {
+        for (std::size_t i = next++; i < count; i = next++) task(i);
+      },
+      [&] { next = count; });
+}
+
+int team_within(int wanted, std::size_t bytes_each) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 30;
+  const auto most = static_cast<int>(
+      std::clamp<std::size_t>(most_bytes / std::max<std::size_t>(bytes_each, 1), 1, 1024));
+  return std::min(team_size(wanted), most);
 }
 
 } // namespace wingspread

@@ -1,6 +1,7 @@
 /// Work done by several threads at once.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 namespace wingspread {
@@ -14,5 +15,13 @@ namespace wingspread {
 /// @param on_exception called at once when one is caught, to make the other calls come to an end
 void on_team(int threads, const std::function<void()>& work,
              const std::function<void()>& on_exception);
+
+/// Calls task(0), task(1), … task(count − 1), each once, on a team of up to that many threads; no
+/// task may depend on another. What a task throws is thrown from here, when all threads are done.
+void for_each_task(int threads, std::size_t count, const std::function<void(std::size_t)>& task);
+
+/// How many threads there will be for `wanted` when each takes so many bytes, and all of them no
+/// more than 1 GiB; at least one.
+[[nodiscard]] int team_within(int wanted, std::size_t bytes_each);
 
 } // namespace wingspread
