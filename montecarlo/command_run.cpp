@@ -155,7 +155,8 @@ int run(const RunOptions& options) {
   RunFolder folder(options.out, plan, parse_shard(options.shard), options.resume);
   const bool interrupted = make_remaining(folder, plan, options.threads, set);
   const StoredCampaign& stored = folder.stored();
-  const Summary summary = write_statistics(stored, folder.results(), campaign.statistics);
+  const Summary summary =
+      write_statistics(stored, folder.results(), campaign.statistics, options.threads);
   const int shown = show_results(stored, summary, options.display);
   if (!interrupted) return shown;
   fmt::print(stderr,

@@ -20,10 +20,16 @@ SpecError unwritable(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
+  write_file(path, [text](std::ostream& out) { out << text; });
+}
+
+void write_file(const std::filesystem::path& path,
+                const std::function<void(std::ostream&)>& write) {
   std::filesystem::path part = path;
   part += part_suffix;
   std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out << text << std::flush;
+  write(out);
+  out.flush();
   if (!out) throw unwritable(part);
   out.close();
   std::error_code why;

@@ -4,6 +4,8 @@
 #include "montecarlo/spec_error.hpp"
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string_view>
 
 namespace wingspread {
@@ -14,6 +16,9 @@ inline constexpr std::string_view part_suffix = ".part";
 /// Writes a file beside its place and moves it there: readers see the old one or the new one.
 /// @throws SpecError when that cannot be done
 void write_file(const std::filesystem::path& path, std::string_view text);
+
+/// The same for what need not be in memory all at once.
+void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 /// An error to throw about a file that could not be written, with the system's reason (errno).
 [[nodiscard]] SpecError unwritable(const std::filesystem::path& path);

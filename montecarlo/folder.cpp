@@ -72,6 +72,7 @@ Replication replication_of(const Sampling& sampling, const Results& results) {
     replication.of_row.push_back(
         numbers.try_emplace(replicate, static_cast<int>(numbers.size())).first->second);
   }
+  results.runs.release();
   replication.replicates = std::max(1, static_cast<int>(numbers.size()));
   return replication;
 }
@@ -92,13 +93,14 @@ std::vector<WidthFound> widths_of(const Campaign& campaign, const Results& resul
 }
 
 /// The statistics, their confidence shared out among the looks that the campaign may take.
-Summary summarize(const StoredCampaign& stored, const Results& results,
-                  const StatisticsSpec& spec) {
+Summary summarize(const StoredCampaign& stored, const Results& results, const StatisticsSpec& spec,
+                  int threads) {
   const Campaign& campaign = stored.campaign;
   const long looks = count_looks(campaign);
   StatisticsSpec at_a_look = spec;
   at_a_look.confidence = at_each_look(spec.confidence, looks);
-  Summary summary = summarize(results, at_a_look, replication_of(campaign.sampling, results));
+  Summary summary =
+      summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
   summary.confidence = spec.confidence;
   summary.looks = looks;
   for (const Requirement& requirement : campaign.requirements)
@@ -185,6 +187,7 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
       throw SpecError({{path.string(), "", fmt::format("run {}", run),
                         fmt::format("runs from {} up to {}, those of {}", first, last - 1,
                                     describe(stored.stamp.shard))}});
+  read.results.runs.release();
   if (stored.foreign && !is_complete(stored, read.results))
     throw SpecError(
         {{path.string(), "", fmt::format("{} runs", read.results.size()),
@@ -193,8 +196,8 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
 }
 
 Summary write_statistics(const StoredCampaign& stored, const Results& results,
-                         const StatisticsSpec& spec) {
-  Summary summary = summarize(stored, results, spec);
+                         const StatisticsSpec& spec, int threads) {
+  Summary summary = summarize(stored, results, spec, threads);
   write_file(stored.folder / summary_file,
              json_text(summary_json(summary, about(stored, summary))));
   write_file(stored.folder / histograms_json_file, json_text(histograms_json(summary)));

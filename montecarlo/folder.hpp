@@ -83,8 +83,9 @@ struct StoredCampaign {
 
 /// Works out the statistics of the rows and writes the three files of them. Results that lack some
 /// of the folder's runs are labelled so: "partial" in summary.json's stamp.
+/// @param threads as of team_size (team.hpp)
 /// @throws SpecError when they cannot be written
 Summary write_statistics(const StoredCampaign& stored, const Results& results,
-                         const StatisticsSpec& spec);
+                         const StatisticsSpec& spec, int threads = 0);
 
 } // namespace wingspread

@@ -138,7 +138,7 @@ const Verdict& verdict_of(const ScaleLook& look, const MarginCondition& conditio
 long relapses(const std::vector<const ScaleLook*>& looks, const MarginCondition& condition) {
   std::set<long> relapsed;
   for (std::size_t k = 1; k < looks.size(); ++k) {
-    const std::vector<long>& before = verdict_of(*looks[k - 1], condition).broken;
+    const Spilled<long>& before = verdict_of(*looks[k - 1], condition).broken;
     const std::set<long> broken(before.begin(), before.end());
     for (const long run : verdict_of(*looks[k], condition).broken)
       if (!broken.contains(run)) relapsed.insert(run);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <ostream>
 #include <string>
 #include <utility>
 
@@ -29,7 +30,7 @@ public:
   void add(long run) {
     if (!ranges_.empty() && ranges_.back().last == run)
       ++ranges_.back().last;
-    else
+    else if (ranges_.size() <= most) // one more than are shown
       ranges_.push_back({run, run + 1});
   }
   [[nodiscard]] bool empty() const { return ranges_.empty(); }
@@ -75,8 +76,8 @@ void refuse_stopping(const StoredCampaign& stored) {
 }
 
 /// The place of each run; a problem for each folder that has runs of those before it.
-std::vector<Place> find_places(const std::vector<Part>& parts, std::vector<Problem>& problems) {
-  std::vector<Place> places(static_cast<std::size_t>(parts.front().stored.campaign.sampling.runs));
+Spilled<Place> find_places(const std::vector<Part>& parts, std::vector<Problem>& problems) {
+  Spilled<Place> places(static_cast<std::size_t>(parts.front().stored.campaign.sampling.runs), {});
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& [stored, results] = parts[p];
     RunList twice;
@@ -90,6 +91,8 @@ std::vector<Place> find_places(const std::vector<Part>& parts, std::vector<Probl
         place = {static_cast<std::ptrdiff_t>(p), row};
       }
     }
+    results.runs.release();
+    places.release();
     if (!twice.empty())
       problems.push_back({stored.folder.string(), "",
                           fmt::format("runs {}, which {} has too", twice.text(), other),
@@ -100,7 +103,7 @@ std::vector<Place> find_places(const std::vector<Part>& parts, std::vector<Probl
 
 /// A problem for each folder that lacks runs of its own, and one for runs that no folder should
 /// have had.
-void find_missing(const std::vector<Part>& parts, const std::vector<Place>& places,
+void find_missing(const std::vector<Part>& parts, const Spilled<Place>& places,
                   std::vector<Problem>& problems) {
   std::vector<bool> somebodys(places.size(), false);
   for (const auto& [stored, results] : parts) {
@@ -123,19 +126,27 @@ void find_missing(const std::vector<Part>& parts, const std::vector<Place>& plac
                         fmt::format("folders with all of the campaign's {} runs", places.size())});
 }
 
-Results in_order(const std::vector<Part>& parts, const std::vector<Place>& places,
-                 const ResultNames& names) {
+/// Writes the rows in the order of their runs. @return their table
+Results write_in_order(const std::vector<Part>& parts, const Spilled<Place>& places,
+                       const ResultNames& names, std::ostream& out) {
+  constexpr std::size_t rows_held = 10'000;
   Results all(names);
-  for (const auto& [part, row] : places)
-    all.append(parts[static_cast<std::size_t>(part)].results.row(row));
+  std::string lines;
+  append_header(lines, names);
+  for (std::size_t run = 0; run < places.size(); ++run) {
+    const auto& [part, row] = places[run];
+    const Results& results = parts[static_cast<std::size_t>(part)].results;
+    const ResultRow made = results.row(row);
+    append_row(lines, made);
+    all.append(made);
+    if (run % rows_held != 0) continue;
+    out << lines;
+    lines.clear();
+    places.release();
+    for (const Part& each : parts) each.results.release();
+  }
+  out << lines;
   return all;
-}
-
-std::string runs_text(const Results& results, const ResultNames& names) {
-  std::string text;
-  append_header(text, names);
-  for (std::size_t row = 0; row < results.size(); ++row) append_row(text, results.row(row));
-  return text;
 }
 
 } // namespace
@@ -152,7 +163,7 @@ Summary merge_folders(const std::vector<std::filesystem::path>& folders,
   refuse_strangers(parts);
   refuse_stopping(parts.front().stored);
   std::vector<Problem> problems;
-  const std::vector<Place> places = find_places(parts, problems);
+  const Spilled<Place> places = find_places(parts, problems);
   find_missing(parts, places, problems);
   if (!problems.empty()) throw SpecError(std::move(problems));
 
@@ -160,10 +171,12 @@ Summary merge_folders(const std::vector<std::filesystem::path>& folders,
   whole.folder = out;
   whole.stamp.shard.reset();
   const ResultNames names = RunPlan(whole.campaign).names();
-  const Results all = in_order(parts, places, names);
   make_folder(out);
   write_file(out / campaign_file, campaign_text(whole.campaign, whole.stamp));
-  write_file(out / runs_file, runs_text(all, names));
+  Results all;
+  write_file(out / runs_file,
+             [&](std::ostream& file) { all = write_in_order(parts, places, names, file); });
+  parts.clear();
   return write_statistics(whole, all, whole.campaign.statistics);
 }
 

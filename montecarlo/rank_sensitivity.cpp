@@ -2,6 +2,7 @@
 
 #include "distributions/continuous_law.hpp"
 #include "distributions/dependence.hpp"
+#include "montecarlo/column_correlation.hpp"
 #include "montecarlo/statistics.hpp"
 
 #include <algorithm>
@@ -55,29 +56,26 @@ double two_sided_normal(double confidence) {
 
 /// The draws' ranks over the runs that have some output, made ready.
 struct RankedDraws {
-  std::vector<std::vector<double>> ranks;
+  std::vector<Spilled<double>> ranks;
   PartialCorrelations partial;
 };
 
 std::vector<RankedColumn> ranked(const std::vector<Column>& columns) {
-  std::vector<RankedColumn> result;
-  for (const Column& column : columns) result.emplace_back(column.values);
-  return result;
+  std::vector<const Spilled<double>*> values;
+  for (const Column& column : columns) values.push_back(&column.values);
+  return rank_columns(values, 0);
 }
 
-/// Runs that have the output and all draws (a draw that overflowed is no number).
-std::vector<bool> runs_with(const Column& output, const std::vector<Column>& draws) {
-  std::vector<bool> keep(output.values.size());
+/// Takes out the runs in which the column has no number.
+void keep_runs_with(const Column& column, std::vector<bool>& keep) {
   for (std::size_t i = 0; i < keep.size(); ++i)
-    keep[i] = !std::isnan(output.values[i]) && std::ranges::none_of(draws, [i](const Column& draw) {
-      return std::isnan(draw.values[i]);
-    });
-  return keep;
+    if (std::isnan(column.values[i])) keep[i] = false;
+  column.values.release();
 }
 
 RankedDraws ranked_draws(const std::vector<RankedColumn>& draws, const std::vector<bool>& keep) {
-  std::vector<std::vector<double>> ranks;
-  for (const RankedColumn& draw : draws) ranks.push_back(draw.ranks_where(keep));
+  std::vector<Spilled<double>> ranks;
+  for (const RankedColumn& draw : draws) ranks.emplace_back(draw.ranks_where(keep));
   PartialCorrelations partial(ranks);
   return {std::move(ranks), std::move(partial)};
 }
@@ -91,7 +89,10 @@ OutputRanks output_ranks(const Column& output, const RankedDraws& draws,
                      draws.partial.entangled()};
   const std::vector<double> ranks = RankedColumn(output.values).ranks_where(keep);
   std::vector<double> plain;
-  for (const std::vector<double>& draw : draws.ranks) plain.push_back(pearson(draw, ranks));
+  for (const Spilled<double>& draw : draws.ranks) {
+    plain.push_back(pearson(draw, ranks));
+    draw.release();
+  }
   const std::vector<double> partial = draws.partial.given(plain);
   const auto coefficient = [&](double value, long held) -> Coefficient {
     if (std::isnan(value)) return {value, {}};
@@ -141,16 +142,19 @@ Bounds rank_correlation_bounds(double coefficient, long n, long held, double con
   return {std::tanh(z - reach), std::tanh(z + reach)};
 }
 
-PartialCorrelations::PartialCorrelations(const std::vector<std::vector<double>>& columns)
+PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& columns)
     : columns_(columns.size()),
       rows_(columns.empty() ? 0 : static_cast<long>(columns.front().size())) {
   for (std::size_t j = 0; j < columns.size(); ++j)
     if (varies(columns[j])) varying_.push_back(j);
   Matrix correlations = Matrix::Identity(index(varying_.size()), index(varying_.size()));
   for (std::size_t i = 0; i < varying_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
+    for (std::size_t j = 0; j < i; ++j) {
       correlations(index(i), index(j)) = correlations(index(j), index(i)) =
           pearson(columns[varying_[i]], columns[varying_[j]]);
+      columns[varying_[j]].release();
+    }
+  for (const Spilled<double>& column : columns) column.release();
   inverse_ = inverse_of(correlations);
 }
 
@@ -181,17 +185,21 @@ std::vector<double> PartialCorrelations::given(std::span<const double> plain) co
 RankSensitivity rank_sensitivity(const Results& results, double confidence) {
   RankSensitivity all{static_cast<long>(results.size()), confidence, {}, {}, {}, {}};
   for (const Column& draw : results.draws) all.dispersions.push_back(draw.name);
-  std::vector<Column> outputs = results.outputs;
+  std::vector<const Column*> outputs;
+  for (const Column& output : results.outputs) outputs.push_back(&output);
   const Column deployed = deployed_column(results);
-  if (!sorted_present(deployed.values).empty() && varies(sorted_present(deployed.values)))
-    outputs.push_back(deployed);
+  if (const auto known = sorted_present(deployed.values); !known.empty() && varies(known))
+    outputs.push_back(&deployed);
   const std::vector<RankedColumn> draws = ranked(results.draws);
+  std::vector<bool> with_draws(results.size(), true); // one that overflowed is no number
+  for (const Column& draw : results.draws) keep_runs_with(draw, with_draws);
   std::map<std::vector<bool>, RankedDraws> prepared; // most outputs are there in the same runs
-  for (const Column& output : outputs) {
-    const std::vector<bool> keep = runs_with(output, results.draws);
+  for (const Column* output : outputs) {
+    std::vector<bool> keep = with_draws;
+    keep_runs_with(*output, keep);
     auto found = prepared.find(keep);
     if (found == prepared.end()) found = prepared.emplace(keep, ranked_draws(draws, keep)).first;
-    all.outputs.push_back(output_ranks(output, found->second, keep, confidence));
+    all.outputs.push_back(output_ranks(*output, found->second, keep, confidence));
   }
   note_idle(results.draws, all);
   return all;

@@ -70,7 +70,7 @@ struct RankSensitivity {
 class PartialCorrelations {
 public:
   /// Cost O(n k² + k³). @param columns k of them, equally long, finite
-  explicit PartialCorrelations(const std::vector<std::vector<double>>& columns);
+  explicit PartialCorrelations(const std::vector<Spilled<double>>& columns);
 
   /// How many columns vary.
   [[nodiscard]] long varying() const { return static_cast<long>(varying_.size()); }

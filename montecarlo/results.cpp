@@ -100,7 +100,7 @@ void parse_row(CsvReader& reader, const Places& places, Results& results) {
   numbers(results.draws, places.draws);
   numbers(results.outputs, places.outputs);
   results.latch_order.push_back(cells[places.latch_order]);
-  results.reason.push_back(places.reason ? cells[*places.reason] : std::string{});
+  results.reason.push_back(places.reason ? std::string_view(cells[*places.reason]) : "");
   results.runs.push_back(run);
 }
 
@@ -131,11 +131,25 @@ void Results::append(const ResultRow& row) {
 }
 
 ResultRow Results::row(std::size_t index) const {
-  ResultRow row{runs[index], status[index], {}, {}, latch_order[index], reason[index]};
+  ResultRow row{runs[index],
+                status[index],
+                {},
+                {},
+                std::string(latch_order[index]),
+                std::string(reason[index])};
   const auto value = [index](const Column& column) { return column.values[index]; };
   std::ranges::transform(draws, std::back_inserter(row.draws), value);
   std::ranges::transform(outputs, std::back_inserter(row.outputs), value);
   return row;
+}
+
+void Results::release() const {
+  runs.release();
+  status.release();
+  for (const auto* columns : {&draws, &outputs})
+    for (const Column& column : *columns) column.values.release();
+  latch_order.release();
+  reason.release();
 }
 
 void append_header(std::string& buffer, const ResultNames& names) {

@@ -7,6 +7,8 @@
 
 #include "core/deployment.hpp"
 #include "montecarlo/csv.hpp"
+#include "montecarlo/spilled.hpp"
+#include "montecarlo/text_column.hpp"
 
 #include <array>
 #include <cstddef>
@@ -41,17 +43,18 @@ struct ResultRow {
 /// A named column of numbers; NaN where the quantity did not happen.
 struct Column {
   std::string name;
-  std::vector<double> values;
+  Spilled<double> values;
 };
 
-/// The table by columns. All columns have the same length.
+/// The table by columns. All columns have the same length. What is long of it lies in temporary
+/// files: whoever reads long columns through releases them.
 struct Results {
-  std::vector<long> runs; ///< counted from 0, increasing
-  std::vector<Status> status;
+  Spilled<long> runs; ///< counted from 0, increasing
+  Spilled<Status> status;
   std::vector<Column> draws;
   std::vector<Column> outputs;
-  std::vector<std::string> latch_order;
-  std::vector<std::string> reason;
+  DictionaryColumn latch_order;
+  TextColumn reason;
 
   Results() = default;
   /// An empty table with these columns.
@@ -61,6 +64,8 @@ struct Results {
   /// @pre the row has as many draws and outputs as the table has columns.
   void append(const ResultRow& row);
   [[nodiscard]] ResultRow row(std::size_t index) const;
+  /// Lets go of the memory of all columns that lie in files (spilled.hpp).
+  void release() const;
 };
 
 /// Appends the header of runs.csv and its line feed.

@@ -4,9 +4,9 @@
 /// What is undefined for a sample comes back as NaN.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,7 +19,11 @@ inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 /// Source: A. Neumaier, ZAMM 54 (1974) 39–51, method IV.
 class Sum {
 public:
-  void add(double term);
+  void add(double term) {
+    const double next = sum_ + term;
+    lost_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
+    sum_ = next;
+  }
   [[nodiscard]] double value() const { return sum_ + lost_; }
 
 private:
@@ -59,42 +63,25 @@ struct Moments {
 /// @param sorted smallest first.
 [[nodiscard]] double quantile(std::span<const double> sorted, double p);
 
+/// A sample's scale, on which its mean is 0 and its largest deviation 1: sums of powers neither
+/// overflow nor vanish.
+struct Standard {
+  double shift, rest; ///< x̄ = shift + rest; the shift is what all values have in common
+  double scale;
+  double squares; ///< Σz²
+  /// z of a value.
+  [[nodiscard]] double of(double value) const { return ((value - shift) - rest) / scale; }
+};
+
+/// None for fewer than two values and for a constant sample. Cost O(n). @pre finite
+[[nodiscard]] std::optional<Standard> standard_of(std::span<const double> values);
+
+/// Pearson's correlation of two samples from the sum of their products, Σ z_x z_y.
+[[nodiscard]] double pearson(const Standard& x, const Standard& y, double products);
+
 /// Pearson's product-moment correlation, in [−1, 1]; NaN for fewer than two pairs or when either is
 /// constant. Cost O(n).
 /// @pre equally long, finite
 [[nodiscard]] double pearson(std::span<const double> x, std::span<const double> y);
-
-/// A column made ready to be correlated with many others: sorted and ranked once.
-/// Keeps a view of the values.
-class RankedColumn {
-public:
-  /// Cost O(n log n). NaN marks what is missing.
-  explicit RankedColumn(std::span<const double> values);
-
-  [[nodiscard]] std::span<const double> values() const { return values_; }
-  [[nodiscard]] bool complete() const { return order_.size() == values_.size(); }
-  /// Mid-ranks from 1 of the values at which `keep` is true, in their order; ties share the mean of
-  /// their ranks. Cost O(n).
-  /// @pre no kept value is missing
-  [[nodiscard]] std::vector<double> ranks_where(const std::vector<bool>& keep) const;
-  /// Mid-ranks of all values. @pre complete()
-  [[nodiscard]] const std::vector<double>& ranks() const { return ranks_; }
-
-private:
-  std::span<const double> values_;
-  std::vector<std::uint32_t> order_; ///< indices of the present values, smallest first
-  std::vector<double> ranks_;        ///< of all values; empty when some are missing
-};
-
-/// How two columns go together, over the rows in which both have a value.
-struct Correlation {
-  long count = 0;  ///< those rows
-  double pearson;  ///< linear
-  double spearman; ///< Pearson's of the mid-ranks: monotone
-};
-
-/// Both correlations, NaN as for pearson(). Cost O(n).
-/// @pre equally long
-[[nodiscard]] Correlation correlation(const RankedColumn& x, const RankedColumn& y);
 
 } // namespace wingspread

@@ -95,6 +95,7 @@ WidthFound find_width(const WidthGoal& goal, const Results& results, double conf
   const auto column = std::ranges::find(results.outputs, goal.output, &Column::name);
   assert(column != results.outputs.end());
   const std::vector<double> sorted = sorted_present(column->values);
+  column->values.release();
   const Bounds bounds = quantile_bounds(sorted, *goal.quantile, confidence);
   if (!bounds.lower || !bounds.upper) return found;
   found.width = *bounds.upper - *bounds.lower;

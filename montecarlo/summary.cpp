@@ -1,6 +1,7 @@
 #include "montecarlo/summary.hpp"
 
 #include "montecarlo/reason_pattern.hpp"
+#include "montecarlo/team.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -59,22 +60,35 @@ std::vector<ReasonCount> count_reasons(const Results& results) {
   std::ranges::stable_sort(reasons, [](const ReasonCount& a, const ReasonCount& b) {
     return a.status != b.status ? a.status < b.status : a.count > b.count;
   });
+  results.reason.release();
+  results.status.release();
   return reasons;
 }
 
-std::vector<LatchOrderCount> count_latch_orders(const Results& results) {
-  std::map<std::string, long> counts;
-  for (const std::string& order : results.latch_order)
-    if (!order.empty()) ++counts[order];
-  std::vector<LatchOrderCount> orders;
-  for (const auto& [order, count] : counts) orders.push_back({order, count});
-  std::ranges::stable_sort(orders, std::ranges::greater{}, &LatchOrderCount::count);
-  return orders;
+void count_latch_orders(const DictionaryColumn& column, Summary& summary) {
+  const TextColumn& orders = column.texts();
+  std::vector<long> counts(orders.size(), 0);
+  for (const std::uint32_t code : column.codes()) ++counts[code];
+  std::vector<std::uint32_t> codes; // of the orders, less that of no latch at all
+  for (std::uint32_t code = 0; code < orders.size(); ++code)
+    if (orders[code].empty())
+      summary.without_latch = counts[code];
+    else
+      codes.push_back(code);
+  const auto listed = static_cast<std::ptrdiff_t>(std::min(codes.size(), most_latch_orders));
+  std::ranges::partial_sort(codes, codes.begin() + listed, [&](std::uint32_t a, std::uint32_t b) {
+    return counts[a] != counts[b] ? counts[a] > counts[b] : orders[a] < orders[b];
+  });
+  for (const std::uint32_t code : std::span(codes).first(static_cast<std::size_t>(listed)))
+    summary.latch_orders.push_back({std::string(orders[code]), counts[code]});
+  summary.latch_order_kinds = std::ssize(codes);
+  column.release();
 }
 
 /// The present values with their replicates, smallest first.
 std::vector<ReplicateValue> with_replicates(const Column& column, const Replication& replication) {
   std::vector<ReplicateValue> values;
+  values.reserve(column.values.size());
   for (std::size_t row = 0; row < column.values.size(); ++row)
     if (!std::isnan(column.values[row]))
       values.push_back({column.values[row], replication.of_row[row]});
@@ -104,6 +118,7 @@ OutputSummary summarize_output(const Column& column, const StatisticsSpec& spec,
   const int replicates = replication.replicates;
   std::vector<ReplicateValue> replicated;
   if (replicates > 0) replicated = with_replicates(column, replication);
+  column.values.release();
   const double mean_error = replicates > 0 ? replicate_mean_error(replicated, replicates, all.mean)
                                            : all.std / std::sqrt(static_cast<double>(all.count));
   return {column.name,
@@ -121,40 +136,51 @@ Column success_column(const Results& results) {
   return column;
 }
 
-std::vector<DrawCorrelation> correlate(const Results& results) {
+/// The reasons, and each output.
+void summarize_columns(const Results& results, const StatisticsSpec& spec,
+                       const Replication& replication, int threads, Summary& summary) {
+  const std::size_t bytes = (replication.replicates > 0 ? 56 : 16) * results.size();
+  summary.outputs.resize(results.outputs.size());
+  for_each_task(team_within(threads, bytes), 1 + results.outputs.size(), [&](std::size_t task) {
+    if (task == 0)
+      summary.reasons = count_reasons(results);
+    else
+      summary.outputs[task - 1] = summarize_output(results.outputs[task - 1], spec, replication);
+  });
+}
+
+std::vector<DrawCorrelation> correlate_draws(const Results& results, int threads) {
   const Column deployed = success_column(results);
-  std::vector<const Column*> outputs;
-  for (const Column& output : results.outputs) outputs.push_back(&output);
-  outputs.push_back(&deployed);
-  std::vector<RankedColumn> ranked;
-  for (const Column* output : outputs) ranked.emplace_back(output->values);
-  std::vector<DrawCorrelation> correlations;
-  for (const Column& draw : results.draws) {
-    const RankedColumn ranked_draw(draw.values);
-    for (std::size_t i = 0; i < outputs.size(); ++i)
-      correlations.push_back({draw.name, outputs[i]->name, correlation(ranked_draw, ranked[i])});
+  std::vector<const Spilled<double>*> draws, outputs;
+  for (const Column& draw : results.draws) draws.push_back(&draw.values);
+  for (const Column& output : results.outputs) outputs.push_back(&output.values);
+  outputs.push_back(&deployed.values);
+  const std::vector<Correlation> found =
+      correlations(rank_columns(draws, threads), rank_columns(outputs, threads), threads);
+  std::vector<DrawCorrelation> named;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::size_t output = i % outputs.size();
+    named.push_back({results.draws[i / outputs.size()].name,
+                     output < results.outputs.size() ? results.outputs[output].name : deployed.name,
+                     found[i]});
   }
-  return correlations;
+  return named;
 }
 
 } // namespace
 
 Summary summarize(const Results& results, const StatisticsSpec& spec,
-                  const Replication& replication) {
+                  const Replication& replication, int threads) {
   assert(replication.replicates == 0 || replication.of_row.size() == results.size());
-  Summary summary{static_cast<long>(results.size()),
-                  spec.confidence,
-                  replication.replicates,
-                  {},
-                  count_reasons(results),
-                  count_latch_orders(results),
-                  std::ranges::count(results.latch_order, std::string{}),
-                  {},
-                  correlate(results)};
+  Summary summary;
+  summary.runs = static_cast<long>(results.size());
+  summary.confidence = spec.confidence;
+  summary.replicates = replication.replicates;
   for (const Status status : statuses)
     summary.statuses.push_back(status_share(results, status, spec.confidence, replication));
-  for (const Column& output : results.outputs)
-    summary.outputs.push_back(summarize_output(output, spec, replication));
+  count_latch_orders(results.latch_order, summary);
+  summarize_columns(results, spec, replication, threads, summary);
+  summary.correlations = correlate_draws(results, threads);
   return summary;
 }
 

@@ -5,6 +5,7 @@
 /// the number in which it did not. The same results give the same summary, bit for bit.
 #pragma once
 
+#include "montecarlo/column_correlation.hpp"
 #include "montecarlo/confidence.hpp"
 #include "montecarlo/histogram.hpp"
 #include "montecarlo/results.hpp"
@@ -39,6 +40,9 @@ struct ReasonCount {
   std::string reason;
   long count = 0;
 };
+
+/// Of latch orders the most frequent, up to this many: long chains may latch otherwise in each run.
+inline constexpr std::size_t most_latch_orders = 1000;
 
 struct LatchOrderCount {
   std::string order; ///< "root>mid>tip"
@@ -84,6 +88,7 @@ struct Summary {
   std::vector<StatusShare> statuses;         ///< all five
   std::vector<ReasonCount> reasons;          ///< by status, then the most frequent, then by text
   std::vector<LatchOrderCount> latch_orders; ///< the most frequent first, then by name
+  long latch_order_kinds = 0;                ///< how many there are, those not listed among them
   long without_latch = 0;                    ///< runs in which no hinge latched
   std::vector<OutputSummary> outputs;        ///< in the order of the columns
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
@@ -94,9 +99,12 @@ struct Summary {
   long looks = 1; ///< numbers of runs at which it could have: each bound's α is shared among them
 };
 
-/// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs: each column is sorted once.
+/// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes a run for
+/// each thread, and no more threads than 1 GiB has room for; what is read of the results is
+/// released. Temporary files: 4 bytes a run for each column, and 12 where values are missing.
+/// @param threads as of team_size (team.hpp); the summary does not depend on them
 /// @pre replication.of_row is as long as the results unless there are no replicates
 [[nodiscard]] Summary summarize(const Results& results, const StatisticsSpec& spec,
-                                const Replication& replication = {});
+                                const Replication& replication = {}, int threads = 0);
 
 } // namespace wingspread

@@ -86,13 +86,10 @@ void add_reasons(Json& json, const Summary& summary) {
 
 void add_latch_orders(Json& json, const Summary& summary) {
   json["latch_order"] = Json::object();
-  long omitted = 0;
-  for (std::size_t i = 0; i < summary.latch_orders.size(); ++i) {
-    const auto& [order, count] = summary.latch_orders[i];
-    if (i >= most_latch_orders)
-      omitted += count;
-    else
-      json["latch_order"][order] = count;
+  long omitted = summary.runs - summary.without_latch;
+  for (const auto& [order, count] : summary.latch_orders) {
+    json["latch_order"][order] = count;
+    omitted -= count;
   }
   json["latch_order_omitted"] = omitted;
   json["latch_order_missing"] = summary.without_latch;

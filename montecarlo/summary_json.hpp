@@ -12,10 +12,9 @@
 
 namespace wingspread {
 
-/// Reasons and latch orders beyond this many, the rarest, are counted together: `reasons_omitted`
-/// and `latch_order_omitted` hold their runs.
+/// Reasons beyond this many, the rarest, are counted together: `reasons_omitted` holds their runs,
+/// and `latch_order_omitted` those of the latch orders that the summary does not list.
 inline constexpr std::size_t most_reasons = 100;
-inline constexpr std::size_t most_latch_orders = 1000;
 /// Of the runs that break a requirement the worst, up to this many; `broken_omitted` counts others.
 inline constexpr std::size_t most_broken = 1000;
 

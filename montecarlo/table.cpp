@@ -76,15 +76,14 @@ std::string latch_orders(const Summary& summary) {
                         percent(share_of(count, summary.runs)));
   };
   const std::size_t shown = std::min(summary.latch_orders.size(), most_lines);
-  long others = 0;
-  for (std::size_t i = 0; i < summary.latch_orders.size(); ++i) {
-    const auto& [order, count] = summary.latch_orders[i];
-    if (i < shown)
-      line(order, count);
-    else
-      others += count;
+  long others = summary.runs - summary.without_latch;
+  for (const auto& [order, count] : std::span(summary.latch_orders).first(shown)) {
+    line(order, count);
+    others -= count;
   }
-  if (others > 0) line(fmt::format("{} other orders", summary.latch_orders.size() - shown), others);
+  if (others > 0)
+    line(fmt::format("{} other orders", summary.latch_order_kinds - static_cast<long>(shown)),
+         others);
   if (summary.without_latch > 0) line("no latch", summary.without_latch);
   return text;
 }

@@ -45,10 +45,14 @@ std::vector<Badness> rank(const Requirement& requirement, const Results& results
   const Column* column = column_of(results, requirement);
   const double sign = sign_of(requirement);
   std::vector<Badness> ranked;
+  ranked.reserve(results.size());
   for (std::size_t row = 0; row < results.size(); ++row)
     ranked.push_back({results.runs[row],
                       value_or_infinite(results, row, column ? sign * column->values[row] : 0)});
-  std::ranges::stable_sort(ranked, std::ranges::greater{}, &Badness::value);
+  results.release();
+  std::ranges::sort(ranked, [](const Badness& a, const Badness& b) {
+    return a.value != b.value ? a.value > b.value : a.run < b.run;
+  });
   return ranked;
 }
 
@@ -137,8 +141,10 @@ Bounds output_limits(const Results& results, const Column& output, const Toleran
                      long looks) {
   const double sign = spec.side == Side::lower ? -1 : 1;
   std::vector<double> values;
+  values.reserve(results.size());
   for (std::size_t row = 0; row < results.size(); ++row)
     values.push_back(sign * value_or_infinite(results, row, sign * output.values[row]));
+  results.release();
   std::ranges::sort(values);
   return tolerance_limits(values, spec.side, spec.probability,
                           at_each_look(spec.confidence, looks));

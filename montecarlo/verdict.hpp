@@ -28,7 +28,7 @@ struct Verdict {
   long runs = 0;         ///< n
   double confidence = 0; ///< what has to be shown at: c, or more when there were several looks
   std::optional<long> allowed;    ///< most runs that may break it; nothing when n decides nothing
-  std::vector<long> broken;       ///< numbers of the runs that do, the worst first
+  Spilled<long> broken;           ///< numbers of the runs that do, the worst first
   std::optional<long> least_runs; ///< that could show it, if none broke it
   bool disproved = false;         ///< P < p is shown, at the same confidence
   double share = 0;               ///< of the runs that keep to it; NaN without runs

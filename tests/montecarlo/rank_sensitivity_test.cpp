@@ -1,6 +1,7 @@
 #include "distributions/continuous_law.hpp"
 #include "distributions/dependence.hpp"
 #include "distributions/random_stream.hpp"
+#include "montecarlo/column_correlation.hpp"
 #include "montecarlo/rank_sensitivity.hpp"
 #include "montecarlo/statistics.hpp"
 
@@ -45,8 +46,8 @@ Results results_of(const Columns& x, const std::vector<double>& y) {
   for (std::size_t k = 0; k < y.size(); ++k) {
     results.runs.push_back(static_cast<long>(k));
     results.status.push_back(Status::deployed);
-    results.latch_order.emplace_back();
-    results.reason.emplace_back();
+    results.latch_order.push_back("");
+    results.reason.push_back("");
   }
   return results;
 }
@@ -63,8 +64,9 @@ double by_residuals(const Columns& x, const std::vector<double>& y, std::size_t 
   const auto n = static_cast<Eigen::Index>(y.size());
   Eigen::MatrixXd others(n, static_cast<Eigen::Index>(x.size()));
   const auto ranks = [&](const std::vector<double>& values) {
-    const RankedColumn column(values);
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(column.ranks().data(), n));
+    const Spilled<double> column(values);
+    const std::vector<double> of_column = RankedColumn(column).ranks();
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(of_column.data(), n));
   };
   others.col(0).setOnes();
   for (std::size_t i = 0, at = 1; i < x.size(); ++i)
@@ -95,7 +97,8 @@ TEST_CASE("of two dispersions, the textbook's formula for partial correlation") 
   const Columns noise = normal_columns(3, 40, 6);
   std::vector<double> y = combination(x, {1, -1});
   for (std::size_t k = 0; k < 40; ++k) y[k] += noise[2][k];
-  const RankedColumn a(x[0]), b(x[1]), c(y);
+  const Spilled<double> x0(x[0]), x1(x[1]), column_y(y);
+  const RankedColumn a(x0), b(x1), c(column_y);
   const double ab = pearson(a.ranks(), b.ranks()), ac = pearson(a.ranks(), c.ranks()),
                bc = pearson(b.ranks(), c.ranks());
   CHECK(partials(results_of(x, y))[0] ==
