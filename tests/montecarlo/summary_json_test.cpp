@@ -16,7 +16,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 /// Runs of which every third stalls; `never` never happens, `fixed` never varies.
-Summary some_summary(int runs) {
+Summary some_summary(int runs, int threads = 0) {
   std::mt19937_64 random(12);
   Results results(ResultNames{{"k", "fixed"}, {"root.latch_time", "never"}});
   for (long run = 0; run < runs; ++run) {
@@ -28,7 +28,7 @@ Summary some_summary(int runs) {
                     stalls ? "" : "root>tip",
                     stalls ? "friction" : ""});
   }
-  return summarize(results, {});
+  return summarize(results, {}, {}, threads);
 }
 
 void check_no_number_is_lost(const Json& json) {
@@ -169,6 +169,16 @@ TEST_CASE("many reasons and latch orders are cut, and the rest counted") {
   for (const Json& reason : json["reasons"]) reasons += reason["count"].get<long>();
   for (const Json& order : json["latch_order"]) orders += order.get<long>();
   CHECK((reasons == 1500 && orders == 1500));
+}
+
+TEST_CASE("a summary has the same bytes for any number of threads", "[parallel]") {
+  const auto text = [](int threads) {
+    const Summary summary = some_summary(50'000, threads); // columns that lie in files
+    return json_text(summary_json(summary, {})) + histograms_csv(summary);
+  };
+  const std::string alone = text(1);
+  CHECK(text(2) == alone);
+  CHECK(text(5) == alone);
 }
 
 TEST_CASE("histograms.json and histograms.csv hold the same histograms") {
