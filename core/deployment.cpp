@@ -1,7 +1,8 @@
 #include "core/deployment.hpp"
 
-#include "core/integrator.hpp"
-#include "core/lanes.hpp"
+#include "core/dop853.hpp"
+#include "core/method_choice.hpp"
+#include "core/runs.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -95,39 +96,14 @@ Deployment& Deployment::operator=(Deployment&&) noexcept = default;
 
 namespace {
 
-template <BaseMotion M, class Topology>
-Outcome integrate(const Wing<double>& wing, const Topology& topology, Workspace<double>& scratch,
-                  const Integration& how, const Goal& goal, const Observer& observer) {
-  System<double, Topology, M> system(wing, topology, how.smoothing, scratch);
-  return Integrator<double, Topology, M>(system, how, goal, observer).run();
-}
-
-/// On a fixed base: the chain of a length known to the compiler, if it has one.
-template <int N = 1>
-Outcome integrate_chain(const Wing<double>& wing, Workspace<double>& scratch,
-                        const Integration& how, const Goal& goal, const Observer& observer) {
-  if constexpr (N <= longest_static_chain) {
-    if (wing.size() == N)
-      return integrate<BaseMotion::fixed>(wing, Chain<N>{}, scratch, how, goal, observer);
-    return integrate_chain<N + 1>(wing, scratch, how, goal, observer);
-  } else {
-    return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
-  }
-}
-
-Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how,
-                  const Goal& goal, const Observer& observer) {
-  switch (wing.base.motion) {
-  case BaseMotion::prescribed:
-    return integrate<BaseMotion::prescribed>(wing, wing.tree, scratch, how, goal, observer);
-  case BaseMotion::free:
-    return integrate<BaseMotion::free>(wing, wing.tree, scratch, how, goal, observer);
-  case BaseMotion::fixed:
-    break;
-  }
-  if (!is_chain(wing.tree))
-    return integrate<BaseMotion::fixed>(wing, wing.tree, scratch, how, goal, observer);
-  return integrate_chain(wing, scratch, how, goal, observer);
+/// As the processor allows.
+const Runs& runs() {
+#ifdef WINGSPREAD_FMA_RUNS
+  static const Runs& best = has_avx2() ? fma_runs() : plain_runs();
+  return best;
+#else
+  return plain_runs();
+#endif
 }
 
 [[nodiscard]] Outcome invalid(const std::vector<Fault>& faults) {
@@ -138,15 +114,6 @@ Outcome integrate(const Wing<double>& wing, Workspace<double>& scratch, const In
     out.reason += fault.path + " is " + fault.found + ", expected " + fault.expected;
   }
   return out;
-}
-
-/// All runs of a structure through the lanes of an engine.
-template <BaseMotion M, class Topology>
-Occupancy run_lanes(const Wing<double>& structure, const Topology& topology, PackEngine& engine,
-                    Method method, const Integration& how, const Goal& goal,
-                    const std::function<std::optional<long>(Wing<double>&)>& next,
-                    const DeploymentPack::Done& done) {
-  return Lanes<Topology, M>(structure, topology, engine, method, how, goal).run(next, done);
 }
 
 } // namespace
@@ -161,8 +128,8 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
     workspace_->wing = make_wing<double>(scene, outward_order(scene));
     workspace_->tree = std::move(tree);
   }
-  set_parameters(workspace_->wing, scene);
-  return integrate(workspace_->wing, workspace_->scratch, integration, goal, observer);
+  runs().set_parameters(workspace_->wing, scene);
+  return runs().alone(workspace_->wing, workspace_->scratch, integration, goal, observer);
 }
 
 const char* to_string(InstructionSet set) {
@@ -221,30 +188,14 @@ Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
     while (const std::optional<long> name = next(scene)) {
       const std::vector<Fault> faults = unphysical(scene);
       if (faults.empty()) {
-        set_parameters(wing, scene);
+        runs().set_parameters(wing, scene);
         return name;
       }
       done(*name, invalid(faults));
     }
     return std::nullopt;
   };
-  const auto with = [&]<BaseMotion M>(const auto& topology) {
-    return run_lanes<M>(structure, topology, *engine, method, how_, goal_, next_wing, done);
-  };
-  switch (scene.base.motion) {
-  case BaseMotion::prescribed:
-    return with.template operator()<BaseMotion::prescribed>(structure.tree);
-  case BaseMotion::free:
-    return with.template operator()<BaseMotion::free>(structure.tree);
-  case BaseMotion::fixed:
-    break;
-  }
-  const int n = is_chain(structure.tree) ? structure.size() : 0;
-  if (n == 1) return with.template operator()<BaseMotion::fixed>(Chain<1>{});
-  if (n == 2) return with.template operator()<BaseMotion::fixed>(Chain<2>{});
-  if (n == 3) return with.template operator()<BaseMotion::fixed>(Chain<3>{});
-  if (n == 4) return with.template operator()<BaseMotion::fixed>(Chain<4>{});
-  return with.template operator()<BaseMotion::fixed>(structure.tree);
+  return runs().in_lanes(structure, *engine, method, how_, goal_, next_wing, done);
 }
 
 } // namespace wingspread

@@ -20,4 +20,9 @@ bool has_avx512() {
 #endif
 }
 
+#ifndef __x86_64__
+std::unique_ptr<PackEngine> make_avx2_engine(const Wing<double>&, const PackShape&) { return {}; }
+std::unique_ptr<PackEngine> make_avx512_engine(const Wing<double>&, const PackShape&) { return {}; }
+#endif
+
 } // namespace wingspread
