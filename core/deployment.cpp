@@ -106,6 +106,19 @@ const Runs& runs() {
 #endif
 }
 
+/// @pre the set has packs, and this processor has the set
+[[nodiscard]] std::unique_ptr<PackEngine> make_engine(InstructionSet set, const Wing<double>& wing,
+                                                      const PackShape& shape) {
+  switch (set) {
+  case InstructionSet::neon:
+    return make_neon_engine(wing, shape);
+  case InstructionSet::avx2:
+    return make_avx2_engine(wing, shape);
+  default:
+    return make_avx512_engine(wing, shape);
+  }
+}
+
 [[nodiscard]] Outcome invalid(const std::vector<Fault>& faults) {
   Outcome out;
   out.status = Status::invalid;
@@ -136,6 +149,8 @@ const char* to_string(InstructionSet set) {
   switch (set) {
   case InstructionSet::scalar:
     return "scalar";
+  case InstructionSet::neon:
+    return "neon";
   case InstructionSet::avx2:
     return "avx2";
   case InstructionSet::avx512:
@@ -147,6 +162,7 @@ const char* to_string(InstructionSet set) {
 const std::vector<InstructionSet>& instruction_sets() {
   static const std::vector<InstructionSet> available = [] {
     std::vector<InstructionSet> sets{InstructionSet::scalar};
+    if (has_neon()) sets.push_back(InstructionSet::neon);
     if (has_avx2()) sets.push_back(InstructionSet::avx2);
     if (has_avx512()) sets.push_back(InstructionSet::avx512);
     return sets;
@@ -155,7 +171,17 @@ const std::vector<InstructionSet>& instruction_sets() {
 }
 
 int lanes_of(InstructionSet set) {
-  return set == InstructionSet::avx512 ? 8 : set == InstructionSet::avx2 ? 4 : 1;
+  switch (set) {
+  case InstructionSet::scalar:
+    return 1;
+  case InstructionSet::neon:
+    return 2;
+  case InstructionSet::avx2:
+    return 4;
+  case InstructionSet::avx512:
+    return 8;
+  }
+  return 1;
 }
 
 Occupancy& Occupancy::operator+=(const Occupancy& other) {
@@ -181,9 +207,7 @@ Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
   const Wing<double> structure = make_wing<double>(scene, outward_order(scene));
   const PackShape shape{scene.base.motion, method == Method::dop853, goal_.peak_force,
                         goal_.peak_moment};
-  const std::unique_ptr<PackEngine> engine = set_ == InstructionSet::avx512
-                                                 ? make_avx512_engine(structure, shape)
-                                                 : make_avx2_engine(structure, shape);
+  const std::unique_ptr<PackEngine> engine = make_engine(set_, structure, shape);
   const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
     while (const std::optional<long> name = next(scene)) {
       const std::vector<Fault> faults = unphysical(scene);

@@ -146,11 +146,11 @@ private:
 };
 
 /// How many runs are integrated at once in one thread.
-enum class InstructionSet { scalar, avx2, avx512 };
+enum class InstructionSet { scalar, neon, avx2, avx512 };
 [[nodiscard]] const char* to_string(InstructionSet set);
 /// Those that this processor and this build have, narrowest first.
 [[nodiscard]] const std::vector<InstructionSet>& instruction_sets();
-/// Runs at once: 1, 4 or 8.
+/// Runs at once: 1, 2, 4 or 8.
 [[nodiscard]] int lanes_of(InstructionSet set);
 
 /// How full the lanes of packs were.

@@ -1,14 +1,14 @@
 /// One run from release to its end: steps, events, peaks, and the reasons to stop.
 #pragma once
 
-#include "core/contact.hpp"
+#include "core/events.hpp"
 #include "core/method_choice.hpp"
 #include "core/pack_engine.hpp"
 #include "core/peak_bounds.hpp"
-#include "core/record.hpp"
 #include "core/settled.hpp"
 #include "core/stall.hpp"
 #include "core/steppers.hpp"
+#include "core/time_scales.hpp"
 
 #include <array>
 #include <cstdio>
@@ -26,7 +26,7 @@ public:
 
   Integrator(AnySystem& system, const Integration& how, const Goal& goal, const Observer& observer)
       : system_(system), at_(system.layout()), how_(how), goal_(goal), observer_(observer),
-        choice_(how.method, how.rtol, how.smoothing.has_value()) {
+        events_(system), choice_(how.method, how.rtol, how.smoothing.has_value()) {
     for (State<T>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &scratch_, &dscratch_})
       x->assign(at_.size(), T(0));
   }
@@ -145,8 +145,6 @@ public:
   }
 
 private:
-  struct Due;
-
   /// What the step asked for is for.
   enum class Stage {
     step,   ///< to go on
@@ -180,9 +178,7 @@ private:
     latches_.clear();
     phases_.clear();
     moments_.assign(at_.bodies + 1, {});
-    latches_left_ = 0;
-    for (int i = 1; i <= at_.bodies; ++i) latches_left_ += system_.wing().hinges[i].has_latch;
-    h_ = T(0);
+    events_.start();
     step_.t = T(0);
     system_.reset();
     system_.want_forces(goal_.peak_force);
@@ -204,10 +200,13 @@ private:
   }
 
   void try_step() {
+    if (h_ < T(0)) choose_first_step();
     if (tried_ >= how_.max_steps)
       return fail("the limit of " + std::to_string(how_.max_steps) + " steps was reached");
     const T limit = T(how_.t_end) - step_.t;
-    const T wanted = smaller(h_, longest_step());
+    T wanted = h_;
+    if (M == BaseMotion::prescribed && system_.work().stuck > 0)
+      wanted = smaller(wanted, time_of_base(system_.wing().base, step_.t, limit));
     last_ = wanted >= limit * T(1 - 1e-12);
     step_.h = last_ ? limit : wanted;
     if (!(step_.h > T(4 * epsilon_of<T>) * step_.t))
@@ -222,7 +221,7 @@ private:
     verdict_ = verdict;
     h_ = last_ ? larger(h_, T(step_.h * T(verdict.factor))) : step_.h * T(verdict.factor);
     if (last_ && verdict.factor < 1) h_ = step_.h * T(verdict.factor);
-    due_ = first_event();
+    due_ = events_.first(step_, scratch_, dscratch_);
     if (!due_) return accept();
     correction_ = 0;
     longest_ = step_.h;
@@ -241,7 +240,8 @@ private:
     limit_roughness(finer * static_cast<double>(rough), verdict);
     if (!verdict.accepted() || method != Method::fehlberg78 || !at_.smoothed) return verdict;
     const double quadrature = quadrature_error<T>(system_, step_, tolerance());
-    if (quadrature > 1) verdict = {quadrature, std::max(0.2, 0.8 * std::pow(quadrature, -1.0 / 6))};
+    if (quadrature > 1)
+      verdict = {quadrature, std::max(0.2, 0.8 * power_roughly(quadrature, -1.0 / 6))};
     return verdict;
   }
 
@@ -260,28 +260,6 @@ private:
                             " s gives numbers that are not finite");
     h_ = step_.h * T(verdict.factor);
     try_step();
-  }
-
-  /// A double cannot tell the sine of an angle this large to the accuracy that is promised.
-  [[nodiscard]] bool angles_are_known() const {
-    using std::abs;
-    constexpr double largest = 1e8; // rad
-    for (int i = 1; i <= at_.bodies; ++i)
-      if (!(abs(step_.x[at_.angle(i)]) < T(largest))) return false;
-    return true;
-  }
-
-  /// While hinges stick nothing need change in the state: then the base's motion limits the step,
-  /// so that the load on them is sampled.
-  [[nodiscard]] T longest_step() const {
-    const T rest(how_.t_end);
-    if (M != BaseMotion::prescribed || system_.work().stuck == 0) return rest;
-    using std::abs, std::sqrt;
-    const BaseTerms<T>& base = system_.wing().base;
-    constexpr double turn = 0.1; // rad
-    const T rate = abs(base.rate + base.angular_acceleration * step_.t);
-    const T spin = larger(rate, T(sqrt(T(turn) * abs(base.angular_acceleration))));
-    return spin > T(0) ? smaller(rest, T(T(turn) / spin)) : rest;
   }
 
   // ---- a step accepted: its peaks, some of them made sure of by steps of the method inside it,
@@ -343,17 +321,17 @@ private:
     if (goal_.audit && latches_.empty()) watch_energy();
     if (system_.work().stuck > 0) {
       system_(step_.x, dscratch_, step_.t);
-      holding_.observe(system_, step_.x);
+      events_.observe(step_.x);
     }
     notify();
     if (!happens(due_)) {
       const double h = static_cast<double>(step_.h);
-      const double quick = choice_.may_leave(h) ? quickness() : 0;
+      const double quick = choice_.may_leave(h) ? quickness(system_, step_) : 0;
       const MethodChoice::Mark now{static_cast<double>(step_.t), system_.work().evaluations};
       if (choice_.after_step(h, now, quick)) change_method();
       if (choice_.wants_radius()) choice_.set_radius(radius_.estimate(system_, step_.x, step_.t));
     }
-    if (angles_are_known())
+    if (angles_are_known(at_, step_.x))
       go_on();
     else
       fail("a hinge has turned past 1e8 rad");
@@ -372,72 +350,6 @@ private:
 
   // ---- events
 
-  enum class Event { latch, rest, release };
-
-  /// An event inside the step.
-  struct Due {
-    Event event;
-    int hinge;
-    T s;     ///< fraction of the step
-    T slope; ///< of a release's indicator, N·m/s
-  };
-
-  /// Signed distance past the latched angle; engagement is where it reaches 0 from below.
-  [[nodiscard]] T gap(const State<T>& x, int i) const {
-    const HingeTerms<T>& hinge = system_.wing().hinges[i];
-    return hinge.sense * (x[at_.angle(i)] - hinge.latched);
-  }
-  [[nodiscard]] T gap_rate(const State<T>& x, int i) const {
-    return system_.wing().hinges[i].sense * x[at_.rate(i)];
-  }
-  [[nodiscard]] bool waits(int i) const {
-    return system_.wing().hinges[i].has_latch && !system_.work().engaged[i];
-  }
-
-  /// The earliest one, by the interpolant, whose word on whether it happens is final.
-  [[nodiscard]] std::optional<Due> first_event() {
-    std::optional<Due> first;
-    const auto offer = [&](Event event, int i, const std::optional<T>& s, const T& slope) {
-      if (s && (!first || *s < first->s)) first = Due{event, i, *s, slope};
-    };
-    for (int i = 1; i <= at_.bodies; ++i) {
-      if (waits(i) && !system_.sticks(i)) offer(Event::latch, i, first_engagement(i), T(0));
-      if (sliding_sense(system_, i) != 0)
-        offer(Event::rest, i, first_rest(system_, step_, i), T(0));
-    }
-    if (system_.work().stuck > 0) {
-      const auto release = holding_.first_release(system_, step_, scratch_, dscratch_);
-      if (release) offer(Event::release, release->hinge, release->s, release->slope);
-    }
-    return first;
-  }
-
-  [[nodiscard]] std::optional<T> first_engagement(int i) const {
-    const HingeTerms<T>& hinge = system_.wing().hinges[i];
-    Quintic<T> angle = step_.coordinate(at_.angle(i), at_.freedoms());
-    for (T& c : angle) c = hinge.sense * (c - hinge.latched);
-    return first_nonnegative(angle);
-  }
-
-  /// What reaches 0 from below at the event, and its rate, at the end of the step just tried.
-  struct Indicator {
-    T value, slope;
-  };
-  [[nodiscard]] Indicator indicator(const Due& due) const {
-    const int i = due.hinge;
-    switch (due.event) {
-    case Event::latch:
-      return {gap(step_.x1, i), gap_rate(step_.x1, i)};
-    case Event::rest: {
-      const T against(-sliding_sense(system_, i));
-      return {against * step_.x1[at_.rate(i)], against * step_.dxdt1[at_.rate(i)]};
-    }
-    case Event::release:
-      break;
-    }
-    return {Holding<T>::excess(system_, step_.x1, i), due.slope};
-  }
-
   /// Replaces the step by one that ends at the event, so that its state has the method's accuracy
   /// and not the interpolant's; the instant is corrected by Newton's method with real steps. A
   /// hinge that only grazes its latched angle has no useful Newton step: there the interpolant's
@@ -452,7 +364,7 @@ private:
     const Verdict verdict = judged(given);
     if (!verdict.accepted()) return refuse(verdict);
     verdict_ = verdict;
-    const Indicator at = indicator(*due_);
+    const auto at = events_.indicator(*due_, step_);
     const T late = at.value / at.slope, size = larger(late, T(-late));
     if (at.slope > T(0) && size < T(1e-2) * step_.h && correction_ < 3) {
       if (size > T(1e-7) * step_.h) {
@@ -471,51 +383,12 @@ private:
       step_.x1[k] = fused(dt, step_.dxdt1[k], step_.x1[k]);
   }
 
-  /// Whether two instants this far apart are one.
-  [[nodiscard]] T one_instant() const { return T(4096 * epsilon_of<T>) * step_.t; }
-
   /// At a step's end: what the event that was due, and others at the same instant, bring about.
   /// @return whether anything happened
-  [[nodiscard]] bool happens(const std::optional<Due>& due) {
-    const int latching = due && due->event == Event::latch ? due->hinge : 0;
-    const int resting = due && due->event == Event::rest ? due->hinge : 0;
-    const bool engaged = engage_those_there(latching), rested = rest_those_there(resting);
-    if (!due && !engaged && !rested) return false;
+  [[nodiscard]] bool happens(const std::optional<Due<T>>& due) {
+    if (!events_.happen(due, step_, latches_)) return false;
     restart(due && due->event == Event::release ? due->hinge : 0);
     return true;
-  }
-
-  /// Engages the hinge that was due (0: none), and with it every waiting one that stands at its
-  /// latched angle, all at this one instant.
-  bool engage_those_there(int due) {
-    const T instant = one_instant();
-    bool any = false;
-    for (int i = 1; i <= at_.bodies; ++i) {
-      if (!waits(i) || system_.sticks(i)) continue;
-      const T soon = gap(step_.x, i) + instant * larger(gap_rate(step_.x, i), T(0));
-      if (i != due && !(soon >= T(0))) continue;
-      system_.engage(i);
-      --latches_left_;
-      latches_.push_back(latch_event(system_.wing(), at_, step_.x, step_.t, i));
-      any = true;
-    }
-    return any;
-  }
-
-  /// The same for hinges that slide, and come to rest.
-  bool rest_those_there(int due) {
-    const T instant = one_instant();
-    bool any = false;
-    for (int i = 1; i <= at_.bodies; ++i) {
-      const T against(-sliding_sense(system_, i));
-      if (against == T(0)) continue;
-      const T rate = against * step_.x[at_.rate(i)], slope = against * step_.dxdt[at_.rate(i)];
-      const bool there = rate > T(0) || (slope > T(0) && rate + instant * slope >= T(0));
-      if (i != due && !there) continue;
-      step_.x[at_.rate(i)] = T(0);
-      any = true;
-    }
-    return any;
   }
 
   /// The right-hand side has changed, or is new: evaluates it, at t⁺.
@@ -526,36 +399,14 @@ private:
       system_(step_.x, step_.dxdt, step_.t);
     observe_moments();
     if (goal_.peak_force) forces_.observe(system_, step_.t);
-    if (system_.work().stuck > 0) holding_.observe(system_, step_.x);
+    events_.observe(step_.x);
     notify();
     choice_.restart(static_cast<double>(step_.t), system_.work().evaluations);
     begin_phase();
-    choose_first_step();
+    h_ = T(-1);
   }
 
   // ---- methods
-
-  /// The frequency of what still moves, 1/s: largest acceleration over largest rate or, if larger,
-  /// the rate of a latched hinge over its way from rest; in a swing one of the two is always as
-  /// large as its frequency. Swings a thousand times slower than the fastest hinge do not count.
-  [[nodiscard]] double quickness() const {
-    using std::abs;
-    T fastest(0), acceleration(0), swing(0);
-    for (int i = 1; i <= at_.bodies; ++i) {
-      fastest = larger(fastest, T(abs(step_.x[at_.rate(i)])));
-      acceleration = larger(acceleration, T(abs(step_.dxdt[at_.rate(i)])));
-    }
-    if (!(fastest > T(0))) return 0;
-    for (int i = 1; i <= at_.bodies; ++i) {
-      const LinearLaw<T>& law = system_.work().laws[i];
-      const T rate = abs(step_.x[at_.rate(i)]);
-      if (!system_.work().engaged[i] || !(law.stiffness > T(0)) || rate < T(1e-3) * fastest)
-        continue;
-      const T way = step_.x[at_.angle(i)] - law.latched - law.drive / law.stiffness;
-      if (way != T(0)) swing = larger(swing, T(rate / abs(way)));
-    }
-    return static_cast<double>(larger(swing, T(acceleration / fastest)));
-  }
 
   /// `auto` goes on with another one.
   void change_method() {
@@ -580,26 +431,12 @@ private:
 
   void choose_first_step() {
     const T rest = T(how_.t_end) - step_.t;
-    if (!(rest > T(0))) return;
     h_ = steppers_.with(choice_.active(), [&](auto& stepper) {
       using Stepper = std::decay_t<decltype(stepper)>;
       if (Stepper::fixed_step) return T(2 * how_.step); // it takes two at a time
       return first_step(system_, step_.x, step_.dxdt, step_.t, Stepper::order, tolerance().rtol,
-                        tolerance().atol, smaller(rest, a_radian()), scratch_, dscratch_);
+                        tolerance().atol, time_to_a_radian(at_, step_, rest), scratch_, dscratch_);
     });
-  }
-
-  /// A time in which no hinge turns by much more than a radian: where a motion is a parabola no
-  /// error would keep the first step from leaping over it.
-  [[nodiscard]] T a_radian() const {
-    using std::abs, std::sqrt;
-    T longest(how_.t_end);
-    for (int i = 1; i <= at_.bodies; ++i) {
-      const T rate = abs(step_.dxdt[at_.angle(i)]), acceleration = abs(step_.dxdt[at_.rate(i)]);
-      if (rate > T(0)) longest = smaller(longest, T(T(1) / rate));
-      if (acceleration > T(0)) longest = smaller(longest, T(sqrt(T(2) / acceleration)));
-    }
-    return longest;
   }
 
   void restore_momentum() {
@@ -616,11 +453,11 @@ private:
     if (!(step_.t < T(how_.t_end))) return true;
     if (goal_.first_latch_only && any_latch()) return true;
     if (goal_.to_t_end) return false;
-    if (rests_for_ever() && (latches_left_ > 0 || any_latch())) return true;
-    if (!proofs_may_end()) return latches_left_ == 0 && any_latch() && !wants_peaks();
+    if (rests_for_ever() && (events_.latches_left() > 0 || any_latch())) return true;
+    if (!proofs_may_end()) return events_.latches_left() == 0 && any_latch() && !wants_peaks();
     const bool look = steps_to_look() == 0;
     ++since_last_look_;
-    return look && (latches_left_ > 0 ? lacks_energy() : no_peak_can_rise());
+    return look && (events_.latches_left() > 0 ? lacks_energy() : no_peak_can_rise());
   }
 
   [[nodiscard]] bool wants_peaks() const { return goal_.peak_moment || goal_.peak_force; }
@@ -628,12 +465,12 @@ private:
   /// Whether the run may end, from here to the next event, by a proof that nothing more can happen.
   [[nodiscard]] bool proofs_may_end() const {
     if (goal_.to_t_end) return false;
-    return latches_left_ > 0 ? !wants_peaks() : any_latch() && wants_peaks();
+    return events_.latches_left() > 0 ? !wants_peaks() : any_latch() && wants_peaks();
   }
 
   /// Steps until the proofs are tried: they cost an evaluation and more.
   [[nodiscard]] long steps_to_look() const {
-    const int interval = latches_left_ > 0 ? 64 : 16;
+    const int interval = events_.latches_left() > 0 ? 64 : 16;
     if (!proofs_may_end()) return std::numeric_limits<long>::max();
     return interval - 1 - since_last_look_ % interval;
   }
@@ -662,7 +499,7 @@ private:
 
   /// The status of a run that has come to its end.
   [[nodiscard]] Status ending() {
-    if (latches_left_ == 0) return any_latch() ? Status::deployed : Status::timed_out;
+    if (events_.latches_left() == 0) return any_latch() ? Status::deployed : Status::timed_out;
     return rests_for_ever() || lacks_energy() ? Status::stalled : Status::timed_out;
   }
 
@@ -728,6 +565,7 @@ private:
   const Integration& how_;
   const Goal& goal_;
   const Observer& observer_;
+  Events<T, AnySystem> events_;
   MethodChoice choice_;
   SpectralRadius<T> radius_;
   Steppers<T> steppers_;
@@ -736,24 +574,22 @@ private:
   Stage stage_ = Stage::step;
   Try try_{};
   bool last_ = false, ended_ = false;
-  std::optional<Due> due_;                 ///< the event that ends the step
+  std::optional<Due<T>> due_;              ///< the event that ends the step
   int correction_ = 0;                     ///< of its instant
   T longest_ = T(0);                       ///< the step in which it was found
   int due_moment_ = 0;                     ///< the hinge whose moment is looked at
   std::optional<DoubtfulMoment<T>> doubt_; ///< of it
   Outcome outcome_;
   State<T> scratch_, dscratch_;
-  T h_ = T(0);
+  T h_ = T(0); ///< of the next step, s; negative: to be chosen
   std::vector<PeakOf<T>> moments_;
   ForcePeaks<T, AnySystem> forces_;
   bool probed_ = false; ///< the method has made steps inside the one accepted
-  Holding<T> holding_;
   PeakBounds<T> bounds_;
   bool bounds_ready_ = false;
   Conserved<T> kept_{};
   std::vector<LatchEvent> latches_;
   std::vector<Phase> phases_;
-  int latches_left_ = 0;
   bool stalled_ = false; ///< no hinge can reach its latch any more
   std::string why_stalled_;
   long tried_ = 0, steps_ = 0, rejected_ = 0, since_last_look_ = 0;

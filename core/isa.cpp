@@ -10,6 +10,14 @@ bool has_avx2() {
 #endif
 }
 
+bool has_neon() {
+#ifdef __aarch64__
+  return true;
+#else
+  return false;
+#endif
+}
+
 bool has_avx512() {
 #ifdef __x86_64__
   return has_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -20,9 +28,14 @@ bool has_avx512() {
 #endif
 }
 
+// ---- those that this build is without
+
 #ifndef __x86_64__
 std::unique_ptr<PackEngine> make_avx2_engine(const Wing<double>&, const PackShape&) { return {}; }
 std::unique_ptr<PackEngine> make_avx512_engine(const Wing<double>&, const PackShape&) { return {}; }
+#endif
+#ifndef __aarch64__
+std::unique_ptr<PackEngine> make_neon_engine(const Wing<double>&, const PackShape&) { return {}; }
 #endif
 
 } // namespace wingspread

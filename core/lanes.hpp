@@ -2,8 +2,8 @@
 /// takes the next at once.
 ///
 /// A run is asked only when a step ends it, or may hold an event or a peak; until then its state
-/// lives in the engine. What a run does is the same as alone, bit for bit: an engine
-/// makes its steps, and decides nothing.
+/// lives in the engine, which goes from step to step by the expressions with which the run would.
+/// What a run does is the same as alone, bit for bit.
 #pragma once
 
 #include "core/integrator.hpp"

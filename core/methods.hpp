@@ -289,7 +289,7 @@ public:
     const double error = in_tolerances(from.x, x1, dxdt1, error_, tolerance_);
     if (!std::isfinite(error)) return {error, 0.1};
     const double wanted =
-        0.9 * std::pow(std::max(error, 1e-10), -1.0 / (static_cast<double>(current()) + 1));
+        0.9 * power_roughly(std::max(error, 1e-10), -1.0 / (static_cast<double>(current()) + 1));
     if (error > 1) return {error, std::clamp(wanted, 0.2, 0.9)};
     if (after_rejection_) return {error, std::min(wanted, 1.0)};
     return {error, wanted > 1.2 ? std::min(wanted, 2.0) : std::min(wanted, 1.0)};

@@ -82,6 +82,9 @@ template <int W>
   if constexpr (W == 4) return _mm256_fmadd_pd(a.v, b.v, c.v);
   if constexpr (W == 2) return _mm_fmadd_pd(a.v, b.v, c.v);
 #endif
+#ifdef __aarch64__
+  if constexpr (W == 2) return vfmaq_f64(c.v, a.v, b.v);
+#endif
   Pack<W> result;
   for (int lane = 0; lane < W; ++lane)
     result.v[lane] = __builtin_fma(a.v[lane], b.v[lane], c.v[lane]);
@@ -94,6 +97,9 @@ template <int W> [[nodiscard, gnu::always_inline]] inline Pack<W> sqrt(const Pac
 #endif
 #ifdef __AVX__
   if constexpr (W == 4) return _mm256_sqrt_pd(a.v);
+#endif
+#ifdef __aarch64__
+  if constexpr (W == 2) return vsqrtq_f64(a.v);
 #endif
   Pack<W> result;
   for (int lane = 0; lane < W; ++lane) result.v[lane] = __builtin_sqrt(a.v[lane]);

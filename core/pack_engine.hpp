@@ -100,10 +100,13 @@ struct PackShape {
 };
 
 /// Whether this processor, and this build, have the instruction set.
+[[nodiscard]] bool has_neon();
 [[nodiscard]] bool has_avx2();
 [[nodiscard]] bool has_avx512();
 
 /// An engine for wings of this structure. @pre the instruction set is there
+[[nodiscard]] std::unique_ptr<PackEngine> make_neon_engine(const Wing<double>& wing,
+                                                           const PackShape& shape);
 [[nodiscard]] std::unique_ptr<PackEngine> make_avx2_engine(const Wing<double>& wing,
                                                            const PackShape& shape);
 [[nodiscard]] std::unique_ptr<PackEngine> make_avx512_engine(const Wing<double>& wing,

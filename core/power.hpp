@@ -1,5 +1,5 @@
-/// Binary logarithm and exponential for step control: good to 1e-7, which is more than a step's
-/// size needs, and with the same bits for a double and in every lane of a pack.
+/// Powers, binary logarithm and exponential for step control: good to 1e-7, which is more than a
+/// step's size needs, and with the same bits for a double and in every lane of a pack.
 #pragma once
 
 #include "core/pack.hpp"
@@ -30,6 +30,11 @@ template <class P> [[nodiscard, gnu::always_inline]] inline P exp2_roughly(const
                          0.24022650695910072, 0.69314718055994531, 1.0})
     p = fused(r, p, P(c));
   return detail::number_of(detail::bits_of(p) + (detail::bits_of(shifted) << 52));
+}
+
+/// xʸ to 1e-6, while |y log2 x| ≤ 1000. @pre x is positive, normal and finite
+[[nodiscard]] inline double power_roughly(double x, double y) {
+  return exp2_roughly(y * log2_roughly(x));
 }
 
 } // namespace wingspread

@@ -1,5 +1,5 @@
-/// What the kernel asks of a number, so that one algorithm serves double, long double, quad and,
-/// later, packs of runs.
+/// What the kernel asks of a number, so that one algorithm serves double, long double, quad and
+/// packs of runs.
 ///
 /// A number offers + − · /, comparison, and the functions below, found by overload: for a pack a
 /// comparison yields a mask and `select` blends, so the kernel chooses with `select`, never with
@@ -8,6 +8,11 @@
 
 #include <cmath>
 #include <limits>
+
+#if defined(__FMA__) || defined(__aarch64__)
+#define WINGSPREAD_HAS_FMA ///< the instruction set of this translation unit multiplies and adds at
+                           ///< once
+#endif
 
 namespace wingspread {
 
@@ -22,7 +27,7 @@ template <class T>
 [[nodiscard, gnu::always_inline]] inline T fused(const T& a, const T& b, const T& c) {
   return a * b + c;
 }
-#ifdef __FMA__
+#ifdef WINGSPREAD_HAS_FMA
 template <>
 [[nodiscard, gnu::always_inline]] inline double fused<double>(const double& a, const double& b,
                                                               const double& c) {

@@ -6,23 +6,30 @@
 namespace wingspread {
 namespace {
 
-/// Collects faults; formats a value only when it is one.
+/// Whose fields are looked at: "hinges.root", "base".
+struct Owner {
+  const char* kind;
+  const std::string& name; ///< may be empty
+};
+
+/// Collects faults; formats names and values only when it finds one.
 class Inspector {
 public:
-  void require(bool holds, double value, const std::string& owner, const char* field,
+  void require(bool holds, double value, const Owner& owner, const char* field,
                const char* expected) {
     if (holds && std::isfinite(value)) return;
     std::ostringstream found;
     found.precision(17);
     found << value;
-    faults.push_back(
-        {owner + "." + field, found.str(), std::isfinite(value) ? expected : "a finite number"});
+    faults.push_back({owner.kind + (owner.name.empty() ? "" : "." + owner.name) + "." + field,
+                      found.str(), std::isfinite(value) ? expected : "a finite number"});
   }
   std::vector<Fault> faults;
 };
 
 void inspect(const Base& base, Inspector& check) {
-  static const std::string owner = "base";
+  static const std::string nameless;
+  const Owner owner{"base", nameless};
   if (base.motion == BaseMotion::fixed) return;
   check.require(true, base.angle, owner, "angle", "");
   check.require(true, base.rate, owner, "rate", "");
@@ -40,7 +47,7 @@ void inspect(const Base& base, Inspector& check) {
   check.require(true, base.velocity.y(), owner, "velocity.1", "");
 }
 
-void inspect(const Friction& friction, const std::string& owner, Inspector& check) {
+void inspect(const Friction& friction, const Owner& owner, Inspector& check) {
   check.require(friction.coulomb >= 0, friction.coulomb, owner, "friction.coulomb", ">= 0");
   check.require(friction.viscous >= 0, friction.viscous, owner, "friction.viscous", ">= 0");
   check.require(friction.regularization_rate > 0, friction.regularization_rate, owner,
@@ -51,7 +58,7 @@ void inspect(const Friction& friction, const std::string& owner, Inspector& chec
 }
 
 void inspect(const Hinge& hinge, Inspector& check) {
-  const std::string owner = "hinges." + hinge.name;
+  const Owner owner{"hinges", hinge.name};
   check.require(true, hinge.parent_point.x(), owner, "parent_point.0", "");
   check.require(true, hinge.parent_point.y(), owner, "parent_point.1", "");
   check.require(true, hinge.child_point.x(), owner, "child_point.0", "");
@@ -77,7 +84,7 @@ std::vector<Fault> unphysical(const Scene& scene) {
   Inspector check;
   inspect(scene.base, check);
   for (const Body& body : scene.bodies) {
-    const std::string owner = "bodies." + body.name;
+    const Owner owner{"bodies", body.name};
     check.require(body.mass > 0, body.mass, owner, "mass", "> 0");
     check.require(body.inertia > 0, body.inertia, owner, "inertia", "> 0");
   }

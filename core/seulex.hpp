@@ -114,8 +114,9 @@ private:
 
   /// The factor to the step at which row j's error would meet the tolerance.
   [[nodiscard]] double factor_of(int j) const {
+    if (!(errors_[j] < 1e100)) return 0.05;
     const double floored = std::max(errors_[j], 1e-12);
-    return std::clamp(0.9 * std::pow(0.5 / floored, 1.0 / (j + 1)), 0.05, 6.0);
+    return std::clamp(0.9 * power_roughly(0.5 / floored, 1.0 / (j + 1)), 0.05, 6.0);
   }
 
   /// Order and step of the next try, from the work per unit of time.

@@ -23,7 +23,7 @@ template <class T>
   return {sin(angle), cos(angle)};
 }
 
-#ifdef __FMA__
+#ifdef WINGSPREAD_HAS_FMA
 namespace detail {
 
 /// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction, which the rest need not wait

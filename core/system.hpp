@@ -68,23 +68,27 @@ public:
       : wing_(wing), topology_(topology),
         work_(work), layout_{first_coordinate, topology.bodies(), smoothing.has_value()},
         epsilon_(smoothing.value_or(0)) {
+    const int n = layout_.bodies;
+    work_.frames.assign(n + 1, BodyFrame<T>{});
+    work_.forces.assign(n + 1, {T(0), T(0)});
+    work_.laws.resize(n + 1);
+    work_.nonlinear.resize(n + 1);
+    work_.held.resize(n);
+    work_.linear.resize(n);
     reset();
   }
 
   /// Forgets what has happened: no hinge is latched or stuck; the wing's numbers may have changed.
   void reset() {
-    work_.frames.assign(layout_.bodies + 1, BodyFrame<T>{});
-    work_.forces.assign(layout_.bodies + 1, {T(0), T(0)});
-    work_.laws.resize(layout_.bodies + 1);
-    work_.nonlinear.resize(layout_.bodies + 1);
     work_.engaged.assign(layout_.bodies + 1, false);
     work_.contact.assign(layout_.bodies + 1, Contact::none);
     work_.holding.assign(layout_.bodies + 1, T(0));
     work_.stuck = 0;
-    work_.held.resize(layout_.bodies);
-    work_.linear.resize(layout_.bodies);
     work_.evaluations = 0;
-    for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
+    for (int i = 1; i <= layout_.bodies; ++i) {
+      work_.held.hinges[i].locked = work_.linear.hinges[i].locked = false;
+      update_law(i);
+    }
   }
 
   [[nodiscard]] const Layout& layout() const { return layout_; }

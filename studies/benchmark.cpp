@@ -9,6 +9,7 @@
 #include "core/system.hpp"
 #include "montecarlo/campaign.hpp"
 #include "studies/dense_chain.hpp"
+#include "studies/study.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,7 @@
 #include <iostream>
 
 using namespace wingspread;
+using study::stack;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -51,28 +53,6 @@ double cycles_per_ns() {
     for (int k = 0; k < 32; ++k) asm volatile("add $1, %0" : "+r"(x));
   });
   return 32 / block;
-}
-
-/// A folded stack of n like panels.
-Scene stack(int n) {
-  Scene scene;
-  scene.name = "stack";
-  for (int i = 0; i < n; ++i) {
-    const double side = i % 2 == 0 ? 1 : -1;
-    Body body;
-    body.name = std::string("panel_").append(std::to_string(i));
-    body.mass = 10, body.inertia = 0.5;
-    scene.bodies.push_back(body);
-    Hinge hinge;
-    hinge.name = std::string("hinge_").append(std::to_string(i));
-    hinge.parent = i - 1, hinge.child = i;
-    hinge.parent_point = i == 0 ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(0.505, 0.02 * side);
-    hinge.child_point = {-0.505, 0.02 * side};
-    hinge.stowed = i == 0 ? 1.5707963267948966 : 3.141592653589793 * side;
-    hinge.spring = {2, 1.4};
-    scene.hinges.push_back(hinge);
-  }
-  return scene;
 }
 
 struct EvaluationTime {

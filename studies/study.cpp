@@ -59,4 +59,25 @@ Scene seed_wing(double stiffness, double damping) {
   return scene;
 }
 
+Scene stack(int n) {
+  Scene scene;
+  scene.name = "stack";
+  for (int i = 0; i < n; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1;
+    Body body;
+    body.name = fmt::format("panel_{}", i + 1);
+    body.mass = 10, body.inertia = 0.5;
+    scene.bodies.push_back(body);
+    Hinge hinge;
+    hinge.name = fmt::format("hinge_{}", i + 1);
+    hinge.parent = i - 1, hinge.child = i;
+    hinge.parent_point = i == 0 ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(0.505, 0.02 * side);
+    hinge.child_point = {-0.505, 0.02 * side};
+    hinge.stowed = i == 0 ? 1.5707963267948966 : 3.141592653589793 * side;
+    hinge.spring = {2, 1.4};
+    scene.hinges.push_back(hinge);
+  }
+  return scene;
+}
+
 } // namespace wingspread::study

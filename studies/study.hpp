@@ -1,4 +1,4 @@
-/// What the drivers of the accuracy charts share: their command line, their tables, the seed wing.
+/// What the drivers share: their command line, their tables, the seed wing.
 /// Run from the repository's root.
 #pragma once
 
@@ -49,6 +49,9 @@ private:
 
 /// The seed wing with every latch of this stiffness, N·m/rad, and damping, N·m·s/rad.
 [[nodiscard]] Scene seed_wing(double stiffness, double damping);
+
+/// A folded stack of n like panels, without latches.
+[[nodiscard]] Scene stack(int n);
 
 inline constexpr double seed_t_end = 12; ///< s: more than five after the last latch
 

@@ -2,9 +2,9 @@
 // writes with Boost.Odeint, and against tolerance, lanes, threads and bodies. Everything is timed
 // in this one process; read the ratios, for machines are noisy.
 //
-//   build/release/studies/throughput                     a table, and results/throughput/*.csv,
-//   .json build/release/studies/throughput --quick             a tenth of the runs /usr/bin/python3
-//   studies/plot_throughput.py results/throughput
+//   build/release/studies/throughput            a table, and results/throughput/*.csv, .json
+//   build/release/studies/throughput --quick    a tenth of the runs
+//   /usr/bin/python3 studies/plot_throughput.py results/throughput
 
 #include "core/deployment.hpp"
 #include "core/pack_engine.hpp"
@@ -357,27 +357,6 @@ private:
       std::fflush(stdout);
     }
     table.write(options_.folder / "bodies.csv");
-  }
-
-  static Scene stack(int n) {
-    Scene scene;
-    scene.name = "stack";
-    for (int i = 0; i < n; ++i) {
-      const double side = i % 2 == 0 ? 1 : -1;
-      Body body;
-      body.name = fmt::format("panel_{}", i + 1);
-      body.mass = 10, body.inertia = 0.5;
-      scene.bodies.push_back(body);
-      Hinge hinge;
-      hinge.name = fmt::format("hinge_{}", i + 1);
-      hinge.parent = i - 1, hinge.child = i;
-      hinge.parent_point = i == 0 ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(0.505, 0.02 * side);
-      hinge.child_point = {-0.505, 0.02 * side};
-      hinge.stowed = i == 0 ? 1.5707963267948966 : 3.141592653589793 * side;
-      hinge.spring = {2, 1.4};
-      scene.hinges.push_back(hinge);
-    }
-    return scene;
   }
 
   void threads() {
