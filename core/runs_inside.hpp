@@ -49,7 +49,8 @@ inline Occupancy run_in_lanes(const Wing<double>& structure, PackEngine& engine,
                               const DeploymentPack::Done& done) {
   return with_structure(structure, [&]<BaseMotion M>(const auto& topology) {
     using Topology = std::decay_t<decltype(topology)>;
-    return Lanes<Topology, M>(structure, topology, engine, method, how, goal).run(next, done);
+    return wingspread::Lanes<Topology, M>(structure, topology, engine, method, how, goal)
+        .run(next, done);
   });
 }
 

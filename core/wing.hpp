@@ -106,6 +106,7 @@ template <class T>
   const int n = static_cast<int>(order.size());
   std::vector<int> number(n), parents(n + 1, -1);
   Wing<T> wing;
+  wing.base.motion = scene.base.motion;
   wing.hinge_of.assign(n + 1, -1);
   for (int i = 1; i <= n; ++i) {
     const Hinge& hinge = scene.hinges[order[i - 1]];
