@@ -81,7 +81,8 @@ public:
   /// The verdict on a step of this scaled error.
   [[nodiscard]] Verdict verdict_of(double error) {
     return steppers_.with(choice_.active(), [&](auto& stepper) -> Verdict {
-      if constexpr (requires { stepper.verdict(error); }) return stepper.verdict(error);
+      if constexpr (requires { stepper.verdict(error, 1.0); })
+        return stepper.verdict(error, static_cast<double>(try_.h));
       return {error, 1};
     });
   }
@@ -345,7 +346,9 @@ private:
 
   void count_step() {
     ++steps_;
-    steppers_.with(choice_.active(), [&](auto& stepper) { stepper.accepted(verdict_); });
+    steppers_.with(choice_.active(), [&](auto& stepper) {
+      stepper.accepted(verdict_, static_cast<double>(step_.h));
+    });
   }
 
   // ---- events
@@ -420,7 +423,11 @@ private:
       close_phase();
       phases_.push_back({name, static_cast<double>(step_.t), 0, -steps_});
     }
-    steppers_.with(choice_.active(), [&](auto& stepper) { stepper.restart(tolerance()); });
+    steppers_.with(choice_.active(), [&](auto& stepper) {
+      stepper.restart(tolerance());
+      if constexpr (requires { stepper.memory(); })
+        if (latches_.empty()) stepper.memory().foresee();
+    });
   }
 
   void close_phase() {

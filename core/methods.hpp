@@ -174,16 +174,17 @@ public:
     error_.resize(from.x.size());
     formula_.estimate(system, from, h, x1, dxdt1, error_);
     return verdict(static_cast<double>(scaled_error_of(formula_, from.x, x1, dxdt1, error_,
-                                                       T(tolerance_.rtol), T(tolerance_.atol))));
+                                                       T(tolerance_.rtol), T(tolerance_.atol))),
+                   static_cast<double>(h));
   }
 
-  /// On a step of this scaled error.
-  [[nodiscard]] Verdict verdict(double error) const {
-    return {error, step_factor(Formula::error_order, error, memory_)};
+  /// On a step over h of this scaled error.
+  [[nodiscard]] Verdict verdict(double error, double h) const {
+    return {error, step_factor(Formula::error_order, error, h, memory_)};
   }
   [[nodiscard]] StepMemory<double>& memory() { return memory_; }
 
-  void accepted(const Verdict& verdict) { memory_.accepted(verdict.error); }
+  void accepted(const Verdict& verdict, double h) { memory_.accepted(verdict.error, h); }
   void rejected() { memory_.rejected(); }
 
 private:
@@ -219,7 +220,7 @@ public:
     return {in_tolerances(from.x, x1, dxdt1, error_, tolerance_), 1};
   }
 
-  void accepted(const Verdict& /*verdict*/) {}
+  void accepted(const Verdict& /*verdict*/, double /*h*/) {}
   void rejected() {}
 
 private:
@@ -252,7 +253,7 @@ public:
     return good ? Verdict{0.5, factor} : Verdict{2, std::min(factor, 0.7)};
   }
 
-  void accepted(const Verdict& /*verdict*/) {}
+  void accepted(const Verdict& /*verdict*/, double /*h*/) {}
   void rejected() {}
 
 private:
@@ -296,7 +297,7 @@ public:
   }
 
   /// @pre the last attempt was the step accepted
-  void accepted(const Verdict& /*verdict*/) {
+  void accepted(const Verdict& /*verdict*/, double /*h*/) {
     auto& history = stepper_.coeff();
     history.do_step(dxdt_);
     history.confirm();

@@ -82,6 +82,7 @@ public:
     step_.h.v[lane] = stretch.h;
     memory_.log_error.v[lane] = stretch.memory.log_error;
     memory_.most.v[lane] = stretch.memory.most;
+    memory_.h.v[lane] = stretch.memory.h;
     busy_.v[lane] = 1;
     shown_.v[lane] = static_cast<double>(round_);
     due_.v[lane] = static_cast<double>(round_) + static_cast<double>(stretch.tries);
@@ -131,7 +132,7 @@ public:
             count(steps_),
             at(step_.t),
             at(step_.h),
-            {at(memory_.log_error), at(memory_.most)},
+            {at(memory_.log_error), at(memory_.most), at(memory_.h)},
             count(last_free_),
             count(tries_to_free_),
             at(free_time_)};
@@ -175,7 +176,7 @@ private:
   [[nodiscard]] Judgement judge() {
     error_size_ = scaled_error_of(formula_, step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
     Mask accepted = error_size_ <= P(1.0);
-    P factor = step_factor(Formula::error_order, error_size_, memory_);
+    P factor = step_factor(Formula::error_order, error_size_, step_.h, memory_);
     if constexpr (Formula::order > 5) {
       const P rough = roughness(at_, step_.h, step_.dxdt, step_.dxdt1, rough_atol_);
       const Mask too_rough = rough > P(1.0);
@@ -217,8 +218,9 @@ private:
     tries_to_free_ = select(free, P(P(static_cast<double>(round_)) - shown_), tries_to_free_);
     free_time_ = select(free, step_.t, free_time_);
     StepMemory<P> after = memory_;
-    after.accepted(error_size_);
+    after.accepted(error_size_, step_.h);
     memory_.log_error = select(accepted, after.log_error, memory_.log_error);
+    memory_.h = select(accepted, after.h, memory_.h);
     memory_.most = select(accepted, after.most, select(these, P(1.0), memory_.most));
     step_.h = select(these, judgement.next, step_.h);
   }

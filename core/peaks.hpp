@@ -4,8 +4,6 @@
 #include "core/quintic.hpp"
 #include "core/system.hpp"
 
-#include <boost/math/tools/minima.hpp>
-
 #include <array>
 #include <optional>
 #include <vector>
@@ -61,17 +59,58 @@ template <class T> struct PeakOf {
   }
 };
 
-/// Raises `peak` to the maximum of |f| near s, within ± width of it and inside [0, 1]
-/// (Brent's method, half the digits of s).
-template <class T, class Function>
-void refine(PeakOf<T>& peak, const T& t, const T& h, const T& s, const T& width, Function f) {
-  using std::abs;
-  const T lower = larger(T(s - width), T(0)), upper = smaller(T(s + width), T(1));
-  std::uintmax_t iterations = 60;
-  const auto best =
-      boost::math::tools::brent_find_minima([&](const T& at) { return T(-abs(f(at))); }, lower,
-                                            upper, std::numeric_limits<T>::digits / 2, iterations);
-  peak.raise(T(-best.second), T(t + best.first * h));
+/// A function's value at a fraction of the step.
+template <class T> struct Sampled { T s, value; };
+
+/// The maximum of f near the largest of samples at the ends and at equal distances between them,
+/// by parabolas through the best three points, within a bracket [Brent 1973, 5]. f is flat there:
+/// an s good to √ε or so, of T, makes the value good to ε.
+/// @param f f(s) → T
+/// @return the best point seen, and where the last parabola has its vertex
+template <class T, std::size_t N, class Function>
+[[nodiscard]] std::pair<Sampled<T>, T> maximum_near(const std::array<T, N>& samples,
+                                                    std::size_t best, Function f) {
+  using std::abs, std::sqrt;
+  const T close = T(700) * sqrt(T(epsilon_of<T>)); // from there a parabola's vertex is much better
+  const T spacing = T(1) / T(N - 1);
+  const auto sampled = [&](std::size_t k) { return Sampled<T>{T(k) * spacing, samples[k]}; };
+  Sampled<T> left, middle, right;
+  if (best > 0 && best < N - 1) {
+    left = sampled(best - 1), middle = sampled(best), right = sampled(best + 1);
+  } else { // the largest lies at an end: is there one beside it that is larger?
+    const Sampled<T> end = sampled(best), next = sampled(best == 0 ? 1 : N - 2);
+    const T s = (end.s + next.s) / T(2);
+    middle = {s, f(s)};
+    left = best == 0 ? end : next, right = best == 0 ? next : end;
+  }
+  const auto largest = [&](const T& vertex) -> std::pair<Sampled<T>, T> {
+    if (middle.value >= left.value && middle.value >= right.value) return {middle, vertex};
+    const Sampled<T>& end = left.value > right.value ? left : right;
+    return {end, end.s};
+  };
+  T last(1), last_but_one(1); // ways from one point to the next
+  for (int pass = 0; pass < 40; ++pass) {
+    const T before = (middle.value - left.value) * (right.s - middle.s);
+    const T after = (middle.value - right.value) * (middle.s - left.s), both = before + after;
+    if (!(both > T(0))) break; // no maximum inside, or a plateau
+    const T way = (before * (right.s - middle.s) - after * (middle.s - left.s)) / (T(2) * both);
+    T s = middle.s + way;
+    if (!(s > left.s && s < right.s)) break; // it rises to an end
+    if (abs(way) < close) return largest(s);
+    if (abs(way) > T(0.5) * last_but_one) { // parabolas do not settle
+      const bool right_is_wider = right.s - middle.s > middle.s - left.s;
+      s = (middle.s + (right_is_wider ? right.s : left.s)) / T(2);
+    }
+    last_but_one = last, last = abs(s - middle.s);
+    const Sampled<T> made{s, f(s)};
+    const bool above = made.value > middle.value;
+    if (s < middle.s)
+      (above ? right : left) = above ? middle : made;
+    else
+      (above ? left : right) = above ? middle : made;
+    if (above) middle = made;
+  }
+  return largest(middle.s);
 }
 
 /// How far below the peak a sample may lie for the maximum beside it to be looked for, times the
@@ -137,16 +176,17 @@ template <class T, class AnySystem>
 void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
                           const Step<T>& step) {
   using std::abs;
-  constexpr int samples = 8;
-  T best(-1), where(0);
-  for (int k = 0; k <= samples; ++k) {
-    const T s = T(k) / T(samples);
-    const T m = abs(moment(s));
-    if (m > best) best = m, where = s;
+  std::array<T, 9> samples;
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    samples[k] = abs(moment(T(k) / T(samples.size() - 1)));
+    if (samples[k] > samples[best]) best = k;
   }
-  if (best < T(sample_margin) * peak.value) return;
-  peak.raise(best, step.t + where * step.h);
-  refine(peak, step.t, step.h, where, T(1) / T(samples), moment);
+  if (samples[best] < T(sample_margin) * peak.value) return;
+  const auto [found, vertex] =
+      maximum_near(samples, best, [&](const T& s) { return T(abs(moment(s))); });
+  peak.raise(found.value, step.t + found.s * step.h);
+  peak.raise(T(abs(moment(vertex))), step.t + vertex * step.h);
 }
 
 /// dM/dt of hinge i, which slides or has no exact friction, at a state and its derivative; without
@@ -302,26 +342,23 @@ private:
   }
 
   void raise(AnySystem& system, const Step<T>& step, int i, State<T>& x, State<T>& dxdt) {
-    int best = 0;
-    for (int k = 1; k <= 4; ++k)
+    std::size_t best = 0;
+    for (std::size_t k = 1; k <= 4; ++k)
       if (inner_[i][k] > inner_[i][best]) best = k;
     if (inner_[i][best] < T(sample_margin) * peaks[i].value) return;
     peaks[i].raise(inner_[i][0], step.t);
     peaks[i].raise(inner_[i][4], step.t + step.h);
     if (at_an_end_for_sure(inner_[i], best)) return;
-    PeakOf<T> candidate = peaks[i];
-    candidate.raise(inner_[i][best], step.t + T(best) / T(4) * step.h);
-    refine(candidate, step.t, step.h, T(best) / T(4), T(1) / T(4), [&](const T& s) {
+    const auto [found, vertex] = maximum_near(inner_[i], best, [&](const T& s) {
       evaluate(system, step, s, x, dxdt);
       return magnitude(system, i);
     });
-    if (candidate.value > peaks[i].value)
-      doubts_.push_back({i, T((candidate.time - step.t) / step.h), candidate.time});
+    if (found.value > peaks[i].value) doubts_.push_back({i, vertex, T(step.t + vertex * step.h)});
   }
 
   /// The samples rise or fall towards an end so steeply that a parabola through the last three has
   /// its vertex well outside the step.
-  [[nodiscard]] static bool at_an_end_for_sure(const std::array<T, 5>& f, int best) {
+  [[nodiscard]] static bool at_an_end_for_sure(const std::array<T, 5>& f, std::size_t best) {
     using std::abs;
     if (best != 0 && best != 4) return false;
     const T a = best == 0 ? f[0] : f[4], b = best == 0 ? f[1] : f[3], c = f[2];

@@ -51,7 +51,7 @@ public:
     return verdict;
   }
 
-  void accepted(const Verdict& /*verdict*/) {
+  void accepted(const Verdict& /*verdict*/, double /*h*/) {
     target_ = next_target_;
     after_rejection_ = false;
   }
