@@ -63,15 +63,15 @@ template <class T> struct PeakOf {
 template <class T> struct Sampled { T s, value; };
 
 /// The maximum of f near the largest of samples at the ends and at equal distances between them,
-/// by parabolas through the best three points, within a bracket [Brent 1973, 5]. f is flat there:
-/// an s good to √ε or so, of T, makes the value good to ε.
+/// by parabolas through the best three points, within a bracket [Brent 1973, 5]. Good to
+/// √ε, ε of T, where f is smooth, which makes the value good to ε, for f is flat there.
 /// @param f f(s) → T
 /// @return the best point seen, and where the last parabola has its vertex
 template <class T, std::size_t N, class Function>
 [[nodiscard]] std::pair<Sampled<T>, T> maximum_near(const std::array<T, N>& samples,
                                                     std::size_t best, Function f) {
   using std::abs, std::sqrt;
-  const T close = T(700) * sqrt(T(epsilon_of<T>)); // from there a parabola's vertex is much better
+  const T close = sqrt(sqrt(T(epsilon_of<T>))); // a parabola over that is good to close²
   const T spacing = T(1) / T(N - 1);
   const auto sampled = [&](std::size_t k) { return Sampled<T>{T(k) * spacing, samples[k]}; };
   Sampled<T> left, middle, right;
@@ -96,11 +96,13 @@ template <class T, std::size_t N, class Function>
     const T way = (before * (right.s - middle.s) - after * (middle.s - left.s)) / (T(2) * both);
     T s = middle.s + way;
     if (!(s > left.s && s < right.s)) break; // it rises to an end
-    if (abs(way) < close) return largest(s);
-    if (abs(way) > T(0.5) * last_but_one) { // parabolas do not settle
-      const bool right_is_wider = right.s - middle.s > middle.s - left.s;
-      s = (middle.s + (right_is_wider ? right.s : left.s)) / T(2);
-    }
+    const T rightwards = right.s - middle.s, leftwards = middle.s - left.s;
+    const T wider = rightwards > leftwards ? rightwards : T(-leftwards);
+    if (abs(wider) < T(3) * close) return largest(s);
+    if (abs(way) < close) // as it seems: a point beside makes sure
+      s = middle.s + (wider > T(0) ? close : T(-close));
+    else if (abs(way) > T(0.5) * last_but_one) // parabolas do not settle
+      s = middle.s + wider / T(2);
     last_but_one = last, last = abs(s - middle.s);
     const Sampled<T> made{s, f(s)};
     const bool above = made.value > middle.value;

@@ -70,7 +70,7 @@ template <class T> struct Stepping {
   }
 
   template <class Stepper> void accept(Stepper& stepper, const Verdict& verdict, const T& h) {
-    stepper.accepted(verdict);
+    stepper.accepted(verdict, static_cast<double>(h));
     t = t + h;
     std::swap(x, x1);
     std::swap(dxdt, dxdt1);
