@@ -76,8 +76,7 @@ template <class P>
 }
 
 /// A first step whose error is about that of the tolerance, from the sizes of x, ẋ and ẍ
-/// [Hairer, Nørsett & Wanner I, II.4]; 0 where nothing is finite. One evaluation; `scratch` and
-/// `dscratch` are overwritten.
+/// [Hairer, Nørsett & Wanner I, II.4]. One evaluation; `scratch` and `dscratch` are overwritten.
 template <class T, class AnySystem>
 [[nodiscard]] T first_step(AnySystem& system, const State<T>& x, const State<T>& dxdt, const T& t,
                            int order, double rtol, double atol, const T& longest, State<T>& scratch,
@@ -98,9 +97,9 @@ template <class T, class AnySystem>
   for (std::size_t k = 0; k < x.size(); ++k) scratch[k] = fused(T(h), dxdt[k], x[k]);
   system(scratch, dscratch, t + T(h));
   const double bend = std::max(slope, norm(dscratch, &dxdt) / h);
-  if (!(bend < 1e100)) return T(0);
+  const bool known = bend > 1e-15 && bend < 1e100;
   const double next =
-      bend > 1e-15 ? power_roughly(0.01 / bend, 1.0 / (order + 1)) : std::max(1e-6, h * 1e-3);
+      known ? power_roughly(0.01 / bend, 1.0 / (order + 1)) : std::max(1e-6, h * 1e-3);
   return smaller(T(std::min(100 * h, next)), longest);
 }
 

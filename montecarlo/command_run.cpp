@@ -176,12 +176,12 @@ void add_run(CLI::App& app, Action& action) {
   add_threads_option(*command, options->threads);
   command
       ->add_option("--lanes", options->lanes,
-                   "How many runs a thread makes at once: 1, 2, 4 or 8; the most if left out")
+                   "How many runs a thread makes at once: 1, 2, 4 or 8; else the most")
       ->check(CLI::IsMember({1, 2, 4, 8}).description(""))
       ->type_name("L");
   command
       ->add_option("--isa", options->isa,
-                   "The instruction set: scalar, neon, avx2 or avx512; the widest if left out")
+                   "Instructions: scalar, neon, avx2 or avx512; else the widest")
       ->check(CLI::IsMember({"scalar", "neon", "avx2", "avx512"}).description(""))
       ->type_name("NAME");
   command->add_flag("--resume", options->resume,
