@@ -84,6 +84,7 @@ const What latches_only{"to the last latch",
 const What first_latch{
     "A: to the first latch",
     {.peak_moment = false, .peak_force = false, .audit = false, .first_latch_only = true}};
+const What early_stop{"B: with the early stop", moments_too.goal};
 const What whole_run{
     "B: whole run to 12 s", {.peak_force = false, .audit = false, .to_t_end = true}, seed_t_end};
 
@@ -271,7 +272,7 @@ private:
                "", "error", "rtol", "here", "in packs", "rtol", "odeint", "ratio", "scalar");
     const InstructionSet widest = instruction_sets().back();
     Json rows = Json::array();
-    for (const What& what : {first_latch, latches_only, whole_run})
+    for (const What& what : {first_latch, latches_only, early_stop, whole_run})
       for (const double level : {1e-6, 1e-9}) {
         const bool first = what.goal.first_latch_only;
         const auto exact =
