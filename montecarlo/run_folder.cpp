@@ -55,14 +55,6 @@ void refuse_stopping_shard(const Campaign& campaign, const std::optional<Shard>&
                       "all runs: only they tell when to stop"}});
 }
 
-/// The runs have to follow each other without a gap from the first one on.
-void refuse_gaps(const Results& results, long first, const std::filesystem::path& path) {
-  for (std::size_t i = 0; i < results.size(); ++i)
-    if (const long expected = first + static_cast<long>(i); results.runs[i] != expected)
-      throw SpecError({{path.string(), "", fmt::format("run {}", results.runs[i]),
-                        fmt::format("run {}, the next one", expected)}});
-}
-
 } // namespace
 
 void refuse_used_folder(const std::filesystem::path& folder, const char* expected) {
@@ -75,44 +67,27 @@ void refuse_used_folder(const std::filesystem::path& folder, const char* expecte
 RunFolder::RunFolder(std::filesystem::path folder, const RunPlan& plan,
                      const std::optional<Shard>& shard, bool resume)
     : stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)},
-      path_(stored_.folder / runs_file), results_(plan.names()) {
+      rows_(stored_.folder / runs_file, plan.names()) {
   refuse_stopping_shard(stored_.campaign, shard);
   const bool fresh = is_new(stored_.folder);
   if (!resume)
     refuse_used_folder(stored_.folder, "a new or an empty folder (--resume continues a campaign)");
   if (!fresh) {
     refuse_other(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);
-    continue_runs();
+    rows_.go_on_behind(read_stored_results(stored_), stored_.runs().first);
   } else {
     make_folder(stored_.folder);
     write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
   }
-  out_.open(path_, std::ios::binary | std::ios::app);
-  if (!out_) throw unwritable(path_);
-  if (std::filesystem::file_size(path_) > 0) return;
-  std::string header;
-  append_header(header, plan.names());
-  if (!(out_ << header << std::flush)) throw unwritable(path_);
-}
-
-void RunFolder::continue_runs() {
-  ResultsFile read = read_stored_results(stored_);
-  refuse_gaps(read.results, stored_.runs().first, path_);
-  if (std::filesystem::exists(path_)) std::filesystem::resize_file(path_, read.complete_bytes);
-  results_ = std::move(read.results);
+  rows_.open(plan.names());
 }
 
 RunRange RunFolder::remaining() const {
   const RunRange runs = stored_.runs();
-  const long done = std::ssize(results_.runs);
-  if (is_complete(stored_, results_)) return {runs.first + done, runs.first + done};
+  const long done = std::ssize(results().runs);
+  if (is_complete(stored_, results())) return {runs.first + done, runs.first + done};
   const bool may_stop = !stored_.campaign.until.empty();
   return {runs.first + done, may_stop ? next_checkpoint(done, runs.size()) : runs.last};
-}
-
-void RunFolder::add(const Batch& batch) {
-  for (const ResultRow& row : batch.rows) results_.append(row);
-  if (!(out_ << batch.csv << std::flush)) throw unwritable(path_);
 }
 
 } // namespace wingspread

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "montecarlo/folder.hpp"
-
-#include <fstream>
+#include "montecarlo/growing_results.hpp"
 
 namespace wingspread {
 
@@ -24,18 +23,14 @@ public:
   /// next checkpoint. None when it is complete. Cost: at a checkpoint, that of its statistics.
   [[nodiscard]] RunRange remaining() const;
   [[nodiscard]] const StoredCampaign& stored() const { return stored_; }
-  [[nodiscard]] const Results& results() const { return results_; }
+  [[nodiscard]] const Results& results() const { return rows_.results(); }
 
   /// Adds the next runs, to memory and to the file. @throws SpecError when they cannot be written
-  void add(const Batch& batch);
+  void add(const Batch& batch) { rows_.add(batch); }
 
 private:
-  void continue_runs();
-
   StoredCampaign stored_;
-  std::filesystem::path path_; ///< of runs.csv
-  Results results_;
-  std::ofstream out_;
+  GrowingResults rows_;
 };
 
 /// @throws SpecError unless there is no such folder, or nothing in it but what a crash left before

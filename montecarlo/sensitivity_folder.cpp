@@ -6,9 +6,7 @@
 #include "montecarlo/summary_json.hpp"
 #include "montecarlo/version.hpp"
 
-#include <fmt/format.h>
-
-#include <utility>
+#include <fstream>
 
 namespace wingspread {
 namespace {
@@ -71,37 +69,22 @@ ResultsFile read_design_runs(const std::filesystem::path& folder, const RunPlan&
   std::ifstream in(path, std::ios::binary);
   if (!in) throw SpecError({{path.string(), "", "a file that cannot be read", "the runs' rows"}});
   ResultsFile read = read_results(in, path.string(), plan.names(), UnterminatedRow::drop);
-  for (std::size_t k = 0; k < read.results.size(); ++k)
-    if (std::cmp_not_equal(read.results.runs[k], k))
-      throw SpecError({{path.string(), "", fmt::format("run {}", read.results.runs[k]),
-                        fmt::format("run {}, the next one", k)}});
+  refuse_gaps(read.results, 0, path);
   return read;
 }
 
 DesignFolder::DesignFolder(const std::filesystem::path& folder, const SaltelliDesign& design,
                            const RunPlan& plan, bool resume)
-    : path_(folder / design_runs_file), results_(plan.names()) {
+    : rows_(folder / design_runs_file, plan.names()) {
   if (resume && std::filesystem::exists(folder / design_file)) {
     refuse_other(folder, design);
-    ResultsFile read = read_design_runs(folder, plan);
-    if (std::filesystem::exists(path_)) std::filesystem::resize_file(path_, read.complete_bytes);
-    results_ = std::move(read.results);
+    rows_.go_on_behind(read_design_runs(folder, plan), 0);
   } else {
     refuse_used_folder(folder, "a new or an empty folder (--resume continues a design)");
     make_folder(folder);
     write_file(folder / design_file, design_text(design));
   }
-  out_.open(path_, std::ios::binary | std::ios::app);
-  if (!out_) throw unwritable(path_);
-  if (std::filesystem::file_size(path_) > 0) return;
-  std::string header;
-  append_header(header, plan.names());
-  if (!(out_ << header << std::flush)) throw unwritable(path_);
-}
-
-void DesignFolder::add(const Batch& batch) {
-  for (const ResultRow& row : batch.rows) results_.append(row);
-  if (!(out_ << batch.csv << std::flush)) throw unwritable(path_);
+  rows_.open(plan.names());
 }
 
 } // namespace wingspread

@@ -7,11 +7,10 @@
 /// folder, and no command takes it for one.
 #pragma once
 
-#include "montecarlo/engine.hpp"
+#include "montecarlo/growing_results.hpp"
 #include "montecarlo/saltelli.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 namespace wingspread {
@@ -50,13 +49,11 @@ public:
   DesignFolder(const std::filesystem::path& folder, const SaltelliDesign& design,
                const RunPlan& plan, bool resume);
 
-  [[nodiscard]] const Results& results() const { return results_; }
-  void add(const Batch& batch);
+  [[nodiscard]] const Results& results() const { return rows_.results(); }
+  void add(const Batch& batch) { rows_.add(batch); }
 
 private:
-  std::filesystem::path path_;
-  Results results_;
-  std::ofstream out_;
+  GrowingResults rows_;
 };
 
 } // namespace wingspread
