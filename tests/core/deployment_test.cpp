@@ -233,7 +233,8 @@ TEST_CASE("what cannot be run says so") {
     CHECK(!out.reason.empty());
     for (const Peak& peak : out.peak_moment) CHECK(std::isfinite(peak.value));
   }
-  SECTION("what no step can follow in the middle of a run fails it there, and keeps what came before") {
+  SECTION(
+      "what no step can follow in the middle of a run fails it there, and keeps what came before") {
     scene.hinges[0].latch = Latch{1e308, 100};
     const Outcome out = Deployment().run(scene, {}, {});
     CHECK(out.status == Status::failed);
