@@ -1,8 +1,8 @@
 #include "core/deployment.hpp"
 
-#include "core/dop853.hpp"
-#include "core/method_choice.hpp"
-#include "core/runs.hpp"
+#include "core/methods/dop853.hpp"
+#include "core/methods/method_choice.hpp"
+#include "core/packs/runs.hpp"
 
 #include <algorithm>
 #include <utility>

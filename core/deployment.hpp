@@ -1,7 +1,7 @@
 /// A whole deployment: from a scene to its outcome. Knows no files, JSON or threads.
 #pragma once
 
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 
 #include <functional>
 #include <limits>

@@ -1,3 +1,3 @@
-#include "montecarlo/cli.hpp"
+#include "montecarlo/commands/cli.hpp"
 
 int main(int argc, char** argv) { return wingspread::command_line(argc, argv); }

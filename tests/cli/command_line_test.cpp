@@ -1,5 +1,5 @@
-#include "montecarlo/method_list.hpp"
-#include "montecarlo/version.hpp"
+#include "montecarlo/commands/method_list.hpp"
+#include "montecarlo/folder/version.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

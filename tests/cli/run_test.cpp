@@ -1,4 +1,4 @@
-#include "montecarlo/summary_json.hpp"
+#include "montecarlo/summary/summary_json.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 /// For the tests of what runs campaigns: a campaign of the seed scene, run into a folder.
 #pragma once
 
-#include "montecarlo/run_folder.hpp"
+#include "montecarlo/folder/run_folder.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <map>

@@ -1,8 +1,8 @@
 /// For the tests of margins: a wing of which all that matters is known in closed form.
 #pragma once
 
-#include "montecarlo/margin_study.hpp"
-#include "montecarlo/run.hpp"
+#include "montecarlo/margin/margin_study.hpp"
+#include "montecarlo/runs/run.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <cmath>

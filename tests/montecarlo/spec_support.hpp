@@ -1,9 +1,9 @@
 /// For the tests of what reads JSON: a small document to spoil, and the messages that come of it.
 #pragma once
 
-#include "montecarlo/json_parse.hpp"
-#include "montecarlo/json_reader.hpp"
-#include "montecarlo/spec_error.hpp"
+#include "montecarlo/formats/json_parse.hpp"
+#include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/formats/spec_error.hpp"
 
 #include <filesystem>
 #include <fstream>

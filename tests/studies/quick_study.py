@@ -11,7 +11,7 @@ import shutil
 import subprocess
 import sys
 
-sys.path.insert(0, "studies")
+sys.path.insert(0, "studies/plots")
 sys.dont_write_bytecode = True
 from charts import read_rows
 
@@ -92,7 +92,7 @@ def main(name, driver, folder):
     subprocess.run([driver, "--quick", "--out", folder], check=True)
     figures = CHECKS[name](folder)
     plot = "plot_design_error.py" if name == "design_error" else "plot_accuracy.py"
-    subprocess.run([sys.executable, f"studies/{plot}", folder], check=True)
+    subprocess.run([sys.executable, f"studies/plots/{plot}", folder], check=True)
     for figure in figures:
         for suffix in (".png", ".svg"):
             check((folder / (figure + suffix)).stat().st_size > 5000, f"{figure}{suffix} is drawn")

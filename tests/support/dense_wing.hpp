@@ -20,7 +20,7 @@
 /// | f_i    | force of hinge i on its child, inertial axes      | 2       | N      |
 #pragma once
 
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 
 #include <Eigen/Core>
 #include <boost/multiprecision/cpp_bin_float.hpp>

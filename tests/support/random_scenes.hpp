@@ -1,7 +1,7 @@
 /// Scenes for tests: seeded random ones, the seed scene, and scenes with a known answer.
 #pragma once
 
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 #include "tests/support/dense_wing.hpp"
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 /// located by real steps, never on an interpolant).
 #pragma once
 
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 #include "tests/support/dense_wing.hpp"
 
 #include <optional>

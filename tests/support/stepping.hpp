@@ -1,7 +1,7 @@
 /// Steps of a method on a wing, by themselves: no events, no step control, no interpolant.
 #pragma once
 
-#include "core/steppers.hpp"
+#include "core/methods/steppers.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <cmath>

@@ -1,0 +1,149 @@
+/// Quintic Hermite interpolation inside a step, in Bernstein form: the dense output of every
+/// method.
+///
+/// A second-order system knows angle, rate and acceleration at both ends of a step, so each angle
+/// has a quintic with error  φ⁽⁶⁾ h⁶/46080  at most, and its derivative one of order h⁵. In
+/// Bernstein form a polynomial lies within the hull of its coefficients [Farin, Curves and
+/// Surfaces, ch. 5], which turns "no crossing in this step" and "no larger peak in this step" into
+/// proofs rather than samples.
+#pragma once
+
+#include "core/number/scalar.hpp"
+
+#include <array>
+#include <optional>
+
+namespace wingspread {
+
+/// Bernstein coefficients over s ∈ [0, 1].
+template <class T> using Quintic = std::array<T, 6>;
+
+/// One end of a step.
+template <class T> struct Jet {
+  T value;
+  T first;  ///< d/dt
+  T second; ///< d²/dt²
+};
+
+/// The quintic with the jets given at s = 0 and s = 1, for a step of h.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Quintic<T> hermite(const T& h, const Jet<T>& a,
+                                                            const Jet<T>& b) {
+  const T fifth = h / T(5);
+  const T twentieth = h * h / T(20);
+  return {a.value,
+          fused(fifth, a.first, a.value),
+          fused(twentieth, a.second, fused(T(2) * fifth, a.first, a.value)),
+          fused(twentieth, b.second, fused(T(-2) * fifth, b.first, b.value)),
+          fused(-fifth, b.first, b.value),
+          b.value};
+}
+
+/// A polynomial in Bernstein form at s ∈ [0, 1], by Volk and Schumaker's scheme: sums of like signs
+/// where the coefficients' are.
+template <class T, std::size_t N> [[nodiscard]] T bernstein(const std::array<T, N>& p, const T& s) {
+  const T r = T(1) - s;
+  T sum = p[0], power = s;
+  double binomial = 1;
+  for (std::size_t k = 1; k < N; ++k) {
+    binomial *= static_cast<double>(N - k) / static_cast<double>(k);
+    sum = fused(sum, r, T(binomial) * power * p[k]);
+    power = power * s;
+  }
+  return sum;
+}
+
+template <class T> [[nodiscard]] T value(const Quintic<T>& p, const T& s) {
+  return bernstein(p, s);
+}
+
+/// dp/dt as a polynomial of degree five, raised from degree four.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Quintic<T> derivative(const Quintic<T>& p, const T& h) {
+  std::array<T, 5> d;
+  for (int k = 0; k < 5; ++k) d[k] = T(5) / h * (p[k + 1] - p[k]);
+  Quintic<T> raised{d[0], T(0), T(0), T(0), T(0), d[4]};
+  for (int k = 1; k < 5; ++k) raised[k] = fused(T(k) / T(5), d[k - 1] - d[k], d[k]);
+  return raised;
+}
+
+/// No |p(s)| is larger.
+template <class T> [[nodiscard, gnu::always_inline]] inline T bound(const Quintic<T>& p) {
+  using std::abs;
+  T largest(0);
+  for (const T& c : p) largest = larger(largest, T(abs(c)));
+  return largest;
+}
+
+template <class T> [[nodiscard]] bool all_negative(const Quintic<T>& p) {
+  for (const T& c : p)
+    if (!(c < T(0))) return false;
+  return true;
+}
+
+/// Splits p at s = ½ into its left and right half.
+template <class T> void halve(Quintic<T> p, Quintic<T>& left, Quintic<T>& right) {
+  for (int level = 5; level >= 0; --level) {
+    left[5 - level] = p[0];
+    right[level] = p[level];
+    for (int k = 0; k < level; ++k) p[k] = T(0.5) * (p[k] + p[k + 1]);
+  }
+}
+
+/// Whether the coefficients are negative up to one of them, and not from there on: then p has one
+/// zero in [0, 1] (their changes of sign bound the number of zeros).
+template <class T> [[nodiscard]] bool changes_sign_once(const Quintic<T>& p) {
+  int changes = 0;
+  for (int k = 0; k < 5; ++k) changes += (p[k] < T(0)) != (p[k + 1] < T(0));
+  return changes == 1 && p[0] < T(0);
+}
+
+/// The zero of p, which has one and rises through it, in [0, 1] to round-off: Newton's method kept
+/// in a bracket.
+template <class T> [[nodiscard]] T only_zero(const Quintic<T>& p) {
+  using std::abs;
+  std::array<T, 5> slope;
+  for (int k = 0; k < 5; ++k) slope[k] = T(5) * (p[k + 1] - p[k]);
+  T lower(0), upper(1), s = p[0] / (p[0] - p[5]);
+  for (int pass = 0; pass < std::numeric_limits<T>::digits; ++pass) {
+    const T f = value(p, s);
+    if (f == T(0)) return s;
+    (f < T(0) ? lower : upper) = s;
+    T next = s - f / bernstein(slope, s);
+    if (!(next > lower && next < upper)) next = T(0.5) * (lower + upper);
+    if (abs(next - s) <= std::numeric_limits<T>::epsilon() * s) return next;
+    s = next;
+  }
+  return upper;
+}
+
+/// The first s in [0, 1] at which p ≥ 0, to round-off; none if p stays negative.
+/// Subdivides, dropping the pieces whose coefficients are all negative: no crossing is missed, not
+/// even one that comes back inside the step. Cost: a comparison for most steps, a few
+/// evaluations for a crossing.
+template <class T> [[nodiscard]] std::optional<T> first_nonnegative(const Quintic<T>& p) {
+  struct Piece {
+    Quintic<T> p;
+    T lower, width;
+  };
+  constexpr int deepest = std::numeric_limits<T>::digits;
+  std::array<Piece, deepest + 2> open;
+  int count = 0;
+  open[count++] = {p, T(0), T(1)};
+  const T finest = std::numeric_limits<T>::epsilon();
+  while (count > 0) {
+    const Piece piece = open[--count];
+    if (all_negative(piece.p)) continue;
+    if (piece.p[0] >= T(0)) return piece.lower;
+    if (piece.width <= finest) return piece.lower + piece.width;
+    if (changes_sign_once(piece.p)) return fused(piece.width, only_zero(piece.p), piece.lower);
+    Piece left{{}, piece.lower, T(0.5) * piece.width};
+    Piece right{{}, piece.lower + left.width, left.width};
+    halve(piece.p, left.p, right.p);
+    open[count++] = right;
+    open[count++] = left;
+  }
+  return std::nullopt;
+}
+
+} // namespace wingspread

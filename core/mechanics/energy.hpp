@@ -1,0 +1,137 @@
+/// Energy and momentum of a wing: audits of a run, and the projection that keeps a free base's
+/// momenta.
+#pragma once
+
+#include "core/mechanics/system.hpp"
+
+namespace wingspread {
+
+/// Mass properties and motion of everything that moves, seen from the base's origin: axes inertial,
+/// positions and velocities less the base's own, so that a spacecraft far out or fast loses no
+/// digits.
+template <class T> struct Motion {
+  T kinetic = T(0);                 ///< ½ Σ (m v² + J ω²), J
+  T mass = T(0);                    ///< Σ m, kg
+  Vec2<T> first_moment{T(0), T(0)}; ///< Σ m r, kg·m
+  T second_moment = T(0);           ///< Σ (m r² + J), kg·m²
+  Vec2<T> linear{T(0), T(0)};       ///< Σ m v, kg·m/s
+  T angular = T(0);                 ///< Σ (m r × v + J ω), kg·m²/s
+
+  void add(const T& m, const T& inertia, const Vec2<T>& r, const Vec2<T>& v, const T& rate) {
+    kinetic = kinetic + T(0.5) * fused(m, dot(v, v), inertia * rate * rate);
+    mass = mass + m;
+    first_moment = fused(m, r, first_moment);
+    second_moment = second_moment + fused(m, dot(r, r), inertia);
+    linear = fused(m, v, linear);
+    angular = angular + fused(m, dot(turned(r), v), inertia * rate);
+  }
+
+  [[nodiscard]] Vec2<T> center() const { return scaled(T(1) / mass, first_moment); }
+  /// About the common centre of mass.
+  [[nodiscard]] T spin() const { return angular - dot(turned(center()), linear); }
+  [[nodiscard]] T central_inertia() const { return second_moment - dot(center(), first_moment); }
+  [[nodiscard]] T central_kinetic() const { return kinetic - T(0.5) * dot(linear, linear) / mass; }
+};
+
+/// Adds body i and everything outward of it, from the position and velocity of its parent's hinge
+/// point.
+template <class T, class Topology>
+void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<BodyFrame<T>>& frames,
+                 int parent, const Vec2<T>& point, const Vec2<T>& velocity, Motion<T>& sum) {
+  tree.for_each_child(parent, [&](int i) {
+    const BodyFrame<T>& own = frames[i];
+    const Vec2<T> hinge = point + own.arm;
+    const Vec2<T> hinge_velocity = fused(frames[parent].rate, turned(own.arm), velocity);
+    const Vec2<T> g = rotated(own.rotation, wing.bodies[i].center);
+    sum.add(wing.bodies[i].mass, wing.bodies[i].central_inertia, hinge + g,
+            fused(own.rate, turned(g), hinge_velocity), own.rate);
+    add_outward(wing, tree, frames, i, hinge, hinge_velocity, sum);
+  });
+}
+
+/// Motion of all bodies at (x, t) as seen from the base's origin; places the system there. Cost
+/// O(n).
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] Motion<T> motion(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+  system.place_all(x, t);
+  const auto& frames = system.work().frames;
+  const Vec2<T> origin{T(0), T(0)};
+  Motion<T> sum;
+  if constexpr (M == BaseMotion::free) {
+    const BodyTerms<T>& base = system.wing().bodies[0];
+    sum.add(base.mass, base.central_inertia, origin, origin, frames[0].rate);
+  }
+  add_outward(system.wing(), system.topology(), frames, 0, origin, origin, sum);
+  return sum;
+}
+
+/// Velocity of the base's origin; a prescribed base is taken to start at rest.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] Vec2<T> base_velocity(const System<T, Topology, M>& system, const State<T>& x,
+                                    const T& t) {
+  const int v = system.layout().freedoms();
+  if constexpr (M == BaseMotion::free) return {x[v], x[v + 1]};
+  if constexpr (M == BaseMotion::prescribed) return scaled(t, system.wing().base.acceleration);
+  return {T(0), T(0)};
+}
+
+/// Kinetic energy in inertial axes, J.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] T kinetic_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+  const Motion<T> now = motion(system, x, t);
+  const Vec2<T> v = base_velocity(system, x, t);
+  return now.kinetic + dot(v, now.linear) + T(0.5) * now.mass * dot(v, v);
+}
+
+/// Springs', harnesses' and engaged latches' potential, each zero at its latched angle, J. A
+/// smoothed latch counts with the weight it has.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] T potential_energy(const System<T, Topology, M>& system, const State<T>& x) {
+  const Layout& at = system.layout();
+  T sum(0);
+  for (int i = 1; i <= at.bodies; ++i) {
+    const T& angle = x[at.angle(i)];
+    sum = sum + potential(system.law_without_friction(i), angle);
+    if (at.smoothed) {
+      const T y = angle - system.wing().hinges[i].latched;
+      sum = sum + T(0.5) * system.wing().hinges[i].stiffness * y * y *
+                      smooth_step(x[at.latch(i)] / system.epsilon());
+    }
+  }
+  return sum;
+}
+
+/// What a free system keeps.
+template <class T> struct Conserved {
+  Vec2<T> start;    ///< of the common centre of mass, m
+  Vec2<T> velocity; ///< of the same, m/s
+  T spin;           ///< angular momentum about it, kg·m²/s
+};
+
+template <class T, class Topology>
+[[nodiscard]] Conserved<T> conserved(System<T, Topology, BaseMotion::free>& system,
+                                     const State<T>& x, const T& t) {
+  const Motion<T> now = motion(system, x, t);
+  return {Vec2<T>{x[0], x[1]} + now.center(),
+          base_velocity(system, x, t) + scaled(T(1) / now.mass, now.linear), now.spin()};
+}
+
+/// Gives a free system at time t exactly what it keeps, by moving the whole as one rigid body: the
+/// centre of mass to its straight line, the momenta to what they were; relative angles and rates
+/// stay. Projection onto invariants [Hairer, Lubich & Wanner, Geometric Numerical Integration,
+/// IV.4]: its size is the step's own error, so the order is kept.
+template <class T, class Topology>
+void keep_momentum(System<T, Topology, BaseMotion::free>& system, const Conserved<T>& kept,
+                   State<T>& x, const T& t) {
+  const Motion<T> now = motion(system, x, t);
+  const Vec2<T> center = now.center();
+  const T rate = (kept.spin - now.spin()) / now.central_inertia();
+  const Vec2<T> linear = scaled(T(1) / now.mass, now.linear);
+  const Vec2<T> position = fused(t, kept.velocity, kept.start) - center;
+  const Vec2<T> velocity = (kept.velocity - linear) - scaled(rate, turned(center));
+  const int v = system.layout().freedoms();
+  x[0] = position.x, x[1] = position.y;
+  x[v] = velocity.x, x[v + 1] = velocity.y, x[v + 2] = x[v + 2] + rate;
+}
+
+} // namespace wingspread

@@ -1,0 +1,405 @@
+/// The right-hand side of a wing's equations of motion, and the layout of its state.
+#pragma once
+
+#include "core/mechanics/augmented.hpp"
+#include "core/mechanics/hinge_moment.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace wingspread {
+
+template <class T> using State = std::vector<T>;
+
+/// Where things stand in the state: q = (x, y, θ_0 of a free base; φ_1 … φ_n), then q̇, then S_1 …
+/// S_n of smoothed latches.
+struct Layout {
+  int base = 0; ///< 3 for a free base, else 0
+  int bodies = 0;
+  bool smoothed = false;
+
+  [[nodiscard]] int freedoms() const { return base + bodies; }
+  [[nodiscard]] int size() const { return 2 * freedoms() + (smoothed ? bodies : 0); }
+  [[nodiscard]] int angle(int i) const { return base + i - 1; }           ///< φ_i
+  [[nodiscard]] int rate(int i) const { return freedoms() + angle(i); }   ///< φ̇_i
+  [[nodiscard]] int latch(int i) const { return 2 * freedoms() + i - 1; } ///< S_i
+};
+
+/// What the exact friction of a hinge does: oppose a motion, or hold it.
+enum class Contact : signed char { backward = -1, none = 0, forward = 1, stuck = 2 };
+
+/// What the augmented recursion works on.
+template <class T> struct Augmented {
+  std::vector<BodyFrame<T>> frames;       ///< 0 … n
+  std::vector<AugmentedFrame<T>> bodies;  ///< 0 … n
+  std::vector<HingeConstraint<T>> hinges; ///< 0 … n
+
+  void resize(int n) {
+    frames.assign(n + 1, BodyFrame<T>{});
+    bodies.assign(n + 1, AugmentedFrame<T>{});
+    hinges.assign(n + 1, HingeConstraint<T>{});
+  }
+};
+
+/// What changes from phase to phase of a run, and scratch space. Owned by the caller, one a thread.
+template <class T> struct Workspace {
+  std::vector<BodyFrame<T>> frames; ///< 0 … n
+  std::vector<Vec2<T>>
+      forces; ///< 1 … n: on body i at its hinge, at the last evaluation; if asked for
+  std::vector<LinearLaw<T>> laws; ///< 1 … n
+  std::vector<T> nonlinear;       ///< 1 … n: moments of friction and smoothed latches, N·m
+  std::vector<char> engaged;      ///< 1 … n: has passed its latched angle
+  std::vector<Contact> contact;   ///< 1 … n: what its exact friction does
+  std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation with a hinge stuck
+  int stuck = 0;          ///< how many stick
+  Augmented<T> held;      ///< of the evaluation while hinges stick
+  Augmented<T> linear;    ///< of the linear solves
+  long evaluations = 0;
+};
+
+/// dx/dt of one wing. Motion is the base's; Topology a Tree or a Chain<N>.
+template <class T, class Topology, BaseMotion Motion> class System {
+public:
+  static constexpr BaseMotion motion = Motion;
+
+  System(const Wing<T>& wing, const Topology& topology, const std::optional<double>& smoothing,
+         Workspace<T>& work)
+      : wing_(wing), topology_(topology),
+        work_(work), layout_{first_coordinate, topology.bodies(), smoothing.has_value()},
+        epsilon_(smoothing.value_or(0)) {
+    const int n = layout_.bodies;
+    work_.frames.assign(n + 1, BodyFrame<T>{});
+    work_.forces.assign(n + 1, {T(0), T(0)});
+    work_.laws.resize(n + 1);
+    work_.nonlinear.resize(n + 1);
+    work_.held.resize(n);
+    work_.linear.resize(n);
+    reset();
+  }
+
+  /// Forgets what has happened: no hinge is latched or stuck; the wing's numbers may have changed.
+  void reset() {
+    work_.engaged.assign(layout_.bodies + 1, false);
+    work_.contact.assign(layout_.bodies + 1, Contact::none);
+    work_.holding.assign(layout_.bodies + 1, T(0));
+    work_.stuck = 0;
+    work_.evaluations = 0;
+    for (int i = 1; i <= layout_.bodies; ++i) {
+      work_.held.hinges[i].locked = work_.linear.hinges[i].locked = false;
+      update_law(i);
+    }
+  }
+
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] const Wing<T>& wing() const { return wing_; }
+  [[nodiscard]] const Topology& topology() const { return topology_; }
+  [[nodiscard]] const Workspace<T>& work() const { return work_; }
+  [[nodiscard]] const T& epsilon() const { return epsilon_; }
+  /// For those made elsewhere.
+  [[nodiscard]] long& count_evaluations() { return work_.evaluations; }
+
+  /// The state at t = 0.
+  void start(State<T>& x) const {
+    x.assign(layout_.size(), T(0));
+    if constexpr (Motion == BaseMotion::free) {
+      const BaseTerms<T>& base = wing_.base;
+      const int v = layout_.freedoms();
+      x[0] = base.position.x, x[1] = base.position.y, x[2] = base.angle;
+      x[v] = base.velocity.x, x[v + 1] = base.velocity.y, x[v + 2] = base.rate;
+    }
+    for (int i = 1; i <= layout_.bodies; ++i) {
+      x[layout_.angle(i)] = wing_.hinges[i].stowed;
+      x[layout_.rate(i)] = wing_.initial_rates[i];
+    }
+  }
+
+  /// Records that hinge i has passed its latched angle; an event latch acts from now on.
+  void engage(int i) {
+    work_.engaged[i] = true;
+    update_law(i);
+  }
+
+  /// Records what the exact friction of hinge i does from now on.
+  void touch(int i, Contact contact) {
+    work_.stuck += (contact == Contact::stuck) - (work_.contact[i] == Contact::stuck);
+    work_.contact[i] = contact;
+    work_.held.hinges[i].locked = work_.linear.hinges[i].locked = contact == Contact::stuck;
+    update_law(i);
+  }
+  [[nodiscard]] bool sticks(int i) const { return work_.contact[i] == Contact::stuck; }
+
+  /// The hinge's law as its latch now stands, without friction: what has a potential.
+  [[nodiscard]] LinearLaw<T> law_without_friction(int i) const {
+    return linear_law(wing_.hinges[i], latch_acts(i));
+  }
+
+  /// Kinematics alone: places every body in the workspace's frames.
+  void place_all(const State<T>& x, const T& t) {
+    place_base(work_.frames[0], x, t);
+    place_bodies(work_.frames, x);
+  }
+
+  /// Moment of hinge i, N·m; if it sticks, what held it at the last evaluation.
+  [[nodiscard]] T moment(const State<T>& x, int i) const {
+    return sticks(i) ? work_.holding[i] : sliding_moment(x, i);
+  }
+
+  /// The friction that hinge i, which sticks, needed at the last evaluation, at x, N·m.
+  [[nodiscard]] T holding_friction(const State<T>& x, int i) const {
+    return work_.holding[i] - sliding_moment(x, i);
+  }
+
+  /// What the moment of hinge i is without the friction that holds it, N·m.
+  [[nodiscard]] T sliding_moment(const State<T>& x, int i) const {
+    const T linear = linear_moment(work_.laws[i], x[layout_.angle(i)], x[layout_.rate(i)]);
+    return wing_.has_coulomb || layout_.smoothed ? linear + nonlinear_moment(x, i) : linear;
+  }
+
+  /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
+  void operator()(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<true>(x, dxdt, t); }
+
+  /// The same inside a step, where nobody asks for the forces.
+  void stage(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<false>(x, dxdt, t); }
+
+  /// Whether evaluations leave the hinge forces in the workspace.
+  void want_forces(bool want) { wants_forces_ = want; }
+
+  // ---- linear solves: (M + E) q̈ = τ, E = c_d D + c_k K over the hinges, by the recursion itself
+
+  /// Damping and stiffness of hinge i in the linear model at x: what can make the equations stiff.
+  struct Resistance {
+    T damping;   ///< N·m·s/rad, ≥ 0
+    T stiffness; ///< N·m/rad, ≥ 0
+  };
+  [[nodiscard]] Resistance resistance(const State<T>& x, int i) const {
+    const LinearLaw<T>& law = work_.laws[i];
+    Resistance r{law.damping, larger(law.stiffness, T(0))};
+    if (wing_.hinges[i].coulomb > T(0))
+      r.damping = r.damping + coulomb_damping(wing_.hinges[i], x[layout_.rate(i)]);
+    if (layout_.smoothed && wing_.hinges[i].has_latch) {
+      const T weight = smooth_step(x[layout_.latch(i)] / epsilon_);
+      r.damping = fused(weight, wing_.hinges[i].damping, r.damping);
+      r.stiffness = fused(weight, wing_.hinges[i].stiffness, r.stiffness);
+    }
+    return r;
+  }
+
+  /// Factorizes M + E at (x, t) for the added inertias of the hinges, E(i). Cost O(n), about half
+  /// an evaluation.
+  template <class AddedInertia>
+  void factorize_at(const State<T>& x, const T& t, AddedInertia&& added) {
+    Augmented<T>& parts = work_.linear;
+    place_base(parts.frames[0], x, t);
+    place_bodies(parts.frames, x);
+    for (int i = 1; i <= layout_.bodies; ++i) parts.hinges[i].added_inertia = added(i);
+    factorize_placed(parts);
+  }
+
+  /// Solves (M + E) q̈ = τ with the last factorization: τ(i) of the hinges, none on a free base.
+  /// @param qdd freedoms() numbers: those of a free base first
+  template <class Moment> void solve(Moment&& tau, T* qdd) {
+    Augmented<T>& parts = work_.linear;
+    topology_.inward(
+        [&](int i) { load<false>(topology_, parts.frames, parts.bodies, i, T(tau(i))); });
+    parts.bodies[0].acceleration = {T(0), T(0)};
+    parts.bodies[0].angular_acceleration = T(0);
+    if constexpr (Motion == BaseMotion::free) release<false>(parts, qdd);
+    topology_.outward([&](int i) {
+      qdd[first_coordinate + i - 1] =
+          accelerate_augmented<false>(topology_, parts.frames, parts.bodies, i);
+    });
+  }
+
+private:
+  template <bool forces>
+  [[gnu::always_inline]] void evaluate(const State<T>& x, State<T>& dxdt, const T& t) {
+    ++work_.evaluations;
+    if (work_.stuck > 0) {
+      evaluate_stuck(x, dxdt, t);
+    } else if constexpr (is_static<Topology>) {
+      std::array<BodyFrame<T>, Topology::bodies() + 1> frames; // in registers
+      evaluate<forces>(frames, x, dxdt, t);
+    } else {
+      evaluate<forces>(work_.frames, x, dxdt, t);
+    }
+  }
+
+  static constexpr int first_coordinate = Motion == BaseMotion::free ? 3 : 0; ///< φ_1 in q
+  [[nodiscard]] int freedoms() const { return first_coordinate + topology_.bodies(); }
+
+  [[nodiscard]] bool latch_acts(int i) const {
+    return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
+  }
+
+  void update_law(int i) {
+    const Contact contact = work_.contact[i];
+    const T friction = contact == Contact::forward    ? -wing_.hinges[i].kinetic
+                       : contact == Contact::backward ? wing_.hinges[i].kinetic
+                                                      : T(0);
+    work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction);
+  }
+
+  void factorize_placed(Augmented<T>& parts) {
+    topology_.inward([&](int i) {
+      factorize(wing_, topology_, parts.frames, parts.bodies, i, parts.hinges[i]);
+    });
+    if constexpr (Motion == BaseMotion::free)
+      factorize(wing_, topology_, parts.frames, parts.bodies, 0, parts.hinges[0]);
+  }
+
+  /// @param qdd the base's three accelerations
+  template <bool moving> void release(Augmented<T>& parts, T* qdd) {
+    load<moving>(topology_, parts.frames, parts.bodies, 0, T(0));
+    release_augmented_base(parts.bodies[0]);
+    qdd[0] = parts.bodies[0].acceleration.x, qdd[1] = parts.bodies[0].acceleration.y;
+    qdd[2] = parts.bodies[0].angular_acceleration;
+  }
+
+  /// The right-hand side with hinges locked by friction; leaves what holds them in the workspace.
+  [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
+    Augmented<T>& parts = work_.held;
+    std::vector<BodyFrame<T>>& frames = parts.frames;
+    place_base(frames[0], x, t);
+    place_bodies(frames, x);
+    apply_moments(frames, x);
+    factorize_placed(parts);
+    topology_.inward(
+        [&](int i) { load<true>(topology_, frames, parts.bodies, i, frames[i].moment); });
+    parts.bodies[0].acceleration = frames[0].acceleration;
+    parts.bodies[0].angular_acceleration = frames[0].angular_acceleration;
+    if constexpr (Motion == BaseMotion::free) release<true>(parts, &dxdt[layout_.freedoms()]);
+    topology_.outward([&](int i) {
+      dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology_, frames, parts.bodies, i);
+      const T& parents = parts.bodies[topology_.parent_of(i)].angular_acceleration;
+      work_.holding[i] = axis_moment(parts.bodies[i], parents);
+      if (wants_forces_) work_.forces[i] = augmented_force(parts.bodies[i], parents);
+    });
+    copy_rates(x, dxdt);
+    if (layout_.smoothed) advance_latches(x, dxdt);
+  }
+
+  template <class Frames>
+  [[gnu::always_inline]] void place_bodies(Frames& frames, const State<T>& x) {
+    const T* const angles = x.data() + first_coordinate;
+    const T* const rates = angles + freedoms();
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      turn<Motion>(topology_, frames, i, angles[i - 1], rates[i - 1]);
+    });
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      place<Motion>(wing_, topology_, frames, i);
+    });
+  }
+
+  template <class Frames>
+  [[gnu::always_inline]] void apply_moments(Frames& frames, const State<T>& x) {
+    const T* const angles = x.data() + first_coordinate;
+    const T* const rates = angles + freedoms();
+    const LinearLaw<T>* const laws = work_.laws.data();
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
+    });
+    if (!wing_.has_coulomb && !layout_.smoothed) return;
+    find_nonlinear_moments(x);
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      frames[i].moment = frames[i].moment + work_.nonlinear[i];
+    });
+  }
+
+  /// What friction and smoothed latches add, apart from the frames so that these stay in registers.
+  [[gnu::noinline]] void find_nonlinear_moments(const State<T>& x) {
+    for (int i = 1; i <= layout_.bodies; ++i) work_.nonlinear[i] = nonlinear_moment(x, i);
+  }
+
+  [[nodiscard]] T nonlinear_moment(const State<T>& x, int i) const {
+    const T& rate = x[layout_.rate(i)];
+    T m = wing_.has_coulomb ? coulomb_moment(wing_.hinges[i], rate) : T(0);
+    if (layout_.smoothed && wing_.hinges[i].has_latch)
+      m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)],
+                                    epsilon_);
+    return m;
+  }
+
+  /// q̇ is part of the state.
+  [[gnu::always_inline]] void copy_rates(const State<T>& x, State<T>& dxdt) const {
+    const T* const rates = x.data() + freedoms();
+    T* const velocities = dxdt.data();
+    for (int k = 0; k < first_coordinate; ++k) velocities[k] = rates[k];
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      velocities[first_coordinate + i - 1] = rates[first_coordinate + i - 1];
+    });
+  }
+
+  template <bool forces, class Frames>
+  [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
+                                       const T& t) {
+    place_base(frames[0], x, t);
+    place_bodies(frames, x);
+    apply_moments(frames, x);
+    topology_.inward([&](int i)
+                         __attribute__((always_inline)) { gather(wing_, topology_, frames, i); });
+    accelerate_base(frames, dxdt);
+    T* const accelerations = dxdt.data() + first_coordinate + freedoms();
+    topology_.outward([&](int i) __attribute__((always_inline)) {
+      accelerations[i - 1] = accelerate<Motion>(topology_, frames, i);
+    });
+    copy_rates(x, dxdt);
+    if (layout_.smoothed) advance_latches(x, dxdt);
+    if (forces && wants_forces_)
+      topology_.outward([&](int i) __attribute__((always_inline)) {
+        work_.forces[i] = hinge_force(frames[i]);
+      });
+  }
+
+  [[gnu::always_inline]] void place_base(BodyFrame<T>& base, const State<T>& x, const T& t) const {
+    if constexpr (Motion == BaseMotion::fixed) {
+      base.angle = base.rate = base.minus_rate_squared = base.angular_acceleration = T(0);
+      base.acceleration = {T(0), T(0)};
+      base.rotation = {T(0), T(1)};
+      return;
+    }
+    if constexpr (Motion == BaseMotion::prescribed) {
+      const BaseTerms<T>& given = wing_.base;
+      base.rate = fused(given.angular_acceleration, t, given.rate);
+      base.angle = fused(t, fused(T(0.5) * given.angular_acceleration, t, given.rate), given.angle);
+      base.acceleration = given.acceleration;
+      base.angular_acceleration = given.angular_acceleration;
+    }
+    if constexpr (Motion == BaseMotion::free) {
+      base.angle = x[2];
+      base.rate = x[layout_.freedoms() + 2];
+      base.moment = T(0);
+      base.mass_moment = {T(0), T(0)};
+    }
+    base.minus_rate_squared = -(base.rate * base.rate);
+    base.rotation = sine_cosine(base.angle);
+  }
+
+  template <class Frames>
+  [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) const {
+    if constexpr (Motion == BaseMotion::free) {
+      BodyFrame<T>& base = frames[0];
+      gather(wing_, topology_, frames, 0);
+      release_base(base);
+      const int v = layout_.freedoms();
+      dxdt[v] = base.acceleration.x, dxdt[v + 1] = base.acceleration.y;
+      dxdt[v + 2] = base.angular_acceleration;
+    }
+  }
+
+  [[gnu::noinline]] void advance_latches(const State<T>& x, State<T>& dxdt) const {
+    for (int i = 1; i <= layout_.bodies; ++i)
+      dxdt[layout_.latch(i)] = wing_.hinges[i].has_latch
+                                   ? engagement_rate(wing_.hinges[i], x[layout_.angle(i)], epsilon_)
+                                   : T(0);
+  }
+
+  const Wing<T>& wing_;
+  const Topology& topology_;
+  Workspace<T>& work_;
+  Layout layout_;
+  T epsilon_;
+  bool wants_forces_ = false;
+};
+
+} // namespace wingspread

@@ -1,0 +1,148 @@
+/// A scene made ready for the recursion: outward order, and what every evaluation would otherwise
+/// compute again. Const while it is integrated.
+#pragma once
+
+#include "core/mechanics/tree.hpp"
+#include "core/number/planar.hpp"
+#include "core/scene/scene.hpp"
+
+#include <vector>
+
+namespace wingspread {
+
+/// A body about its own hinge; the free base about its centre of mass.
+template <class T> struct BodyTerms {
+  T mass;              ///< m_i, kg
+  T inertia;           ///< J_i + m_i |c_ii|², kg·m²
+  Vec2<T> mass_moment; ///< −m_i c_ii: m_i times the way from the hinge to the centre of mass, own
+                       ///< frame, kg·m
+  Vec2<T> arm; ///< c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's
+               ///< frame, m
+  Vec2<T> center;    ///< −c_ii, own frame, m
+  T central_inertia; ///< J_i, kg·m²
+  T minus_inverse;   ///< −1/inertia, 1/(kg·m²)
+};
+
+/// A hinge's law (spring, harness, friction, latch), about the latched angle.
+template <class T> struct HingeTerms {
+  T stowed, latched; ///< rad
+  T sense;           ///< sign(latched − stowed)
+  T drive;           ///< s·(spring − harness) at the latched angle, N·m
+  T drive_slope;     ///< its derivative by φ, N·m/rad
+  T coulomb;         ///< of the regularized friction, N·m
+  T viscous;         ///< N·m·s/rad
+  T slip_rate;       ///< ω_s of the regularized friction, rad/s
+  T kinetic;         ///< τ_c of the exact friction, N·m
+  T limit;           ///< τ_s of the exact friction, the most that it can hold, N·m
+  bool has_latch;
+  T stiffness; ///< of the latch once engaged, N·m/rad
+  T damping;   ///< N·m·s/rad
+};
+
+template <class T> struct BaseTerms {
+  BaseMotion motion;
+  Vec2<T> acceleration;   ///< prescribed, m/s²
+  T angular_acceleration; ///< prescribed, rad/s²
+  T angle, rate;          ///< at the start, rad, rad/s
+  Vec2<T> position, velocity;
+};
+
+template <class T> struct Wing {
+  BaseTerms<T> base;
+  Tree tree;
+  std::vector<int> hinge_of;         ///< body i → its hinge's index in the scene; [0] unused
+  std::vector<BodyTerms<T>> bodies;  ///< 0 … n
+  std::vector<HingeTerms<T>> hinges; ///< 0 … n; [0] unused
+  std::vector<T> initial_rates;      ///< 0 … n; rad/s
+  bool has_coulomb = false; ///< any hinge has regularized friction; else its pass is skipped
+  bool can_stick = false;   ///< any hinge has exact friction
+
+  [[nodiscard]] int size() const { return tree.bodies(); }
+};
+
+namespace detail {
+
+template <class T> [[nodiscard]] Vec2<T> vec2(const Eigen::Vector2d& v) {
+  return {T(v.x()), T(v.y())};
+}
+
+template <class T> [[nodiscard]] HingeTerms<T> hinge_terms(const Hinge& hinge) {
+  const T travel = T(hinge.latched) - T(hinge.stowed);
+  const T sense = select(travel > T(0), T(1), T(-1));
+  const T at_stowed = T(hinge.spring.torque_stowed) - T(hinge.harness.torque_stowed);
+  const T at_latched = T(hinge.spring.torque_latched) - T(hinge.harness.torque_latched);
+  HingeTerms<T> terms{};
+  terms.stowed = T(hinge.stowed);
+  terms.latched = T(hinge.latched);
+  terms.sense = sense;
+  terms.drive = sense * at_latched;
+  terms.drive_slope = sense * (at_latched - at_stowed) / travel;
+  const bool exact = hinge.friction.model == FrictionModel::exact;
+  terms.coulomb = T(exact ? 0 : hinge.friction.coulomb);
+  terms.kinetic = T(exact ? hinge.friction.coulomb : 0);
+  terms.limit = exact ? T(hinge.friction.static_level.value_or(hinge.friction.coulomb)) : T(0);
+  terms.viscous = T(hinge.friction.viscous);
+  terms.slip_rate = T(hinge.friction.regularization_rate);
+  terms.has_latch = hinge.latch.has_value();
+  terms.stiffness = T(hinge.latch ? hinge.latch->stiffness : 0);
+  terms.damping = T(hinge.latch ? hinge.latch->damping : 0);
+  return terms;
+}
+
+template <class T>
+[[nodiscard]] BodyTerms<T> body_terms(double mass, double inertia, const Vec2<T>& center,
+                                      const Vec2<T>& arm) {
+  const T about_hinge = fused(T(mass), dot(center, center), T(inertia));
+  return {T(mass), about_hinge, scaled(T(mass), center), arm,
+          center,  T(inertia),  T(-1) / about_hinge};
+}
+
+} // namespace detail
+
+/// The wing of a scene's topology; its numbers are not set yet. Cost O(n).
+/// @param order outward_order(scene), not empty
+template <class T>
+[[nodiscard]] Wing<T> make_wing(const Scene& scene, const std::vector<int>& order) {
+  const int n = static_cast<int>(order.size());
+  std::vector<int> number(n), parents(n + 1, -1);
+  Wing<T> wing;
+  wing.base.motion = scene.base.motion;
+  wing.hinge_of.assign(n + 1, -1);
+  for (int i = 1; i <= n; ++i) {
+    const Hinge& hinge = scene.hinges[order[i - 1]];
+    number[hinge.child] = i;
+    parents[i] = hinge.parent == base_index ? 0 : number[hinge.parent];
+    wing.hinge_of[i] = order[i - 1];
+  }
+  wing.tree = make_tree(std::move(parents));
+  wing.bodies.resize(n + 1);
+  wing.hinges.resize(n + 1);
+  wing.initial_rates.resize(n + 1);
+  return wing;
+}
+
+/// Sets every number of `wing` from a scene of its topology. Cost O(n), allocates nothing.
+template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
+  using detail::vec2;
+  const Base& base = scene.base;
+  wing.base = {
+      base.motion,  vec2<T>(base.acceleration), T(base.angular_acceleration), T(base.angle),
+      T(base.rate), vec2<T>(base.position),     vec2<T>(base.velocity)};
+  wing.bodies[0] = detail::body_terms<T>(base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
+  wing.has_coulomb = wing.can_stick = false;
+  for (int i = 1; i <= wing.size(); ++i) {
+    const Hinge& hinge = scene.hinges[wing.hinge_of[i]];
+    const Body& body = scene.bodies[hinge.child];
+    const int p = wing.tree.parent_of(i);
+    // the parent's centre of mass lies at `center` from its hinge; the base's own at its origin
+    const Vec2<T> arm = vec2<T>(hinge.parent_point) + wing.bodies[p].center;
+    const Vec2<T> center = scaled(T(-1), vec2<T>(hinge.child_point));
+    wing.bodies[i] = detail::body_terms<T>(body.mass, body.inertia, center, arm);
+    wing.hinges[i] = detail::hinge_terms<T>(hinge);
+    wing.initial_rates[i] = T(hinge.initial_rate);
+    wing.has_coulomb = wing.has_coulomb || wing.hinges[i].coulomb > T(0);
+    wing.can_stick = wing.can_stick || wing.hinges[i].limit > T(0);
+  }
+}
+
+} // namespace wingspread

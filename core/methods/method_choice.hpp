@@ -1,0 +1,239 @@
+/// `auto`: which method integrates, chosen anew while the run goes on.
+///
+/// A phase begins with an explicit method, which resolves the shock of a latch best: of order 5,
+/// or, below a tolerance measured to be the break-even, of order 8. Once what is fast has died out
+/// and its steps are held back by stability and no longer by accuracy, the linearly implicit
+/// extrapolation is tried; it keeps the work where it gets further for its cost, and gives it back
+/// where it does not.
+///
+/// Whether stability holds a step back is seen from h·ρ, ρ the spectral radius of the linear model
+/// [0 E2; −M⁻¹K −M⁻¹D] of springs, latches and friction at the present configuration.
+#pragma once
+
+#include "core/methods/steppers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wingspread {
+
+/// Power iteration for ρ, with its storage.
+template <class T> class SpectralRadius {
+public:
+  /// Largest |λ| of the linear model at (x, t), 1/s, within about a fifth. From a fixed start; each
+  /// pass is one solve of the recursion. Cost about six evaluations.
+  template <class AnySystem>
+  [[nodiscard]] double estimate(AnySystem& system, const State<T>& x, const T& t) {
+    const int size = system.layout().freedoms();
+    system.factorize_at(x, t, [](int) { return T(0); });
+    q_.assign(size, T(0)), next_.assign(size, T(0)), v_.resize(size);
+    for (int k = 0; k < size; ++k) v_[k] = T(k % 2 == 0 ? 1 : -1) / T(k + 1);
+    const double first = growth(system, x, 0);
+    return first > 0 ? growth(system, x, first) : 0;
+  }
+
+private:
+  /// Geometric mean of the growth over eight passes, in the norm max(|v|, weight·|q|): with q one
+  /// pass behind v and weight ≈ |λ|, a complex pair does not make it oscillate.
+  template <class AnySystem> double growth(AnySystem& system, const State<T>& x, double weight) {
+    double before = norm(weight), mean = 1;
+    for (int pair = 0; pair < 4; ++pair) {
+      double both = 1;
+      for (int pass = 0; pass < 2; ++pass) {
+        apply(system, x);
+        const double after = norm(weight);
+        if (!(after > 1e-200) || !(before > 1e-200)) return 0;
+        both *= std::sqrt(after / before);
+        const T scale(1 / after);
+        for (std::size_t k = 0; k < v_.size(); ++k) q_[k] = scale * q_[k], v_[k] = scale * v_[k];
+        before = 1;
+      }
+      mean *= std::sqrt(std::sqrt(both));
+    }
+    return mean;
+  }
+
+  /// (q, v) → (v, −M⁻¹(Kq + Dv))
+  template <class AnySystem> void apply(AnySystem& system, const State<T>& x) {
+    const Layout& at = system.layout();
+    system.solve(
+        [&](int i) {
+          const auto hinge = system.resistance(x, i);
+          const int k = at.angle(i);
+          return -fused(hinge.stiffness, q_[k], hinge.damping * v_[k]);
+        },
+        next_.data());
+    std::swap(q_, v_);
+    std::swap(v_, next_);
+  }
+
+  [[nodiscard]] double norm(double weight) const {
+    double largest = 0;
+    for (std::size_t k = 0; k < v_.size(); ++k)
+      largest = std::max({largest, std::abs(static_cast<double>(v_[k])),
+                          weight * std::abs(static_cast<double>(q_[k]))});
+    return largest;
+  }
+
+  State<T> q_, v_, next_;
+};
+
+/// Which method is active, and when that changes.
+class MethodChoice {
+public:
+  /// @param asked a name from `methods()`
+  /// @param smoothed whether latches are: order 8 then pays at tighter tolerances only
+  MethodChoice(const std::string& asked, double rtol, bool smoothed) : automatic_(asked == "auto") {
+    const double limit = smoothed ? break_even_smoothed : break_even;
+    explicit_ = rtol < limit ? Method::dop853 : Method::dopri5;
+    for (std::size_t k = 0; k < method_names.size(); ++k)
+      if (method_names[k] == asked) explicit_ = static_cast<Method>(k);
+    active_ = explicit_;
+  }
+
+  [[nodiscard]] Method active() const { return active_; }
+  [[nodiscard]] bool automatic() const { return automatic_; }
+
+  /// A place in a run.
+  struct Mark {
+    double time = 0;
+    long evaluations = 0; ///< of the run
+    long steps = 0;       ///< of the phase
+  };
+
+  /// A phase begins. ρ counts as 0 until it is measured.
+  void restart(double time, long evaluations) {
+    active_ = explicit_;
+    radius_ = 0;
+    steps_ = 0;
+    from_ = {time, evaluations};
+    patience_ = first_patience;
+    pause_ = first_pause;
+    wait_until_ = 0;
+  }
+
+  /// Whether ρ should be measured anew before the next step.
+  [[nodiscard]] bool wants_radius() const {
+    return automatic_ && steps_ % radius_interval == first_radius;
+  }
+  void set_radius(double radius) { radius_ = radius; }
+
+  /// Whether after a step of h another method may have to be thought of: `after_step` then needs to
+  /// know how quickly things change.
+  [[nodiscard]] bool may_leave(double h) const {
+    return automatic_ &&
+           (active_ != explicit_ || (steps_ + 1 >= earliest_leave() && h > held_back_step()));
+  }
+
+  /// A step of h was accepted. @param now but for its steps
+  /// @param quickness by how much the motion changes in a unit of time, 1/s
+  /// @return whether another method goes on from here
+  [[nodiscard]] bool after_step(double h, Mark now, double quickness) {
+    if (!automatic_) return false;
+    now.steps = ++steps_;
+    return active_ == explicit_ ? leave_explicit(h, now, quickness) : leave_implicit(now);
+  }
+
+  // ---- steps made elsewhere with the explicit method
+
+  /// Steps that may be accepted before ρ is due.
+  [[nodiscard]] long steps_to_radius() const {
+    if (!automatic_) return std::numeric_limits<long>::max();
+    return (radius_interval + first_radius - 1 - steps_ % radius_interval) % radius_interval;
+  }
+  /// Steps longer than this are held back by stability, s.
+  [[nodiscard]] double held_back_step() const { return held_back * stable_step(); }
+  static constexpr int enough = 10; ///< steps in a row held back by stability
+  /// Steps made in this phase; those before which no other method is thought of, whatever happens;
+  /// and the last that was not held back.
+  [[nodiscard]] long steps() const { return steps_; }
+  [[nodiscard]] long wait_until() const { return wait_until_; }
+  [[nodiscard]] const Mark& last_free() const { return from_; }
+  /// So many steps have been accepted; the `free`-th (≤ 0: none) was the last not held back, with
+  /// `then` at its end.
+  void catch_up(long steps, long free, Mark then) {
+    if (!automatic_) return;
+    then.steps = steps_ + free;
+    if (free > 0) from_ = then;
+    steps_ += steps;
+  }
+
+  /// The step that the method now active should try first.
+  [[nodiscard]] double first_step(double h) const {
+    return active_ == explicit_ ? std::min(h, 0.5 * stable_step()) : h;
+  }
+
+private:
+  [[nodiscard]] long earliest_leave() const { return std::max(from_.steps + enough, wait_until_); }
+
+  static constexpr double break_even = 5e-3; // rtol; see the work-precision study
+  static constexpr double break_even_smoothed = 5e-4;
+  static constexpr int radius_interval = 128; // steps between two measurements of ρ
+  static constexpr int first_radius = 7;      // steps to the first: short phases need none
+  static constexpr int long_enough = 400;     // to try without promise
+  /// Steps until it is thought of again where there was no promise; doubled each time.
+  static constexpr int first_pause = 10, longest_pause = 80;
+  static constexpr double held_back = 0.4; // of the stable step: what such a step has at least
+  /// An implicit step costs as much as about ten explicit ones, and cannot be much longer than the
+  /// motion takes to change: where the stable step is a larger part of that, it cannot pay.
+  static constexpr double worth_trying = 0.02;
+  static constexpr int trial = 5; // steps that the implicit method has to get going
+  static constexpr int first_patience =
+      64; // steps before it is tried again, doubled each time up to
+  static constexpr int longest_patience = 512;
+  /// Cost of an evaluation with the solves that go with it, in those of an explicit method
+  /// (measured).
+  static constexpr double implicit_cost = 1.5;
+
+  [[nodiscard]] double stable_step() const {
+    const double limit = explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
+                                                     : DormandPrince5<double>::stable_real;
+    return radius_ > 0 ? limit / radius_ : 1e300;
+  }
+
+  [[nodiscard]] double speed_until(const Mark& now) const {
+    return (now.time - from_.time) /
+           static_cast<double>(std::max(now.evaluations - from_.evaluations, 1L));
+  }
+
+  [[nodiscard]] bool leave_explicit(double h, const Mark& now, double quickness) {
+    if (!(h > held_back_step())) {
+      from_ = now;
+      return false;
+    }
+    if (steps_ < earliest_leave()) return false;
+    if (!(stable_step() * quickness < worth_trying) && steps_ < from_.steps + long_enough) {
+      wait_until_ = steps_ + pause_;
+      pause_ = std::min(2 * pause_, longest_pause);
+      return false;
+    }
+    explicit_speed_ = speed_until(now);
+    active_ = Method::seulex;
+    tried_ = 0;
+    return true;
+  }
+
+  [[nodiscard]] bool leave_implicit(const Mark& now) {
+    ++tried_;
+    if (tried_ == trial - 2) from_ = now; // it has found its order and step
+    if (tried_ < trial) return false;
+    const bool pays = speed_until(now) / implicit_cost > explicit_speed_;
+    tried_ = trial - 3;
+    if (pays) return false;
+    active_ = explicit_;
+    from_ = now;
+    wait_until_ = steps_ + patience_;
+    patience_ = std::min(2 * patience_, longest_patience);
+    return true;
+  }
+
+  bool automatic_;
+  Method explicit_ = Method::dopri5, active_ = Method::dopri5;
+  double radius_ = 0, explicit_speed_ = 0;
+  long steps_ = 0, wait_until_ = 0;
+  Mark from_; ///< where the steps began that are held back, or the measure of the implicit method
+  int tried_ = 0, patience_ = first_patience, pause_ = first_pause;
+};
+
+} // namespace wingspread

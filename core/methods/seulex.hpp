@@ -1,0 +1,149 @@
+/// Extrapolation of the linearly implicit Euler rule, for stiff latches at tight tolerances.
+///
+/// A step H is taken in n substeps of h = H/n,
+///
+///     x_{k+1} = x_k + (1 − hJ)⁻¹ h f(x_k) (1)
+///
+/// with one J for all of it, that of rosenbrock.hpp. For any fixed J the error has an expansion in
+/// powers of h [P. Deuflhard, SIAM Review 27 (1985) 505-535], so that the results of n = 2, 3, 4, …
+/// extrapolate to h = 0 by Aitken and Neville: column k is of order k. Order and step follow the
+/// work per unit of time [Hairer & Wanner II, IV.9: the code SEULEX, of which this is the W form].
+#pragma once
+
+#include "core/methods/rosenbrock.hpp"
+
+namespace wingspread {
+
+template <class T> class Seulex {
+public:
+  static constexpr int order = 3; ///< of the first step's estimate
+  static constexpr bool fixed_step = false;
+
+  void restart(const Tolerance& tolerance) {
+    tolerance_ = tolerance;
+    after_rejection_ = false;
+    // one column a decade and a half, as a start
+    target_ = std::clamp(static_cast<int>(2 - 0.6 * std::log10(tolerance.rtol)), 3, most - 2);
+  }
+
+  template <class System>
+  [[nodiscard]] Verdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
+                                State<T>& dxdt1) {
+    for (State<T>& row : table_) row.resize(from.x.size());
+    error_.resize(from.x.size());
+    Verdict verdict{2, 0.5};
+    int j = 0;
+    for (; j < std::min(target_ + 2, most); ++j) {
+      substeps(system, from, h, j, dxdt1);
+      extrapolate(j);
+      if (j == 0) continue;
+      verdict.error = column_error(from.x, j);
+      if (!std::isfinite(verdict.error)) return {verdict.error, 0.1};
+      if (j + 1 >= target_ && verdict.error <= 1) break;
+      if (j + 1 >= target_ && hopeless(verdict.error, j)) break;
+    }
+    j = std::min(j, std::min(target_ + 2, most) - 1);
+    x1 = table_[0];
+    system(x1, dxdt1, from.t + h);
+    if (!is_finite(StateAlgebra::norm_inf(x1)) || !is_finite(StateAlgebra::norm_inf(dxdt1)))
+      return {std::numeric_limits<double>::quiet_NaN(), 0.1};
+    choose(j, verdict);
+    return verdict;
+  }
+
+  void accepted(const Verdict& /*verdict*/, double /*h*/) {
+    target_ = next_target_;
+    after_rejection_ = false;
+  }
+  void rejected() {
+    target_ = next_target_;
+    after_rejection_ = true;
+  }
+
+private:
+  static constexpr int most = 12;                                       ///< rows
+  [[nodiscard]] static constexpr int count(int row) { return row + 2; } ///< n of a row
+
+  /// Work of the rows up to j, in evaluations: n − 1 evaluations, n solves, one factorization each.
+  [[nodiscard]] static constexpr double work(int j) {
+    double sum = 1;
+    for (int row = 0; row <= j; ++row) sum += 1.5 * count(row) - 0.5;
+    return sum;
+  }
+
+  /// (1) for a row, into its place of the table.
+  template <class System>
+  void substeps(System& system, const Start<T>& from, const T& h, int row, State<T>& dxdt) {
+    State<T>& x = table_[row];
+    const int n = count(row);
+    const T part = h / T(n);
+    linear_.factorize(system, from, part);
+    x = from.x;
+    for (int k = 0; k < n; ++k) {
+      if (k > 0) system(x, dxdt, from.t + T(k) * part);
+      const State<T>& f = k > 0 ? dxdt : from.dxdt;
+      for (std::size_t c = 0; c < x.size(); ++c) error_[c] = part * f[c];
+      linear_.solve(system, error_);
+      for (std::size_t c = 0; c < x.size(); ++c) x[c] = x[c] + error_[c];
+    }
+  }
+
+  /// Adds row j to the table, kept as its last diagonal: T_{j,k} stands in table_[j − k].
+  void extrapolate(int j) {
+    for (int k = 1; k <= j; ++k) {
+      const T factor = T(1) / (T(count(j)) / T(count(j - k)) - T(1));
+      State<T>&fine = table_[j - k + 1], &coarse = table_[j - k];
+      for (std::size_t c = 0; c < fine.size(); ++c)
+        coarse[c] = fine[c] + (fine[c] - coarse[c]) * factor;
+    }
+  }
+
+  [[nodiscard]] double column_error(const State<T>& x, int j) {
+    for (std::size_t c = 0; c < x.size(); ++c) error_[c] = table_[0][c] - table_[1][c];
+    errors_[j] = in_tolerances(x, table_[0], table_[0], error_, tolerance_);
+    return errors_[j];
+  }
+
+  /// Not even the rows still allowed would bring the error down to the tolerance.
+  [[nodiscard]] bool hopeless(double error, int j) const {
+    double gain = 1;
+    for (int row = j + 1; row < std::min(target_ + 2, most); ++row)
+      gain *= static_cast<double>(count(row)) / count(0);
+    return error > gain * gain;
+  }
+
+  /// The factor to the step at which row j's error would meet the tolerance.
+  [[nodiscard]] double factor_of(int j) const {
+    if (!(errors_[j] < 1e100)) return 0.05;
+    const double floored = std::max(errors_[j], 1e-12);
+    return std::clamp(0.9 * power_roughly(0.5 / floored, 1.0 / (j + 1)), 0.05, 6.0);
+  }
+
+  /// Order and step of the next try, from the work per unit of time.
+  void choose(int j, Verdict& verdict) {
+    int best = 1;
+    for (int row = 2; row <= j; ++row)
+      if (work(row) / factor_of(row) < 0.95 * work(best) / factor_of(best)) best = row;
+    verdict.factor = factor_of(best);
+    next_target_ = best + 1;
+    if (verdict.accepted() && best == j && j + 1 < most - 1 && !after_rejection_) {
+      next_target_ = j + 2; // it may pay to go one further
+      verdict.factor *= work(j + 1) / work(j);
+    }
+    next_target_ = std::clamp(next_target_, 3, most - 1);
+    if (!verdict.accepted())
+      verdict.factor = std::min(verdict.factor, 0.7);
+    else if (after_rejection_)
+      verdict.factor = std::min(verdict.factor, 1.0);
+  }
+
+  LinearlyImplicit<T> linear_;
+  Tolerance tolerance_;
+  std::array<State<T>, most> table_;
+  std::array<double, most> errors_{};
+  State<T> error_;
+  int target_ = 5, next_target_ = 5;
+  bool after_rejection_ = false;
+};
+
+} // namespace wingspread

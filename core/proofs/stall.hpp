@@ -1,0 +1,101 @@
+/// Proof that no hinge can reach its latch any more.
+///
+/// For hinge i to reach its latch, the kinetic energy T and what all springs can still give must
+/// pay for the friction on its way:
+///
+///     T + g_i + Σ_{j≠i} G_j ≥ 0 (1) g_i = P_i(φ_i) − P_i(latched) − τ_i |φ_latched − φ_i| (2) G_j
+///     = max over φ of  P_j(φ_j) − P_j(φ) − τ_j |φ − φ_j|   ≥ 0                               (3)
+///
+/// P: potential of spring, harness and engaged latch, beyond the latched angle with the latch,
+/// which can only take energy; τ: the kinetic level of exact friction, 0 for a regularized one,
+/// which may creep for nothing. On a free base T is taken about the common centre of mass. Where
+/// (1) fails for every unlatched hinge, none will ever latch.
+#pragma once
+
+#include "core/mechanics/energy.hpp"
+
+#include <limits>
+#include <optional>
+
+namespace wingspread {
+
+namespace detail {
+
+/// Least ½κy² + cy over [lower, upper]; −∞ where it has none.
+template <class T>
+[[nodiscard]] T least(const T& kappa, const T& c, const T& lower, const T& upper) {
+  const T infinity = std::numeric_limits<T>::infinity();
+  const auto at = [&](const T& y) {
+    if (is_finite(y)) return T(y * fused(T(0.5) * kappa, y, c));
+    const T lead = kappa != T(0) ? kappa : (y > T(0) ? c : T(-c));
+    return lead > T(0) ? infinity : lead < T(0) ? T(-infinity) : T(0);
+  };
+  T best = smaller(at(lower), at(upper));
+  if (kappa > T(0)) best = smaller(best, at(smaller(larger(T(-c / kappa), lower), upper)));
+  return best;
+}
+
+/// (3) for hinge j.
+template <class T>
+[[nodiscard]] T most_given(const HingeTerms<T>& hinge, bool engaged, const T& angle) {
+  const T infinity = std::numeric_limits<T>::infinity();
+  const T y = hinge.sense * (angle - hinge.latched); // < 0 before the latch
+  const LinearLaw<T> open = linear_law(hinge, engaged);
+  const LinearLaw<T> beyond = linear_law(hinge, engaged || hinge.has_latch);
+  const T drive = hinge.sense * open.drive, tau = hinge.kinetic;
+  // the least of P + τ|y' − y| over y' behind, between y and the latch, and beyond it
+  T best = least(open.stiffness, T(-drive - tau), T(-infinity), y) + tau * y;
+  const T gate = larger(y, T(0));
+  if (y < T(0)) best = smaller(best, T(least(open.stiffness, T(tau - drive), y, T(0)) - tau * y));
+  best = smaller(best, T(least(beyond.stiffness, T(tau - drive), gate, infinity) - tau * y));
+  return potential(open, angle) - best;
+}
+
+} // namespace detail
+
+/// Energy that every unlatched hinge would lack to reach its latch, J: the least of them, > 0. None
+/// where there is no proof: one may reach it, no hinge waits, the base is driven, or a smoothed
+/// latch may bring energy in. Cost O(n).
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] std::optional<T> energy_missing(System<T, Topology, M>& system, const State<T>& x,
+                                              const T& t) {
+  if constexpr (M == BaseMotion::prescribed) return std::nullopt;
+  const Layout& at = system.layout();
+  if (at.smoothed) return std::nullopt;
+  using std::abs;
+  const Motion<T> now = motion(system, x, t);
+  T budget = M == BaseMotion::free ? now.central_kinetic() : now.kinetic;
+  T scale = now.kinetic;
+  for (int i = 1; i <= at.bodies; ++i) {
+    const T given =
+        detail::most_given(system.wing().hinges[i], system.work().engaged[i], x[at.angle(i)]);
+    budget = budget + given;
+    scale = scale + abs(given);
+  }
+  if (!is_finite(budget)) return std::nullopt;
+  std::optional<T> least;
+  for (int i = 1; i <= at.bodies; ++i) {
+    const HingeTerms<T>& hinge = system.wing().hinges[i];
+    if (!hinge.has_latch || system.work().engaged[i]) continue;
+    const T own = detail::most_given(hinge, false, x[at.angle(i)]);
+    const T to_latch = potential(linear_law(hinge, false), x[at.angle(i)]) -
+                       hinge.kinetic * abs(x[at.angle(i)] - hinge.latched);
+    const T missing = -(budget - own + to_latch);
+    if (!(missing > T(1e-9) * (scale + abs(to_latch)))) return std::nullopt;
+    least = least ? smaller(*least, missing) : missing;
+  }
+  return least;
+}
+
+/// Whether a wing that does not move in itself is loaded the same for ever: on a fixed or free
+/// base, and on one that is driven without rotation, or rotates about a point at rest at a constant
+/// rate.
+template <class T> [[nodiscard]] bool loads_are_constant(const Wing<T>& wing) {
+  if (wing.base.motion != BaseMotion::prescribed) return true;
+  const BaseTerms<T>& base = wing.base;
+  if (base.angular_acceleration != T(0)) return false;
+  const bool pushed = base.acceleration.x != T(0) || base.acceleration.y != T(0);
+  return base.rate == T(0) || !pushed;
+}
+
+} // namespace wingspread

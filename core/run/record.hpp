@@ -1,0 +1,73 @@
+/// What is told of a run, in the scene's own order.
+#pragma once
+
+#include "core/deployment.hpp"
+#include "core/mechanics/energy.hpp"
+#include "core/peaks/peaks.hpp"
+
+namespace wingspread {
+
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] double total_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+  return static_cast<double>(T(kinetic_energy(system, x, t) + potential_energy(system, x)));
+}
+
+/// A sample of the trajectory; the last evaluation was at (x, t) if any hinge sticks.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] Sample sample_at(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+  const Layout& at = system.layout();
+  Sample sample;
+  sample.t = static_cast<double>(t);
+  sample.angles.resize(at.bodies), sample.rates.resize(at.bodies), sample.moments.resize(at.bodies);
+  for (int i = 1; i <= at.bodies; ++i) {
+    const int hinge = system.wing().hinge_of[i];
+    sample.angles[hinge] = static_cast<double>(x[at.angle(i)]);
+    sample.rates[hinge] = static_cast<double>(x[at.rate(i)]);
+    sample.moments[hinge] = static_cast<double>(system.moment(x, i));
+  }
+  sample.kinetic = static_cast<double>(kinetic_energy(system, x, t));
+  sample.potential = static_cast<double>(potential_energy(system, x));
+  return sample;
+}
+
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] Configuration configuration_at(System<T, Topology, M>& system, const State<T>& x,
+                                             const T& t) {
+  const Layout& at = system.layout();
+  Configuration c;
+  c.angles.resize(at.bodies), c.rates.resize(at.bodies);
+  for (int i = 1; i <= at.bodies; ++i) {
+    c.angles[system.wing().hinge_of[i]] = static_cast<double>(x[at.angle(i)]);
+    c.rates[system.wing().hinge_of[i]] = static_cast<double>(x[at.rate(i)]);
+  }
+  system.place_all(x, t);
+  c.base_angle = static_cast<double>(system.work().frames[0].angle);
+  c.base_rate = static_cast<double>(system.work().frames[0].rate);
+  if constexpr (M == BaseMotion::free) {
+    const int v = at.freedoms();
+    c.base_position = {static_cast<double>(x[0]), static_cast<double>(x[1])};
+    c.base_velocity = {static_cast<double>(x[v]), static_cast<double>(x[v + 1])};
+  }
+  return c;
+}
+
+template <class T>
+[[nodiscard]] std::vector<Peak> in_scene_order(const Wing<T>& wing,
+                                               const std::vector<PeakOf<T>>& peaks) {
+  std::vector<Peak> out(wing.size());
+  for (int i = 1; i <= wing.size(); ++i)
+    out[wing.hinge_of[i]] = {static_cast<double>(peaks[i].value),
+                             static_cast<double>(peaks[i].time)};
+  return out;
+}
+
+template <class T>
+[[nodiscard]] LatchEvent latch_event(const Wing<T>& wing, const Layout& at, const State<T>& x,
+                                     const T& t, int i) {
+  LatchEvent event{wing.hinge_of[i], static_cast<double>(t), std::vector<double>(at.bodies)};
+  for (int j = 1; j <= at.bodies; ++j)
+    event.rates[wing.hinge_of[j]] = static_cast<double>(x[at.rate(j)]);
+  return event;
+}
+
+} // namespace wingspread

@@ -1,7 +1,0 @@
-#include "core/runs_inside.hpp"
-
-namespace wingspread {
-
-const Runs& fma_runs() { return detail::runs_here; }
-
-} // namespace wingspread

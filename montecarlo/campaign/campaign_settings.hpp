@@ -1,0 +1,57 @@
+/// The parts of a campaign that say how its runs are drawn, integrated and summed up.
+///
+/// Each `read_` starts from what is already there (the defaults), and notes its problems in the
+/// cursor's list; each `write_` gives the same in full.
+#pragma once
+
+#include "core/deployment.hpp"
+#include "distributions/design.hpp"
+#include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/statistics/statistics_spec.hpp"
+
+#include <array>
+#include <cstdint>
+#include <set>
+#include <string_view>
+
+namespace wingspread {
+
+struct Sampling {
+  DesignKind design = DesignKind::random;
+  std::int64_t runs = 1000; ///< ≥ 1
+  std::uint64_t seed = 1;
+  std::int64_t replicates = 1; ///< independent repetitions of a design, ≥ 1
+};
+
+/// Whether the runs are in replicates, at most as many as runs: independent draws are not, whatever
+/// number is given.
+[[nodiscard]] constexpr bool has_replicates(const Sampling& sampling) {
+  return sampling.design != DesignKind::random;
+}
+
+[[nodiscard]] Design design_of(const Sampling& sampling);
+
+inline constexpr std::array<std::string_view, 3> design_names{"random", "latin_hypercube", "sobol"};
+
+enum class OutputFamily { latch_time, latch_rate, peak_moment, peak_force, rate_at };
+inline constexpr std::array<std::string_view, 5> output_family_names{
+    "latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at"};
+using Outputs = std::set<OutputFamily>;
+
+/// Whether the method takes the step it is given: no other has a use for `Integration::step`.
+[[nodiscard]] bool has_fixed_step(std::string_view method);
+
+/// All but `rate_at`, whose number grows with the square of the hinges'.
+[[nodiscard]] Outputs default_outputs();
+
+void read_sampling(const JsonCursor& at, Sampling& sampling);
+void read_integration(const JsonCursor& at, Integration& integration);
+void read_outputs(const JsonCursor& at, Outputs& outputs);
+void read_statistics(const JsonCursor& at, StatisticsSpec& statistics);
+
+[[nodiscard]] Json write_sampling(const Sampling& sampling);
+[[nodiscard]] Json write_integration(const Integration& integration);
+[[nodiscard]] Json write_outputs(const Outputs& outputs);
+[[nodiscard]] Json write_statistics(const StatisticsSpec& statistics);
+
+} // namespace wingspread

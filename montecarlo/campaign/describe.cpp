@@ -1,0 +1,224 @@
+#include "montecarlo/campaign/describe.hpp"
+
+#include "montecarlo/campaign/distribution_json.hpp"
+#include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/statistics/tolerance.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <bit>
+
+namespace wingspread {
+namespace {
+
+/// "three bodies" in digits: "1 body", "3 bodies".
+template <class Number> std::string count(Number n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+std::string describe_vector(const Eigen::Vector2d& vector) {
+  return fmt::format("({}, {})", vector.x(), vector.y());
+}
+
+std::string describe_base(const Base& base) {
+  std::string text(base_motion_names[static_cast<std::size_t>(base.motion)]);
+  if (base.motion == BaseMotion::fixed) return text;
+  if (base.motion == BaseMotion::free)
+    text +=
+        fmt::format(", mass {} kg, inertia {} kg·m², position {} m, velocity {} m/s", base.mass,
+                    base.inertia, describe_vector(base.position), describe_vector(base.velocity));
+  else
+    text += fmt::format(", acceleration {} m/s², angular acceleration {} rad/s²",
+                        describe_vector(base.acceleration), base.angular_acceleration);
+  return text + fmt::format(", angle {} rad, rate {} rad/s", base.angle, base.rate);
+}
+
+/// Nothing for a torque that is zero throughout.
+std::string describe_torque(const char* name, const LinearTorque& torque) {
+  if (torque.torque_stowed == 0 && torque.torque_latched == 0) return "";
+  return fmt::format("; {} {} to {} N·m", name, torque.torque_stowed, torque.torque_latched);
+}
+
+/// Nothing for a hinge without friction.
+std::string describe_friction(const Friction& friction) {
+  const bool exact = friction.model == FrictionModel::exact;
+  const double static_level = friction.static_level.value_or(friction.coulomb);
+  if (friction.coulomb == 0 && friction.viscous == 0 && static_level == 0) return "";
+  const std::string model =
+      exact ? fmt::format("exact, static {} N·m", static_level)
+            : fmt::format("regularized at {} rad/s", friction.regularization_rate);
+  return fmt::format("; friction {} N·m, {} N·m·s/rad, {}", friction.coulomb, friction.viscous,
+                     model);
+}
+
+std::string describe_latch(const std::optional<Latch>& latch) {
+  if (!latch) return "; no latch";
+  return fmt::format("; latch {} N·m/rad, {} N·m·s/rad", latch->stiffness, latch->damping);
+}
+
+std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
+  const std::string parent = hinge.parent == base_index ? "base" : scene.bodies[hinge.parent].name;
+  std::string text = fmt::format("{}: {} to {}, {} to {} rad", hinge.name, parent,
+                                 scene.bodies[hinge.child].name, hinge.stowed, hinge.latched);
+  if (hinge.initial_rate != 0) text += fmt::format(", from {} rad/s", hinge.initial_rate);
+  return text + describe_torque("spring", hinge.spring) +
+         describe_torque("harness", hinge.harness) + describe_friction(hinge.friction) +
+         describe_latch(hinge.latch);
+}
+
+std::string describe_value(double value) { return fmt::format("{}", value); }
+std::string describe_value(const std::vector<double>& values) {
+  return values.size() <= 4 ? fmt::format("{}", fmt::join(values, " "))
+                            : fmt::format("{} numbers", values.size());
+}
+
+std::string describe_distribution(const Distribution& distribution) {
+  std::string text(type_of(distribution.law));
+  const char* separator = " (";
+  std::visit(
+      [&]<class L>(const L& law) {
+        for (const auto& parameter : L::parameters()) {
+          text += fmt::format("{}{} {}", separator, parameter.name,
+                              describe_value(law.*parameter.member));
+          separator = ", ";
+        }
+      },
+      distribution.law);
+  text += ")";
+  if (distribution.truncate)
+    text +=
+        fmt::format(" within [{}, {}]", distribution.truncate->lower, distribution.truncate->upper);
+  return text;
+}
+
+std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
+  std::vector<std::string> targets;
+  for (const ParameterRef& target : dispersion.targets)
+    targets.push_back(fmt::format("{} (nominal {} {})", path_of(scene, target), target.in(scene),
+                                  unit_of(target)));
+  return fmt::format(
+      "{}: {}, {} {}", dispersion.name, describe_distribution(dispersion.distribution),
+      apply_names[static_cast<std::size_t>(dispersion.apply)], fmt::join(targets, ", "));
+}
+
+/// What a design that stratifies makes of the numbers; nothing for independent draws.
+std::string describe_replicates(const Sampling& sampling) {
+  if (!has_replicates(sampling)) return "";
+  const auto each = static_cast<std::uint64_t>(sampling.runs / sampling.replicates);
+  const bool even = sampling.runs % sampling.replicates == 0;
+  const bool uneven_net =
+      sampling.design == DesignKind::sobol && !(even && std::has_single_bit(each));
+  std::string text;
+  if (sampling.replicates > 1)
+    text = fmt::format(", {} replicates of {} runs", sampling.replicates,
+                       even ? fmt::format("{}", each) : fmt::format("{} or {}", each, each + 1));
+  if (uneven_net) text += "; Sobol' points are at their best in powers of two";
+  if (sampling.replicates == 1) text += "; one replicate, so no bounds";
+  return text;
+}
+
+std::string describe_sampling(const Sampling& sampling) {
+  return fmt::format("{}, {}, seed {}", design_names[static_cast<std::size_t>(sampling.design)],
+                     count(static_cast<std::size_t>(sampling.runs), "run", "runs"), sampling.seed) +
+         describe_replicates(sampling);
+}
+
+std::string describe_correlation(const Campaign& campaign, const RankCorrelation& correlation) {
+  return fmt::format("{} and {}: Spearman {}", campaign.dispersions[correlation.first].name,
+                     campaign.dispersions[correlation.second].name, correlation.spearman);
+}
+
+std::string describe_integration(const Integration& integration) {
+  const std::string latch =
+      integration.smoothing ? fmt::format("smoothed over {} rad", *integration.smoothing) : "event";
+  const std::string step =
+      has_fixed_step(integration.method) ? fmt::format(", step {} s", integration.step) : "";
+  return fmt::format("method {}{}, rtol {}, atol {}, latch {}, up to {} s and {} steps",
+                     integration.method, step, integration.rtol, integration.atol, latch,
+                     integration.t_end, integration.max_steps);
+}
+
+std::string describe_outputs(const Outputs& outputs) {
+  std::vector<std::string_view> names;
+  for (const OutputFamily family : outputs)
+    names.push_back(output_family_names[static_cast<std::size_t>(family)]);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string describe_statistics(const StatisticsSpec& statistics) {
+  const int* bins = std::get_if<int>(&statistics.bins);
+  return fmt::format("quantiles {}, confidence {}, bins {}", fmt::join(statistics.quantiles, " "),
+                     statistics.confidence, bins ? std::to_string(*bins) : "auto");
+}
+
+/// With what the number of runs can show of it.
+std::string describe_requirement(const Campaign& campaign, const Requirement& requirement) {
+  const long runs = campaign.sampling.runs;
+  const double p = requirement.probability;
+  const double c = at_each_look(requirement.confidence, count_looks(campaign));
+  const std::string text = to_string(requirement);
+  if (const auto allowed = allowed_failures(runs, p, c))
+    return fmt::format("{}: {} of {} may break it", text, *allowed, count(runs, "run", "runs"));
+  const auto least = runs_to_show(p, c, 0);
+  return fmt::format("{}: cannot be shown with {}, it takes {}", text, count(runs, "run", "runs"),
+                     least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
+}
+
+std::string describe_margin(const MarginSpec& margin, const Scene& scene) {
+  std::vector<std::string> paths;
+  for (const ParameterRef& parameter : margin.scaled) paths.push_back(path_of(scene, parameter));
+  return fmt::format("{} scaled by {} to {}, {}, {}", fmt::join(paths, ", "), margin.lower,
+                     margin.upper,
+                     margin.mode == MarginMode::joint ? "all together" : "hinge by hinge",
+                     !margin.one_spring_out ? "no spring lost"
+                     : margin.nominal       ? "with and without a spring lost"
+                                            : "with a spring lost");
+}
+
+std::string describe_guarantees(const Campaign& campaign) {
+  std::string text;
+  for (const auto& [probability, confidence, side] : campaign.statistics.tolerance)
+    text += fmt::format("tolerance limits: {} probability, {} confidence, {}\n", probability,
+                        confidence, side_names[static_cast<std::size_t>(side)]);
+  for (const Requirement& requirement : campaign.requirements)
+    text += "requirement: " + describe_requirement(campaign, requirement) + "\n";
+  for (const WidthGoal& goal : campaign.until)
+    text += "until the interval's width is: " + to_string(goal) + "\n";
+  if (campaign.margin)
+    text += "margin: " + describe_margin(*campaign.margin, campaign.scene) + "\n";
+  return text;
+}
+
+} // namespace
+
+std::string describe(const Scene& scene) {
+  std::string text =
+      fmt::format("scene {}\n  base: {}\n  {}\n", scene.name, describe_base(scene.base),
+                  count(scene.bodies.size(), "body", "bodies"));
+  for (const Body& body : scene.bodies)
+    text +=
+        fmt::format("    {}: mass {} kg, inertia {} kg·m²\n", body.name, body.mass, body.inertia);
+  text += fmt::format("  {}\n", count(scene.hinges.size(), "hinge", "hinges"));
+  for (const Hinge& hinge : scene.hinges)
+    text += fmt::format("    {}\n", describe_hinge(scene, hinge));
+  return text;
+}
+
+std::string describe(const Campaign& campaign) {
+  std::string text = "campaign\n" + describe(campaign.scene) +
+                     count(campaign.dispersions.size(), "dispersion", "dispersions") + "\n";
+  for (const Dispersion& dispersion : campaign.dispersions)
+    text += fmt::format("  {}\n", describe_dispersion(campaign.scene, dispersion));
+  if (!campaign.correlations.empty())
+    text += count(campaign.correlations.size(), "correlation", "correlations") + "\n";
+  for (const RankCorrelation& correlation : campaign.correlations)
+    text += fmt::format("  {}\n", describe_correlation(campaign, correlation));
+  text += "sampling: " + describe_sampling(campaign.sampling) + "\n";
+  text += "integration: " + describe_integration(campaign.integration) + "\n";
+  text += "outputs: " + describe_outputs(campaign.outputs) + "\n";
+  text += "statistics: " + describe_statistics(campaign.statistics) + "\n";
+  return text + describe_guarantees(campaign);
+}
+
+} // namespace wingspread

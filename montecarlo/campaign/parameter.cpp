@@ -1,0 +1,220 @@
+#include "montecarlo/campaign/parameter.hpp"
+
+#include "montecarlo/formats/nearest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace wingspread {
+namespace {
+
+/// A number within a base, body or hinge.
+template <class Owner> struct Field {
+  template <class Get>
+  constexpr Field(std::string_view field_path, std::string_view field_unit, Get get,
+                  bool (*is_there)(const Owner&) = nullptr, std::string_view field_needs = "")
+      : path(field_path), unit(field_unit), read(get), write(get), exists(is_there),
+        needs(field_needs) {}
+
+  std::string_view path; ///< after the owner's name
+  std::string_view unit;
+  const double& (*read)(const Owner&);
+  double& (*write)(Owner&);
+  bool (*exists)(const Owner&); ///< null: always
+  std::string_view needs;       ///< for it to exist
+
+  [[nodiscard]] bool in(const Owner& owner) const { return !exists || exists(owner); }
+};
+
+bool is_free(const Base& base) { return base.motion == BaseMotion::free; }
+bool is_prescribed(const Base& base) { return base.motion == BaseMotion::prescribed; }
+bool is_moving(const Base& base) { return base.motion != BaseMotion::fixed; }
+bool has_latch(const Hinge& hinge) { return hinge.latch.has_value(); }
+bool has_static(const Hinge& hinge) { return hinge.friction.static_level.has_value(); }
+bool is_regularized(const Hinge& hinge) {
+  return hinge.friction.model == FrictionModel::regularized;
+}
+
+constexpr std::string_view needs_free = "a base whose motion is \"free\"";
+constexpr std::string_view needs_prescribed = "a base whose motion is \"prescribed\"";
+constexpr std::string_view needs_motion = "a base that is not fixed";
+constexpr std::string_view needs_latch = "a hinge that has a latch";
+constexpr std::string_view needs_regularized = "a hinge with the regularized friction model";
+constexpr std::string_view needs_static = "a hinge whose friction has a static level";
+
+// clang-format off
+constexpr std::array base_fields{
+    Field<Base>{"mass", "kg", [](auto& b) -> auto& { return b.mass; }, is_free, needs_free},
+    Field<Base>{"inertia", "kg·m²", [](auto& b) -> auto& { return b.inertia; }, is_free, needs_free},
+    Field<Base>{"position.0", "m", [](auto& b) -> auto& { return b.position[0]; }, is_free, needs_free},
+    Field<Base>{"position.1", "m", [](auto& b) -> auto& { return b.position[1]; }, is_free, needs_free},
+    Field<Base>{"velocity.0", "m/s", [](auto& b) -> auto& { return b.velocity[0]; }, is_free, needs_free},
+    Field<Base>{"velocity.1", "m/s", [](auto& b) -> auto& { return b.velocity[1]; }, is_free, needs_free},
+    Field<Base>{"acceleration.0", "m/s²", [](auto& b) -> auto& { return b.acceleration[0]; }, is_prescribed, needs_prescribed},
+    Field<Base>{"acceleration.1", "m/s²", [](auto& b) -> auto& { return b.acceleration[1]; }, is_prescribed, needs_prescribed},
+    Field<Base>{"angular_acceleration", "rad/s²", [](auto& b) -> auto& { return b.angular_acceleration; }, is_prescribed, needs_prescribed},
+    Field<Base>{"angle", "rad", [](auto& b) -> auto& { return b.angle; }, is_moving, needs_motion},
+    Field<Base>{"rate", "rad/s", [](auto& b) -> auto& { return b.rate; }, is_moving, needs_motion}};
+
+constexpr std::array body_fields{
+    Field<Body>{"mass", "kg", [](auto& b) -> auto& { return b.mass; }},
+    Field<Body>{"inertia", "kg·m²", [](auto& b) -> auto& { return b.inertia; }}};
+
+constexpr std::array hinge_fields{
+    Field<Hinge>{"parent_point.0", "m", [](auto& h) -> auto& { return h.parent_point[0]; }},
+    Field<Hinge>{"parent_point.1", "m", [](auto& h) -> auto& { return h.parent_point[1]; }},
+    Field<Hinge>{"child_point.0", "m", [](auto& h) -> auto& { return h.child_point[0]; }},
+    Field<Hinge>{"child_point.1", "m", [](auto& h) -> auto& { return h.child_point[1]; }},
+    Field<Hinge>{"angle.stowed", "rad", [](auto& h) -> auto& { return h.stowed; }},
+    Field<Hinge>{"angle.latched", "rad", [](auto& h) -> auto& { return h.latched; }},
+    Field<Hinge>{"initial_rate", "rad/s", [](auto& h) -> auto& { return h.initial_rate; }},
+    Field<Hinge>{"spring.torque_stowed", "N·m", [](auto& h) -> auto& { return h.spring.torque_stowed; }},
+    Field<Hinge>{"spring.torque_latched", "N·m", [](auto& h) -> auto& { return h.spring.torque_latched; }},
+    Field<Hinge>{"harness.torque_stowed", "N·m", [](auto& h) -> auto& { return h.harness.torque_stowed; }},
+    Field<Hinge>{"harness.torque_latched", "N·m", [](auto& h) -> auto& { return h.harness.torque_latched; }},
+    Field<Hinge>{"friction.coulomb", "N·m", [](auto& h) -> auto& { return h.friction.coulomb; }},
+    Field<Hinge>{"friction.viscous", "N·m·s/rad", [](auto& h) -> auto& { return h.friction.viscous; }},
+    Field<Hinge>{"friction.regularization_rate", "rad/s", [](auto& h) -> auto& { return h.friction.regularization_rate; }, is_regularized, needs_regularized},
+    Field<Hinge>{"friction.static", "N·m", [](auto& h) -> auto& { return *h.friction.static_level; }, has_static, needs_static},
+    Field<Hinge>{"latch.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.latch->stiffness; }, has_latch, needs_latch},
+    Field<Hinge>{"latch.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.latch->damping; }, has_latch, needs_latch}};
+// clang-format on
+
+using Owner = ParameterRef::Owner;
+
+/// Calls `use(owner, its fields)` with the base, body or hinge that a parameter belongs to.
+template <class SceneType, class Use>
+decltype(auto) with_owner(const ParameterRef& parameter, SceneType& scene, Use use) {
+  switch (parameter.owner) {
+  case Owner::body:
+    return use(scene.bodies[parameter.index], body_fields);
+  case Owner::hinge:
+    return use(scene.hinges[parameter.index], hinge_fields);
+  case Owner::base:
+    break;
+  }
+  return use(scene.base, base_fields);
+}
+
+/// A path cut at its first dots: bodies.NAME.field, or base.field.
+struct Path {
+  std::string_view list, name, field;
+};
+
+Path split(std::string_view path) {
+  const auto cut = [&path] {
+    const auto dot = path.find('.');
+    const std::string_view first = path.substr(0, dot);
+    path = dot == std::string_view::npos ? "" : path.substr(dot + 1);
+    return first;
+  };
+  const std::string_view list = cut();
+  const std::string_view name = list == "base" ? "" : cut();
+  return {list, name, path};
+}
+
+/// Adds what `path` matches among owners of one kind; notes why when it is nothing but could be.
+template <class Named, std::size_t n>
+void match(Owner kind, std::span<const Named> owners, const std::array<Field<Named>, n>& fields,
+           const Path& path, ParameterMatches& found) {
+  const auto of_path = [&](const Field<Named>& field) { return field.path == path.field; };
+  const auto field = std::ranges::find_if(fields, of_path);
+  if (field == fields.end()) return;
+  for (std::size_t i = 0; i < owners.size(); ++i) {
+    std::string name;
+    if constexpr (requires { owners[i].name; }) name = owners[i].name;
+    if (path.name != "*" && path.name != name) continue;
+    if (field->in(owners[i]))
+      found.matches.push_back(
+          {{kind, static_cast<int>(i), static_cast<int>(field - fields.begin())}, name});
+    else
+      found.expected = field->needs;
+  }
+}
+
+template <class Named, std::size_t n>
+void list_paths(const std::string& prefix, const Named& owner,
+                const std::array<Field<Named>, n>& fields, std::vector<std::string>& paths) {
+  for (const auto& field : fields)
+    if (field.in(owner)) paths.push_back(prefix + std::string(field.path));
+}
+
+/// All paths that could have been meant: with `*` for the names, when the path has one.
+std::vector<std::string> candidates(const Scene& scene, const Path& path) {
+  std::vector<std::string> paths = parameter_paths(scene);
+  if (path.name != "*") return paths;
+  for (std::string& candidate : paths) {
+    const auto [list, name, field] = split(candidate);
+    if (!name.empty()) candidate = fmt::format("{}.*.{}", list, field);
+  }
+  return paths;
+}
+
+} // namespace
+
+double& ParameterRef::in(Scene& scene) const {
+  return with_owner(*this, scene, [this](auto& its, const auto& fields) -> double& {
+    return fields[field].write(its);
+  });
+}
+
+double ParameterRef::in(const Scene& scene) const {
+  return with_owner(*this, scene, [this](const auto& its, const auto& fields) {
+    return fields[field].read(its);
+  });
+}
+
+ParameterMatches resolve(const Scene& scene, std::string_view path) {
+  const Path parts = split(path);
+  ParameterMatches found;
+  if (parts.list == "base")
+    match<Base>(Owner::base, {&scene.base, 1}, base_fields, parts, found);
+  else if (parts.list == "bodies")
+    match<Body>(Owner::body, scene.bodies, body_fields, parts, found);
+  else if (parts.list == "hinges")
+    match<Hinge>(Owner::hinge, scene.hinges, hinge_fields, parts, found);
+  if (!found.matches.empty())
+    found.expected.clear();
+  else if (found.expected.empty())
+    found.expected = "the path of a parameter" + did_you_mean(path, candidates(scene, parts));
+  return found;
+}
+
+std::string path_of(const Scene& scene, const ParameterRef& parameter) {
+  return with_owner(parameter, scene, [&](const auto& owner, const auto& fields) {
+    const std::string_view field = fields[parameter.field].path;
+    if constexpr (requires { owner.name; }) {
+      const bool of_body = parameter.owner == Owner::body;
+      return fmt::format("{}.{}.{}", of_body ? "bodies" : "hinges", owner.name, field);
+    } else {
+      return fmt::format("base.{}", field);
+    }
+  });
+}
+
+std::string_view unit_of(const ParameterRef& parameter) {
+  switch (parameter.owner) {
+  case Owner::body:
+    return body_fields[parameter.field].unit;
+  case Owner::hinge:
+    return hinge_fields[parameter.field].unit;
+  case Owner::base:
+    break;
+  }
+  return base_fields[parameter.field].unit;
+}
+
+std::vector<std::string> parameter_paths(const Scene& scene) {
+  std::vector<std::string> paths;
+  list_paths("base.", scene.base, base_fields, paths);
+  for (const Body& body : scene.bodies)
+    list_paths("bodies." + body.name + ".", body, body_fields, paths);
+  for (const Hinge& hinge : scene.hinges)
+    list_paths("hinges." + hinge.name + ".", hinge, hinge_fields, paths);
+  return paths;
+}
+
+} // namespace wingspread

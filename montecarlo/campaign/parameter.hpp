@@ -1,0 +1,50 @@
+/// The parameters of a scene by their paths: `bodies.panel_1.mass`, `hinges.*.child_point.0`.
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wingspread {
+
+/// One parameter of a scene, and of every copy of it. Cheap to copy and to follow: no search, no
+/// string.
+struct ParameterRef {
+  enum class Owner { base, body, hinge };
+  Owner owner = Owner::base;
+  int index = 0; ///< of the body or hinge
+  int field = 0; ///< of its kind of owner
+
+  [[nodiscard]] double& in(Scene& scene) const;
+  [[nodiscard]] double in(const Scene& scene) const;
+  auto operator<=>(const ParameterRef&) const = default;
+};
+
+/// A parameter that a path names.
+struct ParameterMatch {
+  ParameterRef parameter;
+  std::string name; ///< of its body or hinge; empty for the base
+};
+
+/// What a path names, or why it names nothing.
+struct ParameterMatches {
+  std::vector<ParameterMatch> matches; ///< in the scene's order
+  std::string expected;                ///< what would do; empty when there are matches
+};
+
+/// Follows a path. A name given as `*` stands for every body or hinge that has the parameter: a
+/// hinge without a latch, say, has no latch.stiffness.
+[[nodiscard]] ParameterMatches resolve(const Scene& scene, std::string_view path);
+
+/// The path of one parameter.
+[[nodiscard]] std::string path_of(const Scene& scene, const ParameterRef& parameter);
+/// Its unit, e.g. "kg".
+[[nodiscard]] std::string_view unit_of(const ParameterRef& parameter);
+
+/// The paths of all parameters that the scene has.
+[[nodiscard]] std::vector<std::string> parameter_paths(const Scene& scene);
+
+} // namespace wingspread

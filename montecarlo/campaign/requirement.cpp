@@ -1,0 +1,104 @@
+#include "montecarlo/campaign/requirement.hpp"
+
+#include "montecarlo/formats/nearest.hpp"
+#include "montecarlo/formats/output_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+bool is_proper_share(const double& number) { return number > 0 && number < 1; }
+bool is_not_empty(const std::string& text) { return !text.empty(); }
+
+bool contains(std::span<const std::string> names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+void refuse_unknown_output(const JsonCursor& at, const std::string& output,
+                           const std::vector<std::string>& outputs,
+                           std::span<const std::string> all_outputs) {
+  if (output == deployed_output || contains(outputs, output)) return;
+  if (contains(all_outputs, output))
+    return void(at.refuse(fmt::format("an output that the campaign asks for (\"{}\" is not in its "
+                                      "\"outputs\")",
+                                      parse_output_name(output).quantity)));
+  std::vector<std::string> known = outputs;
+  known.emplace_back(deployed_output);
+  at.refuse("an output of the campaign, or \"deployed\"" + did_you_mean(output, known));
+}
+
+void read_limits(JsonObject& object, Requirement& requirement) {
+  const auto read = [&](const char* key, std::optional<double>& limit) {
+    const auto at = object.find(key);
+    double value = 0;
+    if (at && at->read(value, "a number, in the output's unit")) limit = value;
+    return at.has_value();
+  };
+  const bool has_max = read("max", requirement.max), has_min = read("min", requirement.min);
+  if (!object.is_object() || requirement.output.empty()) return;
+  if (requirement.output == deployed_output) {
+    if (has_max || has_min)
+      object.at().refuse("a limit", "neither max nor min: a run has deployed or has not");
+  } else if (has_max == has_min) {
+    object.at().refuse(has_max ? "both max and min" : "neither max nor min",
+                       "one of them (for both, two requirements)");
+  }
+}
+
+Requirement read_requirement(const JsonCursor& at, const std::vector<std::string>* outputs,
+                             std::span<const std::string> all_outputs) {
+  Requirement requirement;
+  JsonObject object(at, "a requirement: an object");
+  object.optional("name", requirement.name, "a string, not empty", is_not_empty);
+  const bool named =
+      object.required("output", requirement.output, "a string, an output or \"deployed\"");
+  if (named && outputs && object.is_object())
+    refuse_unknown_output(at.member("output"), requirement.output, *outputs, all_outputs);
+  read_limits(object, requirement);
+  object.required("probability", requirement.probability, "a number, > 0 and < 1", is_proper_share);
+  object.required("confidence", requirement.confidence, "a number, > 0 and < 1", is_proper_share);
+  object.refuse_others();
+  return requirement;
+}
+
+} // namespace
+
+void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
+                       std::span<const std::string> all_outputs,
+                       std::vector<Requirement>& requirements) {
+  if (!at.value().is_array()) return void(at.refuse("an array of requirements"));
+  requirements.clear();
+  for (const JsonCursor& element : at.elements())
+    requirements.push_back(read_requirement(element, outputs, all_outputs));
+}
+
+Json write_requirements(std::span<const Requirement> requirements) {
+  Json list = Json::array();
+  for (const Requirement& requirement : requirements) {
+    Json json = Json::object();
+    if (!requirement.name.empty()) json["name"] = requirement.name;
+    json["output"] = requirement.output;
+    if (requirement.max) json["max"] = *requirement.max;
+    if (requirement.min) json["min"] = *requirement.min;
+    json["probability"] = requirement.probability;
+    json["confidence"] = requirement.confidence;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+std::string to_string(const Requirement& requirement) {
+  std::string text = requirement.name.empty() ? "" : requirement.name + ": ";
+  text += requirement.output;
+  const std::string unit = parse_output_name(requirement.output).unit;
+  const std::string after = unit.empty() ? "" : ' ' + unit;
+  if (requirement.max) text += fmt::format(" ≤ {}{}", *requirement.max, after);
+  if (requirement.min) text += fmt::format(" ≥ {}{}", *requirement.min, after);
+  return text + fmt::format(", {:.10g} % at {:.10g} %", 100 * requirement.probability,
+                            100 * requirement.confidence);
+}
+
+} // namespace wingspread

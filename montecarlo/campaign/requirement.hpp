@@ -1,0 +1,37 @@
+/// What a campaign has to show: "at least this share of all wings keeps to this limit".
+#pragma once
+
+#include "montecarlo/formats/json_reader.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// The output that stands for the wing's deployment itself; has no limit.
+inline constexpr std::string_view deployed_output = "deployed";
+
+/// P(the run deploys, and its output keeps to the limit) ≥ probability, shown with confidence.
+struct Requirement {
+  std::string name;                       ///< what a report calls it; may be empty
+  std::string output;                     ///< a column of the results, or "deployed"
+  std::optional<double> max, min;         ///< one of them; none of "deployed"
+  double probability = 0, confidence = 0; ///< each in (0, 1); the confidence is one-sided
+};
+
+/// Reads an array of them, and notes what is wrong.
+/// @param outputs the campaign's columns; nothing when they are not known, for a scene or a
+///   list of outputs that is wrong itself: then no name is missed
+/// @param all_outputs those that other families would add, for the message
+void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
+                       std::span<const std::string> all_outputs,
+                       std::vector<Requirement>& requirements);
+
+[[nodiscard]] Json write_requirements(std::span<const Requirement> requirements);
+
+/// "root.peak_moment ≤ 400 N·m, 99.73 % at 90 %", after its name if it has one.
+[[nodiscard]] std::string to_string(const Requirement& requirement);
+
+} // namespace wingspread

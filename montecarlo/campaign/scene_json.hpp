@@ -1,0 +1,28 @@
+/// A scene from JSON and back to it.
+#pragma once
+
+#include "core/scene/scene.hpp"
+#include "montecarlo/formats/json_reader.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace wingspread {
+
+/// The words for each enumeration, in the order of its values.
+inline constexpr std::array<std::string_view, 3> base_motion_names{"fixed", "prescribed", "free"};
+inline constexpr std::array<std::string_view, 2> friction_model_names{"regularized", "exact"};
+
+/// Reads a scene that stands somewhere in a document. Its problems go to the cursor's list; when
+/// that grew, the scene that is returned is of no use.
+[[nodiscard]] Scene read_scene(const JsonCursor& at);
+
+/// Reads a document that is a scene.
+/// @param file the name that problems carry
+/// @throws SpecError with all that is wrong
+[[nodiscard]] Scene read_scene(const Json& document, const std::string& file = "");
+
+/// The scene in full, all defaults explicit. Reads back to the same scene, to the last bit.
+[[nodiscard]] Json write_scene(const Scene& scene);
+
+} // namespace wingspread

@@ -1,0 +1,180 @@
+#include "montecarlo/campaign/stopping.hpp"
+
+#include "montecarlo/formats/csv.hpp"
+#include "montecarlo/formats/nearest.hpp"
+#include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/statistics/confidence.hpp"
+#include "montecarlo/statistics/statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+constexpr long first_checkpoint = 1000;
+constexpr const char* quantile_expected = "a number, > 0 and < 1: the quantile that is meant";
+
+bool is_positive(const double& number) { return number > 0; }
+bool is_proper_share(const double& number) { return number > 0 && number < 1; }
+
+std::optional<Status> status_named(std::string_view name) {
+  const auto found =
+      std::ranges::find_if(statuses, [&](Status status) { return to_string(status) == name; });
+  return found == statuses.end() ? std::nullopt : std::optional(*found);
+}
+
+void refuse_unknown_output(const JsonCursor& at, const std::string& output,
+                           const std::vector<std::string>& outputs) {
+  if (status_named(output) || std::ranges::find(outputs, output) != outputs.end()) return;
+  std::vector<std::string> known = outputs;
+  for (const Status status : statuses) known.emplace_back(to_string(status));
+  at.refuse("an output of the campaign, or a status" + did_you_mean(output, known));
+}
+
+/// Reads width or relative_width, of which there has to be one.
+void read_width(JsonObject& object, WidthGoal& goal) {
+  const bool absolute = object.find("width").has_value();
+  goal.relative = object.find("relative_width").has_value();
+  if (!object.is_object()) return;
+  if (absolute == goal.relative)
+    object.at().refuse(absolute ? "both width and relative_width"
+                                : "neither width nor relative_width",
+                       "one of them");
+  object.optional("width", goal.width, "a number, in the output's unit, > 0", is_positive);
+  object.optional("relative_width", goal.width, "a number, > 0", is_positive);
+}
+
+/// A status has a share, and an output has quantiles.
+void read_quantile(JsonObject& object, WidthGoal& goal) {
+  const auto quantile = object.find("quantile");
+  if (!object.is_object() || goal.output.empty()) return;
+  if (!status_named(goal.output)) {
+    goal.quantile.emplace();
+    object.required("quantile", *goal.quantile, quantile_expected, is_proper_share);
+    return;
+  }
+  if (quantile) quantile->refuse("no quantile of a share of runs");
+  if (goal.relative) object.at().refuse("a relative_width", "a width, for a share of runs");
+}
+
+WidthGoal read_goal(const JsonCursor& at, const std::vector<std::string>* outputs) {
+  WidthGoal goal;
+  JsonObject object(at, "a width to be reached: an object");
+  const bool named = object.required("output", goal.output, "a string, an output or a status");
+  if (named && outputs && object.is_object())
+    refuse_unknown_output(at.member("output"), goal.output, *outputs);
+  read_width(object, goal);
+  read_quantile(object, goal);
+  object.refuse_others();
+  return goal;
+}
+
+/// Splits off what follows the last `mark`, which has to be there.
+std::optional<std::string_view> split_last(std::string_view& text, char mark) {
+  const std::size_t at = text.rfind(mark);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view last = text.substr(at + 1);
+  text = text.substr(0, at);
+  return last;
+}
+
+WidthFound find_width(const WidthGoal& goal, const Results& results, double confidence) {
+  WidthFound found{goal, {}, false};
+  if (results.size() == 0) return found;
+  if (const auto status = status_named(goal.output)) {
+    const long hits = std::ranges::count(results.status, *status);
+    const Interval interval = clopper_pearson(hits, static_cast<long>(results.size()), confidence);
+    found.width = interval.upper - interval.lower;
+    found.met = *found.width <= goal.width;
+    return found;
+  }
+  const auto column = std::ranges::find(results.outputs, goal.output, &Column::name);
+  assert(column != results.outputs.end());
+  const std::vector<double> sorted = sorted_present(column->values);
+  column->values.release();
+  const Bounds bounds = quantile_bounds(sorted, *goal.quantile, confidence);
+  if (!bounds.lower || !bounds.upper) return found;
+  found.width = *bounds.upper - *bounds.lower;
+  const double unit = goal.relative ? std::abs(quantile(sorted, *goal.quantile)) : 1;
+  found.met = *found.width <= goal.width * unit;
+  return found;
+}
+
+} // namespace
+
+void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* outputs,
+                        StoppingRule& rule) {
+  if (!at.value().is_array()) return void(at.refuse("an array of widths to be reached"));
+  rule.clear();
+  for (const JsonCursor& element : at.elements()) rule.push_back(read_goal(element, outputs));
+}
+
+Json write_stopping_rule(const StoppingRule& rule) {
+  Json list = Json::array();
+  for (const WidthGoal& goal : rule) {
+    Json json{{"output", goal.output}};
+    if (goal.quantile) json["quantile"] = *goal.quantile;
+    json[goal.relative ? "relative_width" : "width"] = goal.width;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+std::optional<Json> parse_width_goal(std::string_view text) {
+  const bool percent = text.ends_with('%');
+  std::string_view name = text.substr(0, text.find_last_not_of("% ") + 1);
+  const auto width = split_last(name, ' ');
+  if (!width) return std::nullopt;
+  const auto number = parse_csv_number(*width);
+  if (!number) return std::nullopt;
+  Json goal{{"output", ""}};
+  if (name.find('@') != std::string_view::npos) {
+    const auto quantile = parse_csv_number(*split_last(name, '@'));
+    if (!quantile) return std::nullopt;
+    goal["quantile"] = *quantile;
+  }
+  goal["output"] = std::string(name);
+  goal[percent ? "relative_width" : "width"] = percent ? *number / 100 : *number;
+  return goal;
+}
+
+std::string to_string(const WidthGoal& goal) {
+  const std::string quantile = goal.quantile ? fmt::format("@{}", *goal.quantile) : "";
+  if (goal.relative) return fmt::format("{}{} {:.10g}%", goal.output, quantile, 100 * goal.width);
+  return fmt::format("{}{} {}", goal.output, quantile, goal.width);
+}
+
+long next_checkpoint(long done, long runs) {
+  long checkpoint = first_checkpoint;
+  while (checkpoint <= done && checkpoint < runs)
+    checkpoint = checkpoint > runs / 2 ? runs : 2 * checkpoint;
+  return std::min(checkpoint, runs);
+}
+
+bool is_checkpoint(long done, long runs) {
+  return done > 0 && next_checkpoint(done - 1, runs) == done;
+}
+
+long count_looks(const StoppingRule& rule, long runs) {
+  if (rule.empty()) return 1;
+  long looks = 0;
+  for (long done = 0; done < runs; done = next_checkpoint(done, runs)) ++looks;
+  return looks;
+}
+
+std::vector<WidthFound> find_widths(const StoppingRule& rule, const Results& results,
+                                    double confidence) {
+  std::vector<WidthFound> widths;
+  for (const WidthGoal& goal : rule) widths.push_back(find_width(goal, results, confidence));
+  return widths;
+}
+
+bool are_met(std::span<const WidthFound> widths) {
+  return !widths.empty() && std::ranges::all_of(widths, &WidthFound::met);
+}
+
+} // namespace wingspread

@@ -1,0 +1,66 @@
+/// When a campaign has made runs enough: as soon as confidence intervals are narrow enough.
+///
+/// The widths are looked at only at checkpoints, fixed numbers of runs, and depend on nothing but
+/// the rows up to there: where a campaign stops does not depend on threads or interruptions. Each
+/// of the K looks is a chance to be misled, so every bound that such a campaign gives shares its α
+/// out among them (at_each_look in tolerance.hpp): it holds wherever the campaign stopped.
+#pragma once
+
+#include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/runs/results.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// How narrow one interval has to be: that of a quantile of an output, or of the share of runs of a
+/// status.
+struct WidthGoal {
+  std::string output;             ///< a column of the results, or a status
+  std::optional<double> quantile; ///< in (0, 1); none of a status
+  double width = 0;               ///< upper less lower bound, > 0; in the output's unit, or …
+  bool relative = false;          ///< … as a share of the quantile's magnitude
+};
+
+/// All of them have to be met; none: the campaign makes all of its runs.
+using StoppingRule = std::vector<WidthGoal>;
+
+/// Reads an array of goals, and notes what is wrong.
+/// @param outputs the campaign's columns; nothing when they are not known, for a scene or a
+///   list of outputs that is wrong itself: then no name is missed
+void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* outputs,
+                        StoppingRule& rule);
+
+[[nodiscard]] Json write_stopping_rule(const StoppingRule& rule);
+
+/// "root.peak_moment@0.99 5", "root.peak_moment@0.99 2%" or "deployed 0.01": the goal as a campaign
+/// has it; nothing when the text is none of those.
+[[nodiscard]] std::optional<Json> parse_width_goal(std::string_view text);
+[[nodiscard]] std::string to_string(const WidthGoal& goal);
+
+/// The first checkpoint beyond so many runs, of a campaign of at most `runs`: 1000, 2000, 4000, …,
+/// and `runs` itself.
+[[nodiscard]] long next_checkpoint(long done, long runs);
+/// How many checkpoints there are; 1 without a rule.
+[[nodiscard]] long count_looks(const StoppingRule& rule, long runs);
+[[nodiscard]] bool is_checkpoint(long done, long runs);
+
+/// A goal and how wide its interval is. Of a quantile, over the runs in which the output happened.
+struct WidthFound {
+  WidthGoal goal;
+  std::optional<double> width; ///< absolute; nothing where a bound does not exist
+  bool met = false;
+};
+
+/// @param confidence of each interval, two-sided
+/// @pre the draws of the runs are independent; the results have the outputs
+[[nodiscard]] std::vector<WidthFound> find_widths(const StoppingRule& rule, const Results& results,
+                                                  double confidence);
+
+/// Whether every goal is met; false without any.
+[[nodiscard]] bool are_met(std::span<const WidthFound> widths);
+
+} // namespace wingspread

@@ -1,0 +1,144 @@
+#include "montecarlo/commands/cli.hpp"
+#include "montecarlo/commands/command_options.hpp"
+#include "montecarlo/commands/commands.hpp"
+#include "montecarlo/folder/folder.hpp"
+#include "montecarlo/folder/run_folder.hpp"
+#include "montecarlo/formats/files.hpp"
+#include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/machine/progress.hpp"
+#include "montecarlo/margin/margin_report.hpp"
+#include "montecarlo/summary/summary_json.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace wingspread {
+namespace {
+
+struct MarginOptions {
+  std::filesystem::path campaign, out;
+  SamplingOptions sampling;
+  int threads = 0;
+  bool json = false;
+};
+
+/// Static margins with the present springs, and with the recommended ones of a joint search.
+std::vector<ScaledMotorization> motorization_of(const Campaign& campaign,
+                                                const MarginResult& result) {
+  const MarginSpec& spec = *campaign.margin;
+  std::vector<ScaledMotorization> all{{1, study_motorization(campaign, campaign.scene, spec)}};
+  const MarginSearch& search = result.searches.front();
+  if (spec.mode == MarginMode::joint && search.recommended && *search.recommended != 1) {
+    const double scale = *search.recommended;
+    all.push_back({scale, study_motorization(scaled(campaign, search.scaled, scale),
+                                             scaled(campaign.scene, search.scaled, scale), spec)});
+  }
+  return all;
+}
+
+/// The campaign with the recommended springs, ready to be run.
+void write_recommended(const Campaign& campaign, const MarginResult& result,
+                       const std::filesystem::path& folder) {
+  const MarginSearch& search = result.searches.front();
+  if (campaign.margin->mode != MarginMode::joint || !search.recommended) return;
+  write_file(folder / recommended_file,
+             json_text(scaled(campaign, search.scaled, *search.recommended).resolved));
+}
+
+/// What there is to say besides the report.
+int conclude(const Campaign& campaign, const MarginResult& result) {
+  const Base& base = campaign.scene.base;
+  if (base.motion == BaseMotion::prescribed)
+    fmt::print(stderr, "warning: static motorization margins do not know the loads of a base that "
+                       "moves; give them as \"inertia\" in the margin's \"torques\"\n");
+  for (const MarginSearch& search : result.searches)
+    if (!is_confirmed(search))
+      fmt::print(stderr, "not met: {}: {}\n", search.name,
+                 search.recommended
+                     ? fmt::format("runs of seed {} do not show it at the recommended scale: take "
+                                   "more runs, or a point further from what they break",
+                                   result.confirmation_seed)
+                     : "no scale of the springs in the range meets all requirements");
+  if (result.failed > 0) {
+    fmt::print(stderr,
+               "error: {} of {} runs failed numerically, and count against every "
+               "requirement\n",
+               result.failed, result.runs);
+    return exit_code::failed_runs;
+  }
+  return is_met(result) ? exit_code::done : exit_code::not_met;
+}
+
+int margin(const MarginOptions& options) {
+  Campaign campaign = read_campaign_file(options.campaign);
+  override_sampling(campaign, options.sampling.runs, options.sampling.seed);
+  refuse_used_folder(options.out, "a new or an empty folder");
+  const Interrupt interrupt;
+  Progress progress(stderr);
+  MarginResult result;
+  try {
+    find_margin(
+        campaign, options.threads, interrupt.flag(),
+        [&](long made) { progress.show({.done = made, .total = made + 1}); }, result);
+  } catch (const Stopped&) {
+    make_folder(options.out);
+    write_file(options.out / margin_csv_file, margin_csv(campaign, result));
+    fmt::print(stderr, "interrupted: the scales that were finished are in {}\n",
+               (options.out / margin_csv_file).string());
+    return exit_code::interrupted;
+  }
+  const MarginReport report{campaign, result, motorization_of(campaign, result)};
+  const Stamp stamp = stamp_of(campaign, {});
+  const Json about{{"version", stamp.version}, {"seed", stamp.seed}, {"hash", stamp.hash}};
+  const std::string json = json_text(margin_json(report, about));
+  make_folder(options.out);
+  write_file(options.out / margin_json_file, json);
+  write_file(options.out / margin_csv_file, margin_csv(campaign, result));
+  write_file(options.out / motorization_csv_file, motorization_csv(report));
+  write_recommended(campaign, result, options.out);
+  fmt::print("{}", options.json ? json : margin_text(report));
+  return conclude(campaign, result);
+}
+
+} // namespace
+
+void add_margin(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<MarginOptions>();
+  CLI::App* command = app.add_subcommand(
+      "margin", "How strong the springs may be: the window in which all requirements are met");
+  command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
+  command->add_option("--out", options->out, "The folder for the results: new, or empty")
+      ->required();
+  add_sampling_options(*command, options->sampling);
+  add_threads_option(*command, options->threads);
+  command->add_flag("--json", options->json, "Print JSON in place of the report");
+  command->footer(
+      R"(Scales what the campaign's "margin" names, runs the same draws at every scale, judges the
+campaign's requirements there, and finds the scales between which all of them are met: each edge to
+1 % ("tolerance"), with the requirement that sets it and how many runs break it on either side.
+The recommended scale is in the middle, and is run again with another seed. Where no scale will do,
+it says which requirements rule that out. All runs are made: "until" is of no account here.
+
+  "margin": { "scale": ["hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"],
+              "range": [0.5, 2] }
+
+  mode                joint: all together, the default; each: one hinge after the other
+  points, tolerance   scales looked at first, 13; how closely an edge is located, 0.01
+  cases               ["nominal"], ["nominal", "one_spring_out"]: each hinge loses one of
+  springs_per_hinge   its springs in turn, 2 if left out
+  motorization        factors of the static margins, by ECSS-E-ST-33-01C and NASA-STD-5017B
+
+The folder gets margin.json, margin.csv (all that was seen at every scale), motorization.csv (the
+static margins at every angle of the travel) and recommended.json, the campaign with the recommended
+springs. Exit code 0: there is a window; 1: there is none, or the other seed does not confirm it.
+
+Example:
+  wingspread margin campaign.json --out results/margin
+  wingspread run results/margin/recommended.json --out results/resized)");
+  command->callback([options, &action] { action = [options] { return margin(*options); }; });
+}
+
+} // namespace wingspread

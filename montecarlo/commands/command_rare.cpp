@@ -1,0 +1,138 @@
+#include "montecarlo/commands/cli.hpp"
+#include "montecarlo/commands/command_options.hpp"
+#include "montecarlo/commands/commands.hpp"
+#include "montecarlo/folder/folder.hpp"
+#include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/machine/progress.hpp"
+#include "montecarlo/rare/rare_text.hpp"
+#include "montecarlo/summary/summary_json.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace wingspread {
+namespace {
+
+constexpr long most_samples = 10'000'000, most_repeats = 1000;
+
+struct RareCommandOptions {
+  std::filesystem::path campaign;
+  std::string output;
+  std::optional<double> above, below;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> confidence;
+  RareOptions rare;
+  bool json = false;
+};
+
+/// @throws SpecError unless there is an output with one finite limit, or neither
+RareEvent event_of(const RareCommandOptions& options) {
+  const int limits = int(options.above.has_value()) + int(options.below.has_value());
+  const double limit = options.above.value_or(options.below.value_or(0));
+  if (limits != (options.output.empty() ? 0 : 1) || !std::isfinite(limit))
+    throw SpecError({{"", "--output",
+                      fmt::format("{} with {} limits",
+                                  options.output.empty() ? "none" : options.output, limits),
+                      "an output with --above or --below and a finite limit, or none of them for "
+                      "the wing not to deploy"}});
+  return {options.output, limit, options.above.has_value()};
+}
+
+std::string refuse_odd_samples(const std::string& text) {
+  return text.ends_with('0') ? "" : fmt::format("found {}, expected a multiple of 10", text);
+}
+
+int warn_of_failures(const RareResult& result) {
+  const long invalid = result.statuses[static_cast<std::size_t>(Status::invalid)];
+  const long failed = result.statuses[static_cast<std::size_t>(Status::failed)];
+  if (invalid > 0)
+    fmt::print(stderr, "warning: {} of {} runs had an unphysical draw, and count as the event\n",
+               invalid, result.estimate.evaluations);
+  if (failed == 0) return exit_code::done;
+  fmt::print(stderr, "error: {} of {} runs failed numerically, and count as the event\n", failed,
+             result.estimate.evaluations);
+  return exit_code::failed_runs;
+}
+
+void warn_if_doubtful(const RareResult& result) {
+  if (std::ranges::any_of(result.estimates, &SubsetEstimate::stuck))
+    fmt::print(stderr, "warning: some levels had runs that are all as far from the event as each "
+                       "other, so the way to it was not found\n");
+  if (result.estimate.from_spread > 2 * result.estimate.from_chains)
+    fmt::print(stderr, "warning: the repeats differ by more than their chains account for: take "
+                       "more --samples\n");
+}
+
+int rare(const RareCommandOptions& given) {
+  RareOptions options = given.rare;
+  options.event = event_of(given);
+  Campaign campaign = read_campaign_file(given.campaign);
+  override_sampling(campaign, std::nullopt, given.seed);
+  StatisticsSpec spec = campaign.statistics;
+  Json settings = Json::object();
+  if (given.confidence) settings["confidence"] = *given.confidence;
+  override_settings(settings, [&](const JsonCursor& at) { read_statistics(at, spec); });
+  options.confidence = spec.confidence;
+  const Interrupt interrupt;
+  Progress progress(stderr);
+  try {
+    const RareResult result =
+        estimate_rare_event(campaign, options, interrupt.flag(),
+                            [&](long made) { progress.show({.done = made, .total = made + 1}); });
+    const Stamp stamp = stamp_of(campaign, {});
+    const Json about{{"version", stamp.version}, {"seed", stamp.seed}, {"hash", stamp.hash}};
+    fmt::print("{}", given.json ? json_text(rare_json(result, options, campaign, about))
+                                : rare_text(result, options, campaign));
+    warn_if_doubtful(result);
+    return warn_of_failures(result);
+  } catch (const Stopped&) {
+    fmt::print(stderr, "interrupted: nothing is kept\n");
+    return exit_code::interrupted;
+  }
+}
+
+} // namespace
+
+void add_rare(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RareCommandOptions>();
+  CLI::App* command = app.add_subcommand(
+      "rare", "Probabilities too small to count: not deployed, or an output beyond a limit");
+  command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
+  command
+      ->add_option("--output", options->output,
+                   "The output with a limit; not to be deployed if left out")
+      ->type_name("NAME");
+  command->add_option("--above", options->above, "The event: a value above this")->type_name("X");
+  command->add_option("--below", options->below, "The event: a value below this")->type_name("X");
+  command
+      ->add_option("--samples", options->rare.samples,
+                   "Runs of a level, a multiple of 10; 2000 if left out")
+      ->check(CLI::Range(100L, most_samples).description(""))
+      ->check(refuse_odd_samples)
+      ->type_name("N");
+  command->add_option("--repeats", options->rare.repeats, "Independent ones; 5 if left out")
+      ->check(CLI::Range(1L, most_repeats).description(""))
+      ->type_name("R");
+  add_seed_option(*command, options->seed);
+  command->add_option("--confidence", options->confidence, "Of the bounds, e.g. 0.99");
+  add_threads_option(*command, options->rare.threads);
+  command->add_flag("--json", options->json, "Print JSON in place of text");
+  command->footer(
+      R"(Subset simulation: runs that came nearest to the event are the start of chains that go nearer
+still, level by level, each a tenth as likely as the one before. It takes some ten thousand runs for
+one in a million. The variation is the estimate's standard deviation as a share of it; the repeats
+are independent, and show it too. Draws are independent ones, whatever the campaign's design.
+
+A run that has no such output (it stalled before, or failed) counts as the event.
+
+Example:
+  wingspread rare campaign.json
+  wingspread rare campaign.json --output root.peak_moment --above 400 --samples 4000 --json)");
+  command->callback([options, &action] { action = [options] { return rare(*options); }; });
+}
+
+} // namespace wingspread

@@ -1,0 +1,221 @@
+#include "montecarlo/commands/cli.hpp"
+#include "montecarlo/commands/command_options.hpp"
+#include "montecarlo/commands/commands.hpp"
+#include "montecarlo/folder/run_folder.hpp"
+#include "montecarlo/formats/files.hpp"
+#include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/machine/progress.hpp"
+#include "montecarlo/machine/team.hpp"
+#include "montecarlo/summary/summary_json.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <thread>
+#include <unistd.h>
+
+namespace wingspread {
+namespace {
+
+struct RunOptions {
+  std::filesystem::path campaign, out;
+  SamplingOptions sampling;
+  int threads = 0;
+  int lanes = 0;   ///< 0: as the instruction set has
+  std::string isa; ///< none: the widest
+  bool resume = false;
+  std::string shard;
+  std::vector<std::string> until;
+  Display display;
+};
+
+/// "2/5"; nothing when it is no shard.
+std::optional<Shard> parse_shard(const std::string& text) {
+  Shard shard;
+  const char *at = text.data(), *end = at + text.size();
+  const auto index = std::from_chars(at, end, shard.index);
+  if (index.ec != std::errc{} || index.ptr == end || *index.ptr != '/') return std::nullopt;
+  const auto of = std::from_chars(index.ptr + 1, end, shard.of);
+  if (of.ec != std::errc{} || of.ptr != end) return std::nullopt;
+  const bool valid = 1 <= shard.index && shard.index <= shard.of && shard.of <= most_shards;
+  return valid ? std::optional(shard) : std::nullopt;
+}
+
+std::string refuse_shard(const std::string& text) {
+  if (parse_shard(text)) return "";
+  return fmt::format("found {}, expected I/N with whole numbers 1 ≤ I ≤ N ≤ {}", text, most_shards);
+}
+
+/// The one asked for; refused where this processor has not got it.
+InstructionSet instruction_set(const std::string& name, int lanes) {
+  const std::vector<InstructionSet>& sets = instruction_sets();
+  const auto fits = [&](InstructionSet set) {
+    return (name.empty() || name == to_string(set)) && (lanes == 0 || lanes == lanes_of(set));
+  };
+  const auto found = std::find_if(sets.rbegin(), sets.rend(), fits);
+  if (found != sets.rend()) return *found;
+  std::vector<std::string> offered;
+  for (const InstructionSet set : sets)
+    offered.push_back(fmt::format("{} ({})", to_string(set), lanes_of(set)));
+  throw CLI::ValidationError(
+      name.empty()
+          ? fmt::format("--lanes {}", lanes)
+          : fmt::format("--isa {}{}", name, lanes ? fmt::format(" --lanes {}", lanes) : ""),
+      fmt::format("this processor has not got that; it offers (lanes): {}",
+                  fmt::join(offered, ", ")));
+}
+
+std::string host_name() {
+  char name[256] = {};
+  return gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
+/// timing.json: what this session did and on what.
+std::string timing_text(const Tally& tally, double seconds, int threads, InstructionSet set,
+                        const Occupancy& lanes, bool interrupted) {
+  const long made = tally.done - tally.before;
+  return json_text({{"host", host_name()},
+                    {"processors", std::thread::hardware_concurrency()},
+                    {"threads", threads},
+                    {"instruction_set", to_string(set)},
+                    {"lanes", lanes_of(set)},
+                    {"lane_occupancy", lanes.tries > 0 ? Json(static_cast<double>(lanes.busy) /
+                                                              static_cast<double>(lanes.tries))
+                                                       : Json()},
+                    {"runs", made},
+                    {"runs_before", tally.before},
+                    {"seconds", seconds},
+                    {"runs_per_second", static_cast<double>(made) / std::max(seconds, 1e-9)},
+                    {"interrupted", interrupted}});
+}
+
+void count(const Results& results, Tally& tally) {
+  tally.done = std::ssize(results.runs);
+  tally.invalid = std::ranges::count(results.status, Status::invalid);
+  tally.failed = std::ranges::count(results.status, Status::failed);
+}
+
+void count(const Batch& batch, Tally& tally) {
+  tally.done += std::ssize(batch.rows);
+  tally.invalid += std::ranges::count(batch.rows, Status::invalid, &ResultRow::status);
+  tally.failed += std::ranges::count(batch.rows, Status::failed, &ResultRow::status);
+}
+
+/// Makes the runs that are left. @return whether it was interrupted
+bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads, InstructionSet set) {
+  const Interrupt interrupt;
+  Tally tally{.total = folder.stored().runs().size()};
+  count(folder.results(), tally);
+  tally.before = tally.done;
+  Progress progress(stderr);
+  progress.show(tally);
+  const auto keep = [&](const Batch& batch) {
+    folder.add(batch);
+    count(batch, tally);
+    progress.show(tally);
+  };
+  Occupancy lanes;
+  bool interrupted = false;
+  while (!interrupted) {
+    const RunRange remaining = folder.remaining();
+    if (remaining.size() == 0) break;
+    const long made = make_runs(plan, remaining, threads, interrupt.flag(), keep, set, &lanes);
+    interrupted = made < remaining.size();
+  }
+  write_file(folder.stored().folder / timing_file,
+             timing_text(tally, progress.seconds(), team_size(threads), set, lanes, interrupted));
+  return interrupted;
+}
+
+/// The widths at which to stop, in place of the campaign's; as it is where none are given.
+void override_until(Campaign& campaign, const std::vector<std::string>& until) {
+  if (until.empty()) return;
+  Json goals = Json::array();
+  for (const std::string& text : until) goals.push_back(parse_width_goal(text).value());
+  override_settings({{"until", goals}},
+                    [&](const JsonCursor& at) { override_stopping(campaign, at.member("until")); });
+}
+
+std::string refuse_until(const std::string& text) {
+  if (parse_width_goal(text)) return "";
+  return fmt::format("found \"{}\", expected e.g. \"root.peak_moment@0.99 5\" (its 0.99 quantile "
+                     "known to within 5 N·m), \"root.peak_moment@0.99 2%\" or \"deployed 0.01\"",
+                     text);
+}
+
+int run(const RunOptions& options) {
+  const InstructionSet set = instruction_set(options.isa, options.lanes);
+  Campaign campaign = read_campaign_file(options.campaign);
+  override_sampling(campaign, options.sampling.runs, options.sampling.seed);
+  override_until(campaign, options.until);
+  const RunPlan plan(campaign);
+  RunFolder folder(options.out, plan, parse_shard(options.shard), options.resume);
+  const bool interrupted = make_remaining(folder, plan, options.threads, set);
+  const StoredCampaign& stored = folder.stored();
+  const Summary summary =
+      write_statistics(stored, folder.results(), campaign.statistics, options.threads);
+  const int shown = show_results(stored, summary, options.display);
+  if (!interrupted) return shown;
+  fmt::print(stderr,
+             "interrupted: {} of {} runs are kept; the same command with --resume goes on\n",
+             summary.runs, stored.runs().size());
+  return exit_code::interrupted;
+}
+
+} // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Run a campaign into a results folder");
+  command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
+  command->add_option("--out", options->out, "The results folder: new, or empty")->required();
+  add_sampling_options(*command, options->sampling);
+  add_threads_option(*command, options->threads);
+  command
+      ->add_option("--lanes", options->lanes,
+                   "How many runs a thread makes at once: 1, 2, 4 or 8; else the most")
+      ->check(CLI::IsMember({1, 2, 4, 8}).description(""))
+      ->type_name("L");
+  command
+      ->add_option("--isa", options->isa,
+                   "Instructions: scalar, neon, avx2 or avx512; else the widest")
+      ->check(CLI::IsMember({"scalar", "neon", "avx2", "avx512"}).description(""))
+      ->type_name("NAME");
+  command->add_flag("--resume", options->resume,
+                    "Go on where an earlier run into the folder stopped");
+  command->add_option("--shard", options->shard, "Only part I of N of the runs, e.g. 2/5")
+      ->type_name("I/N")
+      ->check(refuse_shard);
+  command
+      ->add_option("--until", options->until,
+                   "Stop when a confidence interval is that narrow, e.g. \"deployed 0.01\"")
+      ->type_name("WIDTH")
+      ->allow_extra_args(false)
+      ->check(refuse_until);
+  add_display_options(*command, options->display);
+  command->footer(
+      std::string("Progress goes to standard error, if that is a terminal.\n") + display_help +
+      R"(The results do not depend on threads, lanes, instruction sets, shards and interruptions.
+Exit code 1 says that a requirement of the campaign is not shown to be met.
+
+--until names an interval and how wide it may be, from its lower to its upper bound, at the
+campaign's confidence; several have to be reached together:
+  "root.peak_moment@0.99 5"    of the 0.99 quantile, in N·m
+  "root.peak_moment@0.99 2%"   the same, as a share of the quantile
+  "deployed 0.01"              of the share of runs that deploy (or stall, …: any status)
+They are looked at after 1000, 2000, 4000, … runs and nowhere else, so that a campaign stops at
+the same run however it is made; its number of runs is the most it makes. Each look is a chance to
+be misled: all bounds and verdicts of such a campaign share their risk out among its checkpoints,
+and hold wherever it stopped. Not for shards, nor for draws that depend on each other.
+
+Example:
+  wingspread run campaign.json --out results/first --runs 2000 --threads 4
+  wingspread run campaign.json --out results/part2 --shard 2/5
+  wingspread run campaign.json --out results/sure --until "root.peak_moment@0.99 2%")");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+} // namespace wingspread

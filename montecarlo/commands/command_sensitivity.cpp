@@ -1,0 +1,188 @@
+#include "montecarlo/commands/cli.hpp"
+#include "montecarlo/commands/command_options.hpp"
+#include "montecarlo/commands/commands.hpp"
+#include "montecarlo/formats/files.hpp"
+#include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/machine/progress.hpp"
+#include "montecarlo/sensitivity/sensitivity_folder.hpp"
+#include "montecarlo/sensitivity/sensitivity_text.hpp"
+#include "montecarlo/summary/summary_json.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+namespace wingspread {
+namespace {
+
+struct SensitivityOptions {
+  std::filesystem::path from, out;
+  std::optional<long> samples;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> confidence;
+  long resamples = 1000;
+  int threads = 0;
+  bool resume = false, json = false;
+};
+
+/// The options that only the runs of a design have a use for.
+void refuse_run_options(const SensitivityOptions& options) {
+  std::vector<Problem> problems;
+  const auto refuse = [&](bool given, const char* option) {
+    if (given)
+      problems.push_back({"", option, "it with a folder",
+                          "it with a campaign's file: the runs of "
+                          "a folder are made"});
+  };
+  refuse(options.samples.has_value(), "--samples");
+  refuse(options.seed.has_value(), "--seed");
+  refuse(!options.out.empty(), "--out");
+  refuse(options.resume, "--resume");
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+double confidence_of(const SensitivityOptions& options, StatisticsSpec spec) {
+  Json given = Json::object();
+  if (options.confidence) given["confidence"] = *options.confidence;
+  override_settings(given, [&](const JsonCursor& at) { read_statistics(at, spec); });
+  return spec.confidence;
+}
+
+int count_failed(const Results& results) {
+  const auto failed = std::ranges::count(results.status, Status::failed);
+  if (failed > 0)
+    fmt::print(stderr, "error: {} of {} runs failed numerically\n", failed, results.size());
+  return failed > 0 ? exit_code::failed_runs : exit_code::done;
+}
+
+/// Prints the analysis, and writes its two files where there is a folder.
+template <class Sensitivity>
+void show(const Sensitivity& all, const Json& about, const std::string& title,
+          const std::filesystem::path& folder, bool json) {
+  const std::string text = json_text(sensitivity_json(all, about));
+  if (!folder.empty()) {
+    write_file(folder / sensitivity_json_file, text);
+    write_file(folder / sensitivity_csv_file, sensitivity_csv(all));
+  }
+  fmt::print("{}", json ? text : sensitivity_table(all, title));
+  for (const std::string& warning : warnings(all)) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+int rank(const SensitivityOptions& options) {
+  refuse_run_options(options);
+  const StoredCampaign stored = read_stored_campaign(options.from);
+  const Results results = read_stored_results(stored).results;
+  const double confidence = confidence_of(options, stored.campaign.statistics);
+  const Json about{
+      {"version", stored.stamp.version}, {"seed", stored.stamp.seed}, {"hash", stored.stamp.hash}};
+  show(rank_sensitivity(results, confidence), about,
+       fmt::format("{} · {} runs · rank correlations", stored.campaign.scene.name, results.size()),
+       options.from, options.json);
+  return exit_code::done;
+}
+
+int sobol(const SaltelliDesign& design, const Results& results, const SensitivityOptions& options,
+          const std::filesystem::path& folder) {
+  const Sampling& sampling = design.campaign.sampling;
+  const std::string kind(design_names[static_cast<std::size_t>(sampling.design)]);
+  const Bootstrap bootstrap{options.resamples, confidence_of(options, design.campaign.statistics),
+                            sampling.seed};
+  show(sobol_sensitivity(results, design.rows, kind, bootstrap), stamp_json(design),
+       fmt::format("{} · {} samples, {} runs · {}, seed {} · Sobol' indices",
+                   design.campaign.scene.name, design.rows, results.size(), kind, sampling.seed),
+       folder, options.json);
+  return count_failed(results);
+}
+
+int sobol_again(const SensitivityOptions& options) {
+  refuse_run_options(options);
+  const SaltelliDesign design = read_design(options.from);
+  const RunPlan plan = saltelli_plan(design.campaign, design.rows);
+  return sobol(design, read_design_runs(options.from, plan).results, options, options.from);
+}
+
+/// Makes the runs that are left. @return whether it was interrupted
+bool make_runs_of(const RunPlan& plan, RunRange remaining, int threads, const BatchSink& sink) {
+  const Interrupt interrupt;
+  Progress progress(stderr);
+  Tally tally{.done = remaining.first, .total = remaining.last, .before = remaining.first};
+  return make_runs(plan, remaining, threads, interrupt.flag(), [&](const Batch& batch) {
+           sink(batch);
+           tally.done += std::ssize(batch.rows);
+           progress.show(tally);
+         }) < remaining.size();
+}
+
+int sobol_new(const SensitivityOptions& options) {
+  SaltelliDesign design{read_campaign_file(options.from), options.samples.value_or(1000)};
+  override_sampling(design.campaign, std::nullopt, options.seed);
+  const RunPlan plan = saltelli_plan(design.campaign, design.rows);
+  const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
+  std::optional<DesignFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out, design, plan, options.resume);
+  Results own(plan.names());
+  const BatchSink sink = [&](const Batch& batch) {
+    if (folder) return folder->add(batch);
+    for (const ResultRow& row : batch.rows) own.append(row);
+  };
+  const Results& results = folder ? folder->results() : own;
+  if (make_runs_of(plan, {std::ssize(results.runs), runs}, options.threads, sink)) {
+    fmt::print(stderr, "interrupted: {}\n",
+               folder
+                   ? fmt::format("{} of {} runs are kept; the same command with --resume goes on",
+                                 results.size(), runs)
+                   : "nothing is kept without --out");
+    return exit_code::interrupted;
+  }
+  return sobol(design, results, options, options.out);
+}
+
+int sensitivity(const SensitivityOptions& options) {
+  if (!std::filesystem::is_directory(options.from)) return sobol_new(options);
+  return is_design_folder(options.from) ? sobol_again(options) : rank(options);
+}
+
+} // namespace
+
+void add_sensitivity(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<SensitivityOptions>();
+  CLI::App* command =
+      app.add_subcommand("sensitivity", "Which dispersions move which outputs, and how much");
+  command->add_option("from", options->from, "A results folder, or a campaign's file")->required();
+  command
+      ->add_option("--samples", options->samples,
+                   "Of a campaign's file: rows of the design, 1000 if left out; each takes a "
+                   "run for every dispersion, and two")
+      ->check(CLI::Range(2L, std::numeric_limits<long>::max()).description(""))
+      ->type_name("N");
+  add_seed_option(*command, options->seed);
+  command->add_option("--confidence", options->confidence, "Of all bounds, e.g. 0.99");
+  command->add_option("--resamples", options->resamples, "Of the bootstrap; 1000 if left out")
+      ->check(CLI::Range(20L, 1'000'000L).description(""))
+      ->type_name("N");
+  command->add_option("--out", options->out,
+                      "Of a campaign's file: the folder to keep its runs in");
+  command->add_flag("--resume", options->resume, "Go on where an earlier run into it stopped");
+  add_threads_option(*command, options->threads);
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->footer(
+      R"(From a results folder: Spearman's and partial rank correlations of every output with every
+dispersion, over the runs that have the output. They show what rises or falls with what.
+
+From a campaign's file: Sobol' indices, by runs of their own (a Saltelli design, drawn as the
+campaign is). The first-order index is the share of an output's variance that a dispersion is behind
+alone, the total index the share that it has a part in. With the sobol design, take a power of two.
+
+In both, what matters most stands first; sensitivity.json and sensitivity.csv, in the folder if there
+is one, have all of it. A dispersion that moves no output is named on standard error.
+
+Example:
+  wingspread sensitivity results/first
+  wingspread sensitivity campaign.json --samples 1024 --out results/sobol)");
+  command->callback([options, &action] { action = [options] { return sensitivity(*options); }; });
+}
+
+} // namespace wingspread

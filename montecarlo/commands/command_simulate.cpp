@@ -1,0 +1,192 @@
+#include "montecarlo/commands/cli.hpp"
+#include "montecarlo/commands/command_options.hpp"
+#include "montecarlo/commands/commands.hpp"
+#include "montecarlo/commands/outcome_json.hpp"
+#include "montecarlo/commands/outcome_text.hpp"
+#include "montecarlo/commands/trajectory.hpp"
+#include "montecarlo/folder/replay.hpp"
+#include "montecarlo/summary/summary_json.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+#include <memory>
+
+namespace wingspread {
+namespace {
+
+constexpr std::string_view smoothed_prefix = "smoothed:";
+
+struct SimulateOptions {
+  std::filesystem::path scene, out;
+  bool json = false;
+  std::optional<std::string> method, latch;
+  std::optional<double> step, rtol, atol, t_end;
+};
+
+struct ReplayOptions {
+  std::filesystem::path folder, out;
+  long run = 0;
+  bool json = false;
+};
+
+/// A scene to be run by itself.
+struct Task {
+  Scene scene;
+  Integration integration;
+};
+
+Task read_task(const std::filesystem::path& path) {
+  std::variant<Scene, Campaign> file = read_file(path);
+  if (Campaign* campaign = std::get_if<Campaign>(&file))
+    return {std::move(campaign->scene), std::move(campaign->integration)};
+  return {std::get<Scene>(std::move(file)), {}};
+}
+
+/// The ε of "smoothed:EPS"; nothing when it is not that.
+std::optional<double> parse_smoothed(std::string_view text) {
+  if (!text.starts_with(smoothed_prefix)) return std::nullopt;
+  text.remove_prefix(smoothed_prefix.size());
+  double epsilon = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), epsilon);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return epsilon;
+}
+
+std::string refuse_latch(const std::string& text) {
+  if (text == "event" || parse_smoothed(text)) return "";
+  return fmt::format("found {}, expected event, or smoothed:EPS with EPS in rad, e.g. "
+                     "smoothed:1e-4",
+                     text);
+}
+
+void apply_options(const SimulateOptions& options, Integration& integration) {
+  Json given = Json::object();
+  if (options.method) given["method"] = *options.method;
+  if (options.step) given["step"] = *options.step;
+  if (options.rtol) given["rtol"] = *options.rtol;
+  if (options.atol) given["atol"] = *options.atol;
+  if (options.t_end) given["t_end"] = *options.t_end;
+  if (options.latch == "event")
+    given["latch"] = "event";
+  else if (options.latch)
+    given["latch"] = {{"smoothed", *parse_smoothed(*options.latch)}};
+  override_settings(given, [&](const JsonCursor& at) { read_integration(at, integration); });
+}
+
+/// Calls `run` with an observer that writes the trajectory, or with none when no file is named.
+template <class Run>
+auto write_trajectory(const std::filesystem::path& path, const Scene& scene, const Run& run) {
+  if (path.empty()) return run(Observer{});
+  TrajectoryWriter writer(path, scene);
+  auto result = run(writer.observer());
+  writer.finish();
+  return result;
+}
+
+int status_code(const Outcome& outcome) {
+  if (outcome.status != Status::failed) return exit_code::done;
+  fmt::print(stderr, "error: the run failed numerically: {}\n", outcome.reason);
+  return exit_code::failed_runs;
+}
+
+int simulate(const SimulateOptions& options) {
+  Task task = read_task(options.scene);
+  apply_options(options, task.integration);
+  Goal goal;
+  goal.to_t_end = true;
+  const Outcome outcome = write_trajectory(options.out, task.scene, [&](const Observer& observer) {
+    return Deployment().run(task.scene, task.integration, goal, observer);
+  });
+  fmt::print("{}", options.json ? json_text(outcome_json(task.scene, outcome))
+                                : outcome_text(task.scene, outcome));
+  return status_code(outcome);
+}
+
+Json replay_json(const Replayed& replayed, const Scene& scene) {
+  Json json = outcome_json(scene, replayed.outcome);
+  json["run"] = replayed.row.run;
+  json["draws"] = Json::object();
+  for (std::size_t i = 0; i < replayed.row.draws.size(); ++i)
+    json["draws"][replayed.names.draws[i]] = replayed.row.draws[i];
+  json["same_as_recorded"] = replayed.recorded ? Json(replayed.differences.empty()) : Json(nullptr);
+  return json;
+}
+
+std::string replay_text(const Replayed& replayed, const Scene& scene) {
+  std::string text = outcome_text(scene, replayed.outcome);
+  if (!replayed.row.draws.empty()) text += "\nDRAW\n";
+  for (std::size_t i = 0; i < replayed.row.draws.size(); ++i)
+    text += fmt::format("  {:<40}{:>24.17g}\n", replayed.names.draws[i], replayed.row.draws[i]);
+  if (!replayed.recorded)
+    text += fmt::format("\nRun {} is not in {}: there is nothing to compare it with.\n",
+                        replayed.row.run, runs_file);
+  else if (replayed.differences.empty())
+    text += fmt::format("\nRun {} is the one in {}, bit for bit.\n", replayed.row.run, runs_file);
+  return text;
+}
+
+int replay(const ReplayOptions& options) {
+  const StoredCampaign stored = read_stored_campaign(options.folder);
+  const ReplayRequest request(stored, options.run);
+  const Scene& scene = stored.campaign.scene;
+  const Replayed replayed = write_trajectory(
+      options.out, scene, [&](const Observer& observer) { return request.replay(observer); });
+  fmt::print("{}",
+             options.json ? json_text(replay_json(replayed, scene)) : replay_text(replayed, scene));
+  for (const std::string& difference : replayed.differences)
+    fmt::print(stderr, "error: {}\n", difference);
+  const int code = status_code(replayed.outcome);
+  return replayed.differences.empty() ? code : exit_code::failed_runs;
+}
+
+} // namespace
+
+void add_simulate(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command = app.add_subcommand("simulate", "Integrate one deployment to its t_end");
+  command->add_option("scene", options->scene, "A scene, or a campaign for its nominal scene")
+      ->required();
+  command->add_flag("--json", options->json, "Print the outcome as JSON");
+  command->add_option("--out", options->out, "Write the trajectory to this CSV file");
+  command->add_option("--method", options->method, "See wingspread methods");
+  command->add_option("--step", options->step, "The step of a method with a fixed one, s");
+  command->add_option("--rtol", options->rtol, "Relative tolerance of a step");
+  command->add_option("--atol", options->atol, "Absolute tolerance of a step, rad and rad/s");
+  command->add_option("--t-end", options->t_end, "Where to stop, s");
+  command->add_option("--latch", options->latch, "event, or smoothed:EPS with EPS in rad")
+      ->type_name("event|smoothed:EPS")
+      ->check(refuse_latch);
+  command->footer(
+      R"(Settings that are not given are the campaign's, or for a scene the defaults of a campaign.
+
+Example:
+  wingspread simulate three_panel.json --t-end 20
+  wingspread simulate three_panel.json --json --out trajectory.csv)");
+  command->callback([options, &action] { action = [options] { return simulate(*options); }; });
+}
+
+void add_replay(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command =
+      app.add_subcommand("replay", "Make one run of a campaign again, and look at it");
+  command->add_option("folder", options->folder, "The results folder")->required();
+  command->add_option("--run", options->run, "Which run, as numbered in runs.csv from 0")
+      ->required()
+      ->check(CLI::Range(0L, std::numeric_limits<long>::max()).description(""))
+      ->type_name("K");
+  command->add_flag("--json", options->json, "Print the outcome as JSON");
+  command->add_option("--out", options->out, "Write the trajectory to this CSV file");
+  command->footer(
+      R"(The run stops where the campaign's did, and is compared with its row of runs.csv, bit for bit. If
+they differ (another machine, or a changed file), each column that does is named, and the exit code
+is 3.
+
+Example:
+  wingspread replay results/first --run 17 --out trajectory.csv)");
+  command->callback([options, &action] { action = [options] { return replay(*options); }; });
+}
+
+} // namespace wingspread

@@ -1,0 +1,208 @@
+#include "montecarlo/folder/folder.hpp"
+
+#include "montecarlo/folder/version.hpp"
+#include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/summary/summary_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr const char* stamp_key = "wingspread";
+constexpr const char* stamp_expected = "what `wingspread run` wrote: version, seed and hash";
+
+Json write_stamp(const Stamp& stamp) {
+  Json json{{"version", stamp.version}, {"seed", stamp.seed}, {"hash", stamp.hash}};
+  if (stamp.shard) json["shard"] = {{"index", stamp.shard->index}, {"of", stamp.shard->of}};
+  return json;
+}
+
+void read_shard(const JsonCursor& at, std::optional<Shard>& shard) {
+  JsonObject object(at, "an object with index and of");
+  std::int64_t index = 0, of = 0;
+  object.required("index", index, "an integer, ≥ 1");
+  object.required("of", of, "an integer, ≥ index");
+  object.refuse_others();
+  if (index >= 1 && index <= of && of <= most_shards)
+    shard = {index, of};
+  else if (object.is_object())
+    at.refuse(fmt::format("{} of {}", index, of), "1 ≤ index ≤ of");
+}
+
+Stamp read_stamp(const JsonCursor& document) {
+  Stamp stamp;
+  JsonObject campaign(document, "a campaign: an object");
+  const auto at = campaign.require(stamp_key, stamp_expected);
+  if (!at) return stamp;
+  JsonObject object(*at, stamp_expected);
+  object.required("version", stamp.version, "a string, the program's version");
+  object.required("seed", stamp.seed, "an integer from 0 to 2^64 - 1");
+  object.required("hash", stamp.hash, "a string, the campaign's hash");
+  if (const auto shard = object.find("shard")) read_shard(*shard, stamp.shard);
+  object.refuse_others();
+  return stamp;
+}
+
+std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
+  std::filesystem::path path = folder / campaign_file;
+  if (!std::filesystem::is_directory(folder))
+    throw SpecError({{folder.string(), "", "no such folder", "a results folder"}});
+  if (!std::filesystem::exists(path))
+    throw SpecError({{folder.string(), "", fmt::format("no {} in it", campaign_file),
+                      "a results folder: one that `wingspread run` or `merge` wrote"}});
+  return path;
+}
+
+/// Which replicate of the campaign's design each row is from; none for independent draws. Only the
+/// replicates of which there are rows count: of the first runs, or of a shard, it can be fewer.
+Replication replication_of(const Sampling& sampling, const Results& results) {
+  if (!has_replicates(sampling)) return {};
+  const Design design = design_of(sampling);
+  Replication replication;
+  std::map<std::uint64_t, int> numbers;
+  for (const long run : results.runs) {
+    const std::uint64_t replicate = replicate_of(design, static_cast<std::uint64_t>(run));
+    replication.of_row.push_back(
+        numbers.try_emplace(replicate, static_cast<int>(numbers.size())).first->second);
+  }
+  results.runs.release();
+  replication.replicates = std::max(1, static_cast<int>(numbers.size()));
+  return replication;
+}
+
+/// The stamp for summary.json, which also says when runs are missing.
+Json about(const StoredCampaign& stored, const Summary& summary) {
+  Json json = write_stamp(stored.stamp);
+  if (stored.foreign) json["foreign"] = true;
+  if (summary.runs < stored.runs().size() && !summary.stopped)
+    json["partial"] = {{"done", summary.runs}, {"of", stored.runs().size()}};
+  return json;
+}
+
+/// The widths that decide when the campaign stops: at its own confidence, whatever the summary's.
+std::vector<WidthFound> widths_of(const Campaign& campaign, const Results& results) {
+  return find_widths(campaign.until, results,
+                     at_each_look(campaign.statistics.confidence, count_looks(campaign)));
+}
+
+/// The statistics, their confidence shared out among the looks that the campaign may take.
+Summary summarize(const StoredCampaign& stored, const Results& results, const StatisticsSpec& spec,
+                  int threads) {
+  const Campaign& campaign = stored.campaign;
+  const long looks = count_looks(campaign);
+  StatisticsSpec at_a_look = spec;
+  at_a_look.confidence = at_each_look(spec.confidence, looks);
+  Summary summary =
+      summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
+  summary.confidence = spec.confidence;
+  summary.looks = looks;
+  for (const Requirement& requirement : campaign.requirements)
+    summary.requirements.push_back(judge(requirement, results, looks));
+  for (std::size_t i = 0; i < results.outputs.size(); ++i)
+    for (const ToleranceSpec& tolerance : spec.tolerance)
+      summary.outputs[i].tolerance.push_back(
+          {tolerance, output_limits(results, results.outputs[i], tolerance, looks)});
+  summary.until = widths_of(campaign, results);
+  summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
+  return summary;
+}
+
+StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be_foreign) {
+  const std::filesystem::path path = refuse_missing(folder);
+  StoredCampaign stored{folder, read_campaign_file(path), {}};
+  const Json document = parse_json_file(path);
+  if (may_be_foreign && !document.contains(stamp_key)) {
+    stored.stamp = stamp_of(stored.campaign, {});
+    stored.foreign = true;
+    return stored;
+  }
+  std::vector<Problem> problems;
+  stored.stamp = read_stamp(JsonCursor(document, path.string(), problems));
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  const std::string hash = campaign_hash(stored.campaign.resolved);
+  if (stored.stamp.hash != hash || stored.stamp.seed != stored.campaign.sampling.seed)
+    throw SpecError(
+        {{path.string(), fmt::format("/{}/hash", stamp_key),
+          fmt::format("\"{}\", with a campaign and seed of hash \"{}\"", stored.stamp.hash, hash),
+          "a campaign that nobody changed after it was run"}});
+  return stored;
+}
+
+} // namespace
+
+RunRange shard_runs(long runs, const std::optional<Shard>& shard) {
+  if (!shard) return {0, runs};
+  const long whole = runs / shard->of, rest = runs % shard->of; // i·runs itself could overflow
+  const auto end = [&](long i) { return i * whole + i * rest / shard->of; };
+  return {end(shard->index - 1), end(shard->index)};
+}
+
+Stamp stamp_of(const Campaign& campaign, const std::optional<Shard>& shard) {
+  return {std::string(version()), campaign.sampling.seed, campaign_hash(campaign.resolved), shard};
+}
+
+std::string describe(const std::optional<Shard>& shard) {
+  return shard ? fmt::format("shard {}/{}", shard->index, shard->of) : "all runs";
+}
+
+std::string campaign_text(const Campaign& campaign, const Stamp& stamp) {
+  Json json{{stamp_key, write_stamp(stamp)}};
+  for (const auto& [key, value] : campaign.resolved.items())
+    if (key != stamp_key) json[key] = value;
+  return json_text(json);
+}
+
+bool is_complete(const StoredCampaign& stored, const Results& results) {
+  const long done = std::ssize(results.runs), runs = stored.runs().size();
+  if (done >= runs) return true;
+  return is_checkpoint(done, runs) && are_met(widths_of(stored.campaign, results));
+}
+
+StoredCampaign read_stored_campaign(const std::filesystem::path& folder) {
+  return read_campaign_of(folder, false);
+}
+
+StoredCampaign read_any_campaign(const std::filesystem::path& folder) {
+  return read_campaign_of(folder, true);
+}
+
+ResultsFile read_stored_results(const StoredCampaign& stored) {
+  const ResultNames names = RunPlan(stored.campaign).names();
+  const std::filesystem::path path = stored.folder / runs_file;
+  if (!std::filesystem::exists(path)) return {Results(names), 0, false};
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw SpecError({{path.string(), "", "a file that cannot be read", "the runs' rows"}});
+  ResultsFile read = read_results(in, path.string(), names,
+                                  stored.foreign ? UnterminatedRow::read : UnterminatedRow::drop);
+  const auto [first, last] = stored.runs();
+  for (const long run : read.results.runs)
+    if (run < first || run >= last)
+      throw SpecError({{path.string(), "", fmt::format("run {}", run),
+                        fmt::format("runs from {} up to {}, those of {}", first, last - 1,
+                                    describe(stored.stamp.shard))}});
+  read.results.runs.release();
+  if (stored.foreign && !is_complete(stored, read.results))
+    throw SpecError(
+        {{path.string(), "", fmt::format("{} runs", read.results.size()),
+          fmt::format("all {} of the campaign: whatever became of them", last - first)}});
+  return read;
+}
+
+Summary write_statistics(const StoredCampaign& stored, const Results& results,
+                         const StatisticsSpec& spec, int threads) {
+  Summary summary = summarize(stored, results, spec, threads);
+  write_file(stored.folder / summary_file,
+             json_text(summary_json(summary, about(stored, summary))));
+  write_file(stored.folder / histograms_json_file, json_text(histograms_json(summary)));
+  write_file(stored.folder / histograms_csv_file, histograms_csv(summary));
+  return summary;
+}
+
+} // namespace wingspread

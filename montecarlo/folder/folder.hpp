@@ -1,0 +1,91 @@
+/// The results folder: which files it has, what identifies it, and how it is read.
+///
+///   campaign.json    the campaign in full, and its stamp
+///   runs.csv         a row for each run (results.hpp); the only one that grows
+///   summary.json, histograms.json, histograms.csv      worked out of runs.csv
+///   timing.json      what depends on the machine and the day, and nothing else does
+#pragma once
+
+#include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/runs/engine.hpp"
+#include "montecarlo/runs/results.hpp"
+#include "montecarlo/summary/summary.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+inline constexpr const char* campaign_file = "campaign.json";
+inline constexpr const char* runs_file = "runs.csv";
+inline constexpr const char* timing_file = "timing.json";
+inline constexpr const char* summary_file = "summary.json";
+inline constexpr const char* histograms_json_file = "histograms.json";
+inline constexpr const char* histograms_csv_file = "histograms.csv";
+
+/// Part `index` of `of`, counted from 1.
+struct Shard {
+  long index = 1, of = 1;
+  bool operator==(const Shard&) const = default;
+};
+inline constexpr long most_shards = 1'000'000;
+
+/// Its runs of R: from ⌊(I − 1)R/N⌋ up to, not including, ⌊I·R/N⌋. All of them without a shard.
+/// @pre 1 ≤ index ≤ of ≤ most_shards
+[[nodiscard]] RunRange shard_runs(long runs, const std::optional<Shard>& shard);
+
+/// What identifies a folder: the value of "wingspread" in campaign.json and summary.json.
+struct Stamp {
+  std::string version; ///< of the program
+  std::uint64_t seed = 0;
+  std::string hash; ///< of the campaign; the same for all of its shards
+  std::optional<Shard> shard;
+  bool operator==(const Stamp&) const = default;
+};
+
+/// That of the campaign as this program runs it.
+[[nodiscard]] Stamp stamp_of(const Campaign& campaign, const std::optional<Shard>& shard);
+
+/// "shard 2/5", or "all runs".
+[[nodiscard]] std::string describe(const std::optional<Shard>& shard);
+
+/// campaign.json's text.
+[[nodiscard]] std::string campaign_text(const Campaign& campaign, const Stamp& stamp);
+
+/// A campaign as a folder holds it.
+struct StoredCampaign {
+  std::filesystem::path folder;
+  Campaign campaign;
+  Stamp stamp;
+  bool foreign = false; ///< without a stamp of its own: its rows were not made by this program
+  [[nodiscard]] RunRange runs() const { return shard_runs(campaign.sampling.runs, stamp.shard); }
+};
+
+/// Whether these are all the runs that there will be: the folder's, or as many as it takes to the
+/// checkpoint at which the campaign stops.
+/// @pre the results are the folder's first runs
+[[nodiscard]] bool is_complete(const StoredCampaign& stored, const Results& results);
+
+/// Reads campaign.json. @throws SpecError when it is missing, broken, or not what its hash says
+[[nodiscard]] StoredCampaign read_stored_campaign(const std::filesystem::path& folder);
+
+/// The same, or a campaign that nobody has stamped, beside the runs.csv of another tool.
+/// @throws SpecError as read_stored_campaign does, less for the stamp that is not there
+[[nodiscard]] StoredCampaign read_any_campaign(const std::filesystem::path& folder);
+
+/// Reads runs.csv, less a last line that was cut off; nothing when there is no such file. Of
+/// another tool's file nothing is left out: it may do without the last line's end, and has all
+/// runs, for those that it lost would flatter the rest.
+/// @throws SpecError when it is broken, or has a run that is not the folder's
+[[nodiscard]] ResultsFile read_stored_results(const StoredCampaign& stored);
+
+/// Works out the statistics of the rows and writes the three files of them. Results that lack some
+/// of the folder's runs are labelled so: "partial" in summary.json's stamp.
+/// @param threads as of team_size (team.hpp)
+/// @throws SpecError when they cannot be written
+Summary write_statistics(const StoredCampaign& stored, const Results& results,
+                         const StatisticsSpec& spec, int threads = 0);
+
+} // namespace wingspread

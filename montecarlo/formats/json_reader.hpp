@@ -1,0 +1,138 @@
+/// Reads values out of a JSON document, and collects every problem on the way with its pointer.
+///
+///     JsonObject object(at, "a body");
+///     object.required("mass", body.mass, "a number, kg, > 0");
+///     object.optional("inertia", body.inertia, "a number, kg·m², > 0");
+///     object.refuse_others();
+///
+/// Nothing is thrown: what could not be read keeps the value it had, and the problem is in the
+/// list.
+#pragma once
+
+#include "montecarlo/formats/json_parse.hpp"
+#include "montecarlo/formats/spec_error.hpp"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wingspread {
+
+/// What a JSON value is, for a message: `-1`, `string "abc"`, `an array of 3`, `an object`.
+[[nodiscard]] std::string describe_value(const Json& value);
+
+/// `"a", "b" or "c"`.
+[[nodiscard]] std::string quoted_list(std::span<const std::string_view> words);
+
+/// A value of the document and its place. Problems found there go to the list it was made with.
+class JsonCursor {
+public:
+  /// The whole document. @pre both outlive the cursor and all that are made from it
+  JsonCursor(const Json& document, std::string file, std::vector<Problem>& problems);
+
+  [[nodiscard]] const Json& value() const { return *value_; }
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] const std::string& pointer() const { return pointer_; }
+  [[nodiscard]] std::vector<Problem>& problems() const { return *problems_; }
+
+  /// @pre value() is an object that holds the key
+  [[nodiscard]] JsonCursor member(std::string_view key) const;
+  /// @pre value() is an array longer than that
+  [[nodiscard]] JsonCursor element(std::size_t index) const;
+  /// The elements; nothing when it is no array.
+  [[nodiscard]] std::vector<JsonCursor> elements() const;
+
+  /// Notes a problem here; returns false, for the caller to hand on. `below` is appended to the
+  /// pointer, for what is missing and has no value of its own.
+  bool refuse(std::string_view expected) const;
+  bool refuse(std::string_view found, std::string_view expected, std::string_view below = "") const;
+
+  /// Reads the value. When it is of another type, or an integer out of its type's range, notes the
+  /// problem, leaves `out` as it was and returns false.
+  bool read(double& out, std::string_view expected) const;
+  bool read(std::int64_t& out, std::string_view expected) const;
+  bool read(std::uint64_t& out, std::string_view expected) const;
+  bool read(std::string& out, std::string_view expected) const;
+  bool read(Eigen::Vector2d& out, std::string_view expected) const;
+  bool read(std::vector<double>& out, std::string_view expected) const;
+
+  /// The index of the word that stands here; a problem and nothing when it is none of them.
+  [[nodiscard]] std::optional<std::size_t> choice(std::span<const std::string_view> words) const;
+
+private:
+  const Json* value_;
+  std::string file_, pointer_;
+  std::vector<Problem>* problems_;
+};
+
+/// The members of an object. Remembers the keys it was asked for: they are the known ones.
+class JsonObject {
+public:
+  /// Notes a problem when the value is no object; then no member is missed.
+  /// @param what for the message, e.g. "a body"
+  JsonObject(const JsonCursor& at, std::string_view what);
+
+  /// The member, if there.
+  [[nodiscard]] std::optional<JsonCursor> find(std::string_view key);
+  /// The member; a problem and nothing when it is not there.
+  [[nodiscard]] std::optional<JsonCursor> require(std::string_view key, std::string_view expected);
+
+  /// Each reads a member into `out`, which stays as it was when that cannot be done, and returns
+  /// false when it noted a problem. `holds` says which values will do; `expected` says it in words.
+  template <class T> using Holds = bool (*)(const T&);
+  template <class T>
+  bool required(std::string_view key, T& out, std::string_view expected,
+                Holds<std::type_identity_t<T>> holds = nullptr) {
+    const auto at = require(key, expected);
+    return at ? read(*at, out, expected, holds) : !is_object();
+  }
+  template <class T>
+  bool optional(std::string_view key, T& out, std::string_view expected,
+                Holds<std::type_identity_t<T>> holds = nullptr) {
+    const auto at = find(key);
+    return at ? read(*at, out, expected, holds) : true;
+  }
+  /// Of words that stand in the order of the enumeration's values.
+  template <class Enum>
+  bool required_choice(std::string_view key, Enum& out, std::span<const std::string_view> words) {
+    const auto at = require(key, quoted_list(words));
+    return at ? choose(*at, out, words) : !is_object();
+  }
+  template <class Enum>
+  bool optional_choice(std::string_view key, Enum& out, std::span<const std::string_view> words) {
+    const auto at = find(key);
+    return at ? choose(*at, out, words) : true;
+  }
+
+  /// Notes a problem for each key that was not asked for, with the known one nearest to it.
+  void refuse_others() const;
+
+  [[nodiscard]] bool is_object() const { return at_.value().is_object(); }
+  [[nodiscard]] const JsonCursor& at() const { return at_; }
+
+private:
+  template <class T>
+  static bool read(const JsonCursor& at, T& out, std::string_view expected, Holds<T> holds) {
+    T value{};
+    if (!at.read(value, expected)) return false;
+    if (holds && !holds(value)) return at.refuse(expected);
+    out = std::move(value);
+    return true;
+  }
+  template <class Enum>
+  static bool choose(const JsonCursor& at, Enum& out, std::span<const std::string_view> words) {
+    const auto index = at.choice(words);
+    if (index) out = static_cast<Enum>(*index);
+    return index.has_value();
+  }
+
+  JsonCursor at_;
+  std::vector<std::string> known_;
+};
+
+} // namespace wingspread

@@ -1,0 +1,65 @@
+#include "montecarlo/machine/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <unistd.h>
+
+namespace wingspread {
+namespace {
+
+/// "7 s", "3 min 20 s", "2 h 5 min".
+std::string duration(double seconds) {
+  const auto whole = static_cast<long>(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string bar(double share) {
+  constexpr int width = 24;
+  std::string text;
+  for (int i = 0; i < width; ++i) text += i < std::floor(share * width) ? "█" : "░";
+  return text;
+}
+
+} // namespace
+
+bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) == 1; }
+
+std::string progress_line(const Tally& tally, double seconds) {
+  const double share =
+      tally.total == 0 ? 1 : static_cast<double>(tally.done) / static_cast<double>(tally.total);
+  std::string text = fmt::format("{} {}/{} runs", bar(share), tally.done, tally.total);
+  const double rate = static_cast<double>(tally.done - tally.before) / seconds;
+  if (rate > 0 && std::isfinite(rate)) {
+    text += fmt::format(" · {:.0f} runs/s", rate);
+    if (tally.done < tally.total)
+      text += " · " + duration(static_cast<double>(tally.total - tally.done) / rate) + " left";
+  }
+  if (tally.invalid > 0) text += fmt::format(" · {} invalid", tally.invalid);
+  if (tally.failed > 0) text += fmt::format(" · {} failed", tally.failed);
+  return text;
+}
+
+Progress::Progress(std::FILE* stream) : stream_(is_terminal(stream) ? stream : nullptr) {}
+
+Progress::~Progress() {
+  if (shown_) std::fputc('\n', stream_);
+}
+
+double Progress::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void Progress::show(const Tally& tally) {
+  if (!stream_) return;
+  const auto now = Clock::now();
+  if (shown_ && tally.done < tally.total && now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  shown_ = true;
+  fmt::print(stream_, "\r{}\x1b[K", progress_line(tally, seconds())); // \x1b[K: clear what is left
+  std::fflush(stream_);
+}
+
+} // namespace wingspread

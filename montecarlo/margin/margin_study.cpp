@@ -1,0 +1,233 @@
+#include "montecarlo/margin/margin_study.hpp"
+
+#include "montecarlo/campaign/distribution_json.hpp"
+#include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/runs/engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+void refuse_unsuitable(const Campaign& campaign) {
+  std::vector<Problem> problems;
+  if (!campaign.margin) problems.push_back({"", "/margin", "nothing", "what to size"});
+  if (campaign.requirements.empty())
+    problems.push_back(
+        {"", "/requirements", "none", "at least one: it is they that make a window"});
+  for (const Requirement& requirement : campaign.requirements) {
+    const auto least = runs_to_show(requirement.probability, requirement.confidence, 0);
+    if (!least || campaign.sampling.runs < *least)
+      problems.push_back({"", "/sampling/runs", std::to_string(campaign.sampling.runs),
+                          fmt::format("at least {}: fewer cannot show \"{}\"",
+                                      least.value_or(most_runs_sized), to_string(requirement))});
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+/// The families that the requirements are about: a run goes no further than they need.
+Outputs outputs_for(const std::vector<Requirement>& requirements) {
+  Outputs outputs;
+  for (const Requirement& requirement : requirements) {
+    const std::string quantity = parse_output_name(requirement.output).quantity;
+    const auto family = std::ranges::find(output_family_names, quantity);
+    if (family != output_family_names.end())
+      outputs.insert(static_cast<OutputFamily>(family - output_family_names.begin()));
+  }
+  return outputs;
+}
+
+std::vector<MarginCase> cases_of(const MarginSpec& spec, const Scene& scene) {
+  std::vector<MarginCase> cases;
+  if (spec.nominal) cases.push_back({"nominal", {}});
+  if (!spec.one_spring_out) return cases;
+  for (int hinge = 0; hinge < std::ssize(scene.hinges); ++hinge) {
+    const std::vector<ParameterRef> torques = spring_torques(scene, hinge);
+    const auto is_sized = [&](const ParameterRef& torque) {
+      return std::ranges::find(spec.scaled, torque) != spec.scaled.end();
+    };
+    if (std::ranges::any_of(torques, is_sized))
+      cases.push_back({scene.hinges[hinge].name + " spring out", torques});
+  }
+  return cases;
+}
+
+/// What is scaled together: all of it, or hinge by hinge in the order of the first mention.
+std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene) {
+  if (spec.mode == MarginMode::joint) return {{"joint", spec.scaled, {}, {}, {}}};
+  std::vector<MarginSearch> searches;
+  for (const ParameterRef& parameter : spec.scaled) {
+    const std::string& name = scene.hinges[parameter.index].name;
+    auto found = std::ranges::find(searches, name, &MarginSearch::name);
+    if (found == searches.end()) found = searches.insert(found, MarginSearch{name, {}, {}, {}, {}});
+    found->scaled.push_back(parameter);
+  }
+  return searches;
+}
+
+std::string free_name(const Campaign& campaign) {
+  const auto is_taken = [&](const std::string& name) {
+    return std::ranges::find(campaign.dispersions, name, &Dispersion::name) !=
+           campaign.dispersions.end();
+  };
+  std::string name = "margin_scale";
+  for (int number = 2; is_taken(name); ++number) name = fmt::format("margin_scale_{}", number);
+  return name;
+}
+
+/// Makes the runs that a search asks for.
+class Looking {
+public:
+  Looking(const Campaign& campaign, int threads, const std::atomic<bool>& stop,
+          const std::function<void(long)>& progress, MarginResult& result)
+      : campaign_(campaign), threads_(threads), stop_(stop), progress_(progress), result_(result) {
+    campaign_.outputs = outputs_for(campaign.requirements);
+  }
+
+  [[nodiscard]] ScaleLook at(const std::vector<ParameterRef>& parameters, double scale) {
+    const Campaign sized = scaled(campaign_, parameters, scale);
+    const double springs = static_cast<double>(campaign_.margin->springs_per_hinge);
+    ScaleLook look;
+    for (const MarginCase& each : result_.cases)
+      look.push_back(each.weakened.empty()
+                         ? runs_of(sized)
+                         : runs_of(scaled(sized, each.weakened, (springs - 1) / springs)));
+    return look;
+  }
+
+  void use_seed(std::uint64_t seed) { override_sampling(campaign_, std::nullopt, seed); }
+
+private:
+  [[nodiscard]] CaseLook runs_of(const Campaign& campaign) {
+    const RunPlan plan(campaign);
+    Results results(plan.names());
+    const RunRange range{0, campaign.sampling.runs};
+    const long before = result_.runs;
+    const long made = make_runs(plan, range, threads_, stop_, [&](const Batch& batch) {
+      for (const ResultRow& row : batch.rows) results.append(row);
+      progress_(before + std::ssize(results.runs));
+    });
+    result_.runs += made;
+    if (made < range.size()) throw Stopped{};
+    CaseLook look;
+    for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
+    result_.failed += look.statuses[static_cast<std::size_t>(Status::failed)];
+    for (const Requirement& requirement : campaign.requirements)
+      look.verdicts.push_back(judge(requirement, results));
+    return look;
+  }
+
+  Campaign campaign_;
+  int threads_;
+  const std::atomic<bool>& stop_;
+  const std::function<void(long)>& progress_;
+  MarginResult& result_;
+};
+
+const Verdict& verdict_of(const ScaleLook& look, const MarginCondition& condition) {
+  return look[condition.which_case].verdicts[condition.requirement];
+}
+
+/// Draws that break the condition at a look, having kept to it at the one before.
+long relapses(const std::vector<const ScaleLook*>& looks, const MarginCondition& condition) {
+  std::set<long> relapsed;
+  for (std::size_t k = 1; k < looks.size(); ++k) {
+    const Spilled<long>& before = verdict_of(*looks[k - 1], condition).broken;
+    const std::set<long> broken(before.begin(), before.end());
+    for (const long run : verdict_of(*looks[k], condition).broken)
+      if (!broken.contains(run)) relapsed.insert(run);
+  }
+  return std::ssize(relapsed);
+}
+
+} // namespace
+
+std::vector<MarginCondition> conditions_of(const Campaign& campaign, const MarginResult& result) {
+  std::vector<MarginCondition> conditions;
+  for (std::size_t which = 0; which < result.cases.size(); ++which)
+    for (std::size_t requirement = 0; requirement < campaign.requirements.size(); ++requirement)
+      conditions.push_back({which, requirement});
+  return conditions;
+}
+
+Failing failing(const ScaleLook& look) {
+  Failing failing;
+  std::size_t condition = 0;
+  for (const CaseLook& each : look)
+    for (const Verdict& verdict : each.verdicts) {
+      if (verdict.decision != Decision::pass) failing.insert(condition);
+      ++condition;
+    }
+  return failing;
+}
+
+Looks looks_of(const MarginSearch& search) {
+  Looks looks;
+  for (const auto& [scale, look] : search.seen) looks[scale] = failing(look);
+  return looks;
+}
+
+bool is_confirmed(const MarginSearch& search) {
+  return search.confirmation && failing(*search.confirmation).empty();
+}
+
+OutOfOrder out_of_order(const MarginSearch& search, const MarginCondition& condition,
+                        double middle) {
+  std::vector<const ScaleLook*> below, above; // inwards
+  for (const auto& [scale, look] : search.seen) {
+    if (scale <= middle) below.push_back(&look);
+    if (scale >= middle) above.insert(above.begin(), &look);
+  }
+  return {relapses(below, condition), relapses(above, condition)};
+}
+
+Campaign scaled(const Campaign& campaign, const std::vector<ParameterRef>& parameters,
+                double scale) {
+  Campaign sized = campaign;
+  Dispersion& factor = sized.dispersions.emplace_back();
+  factor.name = free_name(campaign);
+  factor.distribution.law = Constant{scale};
+  factor.apply = Apply::scale;
+  factor.targets = parameters;
+  Json paths = Json::array();
+  for (const ParameterRef& parameter : parameters)
+    paths.push_back(path_of(campaign.scene, parameter));
+  sized.resolved["dispersions"].push_back(
+      {{"name", factor.name},
+       {"distribution", write_distribution(factor.distribution)},
+       {"apply", apply_names[static_cast<std::size_t>(factor.apply)]},
+       {"to", paths}});
+  return sized;
+}
+
+Scene scaled(Scene scene, const std::vector<ParameterRef>& parameters, double scale) {
+  for (const ParameterRef& parameter : parameters) parameter.in(scene) *= scale;
+  return scene;
+}
+
+void find_margin(const Campaign& campaign, int threads, const std::atomic<bool>& stop,
+                 const std::function<void(long)>& progress, MarginResult& result) {
+  refuse_unsuitable(campaign);
+  const MarginSpec& spec = *campaign.margin;
+  result = {cases_of(spec, campaign.scene), searches_of(spec, campaign.scene),
+            campaign.sampling.seed + 1, 0, 0};
+  Looking looking(campaign, threads, stop, progress, result);
+  for (MarginSearch& search : result.searches) {
+    const auto judge = [&](double scale) {
+      return failing(search.seen[scale] = looking.at(search.scaled, scale));
+    };
+    const SearchRange range{spec.lower, spec.upper, static_cast<long>(spec.points), spec.tolerance};
+    search.recommended = recommended(search_window(range, judge), spec.tolerance);
+  }
+  looking.use_seed(result.confirmation_seed);
+  for (MarginSearch& search : result.searches)
+    if (search.recommended) search.confirmation = looking.at(search.scaled, *search.recommended);
+}
+
+} // namespace wingspread

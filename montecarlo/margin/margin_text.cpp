@@ -1,0 +1,269 @@
+#include "montecarlo/margin/margin_report.hpp"
+#include "montecarlo/summary/table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.3f} %", 100 * share); }
+
+std::string scale_text(const std::optional<double>& scale) {
+  return scale ? fmt::format("{}", *scale) : "–";
+}
+
+/// A margin: "+0.67"; "∞" where nothing resists.
+std::string margin_text(double margin) {
+  if (std::isnan(margin)) return "–";
+  return std::isinf(margin) ? "∞" : fmt::format("{:+.2f}", margin);
+}
+
+/// What was seen of one search, in words.
+class SearchText {
+public:
+  SearchText(const MarginReport& report, const MarginSearch& search)
+      : report_(report), search_(search), looks_(looks_of(search)),
+        conditions_(conditions(report, search)),
+        numbers_(conditions_of(report.campaign, report.result)) {}
+
+  [[nodiscard]] std::string text() const {
+    const auto windows = windows_of(looks_);
+    const Window* best = widest(windows);
+    std::string text = fmt::format("\n{}\n", heading());
+    text += best ? window(*best) : no_window();
+    if (windows.size() > 1) {
+      text += "  There are others, for the requirements come and go:";
+      for (const Window& other : windows)
+        if (&other != best) text += fmt::format(" {} to {}", other.lower, other.upper);
+      text += '\n';
+    }
+    return text + present() + requirements() + (best ? new_values() : "") + looks();
+  }
+
+private:
+  [[nodiscard]] std::string heading() const {
+    const MarginSpec& spec = *report_.campaign.margin;
+    const std::string what = search_.name == "joint" && spec.mode == MarginMode::joint
+                                 ? fmt::format("{} parameters together", search_.scaled.size())
+                                 : fmt::format("hinge {} alone", search_.name);
+    return fmt::format("WINDOW of the springs' scale: {}, looked at from {} to {}", what,
+                       spec.lower, spec.upper);
+  }
+
+  [[nodiscard]] std::string name(std::size_t condition) const {
+    const auto& [requirement, which_case, holds, kind, disorder] = conditions_[condition];
+    return report_.result.cases.size() == 1 ? requirement
+                                            : fmt::format("{} ({})", requirement, which_case);
+  }
+
+  [[nodiscard]] const Verdict& verdict(std::size_t condition, double scale) const {
+    const auto& [which, requirement] = numbers_[condition];
+    return search_.seen.at(scale)[which].verdicts[requirement];
+  }
+
+  [[nodiscard]] static std::string line(const char* label, double scale, std::string_view text) {
+    return fmt::format("  {:<20}{:>8}  {}\n", label, scale, shortened(text, table_width - 32));
+  }
+
+  /// A condition on the labelled line, or below it.
+  [[nodiscard]] std::string first_or_next(bool first, const char* label, double scale,
+                                          std::size_t condition) const {
+    return first ? line(label, scale, name(condition))
+                 : fmt::format("{:32}{}\n", "", shortened(name(condition), table_width - 32));
+  }
+
+  /// "at 1.18: pass: 2 of 2000 runs break it, and 2 may".
+  [[nodiscard]] std::string at(std::size_t condition, double scale) const {
+    const Verdict& seen = verdict(condition, scale);
+    return fmt::format("{:34}at {}: {}: {} of {} runs break it, and {} may\n", "", scale,
+                       to_string(seen.decision), seen.broken.size(), seen.runs,
+                       seen.allowed.value_or(0));
+  }
+
+  [[nodiscard]] std::string edge(const char* label, const MarginEdge& edge) const {
+    if (!edge.failing) return line(label, edge.passing, "end of the range: nothing fails up to it");
+    std::string text;
+    for (const std::size_t condition : edge.set_by)
+      text += first_or_next(text.empty(), label, edge.passing, condition) +
+              at(condition, edge.passing) + at(condition, *edge.failing);
+    if (!edge.as_well.empty())
+      text += fmt::format("{:32}and {} more, by the same runs that do not deploy\n", "",
+                          edge.as_well.size());
+    return text;
+  }
+
+  [[nodiscard]] std::string window(const Window& window) const {
+    return edge("weakest springs", lower_edge(search_, window)) +
+           line("recommended", *search_.recommended, confirmation()) +
+           edge("strongest springs", upper_edge(search_, window));
+  }
+
+  [[nodiscard]] std::string confirmation() const {
+    return fmt::format("{} runs with another seed, {}: {}", report_.campaign.sampling.runs,
+                       report_.result.confirmation_seed,
+                       is_confirmed(search_) ? "all requirements are met" : "NOT confirmed");
+  }
+
+  [[nodiscard]] std::string no_window() const {
+    std::string text = "  EMPTY: no scale meets all requirements.\n";
+    for (const std::size_t condition : closed_by(looks_))
+      text += fmt::format("    {}: {}\n", shortened(name(condition), 60), holds(condition));
+    return text;
+  }
+
+  /// An edge that was not located, for it does not matter to the window, has both of its sides.
+  [[nodiscard]] std::string between(double passing, double failing) const {
+    const double ratio = std::max(passing / failing, failing / passing);
+    if (ratio <= 1 + report_.campaign.margin->tolerance) return fmt::format("{}", passing);
+    return fmt::format("{} – {}", std::min(passing, failing), std::max(passing, failing));
+  }
+
+  /// "1.18 to 1.63", "from 1.18", "up to 1.63"; each stretch of them.
+  [[nodiscard]] std::string holds(std::size_t condition) const {
+    if (conditions_[condition].kind == "never") return "nowhere";
+    std::string text;
+    for (const auto& [lower, upper, below, above] : conditions_[condition].holds) {
+      if (!text.empty()) text += ", ";
+      if (below) text += (above ? "" : "from ") + between(lower, *below);
+      if (above) text += (below ? " to " : "up to ") + between(upper, *above);
+    }
+    return text.empty() ? "everywhere" : text;
+  }
+
+  [[nodiscard]] std::string present() const {
+    const auto found = search_.seen.find(1);
+    if (found == search_.seen.end()) return "";
+    const Failing why = telling(found->second);
+    if (why.empty()) return line("present springs", 1, "all requirements are met");
+    std::string text;
+    for (const std::size_t condition : why)
+      text += first_or_next(text.empty(), "present springs", 1, condition) + at(condition, 1);
+    return text;
+  }
+
+  [[nodiscard]] std::string requirements() const {
+    std::string text = fmt::format("\n{:<54}{:>10}  {}\n", "REQUIREMENT", "disorder", "holds");
+    const std::string* previous = nullptr; // case
+    for (std::size_t k = 0; k < conditions_.size(); ++k) {
+      const auto& each = conditions_[k];
+      if (report_.result.cases.size() > 1 && !(previous && *previous == each.which_case))
+        text += each.which_case + '\n';
+      previous = &each.which_case;
+      text += fmt::format("  {:<52}{:>10}  {}\n", shortened(each.requirement, 51), disorder(k),
+                          shortened(holds(k), table_width - 66));
+    }
+    return text;
+  }
+
+  /// Draws that do not go with the others at its edges.
+  [[nodiscard]] std::string disorder(std::size_t condition) const {
+    const auto& each = conditions_[condition];
+    if (!each.out_of_order || each.kind == "always" || each.kind == "never") return "–";
+    const bool lower = each.kind != "upper", upper = each.kind != "lower";
+    return fmt::format("{}", (lower ? each.out_of_order->lower : 0) +
+                                 (upper ? each.out_of_order->upper : 0));
+  }
+
+  [[nodiscard]] std::string new_values() const {
+    std::string text =
+        fmt::format("\n{:<60}{:>12}{:>14}\n", "NEW SPRINGS", "present", "recommended");
+    for (const ParameterRef& parameter : search_.scaled) {
+      const double value = parameter.in(report_.campaign.scene);
+      text += fmt::format("  {:<58}{:>12.5g}{:>14.5g} {}\n",
+                          shortened(path_of(report_.campaign.scene, parameter), 57), value,
+                          value * *search_.recommended, unit_of(parameter));
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string looks() const {
+    std::string text = fmt::format("\n{:<10}{:>12}{:>26}   {}\n", "SCALE", "deployed",
+                                   fmt::format("{:g} % bounds", 100 * confidence()), "not met");
+    for (const auto& [scale, look] : search_.seen) {
+      const CaseLook& first = look.front();
+      const long deployed = first.statuses[static_cast<std::size_t>(Status::deployed)];
+      const long runs = report_.campaign.sampling.runs;
+      const Interval bounds = clopper_pearson(deployed, runs, confidence());
+      text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale,
+                          percent(static_cast<double>(deployed) / static_cast<double>(runs)),
+                          fmt::format("{:.3f} – {:.3f} %", 100 * bounds.lower, 100 * bounds.upper),
+                          shortened(outputs_of(telling(look)), table_width - 48));
+    }
+    return text;
+  }
+
+  [[nodiscard]] double confidence() const { return report_.campaign.statistics.confidence; }
+
+  /// The outputs that fail, each once, behind a space.
+  [[nodiscard]] std::string outputs_of(const Failing& failing) const {
+    std::vector<std::string> outputs;
+    for (const std::size_t condition : failing) {
+      const Requirement& requirement =
+          report_.campaign.requirements[numbers_[condition].requirement];
+      if (std::ranges::find(outputs, requirement.output) == outputs.end())
+        outputs.push_back(requirement.output);
+    }
+    return outputs.empty() ? "" : fmt::format("   {}", fmt::join(outputs, ", "));
+  }
+
+  const MarginReport& report_;
+  const MarginSearch& search_;
+  Looks looks_;
+  std::vector<ConditionReport> conditions_;
+  std::vector<MarginCondition> numbers_;
+};
+
+constexpr std::array kind_texts{"ECSS", "NASA", "NASA, one spring out"};
+
+/// A line for each hinge and kind: the least over the travel.
+std::string motorization_lines(const MarginReport& report, const ScaledMotorization& at) {
+  std::string text;
+  for (const HingeMotorization& each : at.study.hinges)
+    for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
+      const Hinge& hinge = report.campaign.scene.hinges[each.hinge];
+      const MarginSpread& spread = each.worst_spread[kind];
+      const double angle = hinge.stowed + (hinge.latched - hinge.stowed) * each.worst_at[kind];
+      text += fmt::format("  {:<8}{:<16}{:<22}{:>9}{:>9.3f}{:>10}{:>10}{:>8}\n",
+                          kind == 0 ? scale_text(at.scale) : "",
+                          kind == 0 ? shortened(hinge.name, 15) : "", kind_texts[kind],
+                          margin_text(each.worst[kind]), angle,
+                          margin_text(spread.quantiles.empty() ? NAN : spread.quantiles.front()),
+                          margin_text(spread.least), spread.worst_run);
+    }
+  return text;
+}
+
+std::string motorization(const MarginReport& report) {
+  const MotorizationSpec& spec = report.campaign.margin->motorization;
+  const auto& quantiles = report.campaign.statistics.quantiles;
+  std::string text =
+      fmt::format("\nSTATIC MOTORIZATION MARGINS, least over the travel; 0 or more is enough\n"
+                  "{} ({}), {} ({})\n",
+                  ecss_standard, ecss_basis_names[static_cast<std::size_t>(spec.ecss_basis)],
+                  nasa_standard, nasa_basis_names[static_cast<std::size_t>(spec.nasa_basis)]);
+  const std::string quantile =
+      quantiles.empty() ? "–" : fmt::format("{:g} %", 100 * quantiles.front());
+  text += fmt::format("{:<10}{:<16}{:<22}{:>9}{:>9}{:>10}{:>10}{:>8}\n", "SCALE", "hinge", "by",
+                      "nominal", "at rad", quantile, "least", "run");
+  for (const ScaledMotorization& at : report.motorization) text += motorization_lines(report, at);
+  return text;
+}
+
+} // namespace
+
+std::string margin_text(const MarginReport& report) {
+  const Sampling& sampling = report.campaign.sampling;
+  std::string text =
+      fmt::format("{} · margin · {} runs a scale and case, {} in all · {}, seed {}\n",
+                  report.campaign.scene.name, sampling.runs, report.result.runs,
+                  design_names[static_cast<std::size_t>(sampling.design)], sampling.seed);
+  for (const MarginSearch& search : report.result.searches)
+    text += SearchText(report, search).text();
+  return text + motorization(report);
+}
+
+} // namespace wingspread

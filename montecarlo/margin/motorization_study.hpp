@@ -1,0 +1,64 @@
+/// The static motorization margins of all driven hinges at every angle of the travel: of the
+/// nominal wing and of the draws of a campaign. Formulas: motorization.hpp.
+#pragma once
+
+#include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/campaign/margin_spec.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wingspread {
+
+/// A margin by ECSS, by NASA, and by NASA with one of the hinge's springs lost.
+enum class MarginKind { ecss, nasa, nasa_one_spring_out };
+inline constexpr std::array<std::string_view, 3> margin_kind_names{"ecss", "nasa",
+                                                                   "nasa_one_spring_out"};
+/// One of each kind, in their order. ≥ 0 is enough; +∞ where nothing resists.
+using Margins = std::array<double, margin_kind_names.size()>;
+
+/// The margins of a hinge's terms.
+[[nodiscard]] Margins margins_of(const MotorizationTerms& terms, const MarginSpec& spec);
+
+/// A margin over the draws.
+struct MarginSpread {
+  std::vector<double> quantiles; ///< at the campaign's probabilities; NaN without draws
+  double least = 0;              ///< the worst draw's; NaN without draws
+  long worst_run = -1;           ///< the run that has it, the first of equals
+  double share_short = 0;        ///< of the draws, those with a margin < 0
+};
+
+/// A place of the travel.
+struct TravelPoint {
+  double x = 0;              ///< 0 stowed … 1 latched
+  double angle = 0;          ///< nominal, rad
+  MotorizationTerms nominal; ///< N·m
+  Margins margins{};         ///< of the nominal wing
+  std::array<MarginSpread, margin_kind_names.size()> spread;
+};
+
+struct HingeMotorization {
+  int hinge = 0; ///< index into Scene::hinges
+  /// Evenly over the travel, and the nominal turning points: ascending in x.
+  std::vector<TravelPoint> travel;
+  std::array<double, margin_kind_names.size()> worst_at{}; ///< x of the nominal wing's least
+  Margins worst{};                                         ///< nominal, over the travel
+  /// Of every draw's least over its own travel, which is found exactly.
+  std::array<MarginSpread, margin_kind_names.size()> worst_spread;
+};
+
+struct MotorizationStudy {
+  std::vector<HingeMotorization> hinges; ///< those with a spring or a latch, in the scene's order
+  long draws = 0;                        ///< that are physical
+  long invalid = 0;                      ///< and that are not: left out, for they have no margins
+};
+
+/// @param nominal the wing without dispersion (the campaign's scene, or with other springs)
+/// @param spec    factors, springs of a hinge, and how many places of the travel
+/// Cost: the campaign's draws once, no integration.
+[[nodiscard]] MotorizationStudy study_motorization(const Campaign& campaign, const Scene& nominal,
+                                                   const MarginSpec& spec);
+
+} // namespace wingspread

@@ -1,0 +1,50 @@
+/// The probability of a rare event in a campaign: independent subset simulations over its draws.
+///
+///   z → u = Φ(z) → dependence, quantiles → draws → run → g (performance.hpp)
+#pragma once
+
+#include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/rare/performance.hpp"
+#include "montecarlo/rare/subset_simulation.hpp"
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <vector>
+
+namespace wingspread {
+
+struct RareOptions {
+  RareEvent event{};
+  long samples = 2000; ///< N of a level, a multiple of 10, ≥ 100
+  long repeats = 5;    ///< ≥ 1
+  double confidence = 0.95;
+  double smallest = 1e-10;
+  int threads = 0; ///< 0: as many as OpenMP offers
+};
+
+/// The point of the event that is nearest to the middle of all draws, so the likeliest that was
+/// met.
+struct LikeliestRun {
+  double distance; ///< |z|
+  NormalPoint z;   ///< before dependence
+  std::vector<double> draws;
+  Status status;
+  std::string reason;
+};
+
+struct RareResult {
+  std::vector<SubsetEstimate> estimates; ///< the repetitions, without their points
+  RareEstimate estimate;
+  std::array<long, 5> statuses{};        ///< of all runs made, in the order of Status
+  std::optional<LikeliestRun> likeliest; ///< none when the event was not met
+};
+
+/// @param stop     once true, no further run is begun and Stopped is thrown
+/// @param progress told how many runs there have been, on the calling thread
+/// @throws SpecError for an event that there is not in the campaign, or one without dispersions
+[[nodiscard]] RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& options,
+                                             const std::atomic<bool>& stop,
+                                             const std::function<void(long)>& progress);
+
+} // namespace wingspread

@@ -1,0 +1,19 @@
+/// What the estimate of a rare event says: as JSON, and as text for a terminal.
+#pragma once
+
+#include "montecarlo/formats/json_parse.hpp"
+#include "montecarlo/rare/rare_event.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace wingspread {
+
+/// @param about the value of "wingspread"
+[[nodiscard]] Json rare_json(const RareResult& result, const RareOptions& options,
+                             const Campaign& campaign, const Json& about);
+
+[[nodiscard]] std::string rare_text(const RareResult& result, const RareOptions& options,
+                                    const Campaign& campaign);
+
+} // namespace wingspread

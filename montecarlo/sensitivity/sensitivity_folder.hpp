@@ -1,0 +1,59 @@
+/// The runs of a design for Sobol' indices, kept in a folder of their own.
+///
+///   design.json       the campaign in full, the number of rows, version and hash
+///   design_runs.csv   a row for each run, as in a campaign's runs.csv
+///
+/// Its runs are no sample of the campaign (they depend on each other), so it is not a results
+/// folder, and no command takes it for one.
+#pragma once
+
+#include "montecarlo/folder/growing_results.hpp"
+#include "montecarlo/sensitivity/saltelli.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace wingspread {
+
+inline constexpr const char* design_file = "design.json";
+inline constexpr const char* design_runs_file = "design_runs.csv";
+inline constexpr const char* sensitivity_json_file = "sensitivity.json";
+inline constexpr const char* sensitivity_csv_file = "sensitivity.csv";
+
+/// What there is to know of a design.
+struct SaltelliDesign {
+  Campaign campaign;
+  long rows = 0; ///< N
+};
+
+/// Whether the folder holds a design, and no campaign's results.
+[[nodiscard]] bool is_design_folder(const std::filesystem::path& folder);
+
+/// Reads design.json. @throws SpecError when it is broken, or not what its hash says
+[[nodiscard]] SaltelliDesign read_design(const std::filesystem::path& folder);
+
+/// Reads the runs that are there, less a last line that was cut off.
+/// @throws SpecError when the file is broken, or has a gap
+[[nodiscard]] ResultsFile read_design_runs(const std::filesystem::path& folder,
+                                           const RunPlan& plan);
+
+/// What identifies a design: version, seed and hash.
+[[nodiscard]] Json stamp_json(const SaltelliDesign& design);
+
+/// Grows design_runs.csv; a folder left at any moment can be opened again to go on.
+class DesignFolder {
+public:
+  /// @param resume the folder is new, or has the same design, by the same version; otherwise it is
+  ///   new, or empty
+  /// @throws SpecError otherwise, and when it cannot be written
+  DesignFolder(const std::filesystem::path& folder, const SaltelliDesign& design,
+               const RunPlan& plan, bool resume);
+
+  [[nodiscard]] const Results& results() const { return rows_.results(); }
+  void add(const Batch& batch) { rows_.add(batch); }
+
+private:
+  GrowingResults rows_;
+};
+
+} // namespace wingspread

@@ -1,0 +1,34 @@
+/// Histograms of a sample.
+#pragma once
+
+#include "montecarlo/statistics/statistics_spec.hpp"
+
+#include <span>
+#include <vector>
+
+namespace wingspread {
+
+inline constexpr int most_auto_bins = 200;
+
+/// Bin i is [edges[i], edges[i + 1]); the last one is closed, so that every value is in one bin.
+struct Histogram {
+  std::vector<double> edges; ///< increasing, one more than there are bins; empty without values
+  std::vector<long> counts;  ///< per bin; their sum is the sample's size
+
+  [[nodiscard]] long total() const;
+  /// count / (total · width): Σ density · width = 1.
+  [[nodiscard]] double density(std::size_t bin) const;
+};
+
+/// Histogram of values that are sorted, smallest first, over [min, max] in bins of equal width.
+///
+/// AutoBins: ⌈(max − min)/h⌉ bins with h = 2 IQR n^(−1/3) (D. Freedman, P. Diaconis, Z. Wahrsch.
+/// verw. Geb. 57 (1981) 453–476), IQR = X_(⌈3n/4⌉) − X_(⌈n/4⌉); Sturges' ⌈log2 n⌉ + 1 where the IQR
+/// is 0; at most `most_auto_bins`; one where all values are equal. Fixed: as many as asked for.
+/// A range too narrow for that many distinct edges takes as many as it has room for.
+/// Equal values v lie in the middle of [v − w, v + w], w = |v|/2, or 1/2 where v = 0.
+/// A value on an inner edge counts above it, by comparison with the edge as it is reported.
+/// Cost O(bins · log n).
+[[nodiscard]] Histogram histogram(std::span<const double> sorted, const Bins& bins);
+
+} // namespace wingspread

@@ -1,0 +1,110 @@
+/// What a campaign's results come to: plain data, from which the files (summary_json.hpp) and the
+/// terminal's table (table.hpp) are written.
+///
+/// Nothing is dropped silently: each output is summarised over the runs in which it happened, with
+/// the number in which it did not. The same results give the same summary, bit for bit.
+#pragma once
+
+#include "montecarlo/campaign/stopping.hpp"
+#include "montecarlo/runs/results.hpp"
+#include "montecarlo/statistics/column_correlation.hpp"
+#include "montecarlo/statistics/confidence.hpp"
+#include "montecarlo/statistics/histogram.hpp"
+#include "montecarlo/statistics/statistics.hpp"
+#include "montecarlo/statistics/statistics_spec.hpp"
+#include "montecarlo/summary/verdict.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wingspread {
+
+/// Which independent replicate of its design each row comes from: Latin hypercubes and scrambled
+/// Sobol' points depend on each other within one. Independent draws have no replicates.
+struct Replication {
+  int replicates = 0;      ///< 0: all draws are independent
+  std::vector<int> of_row; ///< per row of the results, in [0, replicates)
+};
+
+struct StatusShare {
+  Status status;
+  long count = 0;
+  double rate; ///< count / runs; NaN without runs
+  Bounds bounds;
+};
+
+/// How many runs of one status gave this reason; "…" for the numbers in which theirs differ.
+struct ReasonCount {
+  Status status;
+  std::string reason;
+  long count = 0;
+};
+
+/// Of latch orders the most frequent, up to this many: long chains may latch otherwise in each run.
+inline constexpr std::size_t most_latch_orders = 1000;
+
+struct LatchOrderCount {
+  std::string order; ///< "root>mid>tip"
+  long count = 0;
+};
+
+struct QuantileEstimate {
+  double p;
+  double value; ///< NaN without values
+  Bounds bounds;
+};
+
+struct ToleranceEstimate {
+  ToleranceSpec spec;
+  Bounds limits;
+};
+
+struct OutputSummary {
+  std::string name;
+  Moments moments;       ///< over the runs in which it happened; `moments.count` of them
+  double mean_error = 0; ///< standard error of the mean; NaN where nothing tells it
+  long missing = 0;      ///< runs in which it did not
+  std::vector<QuantileEstimate> quantiles;
+  Histogram histogram;
+  std::vector<ToleranceEstimate> tolerance{}; ///< over all runs (verdict.hpp)
+};
+
+/// Between a draw and an output, or `deployed`: 1 where the run deployed and 0 where it did not
+/// (Pearson's is then the point-biserial correlation).
+struct DrawCorrelation {
+  std::string draw, output;
+  Correlation value;
+};
+
+/// Why there are no bounds where draws depend on each other and nothing tells how far.
+inline constexpr std::string_view one_replicate =
+    "no bounds: the draws of one replicate depend on each other; take two replicates or more";
+
+struct Summary {
+  long runs = 0;
+  double confidence = 0; ///< of all bounds, two-sided
+  int replicates = 0;    ///< that the bounds come from; 0: they are binomial, for independent draws
+  std::vector<StatusShare> statuses;         ///< all five
+  std::vector<ReasonCount> reasons;          ///< by status, then the most frequent, then by text
+  std::vector<LatchOrderCount> latch_orders; ///< the most frequent first, then by name
+  long latch_order_kinds = 0;                ///< how many there are, those not listed among them
+  long without_latch = 0;                    ///< runs in which no hinge latched
+  std::vector<OutputSummary> outputs;        ///< in the order of the columns
+  std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
+  // What the campaign asks for beyond its statistics; write_statistics (folder.hpp) adds it.
+  std::vector<Verdict> requirements{};
+  std::vector<WidthFound> until{}; ///< the widths that decide when it stops
+  bool stopped = false;            ///< they did, before all runs were made
+  long looks = 1; ///< numbers of runs at which it could have: each bound's α is shared among them
+};
+
+/// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes a run for
+/// each thread, and no more threads than 1 GiB has room for; what is read of the results is
+/// released. Temporary files: 4 bytes a run for each column, and 12 where values are missing.
+/// @param threads as of team_size (team.hpp); the summary does not depend on them
+/// @pre replication.of_row is as long as the results unless there are no replicates
+[[nodiscard]] Summary summarize(const Results& results, const StatisticsSpec& spec,
+                                const Replication& replication = {}, int threads = 0);
+
+} // namespace wingspread

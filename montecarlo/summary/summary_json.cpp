@@ -1,0 +1,281 @@
+#include "montecarlo/summary/summary_json.hpp"
+
+#include "montecarlo/formats/json_number.hpp"
+#include "montecarlo/formats/output_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace wingspread {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view replicates_agree =
+    "no bounds: all replicates agree, which says nothing about the error";
+
+/// Of bounds that hold at several looks at once.
+std::string at_looks(const Summary& summary) {
+  if (summary.looks == 1) return "";
+  return fmt::format(
+      ", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints the "
+      "campaign stops",
+      at_each_look(summary.confidence, summary.looks), summary.looks);
+}
+
+/// Where bounds are from, for independent draws and for replicates.
+std::string source_of(const Summary& summary, const char* independent, const char* replicated) {
+  if (summary.replicates == 0) return independent + at_looks(summary);
+  if (summary.replicates == 1) return std::string(one_replicate);
+  return fmt::format("{} {} independent replicates", replicated, summary.replicates);
+}
+
+Json definitions(const Summary& summary) {
+  const bool independent = summary.replicates == 0;
+  return {{"std", "divisor n - 1"},
+          {"mean_error",
+           independent ? "std / sqrt(count)" : source_of(summary, "", "spread of the means of")},
+          {"skewness", "G1 = m3/m2^1.5 sqrt(n(n - 1))/(n - 2), adjusted Fisher-Pearson"},
+          {"kurtosis", "G2 = (n - 1)/((n - 2)(n - 3)) ((n + 1)(m4/m2^2 - 3) + 6), excess"},
+          {"quantile", "order statistic of rank ceil(n p)"},
+          {"quantile_bounds", source_of(summary, "order statistics, binomial, two-sided",
+                                        "Woodruff: inverse of the pooled distribution, Student's t "
+                                        "over")},
+          {"rate_bounds", source_of(summary, "Clopper-Pearson, two-sided",
+                                    "Korn-Graubard: Clopper-Pearson for the effective number of "
+                                    "draws, Student's t over")},
+          {"spearman", "Pearson's of the mid-ranks"},
+          {"outputs", "over the runs in which they happened"},
+          {"requirements", independent
+                               ? "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; "
+                                 "what did not deploy or happen counts against them"
+                               : "none: the draws depend on each other"}};
+}
+
+Json statuses_json(const Summary& summary) {
+  Json json = Json::object();
+  for (const StatusShare& share : summary.statuses) {
+    Json entry{{"count", share.count},
+               {"rate", json_number(share.rate)},
+               {"lower", json_number(share.bounds.lower)},
+               {"upper", json_number(share.bounds.upper)}};
+    if (!share.bounds.lower && summary.replicates > 0)
+      entry["note"] = summary.replicates == 1 ? one_replicate : replicates_agree;
+    json[to_string(share.status)] = std::move(entry);
+  }
+  return json;
+}
+
+void add_reasons(Json& json, const Summary& summary) {
+  json["reasons"] = Json::array();
+  long omitted = 0;
+  for (std::size_t i = 0; i < summary.reasons.size(); ++i) {
+    const auto& [status, reason, count] = summary.reasons[i];
+    if (i >= most_reasons)
+      omitted += count;
+    else
+      json["reasons"].push_back(
+          {{"status", to_string(status)}, {"reason", reason}, {"count", count}});
+  }
+  json["reasons_omitted"] = omitted;
+}
+
+void add_latch_orders(Json& json, const Summary& summary) {
+  json["latch_order"] = Json::object();
+  long omitted = summary.runs - summary.without_latch;
+  for (const auto& [order, count] : summary.latch_orders) {
+    json["latch_order"][order] = count;
+    omitted -= count;
+  }
+  json["latch_order_omitted"] = omitted;
+  json["latch_order_missing"] = summary.without_latch;
+}
+
+/// Why a bound of a quantile is null.
+std::string missing_bound(const Summary& summary, const OutputSummary& output) {
+  if (summary.replicates == 1) return std::string(one_replicate);
+  const long count = output.moments.count;
+  const std::string values = fmt::format("{} {}", count, count == 1 ? "value" : "values");
+  if (summary.replicates > 1)
+    return fmt::format("{} in {} replicates are too few, or agree too well, for every bound at a "
+                       "confidence of {}",
+                       values, summary.replicates, summary.confidence);
+  return fmt::format("{} are too few for every bound at a confidence of {}", values,
+                     summary.confidence);
+}
+
+Json quantiles_json(const Summary& summary, const OutputSummary& output) {
+  Json json = Json::array();
+  for (const auto& [p, value, bounds] : output.quantiles) {
+    Json entry{{"p", p},
+               {"value", json_number(value)},
+               {"lower", json_number(bounds.lower)},
+               {"upper", json_number(bounds.upper)}};
+    if (!bounds.lower || !bounds.upper) entry["note"] = missing_bound(summary, output);
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+/// Why a tolerance limit is null.
+std::string missing_limit(const Summary& summary, const ToleranceSpec& spec) {
+  const double c = at_each_look(spec.confidence, summary.looks);
+  const auto least = runs_to_show(spec.probability, c, spec.side == Side::both ? 1 : 0);
+  if (least && summary.runs >= *least)
+    return "no number: too many runs did not deploy or are without a value";
+  return fmt::format("{} runs are too few: it takes {}", summary.runs,
+                     least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
+}
+
+Json tolerance_json(const Summary& summary, const OutputSummary& output) {
+  Json json = Json::array();
+  for (const auto& [spec, limits] : output.tolerance) {
+    Json entry{{"probability", spec.probability},
+               {"confidence", spec.confidence},
+               {"side", side_names[static_cast<std::size_t>(spec.side)]}};
+    if (spec.side != Side::upper) entry["lower"] = json_number(limits.lower);
+    if (spec.side != Side::lower) entry["upper"] = json_number(limits.upper);
+    const bool missing =
+        (spec.side != Side::upper && !limits.lower) || (spec.side != Side::lower && !limits.upper);
+    if (missing) entry["note"] = missing_limit(summary, spec);
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json output_json(const Summary& summary, const OutputSummary& output) {
+  const Moments& m = output.moments;
+  Json json{{"unit", parse_output_name(output.name).unit},
+            {"count", m.count},
+            {"missing", output.missing},
+            {"mean", json_number(m.mean)},
+            {"mean_error", json_number(output.mean_error)},
+            {"std", json_number(m.std)},
+            {"min", json_number(m.min)},
+            {"max", json_number(m.max)},
+            {"skewness", json_number(m.skewness)},
+            {"kurtosis", json_number(m.kurtosis)},
+            {"quantiles", quantiles_json(summary, output)}};
+  if (!output.tolerance.empty()) json["tolerance"] = tolerance_json(summary, output);
+  return json;
+}
+
+/// The runs that break a requirement, and how to see one again.
+void add_broken(Json& json, const Verdict& verdict) {
+  const auto& broken = verdict.broken;
+  const auto shown = static_cast<std::ptrdiff_t>(std::min(broken.size(), most_broken));
+  json["broken"] = std::vector<long>(broken.begin(), broken.begin() + shown);
+  json["broken_omitted"] = std::ssize(broken) - shown;
+  if (!broken.empty()) json["replay"] = replay_command("DIR", broken.front());
+}
+
+Json verdict_json(const Summary& summary, const Verdict& verdict) {
+  Json json = write_requirements({&verdict.requirement, 1}).front();
+  json["verdict"] = to_string(verdict.decision);
+  json["margin"] = json_number(verdict.margin);
+  json["evidence"] = evidence(verdict);
+  json["runs"] = verdict.runs;
+  json["failures"] = {{"seen", verdict.broken.size()},
+                      {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)}};
+  json["observed"] = {{"share", json_number(verdict.share)}};
+  json["guaranteed"] = {{"share", verdict.guaranteed_share}};
+  if (verdict.requirement.output != deployed_output) {
+    json["observed"]["value"] = json_number(verdict.observed);
+    json["guaranteed"]["value"] = json_number(verdict.guaranteed);
+  }
+  if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
+  if (summary.looks > 1) json["confidence_at_each_look"] = verdict.confidence;
+  add_broken(json, verdict);
+  return json;
+}
+
+Json requirements_json(const Summary& summary) {
+  Json json = Json::array();
+  for (const Verdict& verdict : summary.requirements)
+    json.push_back(verdict_json(summary, verdict));
+  return json;
+}
+
+/// When the campaign stops, and how far it has come.
+Json until_json(const Summary& summary) {
+  Json goals = Json::array();
+  for (const auto& [goal, width, met] : summary.until) {
+    Json json = write_stopping_rule({goal}).front();
+    json["found"] = json_number(width);
+    json["met"] = met;
+    goals.push_back(std::move(json));
+  }
+  return {{"stopped", summary.stopped}, {"checkpoints", summary.looks}, {"widths", goals}};
+}
+
+Json correlations_json(const Summary& summary) {
+  Json json = Json::object();
+  for (const auto& [draw, output, value] : summary.correlations)
+    json[draw][output] = {{"count", value.count},
+                          {"pearson", json_number(value.pearson)},
+                          {"spearman", json_number(value.spearman)}};
+  return json;
+}
+
+std::vector<double> densities(const Histogram& histogram) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) result.push_back(histogram.density(i));
+  return result;
+}
+
+} // namespace
+
+Json summary_json(const Summary& summary, const Json& about) {
+  Json json{{"wingspread", about}, {"runs", summary.runs}, {"confidence", summary.confidence}};
+  json["status"] = statuses_json(summary);
+  add_reasons(json, summary);
+  add_latch_orders(json, summary);
+  json["outputs"] = Json::object();
+  for (const OutputSummary& output : summary.outputs)
+    json["outputs"][output.name] = output_json(summary, output);
+  json["correlations"] = correlations_json(summary);
+  json["requirements"] = requirements_json(summary);
+  if (!summary.until.empty()) json["until"] = until_json(summary);
+  json["definitions"] = definitions(summary);
+  return json;
+}
+
+Json histograms_json(const Summary& summary) {
+  Json json = Json::object();
+  for (const OutputSummary& output : summary.outputs)
+    json[output.name] = {{"unit", parse_output_name(output.name).unit},
+                         {"count", output.moments.count},
+                         {"missing", output.missing},
+                         {"edges", output.histogram.edges},
+                         {"counts", output.histogram.counts},
+                         {"density", densities(output.histogram)}};
+  return json;
+}
+
+std::string histograms_csv(const Summary& summary) {
+  std::string csv = "output,lower,upper,count,density\n";
+  for (const OutputSummary& output : summary.outputs) {
+    const Histogram& histogram = output.histogram;
+    for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+      append_csv_cell(csv, output.name);
+      for (const double edge : {histogram.edges[i], histogram.edges[i + 1]}) {
+        csv += ',';
+        append_csv_cell(csv, edge);
+      }
+      csv += fmt::format(",{},", histogram.counts[i]);
+      append_csv_cell(csv, histogram.density(i));
+      csv += '\n';
+    }
+  }
+  return csv;
+}
+
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+} // namespace wingspread

@@ -1,0 +1,274 @@
+#include "montecarlo/summary/table.hpp"
+
+#include "montecarlo/formats/output_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+
+namespace wingspread {
+
+namespace {
+
+constexpr std::size_t most_lines = 8; ///< of reasons and of latch orders
+constexpr std::size_t columns_per_block = 5;
+
+/// "timed_out" → "timed out".
+std::string words(std::string_view name) {
+  std::string text(name);
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
+
+std::string percent(double share) {
+  return std::isnan(share) ? "–" : fmt::format("{:.3f} %", 100 * share);
+}
+
+std::string percent_bounds(const Bounds& bounds) {
+  if (!bounds.lower || !bounds.upper) return "–";
+  return fmt::format("{:.3f} – {:.3f} %", 100 * *bounds.lower, 100 * *bounds.upper);
+}
+
+double share_of(long count, long runs) {
+  return static_cast<double>(count) / static_cast<double>(runs);
+}
+
+/// Five significant digits, trailing zeros among them, so that columns line up.
+std::string in_words(double value) {
+  if (std::isnan(value)) return "–";
+  std::string text = fmt::format("{:#.5g}", value);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+std::string outcomes(const Summary& summary) {
+  const std::string bounds = fmt::format("{:g} % bounds", 100 * summary.confidence);
+  std::string text =
+      fmt::format("\n{:<50}{:>10}{:>12}{:>26}\n", "OUTCOME", "runs", "share", bounds);
+  for (const StatusShare& share : summary.statuses)
+    text += fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", words(to_string(share.status)), share.count,
+                        percent(share.rate), percent_bounds(share.bounds));
+  if (summary.replicates == 1) text += fmt::format("  {}\n", one_replicate);
+  return text;
+}
+
+std::string reasons(const Summary& summary) {
+  if (summary.reasons.empty()) return "";
+  std::string text = fmt::format("\n{:<12}{:>8}  {}\n", "WHY", "runs", "reason");
+  const std::size_t shown = std::min(summary.reasons.size(), most_lines);
+  for (const auto& [status, reason, count] : std::span(summary.reasons).first(shown))
+    text += fmt::format("  {:<10}{:>8}  {}\n", words(to_string(status)), count,
+                        shortened(reason, table_width - 22));
+  if (shown < summary.reasons.size())
+    text +=
+        fmt::format("  and {} other reasons, in summary.json\n", summary.reasons.size() - shown);
+  return text;
+}
+
+std::string latch_orders(const Summary& summary) {
+  std::string text = fmt::format("\n{:<50}{:>10}{:>12}\n", "LATCH ORDER", "runs", "share");
+  const auto line = [&](std::string_view order, long count) {
+    text += fmt::format("  {:<48}{:>10}{:>12}\n", shortened(order, 48), count,
+                        percent(share_of(count, summary.runs)));
+  };
+  const std::size_t shown = std::min(summary.latch_orders.size(), most_lines);
+  long others = summary.runs - summary.without_latch;
+  for (const auto& [order, count] : std::span(summary.latch_orders).first(shown)) {
+    line(order, count);
+    others -= count;
+  }
+  if (others > 0)
+    line(fmt::format("{} other orders", summary.latch_order_kinds - static_cast<long>(shown)),
+         others);
+  if (summary.without_latch > 0) line("no latch", summary.without_latch);
+  return text;
+}
+
+/// A column of numbers in the table of outputs.
+struct NumberColumn {
+  std::string heading;
+  std::function<double(const OutputSummary&)> value;
+};
+
+std::vector<NumberColumn> number_columns(const Summary& summary) {
+  std::vector<NumberColumn> columns{{"mean", [](const OutputSummary& o) { return o.moments.mean; }},
+                                    {"std", [](const OutputSummary& o) { return o.moments.std; }}};
+  if (summary.outputs.empty()) return columns;
+  const auto& quantiles = summary.outputs.front().quantiles;
+  for (std::size_t i = 0; i < quantiles.size(); ++i)
+    columns.push_back(
+        {quantiles[i].p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * quantiles[i].p),
+         [i](const OutputSummary& o) { return o.quantiles[i].value; }});
+  return columns;
+}
+
+std::string label(const OutputName& name) {
+  return name.quantity == "rate_at" ? "rate at " + name.other : words(name.quantity);
+}
+
+std::string output_line(const OutputSummary& output, std::span<const NumberColumn> columns) {
+  const OutputName name = parse_output_name(output.name);
+  std::string text = fmt::format("  {:<24}{:<6}{:>8}", shortened(label(name), 23), name.unit,
+                                 output.moments.count);
+  for (const NumberColumn& column : columns)
+    text += fmt::format("{:>12}", in_words(column.value(output)));
+  return text + '\n';
+}
+
+std::string output_block(const Summary& summary, std::span<const NumberColumn> columns) {
+  std::string text = fmt::format("\n{:<26}{:<6}{:>8}", "OUTPUT", "unit", "runs");
+  for (const NumberColumn& column : columns) text += fmt::format("{:>12}", column.heading);
+  text += '\n';
+  for (const char* previous = nullptr; const OutputSummary& output : summary.outputs) {
+    const std::string hinge = parse_output_name(output.name).hinge;
+    if (!previous || hinge != parse_output_name(previous).hinge)
+      text += fmt::format("{}\n", hinge.empty() ? "wing" : shortened(hinge, table_width));
+    text += output_line(output, columns);
+    previous = output.name.c_str();
+  }
+  return text;
+}
+
+/// As many blocks as it takes to keep the lines within the width.
+std::string outputs(const Summary& summary) {
+  if (summary.outputs.empty()) return "";
+  const std::vector<NumberColumn> columns = number_columns(summary);
+  std::string text;
+  for (std::size_t first = 0; first < columns.size(); first += columns_per_block) {
+    const std::size_t count = std::min(columns_per_block, columns.size() - first);
+    text += output_block(summary, std::span(columns).subspan(first, count));
+  }
+  const auto incomplete = [](const OutputSummary& output) { return output.missing > 0; };
+  if (std::ranges::any_of(summary.outputs, incomplete))
+    text += fmt::format("\nEach output over the runs in which it happened, of {}.\n", summary.runs);
+  return text;
+}
+
+std::string in_words(const std::optional<double>& value) { return value ? in_words(*value) : "–"; }
+
+/// A line for each output and each limit asked for.
+std::string tolerance(const Summary& summary) {
+  std::string text;
+  for (const OutputSummary& output : summary.outputs)
+    for (const auto& [spec, limits] : output.tolerance) {
+      const std::string content =
+          fmt::format("{:.10g} % at {:.10g} %", 100 * spec.probability, 100 * spec.confidence);
+      text += fmt::format("  {:<42}{:<28}{:>14}{:>14}\n", shortened(output.name, 41),
+                          shortened(content, 27),
+                          spec.side == Side::upper ? "" : in_words(limits.lower),
+                          spec.side == Side::lower ? "–" : in_words(limits.upper));
+    }
+  if (text.empty()) return "";
+  return fmt::format("\n{:<44}{:<28}{:>14}{:>14}\n", "TOLERANCE LIMITS", "content, confidence",
+                     "lower", "upper") +
+         text;
+}
+
+/// The worst of the runs that break a requirement, and how to see the first again.
+std::string broken_runs(const Verdict& verdict, std::string_view folder) {
+  constexpr std::size_t most = 6;
+  if (verdict.broken.empty() || folder.empty()) return "";
+  std::string text = "    " + replay_command(folder, verdict.broken.front());
+  for (std::size_t i = 1; i < std::min(verdict.broken.size(), most); ++i)
+    text += fmt::format("{}{}", i == 1 ? "   and " : ", ", verdict.broken[i]);
+  return text + (verdict.broken.size() > most ? ", …\n" : "\n");
+}
+
+std::string requirements(const Summary& summary, std::string_view folder) {
+  if (summary.requirements.empty()) return "";
+  std::string text = fmt::format("\n{:<46}{:<10}{:>8}{:>8}{:>13}{:>13}\n", "REQUIREMENT", "verdict",
+                                 "broken", "may", "observed", "guaranteed");
+  for (const Verdict& verdict : summary.requirements) {
+    const bool share = verdict.requirement.output == deployed_output;
+    text +=
+        fmt::format("  {:<44}{:<10}{:>8}{:>8}{:>13}{:>13}\n",
+                    shortened(to_string(verdict.requirement), 43), to_string(verdict.decision),
+                    verdict.broken.size(), verdict.allowed ? std::to_string(*verdict.allowed) : "–",
+                    share ? percent(verdict.share) : in_words(verdict.observed),
+                    share ? percent(verdict.guaranteed_share) : in_words(verdict.guaranteed));
+    if (verdict.decision != Decision::pass)
+      text += "    " + shortened(evidence(verdict), table_width - 4) + '\n';
+    text += broken_runs(verdict, folder);
+  }
+  return text;
+}
+
+std::string stopping(const Summary& summary) {
+  if (summary.until.empty()) return "";
+  std::string text =
+      fmt::format("\n{:<58}{:>20}{:>20}\n", "UNTIL THE INTERVAL'S WIDTH IS", "found", "reached");
+  for (const auto& [goal, width, met] : summary.until)
+    text += fmt::format("  {:<56}{:>20}{:>20}\n", shortened(to_string(goal), 55), in_words(width),
+                        met ? "yes" : "no");
+  return text;
+}
+
+std::string files(std::string_view folder) {
+  if (folder.empty()) return "";
+  return fmt::format("\nFILES  {}: runs.csv, summary.json, histograms.json, histograms.csv\n",
+                     folder);
+}
+
+/// Neighbouring bins put together, so that at most `most` are left.
+Histogram coarser(const Histogram& histogram, std::size_t most) {
+  const std::size_t group = (histogram.counts.size() + most - 1) / most;
+  if (group <= 1) return histogram;
+  Histogram result{{histogram.edges.front()}, {}};
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    if (i % group == 0) {
+      result.counts.push_back(0);
+      result.edges.push_back(0);
+    }
+    result.counts.back() += histogram.counts[i];
+    result.edges.back() = histogram.edges[i + 1];
+  }
+  return result;
+}
+
+/// A bar of `eighths` eighths of a column.
+std::string bar(long eighths) {
+  constexpr std::array partial{"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
+  std::string text;
+  for (long full = 0; full < eighths / 8; ++full) text += "█";
+  return text + partial[static_cast<std::size_t>(eighths % 8)];
+}
+
+} // namespace
+
+std::string shortened(std::string_view text, std::size_t width) {
+  const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  if (static_cast<std::size_t>(std::ranges::count_if(text, starts)) <= width)
+    return std::string(text);
+  std::size_t end = 0;
+  for (std::size_t characters = 0; characters < width; ++end)
+    if (starts(text[end])) ++characters;
+  return std::string(text.substr(0, end - 1)) + "…";
+}
+
+std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
+  return shortened(title, table_width) + '\n' + outcomes(summary) + reasons(summary) +
+         latch_orders(summary) + outputs(summary) + tolerance(summary) +
+         requirements(summary, folder) + stopping(summary) + files(folder);
+}
+
+std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,
+                           int width) {
+  std::string text = unit.empty() ? std::string(name) : fmt::format("{}, {}", name, unit);
+  text += histogram.counts.empty() ? "\n  no values\n" : "\n";
+  if (histogram.counts.empty()) return text;
+  const Histogram bins = coarser(histogram, 20);
+  double highest = 0;
+  for (std::size_t i = 0; i < bins.counts.size(); ++i) highest = std::max(highest, bins.density(i));
+  const double eighths = 8.0 * (width - 24);
+  for (std::size_t i = 0; i < bins.counts.size(); ++i)
+    text += fmt::format("{:>12.6g} │{:<{}}{:>9}\n", bins.edges[i],
+                        bar(std::lround(eighths * bins.density(i) / highest)), width - 23,
+                        bins.counts[i]);
+  return text + fmt::format("{:>12.6g} ┘\n", bins.edges.back());
+}
+
+} // namespace wingspread

@@ -1,7 +1,0 @@
-#include "montecarlo/version.hpp"
-
-namespace wingspread {
-
-std::string_view version() { return WINGSPREAD_VERSION; }
-
-} // namespace wingspread

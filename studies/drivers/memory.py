@@ -1,0 +1,106 @@
+"""How much memory a campaign holds, against its number of runs.
+
+    /usr/bin/python3 studies/drivers/memory.py            some five minutes; results/memory takes 8 GB while it lasts,
+                                                  and temporary files 5 GB
+    /usr/bin/python3 studies/drivers/memory.py --quick    seconds; fails where memory grows faster than it may
+
+Two measurements, each of a whole program on two threads by the most memory that it ever held (ru_maxrss,
+which counts what is resident of mapped files): `wingspread run` of the seed wing without friction to its
+last latch, and `wingspread analyze` of rows with all of the seed campaign's columns: those of a shorter run
+again and again, under new numbers. They are printed, and written to memory.csv in the folder.
+"""
+
+import argparse
+import csv
+import json
+import os
+import pathlib
+import shutil
+import sys
+import time
+
+CAMPAIGN = pathlib.Path("studies/campaigns/seed.json")
+CHEAP_SCENE = pathlib.Path("studies/scenes/three_panel.json")
+CHEAP_DISPERSIONS = ("root_spring", "mid_spring", "tip_spring", "mass", "inertia")
+MOST_BYTES_A_RUN = 200  # at 10⁷ runs just below 2 GiB
+MIB = 1024  # ru_maxrss is in KiB
+
+
+def measure(command, *arguments):
+    """Runs the program; its seconds and the most MiB that it held."""
+    start = time.monotonic()
+    process = os.posix_spawn(command, [command, *map(str, arguments)], os.environ | {"OMP_NUM_THREADS": "2"},
+                             file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)])
+    _, status, usage = os.wait4(process, 0)
+    if os.waitstatus_to_exitcode(status) != 0:
+        sys.exit(f"{command} {arguments}: exit code {os.waitstatus_to_exitcode(status)}")
+    return time.monotonic() - start, usage.ru_maxrss / MIB
+
+
+def measure_run(program, folder, runs):
+    """A campaign whose runs cost little, so that there can be many of them."""
+    campaign = json.loads(CAMPAIGN.read_text())
+    campaign["scene"] = str(CHEAP_SCENE.resolve())
+    campaign["dispersions"] = [each for each in campaign["dispersions"] if each["name"] in CHEAP_DISPERSIONS]
+    campaign["outputs"] = ["latch_time", "latch_rate"]
+    file = folder / "campaign.json"
+    file.write_text(json.dumps(campaign))
+    return measure(program, "run", file, "--runs", runs, "--out", folder / "run")
+
+
+def repeat_rows(source, folder, runs):
+    """A folder of so many rows: those of `source` again and again, under new numbers."""
+    folder.mkdir()
+    campaign = json.loads((source / "campaign.json").read_text())
+    del campaign["wingspread"]  # nobody's stamp: its runs are not its draws'
+    campaign["sampling"]["runs"] = runs
+    (folder / "campaign.json").write_text(json.dumps(campaign))
+    header, *rows = (source / "runs.csv").read_text().splitlines(keepends=True)
+    rows = [row.partition(",")[2] for row in rows]
+    with open(folder / "runs.csv", "w") as out:
+        out.write(header)
+        for first in range(0, runs, len(rows)):
+            out.writelines(f"{first + i},{row}" for i, row in enumerate(rows[:runs - first]))
+
+
+def measure_analyze(program, folder, runs):
+    source = folder / "source"
+    if not source.exists():
+        measure(program, "run", CAMPAIGN, "--runs", min(runs, 20000), "--out", source)
+    repeated = folder / "repeated"
+    repeat_rows(source, repeated, runs)
+    return measure(program, "analyze", repeated)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="few runs; exit code 1 where memory grows too fast")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/memory"))
+    parser.add_argument("--program", default="build/release/wingspread")
+    options = parser.parse_args()
+    shutil.rmtree(options.out, ignore_errors=True)
+    options.out.mkdir(parents=True)
+    run_sizes, analyze_sizes = ((40_000, 120_000), (40_000, 200_000)) if options.quick else (
+        (1_000_000, 4_000_000), (1_000_000, 10_000_000))
+    table, growths = [("command", "runs", "runs.csv [MB]", "time [s]", "memory [MiB]")], []
+    print("command        runs  runs.csv, MB    time, s  memory, MiB")
+    for name, measured, part, sizes in (("run", measure_run, "run", run_sizes),
+                                        ("analyze", measure_analyze, "repeated", analyze_sizes)):
+        held = []
+        for runs in sizes:
+            seconds, memory = measured(options.program, options.out, runs)
+            size = (options.out / part / "runs.csv").stat().st_size / 1e6
+            shutil.rmtree(options.out / part)
+            held.append(memory)
+            table.append((name, runs, size, seconds, memory))
+            print(f"{name:8}{runs:>11,}{size:>14,.0f}{seconds:>11.1f}{memory:>13.0f}", flush=True)
+        growths.append((held[1] - held[0]) * 2**20 / (sizes[1] - sizes[0]))
+        print(f"{name:8}{growths[-1]:.0f} bytes more a run")
+    with open(options.out / "memory.csv", "w", newline="") as file:
+        csv.writer(file).writerows(table)
+    shutil.rmtree(options.out / "source")
+    sys.exit(options.quick and max(growths) > MOST_BYTES_A_RUN)
+
+
+if __name__ == "__main__":
+    main()

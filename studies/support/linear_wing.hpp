@@ -1,0 +1,58 @@
+/// The linear model of a wing about a configuration, from the product's own right-hand side.
+///
+/// | symbol | meaning                                            | shape | unit      |
+/// |--------|----------------------------------------------------|-------|-----------|
+/// | y      | hinge angles from their rest                       | n     | rad       |
+/// | M      | mass matrix in hinge angles, there                 | n×n   | kg·m²     |
+/// | K, D   | stiffness and damping of the hinges, diagonal      | n×n   | N·m/rad … |
+/// | λ      | eigenvalues of [0 E; −M⁻¹K −M⁻¹D]                  | 2n    | 1/s       |
+///
+/// At rest it is exact: no moment is left that the turning of the panels could redirect.
+#pragma once
+
+#include "core/mechanics/system.hpp"
+
+#include <Eigen/Core>
+
+#include <complex>
+#include <vector>
+
+namespace wingspread::study {
+
+/// A pair of eigenvalues that oscillate, by the one above the real axis, or a real one.
+using Eigenvalue = std::complex<double>;
+
+/// A wing on a fixed base with its right-hand side, latches engaged one by one or all.
+class LinearWing {
+public:
+  using AnySystem = System<double, Tree, BaseMotion::fixed>;
+
+  explicit LinearWing(const Scene& scene);
+  LinearWing(const LinearWing&) = delete;
+  LinearWing& operator=(const LinearWing&) = delete;
+
+  [[nodiscard]] AnySystem& system() { return system_; }
+  [[nodiscard]] int hinges() const { return wing_.size(); }
+
+  /// @param hinge index into Scene::hinges
+  void engage(int hinge);
+  void engage_all();
+
+  /// A state of these angles and rates, Scene order.
+  [[nodiscard]] State<double> state(const std::vector<double>& angles,
+                                    const std::vector<double>& rates) const;
+
+  /// Where springs and engaged latches balance, at rest. @pre all are engaged
+  [[nodiscard]] State<double> rest() const;
+
+  /// λ of the hinges whose latch is engaged, the others free to turn: those that oscillate once a
+  /// pair, slowest first.
+  [[nodiscard]] std::vector<Eigenvalue> eigenvalues(const State<double>& x);
+
+private:
+  Wing<double> wing_;
+  Workspace<double> work_;
+  AnySystem system_;
+};
+
+} // namespace wingspread::study

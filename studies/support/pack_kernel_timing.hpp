@@ -1,0 +1,68 @@
+/// The definition behind pack_kernel.hpp.
+#pragma once
+
+#include "core/mechanics/hinge_moment.hpp"
+#include "core/mechanics/recursion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+namespace wingspread::study {
+
+template <class P, int N> struct PackKernel {
+  Wing<P> wing;
+  std::array<LinearLaw<P>, N + 1> laws;
+  std::array<P, N> angles, rates, accelerations;
+
+  PackKernel() {
+    wing.bodies.resize(N + 1);
+    for (int i = 1; i <= N; ++i) {
+      const double v = 1 + 0.1 * i; // any numbers of the size of a panel's
+      wing.bodies[i] = {P(10 * v),         P(3 * v), {P(5 * v), P(0.1)}, {P(v), P(0.02)},
+                        {P(0.5), P(0.01)}, P(0.5),   P(-1 / (3 * v))};
+      laws[i] = {P(0.1), P(v), P(0.3), P(0.2)};
+      angles[i - 1] = P(v), rates[i - 1] = P(0.1 * v);
+    }
+  }
+
+  [[gnu::noinline]] void evaluate() {
+    std::array<BodyFrame<P>, N + 1> frames;
+    Chain<N> chain;
+    BodyFrame<P>& base = frames[0];
+    base.angle = base.rate = base.minus_rate_squared = base.angular_acceleration = P(0.0);
+    base.acceleration = {P(0.0), P(0.0)};
+    base.rotation = {P(0.0), P(1.0)};
+    chain.outward([&](int i) __attribute__((always_inline)) {
+      turn<BaseMotion::fixed>(chain, frames, i, angles[i - 1], rates[i - 1]);
+    });
+    chain.outward([&](int i) __attribute__((always_inline)) {
+      place<BaseMotion::fixed>(wing, chain, frames, i);
+    });
+    chain.outward([&](int i) __attribute__((always_inline)) {
+      frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
+    });
+    chain.inward([&](int i) __attribute__((always_inline)) { gather(wing, chain, frames, i); });
+    chain.outward([&](int i) __attribute__((always_inline)) {
+      accelerations[i - 1] = accelerate<BaseMotion::fixed>(chain, frames, i);
+    });
+  }
+};
+
+template <class P, int N> [[nodiscard]] double time_evaluation() {
+  using Clock = std::chrono::steady_clock;
+  PackKernel<P, N> kernel;
+  double best = 1e30;
+  constexpr int count = 1000;
+  for (int round = 0; round < 1500; ++round) {
+    const auto start = Clock::now();
+    for (int k = 0; k < count; ++k) {
+      kernel.evaluate();
+      asm volatile("" ::"r"(&kernel) : "memory");
+    }
+    best = std::min(best, std::chrono::duration<double, std::nano>(Clock::now() - start).count());
+  }
+  return best / count / P::width;
+}
+
+} // namespace wingspread::study

@@ -1,0 +1,58 @@
+/// What the drivers share: their command line, their tables, the seed wing.
+/// Run from the repository's root.
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <variant>
+
+namespace wingspread::study {
+
+/// What the command line asks for.
+struct StudyOptions {
+  bool quick = false;
+  std::filesystem::path folder; ///< exists
+};
+
+/// The main() of a driver: `--quick`, and `--out DIR`, results/NAME by default (…_quick with
+/// --quick). @return the program's exit status: 2 when `study` throws
+[[nodiscard]] int run_study(int count, char** arguments, const std::string& name,
+                            const std::string& purpose,
+                            const std::function<void(const StudyOptions&)>& study);
+
+/// A table to be written as CSV. Its columns' names hold their units, "k [N·m/rad]".
+class Table {
+public:
+  using Cell = std::variant<double, std::string>; ///< a number that is not finite is left empty
+
+  explicit Table(std::initializer_list<std::string> columns);
+
+  /// @pre as many as there are columns
+  void add(std::initializer_list<Cell> cells);
+
+  /// @throws SpecError when that cannot be done
+  void write(const std::filesystem::path& file) const;
+
+private:
+  void append(const Cell& cell, bool first);
+
+  std::size_t columns_;
+  std::string text_;
+};
+
+/// scenes/three_panel.json.
+[[nodiscard]] Scene seed_wing();
+
+/// The seed wing with every latch of this stiffness, N·m/rad, and damping, N·m·s/rad.
+[[nodiscard]] Scene seed_wing(double stiffness, double damping);
+
+/// A folded stack of n like panels, without latches.
+[[nodiscard]] Scene stack(int n);
+
+inline constexpr double seed_t_end = 12; ///< s: more than five after the last latch
+
+} // namespace wingspread::study

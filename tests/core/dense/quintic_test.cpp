@@ -1,0 +1,82 @@
+#include "core/dense/quintic.hpp"
+#include "tests/support/random_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+/// sin(w t + p) and its derivatives at t.
+Jet<double> wave(double w, double p, double t) {
+  return {std::sin(w * t + p), w * std::cos(w * t + p), -w * w * std::sin(w * t + p)};
+}
+} // namespace
+
+TEST_CASE("a quintic is reproduced, its ends and its derivative with it") {
+  oracle::Draws draws(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    double c[6];
+    for (double& v : c) v = draws.uniform(-1, 1);
+    const double h = draws.log_uniform(0.01, 10);
+    const auto jet = [&](double t) {
+      Jet<double> j{0, 0, 0};
+      for (int k = 5; k >= 0; --k)
+        j = {j.value * t + c[k], j.first * t + j.value, j.second * t + 2 * j.first};
+      return j;
+    };
+    const Quintic<double> p = hermite(h, jet(0), jet(h));
+    const Quintic<double> d = derivative(p, h);
+    for (const double s : {0.0, 0.125, 0.4, 0.77, 1.0}) {
+      const Jet<double> expected = jet(s * h);
+      CHECK(value(p, s) == Approx(expected.value).epsilon(1e-12).margin(1e-12 * bound(p)));
+      CHECK(value(d, s) == Approx(expected.first).epsilon(1e-10).margin(1e-12 * bound(d)));
+      CHECK(std::abs(value(p, s)) <= bound(p) * (1 + 1e-15));
+    }
+  }
+}
+
+TEST_CASE("interpolation error falls with the sixth power of the step") {
+  const auto error = [](double h) {
+    // about the crest, where the even powers of the error alone are left
+    const double p0 = 1.5707963267948966 - h / 2;
+    const Quintic<double> p = hermite(h, wave(1, p0, 0), wave(1, p0, h));
+    double worst = 0;
+    for (int k = 1; k < 64; ++k)
+      worst = std::max(worst, std::abs(value(p, k / 64.0) - wave(1, p0, h * k / 64).value));
+    return worst;
+  };
+  // down to 1e-13, below which round-off stands
+  for (double h = 1; error(h / 2) > 1e-13; h /= 2)
+    CHECK(std::log2(error(h) / error(h / 2)) == Approx(6).margin(0.05));
+  CHECK(error(1) < 1.0 / 46080); // the bound of the docstring for |φ⁽⁶⁾| ≤ 1
+}
+
+TEST_CASE("the first crossing is found to round-off") {
+  // −cos(w t) from t = 0 first reaches zero at π/(2w)
+  for (const double w : {0.3, 1.0, 1.6, 2.0}) {
+    const Jet<double> a = wave(w, -1.5707963267948966, 0), b = wave(w, -1.5707963267948966, 1);
+    const Quintic<double> p = hermite(1.0, a, b);
+    const auto s = first_nonnegative(p);
+    REQUIRE(s.has_value() == (1.5707963267948966 / w <= 1));
+    if (s) {
+      CHECK(value(p, *s) == Approx(0).margin(1e-14));
+      CHECK(value(p, *s - 1e-9) < 0);
+    }
+  }
+}
+
+TEST_CASE("a crossing that comes back inside the step is not missed") {
+  // touches zero from below at s = 0.37 with a hump of height e
+  const auto hump = [](double e) {
+    const auto jet = [&](double t) {
+      return Jet<double>{e - (t - 0.37) * (t - 0.37), -2 * (t - 0.37), -2};
+    };
+    return hermite(1.0, jet(0), jet(1));
+  };
+  for (const double e : {1e-2, 1e-4, 1e-8, 1e-12}) {
+    const auto s = first_nonnegative(hump(e));
+    REQUIRE(s.has_value());
+    CHECK(*s == Approx(0.37 - std::sqrt(e)).margin(1e-14 / std::sqrt(e)));
+    CHECK_FALSE(first_nonnegative(hump(-e)).has_value());
+  }
+}

@@ -1,0 +1,70 @@
+#include "core/mechanics/hinge_moment.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+Hinge hinge(double stowed, double latched) {
+  Hinge h;
+  h.name = "h";
+  h.stowed = stowed, h.latched = latched;
+  h.spring = {2, 1};
+  h.harness = {0.5, 0.25};
+  h.friction.coulomb = 0.1, h.friction.viscous = 3, h.friction.regularization_rate = 1e-3;
+  h.latch = Latch{1000, 10};
+  return h;
+}
+HingeTerms<double> terms(double stowed, double latched) {
+  return detail::hinge_terms<double>(hinge(stowed, latched));
+}
+} // namespace
+
+TEST_CASE("spring less harness is linear in the travel and acts towards the latched angle") {
+  for (const double latched : {1.2, -1.2}) {
+    const HingeTerms<double> h = terms(0.2, latched);
+    const double s = latched > 0.2 ? 1 : -1;
+    const LinearLaw<double> law = linear_law(h, false);
+    CHECK(linear_moment(law, 0.2, 0.0) == Approx(s * 1.5));
+    CHECK(linear_moment(law, latched, 0.0) == Approx(s * 0.75));
+    CHECK(linear_moment(law, 0.5 * (0.2 + latched), 0.0) == Approx(s * 1.125));
+  }
+}
+
+TEST_CASE("viscous friction and the engaged latch oppose") {
+  const HingeTerms<double> h = terms(1, 0);
+  CHECK(linear_moment(linear_law(h, false), 0.0, 0.5) == Approx(-0.75 - 3 * 0.5));
+  CHECK(linear_moment(linear_law(h, true), -0.01, 0.5) -
+            linear_moment(linear_law(h, false), -0.01, 0.5) ==
+        Approx(1000 * 0.01 - 10 * 0.5));
+}
+
+TEST_CASE("regularized friction is the Coulomb level at speed and linear in the rate at rest") {
+  const HingeTerms<double> h = terms(1, 0);
+  CHECK(coulomb_moment(h, 10.0) == Approx(-0.1));
+  CHECK(coulomb_moment(h, -10.0) == Approx(0.1));
+  CHECK(coulomb_moment(h, 0.0) == 0);
+  CHECK(coulomb_moment(h, 1e-3) == Approx(-0.1 / std::sqrt(2.0)));
+}
+
+TEST_CASE("a smoothed latch engages over its widths") {
+  const HingeTerms<double> h = terms(1, 0);
+  const double epsilon = 1e-2;
+  CHECK(engagement_rate(h, 0.001, epsilon) == 0);
+  CHECK(engagement_rate(h, -0.005, epsilon) == Approx(0.5));
+  CHECK(engagement_rate(h, -0.02, epsilon) == 1);
+  const double full = 1000 * 0.02 - 10 * -0.3;
+  CHECK(smoothed_latch_moment(h, -0.02, -0.3, 0.0, epsilon) == 0);
+  CHECK(smoothed_latch_moment(h, -0.02, -0.3, 0.005, epsilon) == Approx(0.5 * full));
+  CHECK(smoothed_latch_moment(h, -0.02, -0.3, 0.02, epsilon) == Approx(full));
+}
+
+TEST_CASE("the potential is the moment's integral") {
+  const LinearLaw<double> law = linear_law(terms(1, 0), true);
+  CHECK(potential(law, 0.0) == 0);
+  for (const double angle : {-0.02, 0.3, 1.0}) {
+    const double d = 1e-5;
+    CHECK((potential(law, angle - d) - potential(law, angle + d)) / (2 * d) ==
+          Approx(linear_moment(law, angle, 0.0)).epsilon(1e-7));
+  }
+}

@@ -1,0 +1,180 @@
+// The recursion against an independent dense formulation (absolute angles, Jacobians, LDLᵀ).
+#include "core/mechanics/recursion.hpp"
+#include "core/mechanics/system.hpp"
+#include "tests/support/dense_wing.hpp"
+#include "tests/support/random_scenes.hpp"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using oracle::Quad;
+
+namespace {
+
+/// Relative hinge accelerations and hinge forces of the recursion, in Scene order, and the base's.
+template <class T> struct Evaluated {
+  std::vector<T> hinge;
+  std::vector<Vec2<T>> force;
+  Vec2<T> base;
+  T base_spin;
+};
+
+template <class T, BaseMotion M>
+Evaluated<T> evaluate(const Wing<T>& wing, const oracle::WingState<double>& state) {
+  Workspace<T> work;
+  System<T, Tree, M> system(wing, wing.tree, std::nullopt, work);
+  const Layout& at = system.layout();
+  State<T> x, dxdt;
+  system.start(x);
+  dxdt = x;
+  if (M == BaseMotion::free) {
+    const int v = at.freedoms();
+    x[0] = T(state.base_position.x()), x[1] = T(state.base_position.y()),
+    x[2] = T(state.base_angle);
+    x[v] = T(state.base_velocity.x()), x[v + 1] = T(state.base_velocity.y()),
+    x[v + 2] = T(state.base_rate);
+  }
+  for (int i = 1; i <= at.bodies; ++i) {
+    const int hinge = wing.hinge_of[i];
+    x[at.angle(i)] = T(state.angles[hinge]);
+    x[at.rate(i)] = T(state.rates[hinge]);
+    if (state.engagement[hinge] > 0) system.engage(i);
+  }
+  system.want_forces(true);
+  system(x, dxdt, T(0));
+  Evaluated<T> out{std::vector<T>(at.bodies), std::vector<Vec2<T>>(at.bodies), {}, T(0)};
+  for (int i = 1; i <= at.bodies; ++i) {
+    out.hinge[wing.hinge_of[i]] = dxdt[at.rate(i)];
+    out.force[wing.hinge_of[i]] = work.forces[i];
+  }
+  out.base = work.frames[0].acceleration;
+  out.base_spin = work.frames[0].angular_acceleration;
+  return out;
+}
+
+template <class T>
+Evaluated<T> evaluate(const Scene& scene, const oracle::WingState<double>& state) {
+  Scene posed = scene; // a prescribed base stands at t = 0 where the state has it
+  if (scene.base.motion == BaseMotion::prescribed)
+    posed.base.angle = state.base_angle, posed.base.rate = state.base_rate;
+  Wing<T> wing = make_wing<T>(posed, outward_order(posed));
+  set_parameters(wing, posed);
+  switch (scene.base.motion) {
+  case BaseMotion::prescribed:
+    return evaluate<T, BaseMotion::prescribed>(wing, state);
+  case BaseMotion::free:
+    return evaluate<T, BaseMotion::free>(wing, state);
+  case BaseMotion::fixed:
+    break;
+  }
+  return evaluate<T, BaseMotion::fixed>(wing, state);
+}
+
+/// Largest deviation of accelerations and of forces, each relative to the largest of its kind.
+template <class T, class Reference>
+std::pair<double, double> deviation(const Evaluated<T>& got,
+                                    const oracle::WingResponse<Reference>& expected) {
+  double acceleration = 0, largest = 0, force = 0, largest_force = 0;
+  const auto note = [](double& worst, double& scale, double value, double reference) {
+    REQUIRE(std::isfinite(value)); // std::max would pass over a NaN
+    worst = std::max(worst, std::abs(value - reference));
+    scale = std::max(scale, std::abs(reference));
+  };
+  for (int i = 0; i < static_cast<int>(got.hinge.size()); ++i) {
+    note(acceleration, largest, double(got.hinge[i]), double(expected.hinge_accelerations[i]));
+    note(force, largest_force, double(got.force[i].x), double(expected.forces(0, i)));
+    note(force, largest_force, double(got.force[i].y), double(expected.forces(1, i)));
+  }
+  note(acceleration, largest, double(got.base_spin), double(expected.base_angular_acceleration));
+  double base = 0, largest_base = largest;
+  note(base, largest_base, double(got.base.x), double(expected.base_acceleration.x()));
+  note(base, largest_base, double(got.base.y), double(expected.base_acceleration.y()));
+  acceleration = std::max(acceleration, base / largest_base * largest);
+  return {acceleration / largest, force / largest_force};
+}
+
+} // namespace
+
+TEST_CASE("accelerations and hinge forces agree with a dense solve over random trees and chains") {
+  // 1200 scenes of 1-30 bodies, all base motions, masses over three decades, latches engaged at
+  // random. The reference is solved in quad, so that what deviates is the recursion's own error: a
+  // few hundred roundings, amplified by the spread of masses.
+  double worst = 0, worst_force = 0;
+  for (std::uint64_t seed = 0; seed < 1200; ++seed) {
+    oracle::RandomScene options;
+    options.bodies = 1 + static_cast<int>(seed % 30);
+    options.branching = seed % 2 == 0;
+    const Scene scene = oracle::random_scene(seed, options);
+    const auto state = oracle::random_state(seed + 10'000, scene);
+    // quad costs milliseconds for a small wing, and most scenes are small enough
+    const auto [acceleration, force] =
+        options.bodies <= 12
+            ? deviation(evaluate<double>(scene, state),
+                        oracle::DenseWing<Quad>(scene).respond(state.cast<Quad>()))
+            : deviation(evaluate<double>(scene, state),
+                        oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
+    worst = std::max(worst, acceleration);
+    worst_force = std::max(worst_force, force);
+    CAPTURE(seed, options.bodies);
+    REQUIRE(acceleration < 1e-12);
+    REQUIRE(force < 1e-12);
+  }
+  WARN("worst relative deviation: accelerations " << worst << ", forces " << worst_force);
+}
+
+TEST_CASE("a thousand bodies agree with a dense solve") {
+  for (const bool branching : {false, true}) {
+    oracle::RandomScene options;
+    options.bodies = 1000;
+    options.branching = branching;
+    options.mass_lower = 1, options.mass_upper = 10;
+    const Scene scene = oracle::random_scene(7, options);
+    const auto state = oracle::random_state(8, scene);
+    const auto [acceleration, force] =
+        deviation(evaluate<double>(scene, state),
+                  oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
+    CAPTURE(branching, acceleration, force);
+    CHECK(acceleration < 1e-10);
+    CHECK(force < 1e-10);
+  }
+}
+
+TEST_CASE("the same kernel serves double, long double and quad") {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    oracle::RandomScene options;
+    options.bodies = 1 + static_cast<int>(seed % 8);
+    const Scene scene = oracle::random_scene(seed, options);
+    const auto state = oracle::random_state(seed + 500, scene);
+    const auto exact = oracle::DenseWing<Quad>(scene).respond(state.cast<Quad>());
+    CAPTURE(seed);
+    CHECK(deviation(evaluate<double>(scene, state), exact).first < 1e-12);
+    CHECK(deviation(evaluate<long double>(scene, state), exact).first < 1e-15);
+    // quad against quad, compared in quad
+    const auto quad = evaluate<Quad>(scene, state);
+    Quad worst = 0, largest = 0;
+    for (int i = 0; i < static_cast<int>(quad.hinge.size()); ++i) {
+      REQUIRE(isfinite(quad.hinge[i]));
+      worst = std::max<Quad>(worst, abs(quad.hinge[i] - exact.hinge_accelerations[i]));
+      largest = std::max<Quad>(largest, abs(exact.hinge_accelerations[i]));
+    }
+    CHECK(static_cast<double>(Quad(worst / largest)) < 1e-29);
+  }
+}
+
+TEST_CASE("a chain known to the compiler gives the bits of the tree") {
+  const Scene scene = oracle::seed_scene();
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> one, other;
+  System<double, Tree, BaseMotion::fixed> tree(wing, wing.tree, std::nullopt, one);
+  const Chain<3> three;
+  System<double, Chain<3>, BaseMotion::fixed> chain(wing, three, std::nullopt, other);
+  State<double> x, a, b;
+  tree.start(x);
+  a = b = x;
+  for (int k = 0; k < 6; ++k) x[k] += 0.1 * (k + 1);
+  tree(x, a, 0.0);
+  chain(x, b, 0.0);
+  CHECK(a == b);
+}

@@ -1,0 +1,151 @@
+// `auto`: what integrates a run, and when.
+#include "core/deployment.hpp"
+#include "core/methods/method_choice.hpp"
+#include "tests/support/closed_forms.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+Scene with_latches(const Latch& latch) {
+  Scene scene = seed_scene();
+  for (Hinge& hinge : scene.hinges) hinge.latch = latch;
+  return scene;
+}
+
+/// The method that integrated at time t, the later one where two meet.
+std::string method_at(const Outcome& out, double t) {
+  std::string name;
+  for (const Phase& phase : out.phases)
+    if (phase.from <= t) name = phase.method;
+  return name;
+}
+
+double time_by(const std::string& method, const Outcome& out) {
+  double sum = 0;
+  for (const Phase& phase : out.phases)
+    if (phase.method == method) sum += phase.to - phase.from;
+  return sum;
+}
+
+/// Phases follow one another from 0 to the end, each by another method than the one before; all
+/// steps are theirs.
+void check_phases(const Outcome& out) {
+  REQUIRE_FALSE(out.phases.empty());
+  CHECK(out.phases.front().from == 0);
+  CHECK(out.phases.back().to == out.t_end);
+  long steps = 0;
+  for (std::size_t k = 0; k < out.phases.size(); ++k) {
+    const Phase& phase = out.phases[k];
+    steps += phase.steps;
+    CHECK(phase.to >= phase.from);
+    if (k == 0) continue;
+    CHECK(phase.from == out.phases[k - 1].to);
+    CHECK(phase.method != out.phases[k - 1].method);
+  }
+  CHECK(steps == out.work.steps);
+}
+
+Outcome run(const Scene& scene, double rtol, const std::string& method = "auto") {
+  Integration how = within(rtol, 12, 1e-4);
+  how.method = method;
+  const Outcome out = Deployment().run(scene, how, {.to_t_end = true});
+  CAPTURE(method, rtol, methods_used(out));
+  check_phases(out);
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("auto begins with dop853, at loose tolerances with dopri5") {
+  for (const double rtol : {1e-1, 1e-2, 6e-3})
+    CHECK(method_at(run(seed_scene(), rtol), 0) == "dopri5");
+  for (const double rtol : {4e-3, 1e-3, 1e-6, 1e-8, 1e-12})
+    CHECK(method_at(run(seed_scene(), rtol), 0) == "dop853");
+  for (const double rtol : {1e-3, 1e-4}) { // later where latches are smoothed
+    Integration how = within(rtol, 1, 1e-4);
+    how.smoothing = 1e-3;
+    CHECK(methods_used(Deployment().run(seed_scene(), how, {})) ==
+          (rtol < 5e-4 ? "dop853" : "dopri5"));
+  }
+}
+
+TEST_CASE("where nothing is stiff auto stays with the method that it begins with") {
+  Scene scene = harmonic_panel();
+  CHECK(methods_used(run(scene, 1e-8)) == "dop853");
+  CHECK(methods_used(run(scene, 1e-2)) == "dopri5");
+  // mildly stiff: tried at most
+  const Outcome out = run(seed_scene(), 1e-8);
+  CHECK(out.status == Status::deployed);
+  CHECK(time_by("dop853", out) > 0.9 * out.t_end);
+}
+
+TEST_CASE("behind stiff latches auto goes on with seulex, and says so") {
+  const Scene scene = with_latches({1e4, 1e4});
+  for (const double rtol : {1e-2, 1e-3, 1e-6}) {
+    const Outcome out = run(scene, rtol);
+    CAPTURE(rtol, methods_used(out));
+    REQUIRE(out.latches.size() == 3);
+    CHECK(methods_used(out) == (rtol < 5e-3 ? "dop853, seulex" : "dopri5, seulex"));
+    for (const Phase& phase : out.phases) // not before the first latch
+      if (phase.method == "seulex") CHECK(phase.from > out.latches[0].time);
+    for (const LatchEvent& latch : out.latches) // whose shock it leaves to the explicit method
+      CHECK(method_at(out, latch.time) != "seulex");
+    CHECK(method_at(out, out.t_end) == "seulex");
+    const double latched = out.t_end - out.latches[0].time;
+    CHECK(time_by("seulex", out) > 0.9 * latched);
+  }
+}
+
+TEST_CASE(
+    "auto's choice saves most of the work where latches are stiff, and loses little elsewhere") {
+  struct Case {
+    Latch latch;
+    double rtol, at_most; ///< of the evaluations that the explicit method takes
+  };
+  for (const Case& c :
+       {Case{{1e4, 1e4}, 1e-3, 0.04}, Case{{1e4, 1e4}, 1e-6, 0.06}, Case{{1e9, 1e5}, 1e-6, 0.04},
+        Case{{1e6, 1e3}, 1e-6, 1.1}, Case{{1e4, 100}, 1e-6, 1.1}, Case{{1e4, 100}, 1e-10, 1.1}}) {
+    const Scene scene = with_latches(c.latch);
+    const Outcome chosen = run(scene, c.rtol),
+                  plain = run(scene, c.rtol, c.rtol < 5e-3 ? "dop853" : "dopri5");
+    CAPTURE(c.latch.stiffness, c.latch.damping, c.rtol, chosen.work.rhs_evaluations,
+            plain.work.rhs_evaluations, plain.reason);
+    CHECK(chosen.status == Status::deployed);
+    const bool gave_up_there = gave_up(plain) && plain.t_end < chosen.t_end;
+    CHECK((gave_up_there || plain.status == Status::deployed));
+    CHECK(static_cast<double>(chosen.work.rhs_evaluations) <
+          c.at_most * static_cast<double>(plain.work.rhs_evaluations));
+  }
+}
+
+TEST_CASE("a method that is asked for by name is the only one") {
+  for (const std::string_view name : method_names) {
+    if (name == "runge_kutta4") continue; // its step would have to be chosen
+    CHECK(methods_used(run(seed_scene(), 1e-6, std::string(name))) == name);
+  }
+}
+
+TEST_CASE("the spectral radius is found within a fifth") {
+  for (const auto& [stiffness, damping] : {std::pair(1e4, 1.), {1e4, 1e4}, {1e9, 1e3}, {0., 10.}}) {
+    Scene scene = latching_panel();
+    scene.hinges[0].latch = Latch{stiffness, damping};
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, wing.tree, std::nullopt, work);
+    State<double> x;
+    system.start(x);
+    SpectralRadius<double> radius;
+    CHECK(radius.estimate(system, x, 0.0) == 0); // constant moment, no latch yet
+    system.engage(1);
+    // I λ² + d λ + k = 0
+    const double d = damping / panel_inertia / 2, k = stiffness / panel_inertia;
+    const double exact = d * d < k ? std::sqrt(k) : d + std::sqrt(d * d - k);
+    CAPTURE(stiffness, damping);
+    CHECK(radius.estimate(system, x, 0.0) == Approx(exact).epsilon(0.2));
+  }
+}

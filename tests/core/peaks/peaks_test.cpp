@@ -1,0 +1,81 @@
+#include "core/peaks/peaks.hpp"
+#include "tests/support/random_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+
+using namespace wingspread;
+
+namespace {
+
+using Function = std::function<double(double)>;
+
+struct Found {
+  Sampled<double> best;
+  double vertex;
+  int calls;
+};
+
+Found search(const Function& f) {
+  std::array<double, 5> samples{};
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    samples[k] = f(static_cast<double>(k) / 4);
+    if (samples[k] > samples[best]) best = k;
+  }
+  Found found{{}, 0, 0};
+  std::tie(found.best, found.vertex) = maximum_near(samples, best, [&](const double& s) {
+    ++found.calls;
+    return f(s);
+  });
+  return found;
+}
+
+} // namespace
+
+TEST_CASE("a maximum inside a step is found from few more points than its samples") {
+  oracle::Draws draws(7);
+  double worst = 0;
+  int calls = 0;
+  constexpr int trials = 2000;
+  for (int trial = 0; trial < trials; ++trial) {
+    const double where = draws.uniform(0.02, 0.98), quick = draws.uniform(0.3, 2.5),
+                 skew = draws.uniform(-0.5, 0.5);
+    const Function f = [&](double s) { // its one maximum in the step is at `where`
+      const double z = s - where;
+      return 10 + std::cos(quick * z) * std::exp(-skew * skew * z * z) + 0.1 * skew * z * z * z;
+    };
+    const Found found = search(f);
+    CAPTURE(where, quick, skew);
+    CHECK(std::abs(found.vertex - where) < 1e-6);
+    worst = std::max(worst, f(where) - f(found.vertex));
+    calls += found.calls;
+  }
+  CHECK(worst < 1e-12);
+  CAPTURE(calls);
+  CHECK(calls < 6 * trials);
+}
+
+TEST_CASE("a maximum at an end of a step stays there") {
+  for (const double way : {-1.0, 1.0}) {
+    const Found found = search([&](double s) { return std::exp(way * s); });
+    CHECK(found.vertex == (way > 0 ? 1 : 0));
+    CHECK(found.best.value == (way > 0 ? std::exp(1.0) : 1));
+  }
+  // beside an end, where the end's sample is the largest
+  const Found beside = search([](double s) { return -std::pow(s - 0.03, 2); });
+  CHECK(beside.vertex == Approx(0.03).margin(1e-5));
+}
+
+TEST_CASE("a kink, a plateau and a number that is none end the search for a maximum") {
+  const Found kink = search([](double s) { return -std::abs(s - 0.6); });
+  CHECK(kink.best.s == Approx(0.6).margin(1e-4));
+  const Found plateau = search([](double) { return 3.0; });
+  CHECK(plateau.best.value == 3);
+  const Found valley = search([](double s) { return std::pow(s - 0.5, 2); });
+  CHECK(valley.best.value == 0.25);
+  const Found nothing = search([](double s) { return s > 0.3 ? std::nan("") : s; });
+  CHECK(nothing.calls < 50);
+}

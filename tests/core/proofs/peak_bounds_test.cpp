@@ -1,0 +1,139 @@
+// The bounds on what a latched wing can still see: states are sought that break them.
+#include "core/proofs/peak_bounds.hpp"
+#include "core/proofs/settled.hpp"
+#include "tests/support/closed_forms.hpp"
+#include "tests/support/random_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+
+/// A wing on a fixed base with all latches engaged.
+struct Latched {
+  explicit Latched(const Scene& scene)
+      : wing(with_numbers(scene)), system(wing, wing.tree, std::nullopt, work),
+        at(system.layout()) {
+    for (int i = 1; i <= at.bodies; ++i) system.engage(i);
+    bounds.prepare(system);
+    rest.assign(at.size(), 0);
+    for (int i = 1; i <= at.bodies; ++i) {
+      const LinearLaw<double> law = linear_law(wing.hinges[i], true);
+      rest[at.angle(i)] = law.latched + law.drive / law.stiffness;
+    }
+  }
+
+  /// Largest share of its bound that any moment or force takes at the state rest + s·way, s such
+  /// that the state has the energy.
+  struct Shares {
+    double moment = 0, force = 0;
+  };
+  Shares shares(const State<double>& way, double energy) {
+    State<double> x;
+    double low = 0, high = 1;
+    const auto put = [&](double s) {
+      x = rest;
+      for (int k = 0; k < at.size(); ++k) x[k] += s * way[k];
+      return energy_above_rest(system, x, 0.0).value();
+    };
+    while (put(high) < energy) high *= 2;
+    for (int pass = 0; pass < 60; ++pass)
+      (put((low + high) / 2) < energy ? low : high) = (low + high) / 2;
+    put(low);
+    bounds.bound(system, energy * (1 + 1e-9));
+    State<double> dxdt(at.size());
+    system.want_forces(true);
+    system(x, dxdt, 0.0);
+    Shares worst;
+    for (int i = 1; i <= at.bodies; ++i) {
+      const Vec2<double>& f = system.work().forces[i];
+      worst.moment = std::max(worst.moment, std::abs(system.moment(x, i)) / bounds.moment[i]);
+      worst.force = std::max(worst.force, std::sqrt(dot(f, f)) / bounds.force[i]);
+    }
+    return worst;
+  }
+
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system;
+  Layout at;
+  PeakBounds<double> bounds;
+  State<double> rest;
+
+private:
+  static Wing<double> with_numbers(const Scene& scene) {
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    return wing;
+  }
+};
+
+/// Climbs from random states towards the largest share of the bounds.
+Latched::Shares sought(Latched& wing, double energy, oracle::Draws& draws, int starts) {
+  Latched::Shares worst;
+  for (const bool forces : {false, true})
+    for (int start = 0; start < starts; ++start) {
+      State<double> way(wing.at.size());
+      for (double& v : way) v = draws.uniform(-1, 1) * draws.log_uniform(1e-3, 1);
+      const auto value = [&](const State<double>& at) {
+        const Latched::Shares s = wing.shares(at, energy);
+        worst.moment = std::max(worst.moment, s.moment);
+        worst.force = std::max(worst.force, s.force);
+        return forces ? s.force : s.moment;
+      };
+      double best = value(way), step = 1;
+      for (int pass = 0; pass < 150; ++pass) {
+        State<double> next = way;
+        double largest = 0;
+        for (const double v : way) largest = std::max(largest, std::abs(v));
+        for (double& v : next)
+          v += step * draws.uniform(-1, 1) * draws.log_uniform(1e-4, 1) * largest;
+        const double there = value(next);
+        if (there > best)
+          best = there, way = next;
+        else
+          step = std::max(0.9 * step, 1e-3);
+      }
+    }
+  return worst;
+}
+
+} // namespace
+
+TEST_CASE(
+    "no state with the energy breaks the bounds on peaks, and some come near: the seed wing") {
+  Latched wing(oracle::seed_scene());
+  oracle::Draws draws(1);
+  for (const double energy : {1e-6, 1e-3, 0.03, 1.0, 30.0}) {
+    const Latched::Shares worst = sought(wing, energy, draws, 6);
+    CAPTURE(energy, worst.moment, worst.force);
+    CHECK(worst.moment <= 1);
+    CHECK(worst.force <= 1);
+    if (energy > 0.01) continue; // where the sharp ones hold
+    CHECK(worst.moment > 0.9);
+    CHECK(worst.force > 0.4); // the coarse ones are ten times as large
+  }
+}
+
+TEST_CASE("no state with the energy breaks the bounds on peaks: random wings") {
+  oracle::Draws draws(2);
+  for (int k = 0; k < 40; ++k) {
+    oracle::RandomScene options;
+    options.bodies = 1 + k % 6;
+    options.branching = k % 2 == 0;
+    options.motion = BaseMotion::fixed;
+    options.mass_lower = 0.1, options.mass_upper = 30;
+    Scene scene = oracle::random_scene(900 + k, options);
+    for (Hinge& hinge : scene.hinges) {
+      hinge.latch = Latch{draws.log_uniform(1e3, 1e6), draws.log_uniform(1, 1e3)};
+      if (k % 3 == 0) hinge.friction.coulomb = draws.uniform(0, 0.5);
+    }
+    Latched wing(scene);
+    const double energy = draws.log_uniform(1e-6, 1);
+    const Latched::Shares worst = sought(wing, energy, draws, 2);
+    CAPTURE(k, energy, worst.moment, worst.force);
+    CHECK(worst.moment <= 1);
+    CHECK(worst.force <= 1);
+  }
+}

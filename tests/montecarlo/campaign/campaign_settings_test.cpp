@@ -1,0 +1,212 @@
+#include "montecarlo/campaign/campaign_settings.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+
+struct Case {
+  const char *json, *message;
+};
+
+template <class Settings> struct Reading {
+  Settings settings;
+  std::string problems;
+};
+
+template <class Settings>
+Reading<Settings> read(const char* json, Settings settings,
+                       void (*reader)(const JsonCursor&, Settings&)) {
+  const std::string problems =
+      test::problems_of(parse_json(json), [&](const JsonCursor& at) { reader(at, settings); });
+  return {settings, problems};
+}
+
+} // namespace
+
+TEST_CASE("Sampling is read over its defaults, and written in full", "[campaign_settings]") {
+  const auto [sampling, problems] =
+      read(R"({"runs": 1e4, "seed": 18446744073709551615})", Sampling{}, read_sampling);
+  CHECK(problems.empty());
+  CHECK(sampling.runs == 10000);
+  CHECK(write_sampling(sampling).dump() ==
+        R"({"design":"random","runs":10000,"seed":18446744073709551615,"replicates":1})");
+  CHECK(read(R"({"design": "sobol"})", Sampling{}, read_sampling).settings.design ==
+        DesignKind::sobol);
+  CHECK(read(R"({"replicates": 16})", Sampling{}, read_sampling).settings.replicates == 16);
+  CHECK(read(R"({"replicates": 16, "runs": 8})", Sampling{}, read_sampling).problems.empty());
+}
+
+TEST_CASE("Each fault of the sampling is told", "[campaign_settings]") {
+  const auto [json, message] = GENERATE(values<Case>(
+      {{"1000", "found 1000, expected an object with the sampling"},
+       {R"({"runs": 0})", "/runs: found 0, expected an integer, ≥ 1"},
+       {R"({"runs": 1.5})", "/runs: found 1.5, expected an integer, ≥ 1"},
+       {R"({"seed": -1})", "/seed: found -1, expected an integer from 0 to 2^64 - 1"},
+       {R"({"replicates": "2"})", "/replicates: found string \"2\", expected an integer, ≥ 1"},
+       {R"({"design": "sobol", "runs": 8, "replicates": 9})",
+        "/replicates: found 9, expected at most the number of runs, 8"},
+       {R"({"design": "latin_hypercube", "runs": 8000000, "replicates": 1000001})",
+        "/replicates: found 1000001, expected at most 1000000"},
+       {R"({"design": "lhs"})",
+        "/design: found string \"lhs\", expected \"random\", \"latin_hypercube\" or \"sobol\""},
+       {R"({"run": 1})",
+        "/run: found the unknown key \"run\", expected \"design\", \"runs\", \"seed\" or "
+        "\"replicates\" (did you mean \"runs\"?)"}}));
+  CHECK(read(json, Sampling{}, read_sampling).problems == message);
+}
+
+TEST_CASE("Integration is read over its defaults, and written in full", "[campaign_settings]") {
+  const auto [integration, problems] =
+      read(R"({"rtol": 1e-6, "latch": {"smoothed": 0.01}})", Integration{}, read_integration);
+  CHECK(problems.empty());
+  CHECK(integration.rtol == 1e-6);
+  CHECK(integration.smoothing == 0.01);
+  CHECK(write_integration(integration).dump() ==
+        R"({"method":"auto","rtol":1e-06,"atol":1e-10,"latch":{"smoothed":0.01},"t_end":60.0,)"
+        R"("max_steps":1000000})");
+  CHECK(write_integration({}).at("latch") == "event");
+  for (const MethodInfo& method : methods()) {
+    const Json json{{"method", method.name}, {"latch", "event"}};
+    CHECK(read(json.dump().c_str(), integration, read_integration).settings.method == method.name);
+    CHECK_FALSE(read(json.dump().c_str(), integration, read_integration).settings.smoothing);
+  }
+}
+
+TEST_CASE("A step is written for the method that takes it, and for no other",
+          "[campaign_settings]") {
+  Integration integration;
+  CHECK_FALSE(write_integration(integration).contains("step"));
+  integration.method = "runge_kutta4";
+  integration.step = 0.002;
+  CHECK(write_integration(integration).at("step") == 0.002);
+  CHECK(has_fixed_step("runge_kutta4"));
+  CHECK_FALSE(has_fixed_step("auto"));
+}
+
+TEST_CASE("A step is read with the method that takes it", "[campaign_settings]") {
+  const auto [integration, problems] =
+      read(R"({"step": 0.002, "method": "runge_kutta4"})", Integration{}, read_integration);
+  CHECK(problems.empty());
+  CHECK(integration.step == 0.002);
+  // An option that follows the file's settings: the method is the file's.
+  CHECK(read(R"({"step": 0.001})", integration, read_integration).settings.step == 0.001);
+  CHECK(read(R"({"method": "runge_kutta4"})", Integration{}, read_integration).settings.step ==
+        1e-4);
+  const auto [json, message] = GENERATE(values<Case>(
+      {{R"({"method": "runge_kutta4", "step": 0})", "/step: found 0, expected a number, s, > 0"},
+       {R"({"method": "runge_kutta4", "step": -1e-3})",
+        "/step: found -0.001, expected a number, s, > 0"},
+       {R"({"method": "runge_kutta4", "step": "1 ms"})",
+        "/step: found string \"1 ms\", expected a number, s, > 0"}}));
+  CHECK(read(json, Integration{}, read_integration).problems == message);
+}
+
+TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
+  const auto [json, message] = GENERATE(values<Case>(
+      {{"[]", "found an array of 0, expected an object with the integration"},
+       {R"({"rtol": 0})", "/rtol: found 0, expected a number, > 0 and < 1"},
+       {R"({"rtol": 1})", "/rtol: found 1, expected a number, > 0 and < 1"},
+       {R"({"atol": -1e-9})", "/atol: found -1e-09, expected a number, > 0"},
+       {R"({"t_end": 0})", "/t_end: found 0, expected a number, s, > 0"},
+       {R"({"step": 1e-3})",
+        "/step: found 0.001, expected no step with the method \"auto\" (only used by a method with "
+        "a fixed step: runge_kutta4)"},
+       {R"({"method": "dopri5", "step": 0})",
+        "/step: found 0, expected no step with the method \"dopri5\" (only used by a method with a "
+        "fixed step: runge_kutta4)"},
+       {R"({"max_steps": 0})", "/max_steps: found 0, expected an integer, ≥ 1"},
+       {R"({"latch": "smooth"})", "/latch: found string \"smooth\", expected \"event\" or { "
+                                  "\"smoothed\": a number, rad, > 0 }"},
+       {R"({"latch": {}})", "/latch/smoothed: found nothing, expected a number, rad, > 0"},
+       {R"({"latch": {"smoothed": 0, "x": 1}})",
+        "/latch/smoothed: found 0, expected a number, rad, > 0\n"
+        "/latch/x: found the unknown key \"x\", expected \"smoothed\""},
+       {R"({"tend": 1})",
+        "/tend: found the unknown key \"tend\", expected \"method\", \"step\", "
+        "\"rtol\", \"atol\", \"latch\", \"t_end\" or \"max_steps\" (did you mean \"t_end\"?)"}}));
+  CHECK(read(json, Integration{}, read_integration).problems == message);
+}
+
+TEST_CASE("An unknown method is told with the known ones", "[campaign_settings]") {
+  CHECK_THAT(read(R"({"method": "euler?"})", Integration{}, read_integration).problems,
+             Catch::StartsWith("/method: found string \"euler?\", expected \"") &&
+                 Catch::Contains("\"auto\""));
+  // Which method takes a step is then anyone's guess: one problem, and not two.
+  CHECK_THAT(read(R"({"method": "euler?", "step": 1})", Integration{}, read_integration).problems,
+             !Catch::Contains("/step"));
+}
+
+TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_settings]") {
+  CHECK(write_outputs(default_outputs()).dump() ==
+        R"(["latch_time","latch_rate","peak_moment","peak_force"])");
+  const auto [outputs, problems] =
+      read(R"(["rate_at", "latch_time"])", default_outputs(), read_outputs);
+  CHECK(problems.empty());
+  CHECK(outputs == Outputs{OutputFamily::latch_time, OutputFamily::rate_at});
+  CHECK(read("[]", default_outputs(), read_outputs).settings.empty());
+  const auto [json, message] = GENERATE(values<Case>(
+      {{"\"latch_time\"", "found string \"latch_time\", expected an array of output families"},
+       {R"(["latch_times"])", "/0: found string \"latch_times\", expected \"latch_time\", "
+                              "\"latch_rate\", \"peak_moment\", \"peak_force\" or \"rate_at\""},
+       {R"(["rate_at", "rate_at"])",
+        "/1: found string \"rate_at\" a second time, expected each family once"}}));
+  CHECK(read(json, default_outputs(), read_outputs).problems == message);
+}
+
+TEST_CASE("Statistics are read over their defaults, and written in full", "[campaign_settings]") {
+  CHECK(write_statistics({}).dump() ==
+        R"({"quantiles":[0.01,0.5,0.99],"confidence":0.95,"bins":"auto"})");
+  const char* json = R"({"quantiles":[0.9,0.1],"confidence":0.5,"bins":40})";
+  const auto [statistics, problems] = read(json, StatisticsSpec{}, read_statistics);
+  CHECK(problems.empty());
+  CHECK(write_statistics(statistics).dump() == json);
+  CHECK(std::holds_alternative<AutoBins>(
+      read(R"({"bins": "auto"})", statistics, read_statistics).settings.bins));
+}
+
+TEST_CASE("Each fault of the statistics is told", "[campaign_settings]") {
+  const auto [json, message] = GENERATE(values<Case>(
+      {{"0.95", "found 0.95, expected an object with the statistics"},
+       {R"({"quantiles": 0.5})",
+        "/quantiles: found 0.5, expected an array of numbers, each > 0 and < 1"},
+       {R"({"quantiles": [0, 0.5, 1, 0.5, null]})", "/quantiles/4: found null, expected a number"},
+       {R"({"quantiles": [0, 0.5, 1, 0.5]})",
+        "/quantiles/0: found 0, expected a number, > 0 and < 1\n"
+        "/quantiles/2: found 1, expected a number, > 0 and < 1\n"
+        "/quantiles/3: found 0.5 a second time, expected each quantile once"},
+       {R"({"confidence": 95})", "/confidence: found 95, expected a number, > 0 and < 1"},
+       {R"({"bins": 0})", "/bins: found 0, expected \"auto\" or an integer from 1 to 1000000"},
+       {R"({"bins": 1e7})",
+        "/bins: found 10000000.0, expected \"auto\" or an integer from 1 to 1000000"},
+       {R"({"bins": "fd"})",
+        "/bins: found string \"fd\", expected \"auto\" or an integer from 1 to 1000000"},
+       {R"({"bin": 3})",
+        "/bin: found the unknown key \"bin\", expected \"quantiles\", \"confidence\", "
+        "\"bins\" or \"tolerance\" (did you mean \"bins\"?)"}}));
+  CHECK(read(json, StatisticsSpec{}, read_statistics).problems == message);
+}
+
+TEST_CASE("Tolerance limits are read, and each fault of them is told", "[campaign_settings]") {
+  const char* json = R"({"tolerance": [{"probability": 0.95, "confidence": 0.9},
+                                       {"probability": 0.9, "confidence": 0.5, "side": "both"}]})";
+  const auto [statistics, problems] = read(json, StatisticsSpec{}, read_statistics);
+  CHECK(problems.empty());
+  REQUIRE(statistics.tolerance.size() == 2);
+  CHECK(
+      (statistics.tolerance[0].side == Side::upper && statistics.tolerance[1].side == Side::both));
+  CHECK(write_statistics(statistics)["tolerance"].dump() ==
+        R"([{"probability":0.95,"confidence":0.9,"side":"upper"},)"
+        R"({"probability":0.9,"confidence":0.5,"side":"both"}])");
+  CHECK(read(R"({"tolerance": [{"probability": 1, "side": "left"}, 3]})", StatisticsSpec{},
+             read_statistics)
+            .problems ==
+        "/tolerance/0/probability: found 1, expected a number, > 0 and < 1\n"
+        "/tolerance/0/confidence: found nothing, expected a number, > 0 and < 1\n"
+        "/tolerance/0/side: found string \"left\", expected \"upper\", \"lower\" or \"both\"\n"
+        "/tolerance/1: found 3, expected an object with probability and confidence");
+  CHECK(read(R"({"tolerance": 1})", StatisticsSpec{}, read_statistics).problems ==
+        "/tolerance: found 1, expected an array of tolerance limits");
+}

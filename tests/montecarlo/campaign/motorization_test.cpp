@@ -1,0 +1,126 @@
+#include "montecarlo/campaign/motorization.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace wingspread;
+
+namespace {
+
+/// A hinge with these torques at its ends.
+Hinge hinge_with(const LinearTorque& spring, const LinearTorque& harness, double coulomb) {
+  Hinge hinge;
+  hinge.stowed = 1.5;
+  hinge.spring = spring;
+  hinge.harness = harness;
+  hinge.friction.coulomb = coulomb;
+  return hinge;
+}
+
+} // namespace
+
+// S .05, FR .10, HY .02, HA .03, HD .01, TD .02 N·m: worked by hand from the standard's formula.
+TEST_CASE("ECSS: the least torque, and the spring that it takes", "[motorization]") {
+  MotorizationTerms terms;
+  terms.spring = .05, terms.friction = .10, terms.hysteresis = .02, terms.harness = .03;
+  terms.adhesion = .01, terms.acceleration = .02;
+  CHECK(ecss_required(terms, {}) == Approx(1.105).epsilon(1e-14));
+  CHECK(ecss_required(terms, ecss_measured()) == Approx(.655).epsilon(1e-14));
+  for (const auto& [factors, spring] :
+       {std::pair{EcssFactors{}, 1.38125}, std::pair{ecss_measured(), .81875}}) {
+    terms.available = spring; // just enough
+    CHECK(ecss_margin(terms, factors) == Approx(0).margin(1e-14));
+    terms.available = 2 * spring;
+    CHECK(ecss_margin(terms, factors) == Approx(1).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("ECSS: every term counts with its own factor", "[motorization]") {
+  const auto alone = [](double MotorizationTerms::*term, const EcssFactors& factors) {
+    MotorizationTerms terms;
+    terms.*term = 1;
+    return ecss_required(terms, factors);
+  };
+  using Terms = MotorizationTerms;
+  struct Case {
+    double Terms::*term;
+    double theoretical, measured;
+  };
+  for (const auto& [term, theoretical, measured] :
+       {Case{&Terms::inertia, 2.2, 2.2}, Case{&Terms::spring, 2.4, 2.4},
+        Case{&Terms::motor, 3, 2.4}, Case{&Terms::friction, 6, 3}, Case{&Terms::hysteresis, 6, 3},
+        Case{&Terms::harness, 6, 3}, Case{&Terms::adhesion, 6, 6},
+        Case{&Terms::acceleration, 1.25, 1.25}, Case{&Terms::delivered, 1, 1}}) {
+    CHECK(alone(term, {}) == Approx(theoretical).epsilon(1e-14));
+    CHECK(alone(term, ecss_measured()) == Approx(measured).epsilon(1e-14));
+  }
+}
+
+// T 1, T_f .10, T_v .15, T_a .08 N·m.
+TEST_CASE("NASA: static and dynamic margins", "[motorization]") {
+  MotorizationTerms terms;
+  terms.available = 1, terms.inertia = .10, terms.friction = .15, terms.acceleration = .08;
+  CHECK(nasa_static_margin(terms, {}) == Approx(.666667).margin(5e-7));
+  CHECK(nasa_dynamic_margin(terms, {}) == Approx(.428571).margin(5e-7));
+  CHECK(nasa_static_margin(terms, nasa_development_test()) ==
+        Approx(1 / (1.35 * .10 + 2.5 * .15) - 1).epsilon(1e-14));
+  CHECK(nasa_dynamic_margin(terms, nasa_acceptance()) ==
+        Approx(1 / (1.25 * .10 + 2 * .15 + 1.1 * .08) - 1).epsilon(1e-14));
+  CHECK(nasa_dynamic_margin(terms, nasa_one_spring_out()) == Approx(1 / .33 - 1).epsilon(1e-14));
+}
+
+TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motorization]") {
+  Hinge hinge = hinge_with({2, -1}, {-0.1, 0.3}, 0.02);
+  const MotorizationTerms stowed = terms_at(hinge, 0), latched = terms_at(hinge, 1);
+  CHECK((stowed.available == 2 && stowed.spring == 0));
+  CHECK((latched.available == 0 && latched.spring == 1));
+  CHECK(stowed.harness == 0); // it helps there, and is not counted on
+  CHECK(latched.harness == 0.3);
+  CHECK(latched.friction == 0.02);
+  hinge.friction.model = FrictionModel::exact;
+  CHECK(terms_at(hinge, 0).friction == 0.02);
+  hinge.friction.static_level = 0.05; // holds at rest
+  CHECK(terms_at(hinge, 0).friction == 0.05);
+  MotorizationTerms other;
+  other.adhesion = 0.5, other.hysteresis = 0.25;
+  CHECK(terms_at(hinge, 1, other).adhesion == 0.5);
+  CHECK(terms_at(hinge, 1, other).hysteresis == 0.25);
+  const std::vector<double> points = turning_points(hinge);
+  REQUIRE(points.size() == 4);
+  CHECK(points[1] == Approx(0.25));
+  CHECK(points[2] == Approx(2.0 / 3));
+}
+
+TEST_CASE("margins without resistance, and without any torque", "[motorization]") {
+  MotorizationTerms terms;
+  CHECK(ecss_margin(terms, {}) == -1);
+  terms.available = 1;
+  CHECK(ecss_margin(terms, {}) == std::numeric_limits<double>::infinity());
+  CHECK(nasa_static_margin(terms, {}) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("no place of the travel is worse than the turning points", "[motorization]") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> torque(-0.5, 2), level(0, 0.2);
+  const auto margins = [](const Hinge& hinge, double x) {
+    const MotorizationTerms terms = terms_at(hinge, x);
+    return std::pair{ecss_margin(terms, {}), nasa_static_margin(terms, {})};
+  };
+  for (int trial = 0; trial < 200; ++trial) {
+    const Hinge hinge = hinge_with({torque(random), torque(random)},
+                                   {torque(random), torque(random)}, level(random));
+    double ecss = 1e300, nasa = 1e300;
+    for (const double x : turning_points(hinge)) {
+      ecss = std::min(ecss, margins(hinge, x).first);
+      nasa = std::min(nasa, margins(hinge, x).second);
+    }
+    for (int k = 0; k <= 500; ++k) {
+      const auto [e, n] = margins(hinge, k / 500.0);
+      CHECK(e >= ecss - 1e-12);
+      CHECK(n >= nasa - 1e-12);
+    }
+  }
+}

@@ -1,0 +1,158 @@
+#include "montecarlo/campaign/parameter.hpp"
+#include "montecarlo/campaign/scene_json.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+
+using namespace wingspread;
+
+namespace {
+
+Scene scene_with(const char* pointer, const char* value) {
+  return read_scene(test::spoil(test::small_scene(), {pointer, value, ""}));
+}
+
+constexpr const char* free_base = R"({"motion": "free", "mass": 1, "inertia": 2,
+  "position": [3, 4], "velocity": [5, 6], "angle": 7, "rate": 8})";
+constexpr const char* prescribed_base = R"({"motion": "prescribed", "acceleration": [1, 2],
+  "angular_acceleration": 3, "angle": 4, "rate": 5})";
+
+} // namespace
+
+TEST_CASE("A path leads to its parameter", "[parameter]") {
+  struct Case {
+    const char* path;
+    double value;
+    const char* unit;
+  };
+  const Scene scene = scene_with("/base", "{\"motion\": \"fixed\"}");
+  const auto [path, value, unit] =
+      GENERATE(values<Case>({{"bodies.inner.mass", 10, "kg"},
+                             {"bodies.outer.inertia", 0.25, "kg·m²"},
+                             {"hinges.mid.parent_point.0", 0.5, "m"},
+                             {"hinges.mid.parent_point.1", -0.02, "m"},
+                             {"hinges.root.child_point.0", -0.5, "m"},
+                             {"hinges.root.child_point.1", 0.02, "m"},
+                             {"hinges.root.angle.stowed", 1.5, "rad"},
+                             {"hinges.mid.angle.latched", 0, "rad"},
+                             {"hinges.root.initial_rate", -0.1, "rad/s"},
+                             {"hinges.root.spring.torque_stowed", 2, "N·m"},
+                             {"hinges.root.spring.torque_latched", 1.4, "N·m"},
+                             {"hinges.root.harness.torque_stowed", 0.1, "N·m"},
+                             {"hinges.root.harness.torque_latched", 0.2, "N·m"},
+                             {"hinges.root.friction.coulomb", 0.1, "N·m"},
+                             {"hinges.root.friction.viscous", 0.01, "N·m·s/rad"},
+                             {"hinges.root.friction.regularization_rate", 0.002, "rad/s"},
+                             {"hinges.root.latch.stiffness", 10000, "N·m/rad"},
+                             {"hinges.root.latch.damping", 100, "N·m·s/rad"}}));
+  CAPTURE(path);
+  const ParameterMatches found = resolve(scene, path);
+  REQUIRE(found.matches.size() == 1);
+  CHECK(found.expected.empty());
+  CHECK(found.matches[0].parameter.in(scene) == value);
+  CHECK(path_of(scene, found.matches[0].parameter) == path);
+  CHECK(unit_of(found.matches[0].parameter) == unit);
+}
+
+TEST_CASE("A path into the base leads to what its motion has", "[parameter]") {
+  struct Case {
+    const char *base, *path;
+    double value;
+  };
+  const auto [base, path, value] =
+      GENERATE(values<Case>({{free_base, "base.mass", 1},
+                             {free_base, "base.inertia", 2},
+                             {free_base, "base.position.0", 3},
+                             {free_base, "base.position.1", 4},
+                             {free_base, "base.velocity.0", 5},
+                             {free_base, "base.velocity.1", 6},
+                             {free_base, "base.angle", 7},
+                             {free_base, "base.rate", 8},
+                             {prescribed_base, "base.acceleration.0", 1},
+                             {prescribed_base, "base.acceleration.1", 2},
+                             {prescribed_base, "base.angular_acceleration", 3},
+                             {prescribed_base, "base.angle", 4},
+                             {prescribed_base, "base.rate", 5}}));
+  const Scene scene = scene_with("/base", base);
+  const ParameterMatches found = resolve(scene, path);
+  CAPTURE(path);
+  REQUIRE(found.matches.size() == 1);
+  CHECK(found.matches[0].name.empty());
+  CHECK(found.matches[0].parameter.in(scene) == value);
+  CHECK(path_of(scene, found.matches[0].parameter) == path);
+}
+
+TEST_CASE("Every parameter of a scene has a place of its own", "[parameter]") {
+  Json document =
+      test::spoil(test::small_scene(), {"/base", GENERATE(free_base, prescribed_base), ""});
+  document =
+      test::spoil(document, {"/hinges/1/friction", R"({"model": "exact", "static": 1})", ""});
+  Scene scene = read_scene(document);
+  std::set<const double*> places;
+  const std::vector<std::string> paths = parameter_paths(scene);
+  for (const std::string& path : paths) {
+    const ParameterMatches found = resolve(scene, path);
+    REQUIRE(found.matches.size() == 1);
+    double& parameter = found.matches[0].parameter.in(scene);
+    parameter = static_cast<double>(places.size()) + 0.5;
+    CHECK(found.matches[0].parameter.in(std::as_const(scene)) == parameter);
+    places.insert(&parameter);
+  }
+  CHECK(places.size() == paths.size());
+}
+
+TEST_CASE("A parameter found in one scene is the same in its copies", "[parameter]") {
+  const Scene scene = read_scene(test::small_scene());
+  Scene copy = scene;
+  resolve(scene, "bodies.outer.mass").matches[0].parameter.in(copy) = 77;
+  CHECK(copy.bodies[1].mass == 77);
+  CHECK(scene.bodies[1].mass == 8);
+}
+
+TEST_CASE("A star stands for every name that has the parameter", "[parameter]") {
+  struct Case {
+    const char* path;
+    std::vector<std::string> names;
+  };
+  const Scene scene = scene_with("/hinges/1/friction", R"({"model": "exact", "static": 1})");
+  const Case given = GENERATE(values<Case>({{"bodies.*.mass", {"inner", "outer"}},
+                                            {"hinges.*.spring.torque_stowed", {"root", "mid"}},
+                                            {"hinges.*.latch.damping", {"root"}},
+                                            {"hinges.*.friction.static", {"mid"}}}));
+  std::vector<std::string> names;
+  for (const ParameterMatch& match : resolve(scene, given.path).matches)
+    names.push_back(match.name);
+  CHECK(names == given.names);
+}
+
+TEST_CASE("A path that leads nowhere tells what was probably meant", "[parameter]") {
+  struct Case {
+    const char *path, *expected;
+  };
+  const Scene scene = scene_with("/hinges/0/friction", R"({"model": "exact"})");
+  const auto [path, expected] = GENERATE(values<Case>(
+      {{"bodies.iner.mass", "the path of a parameter (did you mean \"bodies.inner.mass\"?)"},
+       {"bodies.inner.maas", "the path of a parameter (did you mean \"bodies.inner.mass\"?)"},
+       {"bodies.*.maas", "the path of a parameter (did you mean \"bodies.*.mass\"?)"},
+       {"body.inner.mass", "the path of a parameter (did you mean \"bodies.inner.mass\"?)"},
+       {"hinges.root.spring.torque_latch",
+        "the path of a parameter (did you mean \"hinges.root.spring.torque_latched\"?)"},
+       {"hinges.root.child_point",
+        "the path of a parameter (did you mean \"hinges.root.child_point.0\"?)"},
+       {"hinges.r*.initial_rate",
+        "the path of a parameter (did you mean \"hinges.root.initial_rate\"?)"},
+       {"hinges.mid.latch.damping", "a hinge that has a latch"},
+       {"hinges.mid.friction.static", "a hinge whose friction has a static level"},
+       {"hinges.root.friction.regularization_rate", "a hinge with the regularized friction model"},
+       {"base.mass", "a base whose motion is \"free\""},
+       {"base.acceleration.0", "a base whose motion is \"prescribed\""},
+       {"base.rate", "a base that is not fixed"},
+       {"", "the path of a parameter"},
+       {"wings", "the path of a parameter"}}));
+  CAPTURE(path);
+  const ParameterMatches found = resolve(scene, path);
+  CHECK(found.matches.empty());
+  CHECK(found.expected == expected);
+}

@@ -1,0 +1,85 @@
+#include "montecarlo/campaign/requirement.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+
+const std::vector<std::string> outputs{"root.peak_moment", "root.latch_rate", "deployment_time"};
+const std::vector<std::string> all_outputs{"root.peak_moment", "root.latch_rate", "root.peak_force",
+                                           "deployment_time"};
+
+std::vector<Requirement> read(const Json& document) {
+  std::vector<Requirement> requirements;
+  CHECK(test::problems_of(document, [&](const JsonCursor& at) {
+          read_requirements(at, &outputs, all_outputs, requirements);
+        }).empty());
+  return requirements;
+}
+
+Json two() {
+  return parse_json(R"([
+    { "output": "root.peak_moment", "max": 400, "probability": 0.9973, "confidence": 0.9 },
+    { "name": "M-12", "output": "root.latch_rate", "min": -1.5, "probability": 0.99,
+      "confidence": 0.95 } ])");
+}
+
+} // namespace
+
+TEST_CASE("Requirements are read, written in full and said in words", "[requirement]") {
+  const std::vector<Requirement> requirements = read(two());
+  REQUIRE(requirements.size() == 2);
+  CHECK((requirements[0].max == 400 && !requirements[0].min));
+  CHECK((requirements[1].min == -1.5 && requirements[1].confidence == 0.95));
+  CHECK(write_requirements(requirements) == two());
+  CHECK(to_string(requirements[0]) == "root.peak_moment ≤ 400 N·m, 99.73 % at 90 %");
+  CHECK(to_string(requirements[1]) == "M-12: root.latch_rate ≥ -1.5 rad/s, 99 % at 95 %");
+  const Json deployed =
+      parse_json(R"([{ "output": "deployed", "probability": 0.999, "confidence": 0.9 }])");
+  CHECK(to_string(read(deployed)[0]) == "deployed, 99.9 % at 90 %");
+  CHECK(write_requirements(read(deployed)) == deployed);
+}
+
+TEST_CASE("Each fault of a requirement is told", "[requirement]") {
+  const test::Spoiled change = GENERATE(values<test::Spoiled>(
+      {{"", "{}", "found an object, expected an array of requirements"},
+       {"/0", "1", "/0: found 1, expected a requirement: an object"},
+       {"/0/output", "", "/0/output: found nothing, expected a string, an output or \"deployed\""},
+       {"/0/output", "\"root.peak_momnt\"",
+        "/0/output: found string \"root.peak_momnt\", expected an output of the campaign, or "
+        "\"deployed\" (did you mean \"root.peak_moment\"?)"},
+       {"/0/output", "\"root.peak_force\"",
+        "/0/output: found string \"root.peak_force\", expected an output that the campaign asks "
+        "for (\"peak_force\" is not in its \"outputs\")"},
+       {"/0/output", "\"deployed\"",
+        "/0: found a limit, expected neither max nor min: a run has deployed or has not"},
+       {"/0/max", "",
+        "/0: found neither max nor min, expected one of them (for both, two "
+        "requirements)"},
+       {"/0/min", "1",
+        "/0: found both max and min, expected one of them (for both, two "
+        "requirements)"},
+       {"/0/max", "\"400\"",
+        "/0/max: found string \"400\", expected a number, in the output's unit"},
+       {"/0/probability", "1", "/0/probability: found 1, expected a number, > 0 and < 1"},
+       {"/0/probability", "", "/0/probability: found nothing, expected a number, > 0 and < 1"},
+       {"/1/confidence", "90", "/1/confidence: found 90, expected a number, > 0 and < 1"},
+       {"/1/name", "\"\"", "/1/name: found string \"\", expected a string, not empty"},
+       {"/1/minimum", "1",
+        "/1/minimum: found the unknown key \"minimum\", expected \"name\", \"output\", \"max\", "
+        "\"min\", \"probability\" or \"confidence\""}}));
+  CAPTURE(change.pointer, change.value);
+  std::vector<Requirement> requirements;
+  CHECK(test::problems_of(test::spoil(two(), change), [&](const JsonCursor& at) {
+          read_requirements(at, &outputs, all_outputs, requirements);
+        }) == change.message);
+}
+
+TEST_CASE("Without a scene no output is missed", "[requirement]") {
+  std::vector<Requirement> requirements;
+  CHECK(test::problems_of(two(), [&](const JsonCursor& at) {
+          read_requirements(at, nullptr, {}, requirements);
+        }).empty());
+}

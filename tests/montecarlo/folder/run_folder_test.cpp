@@ -1,0 +1,201 @@
+#include "montecarlo/folder/merge.hpp"
+#include "montecarlo/folder/run_folder.hpp"
+#include "montecarlo/folder/version.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+std::string refusal(const std::filesystem::path& path, const Campaign& campaign,
+                    const Session& session) {
+  return message_of([&] { return run_into(path, campaign, session); });
+}
+
+/// Replaces the first occurrence in a file of the folder.
+void replace(const std::filesystem::path& file, const std::string& what, const std::string& with) {
+  std::string text = read_text(file).value();
+  text.replace(text.find(what), what.size(), with);
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+} // namespace
+
+TEST_CASE("the files do not depend on threads and interruptions", "[parallel]") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(full_campaign(300));
+  const auto whole = folder.path() / "whole", broken = folder.path() / "broken";
+  (void)run_into(whole, campaign);
+  CHECK(contents(whole).size() == 5);
+  int sessions = 0;
+  for (long done = 0; done < 300; ++sessions)
+    done += run_into(broken, campaign, {.threads = 3, .resume = true, .stop_after = 14});
+  CHECK(sessions > 1);
+  CHECK(contents(broken) == contents(whole));
+}
+
+TEST_CASE("that holds for every design, and for correlated dispersions", "[parallel]") {
+  const Folder folder;
+  for (const char* design : {"random", "latin_hypercube", "sobol"}) {
+    Json json = quick_campaign(40);
+    json["sampling"].update({{"design", design}, {"replicates", 3}});
+    json["correlations"] =
+        parse_json(R"([{ "between": ["root_spring", "mass.panel_2"], "spearman": 0.7 }])");
+    if (design == std::string("random")) {
+      json["requirements"] = parse_json(R"([
+        { "output": "root.latch_time", "max": 5, "probability": 0.9, "confidence": 0.9 } ])");
+      json["statistics"] = {{"tolerance", {{{"probability", 0.9}, {"confidence", 0.9}}}}};
+    }
+    const Campaign campaign = campaign_of(json);
+    const auto here = folder.path() / design, whole = here / "whole", broken = here / "broken";
+    (void)run_into(whole, campaign);
+    for (long done = 0; done < 40;)
+      done += run_into(broken, campaign, {.threads = 2, .resume = true, .stop_after = 9});
+    CHECK(contents(broken) == contents(whole));
+    std::vector<std::filesystem::path> parts;
+    for (long i = 1; i <= 3; ++i) {
+      parts.push_back(here / std::to_string(i));
+      (void)run_into(parts.back(), campaign, {.threads = 2, .shard = Shard{i, 3}});
+    }
+    (void)merge_folders(parts, here / "merged");
+    CHECK(contents(here / "merged") == contents(whole));
+    const Json summary = parse_json(contents(whole)[summary_file]);
+    CHECK_THAT(
+        summary["definitions"]["rate_bounds"].get<std::string>(),
+        Catch::StartsWith(design == std::string("random") ? "Clopper-Pearson" : "Korn-Graubard"));
+  }
+}
+
+TEST_CASE("of replicates only those count of which there are runs") {
+  const Folder folder;
+  Json json = quick_campaign(64);
+  json["sampling"].update({{"design", "sobol"}, {"replicates", 16}});
+  const Campaign campaign = campaign_of(json);
+  const auto bounds = [&](const Session& session, const char* name) {
+    (void)run_into(folder.path() / name, campaign, session);
+    return parse_json_file(folder.path() / name / summary_file)["definitions"]["quantile_bounds"]
+        .get<std::string>();
+  };
+  CHECK_THAT(bounds({}, "all"), Catch::EndsWith("over 16 independent replicates"));
+  CHECK_THAT(bounds({.shard = Shard{8, 8}}, "part"), Catch::EndsWith("over 8 independent "
+                                                                     "replicates"));
+  CHECK_THAT(bounds({.shard = Shard{64, 64}}, "one"), Catch::StartsWith("no bounds: "));
+}
+
+TEST_CASE("a campaign is not continued with another number of runs, least of all a Latin one") {
+  const Folder folder;
+  const auto path = folder.path() / "r", file = path / campaign_file;
+  const auto sized = [](const char* design, int runs) {
+    Json json = quick_campaign(runs);
+    json["sampling"]["design"] = design;
+    return campaign_of(json);
+  };
+  (void)run_into(path, sized("latin_hypercube", 4));
+  CHECK_THAT(refusal(path, sized("latin_hypercube", 6), {.resume = true}),
+             Catch::StartsWith(file.string() +
+                               ": /sampling/runs: found 4, expected 6: a Latin hypercube's strata, "
+                               "and so all of its draws, depend on the number of runs; run it into "
+                               "a new folder\n"));
+  CHECK_THAT(
+      refusal(path, sized("sobol", 6), {.resume = true}),
+      Catch::Contains("found 4, expected 6: the number of runs is part of a campaign; run it "
+                      "into a new folder\n"));
+}
+
+TEST_CASE("a folder that was left at any byte is completed to the same bytes") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(6));
+  const auto whole = folder.path() / "whole";
+  (void)run_into(whole, campaign);
+  const std::string runs = read_text(whole / runs_file).value();
+  for (const std::size_t bytes :
+       {std::size_t{0}, std::size_t{5}, runs.find('\n'), runs.find('\n') + 1, runs.size() / 2,
+        runs.size() - 1, runs.size()}) {
+    CAPTURE(bytes);
+    const auto path = folder.path() / std::to_string(bytes);
+    std::filesystem::create_directory(path);
+    std::filesystem::copy_file(whole / campaign_file, path / campaign_file);
+    std::ofstream(path / runs_file, std::ios::binary) << runs.substr(0, bytes);
+    (void)run_into(path, campaign, {.threads = 2, .resume = true});
+    CHECK(contents(path) == contents(whole));
+  }
+}
+
+TEST_CASE("a folder left before its first row is completed too") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(3));
+  const auto whole = folder.path() / "whole", path = folder.path() / "early";
+  (void)run_into(whole, campaign);
+  std::filesystem::create_directory(path);
+  SECTION("in the middle of campaign.json") {
+    std::ofstream(path / "campaign.json.part") << "{ \"wing";
+  }
+  SECTION("before runs.csv") {
+    std::filesystem::copy_file(whole / campaign_file, path / campaign_file);
+  }
+  SECTION("while empty"){}(void)run_into(path, campaign, {.resume = true});
+  CHECK(contents(path) == contents(whole));
+}
+
+TEST_CASE("a folder in use is refused, and left as it is") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(3));
+  const auto path = folder.path() / "r";
+  (void)run_into(path, campaign);
+  const auto before = contents(path);
+  CHECK(refusal(path, campaign, {}) ==
+        path.string() + ": found a folder with files in it, expected a new or an empty folder "
+                        "(--resume continues a campaign)");
+  CHECK(contents(path) == before);
+
+  const auto file = folder.write("file", "text");
+  CHECK(refusal(file, campaign, {}) ==
+        file.string() + ": found a file, expected a new or an empty folder (--resume continues a "
+                        "campaign)");
+  const auto other = folder.path() / "other";
+  std::filesystem::create_directory(other);
+  std::ofstream(other / "notes.txt") << "mine";
+  CHECK(refusal(other, campaign, {.resume = true}) ==
+        other.string() + ": found no campaign.json in it, expected a results folder: one that "
+                         "`wingspread run` or `merge` wrote");
+  CHECK(contents(other).size() == 1);
+}
+
+TEST_CASE("another campaign, shard or version is not continued") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(6));
+  const auto path = folder.path() / "r", file = path / campaign_file;
+  (void)run_into(path, campaign, {.shard = Shard{1, 2}});
+  const auto before = contents(path);
+  const std::string to_continue = ", to continue what is there";
+
+  Campaign other = campaign_of(quick_campaign(6));
+  override_sampling(other, {}, 8);
+  CHECK(refusal(path, other, {.shard = Shard{1, 2}, .resume = true}) ==
+        file.string() + ": /wingspread/hash: found " + campaign_hash(campaign.resolved) +
+            ", expected " + campaign_hash(other.resolved) + to_continue);
+  CHECK(refusal(path, campaign, {.resume = true}) ==
+        file.string() + ": /wingspread/shard: found shard 1/2, expected all runs" + to_continue);
+  CHECK(contents(path) == before);
+
+  replace(file, std::string(version()), "0.0.1");
+  CHECK(refusal(path, campaign, {.shard = Shard{1, 2}, .resume = true}) ==
+        file.string() + ": /wingspread/version: found 0.0.1, expected " + std::string(version()) +
+            to_continue);
+}
+
+TEST_CASE("rows with a gap between them are not continued") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(6));
+  const auto path = folder.path() / "r", file = path / runs_file;
+  (void)run_into(path, campaign);
+  std::string text = read_text(file).value();
+  const std::size_t start = text.find("\n2,") + 1;
+  text.erase(start, text.find('\n', start) + 1 - start);
+  std::ofstream(file, std::ios::binary) << text;
+  CHECK(refusal(path, campaign, {.resume = true}) ==
+        file.string() + ": found run 3, expected run 2, the next one");
+}

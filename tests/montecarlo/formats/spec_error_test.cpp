@@ -1,0 +1,19 @@
+#include "montecarlo/formats/spec_error.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+TEST_CASE("A problem is told on one line, less what it lacks", "[spec_error]") {
+  CHECK(to_string({"a.json", "/runs", "-1", "an integer, ≥ 1"}) ==
+        "a.json: /runs: found -1, expected an integer, ≥ 1");
+  CHECK(to_string({"a.json", "", "nothing", "JSON"}) == "a.json: found nothing, expected JSON");
+  CHECK(to_string({"", "/runs", "-1", "more"}) == "/runs: found -1, expected more");
+}
+
+TEST_CASE("A SpecError tells all of its problems and keeps them apart", "[spec_error]") {
+  const SpecError error({{"", "/a", "1", "2"}, {"", "/b", "3", "4"}});
+  CHECK(std::string(error.what()) == "/a: found 1, expected 2\n/b: found 3, expected 4");
+  REQUIRE(error.problems().size() == 2);
+  CHECK(error.problems()[1].pointer == "/b");
+}

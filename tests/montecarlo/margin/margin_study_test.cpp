@@ -1,0 +1,243 @@
+#include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/margin/margin_study.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+long broken(const MarginSearch& search, double scale, std::size_t requirement,
+            std::size_t which = 0) {
+  return std::ssize(search.seen.at(scale)[which].verdicts[requirement].broken);
+}
+
+const Window& only_window(const std::vector<Window>& windows) {
+  REQUIRE(windows.size() == 1);
+  return windows.front();
+}
+
+} // namespace
+
+TEST_CASE("the window is where the closed form has it, count by count", "[margin][parallel]") {
+  const Campaign campaign = campaign_of(one_panel_margin(600));
+  const MarginResult result = margin_of(campaign);
+  REQUIRE(result.searches.size() == 1);
+  const MarginSearch& search = result.searches.front();
+  for (const auto& [scale, look] : search.seen) {
+    const ClosedForm exact = closed_form(campaign, scale);
+    CAPTURE(scale);
+    CHECK(broken(search, scale, 0) == exact.not_deployed);
+    CHECK(broken(search, scale, 1) == exact.too_fast);
+  }
+  const long allowed = *allowed_failures(600, 0.97, 0.9); // of either requirement
+  const auto meets = [&](double scale) {
+    const ClosedForm exact = closed_form(campaign, scale);
+    return exact.not_deployed <= allowed && exact.too_fast <= allowed;
+  };
+  const Looks looks = looks_of(search);
+  const Window window = only_window(windows_of(looks));
+  CHECK((meets(window.lower) && !meets(*window.below)));
+  CHECK((meets(window.upper) && !meets(*window.above)));
+  CHECK(window.lower / *window.below <= 1.01);
+  CHECK(*window.above / window.upper <= 1.01);
+  CHECK(looks.at(*window.below).contains(0)); // the one does not deploy
+  CHECK(looks.at(*window.above) == Failing{1});
+  CHECK(window.upper / window.lower > 1.1);
+  CHECK(meets(*search.recommended));
+  CHECK(is_confirmed(search));
+  CHECK(result.runs == 600 * (std::ssize(search.seen) + 1));
+  CHECK(result.failed == 0);
+  // every draw has one scale from which on it deploys, and one from which on it is too fast
+  for (const MarginCondition& condition : conditions_of(campaign, result)) {
+    CHECK(out_of_order(search, condition, *search.recommended).lower == 0);
+    CHECK(out_of_order(search, condition, *search.recommended).upper == 0);
+  }
+}
+
+TEST_CASE("the confirmation is by other draws, those of the next seed", "[margin]") {
+  Json json = one_panel_margin(300);
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  CHECK(result.confirmation_seed == 4);
+  json["sampling"]["seed"] = 4;
+  const MarginSearch& search = result.searches.front();
+  const Campaign sized = scaled(campaign_of(json), search.scaled, *search.recommended);
+  const RunPlan plan(sized);
+  Results results(plan.names());
+  (void)make_runs(plan, {0, 300}, 1, unstopped, [&](const Batch& batch) {
+    for (const ResultRow& row : batch.rows) results.append(row);
+  });
+  for (std::size_t k = 0; k < 2; ++k)
+    CHECK(judge(sized.requirements[k], results).broken ==
+          search.confirmation->front().verdicts[k].broken);
+}
+
+TEST_CASE("a campaign at the edges, run for itself, agrees on either side", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(400));
+  const MarginSearch search = margin_of(campaign).searches.front();
+  const Window window = only_window(windows_of(looks_of(search)));
+  for (const auto& [scale, passes] :
+       {std::pair{window.lower, true}, std::pair{*window.below, false},
+        std::pair{window.upper, true}, std::pair{*window.above, false}}) {
+    const Folder folder;
+    // read back from its own file, with all of the outputs that the margin had no need of
+    const Campaign sized =
+        read_campaign(scaled(campaign, search.scaled, scale).resolved.dump(), "");
+    CHECK(run_into(folder.path() / "r", sized) == 400);
+    const Json summary = parse_json_file(folder.path() / "r" / summary_file);
+    bool all = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Json& verdict = summary["requirements"][k];
+      all = all && verdict["verdict"] == "pass";
+      CHECK(verdict["broken"] == Json(search.seen.at(scale)[0].verdicts[k].broken));
+    }
+    CHECK(all == passes);
+  }
+}
+
+TEST_CASE("with one of m springs lost, the weakest springs are m/(m − 1) times as strong",
+          "[margin]") {
+  Json json = one_panel_margin(300);
+  json["margin"]["range"] = {0.5, 4};
+  json["margin"]["tolerance"] = 0.002;
+  json["requirements"].erase(1);
+  const auto weakest = [&](const Json& cases, int springs) {
+    json["margin"]["cases"] = cases;
+    json["margin"]["springs_per_hinge"] = springs;
+    const MarginResult result = margin_of(campaign_of(json));
+    return only_window(windows_of(looks_of(result.searches.front()))).lower;
+  };
+  const double whole = weakest({"nominal"}, 2);
+  CHECK(weakest({"nominal", "one_spring_out"}, 2) == Approx(2 * whole).epsilon(0.005));
+  CHECK(weakest({"one_spring_out"}, 4) == Approx(whole * 4 / 3).epsilon(0.005));
+}
+
+TEST_CASE("cases are those of the hinges whose springs are sized, each in turn", "[margin]") {
+  Json json = quick_campaign(60);
+  json["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.9, "confidence": 0.9 }])");
+  json["margin"] = parse_json(R"({
+    "scale": ["hinges.root.spring.torque_stowed", "hinges.tip.spring.torque_latched"],
+    "range": [0.9, 1.1], "points": 2, "cases": ["nominal", "one_spring_out"] })");
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  REQUIRE(result.cases.size() == 3);
+  CHECK(result.cases[0].name == "nominal");
+  CHECK(result.cases[1].name == "root spring out");
+  CHECK(result.cases[2].name == "tip spring out");
+  REQUIRE(result.cases[2].weakened.size() == 2); // both torques, though one of them is sized
+  CHECK(path_of(campaign.scene, result.cases[2].weakened[0]) == "hinges.tip.spring.torque_stowed");
+  CHECK(result.searches[0].seen.at(1).size() == 3);
+}
+
+TEST_CASE("hinge by hinge, each has a window of its own", "[margin]") {
+  Json json = quick_campaign(60);
+  json["requirements"] = parse_json(R"([
+    { "output": "root.latch_time", "max": 5.2, "probability": 0.9, "confidence": 0.9 } ])");
+  json["margin"] = parse_json(R"({
+    "scale": ["hinges.tip.spring.torque_stowed", "hinges.*.spring.torque_latched",
+              "hinges.root.spring.torque_stowed"],
+    "range": [0.5, 1.5], "points": 5, "mode": "each" })");
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  REQUIRE(result.searches.size() == 3);
+  CHECK(result.searches[0].name == "tip"); // in the order of their first mention
+  CHECK(result.searches[1].name == "root");
+  CHECK(result.searches[2].name == "mid");
+  CHECK(result.searches[0].scaled.size() == 2);
+  CHECK(result.searches[2].scaled.size() == 1);
+  // the same at 1, where nothing is scaled, and not elsewhere
+  const auto guaranteed = [&](std::size_t k, double scale) {
+    return result.searches[k].seen.at(scale)[0].verdicts[0].guaranteed;
+  };
+  CHECK(guaranteed(0, 1) == guaranteed(1, 1));
+  CHECK(guaranteed(0, 1.5) != guaranteed(1, 1.5));
+  CHECK(guaranteed(1, 1.5) < guaranteed(1, 1)); // a stronger root is sooner there
+}
+
+TEST_CASE("requirements that cannot be met together leave no window", "[margin]") {
+  Json json = one_panel_margin(300);
+  json["requirements"][1]["min"] = -0.2;
+  const Campaign campaign = campaign_of(json);
+  const MarginSearch search = margin_of(campaign).searches.front();
+  const Looks looks = looks_of(search);
+  CHECK(windows_of(looks).empty());
+  CHECK_FALSE(search.recommended);
+  CHECK_FALSE(search.confirmation);
+  CHECK_FALSE(is_confirmed(search));
+  // the closed form on a fine grid: it is true
+  const long allowed = *allowed_failures(300, 0.97, 0.9);
+  for (double scale = 0.5; scale <= 2; scale *= 1.002)
+    CHECK(closed_form(campaign, scale, 0.2).too_fast > allowed);
+  CHECK(closed_by(looks) == std::vector<std::size_t>{1});
+}
+
+TEST_CASE("draws that do not go with the others are counted at the edge where they are",
+          "[margin]") {
+  const auto look = [](std::vector<long> broken) {
+    Verdict verdict;
+    verdict.broken = std::move(broken);
+    return ScaleLook{CaseLook{{}, {verdict}}};
+  };
+  MarginSearch search;
+  search.seen = {{0.5, look({3, 1, 2})}, {0.6, look({1, 2})}, {0.7, look({4, 1})}, {0.8, look({})},
+                 {0.9, look({5})},       {1.0, look({})},     {1.1, look({6, 7})}};
+  const OutOfOrder found = out_of_order(search, {0, 0}, 0.8);
+  CHECK(found.lower == 1); // 4, which kept to it at 0.6
+  CHECK(found.upper == 1); // 5, which keeps to it at 1.0
+}
+
+TEST_CASE("a scaled campaign has one dispersion more, and the same draws", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(10));
+  const Campaign once = scaled(campaign, campaign.margin->scaled, 1.25);
+  const Campaign twice = scaled(once, campaign.margin->scaled, 2);
+  CHECK(once.dispersions.back().name == "margin_scale");
+  CHECK(twice.dispersions.back().name == "margin_scale_2");
+  CHECK(read_campaign(twice.resolved.dump(), "").resolved == twice.resolved);
+  std::vector<double> draws(3), more(5);
+  RunPlan(campaign).draw(7, draws);
+  RunPlan(twice).draw(7, more);
+  CHECK(std::ranges::equal(draws, std::span(more).first(3)));
+  Scene scene = campaign.scene, other = campaign.scene;
+  apply(campaign, draws, campaign.scene, scene);
+  apply(twice, more, campaign.scene, other);
+  CHECK(other.hinges[0].spring.torque_stowed == scene.hinges[0].spring.torque_stowed * 1.25 * 2);
+  CHECK(other.hinges[0].friction.coulomb == scene.hinges[0].friction.coulomb);
+  CHECK(scaled(campaign.scene, campaign.margin->scaled, 1.5).hinges[0].spring.torque_latched ==
+        0.2 * 1.5);
+}
+
+TEST_CASE("a campaign without a margin, requirements or runs enough is refused, all at once",
+          "[margin]") {
+  Json json = one_panel_margin(70);
+  json.erase("margin");
+  json["requirements"][1]["probability"] = 0.999;
+  CHECK(message_of([&] { return margin_of(campaign_of(json)).runs; }) ==
+        "/margin: found nothing, expected what to size\n"
+        "/sampling/runs: found 70, expected at least 76: fewer cannot show \"deployed, 97 % at "
+        "90 %\"\n"
+        "/sampling/runs: found 70, expected at least 2302: fewer cannot show \"root.latch_rate ≥ "
+        "-0.8 rad/s, 99.9 % at 90 %\"");
+  json = one_panel_margin(100);
+  json.erase("requirements");
+  CHECK(message_of([&] { return margin_of(campaign_of(json)).runs; }) ==
+        "/requirements: found none, expected at least one: it is they that make a window");
+}
+
+TEST_CASE("an interruption ends it, and keeps the scales that were finished", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(200));
+  std::atomic<bool> stop = false;
+  MarginResult result;
+  CHECK_THROWS_AS(find_margin(
+                      campaign, 1, stop, [&](long made) { stop = made >= 500; }, result),
+                  Stopped);
+  const MarginSearch& search = result.searches.front();
+  CHECK(search.seen.size() == 2);
+  CHECK(search.seen.contains(0.5));
+  CHECK_FALSE(search.recommended);
+}

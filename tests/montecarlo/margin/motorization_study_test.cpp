@@ -1,0 +1,81 @@
+#include "montecarlo/margin/motorization_study.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// The panel with a harness besides.
+Campaign harnessed(int runs) {
+  Json json = one_panel_margin(runs);
+  json["scene"]["hinges"][0]["harness"] = {{"torque_stowed", 0.05}, {"torque_latched", 0.1}};
+  json["statistics"] = {{"quantiles", {0.1, 0.5}}};
+  json["margin"]["motorization"] = {{"points", 5}};
+  return campaign_of(json);
+}
+
+} // namespace
+
+TEST_CASE("nominal margins at every angle are those of the formulas", "[motorization]") {
+  const Campaign campaign = harnessed(20);
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
+  REQUIRE(study.hinges.size() == 1);
+  const HingeMotorization& root = study.hinges.front();
+  REQUIRE(root.travel.size() == 5);
+  for (const TravelPoint& point : root.travel) {
+    const double spring = 2 - 1.8 * point.x, harness = 0.05 + 0.05 * point.x;
+    CHECK(point.angle == Approx(1.5707963267948966 * (1 - point.x)).margin(1e-15));
+    CHECK(point.margins[0] == Approx(0.8 * spring / (2 * (3 * 0.8 + 3 * harness)) - 1));
+    CHECK(point.margins[1] == Approx(spring / (3 * (0.8 + harness)) - 1));
+    CHECK(point.margins[2] == Approx(0.5 * spring / (0.8 + harness) - 1));
+  }
+  CHECK(root.worst_at == Margins{1, 1, 1});
+  CHECK(root.worst == root.travel.back().margins);
+}
+
+TEST_CASE("dispersed margins are those of the draws, with the worst of them", "[motorization]") {
+  const Campaign campaign = harnessed(200);
+  const HingeMotorization root =
+      study_motorization(campaign, campaign.scene, *campaign.margin).hinges.front();
+  const RunPlan plan(campaign);
+  std::vector<std::pair<double, long>> margins; // NASA, half-way
+  std::vector<double> draws(3);
+  for (long run = 0; run < 200; ++run) {
+    plan.draw(run, draws);
+    margins.emplace_back(1.1 * draws[0] / (3 * (0.8 + draws[1] + 0.075)) - 1, run);
+  }
+  std::ranges::sort(margins);
+  const MarginSpread& spread = root.travel[2].spread[1];
+  REQUIRE(spread.quantiles.size() == 2);
+  CHECK(spread.least == Approx(margins.front().first).epsilon(1e-12));
+  CHECK(spread.worst_run == margins.front().second);
+  CHECK(spread.quantiles[0] == Approx(margins[19].first).epsilon(1e-12)); // X_(20) of 200
+  CHECK(spread.quantiles[1] == Approx(margins[99].first).epsilon(1e-12));
+  CHECK(spread.share_short == 1);
+  CHECK(root.worst_spread[1].least <= spread.least);
+  CHECK(root.worst_spread[1].share_short == 1);
+}
+
+TEST_CASE("draws that are unphysical have no margins, and are counted", "[motorization]") {
+  Json json = one_panel_margin(200);
+  json["dispersions"][2]["distribution"] = {{"type", "normal"}, {"mean", 1}, {"std", 1}};
+  const Campaign campaign = campaign_of(json);
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
+  CHECK(study.invalid > 10);
+  CHECK(study.draws + study.invalid == 200);
+}
+
+TEST_CASE("a hinge without spring and latch drives nothing, and has no margin", "[motorization]") {
+  Json json = small_campaign();
+  json["margin"] =
+      parse_json(R"({ "scale": ["hinges.root.spring.torque_stowed"], "range": [0.5, 2] })");
+  const Campaign campaign = campaign_of(json);
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
+  REQUIRE(study.hinges.size() == 1);
+  CHECK(study.hinges[0].hinge == 0);
+}

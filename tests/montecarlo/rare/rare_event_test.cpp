@@ -1,0 +1,214 @@
+#include "montecarlo/rare/rare_event.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+const std::atomic<bool> never = false;
+const auto untold = [](long) {};
+
+/// One panel, whose spring pulls 2 N·m at first and 0.2 at last against friction of `coulomb`: it
+/// starts, and is at its latch if the mean of 1.1 N·m, scaled, exceeds the friction all the way.
+/// With both normal that is a linear limit state:
+///
+///     P(not deployed) = Φ(−β),  β = (1.1 − coulomb)/√((1.1·0.05)² + 0.03²)
+Json one_panel(double coulomb) {
+  Json campaign = parse_json(R"({
+    "scene": { "name": "one_panel", "base": { "motion": "fixed" },
+      "bodies": [ { "name": "panel", "mass": 10, "inertia": 0.5 } ],
+      "hinges": [ { "name": "root", "parent": "base", "child": "panel",
+        "parent_point": [0, 0], "child_point": [-0.505, 0.02],
+        "angle": { "stowed": 1.5707963267948966, "latched": 0 },
+        "spring": { "torque_stowed": 2.0, "torque_latched": 0.2 },
+        "friction": { "model": "exact", "coulomb": 0, "static": 0 },
+        "latch": { "stiffness": 1e4, "damping": 100 } } ] },
+    "dispersions": [
+      { "name": "spring", "distribution": { "type": "normal", "mean": 1, "std": 0.05 },
+        "apply": "scale",
+        "to": ["hinges.root.spring.torque_stowed", "hinges.root.spring.torque_latched"] },
+      { "name": "friction", "distribution": { "type": "normal", "mean": 0, "std": 0.03 },
+        "apply": "add",
+        "to": ["hinges.root.friction.coulomb", "hinges.root.friction.static"] },
+      { "name": "mass", "distribution": { "type": "uniform", "lower": 9, "upper": 11 },
+        "apply": "set", "to": ["bodies.panel.mass"] } ],
+    "integration": { "rtol": 1e-6, "atol": 1e-8 },
+    "sampling": { "runs": 100, "seed": 3 } })");
+  campaign["scene"]["hinges"][0]["friction"]["coulomb"] = coulomb;
+  campaign["scene"]["hinges"][0]["friction"]["static"] = coulomb;
+  return campaign;
+}
+
+double coulomb_for(double beta) { return 1.1 - beta * std::hypot(1.1 * 0.05, 0.03); }
+double tail(double beta) { return std::erfc(beta / std::sqrt(2)) / 2; }
+
+RareResult estimate(const Json& campaign, const RareOptions& options) {
+  return estimate_rare_event(campaign_of(campaign), options, never, untold);
+}
+
+} // namespace
+
+TEST_CASE("a wing that stalls once in a thousand, or once in a million") {
+  for (const double beta : {3.0, 4.75}) {
+    const RareResult found = estimate(one_panel(coulomb_for(beta)),
+                                      {.samples = 1000, .repeats = 3, .confidence = 0.999});
+    INFO("β = " << beta << ": " << found.estimate.probability << ", exactly " << tail(beta));
+    CHECK(found.estimate.reached);
+    CHECK(std::abs(std::log(found.estimate.probability / tail(beta))) <
+          3.5 * found.estimate.variation);
+    CHECK(found.estimate.variation < 0.3);
+    CHECK(found.estimate.interval.lower < tail(beta));
+    CHECK(found.estimate.interval.upper > tail(beta));
+    const auto count = [&](Status status) {
+      return found.statuses[static_cast<std::size_t>(status)];
+    };
+    CHECK(count(Status::deployed) + count(Status::stalled) == found.estimate.evaluations);
+    REQUIRE(found.likeliest);
+    CHECK(found.likeliest->status == Status::stalled);
+    CHECK(found.likeliest->distance > beta - 0.02); // none is nearer than the limit state
+    CHECK(found.likeliest->distance < beta + 0.5);
+  }
+}
+
+TEST_CASE("the same as counted in a campaign of its own") {
+  const Json json = one_panel(coulomb_for(2.3)); // 1.07 %
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan(campaign);
+  constexpr long runs = 10'000;
+  long stalled = 0;
+  (void)make_runs(plan, {0, runs}, 2, never, [&](const Batch& batch) {
+    for (const ResultRow& row : batch.rows) stalled += row.status == Status::stalled;
+  });
+  const Interval counted = clopper_pearson(stalled, runs, 0.999);
+  CHECK(counted.lower < tail(2.3));
+  CHECK(counted.upper > tail(2.3));
+  const RareResult found = estimate(json, {.samples = 1000, .repeats = 3, .confidence = 0.99});
+  CHECK(found.estimate.interval.upper > counted.lower);
+  CHECK(found.estimate.interval.lower < counted.upper);
+}
+
+TEST_CASE("a performance runs on through 0 where a single hinge stops short of its latch") {
+  // the work of all torques over the travel, before and after it changes its sign
+  const Campaign campaign = campaign_of(one_panel(1.0));
+  const PerformanceMeasure measure(campaign, {});
+  const auto at = [&](double coulomb) {
+    Scene scene = campaign.scene;
+    scene.hinges[0].friction.coulomb = *(scene.hinges[0].friction.static_level = coulomb);
+    const Outcome outcome = Deployment().run(scene, campaign.integration, measure.goal());
+    CHECK((outcome.status == Status::deployed) == (measure.of(scene, outcome) > 0));
+    return measure.of(scene, outcome);
+  };
+  CHECK(at(1.0) == Approx(1).epsilon(1e-9)); // the nominal wing
+  CHECK(at(1.05) == Approx(0.5).epsilon(1e-6));
+  CHECK(at(1.09) == Approx(0.1).epsilon(1e-5));
+  CHECK(at(1.099) > 0);
+  CHECK(at(1.101) < 0);
+  CHECK(at(1.2) < at(1.15));
+  CHECK(at(2.5) == -1); // it never starts
+}
+
+TEST_CASE("a wing that creeps runs out of time") {
+  Json json = one_panel(0.5);
+  json["integration"]["t_end"] = 4;
+  const Campaign campaign = campaign_of(json);
+  const PerformanceMeasure measure(campaign, {});
+  const auto at = [&](double viscous) {
+    Scene scene = campaign.scene;
+    scene.hinges[0].friction.viscous = viscous;
+    return measure.of(scene, Deployment().run(scene, campaign.integration, measure.goal()));
+  };
+  CHECK(at(0) == Approx(1));
+  CHECK(at(0.2) < at(0.1));
+  CHECK(at(0.2) > 0);
+  CHECK(at(50) < 0);
+  CHECK(at(50) > -1); // it is under way
+}
+
+TEST_CASE("a wing that its spring barely breaks loose is near to staying stowed") {
+  const Campaign campaign = campaign_of(one_panel(0.5));
+  const PerformanceMeasure measure(campaign, {});
+  const auto at = [&](double level) {
+    Scene scene = campaign.scene;
+    scene.hinges[0].friction.static_level = level;
+    return measure.of(scene, Deployment().run(scene, campaign.integration, measure.goal()));
+  };
+  CHECK(at(1.7) == Approx(0.2)); // 0.3 of the 1.5 N·m that the nominal spring has left
+  CHECK(at(1.99) > 0);
+  CHECK(at(1.99) < at(1.98));
+  CHECK(at(2.01) == -1);
+}
+
+TEST_CASE("an output beyond a limit, above and below, agrees with its own quantiles",
+          "[parallel]") {
+  Json json = one_panel(0.5);
+  json["outputs"] = {"latch_time"};
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan(campaign);
+  std::vector<double> times;
+  (void)make_runs(plan, {0, 4000}, 2, never, [&](const Batch& batch) {
+    for (const ResultRow& row : batch.rows) times.push_back(row.outputs.front());
+  });
+  std::ranges::sort(times);
+  for (const bool above : {true, false}) {
+    const double limit = above ? times[4000 - 41] : times[40]; // about 1 %
+    const RareResult found =
+        estimate(json, {.event = {"root.latch_time", limit, above}, .samples = 1000, .repeats = 3});
+    CHECK(std::abs(std::log(found.estimate.probability / 0.01)) <
+          3.5 * std::hypot(found.estimate.variation, 1 / std::sqrt(40)));
+    CHECK(found.estimates[0].levels.front().threshold > 0);
+    CHECK((level_of({"root.latch_time", limit, above}, 1.0) < limit) == above);
+  }
+}
+
+TEST_CASE("the same seed gives the same estimate for any threads, another seed another",
+          "[parallel]") {
+  Json json = one_panel(coulomb_for(3));
+  const auto with = [&](int threads) {
+    return estimate(json, {.samples = 200, .repeats = 2, .threads = threads});
+  };
+  const RareResult one = with(1);
+  for (const int threads : {2, 5}) {
+    const RareResult again = with(threads);
+    CHECK(again.estimate.probability == one.estimate.probability);
+    CHECK(again.estimate.variation == one.estimate.variation);
+    CHECK(again.statuses == one.statuses);
+    CHECK(again.likeliest->draws == one.likeliest->draws);
+  }
+  json["sampling"]["seed"] = 4;
+  CHECK(with(2).estimate.probability != one.estimate.probability);
+}
+
+TEST_CASE("draws of the far tails are those of their laws, correlated ones too") {
+  Json json = one_panel(coulomb_for(4));
+  json["correlations"] = {{{"between", {"spring", "friction"}}, {"spearman", 0.4}}};
+  // along with the spring's strength goes the friction: the limit state's variance is less by the
+  // normal correlation's share, 2 sin(0.4π/6)
+  const double r = 2 * std::sin(0.4 * 3.14159265358979324 / 6), a = 1.1 * 0.05, b = 0.03;
+  const double beta = (1.1 - coulomb_for(4)) / std::sqrt(a * a + b * b - 2 * r * a * b);
+  const RareResult found = estimate(json, {.samples = 1000, .repeats = 4});
+  CHECK(beta > 4.5);
+  CHECK(std::abs(std::log(found.estimate.probability / tail(beta))) <
+        3.5 * found.estimate.variation);
+}
+
+TEST_CASE("an interruption ends it, and bad events are refused") {
+  const std::atomic<bool> stop = true;
+  const Campaign campaign = campaign_of(one_panel(1));
+  CHECK_THROWS_AS(estimate_rare_event(campaign, {.samples = 100}, stop, untold), Stopped);
+  CHECK_THROWS_WITH(estimate(one_panel(1), {.event = {"root.peak_momnet", 1}}),
+                    Catch::Contains("--output: found \"root.peak_momnet\"") &&
+                        Catch::Contains("did you mean \"root.peak_moment\"?"));
+  Json json = one_panel(1);
+  json.erase("dispersions");
+  CHECK_THROWS_WITH(estimate(json, {}), Catch::Contains("/dispersions: found none"));
+  json = one_panel(1);
+  json["scene"]["hinges"][0].erase("latch");
+  CHECK_THROWS_WITH(estimate(json, {}), Catch::Contains("none with a latch"));
+  CHECK(describe(RareEvent{}) == "not deployed");
+  CHECK(describe(RareEvent{"root.peak_moment", 400, true}) == "root.peak_moment > 400");
+}

@@ -1,0 +1,98 @@
+#include "montecarlo/runs/engine.hpp"
+#include "montecarlo/sensitivity/saltelli.hpp"
+#include "montecarlo/sensitivity/sensitivity_text.hpp"
+#include "montecarlo/summary/summary_json.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+const std::atomic<bool> never = false;
+
+Results made(const RunPlan& plan, long runs) {
+  Results results(plan.names());
+  (void)make_runs(plan, {0, runs}, 2, never, [&](const Batch& batch) {
+    for (const ResultRow& row : batch.rows) results.append(row);
+  });
+  return results;
+}
+
+} // namespace
+
+TEST_CASE("rank correlations as JSON, CSV and a table", "[parallel]") {
+  const Campaign campaign = campaign_of(quick_campaign(60));
+  const RankSensitivity all = rank_sensitivity(made(RunPlan(campaign), 60), 0.9);
+  const Json json = parse_json(json_text(sensitivity_json(all, {{"seed", 7}})));
+  CHECK(json["wingspread"]["seed"] == 7);
+  CHECK(json["runs"] == 60);
+  CHECK(json["confidence"] == 0.9);
+  const Json& spring = json["outputs"]["root.latch_time"]["dispersions"]["root_spring"];
+  CHECK(spring["prcc"]["value"].get<double>() == all.outputs[0].effects[0].partial.value);
+  CHECK(spring["prcc"]["lower"] < spring["prcc"]["value"]);
+  CHECK(spring["spearman"]["upper"] > spring["spearman"]["value"]);
+
+  const std::string csv = sensitivity_csv(all);
+  CHECK(csv.starts_with("output,dispersion,count,missing,spearman,spearman_lower,spearman_upper,"
+                        "prcc,prcc_lower,prcc_upper\nroot.latch_time,root_spring,60,0,"));
+  CHECK(std::ranges::count(csv, '\n') == 1 + std::ssize(all.outputs) * std::ssize(all.dispersions));
+
+  const std::string table = sensitivity_table(all, "title");
+  CHECK(table.starts_with("title\n\nroot.latch_time, s · 60 runs\n  dispersion"));
+  const auto block = table.find("root.latch_time");
+  CHECK(table.find("root_spring", block) < table.find("mass.panel_1", block)); // it matters most
+}
+
+TEST_CASE("Sobol' indices as JSON, CSV and a table; what changes nothing is named", "[parallel]") {
+  Json json = quick_campaign(1);
+  json["dispersions"].push_back({{"name", "none"},
+                                 {"distribution", {{"type", "constant"}, {"value", 1}}},
+                                 {"apply", "scale"},
+                                 {"to", {"hinges.tip.latch.damping"}}});
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan = saltelli_plan(campaign, 12);
+  const long runs = saltelli_runs(12, campaign.dispersions.size());
+  const SobolSensitivity all = sobol_sensitivity(made(plan, runs), 12, "random", {.resamples = 50});
+  CHECK(all.idle() == std::vector<std::string>{"none"});
+  CHECK(warnings(all) == std::vector<std::string>{"no output of any run changes with \"none\""});
+  const Json read = parse_json(json_text(sensitivity_json(all, {})));
+  CHECK(read["samples"] == 12);
+  CHECK(read["runs"] == runs);
+  CHECK(read["partial"] == false);
+  CHECK(read["moves_nothing"] == Json::array({"none"}));
+  const Json& effects = read["outputs"]["root.latch_time"]["dispersions"];
+  CHECK(effects["none"]["total"]["value"] == 0);
+  CHECK(effects["root_spring"]["total"]["value"] > effects["none"]["total"]["value"]);
+  CHECK(sensitivity_csv(all).starts_with(
+      "output,dispersion,rows,left_out,first,first_lower,first_upper,"
+      "total,total_lower,total_upper\nroot.latch_time,root_spring,12,0,"));
+  CHECK(sensitivity_table(all, "title").find("sum of the first-order") != std::string::npos);
+}
+
+TEST_CASE("what is undefined is null, an empty cell and a dash; many are cut short and counted") {
+  RankSensitivity all;
+  OutputRanks output{"x.latch_time", 3, 2, {}, true};
+  for (int j = 0; j < 12; ++j) {
+    all.dispersions.push_back(std::string("d") += std::to_string(j));
+    const double value = j == 0 ? std::nan("") : j / 20.0;
+    output.effects.push_back({{value, {}}, {std::nan(""), {}}});
+  }
+  all.outputs.push_back(output);
+  all.unvaried = {"d0"};
+  const Json json = sensitivity_json(all, {});
+  CHECK(json["outputs"]["x.latch_time"]["dispersions"]["d0"]["prcc"]["value"].is_null());
+  CHECK(sensitivity_csv(all).find("x.latch_time,d1,3,2,0.050000000000000003,,,,,\n") !=
+        std::string::npos);
+  const std::string table = sensitivity_table(all, "t");
+  CHECK(table.find("· 2 without it left out") != std::string::npos);
+  CHECK(table.find("d11") < table.find("d10")); // entangled: by Spearman's
+  CHECK(table.find("  and 4 others, none above 0.150\n") != std::string::npos);
+  CHECK(table.find("–") != std::string::npos);
+  const auto said = warnings(all);
+  REQUIRE(said.size() == 2);
+  CHECK(said[0] == "the draws of \"d0\" do not vary");
+  CHECK(said[1].starts_with("two dispersions rank the runs alike"));
+}

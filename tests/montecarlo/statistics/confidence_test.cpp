@@ -1,0 +1,281 @@
+#include "montecarlo/statistics/confidence.hpp"
+
+#include <boost/math/distributions/binomial.hpp>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+using namespace wingspread;
+
+namespace {
+
+using Binomial = boost::math::binomial_distribution<double>;
+
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// Five standard errors of a share seen in `trials`: chance leaves this band once in a million
+/// times.
+double band(double share, int trials) { return 5 * std::sqrt(share * (1 - share) / trials); }
+
+} // namespace
+
+// scipy 1.10.1, special.betaincinv(k, n − k + 1, 0.025) and betaincinv(k + 1, n − k, 0.975). (Its
+// proportion_ci stops its root search at 2e-12.)
+TEST_CASE("Clopper–Pearson: values of the inverse beta function") {
+  const auto check = [](long hits, long n, double lower, double upper, double tolerance) {
+    const Interval interval = clopper_pearson(hits, n, 0.95);
+    CHECK(interval.lower == Approx(lower).epsilon(tolerance).margin(0));
+    CHECK(interval.upper == Approx(upper).epsilon(tolerance).margin(0));
+  };
+  check(3, 1000, 0.00061910, 0.00874202, 1e-5);
+  check(3, 1000, 0.0006190999316494162, 0.008742023238479057, 1e-12);
+  check(0, 1000, 0, 0.0036820838968666704, 1e-12);
+  check(86, 10000, 0.006884481059510117, 0.010610182806286339, 1e-12);
+  check(9998, 10000, 0.9992777199422757, 0.9999757781543596, 1e-12);
+  check(10, 10, 0.6915028921812392, 1, 1e-12);
+  check(1, 10, 0.0025285785444617848, 0.4450161170281953, 1e-12);
+  check(0, 0, 0, 1, 0);
+  CHECK(clopper_pearson_upper(0, 1000, 0.95) == Approx(0.00299125).epsilon(1e-5));
+  CHECK(clopper_pearson_lower(1000, 1000, 0.95) == Approx(1 - 0.00299125).epsilon(1e-8));
+}
+
+TEST_CASE("Clopper–Pearson covers at least as often as it says, for every proportion") {
+  for (const double confidence : {0.8, 0.95}) {
+    for (double p = 0.01; p < 1; p += 0.01) {
+      const Binomial hits(25, p);
+      double covered = 0;
+      for (long k = 0; k <= 25; ++k) {
+        const Interval interval = clopper_pearson(k, 25, confidence);
+        if (interval.lower <= p && p <= interval.upper)
+          covered += pdf(hits, static_cast<double>(k));
+      }
+      CHECK(covered >= confidence - 1e-12);
+    }
+  }
+}
+
+// scipy 1.10.1: all ranks tried one by one against binom.cdf and binom.sf.
+TEST_CASE("quantile ranks: values of an exhaustive search") {
+  struct Case {
+    long n;
+    double p, confidence;
+    long lower, upper;
+  };
+  for (const Case& c : {Case{10000, .01, .95, 81, 121},
+                        {10000, .5, .95, 4902, 5099},
+                        {10000, .99, .95, 9880, 9920},
+                        {100, .5, .95, 40, 61},
+                        {59, .95, .9, 53, 59},
+                        {30, .5, .99, 8, 23},
+                        {10, .5, .95, 2, 9}}) {
+    const RankBounds ranks = quantile_rank_bounds(c.n, c.p, c.confidence);
+    CHECK(ranks.lower.value() == c.lower);
+    CHECK(ranks.upper.value() == c.upper);
+  }
+}
+
+// scipy 1.10.1, stats.binom.cdf, n found by bisection: the r-th largest of so many, but not of one
+// fewer, is an upper bound with one-sided confidence c; two-sided that is 2c − 1.
+TEST_CASE("quantile ranks: Wilks' sample sizes") {
+  struct Case {
+    double p, c;
+    std::array<long, 3> sizes;
+  };
+  for (const Case& wilks : {Case{.95, .95, {59, 93, 124}},
+                            {.99, .90, {230, 388, 531}},
+                            {.9973, .90, {852, 1440, 1970}},
+                            {.99865, .95, {2218, 3513, 4662}}}) {
+    for (long r = 1; r <= 3; ++r) {
+      const long n = wilks.sizes[static_cast<std::size_t>(r - 1)];
+      CHECK(quantile_rank_bounds(n, wilks.p, 2 * wilks.c - 1).upper == n + 1 - r);
+      const auto with_one_fewer = quantile_rank_bounds(n - 1, wilks.p, 2 * wilks.c - 1).upper;
+      CHECK(with_one_fewer == (r == 1 ? std::nullopt : std::optional(n + 1 - r)));
+    }
+  }
+}
+
+TEST_CASE("a sample too small for a bound has none") {
+  CHECK_FALSE(quantile_rank_bounds(0, 0.5, 0.95).lower);
+  CHECK_FALSE(quantile_rank_bounds(0, 0.5, 0.95).upper);
+  const RankBounds high = quantile_rank_bounds(1000, 0.9973, 0.9);
+  CHECK(high.lower == 994); // scipy, as above
+  CHECK_FALSE(high.upper);
+  const Bounds bounds = quantile_bounds(std::vector{1.0, 2.0, 3.0}, 0.5, 0.95);
+  CHECK((!bounds.lower && !bounds.upper));
+}
+
+TEST_CASE("quantile bounds cover as often as the binomial law says") {
+  constexpr int trials = 20000, n = 60;
+  std::mt19937_64 random(42);
+  for (const double p : {0.1, 0.5, 0.9}) {
+    const RankBounds ranks = quantile_rank_bounds(n, p, 0.9);
+    const Binomial below(n, p);
+    const double law = cdf(below, static_cast<double>(ranks.upper.value() - 1)) -
+                       cdf(below, static_cast<double>(ranks.lower.value() - 1));
+    REQUIRE(law >= 0.9);
+    int covered = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      std::vector<double> sample(n);
+      std::ranges::generate(sample, [&] { return uniform(random); });
+      std::ranges::sort(sample);
+      const Bounds bounds = quantile_bounds(sample, p, 0.9);
+      if (*bounds.lower <= p && p <= *bounds.upper) ++covered;
+    }
+    CHECK(static_cast<double>(covered) / trials == Approx(law).margin(band(law, trials)));
+  }
+}
+
+TEST_CASE("quantile bounds still cover where values are tied") {
+  constexpr int trials = 5000;
+  std::mt19937_64 random(43);
+  int covered = 0; // of a die, whose 0.4 quantile is 3
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<double> sample(50);
+    std::ranges::generate(sample, [&] { return 1 + std::floor(6 * uniform(random)); });
+    std::ranges::sort(sample);
+    const Bounds bounds = quantile_bounds(sample, 0.4, 0.9);
+    if (*bounds.lower <= 3 && 3 <= *bounds.upper) ++covered;
+  }
+  CHECK(static_cast<double>(covered) / trials >= 0.9 - band(0.9, trials));
+}
+
+namespace {
+
+/// `replicates` stratified samples of n points each on [0, 1): one point in each n-th, at random.
+std::vector<ReplicateValue> stratified(int replicates, int n, std::mt19937_64& random) {
+  std::vector<ReplicateValue> values;
+  for (int r = 0; r < replicates; ++r)
+    for (int i = 0; i < n; ++i) values.push_back({(i + uniform(random)) / n, r});
+  std::ranges::sort(values, {}, &ReplicateValue::value);
+  return values;
+}
+
+std::vector<ReplicateValue> independent(int replicates, int n, std::mt19937_64& random) {
+  std::vector<ReplicateValue> values;
+  for (int i = 0; i < replicates * n; ++i) values.push_back({uniform(random), i % replicates});
+  std::ranges::sort(values, {}, &ReplicateValue::value);
+  return values;
+}
+
+} // namespace
+
+TEST_CASE("replicate quantile bounds cover about as often as they say, on either side") {
+  constexpr int trials = 4000;
+  std::mt19937_64 random(44);
+  for (const auto& [replicates, p] : {std::pair{2, 0.5}, {4, 0.9}, {16, 0.9}, {16, 0.98}}) {
+    CAPTURE(replicates, p);
+    int above = 0, below = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      const auto values = independent(replicates, 1024 / replicates, random);
+      const Bounds bounds = replicate_quantile_bounds(values, replicates, p, 0.95);
+      if (bounds.lower && *bounds.lower > p) ++above;
+      if (bounds.upper && *bounds.upper < p) ++below;
+    }
+    // Student's t on counts is an approximation: half a point on top of the binomial band.
+    const double most = 0.025 + 0.005 + band(0.025, trials);
+    CHECK((above < most * trials && below < most * trials));
+  }
+}
+
+TEST_CASE("replicate quantile bounds are not there where so few values lie beyond") {
+  std::mt19937_64 random(46);
+  const auto values = independent(16, 64, random);
+  const Bounds high = replicate_quantile_bounds(values, 16, 0.999, 0.95);
+  CHECK((high.lower && !high.upper));
+  const Bounds low = replicate_quantile_bounds(values, 16, 0.001, 0.95);
+  CHECK((!low.lower && low.upper));
+}
+
+TEST_CASE("replicate quantile bounds see what stratification gains, and still cover") {
+  constexpr int trials = 2000;
+  std::mt19937_64 random(45);
+  int covered = 0;
+  double width = 0, independent_width = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const Bounds bounds = replicate_quantile_bounds(stratified(16, 51, random), 16, 0.5, 0.95);
+    if (*bounds.lower <= 0.5 && 0.5 <= *bounds.upper) ++covered;
+    width += *bounds.upper - *bounds.lower;
+    const Bounds loose = replicate_quantile_bounds(independent(16, 51, random), 16, 0.5, 0.95);
+    independent_width += *loose.upper - *loose.lower;
+  }
+  CHECK(static_cast<double>(covered) / trials == Approx(0.95).margin(0.03 + band(0.95, trials)));
+  CHECK(width < 0.3 * independent_width);
+}
+
+TEST_CASE("replicate quantile bounds judge tied values together") {
+  // 1 in half of the first replicate and in three quarters of the second, 2 in the rest: F is 5/8
+  // up to 1 and has the error √(2/1 · 2 · 4²)/8² = 1/8; t of one degree of freedom is 1 at 50 %.
+  const std::vector<ReplicateValue> tied{{1, 0}, {1, 0}, {1, 1}, {1, 1},
+                                         {1, 1}, {2, 0}, {2, 0}, {2, 1}};
+  const auto bounds = [&](double p) { return replicate_quantile_bounds(tied, 2, p, 0.5); };
+  CHECK((bounds(0.4).lower == 1 && bounds(0.4).upper == 1));
+  CHECK((bounds(0.6).lower == 1 && bounds(0.6).upper == 2));
+  CHECK((bounds(0.8).lower == 2 && bounds(0.8).upper == 2));
+  CHECK((bounds(0.9).lower == 2 && !bounds(0.9).upper));
+}
+
+// scipy 1.10.1: shares 1/4, 2/4, 0/4 have mean 1/4 and standard error 1/4/√3, so nine draws' worth
+// less (t_11/t_2)²; beta.ppf(q, x, n − x + 1) and (x + 1, n − x) with x = n/4.
+TEST_CASE("replicate proportions: worked by hand") {
+  const std::array<long, 3> hits{1, 2, 0}, sizes{4, 4, 4};
+  const Bounds wide = replicate_proportion_bounds(hits, sizes, 0.95);
+  CHECK(wide.lower.value() == Approx(0.0006096481163780891).epsilon(1e-9));
+  CHECK(wide.upper.value() == Approx(0.9136044550442545).epsilon(1e-9));
+  const Bounds narrow = replicate_proportion_bounds(hits, sizes, 0.5);
+  CHECK(narrow.lower.value() == Approx(0.10683927104434382).epsilon(1e-9));
+  CHECK(narrow.upper.value() == Approx(0.45982656264883065).epsilon(1e-9));
+}
+
+TEST_CASE("replicate proportions cover, few hits or many") {
+  constexpr int trials = 4000;
+  std::mt19937_64 random(47);
+  for (const auto& [replicates, p] : {std::pair{2, 0.3}, {16, 0.003}, {16, 0.01}, {16, 0.3}}) {
+    CAPTURE(replicates, p);
+    const std::vector<long> sizes(static_cast<std::size_t>(replicates), 1024 / replicates);
+    int above = 0, below = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      std::vector<long> hits(sizes.size(), 0);
+      for (int run = 0; run < 1024; ++run)
+        if (uniform(random) < p) ++hits[static_cast<std::size_t>(run % replicates)];
+      const Bounds bounds = replicate_proportion_bounds(hits, sizes, 0.95);
+      if (bounds.lower && *bounds.lower > p) ++above;
+      if (bounds.upper && *bounds.upper < p) ++below;
+    }
+    const double most = 0.025 + 0.005 + band(0.025, trials);
+    CHECK((above < most * trials && below < most * trials));
+  }
+}
+
+TEST_CASE("replicates that agree do so whatever round-off says, and however many there are") {
+  for (const long size : {3L, 7L, 1'000'003L}) {
+    const std::vector<long> hits(5, 1), sizes(5, size);
+    CHECK_FALSE(replicate_proportion_bounds(hits, sizes, 0.95).lower);
+  }
+  // All agree but for one hit: worth some 10¹¹ independent draws.
+  std::vector<long> hits(16, 31'250), sizes(16, 62'500);
+  ++hits[0];
+  const Bounds bounds = replicate_proportion_bounds(hits, sizes, 0.95);
+  CHECK((*bounds.lower < 0.500001 && *bounds.upper > 0.5 && *bounds.upper < 0.50001));
+}
+
+// By hand: of replicates {1, 3}, {2}, {6} the mean is 3; the sums of deviations are −2, −1, 3,
+// their squares' sum 14, and √(14 · 3/2)/4 = √21/4.
+TEST_CASE("a mean's error from replicates: worked by hand") {
+  const std::vector<ReplicateValue> values{{1, 0}, {2, 1}, {3, 0}, {6, 2}};
+  CHECK(replicate_mean_error(values, 3, 3) == Approx(std::sqrt(21.0) / 4).epsilon(1e-15));
+  CHECK(std::isnan(replicate_mean_error(values, 1, 3)));
+  CHECK(std::isnan(replicate_mean_error({}, 3, 3)));
+}
+
+TEST_CASE("no replicate bounds without a spread to judge from") {
+  const std::array<long, 2> hits{2, 2}, sizes{4, 4};
+  CHECK_FALSE(replicate_proportion_bounds(hits, sizes, 0.95).lower);
+  CHECK_FALSE(
+      replicate_proportion_bounds(std::span(hits).first(1), std::span(sizes).first(1), 0.95).upper);
+  const std::vector<ReplicateValue> one{{1.0, 0}, {2.0, 0}};
+  CHECK_FALSE(replicate_quantile_bounds(one, 1, 0.5, 0.95).lower);
+  CHECK_FALSE(replicate_quantile_bounds({}, 4, 0.5, 0.95).lower);
+}

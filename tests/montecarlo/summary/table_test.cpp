@@ -1,0 +1,173 @@
+#include "montecarlo/summary/table.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+using namespace wingspread;
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> result;
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
+}
+
+/// Columns that a line takes up: its code points.
+long columns(const std::string& line) {
+  return std::ranges::count_if(
+      line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+Results some_results() {
+  Results results(ResultNames{{"k"},
+                              {"root.latch_time", "root.rate_at.a_hinge_with_a_long_name",
+                               "tip.peak_moment", "deployment_time"}});
+  for (long run = 0; run < 100; ++run) {
+    const bool stalls = run % 10 == 9;
+    const double x = static_cast<double>(run);
+    results.append({run,
+                    stalls ? Status::stalled : Status::deployed,
+                    {x},
+                    {stalls ? none : 10 + x / 100, -1.23456e-7 * x, 1e6 + x, stalls ? none : 12},
+                    stalls ? "" : "root>tip",
+                    stalls ? "friction holds bodies.panel_1" : ""});
+  }
+  return results;
+}
+
+} // namespace
+
+TEST_CASE("the table shows outcomes, reasons, latch orders, outputs by hinge, and the files") {
+  const std::string table =
+      summary_table(summarize(some_results(), {}), "three_panel, 100 runs", "out");
+  for (const char* part : {"three_panel, 100 runs\n",
+                           "OUTCOME",
+                           "95 % bounds",
+                           "deployed",
+                           "timed out",
+                           "90.000 %",
+                           "82.378 – 95.100 %",
+                           "friction holds bodies.panel_1",
+                           "LATCH ORDER",
+                           "root>tip",
+                           "no latch",
+                           "mean",
+                           "std",
+                           "1 %",
+                           "median",
+                           "99 %",
+                           "\nroot\n  latch time",
+                           "N·m",
+                           "\ntip\n",
+                           "\nwing\n",
+                           "Each output over the runs in which it happened, of 100.",
+                           "FILES  out: runs.csv, summary.json, histograms.json, histograms.csv\n"})
+    CHECK_THAT(table, Catch::Contains(part));
+  CHECK_THAT(table, Catch::Contains("  stalled" + std::string(49, ' ') + "10    10.000 %"));
+}
+
+TEST_CASE("the table stays within its width and leaves no blanks behind") {
+  StatisticsSpec spec;
+  spec.quantiles = {0.00135, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.99865};
+  Results results = some_results();
+  results.append({100,
+                  Status::failed,
+                  {0},
+                  {none, none, none, none},
+                  std::string(300, 'x'),
+                  std::string(300, 'y')});
+  const std::string table = summary_table(summarize(results, spec), std::string(150, 't'), "");
+  for (const std::string& line : lines(table)) {
+    INFO(line);
+    CHECK(columns(line) <= table_width);
+    CHECK((line.empty() || line.back() != ' '));
+  }
+  CHECK(contains(table, "99.865 %"));
+  CHECK_FALSE(contains(table, "FILES"));
+}
+
+TEST_CASE("the table of nothing is still a table") {
+  const std::string table = summary_table(summarize(Results(ResultNames{{}, {}}), {}), "none", "");
+  CHECK(contains(table, "deployed"));
+  CHECK_FALSE(contains(table, "nan"));
+  CHECK_FALSE(contains(table, "OUTPUT"));
+}
+
+TEST_CASE("the table counts the latch orders and reasons that it leaves out") {
+  Results results(ResultNames{{}, {}});
+  for (long run = 0; run < 12; ++run)
+    results.append({run,
+                    Status::invalid,
+                    {},
+                    {},
+                    "order" + std::to_string(run),
+                    "reason" + std::to_string(run)});
+  const std::string table = summary_table(summarize(results, {}), "", "");
+  CHECK(contains(table, "and 4 other reasons, in summary.json"));
+  CHECK(contains(table, "4 other orders" + std::string(43, ' ') + "4    33.333 %"));
+}
+
+TEST_CASE("a drawn histogram: one line per bin, its count, and a bar as long as its density") {
+  const std::string drawn =
+      draw_histogram("root.latch_time", "s", {{0, 1, 2, 4}, {10, 20, 20}}, 64);
+  const std::vector<std::string> rows = lines(drawn);
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[0] == "root.latch_time, s");
+  const auto full = [&](std::size_t row) {
+    long count = 0;
+    for (std::size_t at = rows[row].find("█"); at != std::string::npos;
+         at = rows[row].find("█", at + 1))
+      ++count;
+    return count;
+  };
+  CHECK((full(1) == 20 && full(2) == 40 && full(3) == 20));
+  for (std::size_t row = 1; row <= 3; ++row) CHECK(columns(rows[row]) == 64);
+  CHECK(rows[2].ends_with("       20"));
+}
+
+TEST_CASE("a drawn histogram puts bins together and loses no count") {
+  Histogram histogram{{0}, {}};
+  for (int i = 0; i < 50; ++i) {
+    histogram.edges.push_back(i + 1);
+    histogram.counts.push_back(i);
+  }
+  const std::vector<std::string> rows = lines(draw_histogram("x", "", histogram, 80));
+  REQUIRE(rows.size() == 1 + 17 + 1); // groups of three
+  CHECK(rows[0] == "x");
+  long sum = 0;
+  for (std::size_t row = 1; row <= 17; ++row)
+    sum += std::stol(rows[row].substr(rows[row].rfind(' ') + 1));
+  CHECK(sum == histogram.total());
+  CHECK(draw_histogram("x", "N", {}, 80) == "x, N\n  no values\n");
+}
+
+TEST_CASE("the table shows what the campaign asks for, and which runs to look at") {
+  const Results results = some_results();
+  Summary summary = summarize(results, {});
+  const Requirement peak{"", "tip.peak_moment", 2e6, {}, .8, .9},
+      deploys{"", "deployed", {}, {}, .99, .9};
+  summary.requirements = {judge(peak, results), judge(deploys, results)};
+  summary.outputs[2].tolerance = {{{.95, .9, Side::upper}, {{}, 1000098.}}};
+  summary.until = {{{"deployed", {}, .01, false}, .127, false}};
+  const std::string table = summary_table(summary, "t", "out");
+  for (const char* part :
+       {"  tip.peak_moment ≤ 2000000 N·m, 80 % at 90 % pass            10      14   1.0001e+06",
+        "  deployed, 99 % at 90 %                      fail            10       –     90.000 %",
+        "    10 of 100 runs break it: disproved\n",
+        "    wingspread replay out --run 9   and 19, 29, 39, 49, 59, …\n",
+        "  tip.peak_moment                           95 % at 90 %", "UNTIL THE INTERVAL'S WIDTH IS",
+        "  deployed 0.01"})
+    CHECK_THAT(table, Catch::Contains(part));
+  for (const std::string& line : lines(table)) CHECK(columns(line) <= table_width);
+}
