@@ -10,8 +10,7 @@
 #include <limits>
 
 #if defined(__FMA__) || defined(__aarch64__)
-#define WINGSPREAD_HAS_FMA ///< the instruction set of this translation unit multiplies and adds at \
-                           ///< once
+#define WINGSPREAD_HAS_FMA // this translation unit's instruction set multiplies and adds at once
 #endif
 
 namespace wingspread {
