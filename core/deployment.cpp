@@ -5,25 +5,10 @@
 #include "core/packs/runs.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace wingspread {
-
-const char* to_string(Status status) {
-  switch (status) {
-  case Status::deployed:
-    return "deployed";
-  case Status::stalled:
-    return "stalled";
-  case Status::timed_out:
-    return "timed_out";
-  case Status::invalid:
-    return "invalid";
-  case Status::failed:
-    return "failed";
-  }
-  return "unknown";
-}
 
 const std::vector<MethodInfo>& methods() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -70,17 +55,6 @@ const std::vector<MethodInfo>& methods() {
        "L-stable but for 0.2° beside the imaginary axis, where it grows by up to 2 % a step"},
   };
   return list;
-}
-
-std::string methods_used(const Outcome& outcome) {
-  std::vector<std::string> names;
-  std::string text;
-  for (const Phase& phase : outcome.phases) {
-    if (std::find(names.begin(), names.end(), phase.method) != names.end()) continue;
-    names.push_back(phase.method);
-    text += (text.empty() ? "" : ", ") + phase.method;
-  }
-  return text;
 }
 
 struct Deployment::Workspace {
@@ -143,50 +117,6 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
   }
   runs().set_parameters(workspace_->wing, scene);
   return runs().alone(workspace_->wing, workspace_->scratch, integration, goal, observer);
-}
-
-const char* to_string(InstructionSet set) {
-  switch (set) {
-  case InstructionSet::scalar:
-    return "scalar";
-  case InstructionSet::neon:
-    return "neon";
-  case InstructionSet::avx2:
-    return "avx2";
-  case InstructionSet::avx512:
-    return "avx512";
-  }
-  return "unknown";
-}
-
-const std::vector<InstructionSet>& instruction_sets() {
-  static const std::vector<InstructionSet> available = [] {
-    std::vector<InstructionSet> sets{InstructionSet::scalar};
-    if (has_neon()) sets.push_back(InstructionSet::neon);
-    if (has_avx2()) sets.push_back(InstructionSet::avx2);
-    if (has_avx512()) sets.push_back(InstructionSet::avx512);
-    return sets;
-  }();
-  return available;
-}
-
-int lanes_of(InstructionSet set) {
-  switch (set) {
-  case InstructionSet::scalar:
-    return 1;
-  case InstructionSet::neon:
-    return 2;
-  case InstructionSet::avx2:
-    return 4;
-  case InstructionSet::avx512:
-    return 8;
-  }
-  return 1;
-}
-
-Occupancy& Occupancy::operator+=(const Occupancy& other) {
-  tries += other.tries, busy += other.busy, scalar += other.scalar, looks += other.looks;
-  return *this;
 }
 
 DeploymentPack::DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal)

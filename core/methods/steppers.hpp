@@ -1,12 +1,12 @@
 /// The methods by name, and the one place that knows them all.
 #pragma once
 
-#include "core/deployment.hpp"
 #include "core/methods/dop853.hpp"
 #include "core/methods/seulex.hpp"
 #include "core/peaks/peaks.hpp"
 
 #include <array>
+#include <string>
 #include <string_view>
 
 namespace wingspread {

@@ -6,6 +6,7 @@
 /// What a run does is the same as alone, bit for bit.
 #pragma once
 
+#include "core/packs/instruction_set.hpp"
 #include "core/packs/pack_engine.hpp"
 #include "core/run/integrator.hpp"
 

@@ -99,11 +99,6 @@ struct PackShape {
   bool moments = false;     ///< peak moments are
 };
 
-/// Whether this processor, and this build, have the instruction set.
-[[nodiscard]] bool has_neon();
-[[nodiscard]] bool has_avx2();
-[[nodiscard]] bool has_avx512();
-
 /// An engine for wings of this structure. @pre the instruction set is there
 [[nodiscard]] std::unique_ptr<PackEngine> make_neon_engine(const Wing<double>& wing,
                                                            const PackShape& shape);

@@ -5,8 +5,9 @@
 /// both, and takes the second where the processor has them.
 #pragma once
 
-#include "core/deployment.hpp"
 #include "core/methods/steppers.hpp"
+#include "core/outcome.hpp"
+#include "core/packs/instruction_set.hpp"
 #include "core/packs/pack_engine.hpp"
 
 namespace wingspread {
@@ -14,6 +15,8 @@ namespace wingspread {
 struct Runs {
   /// Sets the next wing's numbers and returns its run's name; none when there are no more.
   using NextWing = std::function<std::optional<long>(Wing<double>&)>;
+  /// done(name, outcome), in the order in which the runs end.
+  using Done = std::function<void(long, Outcome&&)>;
 
   void (*set_parameters)(Wing<double>& wing, const Scene& scene);
   Outcome (*alone)(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how,
@@ -21,7 +24,7 @@ struct Runs {
   /// @param method of the engine
   Occupancy (*in_lanes)(const Wing<double>& structure, PackEngine& engine, Method method,
                         const Integration& how, const Goal& goal, const NextWing& next,
-                        const DeploymentPack::Done& done);
+                        const Done& done);
 };
 
 /// For the build's own instruction set.

@@ -46,7 +46,7 @@ inline Outcome run_alone(const Wing<double>& wing, Workspace<double>& scratch,
 
 inline Occupancy run_in_lanes(const Wing<double>& structure, PackEngine& engine, Method method,
                               const Integration& how, const Goal& goal, const Runs::NextWing& next,
-                              const DeploymentPack::Done& done) {
+                              const Runs::Done& done) {
   return with_structure(structure, [&]<BaseMotion M>(const auto& topology) {
     using Topology = std::decay_t<decltype(topology)>;
     return wingspread::Lanes<Topology, M>(structure, topology, engine, method, how, goal)

@@ -1,8 +1,8 @@
 /// What is told of a run, in the scene's own order.
 #pragma once
 
-#include "core/deployment.hpp"
 #include "core/mechanics/energy.hpp"
+#include "core/outcome.hpp"
 #include "core/peaks/peaks.hpp"
 
 namespace wingspread {
