@@ -5,7 +5,8 @@
 /// passes the static limit τ_s. Both are events. At each, the hinges at rest are sorted anew.
 #pragma once
 
-#include "core/peaks/peaks.hpp"
+#include "core/dense/step.hpp"
+#include "core/mechanics/system.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 

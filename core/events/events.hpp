@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/events/contact.hpp"
-#include "core/run/record.hpp"
+#include "core/outcome.hpp"
 
 #include <optional>
 #include <vector>
@@ -19,6 +19,16 @@ template <class T> struct Due {
   T s;     ///< fraction of the step
   T slope; ///< of a release's indicator, N·m/s
 };
+
+/// Body i's latch as it engages at (x, t), told in the scene's own order.
+template <class T>
+[[nodiscard]] LatchEvent latch_event(const Wing<T>& wing, const Layout& at, const State<T>& x,
+                                     const T& t, int i) {
+  LatchEvent event{wing.hinge_of[i], static_cast<double>(t), std::vector<double>(at.bodies)};
+  for (int j = 1; j <= at.bodies; ++j)
+    event.rates[wing.hinge_of[j]] = static_cast<double>(x[at.rate(j)]);
+  return event;
+}
 
 /// Finds the events of one run, and brings them about.
 template <class T, class AnySystem> class Events {

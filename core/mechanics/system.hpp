@@ -1,62 +1,14 @@
-/// The right-hand side of a wing's equations of motion, and the layout of its state.
+/// The right-hand side of a wing's equations of motion.
 #pragma once
 
-#include "core/mechanics/augmented.hpp"
-#include "core/mechanics/hinge_moment.hpp"
+#include "core/mechanics/layout.hpp"
+#include "core/mechanics/workspace.hpp"
 
 #include <array>
 #include <optional>
 #include <vector>
 
 namespace wingspread {
-
-template <class T> using State = std::vector<T>;
-
-/// Where things stand in the state: q = (x, y, θ_0 of a free base; φ_1 … φ_n), then q̇, then S_1 …
-/// S_n of smoothed latches.
-struct Layout {
-  int base = 0; ///< 3 for a free base, else 0
-  int bodies = 0;
-  bool smoothed = false;
-
-  [[nodiscard]] int freedoms() const { return base + bodies; }
-  [[nodiscard]] int size() const { return 2 * freedoms() + (smoothed ? bodies : 0); }
-  [[nodiscard]] int angle(int i) const { return base + i - 1; }           ///< φ_i
-  [[nodiscard]] int rate(int i) const { return freedoms() + angle(i); }   ///< φ̇_i
-  [[nodiscard]] int latch(int i) const { return 2 * freedoms() + i - 1; } ///< S_i
-};
-
-/// What the exact friction of a hinge does: oppose a motion, or hold it.
-enum class Contact : signed char { backward = -1, none = 0, forward = 1, stuck = 2 };
-
-/// What the augmented recursion works on.
-template <class T> struct Augmented {
-  std::vector<BodyFrame<T>> frames;       ///< 0 … n
-  std::vector<AugmentedFrame<T>> bodies;  ///< 0 … n
-  std::vector<HingeConstraint<T>> hinges; ///< 0 … n
-
-  void resize(int n) {
-    frames.assign(n + 1, BodyFrame<T>{});
-    bodies.assign(n + 1, AugmentedFrame<T>{});
-    hinges.assign(n + 1, HingeConstraint<T>{});
-  }
-};
-
-/// What changes from phase to phase of a run, and scratch space. Owned by the caller, one a thread.
-template <class T> struct Workspace {
-  std::vector<BodyFrame<T>> frames; ///< 0 … n
-  std::vector<Vec2<T>>
-      forces; ///< 1 … n: on body i at its hinge, at the last evaluation; if asked for
-  std::vector<LinearLaw<T>> laws; ///< 1 … n
-  std::vector<T> nonlinear;       ///< 1 … n: moments of friction and smoothed latches, N·m
-  std::vector<char> engaged;      ///< 1 … n: has passed its latched angle
-  std::vector<Contact> contact;   ///< 1 … n: what its exact friction does
-  std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation with a hinge stuck
-  int stuck = 0;          ///< how many stick
-  Augmented<T> held;      ///< of the evaluation while hinges stick
-  Augmented<T> linear;    ///< of the linear solves
-  long evaluations = 0;
-};
 
 /// dx/dt of one wing. Motion is the base's; Topology a Tree or a Chain<N>.
 template <class T, class Topology, BaseMotion Motion> class System {

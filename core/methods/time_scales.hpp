@@ -1,7 +1,8 @@
 /// How quickly a wing moves: what bounds a step where no error would, and tells methods apart.
 #pragma once
 
-#include "core/peaks/peaks.hpp"
+#include "core/dense/step.hpp"
+#include "core/mechanics/workspace.hpp"
 
 #include <cmath>
 

@@ -5,8 +5,10 @@
 /// method gives.
 #pragma once
 
+#include "core/dense/step.hpp"
+#include "core/mechanics/workspace.hpp"
 #include "core/methods/step_control.hpp"
-#include "core/peaks/peaks.hpp"
+#include "core/peaks/peak.hpp"
 
 #include <array>
 #include <cstdint>

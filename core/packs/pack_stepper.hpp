@@ -2,9 +2,11 @@
 /// path over Pack<W>.
 #pragma once
 
+#include "core/dense/roughness.hpp"
+#include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
-#include "core/methods/steppers.hpp"
 #include "core/packs/pack_engine.hpp"
+#include "core/peaks/moment_peaks.hpp"
 
 #include <optional>
 

@@ -2,13 +2,18 @@
 #pragma once
 
 #include "core/events/events.hpp"
+#include "core/methods/long_steps.hpp"
 #include "core/methods/method_choice.hpp"
+#include "core/methods/spectral_radius.hpp"
 #include "core/methods/steppers.hpp"
 #include "core/methods/time_scales.hpp"
 #include "core/packs/pack_engine.hpp"
+#include "core/peaks/force_peaks.hpp"
+#include "core/peaks/moment_peaks.hpp"
 #include "core/proofs/peak_bounds.hpp"
 #include "core/proofs/settled.hpp"
 #include "core/proofs/stall.hpp"
+#include "core/run/record.hpp"
 
 #include <array>
 #include <cstdio>

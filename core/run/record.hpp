@@ -3,7 +3,7 @@
 
 #include "core/mechanics/energy.hpp"
 #include "core/outcome.hpp"
-#include "core/peaks/peaks.hpp"
+#include "core/peaks/peak.hpp"
 
 namespace wingspread {
 
@@ -59,15 +59,6 @@ template <class T>
     out[wing.hinge_of[i]] = {static_cast<double>(peaks[i].value),
                              static_cast<double>(peaks[i].time)};
   return out;
-}
-
-template <class T>
-[[nodiscard]] LatchEvent latch_event(const Wing<T>& wing, const Layout& at, const State<T>& x,
-                                     const T& t, int i) {
-  LatchEvent event{wing.hinge_of[i], static_cast<double>(t), std::vector<double>(at.bodies)};
-  for (int j = 1; j <= at.bodies; ++j)
-    event.rates[wing.hinge_of[j]] = static_cast<double>(x[at.rate(j)]);
-  return event;
 }
 
 } // namespace wingspread

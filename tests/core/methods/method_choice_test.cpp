@@ -1,6 +1,7 @@
 // `auto`: what integrates a run, and when.
 #include "core/deployment.hpp"
 #include "core/methods/method_choice.hpp"
+#include "core/methods/spectral_radius.hpp"
 #include "tests/support/closed_forms.hpp"
 
 #include <catch2/catch.hpp>

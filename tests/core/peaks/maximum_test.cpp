@@ -1,4 +1,4 @@
-#include "core/peaks/peaks.hpp"
+#include "core/peaks/maximum.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,0 +1,48 @@
+/// A step of any method, and the state inside it.
+#pragma once
+
+#include "core/dense/quintic.hpp"
+#include "core/mechanics/layout.hpp"
+
+namespace wingspread {
+
+/// An accepted step and its dense output.
+template <class T> struct Step {
+  T t, h;
+  State<T> x, dxdt;   ///< at t
+  State<T> x1, dxdt1; ///< at t + h
+
+  /// Coordinate k of q over the step; its rate stands `freedoms` further.
+  [[nodiscard]] Quintic<T> coordinate(int k, int freedoms) const {
+    const int r = k + freedoms;
+    return hermite<T>(h, {x[k], x[r], dxdt[r]}, {x1[k], x1[r], dxdt1[r]});
+  }
+
+  /// Any component by cubic Hermite interpolation; used for the states of smoothed latches.
+  [[nodiscard]] T cubic(int k, const T& s) const {
+    const T r = T(1) - s;
+    return r * r * (x[k] * fused(T(2), s, T(1)) + s * h * dxdt[k]) +
+           s * s * (x1[k] * fused(T(2), r, T(1)) - r * h * dxdt1[k]);
+  }
+
+  /// The whole state at t + s·h.
+  void interpolate(const Layout& at, const T& s, State<T>& out) const {
+    const int n = at.freedoms();
+    for (int k = 0; k < n; ++k) {
+      const T v = h * x[k + n], a = h * h * dxdt[k + n]; // the same quintic about the start
+      const T D = (x1[k] - x[k]) - fused(T(0.5), a, v);
+      const T V = fused(h, x1[k + n] - x[k + n], -a), A = fused(h * h, dxdt1[k + n], -a);
+      const T c3 = fused(T(10), D, fused(T(-4), V, T(0.5) * A));
+      const T c4 = fused(T(-15), D, fused(T(7), V, -A));
+      const T c5 = fused(T(6), D, fused(T(-3), V, T(0.5) * A));
+      const T tail = fused(s, fused(s, c5, c4), c3);
+      const T slope = fused(s, fused(s, T(5) * c5, T(4) * c4), T(3) * c3);
+      out[k] = fused(s, fused(s, fused(s, tail, T(0.5) * a), v), x[k]);
+      out[k + n] = fused(s / h, fused(s, slope, a), x[k + n]);
+    }
+    if (at.smoothed)
+      for (int i = 1; i <= at.bodies; ++i) out[at.latch(i)] = cubic(at.latch(i), s);
+  }
+};
+
+} // namespace wingspread

@@ -1,0 +1,77 @@
+/// How fast a wing's linear model rings or dies out: the spectral radius ρ of
+///
+///     [ 0  E2 ; −M⁻¹K  −M⁻¹D ]
+///
+/// of springs, latches and friction at the present configuration.
+#pragma once
+
+#include "core/mechanics/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wingspread {
+
+/// Power iteration for ρ, with its storage.
+template <class T> class SpectralRadius {
+public:
+  /// Largest |λ| of the linear model at (x, t), 1/s, within about a fifth. From a fixed start; each
+  /// pass is one solve of the recursion. Cost about six evaluations.
+  template <class AnySystem>
+  [[nodiscard]] double estimate(AnySystem& system, const State<T>& x, const T& t) {
+    const int size = system.layout().freedoms();
+    system.factorize_at(x, t, [](int) { return T(0); });
+    q_.assign(size, T(0)), next_.assign(size, T(0)), v_.resize(size);
+    for (int k = 0; k < size; ++k) v_[k] = T(k % 2 == 0 ? 1 : -1) / T(k + 1);
+    const double first = growth(system, x, 0);
+    return first > 0 ? growth(system, x, first) : 0;
+  }
+
+private:
+  /// Geometric mean of the growth over eight passes, in the norm max(|v|, weight·|q|): with q one
+  /// pass behind v and weight ≈ |λ|, a complex pair does not make it oscillate.
+  template <class AnySystem> double growth(AnySystem& system, const State<T>& x, double weight) {
+    double before = norm(weight), mean = 1;
+    for (int pair = 0; pair < 4; ++pair) {
+      double both = 1;
+      for (int pass = 0; pass < 2; ++pass) {
+        apply(system, x);
+        const double after = norm(weight);
+        if (!(after > 1e-200) || !(before > 1e-200)) return 0;
+        both *= std::sqrt(after / before);
+        const T scale(1 / after);
+        for (std::size_t k = 0; k < v_.size(); ++k) q_[k] = scale * q_[k], v_[k] = scale * v_[k];
+        before = 1;
+      }
+      mean *= std::sqrt(std::sqrt(both));
+    }
+    return mean;
+  }
+
+  /// (q, v) → (v, −M⁻¹(Kq + Dv))
+  template <class AnySystem> void apply(AnySystem& system, const State<T>& x) {
+    const Layout& at = system.layout();
+    system.solve(
+        [&](int i) {
+          const auto hinge = system.resistance(x, i);
+          const int k = at.angle(i);
+          return -fused(hinge.stiffness, q_[k], hinge.damping * v_[k]);
+        },
+        next_.data());
+    std::swap(q_, v_);
+    std::swap(v_, next_);
+  }
+
+  [[nodiscard]] double norm(double weight) const {
+    double largest = 0;
+    for (std::size_t k = 0; k < v_.size(); ++k)
+      largest = std::max({largest, std::abs(static_cast<double>(v_[k])),
+                          weight * std::abs(static_cast<double>(q_[k]))});
+    return largest;
+  }
+
+  State<T> q_, v_, next_;
+};
+
+} // namespace wingspread
