@@ -6,7 +6,8 @@
 ///   r       correlation of their normal variables, z' = Φ⁻¹(u')
 ///   L       Cholesky's factor of the matrix of all r
 ///
-///   r = 2 sin(πρ/6) (1) z' = L Φ⁻¹(u),  u' = Φ(z') (2)
+///   r  = 2 sin(πρ/6)                                                                       (1)
+///   z' = L Φ⁻¹(u),  u' = Φ(z')                                                             (2)
 ///
 /// Source of (1): K. Pearson (1907); W. H. Kruskal, J. Amer. Statist. Assoc. 53 (1958) 814–861.
 /// Each u' is uniform, so every law keeps its shape, truncated and stepped ones too. ρ is also that

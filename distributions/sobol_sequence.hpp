@@ -4,7 +4,7 @@
 ///   x       a coordinate: 64 binary digits after the point, as an unsigned number
 ///   v_j     a dimension's direction numbers
 ///
-///   x_k = ⊕ v_j over the binary digits j of k that are 1 (1)
+///   x_k = ⊕ v_j over the binary digits j of k that are 1                                   (1)
 ///
 /// Points 0 … 2ᵐ − 1, and any later block of 2ᵐ that begins at a multiple of it, are a digital
 /// (t, m, s)-net. In Gray-code order, as generators produce them one by one, it is the same blocks.

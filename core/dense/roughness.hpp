@@ -8,8 +8,8 @@ namespace wingspread {
 
 /// The error of the quintic over a step against its tolerance, in hundredths of what the
 /// coordinates move: near 1 a step spans a quarter of a period. Estimated by the difference to the
-/// cubic at the middle, h/32 (φ̇0 − φ̇1) + h²/64 (φ̈0 + φ̈1). @return > 1 if the step is too long; the
-/// difference grows with h³
+/// cubic at the middle, h/32 (φ̇0 − φ̇1) + h²/64 (φ̈0 + φ̈1), which grows with h³.
+/// @return > 1 if the step is too long
 template <class T>
 [[nodiscard]] T roughness(const Layout& at, const T& h, const State<T>& dxdt, const State<T>& dxdt1,
                           const T& atol) {

@@ -13,14 +13,14 @@
 /// | α_p     | angular acceleration of the parent                        |         | rad/s²      |
 /// | n       | axis moment on body i: f, n cross the hinge               |         | N·m         |
 ///
-///     φ̈ = u − eᵀ a − g α_p         u = (τ − d)/U     e = h/U     g = I/U (8) f = K a + H α_p + b
-///     K = A − h eᵀ      H = (1 − g) h     b = c + h u               (9) n = Hᵀ a + N α_p + m N =
-///     (1 − g) I     m = d + I u                                (10)
+///     φ̈ = u − eᵀ a − g α_p         u = (τ − d)/U     e = h/U         g = I/U               (8)
+///     f = K a + H α_p + b          K = A − h eᵀ      H = (1 − g) h   b = c + h u           (9)
+///     n = Hᵀ a + N α_p + m         N = (1 − g) I     m = d + I u                          (10)
 ///
 /// with, in place of (3) and (4), for the children j of a body
 ///
-///     h += K q + H     I += qᵀ K q + 2 qᵀ H + N (11) c += b'          d += qᵀ b' + m − ω² Hᵀ l b'
-///     = b − ω² K l                         (12)
+///     h += K q + H     I += qᵀ K q + 2 qᵀ H + N                                           (11)
+///     c += b'          d += qᵀ b' + m − ω² Hᵀ l         b' = b − ω² K l                   (12)
 ///
 /// E = 0 gives g = 1, H = 0, N = 0, m = τ: the equations of recursion.hpp.
 ///

@@ -1,5 +1,5 @@
-/// Energy and momentum of a wing: audits of a run, and the projection that keeps a free base's
-/// momenta.
+/// Energy and momentum of a wing: audits of a run,
+/// and the projection that keeps a free base's momenta.
 #pragma once
 
 #include "core/mechanics/system.hpp"
@@ -33,8 +33,8 @@ template <class T> struct Motion {
   [[nodiscard]] T central_kinetic() const { return kinetic - T(0.5) * dot(linear, linear) / mass; }
 };
 
-/// Adds body i and everything outward of it, from the position and velocity of its parent's hinge
-/// point.
+/// Adds body i and everything outward of it,
+/// from the position and velocity of its parent's hinge point.
 template <class T, class Topology>
 void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<BodyFrame<T>>& frames,
                  int parent, const Vec2<T>& point, const Vec2<T>& velocity, Motion<T>& sum) {
@@ -49,8 +49,8 @@ void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<Bo
   });
 }
 
-/// Motion of all bodies at (x, t) as seen from the base's origin; places the system there. Cost
-/// O(n).
+/// Motion of all bodies at (x, t) as seen from the base's origin;
+/// places the system there. Cost O(n).
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] Motion<T> motion(System<T, Topology, M>& system, const State<T>& x, const T& t) {
   system.place_all(x, t);

@@ -11,8 +11,8 @@
 ///     M = s·(spring − harness) − b φ̇ + friction − [latched] (k y + d φ̇)    [Yudintsev, eq. 6]
 ///
 ///     friction, regularized:  −τ_c φ̇/√(φ̇² + ω_s²)
-///     friction, exact:        −τ_c sign φ̇ while the hinge slides; what holds it, up to τ_s, while
-///                             it sticks
+///     friction, exact:        −τ_c sign φ̇ while the hinge slides;
+///                             what holds it, up to τ_s, while it sticks
 ///
 /// All but the regularized friction is linear in φ and φ̇ from event to event, and kept in that
 /// form.
@@ -22,8 +22,8 @@
 
 namespace wingspread {
 
-/// The linear part of a hinge's moment while its latch keeps its state: drive − stiffness·y −
-/// damping·φ̇.
+/// The linear part of a hinge's moment while its latch keeps its state:
+/// drive − stiffness·y − damping·φ̇.
 template <class T> struct LinearLaw {
   T latched;   ///< rad
   T drive;     ///< N·m; with the friction of a hinge that slides

@@ -6,36 +6,35 @@
 /// that row and column of the angle vanish: once its axis moment is known, only a force crosses a
 /// revolute hinge. What is left is
 ///
-///     f_i = K_i a_i + b_i          the force on body i at its hinge, a_i: acceleration of that
-///     point
+///     f_i = K_i a_i + b_i      the force on body i at its hinge; a_i: that point's acceleration
 ///
 /// with K_i symmetric, 2×2: five numbers a hinge. With axes fixed in inertial space, and for body i
 ///
-/// | symbol | meaning                                                     | shape | unit        |
-/// |--------|-------------------------------------------------------------|-------|-------------|
-/// | θ, ω   | absolute angle and rate                                     |       | rad, rad/s  |
-/// | g      | from the hinge to the centre of mass, −c_ii                 | 2     | m           |
-/// | l_j    | from the hinge to the child hinge j, c_ij − c_ii            | 2     | m           |
-/// | q_j    | e3 × l_j                                                    | 2     | m           |
-/// | a, α   | acceleration of the hinge's point; angular, ω̇               | 2, 1  | m/s², rad/s²|
-/// | τ_i    | moment of hinge i: +τ on body i, −τ on its parent           |       | N·m         |
-/// | A, h, I| the articulated inertia M* about the hinge, in blocks       |       | kg, kg·m, kg·m²
-/// | | c, d   | the force and moment that motion without a and α needs      |       | N, N·m      |
-/// | U_i    | of the source, SᵀM*S: the number I here                     |       | kg·m²       |
+/// | symbol  | meaning                                                | shape   | unit            |
+/// |---------|--------------------------------------------------------|---------|-----------------|
+/// | θ, ω    | absolute angle and rate                                |         | rad, rad/s      |
+/// | g       | from the hinge to the centre of mass, −c_ii            | 2       | m               |
+/// | l_j     | from the hinge to the child hinge j, c_ij − c_ii       | 2       | m               |
+/// | q_j     | e3 × l_j                                               | 2       | m               |
+/// | a, α    | acceleration of the hinge's point; angular, ω̇          | 2, 1    | m/s², rad/s²    |
+/// | τ_i     | moment of hinge i: +τ on body i, −τ on its parent      |         | N·m             |
+/// | A, h, I | the articulated inertia M* about the hinge, in blocks  | 2×2,2,1 | kg, kg·m, kg·m² |
+/// | c, d    | the force and moment that motion without a and α needs | 2, 1    | N, N·m          |
+/// | U_i     | of the source, SᵀM*S: the number I here                |         | kg·m²           |
 ///
 /// Newton and Euler about the hinge, the children's forces eliminated by a_j = a + α q_j − ω² l_j:
 ///
-///     f = A a + h α + c                                                                       (1)
-///     τ_i − Σ τ_j = I α + hᵀ a + d                                                            (2)
-///     A = m E2 + Σ K_j            h = e3 × m g + Σ K_j q_j        I = J + m g² + Σ q_jᵀ K_j q_j
-///     (3) c = −ω² m g + Σ b'_j        d = Σ q_jᵀ b'_j                 b'_j = b_j − ω² K_j l_j (4)
+///     f = A a + h α + c                                                                    (1)
+///     τ_i − Σ τ_j = I α + hᵀ a + d                                                         (2)
+///     A = m E2 + Σ K_j        h = e3 × m g + Σ K_j q_j    I = J + m g² + Σ q_jᵀ K_j q_j    (3)
+///     c = −ω² m g + Σ b'_j    d = Σ q_jᵀ b'_j             b'_j = b_j − ω² K_j l_j          (4)
 ///
 /// and α eliminated from (1) by (2), with u = (τ_i − Σ τ_j − d)/I and e = h/I:
 ///
-///     α = u − eᵀ a                                                                            (5)
-///     K = A − h eᵀ                b = c + h u                                                 (6)
+///     α = u − eᵀ a                                                                         (5)
+///     K = A − h eᵀ            b = c + h u                                                  (6)
 ///
-/// A free base is a body whose "hinge" carries no force: K_0 a_0 + b_0 = 0.                    (7)
+/// A free base is a body whose "hinge" carries no force: K_0 a_0 + b_0 = 0.                 (7)
 ///
 /// About 75 flops, one division and one sine-cosine a body.
 #pragma once

@@ -12,12 +12,12 @@ namespace wingspread {
 
 /// A body about its own hinge; the free base about its centre of mass.
 template <class T> struct BodyTerms {
-  T mass;              ///< m_i, kg
-  T inertia;           ///< J_i + m_i |c_ii|², kg·m²
-  Vec2<T> mass_moment; ///< −m_i c_ii: m_i times the way from the hinge to the centre of mass, own
-                       ///< frame, kg·m
-  Vec2<T> arm; ///< c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's
-               ///< frame, m
+  T mass;    ///< m_i, kg
+  T inertia; ///< J_i + m_i |c_ii|², kg·m²
+  /// −m_i c_ii: m_i times the way from the hinge to the centre of mass, own frame, kg·m
+  Vec2<T> mass_moment;
+  /// c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's frame, m
+  Vec2<T> arm;
   Vec2<T> center;    ///< −c_ii, own frame, m
   T central_inertia; ///< J_i, kg·m²
   T minus_inverse;   ///< −1/inertia, 1/(kg·m²)

@@ -27,16 +27,16 @@ template <class T> struct Augmented {
 /// What changes from phase to phase of a run, and scratch space. Owned by the caller, one a thread.
 template <class T> struct Workspace {
   std::vector<BodyFrame<T>> frames; ///< 0 … n
-  std::vector<Vec2<T>>
-      forces; ///< 1 … n: on body i at its hinge, at the last evaluation; if asked for
+  /// 1 … n: on body i at its hinge, at the last evaluation, N; kept only when they are asked for.
+  std::vector<Vec2<T>> forces;
   std::vector<LinearLaw<T>> laws; ///< 1 … n
   std::vector<T> nonlinear;       ///< 1 … n: moments of friction and smoothed latches, N·m
   std::vector<char> engaged;      ///< 1 … n: has passed its latched angle
   std::vector<Contact> contact;   ///< 1 … n: what its exact friction does
-  std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation with a hinge stuck
-  int stuck = 0;          ///< how many stick
-  Augmented<T> held;      ///< of the evaluation while hinges stick
-  Augmented<T> linear;    ///< of the linear solves
+  std::vector<T> holding;         ///< 1 … n: axis moment at the last evaluation that held a hinge
+  int stuck = 0;                  ///< how many stick
+  Augmented<T> held;              ///< of the evaluation while hinges stick
+  Augmented<T> linear;            ///< of the linear solves
   long evaluations = 0;
 };
 

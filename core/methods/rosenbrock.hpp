@@ -3,16 +3,17 @@
 /// With u = (q, v), q̇ = v, v̇ = a(t, q, v), and the latches' (and springs', friction's) stiffness
 /// and damping alone as Jacobian,
 ///
-///     J = [ 0  E2 ; −M⁻¹K  −M⁻¹D ],    K, D diagonal over the hinges, M at the step's start (1)
+///     J = [ 0  E2 ; −M⁻¹K  −M⁻¹D ],    K, D diagonal over the hinges, M at the step's start  (1)
 ///
 /// a W-method keeps its order whatever J is; J decides its stability. In the usual variables
 /// without products by J [Hairer & Wanner II, IV.7], each stage i solves
 ///
-///     (1 − hγJ) U_i = R,    R = hγ f(t + α_i h, u + Σ_j a_ij U_j) + γ Σ_j c_ij U_j (2)
+///     (1 − hγJ) U_i = R,    R = hγ f(t + α_i h, u + Σ_j a_ij U_j) + γ Σ_j c_ij U_j         (2)
 ///
 /// and eliminating the half of q,
 ///
-///     U_v = R_v − (M + E)⁻¹ (E R_v + hγ K R_q),    E = hγ D + h²γ² K (3) U_q = R_q + hγ U_v (4)
+///     U_v = R_v − (M + E)⁻¹ (E R_v + hγ K R_q),    E = hγ D + h²γ² K                       (3)
+///     U_q = R_q + hγ U_v                                                                   (4)
 ///
 /// (M + E)⁻¹ is augmented.hpp's: each hinge carries the inertia E. O(n), no matrix.
 ///

@@ -2,7 +2,7 @@
 ///
 /// A step H is taken in n substeps of h = H/n,
 ///
-///     x_{k+1} = x_k + (1 − hJ)⁻¹ h f(x_k) (1)
+///     x_{k+1} = x_k + (1 − hJ)⁻¹ h f(x_k)                                                  (1)
 ///
 /// with one J for all of it, that of rosenbrock.hpp. For any fixed J the error has an expansion in
 /// powers of h [P. Deuflhard, SIAM Review 27 (1985) 505-535], so that the results of n = 2, 3, 4, …

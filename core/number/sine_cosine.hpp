@@ -26,8 +26,8 @@ template <class T>
 #ifdef WINGSPREAD_HAS_FMA
 namespace detail {
 
-/// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction, which the rest need not wait
-/// for.
+/// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction,
+/// which the rest need not wait for.
 template <class P>
 [[nodiscard, gnu::always_inline]] inline P sine_kernel(const P& r, const P& r_low, const P& z) {
   const P zz = z * z;

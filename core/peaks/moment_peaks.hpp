@@ -129,7 +129,8 @@ raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int 
 }
 
 /// A step of the method to `doubt.s` gave (x, dxdt): raises the peak, and corrects the instant by
-/// Newton's method. @return whether a step to the new `doubt.s` is worth making
+/// Newton's method.
+/// @return whether a step to the new `doubt.s` is worth making
 template <class T, class AnySystem>
 [[nodiscard]] bool settle_moment(DoubtfulMoment<T>& doubt, PeakOf<T>& peak, const AnySystem& system,
                                  const Step<T>& step, int i, const State<T>& x,

@@ -16,8 +16,8 @@ template <class T> struct PeakOf {
   }
 };
 
-/// How far below the peak a sample may lie for the maximum beside it to be looked for, times the
-/// peak.
+/// How far below the peak a sample may lie
+/// for the maximum beside it to be looked for, times the peak.
 inline constexpr double sample_margin = 0.95;
 
 } // namespace wingspread

@@ -3,8 +3,9 @@
 /// For hinge i to reach its latch, the kinetic energy T and what all springs can still give must
 /// pay for the friction on its way:
 ///
-///     T + g_i + Σ_{j≠i} G_j ≥ 0 (1) g_i = P_i(φ_i) − P_i(latched) − τ_i |φ_latched − φ_i| (2) G_j
-///     = max over φ of  P_j(φ_j) − P_j(φ) − τ_j |φ − φ_j|   ≥ 0                               (3)
+///     T + g_i + Σ_{j≠i} G_j ≥ 0                                                            (1)
+///     g_i = P_i(φ_i) − P_i(latched) − τ_i |φ_latched − φ_i|                                (2)
+///     G_j = max over φ of  P_j(φ_j) − P_j(φ) − τ_j |φ − φ_j|   ≥ 0                         (3)
 ///
 /// P: potential of spring, harness and engaged latch, beyond the latched angle with the latch,
 /// which can only take energy; τ: the kinetic level of exact friction, 0 for a regularized one,

@@ -78,8 +78,8 @@ std::optional<RankCorrelation> read_correlation(const JsonCursor& at,
 
 double rounded(double coefficient) { return std::round(coefficient / unit) * unit; }
 
-/// `"a" and "b" 0.5, …`: the coefficients that have to change, as the nearest possible matrix has
-/// them.
+/// `"a" and "b" 0.5, …`: the coefficients that have to change,
+/// as the nearest possible matrix has them.
 std::string proposal(const Matrix& matrix, const std::vector<Dispersion>& dispersions) {
   const auto coupled = ((matrix.array() != 0).rowwise().count() > 1).count();
   const double margin = 2 * half_unit * static_cast<double>(coupled);

@@ -10,8 +10,8 @@ namespace wingspread {
 /// The scene's name, base, bodies and hinges, a line for each.
 [[nodiscard]] std::string describe(const Scene& scene);
 
-/// The scene, then a line for each dispersion, and for the sampling, integration, outputs and
-/// statistics.
+/// The scene, then a line for each dispersion,
+/// and for the sampling, integration, outputs and statistics.
 [[nodiscard]] std::string describe(const Campaign& campaign);
 
 } // namespace wingspread

@@ -14,8 +14,8 @@
 ///   TL      torque to be delivered                                       fixed
 ///
 ///   ECSS-E-ST-33-01C:  T_min = m (f_I I + f_S S + f_HM HM + f_FR FR + f_HY HY + f_HA HA + f_HD HD)
-///                              + f_TD TD + TL,     margin = a T / T_min − 1 (1)
-///   NASA-STD-5017B:    margin = T / (FS_f ΣT_f + FS_v ΣT_v + FS_a ΣT_a) − 1 (2)
+///                              + f_TD TD + TL,     margin = a T / T_min − 1                  (1)
+///   NASA-STD-5017B:    margin = T / (FS_f ΣT_f + FS_v ΣT_v + FS_a ΣT_a) − 1                 (2)
 ///
 /// with m = 2, a = 0.8 for springs; the static margin of (2) leaves T_a out. Both have to be ≥ 0.
 ///

@@ -10,8 +10,8 @@
 
 namespace wingspread {
 
-/// One parameter of a scene, and of every copy of it. Cheap to copy and to follow: no search, no
-/// string.
+/// One parameter of a scene, and of every copy of it.
+/// Cheap to copy and to follow: no search, no string.
 struct ParameterRef {
   enum class Owner { base, body, hinge };
   Owner owner = Owner::base;

@@ -16,8 +16,8 @@
 
 namespace wingspread {
 
-/// How narrow one interval has to be: that of a quantile of an output, or of the share of runs of a
-/// status.
+/// How narrow one interval has to be:
+/// that of a quantile of an output, or of the share of runs of a status.
 struct WidthGoal {
   std::string output;             ///< a column of the results, or a status
   std::optional<double> quantile; ///< in (0, 1); none of a status

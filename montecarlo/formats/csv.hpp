@@ -20,8 +20,8 @@ void append_csv_cell(std::string& buffer, std::string_view text);
 /// same double; appends nothing, an empty cell, when it is not finite.
 void append_csv_cell(std::string& buffer, double value);
 
-/// The number that the whole of `cell` spells; nothing when it spells none, or one that is not
-/// finite.
+/// The number that the whole of `cell` spells;
+/// nothing when it spells none, or one that is not finite.
 [[nodiscard]] std::optional<double> parse_csv_number(std::string_view cell);
 
 /// Reads a CSV stream record by record. A leading UTF-8 byte order mark is skipped.

@@ -1,5 +1,5 @@
-/// What is wrong with the input: every problem, with its place, what was found and what was
-/// expected.
+/// What is wrong with the input: every problem,
+/// with its place, what was found and what was expected.
 #pragma once
 
 #include <exception>

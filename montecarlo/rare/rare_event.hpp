@@ -23,8 +23,8 @@ struct RareOptions {
   int threads = 0; ///< 0: as many as OpenMP offers
 };
 
-/// The point of the event that is nearest to the middle of all draws, so the likeliest that was
-/// met.
+/// The point of the event that is nearest to the middle of all draws,
+/// so the likeliest that was met.
 struct LikeliestRun {
   double distance; ///< |z|
   NormalPoint z;   ///< before dependence

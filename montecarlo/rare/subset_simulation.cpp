@@ -125,8 +125,8 @@ private:
     estimate_.probability *= share;
   }
 
-  /// Points of the level that are in the event, c of them, spread evenly over it where ties make
-  /// more.
+  /// Points of the level that are in the event, c of them,
+  /// spread evenly over it where ties make more.
   [[nodiscard]] std::vector<std::size_t> seeds(double threshold) const {
     std::vector<std::size_t> in;
     for (std::size_t k = 0; k < level_.g.size(); ++k)

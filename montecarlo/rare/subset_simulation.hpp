@@ -15,14 +15,16 @@
 /// The first level is plain sampling. Each of the others starts c chains from points of the level
 /// before that are in its event, and moves them by conditional sampling:
 ///
-///     z' = ρ z + √(1 − ρ²) ξ,  ξ standard normal; z' is taken if g(z') ≤ b_j, else z stays (2)
+///     z' = ρ z + √(1 − ρ²) ξ,  ξ standard normal; z' is taken if g(z') ≤ b_j, else z stays  (2)
 ///
 /// which leaves the normal law restricted to the event as it is, for any ρ_i of any coordinate.
 /// Coordinates in which the seeds lie close together move less (1 − ρ_i² = min(1, λ s_i)², s_i the
 /// seeds' own spread), and λ is led to where 44 % of the moves are taken.
 ///
-///     δ² = Σ δ_j²,  δ_j² = (1 − P_j)/(P_j N) (1 + γ_j), (3) γ_j = 2 Σ_k (1 − k/L) r_j(k),  r_j(k):
-///     the correlation along the chains at distance k      (4)
+///     δ² = Σ δ_j²,  δ_j² = (1 − P_j)/(P_j N) (1 + γ_j)                                      (3)
+///     γ_j = 2 Σ_k (1 − k/L) r_j(k)                                                          (4)
+///
+/// with r_j(k) the correlation along the chains at distance k.
 ///
 /// Sources: S.-K. Au, J. L. Beck, Probabilistic Engineering Mechanics 16 (2001) 263–277: (1), (3),
 /// (4); I. Papaioannou, W. Betz, K. Zwirglmaier, D. Straub, the same 41 (2015) 89–103: (2). (3)

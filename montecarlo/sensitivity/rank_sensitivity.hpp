@@ -8,7 +8,8 @@
 ///   b       C⁻¹c, the standardised regression of R(y) on all R(x)
 ///   g       dispersions that are held: 0 for ρ, those that vary less one for r
 ///
-///   r_j = b_j / √(b_j² + (1 − c·b) (C⁻¹)_jj) (1) z = artanh ρ,  s² = (1 + ρ²/2)/(n − g − 3) (2)
+///   r_j = b_j / √(b_j² + (1 − c·b) (C⁻¹)_jj)                                               (1)
+///   z = artanh ρ,  s² = (1 + ρ²/2)/(n − g − 3)                                             (2)
 ///
 /// (1) is the partial rank correlation coefficient (PRCC): what is left of x_j and y once every
 /// other dispersion's linear part in ranks is taken out of both. (1) is the textbook's −P_jy/√(P_jj

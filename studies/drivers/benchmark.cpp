@@ -34,8 +34,8 @@ template <class Function> double round_of(long count, Function& f) {
   return taken.count() / static_cast<double>(count);
 }
 
-/// Least time of one call of f, ns, over five rounds of about 50 ms (or of one call, if that is
-/// longer).
+/// Least time of one call of f, ns,
+/// over five rounds of about 50 ms (or of one call, if that is longer).
 template <class Function> double time_of(Function f) {
   const double once = round_of(1, f), some = round_of(1 + static_cast<long>(1e5 / once), f);
   const long count = 1 + static_cast<long>(5e7 * effort / some);

@@ -246,8 +246,8 @@ FigureErrors change(const Figures& from, const Figures& to) {
   return errors;
 }
 
-/// What the ringing is worth: the later latches when it is damped away, and when the stiffness is
-/// another.
+/// What the ringing is worth: the later latches
+/// when it is damped away, and when the stiffness is another.
 void measure_worth(const std::vector<Point>& corner, const Plan& plan,
                    const std::filesystem::path& file) {
   Table table{"k [N·m/rad]", "d [N·m·s/rad]", "k scaled by", "d scaled by",

@@ -177,8 +177,8 @@ double error_of(const PlainOutcome& out, const Outcome& exact) {
 const std::vector<double> tolerances{3e-4, 1e-4, 3e-5, 1e-5,  3e-6,  1e-6,  3e-7,  1e-7,  3e-8,
                                      1e-8, 3e-9, 1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12};
 
-/// The loosest tolerance with which no error of 32 units is above the level; `judge(rtol)` is the
-/// largest.
+/// The loosest tolerance with which no error of 32 units is above the level;
+/// `judge(rtol)` is the largest.
 template <class Judge> double loosest(double level, Judge judge) {
   for (const double rtol : tolerances)
     if (judge(rtol) <= level) return rtol;

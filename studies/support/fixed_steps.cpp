@@ -121,8 +121,8 @@ double one_step_growth(const std::function<Step()>& start, std::complex<double> 
   return std::sqrt(std::abs(first[0] * second[1] - first[1] * second[0]));
 }
 
-/// γ_i of Adams and Bashforth: γ_i = 1 − Σ_{j<i} γ_j/(i + 1 − j) [Hairer, Nørsett & Wanner I,
-/// III.1].
+/// γ_i of Adams and Bashforth: γ_i = 1 − Σ_{j<i} γ_j/(i + 1 − j)
+/// [Hairer, Nørsett & Wanner I, III.1].
 std::vector<double> adams_coefficients(int count) {
   std::vector<double> gamma;
   for (int i = 0; i < count; ++i) {
@@ -167,8 +167,8 @@ FixedStepMethod adams(int order, const std::function<Step()>& start) {
           [order](std::complex<double> z) { return adams_growth(order, z); }};
 }
 
-/// Evaluations of the modified midpoint rule's rows: n and one for its last smoothing, the first
-/// shared.
+/// Evaluations of the modified midpoint rule's rows:
+/// n and one for its last smoothing, the first shared.
 double midpoint_evaluations(int rows) { return rows * (rows + 1) + 1; }
 /// n − 1 a row, the first shared.
 double implicit_evaluations(int rows) { return 1 + rows * (rows + 1) / 2.0; }

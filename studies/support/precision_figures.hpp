@@ -8,8 +8,8 @@
 
 namespace wingspread::study {
 
-/// The figures of one run. Vectors over hinges stand in Scene order; NaN where a hinge did not
-/// latch.
+/// The figures of one run. Vectors over hinges stand in Scene order;
+/// NaN where a hinge did not latch.
 struct Figures {
   std::vector<int> order;     ///< hinges as they latched
   std::vector<double> time;   ///< of latching, s

@@ -48,8 +48,8 @@ oracle::ReferenceOutcome reference(const Scene& scene, double t_end) {
 } // namespace
 
 TEST_CASE("the three-panel wing gives the figures of an independent model") {
-  // Produced outside this repository by SciPy's DOP853 at rtol 1e-11 on a dense model in absolute
-  // angles.
+  // Produced outside this repository by SciPy's DOP853 at rtol 1e-11
+  // on a dense model in absolute angles.
   const Outcome out = run(oracle::seed_scene(), 1e-10, 12);
   REQUIRE(out.status == Status::deployed);
   REQUIRE(out.latches.size() == 3);
@@ -306,8 +306,8 @@ TEST_CASE("an early end loses no peak on random wings") {
 
 namespace {
 
-/// One panel on its hinge in its centre of mass's line; spring from `torque` to none, latch at
-/// `latched`.
+/// One panel on its hinge in its centre of mass's line;
+/// spring from `torque` to none, latch at `latched`.
 Scene swinging_panel(double latched, double torque, double viscous) {
   Scene scene = oracle::latching_panel();
   scene.hinges[0].stowed = -1.5707963267948966;

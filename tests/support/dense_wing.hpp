@@ -16,7 +16,7 @@
 /// | J_j    | Jacobian of body j's centre of mass               | 2×(n+3) | m, 1   |
 /// | b_j    | its acceleration at q̈ = 0                         | 2       | m/s²   |
 /// | M      | mass matrix                                       | (n+3)²  | kg …   |
-/// | Q      | ±hinge moments                      | n + 3   | N·m    |
+/// | Q      | ±hinge moments                                    | n + 3   | N·m    |
 /// | f_i    | force of hinge i on its child, inertial axes      | 2       | N      |
 #pragma once
 
@@ -84,15 +84,15 @@ template <class Scalar> [[nodiscard]] Scalar smooth_step(const Scalar& u) {
 /// A scene as a dense system. Scalar: double, long double or Quad. Friction: regularized only.
 template <class Scalar> class DenseWing {
 public:
-  /// @throws std::invalid_argument when the hinges form no tree, or when a hinge has exact
-  /// friction.
+  /// @throws std::invalid_argument when the hinges form no tree,
+  /// or when a hinge has exact friction.
   explicit DenseWing(const Scene& scene);
 
   /// The number of hinges, n.
   [[nodiscard]] int size() const { return static_cast<int>(links_.size()); }
 
-  /// The state at t = 0: stowed, latches open. A base that is not free starts in the inertial
-  /// origin.
+  /// The state at t = 0: stowed, latches open.
+  /// A base that is not free starts in the inertial origin.
   [[nodiscard]] WingState<Scalar> initial_state() const;
 
   /// The moment across each hinge, n, N·m.

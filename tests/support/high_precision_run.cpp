@@ -122,8 +122,8 @@ private:
     return first;
   }
 
-  /// The step at which g(y) < 0 becomes ≥ 0: Illinois, each trial a real step. Ends on the side ≥
-  /// 0.
+  /// The step at which g(y) < 0 becomes ≥ 0: Illinois, each trial a real step.
+  /// Ends on the side ≥ 0.
   template <class Function> [[nodiscard]] Scalar crossing(Scalar upper, const Function& g) const {
     using std::abs;
     Scalar lower = 0, below = g(y_), above = g(stepped(upper));

@@ -100,8 +100,8 @@ Hinge mirrored(Hinge hinge, int offset, const std::string& prefix) {
   return hinge;
 }
 
-/// A spacecraft with the first `panels` panels of the seed scene on its right, and mirrored on its
-/// left.
+/// A spacecraft with the first `panels` panels of the seed scene on its right,
+/// and mirrored on its left.
 Scene two_wings(std::string name, int panels) {
   const Scene wing = seed_scene();
   Scene scene;

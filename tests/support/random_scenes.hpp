@@ -10,8 +10,8 @@
 
 namespace wingspread::oracle {
 
-/// Draws that are the same on every platform: mt19937_64's bits and nothing of <random>'s
-/// distributions.
+/// Draws that are the same on every platform:
+/// mt19937_64's bits and nothing of <random>'s distributions.
 class Draws {
 public:
   explicit Draws(std::uint64_t seed) : engine_(seed) {}
@@ -50,8 +50,8 @@ struct RandomScene {
 /// The three-panel seed scene.
 [[nodiscard]] Scene seed_scene();
 
-/// A tumbling free spacecraft with two mirrored three-panel wings, the left one's springs 3 %
-/// stronger.
+/// A tumbling free spacecraft with two mirrored three-panel wings,
+/// the left one's springs 3 % stronger.
 [[nodiscard]] Scene two_wing_free_spacecraft();
 
 /// A free spacecraft at rest with two mirrored two-panel wings: its latches engage in pairs.

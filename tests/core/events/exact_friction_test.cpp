@@ -128,8 +128,8 @@ Scene released(Scene scene, double t) {
   return scene;
 }
 
-/// A panel on a prescribed base, without spring: sticks by `static_level`, slides against
-/// `kinetic`.
+/// A panel on a prescribed base, without spring:
+/// sticks by `static_level`, slides against `kinetic`.
 Scene carried_panel(double kinetic, double static_level) {
   Scene scene = latching_panel();
   scene.base.motion = BaseMotion::prescribed;

@@ -76,7 +76,8 @@ Series steps(Stepper& stepper, TestWing<T>& wing, const std::vector<State<Quad>>
 }
 
 /// Each halving divides the error by 2^(order + 1), at first by a little less, until it is below
-/// `floor`, where it stays. @return how often it did
+/// `floor`, where it stays.
+/// @return how often it did
 int check_order(const std::vector<double>& errors, int order, double floor) {
   int above = 0;
   double slope = 0;

@@ -19,8 +19,8 @@ namespace {
 
 double relative(double got, double expected) { return std::abs(got / expected - 1); }
 
-/// Latches, in order, against a reference whose times and rates are multiplied by `pace` and
-/// 1/pace.
+/// Latches, in order, against a reference
+/// whose times and rates are multiplied by `pace` and 1/pace.
 void check_latches(const Outcome& out, const ReferenceOutcome& exact, double tolerance,
                    double pace = 1) {
   REQUIRE(out.latches.size() == exact.latches.size());

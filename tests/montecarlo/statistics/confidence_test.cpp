@@ -16,8 +16,8 @@ using Binomial = boost::math::binomial_distribution<double>;
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-/// Five standard errors of a share seen in `trials`: chance leaves this band once in a million
-/// times.
+/// Five standard errors of a share seen in `trials`:
+/// chance leaves this band once in a million times.
 double band(double share, int trials) { return 5 * std::sqrt(share * (1 - share) / trials); }
 
 } // namespace

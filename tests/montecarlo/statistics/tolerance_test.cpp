@@ -26,8 +26,8 @@ std::vector<double> sorted_sample(int n, std::mt19937_64& random) {
   return sample;
 }
 
-/// Five standard errors of a share seen in `trials`: chance leaves this band once in a million
-/// times.
+/// Five standard errors of a share seen in `trials`:
+/// chance leaves this band once in a million times.
 double band(double share, int trials) { return 5 * std::sqrt(share * (1 - share) / trials); }
 
 } // namespace
