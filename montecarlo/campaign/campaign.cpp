@@ -4,7 +4,6 @@
 #include "montecarlo/campaign/correlations.hpp"
 #include "montecarlo/campaign/scene_json.hpp"
 #include "montecarlo/formats/json_reader.hpp"
-#include "montecarlo/runs/run.hpp"
 
 #include <fmt/format.h>
 
@@ -40,12 +39,6 @@ std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs
   for (OutputColumn& column : output_columns(scene, outputs))
     names.push_back(std::move(column.name));
   return names;
-}
-
-Outputs all_outputs() {
-  Outputs outputs = default_outputs();
-  outputs.insert(OutputFamily::rate_at);
-  return outputs;
 }
 
 /// Requirements and widths to stop at: what names the campaign's outputs, and needs its draws to be

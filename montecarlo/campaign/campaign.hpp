@@ -6,8 +6,9 @@
 #include "montecarlo/campaign/campaign_settings.hpp"
 #include "montecarlo/campaign/dispersion.hpp"
 #include "montecarlo/campaign/margin_spec.hpp"
+#include "montecarlo/campaign/outputs.hpp"
 #include "montecarlo/campaign/requirement.hpp"
-#include "montecarlo/campaign/stopping.hpp"
+#include "montecarlo/campaign/stopping_rule.hpp"
 #include "montecarlo/formats/json_parse.hpp"
 
 #include <cstdint>

@@ -99,11 +99,6 @@ Design design_of(const Sampling& sampling) {
           static_cast<std::uint64_t>(sampling.replicates)};
 }
 
-Outputs default_outputs() {
-  return {OutputFamily::latch_time, OutputFamily::latch_rate, OutputFamily::peak_moment,
-          OutputFamily::peak_force};
-}
-
 void read_sampling(const JsonCursor& at, Sampling& sampling) {
   JsonObject object(at, "an object with the sampling");
   object.optional_choice("design", sampling.design, design_names);
@@ -134,16 +129,6 @@ void read_integration(const JsonCursor& at, Integration& integration) {
   object.refuse_others();
 }
 
-void read_outputs(const JsonCursor& at, Outputs& outputs) {
-  if (!at.value().is_array()) return void(at.refuse("an array of output families"));
-  outputs.clear();
-  for (const JsonCursor& element : at.elements()) {
-    const auto index = element.choice(output_family_names);
-    if (index && !outputs.insert(static_cast<OutputFamily>(*index)).second)
-      element.refuse(describe_value(element.value()) + " a second time", "each family once");
-  }
-}
-
 void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
   JsonObject object(at, "an object with the statistics");
   if (const auto quantiles = object.find("quantiles"))
@@ -169,13 +154,6 @@ Json write_integration(const Integration& integration) {
             {"atol", integration.atol},     {"latch", latch},
             {"t_end", integration.t_end},   {"max_steps", integration.max_steps}};
   if (has_fixed_step(integration.method)) json["step"] = integration.step;
-  return json;
-}
-
-Json write_outputs(const Outputs& outputs) {
-  Json json = Json::array();
-  for (const OutputFamily family : outputs)
-    json.push_back(output_family_names[static_cast<std::size_t>(family)]);
   return json;
 }
 

@@ -1,4 +1,5 @@
-/// The parts of a campaign that say how its runs are drawn, integrated and summed up.
+/// The parts of a campaign that say how its runs are drawn, integrated and summed up; what they
+/// leave behind is in outputs.hpp.
 ///
 /// Each `read_` starts from what is already there (the defaults), and notes its problems in the
 /// cursor's list; each `write_` gives the same in full.
@@ -11,7 +12,6 @@
 
 #include <array>
 #include <cstdint>
-#include <set>
 #include <string_view>
 
 namespace wingspread {
@@ -33,25 +33,15 @@ struct Sampling {
 
 inline constexpr std::array<std::string_view, 3> design_names{"random", "latin_hypercube", "sobol"};
 
-enum class OutputFamily { latch_time, latch_rate, peak_moment, peak_force, rate_at };
-inline constexpr std::array<std::string_view, 5> output_family_names{
-    "latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at"};
-using Outputs = std::set<OutputFamily>;
-
 /// Whether the method takes the step it is given: no other has a use for `Integration::step`.
 [[nodiscard]] bool has_fixed_step(std::string_view method);
 
-/// All but `rate_at`, whose number grows with the square of the hinges'.
-[[nodiscard]] Outputs default_outputs();
-
 void read_sampling(const JsonCursor& at, Sampling& sampling);
 void read_integration(const JsonCursor& at, Integration& integration);
-void read_outputs(const JsonCursor& at, Outputs& outputs);
 void read_statistics(const JsonCursor& at, StatisticsSpec& statistics);
 
 [[nodiscard]] Json write_sampling(const Sampling& sampling);
 [[nodiscard]] Json write_integration(const Integration& integration);
-[[nodiscard]] Json write_outputs(const Outputs& outputs);
 [[nodiscard]] Json write_statistics(const StatisticsSpec& statistics);
 
 } // namespace wingspread

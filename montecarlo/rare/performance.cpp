@@ -12,16 +12,9 @@
 namespace wingspread {
 namespace {
 
-/// Every output that a run of the scene can have.
-std::vector<OutputColumn> all_columns(const Scene& scene) {
-  return output_columns(scene, {OutputFamily::latch_time, OutputFamily::latch_rate,
-                                OutputFamily::peak_moment, OutputFamily::peak_force,
-                                OutputFamily::rate_at});
-}
-
 OutputColumn column_named(const Scene& scene, const std::string& name) {
   std::vector<std::string> known;
-  for (const OutputColumn& column : all_columns(scene)) {
+  for (const OutputColumn& column : output_columns(scene, all_outputs())) {
     if (column.name == name) return column;
     known.push_back(column.name);
   }

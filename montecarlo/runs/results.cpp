@@ -69,9 +69,7 @@ long parse_run(const CsvReader& reader, const std::string& cell, const Results& 
 }
 
 Status parse_status(const CsvReader& reader, const std::string& cell) {
-  const auto same = [&](Status status) { return cell == to_string(status); };
-  const auto found = std::ranges::find_if(statuses, same);
-  if (found != statuses.end()) return *found;
+  if (const auto status = status_named(cell)) return *status;
   std::vector<std::string> allowed;
   std::ranges::transform(statuses, std::back_inserter(allowed),
                          [](Status s) { return to_string(s); });

@@ -6,11 +6,11 @@
 #pragma once
 
 #include "core/deployment.hpp"
+#include "montecarlo/campaign/outputs.hpp"
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/machine/spilled.hpp"
 #include "montecarlo/machine/text_column.hpp"
 
-#include <array>
 #include <cstddef>
 #include <iosfwd>
 #include <string>
@@ -18,10 +18,6 @@
 #include <vector>
 
 namespace wingspread {
-
-/// Every status, in the order in which it is reported.
-inline constexpr std::array statuses{Status::deployed, Status::stalled, Status::timed_out,
-                                     Status::invalid, Status::failed};
 
 /// The names of the columns that depend on the campaign.
 struct ResultNames {

@@ -7,6 +7,7 @@
 #include "distributions/design.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/campaign/outputs.hpp"
 #include "montecarlo/runs/results.hpp"
 
 #include <functional>
@@ -15,41 +16,6 @@
 #include <vector>
 
 namespace wingspread {
-
-/// A column of outputs: which quantity of which hinge.
-struct OutputColumn {
-  std::string name; ///< "root.latch_time"
-  enum class Quantity {
-    latch_time,
-    latch_rate,
-    peak_moment,
-    peak_force,
-    rate_at,
-    deployment_time
-  } quantity;
-  int hinge = -1; ///< index into Scene::hinges; none for the deployment time
-  int other = -1; ///< of `rate_at`: the hinge that latches
-};
-
-/// The columns that a campaign's families of outputs come to: hinge by hinge in the scene's order,
-/// then `deployment_time`, which is always there. A hinge without a latch has no latch time and
-/// rate, but rates at the latching of others; a hinge's rate at its own latching is its
-/// `latch_rate`, and no `rate_at`.
-[[nodiscard]] std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs);
-
-/// What the families need of a run: without peaks it ends at the last latch.
-[[nodiscard]] Goal goal_of(const Outputs& outputs);
-
-/// The number in the column; NaN when it did not happen.
-///
-/// A latch that happened counts in whatever became of the run afterwards. A peak needs a run whose
-/// end is known: not one that failed, where a larger one may have been to come. Of a run that timed
-/// out it is the peak up to t_end. `deployment_time` exists only when all hinges with a latch have
-/// latched.
-[[nodiscard]] double output_of(const OutputColumn& column, const Outcome& outcome);
-
-/// The names of the hinges that latched, in order of time: "root>mid>tip".
-[[nodiscard]] std::string latch_order(const Scene& scene, const Outcome& outcome);
 
 /// Another rule than the campaign's design that puts runs into the unit cube; pure.
 /// @param u one for each dispersion in their order, to be set; each strictly within (0, 1)

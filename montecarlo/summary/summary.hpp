@@ -5,13 +5,13 @@
 /// the number in which it did not. The same results give the same summary, bit for bit.
 #pragma once
 
-#include "montecarlo/campaign/stopping.hpp"
 #include "montecarlo/runs/results.hpp"
 #include "montecarlo/statistics/column_correlation.hpp"
 #include "montecarlo/statistics/confidence.hpp"
 #include "montecarlo/statistics/histogram.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 #include "montecarlo/statistics/statistics_spec.hpp"
+#include "montecarlo/summary/stopping.hpp"
 #include "montecarlo/summary/verdict.hpp"
 
 #include <string>

@@ -42,7 +42,7 @@ struct Verdict {
   std::optional<double> margin;
 };
 
-/// @param looks at how many numbers of runs the campaign could have stopped (stopping.hpp)
+/// @param looks at how many numbers of runs the campaign could have stopped (stopping_rule.hpp)
 /// @pre the draws of the runs are independent; the results have the output
 [[nodiscard]] Verdict judge(const Requirement& requirement, const Results& results, long looks = 1);
 

@@ -39,6 +39,15 @@ inline Json full_campaign(int runs) {
 
 inline Campaign campaign_of(const Json& json) { return read_campaign(json.dump(), ""); }
 
+/// A rule of one goal, as `run --until` takes it.
+inline StoppingRule rule_of(const char* text) {
+  StoppingRule rule;
+  std::vector<Problem> problems;
+  const Json goals{parse_width_goal(text).value()};
+  read_stopping_rule(JsonCursor(goals, "", problems), nullptr, rule);
+  return rule;
+}
+
 /// How to run a campaign in a test.
 struct Session {
   int threads = 1;

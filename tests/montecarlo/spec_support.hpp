@@ -81,6 +81,20 @@ template <class Read> std::string problems_of(const Json& document, Read read) {
   return SpecError(problems).what();
 }
 
+/// What a settings' reader makes of its defaults, and the problems that it notes.
+template <class Settings> struct Reading {
+  Settings settings;
+  std::string problems;
+};
+
+template <class Settings>
+Reading<Settings> read(const char* json, Settings settings,
+                       void (*reader)(const JsonCursor&, Settings&)) {
+  const std::string problems =
+      problems_of(parse_json(json), [&](const JsonCursor& at) { reader(at, settings); });
+  return {settings, problems};
+}
+
 /// A folder of its own, empty at first and gone at the end. Test cases run side by side, each in a
 /// process: its number is part of the name.
 class Folder {

@@ -4,25 +4,13 @@
 #include <catch2/catch.hpp>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
 
 struct Case {
   const char *json, *message;
 };
-
-template <class Settings> struct Reading {
-  Settings settings;
-  std::string problems;
-};
-
-template <class Settings>
-Reading<Settings> read(const char* json, Settings settings,
-                       void (*reader)(const JsonCursor&, Settings&)) {
-  const std::string problems =
-      test::problems_of(parse_json(json), [&](const JsonCursor& at) { reader(at, settings); });
-  return {settings, problems};
-}
 
 } // namespace
 
@@ -137,23 +125,6 @@ TEST_CASE("An unknown method is told with the known ones", "[campaign_settings]"
   // Which method takes a step is then anyone's guess: one problem, and not two.
   CHECK_THAT(read(R"({"method": "euler?", "step": 1})", Integration{}, read_integration).problems,
              !Catch::Contains("/step"));
-}
-
-TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_settings]") {
-  CHECK(write_outputs(default_outputs()).dump() ==
-        R"(["latch_time","latch_rate","peak_moment","peak_force"])");
-  const auto [outputs, problems] =
-      read(R"(["rate_at", "latch_time"])", default_outputs(), read_outputs);
-  CHECK(problems.empty());
-  CHECK(outputs == Outputs{OutputFamily::latch_time, OutputFamily::rate_at});
-  CHECK(read("[]", default_outputs(), read_outputs).settings.empty());
-  const auto [json, message] = GENERATE(values<Case>(
-      {{"\"latch_time\"", "found string \"latch_time\", expected an array of output families"},
-       {R"(["latch_times"])", "/0: found string \"latch_times\", expected \"latch_time\", "
-                              "\"latch_rate\", \"peak_moment\", \"peak_force\" or \"rate_at\""},
-       {R"(["rate_at", "rate_at"])",
-        "/1: found string \"rate_at\" a second time, expected each family once"}}));
-  CHECK(read(json, default_outputs(), read_outputs).problems == message);
 }
 
 TEST_CASE("Statistics are read over their defaults, and written in full", "[campaign_settings]") {

@@ -11,17 +11,6 @@ using namespace wingspread::test;
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-const Outputs all_outputs{OutputFamily::latch_time, OutputFamily::latch_rate,
-                          OutputFamily::peak_moment, OutputFamily::peak_force,
-                          OutputFamily::rate_at};
-
-std::vector<std::string> column_names(const Scene& scene, const Outputs& outputs) {
-  std::vector<std::string> names;
-  for (const OutputColumn& column : output_columns(scene, outputs)) names.push_back(column.name);
-  return names;
-}
-
 /// The row as its line of runs.csv: bit for bit, missing numbers included.
 std::string line(const ResultRow& row) {
   std::string text;
@@ -29,105 +18,7 @@ std::string line(const ResultRow& row) {
   return text;
 }
 
-/// A wing of two hinges of which both latched.
-Outcome some_outcome() {
-  Outcome outcome;
-  outcome.status = Status::deployed;
-  outcome.latches = {{1, 2.0, {-0.5, 0.25}}, {0, 3.0, {-1.5, 0.125}}};
-  outcome.peak_moment = {{10, 3}, {20, 2}};
-  outcome.peak_force = {{30, 3}, {40, 2}};
-  return outcome;
-}
-
-std::vector<double> outputs_of(const Outcome& outcome) {
-  Scene scene = read_campaign(small_campaign().dump(), "").scene;
-  scene.hinges[1].latch = Latch{1e4, 100};
-  std::vector<double> values;
-  for (const OutputColumn& column : output_columns(scene, all_outputs))
-    values.push_back(output_of(column, outcome));
-  return values;
-}
-
-void check_same(const std::vector<double>& found, const std::vector<double>& expected) {
-  REQUIRE(found.size() == expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    CAPTURE(i);
-    if (std::isnan(expected[i]))
-      CHECK(std::isnan(found[i]));
-    else
-      CHECK(found[i] == expected[i]);
-  }
-}
-
 } // namespace
-
-TEST_CASE("the columns stand hinge by hinge, then the deployment time") {
-  const Scene scene = read_scene_file(three_panel_file());
-  CHECK(column_names(scene, default_outputs()) ==
-        std::vector<std::string>{"root.latch_time", "root.latch_rate", "root.peak_moment",
-                                 "root.peak_force", "mid.latch_time", "mid.latch_rate",
-                                 "mid.peak_moment", "mid.peak_force", "tip.latch_time",
-                                 "tip.latch_rate", "tip.peak_moment", "tip.peak_force",
-                                 "deployment_time"});
-  CHECK(column_names(scene, {OutputFamily::rate_at}) ==
-        std::vector<std::string>{"root.rate_at.mid", "root.rate_at.tip", "mid.rate_at.root",
-                                 "mid.rate_at.tip", "tip.rate_at.root", "tip.rate_at.mid",
-                                 "deployment_time"});
-  CHECK(column_names(scene, {}) == std::vector<std::string>{"deployment_time"});
-}
-
-TEST_CASE("a hinge without a latch has no latch time, but a rate when others latch") {
-  const Scene scene = campaign_of(small_campaign()).scene; // mid has no latch
-  CHECK(column_names(scene, all_outputs) ==
-        std::vector<std::string>{"root.latch_time", "root.latch_rate", "root.peak_moment",
-                                 "root.peak_force", "mid.peak_moment", "mid.peak_force",
-                                 "mid.rate_at.root", "deployment_time"});
-}
-
-TEST_CASE("a run goes no further than the outputs need") {
-  const Goal latches = goal_of({OutputFamily::latch_time, OutputFamily::rate_at});
-  CHECK_FALSE(latches.peak_moment);
-  CHECK_FALSE(latches.peak_force);
-  CHECK_FALSE(latches.audit);
-  CHECK_FALSE(latches.to_t_end);
-  CHECK(goal_of({OutputFamily::peak_moment}).peak_moment);
-  CHECK_FALSE(goal_of({OutputFamily::peak_moment}).peak_force);
-  CHECK(goal_of({OutputFamily::peak_force}).peak_force);
-}
-
-TEST_CASE("outputs are taken from the outcome, and missing where they did not happen") {
-  Outcome outcome = some_outcome();
-  // root: latch time, latch rate, peak moment, peak force, rate at mid; mid likewise; the last
-  // latch
-  check_same(outputs_of(outcome), {3, -1.5, 10, 30, -0.5, 2, 0.25, 20, 40, 0.125, 3});
-
-  SECTION("stalled or timed out: peaks up to the end, and no deployment time") {
-    outcome.status = GENERATE(Status::stalled, Status::timed_out);
-    outcome.latches.pop_back();
-    check_same(outputs_of(outcome), {none, none, 10, 30, -0.5, 2, 0.25, 20, 40, none, none});
-  }
-  SECTION("failed: what latched did, but a larger peak might have come") {
-    outcome.status = Status::failed;
-    outcome.latches.pop_back();
-    check_same(outputs_of(outcome),
-               {none, none, none, none, -0.5, 2, 0.25, none, none, none, none});
-  }
-  SECTION("a number that is not finite is none") {
-    outcome.peak_force[0].value = std::numeric_limits<double>::infinity();
-    check_same(outputs_of(outcome), {3, -1.5, 10, none, -0.5, 2, 0.25, 20, 40, 0.125, 3});
-  }
-  SECTION("invalid: nothing") {
-    outcome = {};
-    outcome.status = Status::invalid;
-    check_same(outputs_of(outcome), std::vector<double>(11, none));
-  }
-}
-
-TEST_CASE("the latch order names the hinges in order of time") {
-  Scene scene = campaign_of(small_campaign()).scene;
-  CHECK(latch_order(scene, some_outcome()) == "mid>root");
-  CHECK(latch_order(scene, {}).empty());
-}
 
 TEST_CASE("a draw depends on seed, run and name alone") {
   const Campaign few = campaign_of(quick_campaign(10)), many = campaign_of(quick_campaign(1000));

@@ -1,16 +1,13 @@
-#include "montecarlo/campaign/stopping.hpp"
+#include "montecarlo/campaign/stopping_rule.hpp"
 
+#include "montecarlo/campaign/outputs.hpp"
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/nearest.hpp"
 #include "montecarlo/formats/output_name.hpp"
-#include "montecarlo/statistics/confidence.hpp"
-#include "montecarlo/statistics/statistics.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
 
 namespace wingspread {
 namespace {
@@ -20,12 +17,6 @@ constexpr const char* quantile_expected = "a number, > 0 and < 1: the quantile t
 
 bool is_positive(const double& number) { return number > 0; }
 bool is_proper_share(const double& number) { return number > 0 && number < 1; }
-
-std::optional<Status> status_named(std::string_view name) {
-  const auto found =
-      std::ranges::find_if(statuses, [&](Status status) { return to_string(status) == name; });
-  return found == statuses.end() ? std::nullopt : std::optional(*found);
-}
 
 void refuse_unknown_output(const JsonCursor& at, const std::string& output,
                            const std::vector<std::string>& outputs) {
@@ -80,28 +71,6 @@ std::optional<std::string_view> split_last(std::string_view& text, char mark) {
   const std::string_view last = text.substr(at + 1);
   text = text.substr(0, at);
   return last;
-}
-
-WidthFound find_width(const WidthGoal& goal, const Results& results, double confidence) {
-  WidthFound found{goal, {}, false};
-  if (results.size() == 0) return found;
-  if (const auto status = status_named(goal.output)) {
-    const long hits = std::ranges::count(results.status, *status);
-    const Interval interval = clopper_pearson(hits, static_cast<long>(results.size()), confidence);
-    found.width = interval.upper - interval.lower;
-    found.met = *found.width <= goal.width;
-    return found;
-  }
-  const auto column = std::ranges::find(results.outputs, goal.output, &Column::name);
-  assert(column != results.outputs.end());
-  const std::vector<double> sorted = sorted_present(column->values);
-  column->values.release();
-  const Bounds bounds = quantile_bounds(sorted, *goal.quantile, confidence);
-  if (!bounds.lower || !bounds.upper) return found;
-  found.width = *bounds.upper - *bounds.lower;
-  const double unit = goal.relative ? std::abs(quantile(sorted, *goal.quantile)) : 1;
-  found.met = *found.width <= goal.width * unit;
-  return found;
 }
 
 } // namespace
@@ -164,17 +133,6 @@ long count_looks(const StoppingRule& rule, long runs) {
   long looks = 0;
   for (long done = 0; done < runs; done = next_checkpoint(done, runs)) ++looks;
   return looks;
-}
-
-std::vector<WidthFound> find_widths(const StoppingRule& rule, const Results& results,
-                                    double confidence) {
-  std::vector<WidthFound> widths;
-  for (const WidthGoal& goal : rule) widths.push_back(find_width(goal, results, confidence));
-  return widths;
-}
-
-bool are_met(std::span<const WidthFound> widths) {
-  return !widths.empty() && std::ranges::all_of(widths, &WidthFound::met);
 }
 
 } // namespace wingspread

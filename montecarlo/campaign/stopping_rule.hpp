@@ -1,4 +1,5 @@
-/// When a campaign has made runs enough: as soon as confidence intervals are narrow enough.
+/// When a campaign has made runs enough: as soon as confidence intervals are narrow enough. Here is
+/// what is asked for; how wide they are is found in summary/stopping.hpp.
 ///
 /// The widths are looked at only at checkpoints, fixed numbers of runs, and depend on nothing but
 /// the rows up to there: where a campaign stops does not depend on threads or interruptions. Each
@@ -7,10 +8,8 @@
 #pragma once
 
 #include "montecarlo/formats/json_reader.hpp"
-#include "montecarlo/runs/results.hpp"
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -47,20 +46,5 @@ void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* ou
 /// How many checkpoints there are; 1 without a rule.
 [[nodiscard]] long count_looks(const StoppingRule& rule, long runs);
 [[nodiscard]] bool is_checkpoint(long done, long runs);
-
-/// A goal and how wide its interval is. Of a quantile, over the runs in which the output happened.
-struct WidthFound {
-  WidthGoal goal;
-  std::optional<double> width; ///< absolute; nothing where a bound does not exist
-  bool met = false;
-};
-
-/// @param confidence of each interval, two-sided
-/// @pre the draws of the runs are independent; the results have the outputs
-[[nodiscard]] std::vector<WidthFound> find_widths(const StoppingRule& rule, const Results& results,
-                                                  double confidence);
-
-/// Whether every goal is met; false without any.
-[[nodiscard]] bool are_met(std::span<const WidthFound> widths);
 
 } // namespace wingspread
