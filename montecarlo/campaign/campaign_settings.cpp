@@ -11,8 +11,6 @@ constexpr std::int64_t most_bins = 1'000'000;
 constexpr std::int64_t most_replicates = 1'000'000;
 constexpr std::string_view fixed_step_method = "runge_kutta4";
 
-bool is_positive(const double& number) { return number > 0; }
-bool is_proper_share(const double& number) { return number > 0 && number < 1; }
 bool is_at_least_1(const std::int64_t& number) { return number >= 1; }
 
 /// @return false when it noted a problem

@@ -2,6 +2,7 @@
 
 #include "montecarlo/campaign/distribution_json.hpp"
 #include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/statistics/tolerance.hpp"
 
 #include <fmt/format.h>
@@ -11,11 +12,6 @@
 
 namespace wingspread {
 namespace {
-
-/// "three bodies" in digits: "1 body", "3 bodies".
-template <class Number> std::string count(Number n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
 
 std::string describe_vector(const Eigen::Vector2d& vector) {
   return fmt::format("({}, {})", vector.x(), vector.y());
@@ -67,8 +63,8 @@ std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
          describe_latch(hinge.latch);
 }
 
-std::string describe_value(double value) { return fmt::format("{}", value); }
-std::string describe_value(const std::vector<double>& values) {
+std::string describe_argument(double value) { return fmt::format("{}", value); }
+std::string describe_argument(const std::vector<double>& values) {
   return values.size() <= 4 ? fmt::format("{}", fmt::join(values, " "))
                             : fmt::format("{} numbers", values.size());
 }
@@ -80,7 +76,7 @@ std::string describe_distribution(const Distribution& distribution) {
       [&]<class L>(const L& law) {
         for (const auto& parameter : L::parameters()) {
           text += fmt::format("{}{} {}", separator, parameter.name,
-                              describe_value(law.*parameter.member));
+                              describe_argument(law.*parameter.member));
           separator = ", ";
         }
       },
@@ -120,7 +116,7 @@ std::string describe_replicates(const Sampling& sampling) {
 
 std::string describe_sampling(const Sampling& sampling) {
   return fmt::format("{}, {}, seed {}", design_names[static_cast<std::size_t>(sampling.design)],
-                     count(static_cast<std::size_t>(sampling.runs), "run", "runs"), sampling.seed) +
+                     counted(sampling.runs, "run", "runs"), sampling.seed) +
          describe_replicates(sampling);
 }
 
@@ -159,9 +155,9 @@ std::string describe_requirement(const Campaign& campaign, const Requirement& re
   const double c = at_each_look(requirement.confidence, count_looks(campaign));
   const std::string text = to_string(requirement);
   if (const auto allowed = allowed_failures(runs, p, c))
-    return fmt::format("{}: {} of {} may break it", text, *allowed, count(runs, "run", "runs"));
+    return fmt::format("{}: {} of {} may break it", text, *allowed, counted(runs, "run", "runs"));
   const auto least = runs_to_show(p, c, 0);
-  return fmt::format("{}: cannot be shown with {}, it takes {}", text, count(runs, "run", "runs"),
+  return fmt::format("{}: cannot be shown with {}, it takes {}", text, counted(runs, "run", "runs"),
                      least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
 }
 
@@ -195,11 +191,11 @@ std::string describe_guarantees(const Campaign& campaign) {
 std::string describe(const Scene& scene) {
   std::string text =
       fmt::format("scene {}\n  base: {}\n  {}\n", scene.name, describe_base(scene.base),
-                  count(scene.bodies.size(), "body", "bodies"));
+                  counted(std::ssize(scene.bodies), "body", "bodies"));
   for (const Body& body : scene.bodies)
     text +=
         fmt::format("    {}: mass {} kg, inertia {} kg·m²\n", body.name, body.mass, body.inertia);
-  text += fmt::format("  {}\n", count(scene.hinges.size(), "hinge", "hinges"));
+  text += fmt::format("  {}\n", counted(std::ssize(scene.hinges), "hinge", "hinges"));
   for (const Hinge& hinge : scene.hinges)
     text += fmt::format("    {}\n", describe_hinge(scene, hinge));
   return text;
@@ -207,11 +203,11 @@ std::string describe(const Scene& scene) {
 
 std::string describe(const Campaign& campaign) {
   std::string text = "campaign\n" + describe(campaign.scene) +
-                     count(campaign.dispersions.size(), "dispersion", "dispersions") + "\n";
+                     counted(std::ssize(campaign.dispersions), "dispersion", "dispersions") + "\n";
   for (const Dispersion& dispersion : campaign.dispersions)
     text += fmt::format("  {}\n", describe_dispersion(campaign.scene, dispersion));
   if (!campaign.correlations.empty())
-    text += count(campaign.correlations.size(), "correlation", "correlations") + "\n";
+    text += counted(std::ssize(campaign.correlations), "correlation", "correlations") + "\n";
   for (const RankCorrelation& correlation : campaign.correlations)
     text += fmt::format("  {}\n", describe_correlation(campaign, correlation));
   text += "sampling: " + describe_sampling(campaign.sampling) + "\n";

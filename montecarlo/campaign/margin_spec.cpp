@@ -13,9 +13,6 @@ constexpr std::int64_t most_points = 1000;
 constexpr std::array<std::string_view, 2> case_names{"nominal", "one_spring_out"};
 constexpr const char* expected_range = "an array of two numbers, 0 < lower < upper";
 
-bool is_positive(const double& number) { return number > 0; }
-bool is_not_negative(const double& number) { return number >= 0; }
-bool is_proper_share(const double& number) { return number > 0 && number < 1; }
 bool is_point_count(const std::int64_t& number) { return number >= 2 && number <= most_points; }
 bool is_at_least_2(const std::int64_t& number) { return number >= 2; }
 

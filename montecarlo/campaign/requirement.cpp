@@ -10,7 +10,6 @@
 namespace wingspread {
 namespace {
 
-bool is_proper_share(const double& number) { return number > 0 && number < 1; }
 bool is_not_empty(const std::string& text) { return !text.empty(); }
 
 bool contains(std::span<const std::string> names, const std::string& name) {

@@ -15,9 +15,6 @@ namespace {
 constexpr long first_checkpoint = 1000;
 constexpr const char* quantile_expected = "a number, > 0 and < 1: the quantile that is meant";
 
-bool is_positive(const double& number) { return number > 0; }
-bool is_proper_share(const double& number) { return number > 0 && number < 1; }
-
 void refuse_unknown_output(const JsonCursor& at, const std::string& output,
                            const std::vector<std::string>& outputs) {
   if (status_named(output) || std::ranges::find(outputs, output) != outputs.end()) return;

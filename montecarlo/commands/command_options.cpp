@@ -2,6 +2,7 @@
 
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/summary/table.hpp"
 

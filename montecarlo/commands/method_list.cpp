@@ -1,20 +1,16 @@
 #include "montecarlo/commands/method_list.hpp"
 
-#include "montecarlo/summary/table.hpp"
+#include "montecarlo/formats/text_layout.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace wingspread {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 
 std::string order(int value) { return value == 0 ? "–" : std::to_string(value); }
 
@@ -32,21 +28,6 @@ Json limit_json(double value) {
 std::string row(const MethodInfo& method) {
   return fmt::format("{:<26}{:>5}{:>10}{:>11}   {}\n", method.name, order(method.order),
                      limit(method.real_limit), limit(method.imaginary_limit), method.kind);
-}
-
-/// Indented lines within the width of a table, broken at blanks.
-std::string paragraph(const std::string& text) {
-  std::string lines;
-  int column = 0;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const auto length = static_cast<int>(std::ranges::count_if(word, starts_character));
-    const bool fits = column > 0 && column + 1 + length <= table_width;
-    lines += fits ? " " : column == 0 ? "  " : "\n  ";
-    column = fits ? column + 1 + length : 2 + length;
-    lines += word;
-  }
-  return lines.empty() ? "" : lines + '\n';
 }
 
 std::string remarks(const MethodInfo& method) {

@@ -1,6 +1,7 @@
 #include "montecarlo/formats/json_reader.hpp"
 
 #include "montecarlo/formats/nearest.hpp"
+#include "montecarlo/formats/text_layout.hpp"
 
 #include <fmt/format.h>
 
@@ -11,15 +12,7 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t longest_shown = 60; // bytes of a string in a message
-
-/// The text, or its beginning when it is long; cut between UTF-8 characters.
-std::string shortened(std::string text) {
-  if (text.size() <= longest_shown) return text;
-  std::size_t end = longest_shown;
-  while ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return text.substr(0, end) + "…";
-}
+constexpr std::size_t longest_shown = 61; // characters of a string in a message
 
 /// The value as an integer, whichever way JSON wrote it: 10000, 1e4 and 10000.0 are one number.
 template <class Integer> std::optional<Integer> as_integer(const Json& value) {
@@ -57,7 +50,7 @@ std::string describe_value(const Json& value) {
   case Json::value_t::array:
     return fmt::format("an array of {}", value.size());
   case Json::value_t::string:
-    return "string " + shortened(value.dump());
+    return "string " + shortened(value.dump(), longest_shown);
   default:
     return value.dump();
   }

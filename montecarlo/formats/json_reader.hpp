@@ -70,6 +70,11 @@ private:
   std::vector<Problem>* problems_;
 };
 
+// What numbers have to hold, for JsonObject below.
+[[nodiscard]] inline bool is_positive(const double& number) { return number > 0; }
+[[nodiscard]] inline bool is_not_negative(const double& number) { return number >= 0; }
+[[nodiscard]] inline bool is_proper_share(const double& number) { return number > 0 && number < 1; }
+
 /// The members of an object. Remembers the keys it was asked for: they are the known ones.
 class JsonObject {
 public:

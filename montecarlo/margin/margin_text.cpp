@@ -1,5 +1,5 @@
+#include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/margin/margin_report.hpp"
-#include "montecarlo/summary/table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +9,6 @@
 
 namespace wingspread {
 namespace {
-
-std::string percent(double share) { return fmt::format("{:.3f} %", 100 * share); }
 
 std::string scale_text(const std::optional<double>& scale) {
   return scale ? fmt::format("{}", *scale) : "–";
@@ -190,7 +188,7 @@ private:
       const Interval bounds = clopper_pearson(deployed, runs, confidence());
       text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale,
                           percent(static_cast<double>(deployed) / static_cast<double>(runs)),
-                          fmt::format("{:.3f} – {:.3f} %", 100 * bounds.lower, 100 * bounds.upper),
+                          percent_range(bounds.lower, bounds.upper),
                           shortened(outputs_of(telling(look)), table_width - 48));
     }
     return text;

@@ -1,6 +1,7 @@
 #include "montecarlo/rare/rare_text.hpp"
 
 #include "montecarlo/formats/json_number.hpp"
+#include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/runs/results.hpp"
 
 #include <fmt/format.h>
@@ -35,8 +36,6 @@ Json likeliest_json(const LikeliestRun& run, const Campaign& campaign) {
           {"draws", draws}};
 }
 
-std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
-
 std::string repeats_text(const RareResult& result, const RareOptions& options) {
   std::string text = fmt::format("\n{:<8}{:>14}{:>12}{:>10}   {}\n", "REPEAT", "probability",
                                  "variation", "runs", "levels");
@@ -44,7 +43,7 @@ std::string repeats_text(const RareResult& result, const RareOptions& options) {
     const SubsetEstimate& estimate = result.estimates[k];
     text += fmt::format("  {:<6}{:>14}{:>12}{:>10}  ", k + 1,
                         fmt::format("{}{:.3g}", estimate.reached ? "" : "< ", estimate.probability),
-                        percent(estimate.variation), estimate.evaluations);
+                        percent(estimate.variation, 0), estimate.evaluations);
     for (const SubsetLevel& level : estimate.levels)
       text += fmt::format(" {:.4g}", level_of(options.event, level.threshold));
     text += '\n';
@@ -131,7 +130,7 @@ std::string rare_text(const RareResult& result, const RareOptions& options,
   if (all.reached)
     text += fmt::format("P({}) = {:.3g}, {:g} % bounds {:.3g} … {:.3g}, variation {}\n", event,
                         all.probability, 100 * options.confidence, all.interval.lower,
-                        all.interval.upper, percent(all.variation));
+                        all.interval.upper, percent(all.variation, 0));
   else
     text += fmt::format("P({}) is below {:.3g} or was not found: some repeats did not reach it\n",
                         event, all.interval.upper);

@@ -3,6 +3,7 @@
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/json_number.hpp"
 #include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <fmt/format.h>
@@ -41,10 +42,6 @@ std::string value_text(double value, const Bounds& bounds) {
   const std::string range =
       bounds.lower ? fmt::format("{:.3f} … {:.3f}", *bounds.lower, *bounds.upper) : "–";
   return fmt::format("{:>9.3f}{:>21}", value, range);
-}
-
-std::string shortened(const std::string& name) {
-  return name.size() <= name_width - 2 ? name : fmt::format("{}~", name.substr(0, name_width - 3));
 }
 
 /// Indices of the dispersions, the largest first; those without a number last.
@@ -234,8 +231,8 @@ std::string sensitivity_table(const RankSensitivity& all, std::string_view title
     };
     const auto line = [&](std::size_t j) {
       const auto& [spearman, partial] = output.effects[j];
-      return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[j]), name_width,
-                         value_text(partial.value, partial.bounds),
+      return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[j], name_width - 2),
+                         name_width, value_text(partial.value, partial.bounds),
                          value_text(spearman.value, spearman.bounds));
     };
     text += block(heading_of(output.output, output.count, "runs", output.missing), columns,
@@ -254,8 +251,8 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
     const auto size = [&](std::size_t i) { return found.effects[i].total.value; };
     const auto line = [&](std::size_t i) {
       const auto& [first, total, inert] = found.effects[i];
-      return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[i]), name_width,
-                         value_text(total.value, bounds_of(total.interval)),
+      return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[i], name_width - 2),
+                         name_width, value_text(total.value, bounds_of(total.interval)),
                          value_text(first.value, bounds_of(first.interval)));
     };
     text += block(heading_of(name, found.rows, "rows", found.left_out), columns,

@@ -1,6 +1,7 @@
 #include "montecarlo/summary/table.hpp"
 
 #include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/formats/text_layout.hpp"
 
 #include <fmt/format.h>
 
@@ -24,13 +25,9 @@ std::string words(std::string_view name) {
   return text;
 }
 
-std::string percent(double share) {
-  return std::isnan(share) ? "–" : fmt::format("{:.3f} %", 100 * share);
-}
-
 std::string percent_bounds(const Bounds& bounds) {
   if (!bounds.lower || !bounds.upper) return "–";
-  return fmt::format("{:.3f} – {:.3f} %", 100 * *bounds.lower, 100 * *bounds.upper);
+  return percent_range(*bounds.lower, *bounds.upper);
 }
 
 double share_of(long count, long runs) {
@@ -238,16 +235,6 @@ std::string bar(long eighths) {
 }
 
 } // namespace
-
-std::string shortened(std::string_view text, std::size_t width) {
-  const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
-  if (static_cast<std::size_t>(std::ranges::count_if(text, starts)) <= width)
-    return std::string(text);
-  std::size_t end = 0;
-  for (std::size_t characters = 0; characters < width; ++end)
-    if (starts(text[end])) ++characters;
-  return std::string(text.substr(0, end - 1)) + "…";
-}
 
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
   return shortened(title, table_width) + '\n' + outcomes(summary) + reasons(summary) +

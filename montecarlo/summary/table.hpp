@@ -1,4 +1,4 @@
-/// The summary as text for a terminal: UTF-8, at most 100 columns wide.
+/// The summary as text for a terminal: text_layout.hpp says how wide.
 #pragma once
 
 #include "montecarlo/summary/summary.hpp"
@@ -7,11 +7,6 @@
 #include <string_view>
 
 namespace wingspread {
-
-inline constexpr int table_width = 100;
-
-/// The first `width` characters, the last of them "…" when there are more.
-[[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
 
 /// Outcomes with their shares and bounds, why runs did not deploy, latch orders, and the mean,
 /// standard deviation and quantiles of every output, hinge by hinge; then what the campaign asks

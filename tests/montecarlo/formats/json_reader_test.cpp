@@ -42,10 +42,11 @@ TEST_CASE("A value is described by its kind", "[json_reader]") {
 }
 
 TEST_CASE("A long string is shown by its beginning, cut between characters", "[json_reader]") {
-  // The quote and 29 letters of 2 bytes are 59 bytes; the next letter would end at 61.
+  // The quote, 59 letters of 2 bytes, and the mark of what was cut: 61 characters.
   std::string letters;
-  for (int i = 0; i < 29; ++i) letters += "ü";
+  for (int i = 0; i < 59; ++i) letters += "ü";
   CHECK(describe_value(Json(letters + "üüü")) == "string \"" + letters + "…");
+  CHECK(describe_value(Json(letters)) == "string \"" + letters + "\"");
 }
 
 TEST_CASE("Numbers are read, and nothing else as a number", "[json_reader]") {

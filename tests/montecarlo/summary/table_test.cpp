@@ -1,3 +1,4 @@
+#include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/summary/table.hpp"
 
 #include <catch2/catch.hpp>
@@ -17,12 +18,6 @@ std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> result;
   for (std::string line; std::getline(in, line);) result.push_back(line);
   return result;
-}
-
-/// Columns that a line takes up: its code points.
-long columns(const std::string& line) {
-  return std::ranges::count_if(
-      line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -90,7 +85,7 @@ TEST_CASE("the table stays within its width and leaves no blanks behind") {
   const std::string table = summary_table(summarize(results, spec), std::string(150, 't'), "");
   for (const std::string& line : lines(table)) {
     INFO(line);
-    CHECK(columns(line) <= table_width);
+    CHECK(count_characters(line) <= table_width);
     CHECK((line.empty() || line.back() != ' '));
   }
   CHECK(contains(table, "99.865 %"));
@@ -132,7 +127,7 @@ TEST_CASE("a drawn histogram: one line per bin, its count, and a bar as long as 
     return count;
   };
   CHECK((full(1) == 20 && full(2) == 40 && full(3) == 20));
-  for (std::size_t row = 1; row <= 3; ++row) CHECK(columns(rows[row]) == 64);
+  for (std::size_t row = 1; row <= 3; ++row) CHECK(count_characters(rows[row]) == 64);
   CHECK(rows[2].ends_with("       20"));
 }
 
@@ -169,5 +164,5 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
         "  tip.peak_moment                           95 % at 90 %", "UNTIL THE INTERVAL'S WIDTH IS",
         "  deployed 0.01"})
     CHECK_THAT(table, Catch::Contains(part));
-  for (const std::string& line : lines(table)) CHECK(columns(line) <= table_width);
+  for (const std::string& line : lines(table)) CHECK(count_characters(line) <= table_width);
 }

@@ -1,0 +1,30 @@
+/// Text for a terminal: UTF-8, at most 100 columns wide, a column to each character.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace wingspread {
+
+inline constexpr int table_width = 100;
+
+/// How many characters (code points) UTF-8 text has.
+[[nodiscard]] std::size_t count_characters(std::string_view text);
+
+/// The first `width` characters, the last of them "…" when there are more.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
+
+/// Lines indented by two and within `table_width`, broken at blanks.
+[[nodiscard]] std::string paragraph(std::string_view text);
+
+/// "0.500 %" of 0.005; "–" of NaN.
+[[nodiscard]] std::string percent(double share, int decimals = 3);
+
+/// "0.500 – 0.700 %" of 0.005 and 0.007.
+[[nodiscard]] std::string percent_range(double lower, double upper);
+
+/// "1 body", "3 bodies".
+[[nodiscard]] std::string counted(long count, std::string_view one, std::string_view many);
+
+} // namespace wingspread
