@@ -131,7 +131,7 @@ Campaign read_document(const Json& document, const std::filesystem::path& direct
   const GuaranteeReader guarantees(usable, campaign.outputs, campaign.sampling.design);
   if (const auto at = object.find("requirements")) guarantees.read(*at, campaign.requirements);
   if (const auto at = object.find("until")) guarantees.read(*at, campaign.until);
-  if (!campaign.statistics.tolerance.empty())
+  if (!campaign.statistics.tolerance_limits.empty())
     refuse_dependent_draws(object.at().member("statistics").member("tolerance"), "tolerance limits",
                            campaign.sampling.design);
   if (const auto at = object.find("margin")) campaign.margin = read_margin(*at, scene);

@@ -57,11 +57,11 @@ void read_quantiles(const JsonCursor& at, std::vector<double>& quantiles) {
   }
 }
 
-void read_tolerance(const JsonCursor& at, std::vector<ToleranceSpec>& tolerance) {
+void read_tolerance(const JsonCursor& at, std::vector<ToleranceLimitSpec>& tolerance) {
   if (!at.value().is_array()) return void(at.refuse("an array of tolerance limits"));
   tolerance.clear();
   for (const JsonCursor& element : at.elements()) {
-    ToleranceSpec& spec = tolerance.emplace_back();
+    ToleranceLimitSpec& spec = tolerance.emplace_back();
     JsonObject object(element, "an object with probability and confidence");
     object.required("probability", spec.probability, "a number, > 0 and < 1", is_proper_share);
     object.required("confidence", spec.confidence, "a number, > 0 and < 1", is_proper_share);
@@ -70,7 +70,7 @@ void read_tolerance(const JsonCursor& at, std::vector<ToleranceSpec>& tolerance)
   }
 }
 
-Json write_tolerance(const std::vector<ToleranceSpec>& tolerance) {
+Json write_tolerance(const std::vector<ToleranceLimitSpec>& tolerance) {
   Json list = Json::array();
   for (const auto& [probability, confidence, side] : tolerance)
     list.push_back({{"probability", probability},
@@ -134,7 +134,7 @@ void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
   object.optional("confidence", statistics.confidence, "a number, > 0 and < 1", is_proper_share);
   if (const auto bins = object.find("bins")) read_bins(*bins, statistics.bins);
   if (const auto tolerance = object.find("tolerance"))
-    read_tolerance(*tolerance, statistics.tolerance);
+    read_tolerance(*tolerance, statistics.tolerance_limits);
   object.refuse_others();
 }
 
@@ -160,7 +160,8 @@ Json write_statistics(const StatisticsSpec& statistics) {
   Json json{{"quantiles", statistics.quantiles},
             {"confidence", statistics.confidence},
             {"bins", count ? Json(*count) : Json("auto")}};
-  if (!statistics.tolerance.empty()) json["tolerance"] = write_tolerance(statistics.tolerance);
+  if (!statistics.tolerance_limits.empty())
+    json["tolerance"] = write_tolerance(statistics.tolerance_limits);
   return json;
 }
 

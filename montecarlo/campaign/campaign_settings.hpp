@@ -8,11 +8,13 @@
 #include "core/deployment.hpp"
 #include "distributions/design.hpp"
 #include "montecarlo/formats/json_reader.hpp"
-#include "montecarlo/statistics/statistics_spec.hpp"
+#include "montecarlo/statistics/histogram.hpp"
+#include "montecarlo/statistics/wilks.hpp"
 
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace wingspread {
 
@@ -35,6 +37,22 @@ inline constexpr std::array<std::string_view, 3> design_names{"random", "latin_h
 
 /// Whether the method takes the step it is given: no other has a use for `Integration::step`.
 [[nodiscard]] bool has_fixed_step(std::string_view method);
+
+inline constexpr std::array<std::string_view, 3> side_names{"upper", "lower", "both"};
+
+/// Tolerance limits of every output: a share `probability` of all wings lies within them.
+struct ToleranceLimitSpec {
+  double probability = 0, confidence = 0; ///< each in (0, 1)
+  Side side = Side::upper;
+};
+
+/// What a campaign asks of its statistics.
+struct StatisticsSpec {
+  std::vector<double> quantiles{0.01, 0.5, 0.99}; ///< probabilities, each in (0, 1)
+  double confidence = 0.95;                       ///< of every bound, two-sided, in (0, 1)
+  Bins bins = AutoBins{};
+  std::vector<ToleranceLimitSpec> tolerance_limits{};
+};
 
 void read_sampling(const JsonCursor& at, Sampling& sampling);
 void read_integration(const JsonCursor& at, Integration& integration);

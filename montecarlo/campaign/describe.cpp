@@ -3,7 +3,7 @@
 #include "montecarlo/campaign/distribution_json.hpp"
 #include "montecarlo/campaign/scene_json.hpp"
 #include "montecarlo/formats/text_layout.hpp"
-#include "montecarlo/statistics/tolerance.hpp"
+#include "montecarlo/statistics/wilks.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -174,7 +174,7 @@ std::string describe_margin(const MarginSpec& margin, const Scene& scene) {
 
 std::string describe_guarantees(const Campaign& campaign) {
   std::string text;
-  for (const auto& [probability, confidence, side] : campaign.statistics.tolerance)
+  for (const auto& [probability, confidence, side] : campaign.statistics.tolerance_limits)
     text += fmt::format("tolerance limits: {} probability, {} confidence, {}\n", probability,
                         confidence, side_names[static_cast<std::size_t>(side)]);
   for (const Requirement& requirement : campaign.requirements)

@@ -180,7 +180,7 @@ MarginSpec read_margin(const JsonCursor& at, const Scene* scene) {
   object.optional_choice("mode", margin.mode, margin_mode_names);
   const std::string points = fmt::format("an integer from 2 to {}", most_points);
   object.optional("points", margin.points, points, is_point_count);
-  object.optional("tolerance", margin.tolerance, "a number, > 0 and < 1", is_proper_share);
+  object.optional("tolerance", margin.edge_tolerance, "a number, > 0 and < 1", is_proper_share);
   if (const auto cases = object.find("cases")) read_cases(*cases, margin);
   object.optional("springs_per_hinge", margin.springs_per_hinge, "an integer, ≥ 2", is_at_least_2);
   if (const auto factors = object.find("motorization"))
@@ -199,7 +199,7 @@ Json write_margin(const MarginSpec& margin, const Scene& scene) {
           {"range", {margin.lower, margin.upper}},
           {"mode", margin_mode_names[static_cast<std::size_t>(margin.mode)]},
           {"points", margin.points},
-          {"tolerance", margin.tolerance},
+          {"tolerance", margin.edge_tolerance},
           {"cases", cases},
           {"springs_per_hinge", margin.springs_per_hinge},
           {"motorization", write_motorization(margin.motorization, scene)}};

@@ -46,7 +46,7 @@ struct MarginSpec {
   double lower = 0, upper = 0;      ///< of the scale: 0 < lower < upper
   MarginMode mode = MarginMode::joint;
   std::int64_t points = 13;           ///< scales looked at first, from end to end, ≥ 2
-  double tolerance = 0.01;            ///< how closely an edge is located, relative, in (0, 1)
+  double edge_tolerance = 0.01;       ///< how closely an edge is located, relative, in (0, 1)
   bool nominal = true;                ///< the case of the wing as it is
   bool one_spring_out = false;        ///< the cases with a spring lost, each hinge in turn
   std::int64_t springs_per_hinge = 2; ///< equal ones that make up a hinge's torque, ≥ 2

@@ -1,7 +1,7 @@
 /// What several commands have in common: settings given on the command line, and results shown.
 #pragma once
 
-#include "montecarlo/folder/folder.hpp"
+#include "montecarlo/folder/results_folder.hpp"
 
 #include <functional>
 

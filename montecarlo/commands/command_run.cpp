@@ -1,7 +1,7 @@
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
-#include "montecarlo/folder/run_folder.hpp"
+#include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
@@ -105,7 +105,7 @@ void count(const Batch& batch, Tally& tally) {
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
-bool make_remaining(RunFolder& folder, const RunPlan& plan, int threads, InstructionSet set) {
+bool make_remaining(FolderWriter& folder, const RunPlan& plan, int threads, InstructionSet set) {
   const Interrupt interrupt;
   Tally tally{.total = folder.stored().runs().size()};
   count(folder.results(), tally);
@@ -152,7 +152,7 @@ int run(const RunOptions& options) {
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   override_until(campaign, options.until);
   const RunPlan plan(campaign);
-  RunFolder folder(options.out, plan, parse_shard(options.shard), options.resume);
+  FolderWriter folder(options.out, plan, parse_shard(options.shard), options.resume);
   const bool interrupted = make_remaining(folder, plan, options.threads, set);
   const StoredCampaign& stored = folder.stored();
   const Summary summary =

@@ -4,7 +4,7 @@
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
-#include "montecarlo/sensitivity/sensitivity_folder.hpp"
+#include "montecarlo/sensitivity/design_folder.hpp"
 #include "montecarlo/sensitivity/sensitivity_text.hpp"
 #include "montecarlo/summary/summary_json.hpp"
 
@@ -121,7 +121,7 @@ int sobol_new(const SensitivityOptions& options) {
   override_sampling(design.campaign, std::nullopt, options.seed);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
-  std::optional<DesignFolder> folder;
+  std::optional<DesignFolderWriter> folder;
   if (!options.out.empty()) folder.emplace(options.out, design, plan, options.resume);
   Results own(plan.names());
   const BatchSink sink = [&](const Batch& batch) {

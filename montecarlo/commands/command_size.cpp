@@ -1,7 +1,7 @@
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/formats/spec_error.hpp"
-#include "montecarlo/statistics/tolerance.hpp"
+#include "montecarlo/statistics/wilks.hpp"
 #include "montecarlo/summary/summary_json.hpp"
 
 #include <CLI/CLI.hpp>

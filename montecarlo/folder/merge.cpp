@@ -1,6 +1,6 @@
 #include "montecarlo/folder/merge.hpp"
 
-#include "montecarlo/folder/run_folder.hpp"
+#include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/formats/files.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 /// A run of a results folder, made again.
 #pragma once
 
-#include "montecarlo/folder/folder.hpp"
+#include "montecarlo/folder/results_folder.hpp"
 
 #include <optional>
 

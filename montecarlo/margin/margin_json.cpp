@@ -236,7 +236,7 @@ Json margin_json(const MarginReport& report, const Json& about) {
           {"runs", report.result.runs},
           {"runs_failed", report.result.failed},
           {"range", {spec.lower, spec.upper}},
-          {"tolerance", spec.tolerance},
+          {"tolerance", spec.edge_tolerance},
           {"mode", margin_mode_names[static_cast<std::size_t>(spec.mode)]},
           {"cases", cases},
           {"searches", searches},

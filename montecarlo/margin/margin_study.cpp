@@ -222,8 +222,9 @@ void find_margin(const Campaign& campaign, int threads, const std::atomic<bool>&
     const auto judge = [&](double scale) {
       return failing(search.seen[scale] = looking.at(search.scaled, scale));
     };
-    const SearchRange range{spec.lower, spec.upper, static_cast<long>(spec.points), spec.tolerance};
-    search.recommended = recommended(search_window(range, judge), spec.tolerance);
+    const SearchRange range{spec.lower, spec.upper, static_cast<long>(spec.points),
+                            spec.edge_tolerance};
+    search.recommended = recommended(search_window(range, judge), spec.edge_tolerance);
   }
   looking.use_seed(result.confirmation_seed);
   for (MarginSearch& search : result.searches)

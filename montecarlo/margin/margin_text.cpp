@@ -116,7 +116,7 @@ private:
   /// An edge that was not located, for it does not matter to the window, has both of its sides.
   [[nodiscard]] std::string between(double passing, double failing) const {
     const double ratio = std::max(passing / failing, failing / passing);
-    if (ratio <= 1 + report_.campaign.margin->tolerance) return fmt::format("{}", passing);
+    if (ratio <= 1 + report_.campaign.margin->edge_tolerance) return fmt::format("{}", passing);
     return fmt::format("{} – {}", std::min(passing, failing), std::max(passing, failing));
   }
 

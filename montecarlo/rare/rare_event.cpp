@@ -21,8 +21,8 @@ double in_unit_interval(double z) {
 /// Runs of the campaign at points of the normal space.
 class NormalRuns {
 public:
-  NormalRuns(const Campaign& campaign, const PerformanceMeasure& measure)
-      : campaign_(campaign), measure_(measure), plan_(campaign) {}
+  NormalRuns(const Campaign& campaign, const LimitState& limit_state)
+      : campaign_(campaign), limit_state_(limit_state), plan_(campaign) {}
 
   [[nodiscard]] std::vector<double> draws_at(const NormalPoint& z) const {
     std::vector<double> draws(z.size());
@@ -39,7 +39,7 @@ public:
   [[nodiscard]] Outcome run(const NormalPoint& z) const {
     Scene scene = campaign_.scene;
     set_scene(z, scene);
-    return Deployment().run(scene, campaign_.integration, measure_.goal());
+    return Deployment().run(scene, campaign_.integration, limit_state_.goal());
   }
 
   struct Judged {
@@ -60,15 +60,15 @@ public:
     };
     const auto done = [&](long k, Outcome&& outcome) {
       set_scene(points[static_cast<std::size_t>(k)], ended);
-      judged[static_cast<std::size_t>(k)] = {measure_.of(ended, outcome), outcome.status};
+      judged[static_cast<std::size_t>(k)] = {limit_state_.of(ended, outcome), outcome.status};
     };
-    DeploymentPack(instruction_sets().back(), campaign_.integration, measure_.goal())
+    DeploymentPack(instruction_sets().back(), campaign_.integration, limit_state_.goal())
         .run(campaign_.scene, next, done);
   }
 
 private:
   const Campaign& campaign_;
-  const PerformanceMeasure& measure_;
+  const LimitState& limit_state_;
   RunPlan plan_;
 };
 
@@ -115,11 +115,11 @@ RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& opti
                                const std::function<void(long)>& progress) {
   if (campaign.dispersions.empty())
     throw SpecError({{"", "/dispersions", "none", "at least one: there is nothing to vary"}});
-  const PerformanceMeasure measure(campaign, options.event);
-  const NormalRuns runs(campaign, measure);
+  const LimitState limit_state(campaign, options.event);
+  const NormalRuns runs(campaign, limit_state);
   RareResult result;
   long made = 0;
-  const Performance g = [&](std::span<const NormalPoint> points) {
+  const LimitStateFunction g = [&](std::span<const NormalPoint> points) {
     std::vector<double> values;
     for (const auto& [value, status] : judge_all(runs, points, options.threads, stop)) {
       values.push_back(value);

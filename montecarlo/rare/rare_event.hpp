@@ -1,10 +1,10 @@
 /// The probability of a rare event in a campaign: independent subset simulations over its draws.
 ///
-///   z → u = Φ(z) → dependence, quantiles → draws → run → g (performance.hpp)
+///   z → u = Φ(z) → dependence, quantiles → draws → run → g (limit_state.hpp)
 #pragma once
 
 #include "montecarlo/machine/interrupt.hpp"
-#include "montecarlo/rare/performance.hpp"
+#include "montecarlo/rare/limit_state.hpp"
 #include "montecarlo/rare/subset_simulation.hpp"
 
 #include <array>

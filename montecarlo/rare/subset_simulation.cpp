@@ -33,7 +33,8 @@ struct Level {
 
 class SubsetSimulation {
 public:
-  SubsetSimulation(const Performance& g, std::size_t dimensions, const SubsetOptions& options)
+  SubsetSimulation(const LimitStateFunction& g, std::size_t dimensions,
+                   const SubsetOptions& options)
       : g_(g), dimensions_(dimensions), options_(options) {
     assert(options.samples >= 10 * chain_length && options.samples % chain_length == 0);
   }
@@ -214,7 +215,7 @@ private:
     return std::move(estimate_);
   }
 
-  const Performance& g_;
+  const LimitStateFunction& g_;
   std::size_t dimensions_;
   SubsetOptions options_;
   SubsetEstimate estimate_;
@@ -235,7 +236,7 @@ double relative_spread(std::span<const double> values, double mean) {
 
 } // namespace
 
-SubsetEstimate subset_simulation(const Performance& g, std::size_t dimensions,
+SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
                                  const SubsetOptions& options) {
   return SubsetSimulation(g, dimensions, options).run();
 }

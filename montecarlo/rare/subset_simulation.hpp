@@ -47,7 +47,7 @@ using NormalPoint = std::vector<double>; ///< z
 /// g of each of the points: < 0 in the event, and the smaller elsewhere the nearer to it. Any g
 /// with the right sign gives a right estimate; one that falls towards the event gives it sooner. A
 /// g that is NaN counts as in the event.
-using Performance = std::function<std::vector<double>(std::span<const NormalPoint>)>;
+using LimitStateFunction = std::function<std::vector<double>(std::span<const NormalPoint>)>;
 
 struct SubsetOptions {
   long samples = 1000;     ///< N, a multiple of 10, ≥ 100
@@ -78,7 +78,7 @@ struct SubsetEstimate {
 
 /// One subset simulation. Pure if g is; the points of a step, N of the first level and c of every
 /// other, are handed over together.
-[[nodiscard]] SubsetEstimate subset_simulation(const Performance& g, std::size_t dimensions,
+[[nodiscard]] SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
                                                const SubsetOptions& options);
 
 /// Independent repetitions taken together.

@@ -2,7 +2,7 @@
 
 #include "distributions/continuous_law.hpp"
 #include "distributions/dependence.hpp"
-#include "montecarlo/statistics/column_correlation.hpp"
+#include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <algorithm>

@@ -1,12 +1,16 @@
 /// Histograms of a sample.
 #pragma once
 
-#include "montecarlo/statistics/statistics_spec.hpp"
-
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace wingspread {
+
+/// Let the data choose the bins.
+struct AutoBins {};
+/// The data's choice, or a fixed number of bins > 0.
+using Bins = std::variant<AutoBins, int>;
 
 inline constexpr int most_auto_bins = 200;
 

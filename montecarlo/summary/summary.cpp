@@ -156,7 +156,7 @@ std::vector<DrawCorrelation> correlate_draws(const Results& results, int threads
   for (const Column& output : results.outputs) outputs.push_back(&output.values);
   outputs.push_back(&deployed.values);
   const std::vector<Correlation> found =
-      correlations(rank_columns(draws, threads), rank_columns(outputs, threads), threads);
+      pairwise_correlations(rank_columns(draws, threads), rank_columns(outputs, threads), threads);
   std::vector<DrawCorrelation> named;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const std::size_t output = i % outputs.size();

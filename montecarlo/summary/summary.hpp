@@ -5,12 +5,12 @@
 /// the number in which it did not. The same results give the same summary, bit for bit.
 #pragma once
 
+#include "montecarlo/campaign/campaign_settings.hpp"
 #include "montecarlo/runs/results.hpp"
-#include "montecarlo/statistics/column_correlation.hpp"
 #include "montecarlo/statistics/confidence.hpp"
 #include "montecarlo/statistics/histogram.hpp"
+#include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"
-#include "montecarlo/statistics/statistics_spec.hpp"
 #include "montecarlo/summary/stopping.hpp"
 #include "montecarlo/summary/verdict.hpp"
 
@@ -55,8 +55,8 @@ struct QuantileEstimate {
   Bounds bounds;
 };
 
-struct ToleranceEstimate {
-  ToleranceSpec spec;
+struct ToleranceLimitEstimate {
+  ToleranceLimitSpec spec;
   Bounds limits;
 };
 
@@ -67,7 +67,7 @@ struct OutputSummary {
   long missing = 0;      ///< runs in which it did not
   std::vector<QuantileEstimate> quantiles;
   Histogram histogram;
-  std::vector<ToleranceEstimate> tolerance{}; ///< over all runs (verdict.hpp)
+  std::vector<ToleranceLimitEstimate> tolerance_limits{}; ///< over all runs (verdict.hpp)
 };
 
 /// Between a draw and an output, or `deployed`: 1 where the run deployed and 0 where it did not
@@ -92,7 +92,7 @@ struct Summary {
   long without_latch = 0;                    ///< runs in which no hinge latched
   std::vector<OutputSummary> outputs;        ///< in the order of the columns
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
-  // What the campaign asks for beyond its statistics; write_statistics (folder.hpp) adds it.
+  // What the campaign asks for beyond its statistics; write_statistics (results_folder.hpp) adds it.
   std::vector<Verdict> requirements{};
   std::vector<WidthFound> until{}; ///< the widths that decide when it stops
   bool stopped = false;            ///< they did, before all runs were made

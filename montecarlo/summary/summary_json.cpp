@@ -122,7 +122,7 @@ Json quantiles_json(const Summary& summary, const OutputSummary& output) {
 }
 
 /// Why a tolerance limit is null.
-std::string missing_limit(const Summary& summary, const ToleranceSpec& spec) {
+std::string missing_limit(const Summary& summary, const ToleranceLimitSpec& spec) {
   const double c = at_each_look(spec.confidence, summary.looks);
   const auto least = runs_to_show(spec.probability, c, spec.side == Side::both ? 1 : 0);
   if (least && summary.runs >= *least)
@@ -133,7 +133,7 @@ std::string missing_limit(const Summary& summary, const ToleranceSpec& spec) {
 
 Json tolerance_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
-  for (const auto& [spec, limits] : output.tolerance) {
+  for (const auto& [spec, limits] : output.tolerance_limits) {
     Json entry{{"probability", spec.probability},
                {"confidence", spec.confidence},
                {"side", side_names[static_cast<std::size_t>(spec.side)]}};
@@ -160,7 +160,7 @@ Json output_json(const Summary& summary, const OutputSummary& output) {
             {"skewness", json_number(m.skewness)},
             {"kurtosis", json_number(m.kurtosis)},
             {"quantiles", quantiles_json(summary, output)}};
-  if (!output.tolerance.empty()) json["tolerance"] = tolerance_json(summary, output);
+  if (!output.tolerance_limits.empty()) json["tolerance"] = tolerance_json(summary, output);
   return json;
 }
 

@@ -151,7 +151,7 @@ std::string in_words(const std::optional<double>& value) { return value ? in_wor
 std::string tolerance(const Summary& summary) {
   std::string text;
   for (const OutputSummary& output : summary.outputs)
-    for (const auto& [spec, limits] : output.tolerance) {
+    for (const auto& [spec, limits] : output.tolerance_limits) {
       const std::string content =
           fmt::format("{:.10g} % at {:.10g} %", 100 * spec.probability, 100 * spec.confidence);
       text += fmt::format("  {:<42}{:<28}{:>14}{:>14}\n", shortened(output.name, 41),

@@ -137,7 +137,7 @@ std::string replay_command(std::string_view folder, long run) {
   return fmt::format("wingspread replay {} --run {}", folder, run);
 }
 
-Bounds output_limits(const Results& results, const Column& output, const ToleranceSpec& spec,
+Bounds output_limits(const Results& results, const Column& output, const ToleranceLimitSpec& spec,
                      long looks) {
   const double sign = spec.side == Side::lower ? -1 : 1;
   std::vector<double> values;

@@ -5,13 +5,13 @@
 /// unphysical ranks above every finite value of a `max` and below every one of a `min`: leaving it
 /// out would flatter the result.
 ///
-/// Symbols as in tolerance.hpp: n runs, k of them break the requirement P ≥ p at confidence c.
+/// Symbols as in wilks.hpp: n runs, k of them break the requirement P ≥ p at confidence c.
 #pragma once
 
+#include "montecarlo/campaign/campaign_settings.hpp"
 #include "montecarlo/campaign/requirement.hpp"
 #include "montecarlo/runs/results.hpp"
-#include "montecarlo/statistics/statistics_spec.hpp"
-#include "montecarlo/statistics/tolerance.hpp"
+#include "montecarlo/statistics/wilks.hpp"
 
 namespace wingspread {
 
@@ -56,6 +56,6 @@ struct Verdict {
 /// value, rank above every number for an upper limit and two-sided ones, below for a lower one.
 /// @pre as for judge
 [[nodiscard]] Bounds output_limits(const Results& results, const Column& output,
-                                   const ToleranceSpec& spec, long looks = 1);
+                                   const ToleranceLimitSpec& spec, long looks = 1);
 
 } // namespace wingspread

@@ -1,7 +1,7 @@
 /// For the tests of what runs campaigns: a campaign of the seed scene, run into a folder.
 #pragma once
 
-#include "montecarlo/folder/run_folder.hpp"
+#include "montecarlo/folder/folder_writer.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <map>
@@ -60,7 +60,7 @@ struct Session {
 inline long run_into(const std::filesystem::path& path, const Campaign& campaign,
                      const Session& session = {}) {
   const RunPlan plan(campaign);
-  RunFolder folder(path, plan, session.shard, session.resume);
+  FolderWriter folder(path, plan, session.shard, session.resume);
   std::atomic<bool> stop = session.stop_after == 0;
   long made = 0;
   const auto keep = [&](const Batch& batch) {

@@ -165,9 +165,9 @@ TEST_CASE("Tolerance limits are read, and each fault of them is told", "[campaig
                                        {"probability": 0.9, "confidence": 0.5, "side": "both"}]})";
   const auto [statistics, problems] = read(json, StatisticsSpec{}, read_statistics);
   CHECK(problems.empty());
-  REQUIRE(statistics.tolerance.size() == 2);
-  CHECK(
-      (statistics.tolerance[0].side == Side::upper && statistics.tolerance[1].side == Side::both));
+  REQUIRE(statistics.tolerance_limits.size() == 2);
+  CHECK((statistics.tolerance_limits[0].side == Side::upper &&
+         statistics.tolerance_limits[1].side == Side::both));
   CHECK(write_statistics(statistics)["tolerance"].dump() ==
         R"([{"probability":0.95,"confidence":0.9,"side":"upper"},)"
         R"({"probability":0.9,"confidence":0.5,"side":"both"}])");

@@ -33,7 +33,7 @@ TEST_CASE("A margin is read with its defaults, and written in full", "[margin]")
   REQUIRE(margin.scaled.size() == 3);
   CHECK(path_of(campaign.scene, margin.scaled[2]) == "hinges.root.spring.torque_latched");
   CHECK((margin.lower == 0.5 && margin.upper == 2));
-  CHECK((margin.mode == MarginMode::joint && margin.points == 13 && margin.tolerance == 0.01));
+  CHECK((margin.mode == MarginMode::joint && margin.points == 13 && margin.edge_tolerance == 0.01));
   CHECK((margin.nominal && !margin.one_spring_out && margin.springs_per_hinge == 2));
   CHECK(campaign.resolved["margin"] == parse_json(R"({
     "scale": ["hinges.root.spring.torque_stowed", "hinges.mid.spring.torque_stowed",

@@ -92,16 +92,16 @@ TEST_CASE("the same as counted in a campaign of its own") {
   CHECK(found.estimate.interval.lower < counted.upper);
 }
 
-TEST_CASE("a performance runs on through 0 where a single hinge stops short of its latch") {
+TEST_CASE("a limit state runs on through 0 where a single hinge stops short of its latch") {
   // the work of all torques over the travel, before and after it changes its sign
   const Campaign campaign = campaign_of(one_panel(1.0));
-  const PerformanceMeasure measure(campaign, {});
+  const LimitState limit_state(campaign, {});
   const auto at = [&](double coulomb) {
     Scene scene = campaign.scene;
     scene.hinges[0].friction.coulomb = *(scene.hinges[0].friction.static_level = coulomb);
-    const Outcome outcome = Deployment().run(scene, campaign.integration, measure.goal());
-    CHECK((outcome.status == Status::deployed) == (measure.of(scene, outcome) > 0));
-    return measure.of(scene, outcome);
+    const Outcome outcome = Deployment().run(scene, campaign.integration, limit_state.goal());
+    CHECK((outcome.status == Status::deployed) == (limit_state.of(scene, outcome) > 0));
+    return limit_state.of(scene, outcome);
   };
   CHECK(at(1.0) == Approx(1).epsilon(1e-9)); // the nominal wing
   CHECK(at(1.05) == Approx(0.5).epsilon(1e-6));
@@ -116,11 +116,11 @@ TEST_CASE("a wing that creeps runs out of time") {
   Json json = one_panel(0.5);
   json["integration"]["t_end"] = 4;
   const Campaign campaign = campaign_of(json);
-  const PerformanceMeasure measure(campaign, {});
+  const LimitState limit_state(campaign, {});
   const auto at = [&](double viscous) {
     Scene scene = campaign.scene;
     scene.hinges[0].friction.viscous = viscous;
-    return measure.of(scene, Deployment().run(scene, campaign.integration, measure.goal()));
+    return limit_state.of(scene, Deployment().run(scene, campaign.integration, limit_state.goal()));
   };
   CHECK(at(0) == Approx(1));
   CHECK(at(0.2) < at(0.1));
@@ -131,11 +131,11 @@ TEST_CASE("a wing that creeps runs out of time") {
 
 TEST_CASE("a wing that its spring barely breaks loose is near to staying stowed") {
   const Campaign campaign = campaign_of(one_panel(0.5));
-  const PerformanceMeasure measure(campaign, {});
+  const LimitState limit_state(campaign, {});
   const auto at = [&](double level) {
     Scene scene = campaign.scene;
     scene.hinges[0].friction.static_level = level;
-    return measure.of(scene, Deployment().run(scene, campaign.integration, measure.goal()));
+    return limit_state.of(scene, Deployment().run(scene, campaign.integration, limit_state.goal()));
   };
   CHECK(at(1.7) == Approx(0.2)); // 0.3 of the 1.5 N·m that the nominal spring has left
   CHECK(at(1.99) > 0);

@@ -13,7 +13,7 @@ namespace {
 
 using PointFunction = std::function<double(const NormalPoint&)>;
 
-Performance performance(const PointFunction& g) {
+LimitStateFunction limit_state(const PointFunction& g) {
   return [g](std::span<const NormalPoint> points) {
     std::vector<double> values;
     for (const NormalPoint& point : points) values.push_back(g(point));
@@ -35,7 +35,7 @@ RareEstimate repeated(const PointFunction& g, std::size_t d, long samples, long 
   std::vector<SubsetEstimate> estimates;
   for (long k = 0; k < repeats; ++k)
     estimates.push_back(subset_simulation(
-        performance(g), d,
+        limit_state(g), d,
         {.samples = samples, .seed = seed, .repetition = static_cast<std::uint64_t>(k)}));
   return combined(estimates, 0.95);
 }
@@ -116,7 +116,7 @@ TEST_CASE("a bent limit state with two ends agrees with counting, at 1e-3 and 1e
 
 TEST_CASE("a likely event is plain sampling, and says that it would have been enough") {
   const SubsetEstimate once =
-      subset_simulation(performance(linear(0.5)), 3, {.samples = 1000, .seed = 1});
+      subset_simulation(limit_state(linear(0.5)), 3, {.samples = 1000, .seed = 1});
   REQUIRE(once.levels.size() == 1);
   CHECK(once.evaluations == 1000);
   CHECK(std::ssize(once.inside) == std::lround(1000 * once.probability));
@@ -131,7 +131,7 @@ TEST_CASE("a likely event is plain sampling, and says that it would have been en
 
 TEST_CASE("levels come nearer, a tenth at a time, and half the moves are taken") {
   const SubsetEstimate found =
-      subset_simulation(performance(linear(4)), 6, {.samples = 2000, .seed = 5});
+      subset_simulation(limit_state(linear(4)), 6, {.samples = 2000, .seed = 5});
   REQUIRE(found.levels.size() == 5);
   double product = 1;
   for (std::size_t k = 0; k < 5; ++k) {
@@ -158,7 +158,7 @@ TEST_CASE("levels come nearer, a tenth at a time, and half the moves are taken")
 
 TEST_CASE("an event that there is not comes to an end, below a bound") {
   const SubsetEstimate found =
-      subset_simulation(performance(linear(30)), 2, {.samples = 500, .smallest = 1e-6, .seed = 1});
+      subset_simulation(limit_state(linear(30)), 2, {.samples = 500, .smallest = 1e-6, .seed = 1});
   CHECK(!found.reached);
   CHECK(!found.stuck);
   CHECK(found.inside.empty());
@@ -170,14 +170,14 @@ TEST_CASE("an event that there is not comes to an end, below a bound") {
   CHECK(all.interval.lower == 0);
 }
 
-TEST_CASE("a performance that tells points apart no more is found out") {
+TEST_CASE("a limit state that tells points apart no more is found out") {
   const auto step = [](const NormalPoint& z) { return z[0] > 9 ? -1.0 : std::max(1.0, 2 - z[0]); };
-  const SubsetEstimate found = subset_simulation(performance(step), 2, {.samples = 500, .seed = 1});
+  const SubsetEstimate found = subset_simulation(limit_state(step), 2, {.samples = 500, .seed = 1});
   CHECK(found.stuck);
   CHECK(!found.reached);
   const auto counted = [](const NormalPoint& z) { return z[0] > 2 ? -1.0 : 1.0; };
   const SubsetEstimate plain =
-      subset_simulation(performance(counted), 2, {.samples = 5000, .seed = 1});
+      subset_simulation(limit_state(counted), 2, {.samples = 5000, .seed = 1});
   CHECK(plain.stuck); // but counting has found it
   CHECK(plain.reached);
   CHECK(plain.probability == Approx(tail(2)).epsilon(0.35)); // 114 points: 3.5 of their errors
@@ -192,7 +192,7 @@ TEST_CASE("what is not a number is in the event") {
 
 TEST_CASE("the same seed gives the same estimate, another repetition another") {
   const auto once = [](std::uint64_t repetition) {
-    return subset_simulation(performance(linear(3)), 3,
+    return subset_simulation(limit_state(linear(3)), 3,
                              {.samples = 500, .seed = 4, .repetition = repetition})
         .probability;
   };

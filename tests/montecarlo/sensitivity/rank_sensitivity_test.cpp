@@ -2,7 +2,7 @@
 #include "distributions/dependence.hpp"
 #include "distributions/random_stream.hpp"
 #include "montecarlo/sensitivity/rank_sensitivity.hpp"
-#include "montecarlo/statistics/column_correlation.hpp"
+#include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
 #include "montecarlo/statistics/confidence.hpp"
 #include "montecarlo/statistics/statistics.hpp"
-#include "montecarlo/statistics/tolerance.hpp"
+#include "montecarlo/statistics/wilks.hpp"
 #include "montecarlo/summary/stopping.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 

@@ -228,9 +228,9 @@ TEST_CASE("summary.json: requirements with their evidence, and the runs to be se
 
 TEST_CASE("summary.json: tolerance limits, or why there is none") {
   Summary summary = some_summary(300);
-  summary.outputs[0].tolerance = {{{.95, .95, Side::both}, {1.5, 2.5}},
-                                  {{.95, .95, Side::upper}, {}},
-                                  {{.999, .95, Side::lower}, {}}};
+  summary.outputs[0].tolerance_limits = {{{.95, .95, Side::both}, {1.5, 2.5}},
+                                         {{.95, .95, Side::upper}, {}},
+                                         {{.999, .95, Side::lower}, {}}};
   const Json json = summary_json(summary, {})["outputs"]["root.latch_time"]["tolerance"];
   CHECK(json[0].dump() ==
         R"({"probability":0.95,"confidence":0.95,"side":"both","lower":1.5,"upper":2.5})");

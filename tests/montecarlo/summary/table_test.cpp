@@ -153,7 +153,7 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
   const Requirement peak{"", "tip.peak_moment", 2e6, {}, .8, .9},
       deploys{"", "deployed", {}, {}, .99, .9};
   summary.requirements = {judge(peak, results), judge(deploys, results)};
-  summary.outputs[2].tolerance = {{{.95, .9, Side::upper}, {{}, 1000098.}}};
+  summary.outputs[2].tolerance_limits = {{{.95, .9, Side::upper}, {{}, 1000098.}}};
   summary.until = {{{"deployed", {}, .01, false}, .127, false}};
   const std::string table = summary_table(summary, "t", "out");
   for (const char* part :

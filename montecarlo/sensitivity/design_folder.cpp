@@ -1,6 +1,6 @@
-#include "montecarlo/sensitivity/sensitivity_folder.hpp"
+#include "montecarlo/sensitivity/design_folder.hpp"
 
-#include "montecarlo/folder/run_folder.hpp"
+#include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json_reader.hpp"
@@ -73,8 +73,9 @@ ResultsFile read_design_runs(const std::filesystem::path& folder, const RunPlan&
   return read;
 }
 
-DesignFolder::DesignFolder(const std::filesystem::path& folder, const SaltelliDesign& design,
-                           const RunPlan& plan, bool resume)
+DesignFolderWriter::DesignFolderWriter(const std::filesystem::path& folder,
+                                       const SaltelliDesign& design, const RunPlan& plan,
+                                       bool resume)
     : rows_(folder / design_runs_file, plan.names()) {
   if (resume && std::filesystem::exists(folder / design_file)) {
     refuse_other(folder, design);

@@ -7,7 +7,7 @@
 /// folder, and no command takes it for one.
 #pragma once
 
-#include "montecarlo/folder/growing_results.hpp"
+#include "montecarlo/folder/row_writer.hpp"
 #include "montecarlo/sensitivity/saltelli.hpp"
 
 #include <filesystem>
@@ -41,19 +41,19 @@ struct SaltelliDesign {
 [[nodiscard]] Json stamp_json(const SaltelliDesign& design);
 
 /// Grows design_runs.csv; a folder left at any moment can be opened again to go on.
-class DesignFolder {
+class DesignFolderWriter {
 public:
   /// @param resume the folder is new, or has the same design, by the same version; otherwise it is
   ///   new, or empty
   /// @throws SpecError otherwise, and when it cannot be written
-  DesignFolder(const std::filesystem::path& folder, const SaltelliDesign& design,
-               const RunPlan& plan, bool resume);
+  DesignFolderWriter(const std::filesystem::path& folder, const SaltelliDesign& design,
+                     const RunPlan& plan, bool resume);
 
   [[nodiscard]] const Results& results() const { return rows_.results(); }
   void add(const Batch& batch) { rows_.add(batch); }
 
 private:
-  GrowingResults rows_;
+  RowWriter rows_;
 };
 
 } // namespace wingspread

@@ -1,5 +1,5 @@
+#include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/merge.hpp"
-#include "montecarlo/folder/run_folder.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 

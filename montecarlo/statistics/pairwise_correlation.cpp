@@ -1,4 +1,4 @@
-#include "montecarlo/statistics/column_correlation.hpp"
+#include "montecarlo/statistics/pairwise_correlation.hpp"
 
 #include "montecarlo/machine/team.hpp"
 #include "montecarlo/statistics/statistics.hpp"
@@ -268,8 +268,8 @@ std::vector<RankedColumn> rank_columns(std::span<const Spilled<double>* const> c
   return result;
 }
 
-std::vector<Correlation> correlations(std::span<const RankedColumn> x,
-                                      std::span<const RankedColumn> y, int threads) {
+std::vector<Correlation> pairwise_correlations(std::span<const RankedColumn> x,
+                                               std::span<const RankedColumn> y, int threads) {
   std::vector<Correlation> result(x.size() * y.size());
   const auto groups_x = by_presence(x), groups_y = by_presence(y);
   for (const auto& [present_x, which_x] : groups_x)

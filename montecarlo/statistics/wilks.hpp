@@ -15,12 +15,14 @@
 #pragma once
 
 #include "montecarlo/statistics/confidence.hpp"
-#include "montecarlo/statistics/statistics_spec.hpp"
 
 #include <optional>
 #include <span>
 
 namespace wingspread {
+
+/// On which side of the values a limit is.
+enum class Side { upper, lower, both };
 
 /// Beyond this nothing is counted: the binomial law would lose its digits.
 inline constexpr long most_runs_sized = 1'000'000'000'000;

@@ -1,4 +1,4 @@
-#include "montecarlo/folder/folder.hpp"
+#include "montecarlo/folder/results_folder.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/summary/summary_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"

@@ -54,7 +54,8 @@ struct Correlation {
 /// Each x with each y, by x and then y. Cost O(n |x| |y|); where values are missing, what it takes
 /// of the columns besides is 12 bytes a row of temporary files.
 /// @pre all equally long
-[[nodiscard]] std::vector<Correlation>
-correlations(std::span<const RankedColumn> x, std::span<const RankedColumn> y, int threads = 1);
+[[nodiscard]] std::vector<Correlation> pairwise_correlations(std::span<const RankedColumn> x,
+                                                             std::span<const RankedColumn> y,
+                                                             int threads = 1);
 
 } // namespace wingspread

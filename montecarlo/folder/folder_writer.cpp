@@ -1,4 +1,4 @@
-#include "montecarlo/folder/run_folder.hpp"
+#include "montecarlo/folder/folder_writer.hpp"
 
 #include "montecarlo/formats/files.hpp"
 
@@ -64,8 +64,8 @@ void refuse_used_folder(const std::filesystem::path& folder, const char* expecte
       {{folder.string(), "", is_folder ? "a folder with files in it" : "a file", expected}});
 }
 
-RunFolder::RunFolder(std::filesystem::path folder, const RunPlan& plan,
-                     const std::optional<Shard>& shard, bool resume)
+FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
+                           const std::optional<Shard>& shard, bool resume)
     : stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)},
       rows_(stored_.folder / runs_file, plan.names()) {
   refuse_stopping_shard(stored_.campaign, shard);
@@ -82,7 +82,7 @@ RunFolder::RunFolder(std::filesystem::path folder, const RunPlan& plan,
   rows_.open(plan.names());
 }
 
-RunRange RunFolder::remaining() const {
+RunRange FolderWriter::remaining() const {
   const RunRange runs = stored_.runs();
   const long done = std::ssize(results().runs);
   if (is_complete(stored_, results())) return {runs.first + done, runs.first + done};

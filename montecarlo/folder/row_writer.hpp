@@ -11,9 +11,9 @@ namespace wingspread {
 
 /// The rows of a folder that is being made. Whatever is left of the file, after a signal or a
 /// crash, can be gone on with.
-class GrowingResults {
+class RowWriter {
 public:
-  GrowingResults(std::filesystem::path file, const ResultNames& names);
+  RowWriter(std::filesystem::path file, const ResultNames& names);
 
   /// Takes what was read of the file, and cuts off what is behind its last complete row.
   /// @throws SpecError unless the runs follow each other from `first` on without a gap

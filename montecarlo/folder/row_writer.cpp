@@ -1,4 +1,4 @@
-#include "montecarlo/folder/growing_results.hpp"
+#include "montecarlo/folder/row_writer.hpp"
 
 #include "montecarlo/formats/files.hpp"
 
@@ -8,16 +8,16 @@
 
 namespace wingspread {
 
-GrowingResults::GrowingResults(std::filesystem::path file, const ResultNames& names)
+RowWriter::RowWriter(std::filesystem::path file, const ResultNames& names)
     : file_(std::move(file)), results_(names) {}
 
-void GrowingResults::go_on_behind(ResultsFile&& read, long first) {
+void RowWriter::go_on_behind(ResultsFile&& read, long first) {
   refuse_gaps(read.results, first, file_);
   if (std::filesystem::exists(file_)) std::filesystem::resize_file(file_, read.complete_bytes);
   results_ = std::move(read.results);
 }
 
-void GrowingResults::open(const ResultNames& names) {
+void RowWriter::open(const ResultNames& names) {
   out_.open(file_, std::ios::binary | std::ios::app);
   if (!out_) throw unwritable(file_);
   if (std::filesystem::file_size(file_) > 0) return;
@@ -26,7 +26,7 @@ void GrowingResults::open(const ResultNames& names) {
   if (!(out_ << header << std::flush)) throw unwritable(file_);
 }
 
-void GrowingResults::add(const Batch& batch) {
+void RowWriter::add(const Batch& batch) {
   for (const ResultRow& row : batch.rows) results_.append(row);
   if (!(out_ << batch.csv << std::flush)) throw unwritable(file_);
 }

@@ -1,4 +1,4 @@
-#include "montecarlo/folder/folder.hpp"
+#include "montecarlo/folder/results_folder.hpp"
 
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/formats/files.hpp"
@@ -106,8 +106,8 @@ Summary summarize(const StoredCampaign& stored, const Results& results, const St
   for (const Requirement& requirement : campaign.requirements)
     summary.requirements.push_back(judge(requirement, results, looks));
   for (std::size_t i = 0; i < results.outputs.size(); ++i)
-    for (const ToleranceSpec& tolerance : spec.tolerance)
-      summary.outputs[i].tolerance.push_back(
+    for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
+      summary.outputs[i].tolerance_limits.push_back(
           {tolerance, output_limits(results, results.outputs[i], tolerance, looks)});
   summary.until = widths_of(campaign, results);
   summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);

@@ -1,4 +1,4 @@
-#include "montecarlo/sensitivity/sensitivity_folder.hpp"
+#include "montecarlo/sensitivity/design_folder.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -16,7 +16,7 @@ SaltelliDesign design_of(const Json& json) { return {campaign_of(json), rows}; }
 void make(const std::filesystem::path& path, const SaltelliDesign& design, bool resume,
           long stop_after = 1'000'000) {
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
-  DesignFolder folder(path, design, plan, resume);
+  DesignFolderWriter folder(path, design, plan, resume);
   std::atomic<bool> stop = false;
   const long first = std::ssize(folder.results().runs),
              last = saltelli_runs(design.rows, design.campaign.dispersions.size());

@@ -1,4 +1,4 @@
-#include "montecarlo/rare/performance.hpp"
+#include "montecarlo/rare/limit_state.hpp"
 
 #include "montecarlo/formats/nearest.hpp"
 #include "montecarlo/formats/spec_error.hpp"
@@ -74,7 +74,7 @@ double level_of(const RareEvent& event, double g) {
   return event.above ? event.limit - g : event.limit + g;
 }
 
-PerformanceMeasure::PerformanceMeasure(const Campaign& campaign, RareEvent event)
+LimitState::LimitState(const Campaign& campaign, RareEvent event)
     : campaign_(&campaign), event_(std::move(event)) {
   const Scene& scene = campaign.scene;
   if (!event_.output.empty()) {
@@ -92,7 +92,7 @@ PerformanceMeasure::PerformanceMeasure(const Campaign& campaign, RareEvent event
   time_ = campaign.integration.t_end - nominal.t_end;
 }
 
-double PerformanceMeasure::of_deployed(const Scene& scene, const Outcome& outcome) const {
+double LimitState::of_deployed(const Scene& scene, const Outcome& outcome) const {
   const double time = (campaign_->integration.t_end - outcome.t_end) / time_;
   double least = std::min(outcome.energy.final / energy_, time);
   for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
@@ -103,7 +103,7 @@ double PerformanceMeasure::of_deployed(const Scene& scene, const Outcome& outcom
   return bent(least);
 }
 
-double PerformanceMeasure::of(const Scene& scene, const Outcome& outcome) const {
+double LimitState::of(const Scene& scene, const Outcome& outcome) const {
   if (column_) {
     const double value = output_of(*column_, outcome);
     return event_.above ? event_.limit - value : value - event_.limit;

@@ -1,4 +1,4 @@
-/// How far a run is from an event: the performance function g of subset simulation.
+/// How far a run is from an event: the limit state g of subset simulation.
 ///
 ///   g < 0   the event happened
 ///   g > 0   it did not, and the smaller g, the nearer the run came to it
@@ -47,12 +47,12 @@ struct RareEvent {
 [[nodiscard]] double level_of(const RareEvent& event, double g);
 
 /// The measure of an event in a campaign's runs. Immutable, so one object serves all threads.
-class PerformanceMeasure {
+class LimitState {
 public:
   /// Runs the nominal wing.
-  /// @pre the campaign outlives the measure
+  /// @pre the campaign outlives the limit state
   /// @throws SpecError when the scene has no such output, or no latch to be deployed by
-  PerformanceMeasure(const Campaign& campaign, RareEvent event);
+  LimitState(const Campaign& campaign, RareEvent event);
 
   [[nodiscard]] const RareEvent& event() const { return event_; }
   /// What a run has to compute: no more than the event depends on.

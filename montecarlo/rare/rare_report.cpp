@@ -1,4 +1,4 @@
-#include "montecarlo/rare/rare_text.hpp"
+#include "montecarlo/rare/rare_report.hpp"
 
 #include "montecarlo/formats/json_number.hpp"
 #include "montecarlo/formats/text_layout.hpp"

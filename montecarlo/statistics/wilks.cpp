@@ -1,4 +1,4 @@
-#include "montecarlo/statistics/tolerance.hpp"
+#include "montecarlo/statistics/wilks.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 

@@ -1,4 +1,4 @@
-#include "montecarlo/folder/growing_results.hpp"
+#include "montecarlo/folder/row_writer.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
@@ -31,7 +31,7 @@ TEST_CASE("rows are kept and appended to their file, which has its header once")
   const Folder folder;
   const auto file = folder.path() / "runs.csv";
   {
-    GrowingResults rows(file, names);
+    RowWriter rows(file, names);
     rows.open(names);
     rows.add(batch_of(0, 2));
     rows.add(batch_of(2, 1));
@@ -39,7 +39,7 @@ TEST_CASE("rows are kept and appended to their file, which has its header once")
   }
   std::ofstream(file, std::ios::binary | std::ios::app) << "3,deplo"; // a crash
   std::ifstream in(file, std::ios::binary);
-  GrowingResults rows(file, names);
+  RowWriter rows(file, names);
   rows.go_on_behind(read_results(in, file.string(), names, UnterminatedRow::drop), 0);
   rows.open(names);
   rows.add(batch_of(3, 1));
@@ -58,7 +58,7 @@ TEST_CASE("rows with a gap are not gone on with, and the file is left as it is")
   std::ofstream(file, std::ios::binary) << text;
   std::ifstream in(file, std::ios::binary);
   ResultsFile read = read_results(in, file.string(), names, UnterminatedRow::drop);
-  GrowingResults rows(file, names);
+  RowWriter rows(file, names);
   const std::string message = message_of([&] { rows.go_on_behind(std::move(read), 0); });
   CHECK_THAT(message, Catch::Contains("found run 2") && Catch::Contains("run 1, the next one"));
   CHECK(read_text(file).value() == text);
@@ -66,6 +66,6 @@ TEST_CASE("rows with a gap are not gone on with, and the file is left as it is")
 
 TEST_CASE("rows that cannot be written say which file") {
   const Folder folder;
-  GrowingResults rows(folder.path() / "nowhere" / "runs.csv", names);
+  RowWriter rows(folder.path() / "nowhere" / "runs.csv", names);
   CHECK_THAT(message_of([&] { rows.open(names); }), Catch::Contains("runs.csv"));
 }

@@ -1,4 +1,4 @@
-#include "montecarlo/statistics/column_correlation.hpp"
+#include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <catch2/catch.hpp>
@@ -37,7 +37,7 @@ std::vector<RankedColumn> ranked(const Columns& columns, int threads = 1) {
 }
 
 Correlation of_pair(const std::vector<double>& x, const std::vector<double>& y) {
-  return correlations(ranked({x}), ranked({y})).front();
+  return pairwise_correlations(ranked({x}), ranked({y})).front();
 }
 
 /// Columns with ties, of which some lack values: every third row, say, is missing in the third.
@@ -138,7 +138,7 @@ TEST_CASE("many columns at once have each pair's bits, on any number of threads"
     Columns x = with_gaps(21, rows, {0, 0, 3, 0, 1}), y = with_gaps(22, rows, {0, 5, 0, 5, 7, 1});
     x.emplace_back(rows, 0.25);
     for (const int threads : {1, 2, 5}) {
-      const auto found = correlations(ranked(x, threads), ranked(y, threads), threads);
+      const auto found = pairwise_correlations(ranked(x, threads), ranked(y, threads), threads);
       REQUIRE(found.size() == x.size() * y.size());
       bool all = true;
       for (std::size_t pair = 0; pair < found.size(); ++pair)
@@ -149,6 +149,6 @@ TEST_CASE("many columns at once have each pair's bits, on any number of threads"
 }
 
 TEST_CASE("no columns have no correlations") {
-  CHECK(correlations({}, ranked({{1, 2}})).empty());
-  CHECK(correlations(ranked({{1, 2}}), {}).empty());
+  CHECK(pairwise_correlations({}, ranked({{1, 2}})).empty());
+  CHECK(pairwise_correlations(ranked({{1, 2}}), {}).empty());
 }

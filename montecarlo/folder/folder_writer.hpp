@@ -1,14 +1,14 @@
 /// The results folder of a campaign that is being run.
 #pragma once
 
-#include "montecarlo/folder/folder.hpp"
-#include "montecarlo/folder/growing_results.hpp"
+#include "montecarlo/folder/results_folder.hpp"
+#include "montecarlo/folder/row_writer.hpp"
 
 namespace wingspread {
 
 /// Grows runs.csv batch by batch, and keeps the rows for the statistics. A folder that was left at
 /// any moment, by a signal or a crash, can be opened again to be continued.
-class RunFolder {
+class FolderWriter {
 public:
   /// Opens the folder, and makes it with its campaign.json if it is not there.
   ///
@@ -16,8 +16,8 @@ public:
   /// off at the end of runs.csv is taken away. Not to resume: it is new, or empty. A campaign that
   /// may stop has no shards: only all runs up to a checkpoint can tell.
   /// @throws SpecError otherwise, with nothing written; and when it cannot be written
-  RunFolder(std::filesystem::path folder, const RunPlan& plan, const std::optional<Shard>& shard,
-            bool resume);
+  FolderWriter(std::filesystem::path folder, const RunPlan& plan, const std::optional<Shard>& shard,
+               bool resume);
 
   /// The next runs to be made: all that are left or, of a campaign that may stop, those up to the
   /// next checkpoint. None when it is complete. Cost: at a checkpoint, that of its statistics.
@@ -30,7 +30,7 @@ public:
 
 private:
   StoredCampaign stored_;
-  GrowingResults rows_;
+  RowWriter rows_;
 };
 
 /// @throws SpecError unless there is no such folder, or nothing in it but what a crash left before
