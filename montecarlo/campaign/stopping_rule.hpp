@@ -4,7 +4,7 @@
 /// The widths are looked at only at checkpoints, fixed numbers of runs, and depend on nothing but
 /// the rows up to there: where a campaign stops does not depend on threads or interruptions. Each
 /// of the K looks is a chance to be misled, so every bound that such a campaign gives shares its α
-/// out among them (at_each_look in wilks.hpp): it holds wherever the campaign stopped.
+/// out among them (at_each_of in bonferroni.hpp): it holds wherever the campaign stopped.
 #pragma once
 
 #include "montecarlo/formats/json_reader.hpp"

@@ -51,7 +51,7 @@ double confidence_of(const SensitivityOptions& options, StatisticsSpec spec) {
   return spec.confidence;
 }
 
-int count_failed(const Results& results) {
+int report_failed(const Results& results) {
   const auto failed = std::ranges::count(results.status, Status::failed);
   if (failed > 0)
     fmt::print(stderr, "error: {} of {} runs failed numerically\n", failed, results.size());
@@ -94,7 +94,7 @@ int sobol(const SaltelliDesign& design, const Results& results, const Sensitivit
        fmt::format("{} · {} samples, {} runs · {}, seed {} · Sobol' indices",
                    design.campaign.scene.name, design.rows, results.size(), kind, sampling.seed),
        folder, options.json);
-  return count_failed(results);
+  return report_failed(results);
 }
 
 int sobol_again(const SensitivityOptions& options) {

@@ -3,6 +3,7 @@
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/statistics/bonferroni.hpp"
 #include "montecarlo/summary/summary_json.hpp"
 
 #include <fmt/format.h>
@@ -89,7 +90,7 @@ Json about(const StoredCampaign& stored, const Summary& summary) {
 /// The widths that decide when the campaign stops: at its own confidence, whatever the summary's.
 std::vector<WidthFound> widths_of(const Campaign& campaign, const Results& results) {
   return find_widths(campaign.until, results,
-                     at_each_look(campaign.statistics.confidence, count_looks(campaign)));
+                     at_each_of(campaign.statistics.confidence, count_looks(campaign)));
 }
 
 /// The statistics, their confidence shared out among the looks that the campaign may take.
@@ -98,7 +99,7 @@ Summary summarize(const StoredCampaign& stored, const Results& results, const St
   const Campaign& campaign = stored.campaign;
   const long looks = count_looks(campaign);
   StatisticsSpec at_a_look = spec;
-  at_a_look.confidence = at_each_look(spec.confidence, looks);
+  at_a_look.confidence = at_each_of(spec.confidence, looks);
   Summary summary =
       summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
   summary.confidence = spec.confidence;

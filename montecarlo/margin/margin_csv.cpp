@@ -1,5 +1,6 @@
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/margin/margin_report.hpp"
+#include "montecarlo/statistics/binomial_bounds.hpp"
 
 #include <fmt/format.h>
 

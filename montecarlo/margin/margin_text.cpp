@@ -1,5 +1,6 @@
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/margin/margin_report.hpp"
+#include "montecarlo/statistics/binomial_bounds.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,8 +3,7 @@
 #include "distributions/continuous_law.hpp"
 #include "distributions/random_stream.hpp"
 #include "montecarlo/statistics/statistics.hpp"
-
-#include <boost/math/distributions/students_t.hpp>
+#include "montecarlo/statistics/two_sided.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -223,11 +222,6 @@ private:
   double scale_ = first_scale; ///< λ
 };
 
-double student(double confidence, long degrees) {
-  const boost::math::students_t_distribution<double> law(static_cast<double>(degrees));
-  return boost::math::quantile(boost::math::complement(law, (1 - confidence) / 2));
-}
-
 /// The standard error of the mean in units of it.
 double relative_spread(std::span<const double> values, double mean) {
   if (values.size() < 2) return undefined;
@@ -257,10 +251,10 @@ RareEstimate combined(std::span<const SubsetEstimate> estimates, double confiden
   all.from_chains = std::sqrt(square) / (count * all.probability);
   all.from_spread = relative_spread(probabilities, all.probability);
   all.variation = std::fmax(all.from_chains, all.from_spread);
-  const double tail = (1 - confidence) / 2;
-  double reach = inverse(Normal{}, {1 - tail, tail}) * all.from_chains;
+  double reach = two_sided_normal(confidence) * all.from_chains;
   if (estimates.size() > 1)
-    reach = std::max(reach, student(confidence, std::ssize(probabilities) - 1) * all.from_spread);
+    reach = std::max(reach, two_sided_student(std::ssize(probabilities) - 1, confidence) *
+                                all.from_spread);
   all.interval = {all.reached ? all.probability * std::exp(-reach) : 0,
                   std::min(1.0, all.probability * std::exp(reach))};
   all.plain_runs = (1 - all.probability) / (all.probability * all.variation * all.variation);

@@ -32,7 +32,7 @@
 /// do, so they are made as well.
 #pragma once
 
-#include "montecarlo/statistics/confidence.hpp"
+#include "montecarlo/statistics/bounds.hpp"
 
 #include <cstddef>
 #include <cstdint>

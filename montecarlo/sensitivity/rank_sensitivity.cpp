@@ -1,57 +1,21 @@
 #include "montecarlo/sensitivity/rank_sensitivity.hpp"
 
-#include "distributions/continuous_law.hpp"
-#include "distributions/dependence.hpp"
-#include "montecarlo/statistics/pairwise_correlation.hpp"
+#include "montecarlo/statistics/bonferroni.hpp"
+#include "montecarlo/statistics/ranked_column.hpp"
 #include "montecarlo/statistics/statistics.hpp"
+#include "montecarlo/statistics/two_sided.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <map>
-#include <memory>
 
 namespace wingspread {
 namespace {
-
-using Matrix = Eigen::MatrixXd;
-
-Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-bool varies(std::span<const double> values) {
-  return std::ranges::any_of(values, [&](double value) { return value != values.front(); });
-}
-
-/// The inverse of a correlation matrix, by its Cholesky factor; nothing when it is singular. By
-/// hand, as the factor is: the same bytes however a library was compiled.
-std::optional<Matrix> inverse_of(const Matrix& correlations) {
-  const auto factor = cholesky(correlations);
-  if (!factor) return std::nullopt;
-  const Eigen::Index n = correlations.rows();
-  Matrix root = Matrix::Zero(n, n); // L⁻¹
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = j; i < n; ++i) {
-      double rest = i == j ? 1 : 0;
-      for (Eigen::Index k = j; k < i; ++k) rest -= (*factor)(i, k) * root(k, j);
-      root(i, j) = rest / (*factor)(i, i);
-    }
-  Matrix inverse = Matrix::Zero(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      for (Eigen::Index k = std::max(i, j); k < n; ++k) inverse(i, j) += root(k, i) * root(k, j);
-  return inverse;
-}
 
 /// How surely a coefficient is not 0: its z in standard errors under ρ = 0.
 double standard_errors(double coefficient, long n, long held) {
   if (std::isnan(coefficient) || n - held <= 3) return 0;
   return std::abs(std::atanh(coefficient)) * std::sqrt(static_cast<double>(n - held - 3));
-}
-
-double two_sided_normal(double confidence) {
-  const double tail = (1 - confidence) / 2;
-  return inverse(Normal{}, {1 - tail, tail});
 }
 
 /// The draws' ranks over the runs that have some output, made ready.
@@ -105,8 +69,8 @@ OutputRanks output_ranks(const Column& output, const RankedDraws& draws,
 }
 
 void note_idle(const std::vector<Column>& draws, RankSensitivity& all) {
-  const double tests = 2 * static_cast<double>(all.outputs.size());
-  const double sure = two_sided_normal(1 - (1 - all.confidence) / tests);
+  const long tests = 2 * std::ssize(all.outputs);
+  const double sure = two_sided_normal(at_each_of(all.confidence, tests));
   const auto count = static_cast<long>(
       std::ranges::count_if(draws, [](const Column& draw) { return varies(draw.values); }));
   for (std::size_t j = 0; j < draws.size(); ++j) {
@@ -131,55 +95,6 @@ Column deployed_column(const Results& results) {
     column.values.push_back(status == Status::deployed ? 1 : stayed ? 0 : undefined);
   }
   return column;
-}
-
-Bounds rank_correlation_bounds(double coefficient, long n, long held, double confidence) {
-  if (n - held <= 3) return {};
-  const double z = std::atanh(coefficient);
-  const double s =
-      std::sqrt((1 + coefficient * coefficient / 2) / static_cast<double>(n - held - 3));
-  const double reach = two_sided_normal(confidence) * s;
-  return {std::tanh(z - reach), std::tanh(z + reach)};
-}
-
-PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& columns)
-    : columns_(columns.size()),
-      rows_(columns.empty() ? 0 : static_cast<long>(columns.front().size())) {
-  for (std::size_t j = 0; j < columns.size(); ++j)
-    if (varies(columns[j])) varying_.push_back(j);
-  Matrix correlations = Matrix::Identity(index(varying_.size()), index(varying_.size()));
-  for (std::size_t i = 0; i < varying_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      correlations(index(i), index(j)) = correlations(index(j), index(i)) =
-          pearson(columns[varying_[i]], columns[varying_[j]]);
-      columns[varying_[j]].release();
-    }
-  for (const Spilled<double>& column : columns) column.release();
-  inverse_ = inverse_of(correlations);
-}
-
-std::vector<double> PartialCorrelations::given(std::span<const double> plain) const {
-  std::vector<double> partial(columns_, undefined);
-  const std::size_t k = varying_.size();
-  const bool usable =
-      inverse_ && rows_ > static_cast<long>(k) + 1 &&
-      std::ranges::none_of(varying_, [&](std::size_t j) { return std::isnan(plain[j]); });
-  if (!usable) return partial;
-  std::vector<double> b(k, 0.0);
-  double explained = 0; // c·b
-  for (std::size_t i = 0; i < k; ++i) {
-    for (std::size_t j = 0; j < k; ++j)
-      b[i] += (*inverse_)(index(i), index(j)) * plain[varying_[j]];
-    explained += b[i] * plain[varying_[i]];
-  }
-  // Less than rounding is no rest: what it would leave of the other coefficients is noise.
-  const double rounding = 64 * static_cast<double>(k + 1) * std::numeric_limits<double>::epsilon();
-  const double rest = std::max(1 - explained, rounding);
-  for (std::size_t i = 0; i < k; ++i) {
-    const double size = std::sqrt(b[i] * b[i] + rest * (*inverse_)(index(i), index(i)));
-    partial[varying_[i]] = std::clamp(b[i] / size, -1.0, 1.0);
-  }
-  return partial;
 }
 
 RankSensitivity rank_sensitivity(const Results& results, double confidence) {

@@ -18,7 +18,7 @@
 /// that does nothing. Intervals: percentile bootstrap over the rows.
 #pragma once
 
-#include "montecarlo/statistics/confidence.hpp"
+#include "montecarlo/statistics/bounds.hpp"
 
 #include <cstddef>
 #include <cstdint>

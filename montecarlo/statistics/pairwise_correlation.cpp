@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 
 namespace wingspread {
@@ -202,71 +199,7 @@ std::vector<Correlation> correlate(const ColumnGroup& group, int threads) {
   return result;
 }
 
-/// A value and the row that it stands in.
-struct Placed {
-  double value;
-  std::uint32_t row;
-};
-
 } // namespace
-
-RankedColumn::RankedColumn(const Spilled<double>& values) : values_(&values) {
-  assert(values.size() < std::size_t{1} << 31);
-  std::vector<Placed> sorted;
-  sorted.reserve(values.size());
-  for (std::size_t row = 0; row < values.size(); ++row)
-    if (!std::isnan(values[row])) sorted.push_back({values[row], static_cast<std::uint32_t>(row)});
-  values.release();
-  complete_ = sorted.size() == values.size();
-  std::ranges::sort(sorted, {}, &Placed::value);
-  std::vector<std::uint32_t> doubled(values.size(), 0);
-  for (std::size_t first = 0, end = 0; first < sorted.size(); first = end) {
-    while (end < sorted.size() && sorted[end].value == sorted[first].value) ++end;
-    // The tied values take up the ranks first + 1 … end, and share their mean.
-    for (std::size_t i = first; i < end; ++i)
-      doubled[sorted[i].row] = static_cast<std::uint32_t>(first + 1 + end);
-  }
-  doubled_ranks_ = doubled;
-}
-
-std::vector<double> RankedColumn::ranks() const {
-  std::vector<double> ranks;
-  ranks.reserve(doubled_ranks_.size());
-  for (const std::uint32_t doubled : doubled_ranks_) ranks.push_back(doubled / 2.0);
-  doubled_ranks_.release();
-  return ranks;
-}
-
-std::vector<double> RankedColumn::ranks_where(const std::vector<bool>& keep) const {
-  // First how many of each rank are kept, then the doubled rank that these have. Different ranks
-  // are 1 apart at least, so that their whole parts differ too.
-  std::vector<std::uint32_t> of_rank(doubled_ranks_.size() + 1, 0);
-  for (std::size_t row = 0; row < keep.size(); ++row)
-    if (keep[row]) ++of_rank[doubled_ranks_[row] / 2];
-  std::uint32_t below = 0;
-  for (std::uint32_t& each : of_rank) {
-    const std::uint32_t tied = each;
-    each = 2 * below + 1 + tied;
-    below += tied;
-  }
-  std::vector<double> ranks;
-  ranks.reserve(below);
-  for (std::size_t row = 0; row < keep.size(); ++row)
-    if (keep[row]) ranks.push_back(of_rank[doubled_ranks_[row] / 2] / 2.0);
-  doubled_ranks_.release();
-  return ranks;
-}
-
-std::vector<RankedColumn> rank_columns(std::span<const Spilled<double>* const> columns,
-                                       int threads) {
-  std::vector<std::optional<RankedColumn>> ranked(columns.size());
-  const std::size_t bytes = columns.empty() ? 0 : 28 * columns.front()->size(); // 20 of vectors
-  for_each_task(team_within(threads, bytes), columns.size(),
-                [&](std::size_t i) { ranked[i].emplace(*columns[i]); });
-  std::vector<RankedColumn> result;
-  for (auto& column : ranked) result.push_back(std::move(*column));
-  return result;
-}
 
 std::vector<Correlation> pairwise_correlations(std::span<const RankedColumn> x,
                                                std::span<const RankedColumn> y, int threads) {

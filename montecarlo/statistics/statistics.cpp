@@ -47,10 +47,6 @@ void add_shape(std::span<const double> values, const ShiftedMean& mean, Moments&
   if (n > 3) result.kurtosis = (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (m4 / (m2 * m2) - 3) + 6);
 }
 
-bool constant(std::span<const double> values) {
-  return std::ranges::all_of(values, [&](double value) { return value == values.front(); });
-}
-
 } // namespace
 
 Moments moments(std::span<const double> values) {
@@ -72,6 +68,10 @@ Moments moments(std::span<const double> values) {
   else if (values.size() > 1)
     result.std = 0;
   return result;
+}
+
+bool varies(std::span<const double> values) {
+  return std::ranges::any_of(values, [&](double value) { return value != values.front(); });
 }
 
 std::vector<double> sorted_present(std::span<const double> values) {
@@ -97,7 +97,7 @@ double quantile(std::span<const double> sorted, double p) {
 }
 
 std::optional<Standard> standard_of(std::span<const double> values) {
-  if (values.size() < 2 || constant(values)) return std::nullopt;
+  if (values.size() < 2 || !varies(values)) return std::nullopt;
   const ShiftedMean mean = shifted_mean(values);
   Standard standard{mean.shift, mean.rest, largest_deviation(values, mean), 0};
   Sum squares;

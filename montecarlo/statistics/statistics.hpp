@@ -48,6 +48,9 @@ struct Moments {
 /// Cost O(n). Source: D. N. Joanes, C. A. Gill, The Statistician 47 (1998) 183–189.
 [[nodiscard]] Moments moments(std::span<const double> values);
 
+/// Whether not all values are the same.
+[[nodiscard]] bool varies(std::span<const double> values);
+
 /// The values that are not NaN, smallest first. Cost O(n log n).
 [[nodiscard]] std::vector<double> sorted_present(std::span<const double> values);
 
@@ -58,7 +61,7 @@ struct Moments {
 
 /// Sample quantile X_(⌈np⌉): the inverse of the empirical distribution function, min{x : F_n(x) ≥
 /// p}. No interpolation: it is a value that occurred, and the distribution-free bounds
-/// (confidence.hpp) hold for the same order statistics. Definition 1 of R. J. Hyndman, Y. Fan, The
+/// (binomial_bounds.hpp) hold for the same order statistics. Definition 1 of R. J. Hyndman, Y. Fan, The
 /// American Statistician 50 (1996) 361–365. NaN for an empty sample. Cost O(1).
 /// @param sorted smallest first.
 [[nodiscard]] double quantile(std::span<const double> sorted, double p);

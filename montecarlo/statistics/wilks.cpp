@@ -1,5 +1,7 @@
 #include "montecarlo/statistics/wilks.hpp"
 
+#include "montecarlo/statistics/binomial_bounds.hpp"
+
 #include <boost/math/distributions/binomial.hpp>
 
 #include <algorithm>
@@ -72,10 +74,6 @@ bool is_disproved(long n, double p, double c, long k) {
 std::optional<long> runs_for_width(double width, double confidence, double proportion) {
   assert(width > 0 && width < 1 && proportion >= 0 && proportion <= 1);
   return least_runs(0, [&](long n) { return expected_width(n, confidence, proportion) <= width; });
-}
-
-double at_each_look(double confidence, long looks) {
-  return looks > 1 ? 1 - (1 - confidence) / static_cast<double>(looks) : confidence;
 }
 
 Bounds tolerance_limits(std::span<const double> sorted, Side side, double p, double c) {

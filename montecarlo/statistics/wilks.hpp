@@ -14,7 +14,7 @@
 /// Statistics, 3rd ed. (2003), §7.2.
 #pragma once
 
-#include "montecarlo/statistics/confidence.hpp"
+#include "montecarlo/statistics/bounds.hpp"
 
 #include <optional>
 #include <span>
@@ -45,10 +45,6 @@ inline constexpr long most_runs_sized = 1'000'000'000'000;
 /// @pre 0 < width < 1, 0 < confidence < 1, 0 ≤ proportion ≤ 1
 [[nodiscard]] std::optional<long> runs_for_width(double width, double confidence,
                                                  double proportion);
-
-/// α = 1 − confidence split equally over several looks at growing data: of intervals with this
-/// confidence at each, all hold at once with the confidence given, wherever one stops (Bonferroni).
-[[nodiscard]] double at_each_look(double confidence, long looks);
 
 /// The tolerance limits of n values: the narrowest that (1) allows, so that a share p of all that
 /// could be drawn lies within them with confidence c. Two-sided ones leave out the same number on

@@ -1,7 +1,7 @@
 #include "montecarlo/summary/stopping.hpp"
 
 #include "montecarlo/campaign/outputs.hpp"
-#include "montecarlo/statistics/confidence.hpp"
+#include "montecarlo/statistics/binomial_bounds.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 #include "montecarlo/summary/summary.hpp"
 
 #include "montecarlo/machine/team.hpp"
+#include "montecarlo/statistics/binomial_bounds.hpp"
+#include "montecarlo/statistics/replicate_bounds.hpp"
 #include "montecarlo/summary/reason_pattern.hpp"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 #include "montecarlo/campaign/campaign_settings.hpp"
 #include "montecarlo/runs/results.hpp"
-#include "montecarlo/statistics/confidence.hpp"
+#include "montecarlo/statistics/bounds.hpp"
 #include "montecarlo/statistics/histogram.hpp"
 #include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"

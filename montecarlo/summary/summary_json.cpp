@@ -2,6 +2,7 @@
 
 #include "montecarlo/formats/json_number.hpp"
 #include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/statistics/bonferroni.hpp"
 
 #include <fmt/format.h>
 
@@ -24,7 +25,7 @@ std::string at_looks(const Summary& summary) {
   return fmt::format(
       ", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints the "
       "campaign stops",
-      at_each_look(summary.confidence, summary.looks), summary.looks);
+      at_each_of(summary.confidence, summary.looks), summary.looks);
 }
 
 /// Where bounds are from, for independent draws and for replicates.
@@ -123,7 +124,7 @@ Json quantiles_json(const Summary& summary, const OutputSummary& output) {
 
 /// Why a tolerance limit is null.
 std::string missing_limit(const Summary& summary, const ToleranceLimitSpec& spec) {
-  const double c = at_each_look(spec.confidence, summary.looks);
+  const double c = at_each_of(spec.confidence, summary.looks);
   const auto least = runs_to_show(spec.probability, c, spec.side == Side::both ? 1 : 0);
   if (least && summary.runs >= *least)
     return "no number: too many runs did not deploy or are without a value";

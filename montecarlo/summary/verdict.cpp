@@ -1,5 +1,7 @@
 #include "montecarlo/summary/verdict.hpp"
 
+#include "montecarlo/statistics/binomial_bounds.hpp"
+#include "montecarlo/statistics/bonferroni.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <fmt/format.h>
@@ -100,7 +102,7 @@ Verdict judge(const Requirement& requirement, const Results& results, long looks
   Verdict verdict;
   verdict.requirement = requirement;
   verdict.runs = std::ssize(ranked);
-  verdict.confidence = at_each_look(requirement.confidence, looks);
+  verdict.confidence = at_each_of(requirement.confidence, looks);
   const double p = requirement.probability, c = verdict.confidence;
   for (const auto& [run, value] : ranked)
     if (value > limit_of(requirement)) verdict.broken.push_back(run);
@@ -146,8 +148,7 @@ Bounds output_limits(const Results& results, const Column& output, const Toleran
     values.push_back(sign * value_or_infinite(results, row, sign * output.values[row]));
   results.release();
   std::ranges::sort(values);
-  return tolerance_limits(values, spec.side, spec.probability,
-                          at_each_look(spec.confidence, looks));
+  return tolerance_limits(values, spec.side, spec.probability, at_each_of(spec.confidence, looks));
 }
 
 } // namespace wingspread

@@ -1,34 +1,21 @@
+#include "montecarlo/statistics/binomial_bounds.hpp"
 #include "montecarlo/statistics/wilks.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
-#include <vector>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
 
 using Binomial = boost::math::binomial_distribution<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-std::vector<double> sorted_sample(int n, std::mt19937_64& random) {
-  std::vector<double> sample(static_cast<std::size_t>(n));
-  std::ranges::generate(sample, [&] { return uniform(random); });
-  std::ranges::sort(sample);
-  return sample;
-}
-
-/// Five standard errors of a share seen in `trials`:
-/// chance leaves this band once in a million times.
-double band(double share, int trials) { return 5 * std::sqrt(share * (1 - share) / trials); }
 
 } // namespace
 
@@ -145,32 +132,4 @@ TEST_CASE("tolerance limits contain their share as often as the binomial law say
   CHECK(static_cast<double>(above) / trials == Approx(one).margin(band(one, trials)));
   CHECK(static_cast<double>(below) / trials == Approx(one).margin(band(one, trials)));
   CHECK(static_cast<double>(within) / trials == Approx(two).margin(band(two, trials)));
-}
-
-TEST_CASE(
-    "Clopper–Pearson intervals of simulated campaigns cover as often as the binomial law says") {
-  constexpr int trials = 4000, n = 200;
-  constexpr double p = 0.03;
-  const Binomial hits(n, p);
-  const auto covers = [&](long k) {
-    const Interval interval = clopper_pearson(k, n, .9);
-    return interval.lower <= p && p <= interval.upper;
-  };
-  double law = 0;
-  for (long k = 0; k <= n; ++k)
-    if (covers(k)) law += pdf(hits, static_cast<double>(k));
-  REQUIRE(law >= .9);
-  std::mt19937_64 random(52);
-  int covered = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    long k = 0;
-    for (int run = 0; run < n; ++run) k += uniform(random) < p ? 1 : 0;
-    if (covers(k)) ++covered;
-  }
-  CHECK(static_cast<double>(covered) / trials == Approx(law).margin(band(law, trials)));
-}
-
-TEST_CASE("looks share a risk out among them") {
-  CHECK(at_each_look(.95, 1) == .95);
-  CHECK(at_each_look(.95, 5) == Approx(.99).epsilon(1e-12));
 }

@@ -1,4 +1,5 @@
-#include "montecarlo/statistics/confidence.hpp"
+#include "montecarlo/statistics/binomial_bounds.hpp"
+#include "montecarlo/statistics/bonferroni.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 #include "montecarlo/statistics/wilks.hpp"
 #include "montecarlo/summary/stopping.hpp"
@@ -134,7 +135,7 @@ TEST_CASE("the share's interval at which a campaign stops covers as often as it 
           "[stopping]") {
   constexpr int trials = 4000;
   const auto band = [](double share) { return 5 * std::sqrt(share * (1 - share) / trials); };
-  const Coverage shared = cover_share(.004, .005, at_each_look(.95, 3), trials);
+  const Coverage shared = cover_share(.004, .005, at_each_of(.95, 3), trials);
   CHECK(shared.share == Approx(.9903).margin(band(.9903)));
   CHECK(shared.early > 100);
   CHECK(cover_share(.004, .005, .95, trials).share == Approx(.9446).margin(band(.9446)));
@@ -143,7 +144,7 @@ TEST_CASE("the share's interval at which a campaign stops covers as often as it 
 TEST_CASE("the quantile's interval at which a campaign stops covers as often as it says",
           "[stopping]") {
   constexpr int trials = 1000;
-  const double confidence = at_each_look(.9, 3), median = std::log(2.0);
+  const double confidence = at_each_of(.9, 3), median = std::log(2.0);
   const StoppingRule rule = rule_of("root.latch_time@0.5 13%");
   std::mt19937_64 random(72);
   int covered = 0, early = 0;
