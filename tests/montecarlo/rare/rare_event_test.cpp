@@ -1,4 +1,5 @@
 #include "montecarlo/rare/rare_event.hpp"
+#include "montecarlo/statistics/binomial_bounds.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
