@@ -34,8 +34,8 @@ TEST_CASE("partial coefficients of two columns from their correlations") {
 TEST_CASE("a column that does not vary has no partial coefficient, and twins have none either") {
   const PartialCorrelations fixed({{1, 2, 3, 4}, {7, 7, 7, 7}});
   CHECK((fixed.varying() == 1 && !fixed.entangled()));
-  CHECK(fixed.given(std::vector{0.5, NAN})[0] == 0.5);
-  CHECK(std::isnan(fixed.given(std::vector{0.5, NAN})[1]));
+  CHECK(fixed.given(std::vector<double>{0.5, NAN})[0] == 0.5);
+  CHECK(std::isnan(fixed.given(std::vector<double>{0.5, NAN})[1]));
   const PartialCorrelations twins({{1, 2, 3, 4}, {8, 6, 4, 2}});
   CHECK(twins.entangled());
   CHECK(std::isnan(twins.given(std::vector{0.5, -0.5})[0]));

@@ -1,3 +1,4 @@
+#include "montecarlo/statistics/binomial_bounds.hpp"
 #include "montecarlo/summary/summary.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,3 +1,4 @@
+#include "montecarlo/statistics/binomial_bounds.hpp"
 #include "montecarlo/summary/verdict.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
