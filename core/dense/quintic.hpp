@@ -57,14 +57,36 @@ template <class T> [[nodiscard]] T value(const Quintic<T>& p, const T& s) {
   return bernstein(p, s);
 }
 
-/// dp/dt as a polynomial of degree five, raised from degree four.
+/// A polynomial of degree four as one of degree five.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline Quintic<T> raised(const std::array<T, 5>& p) {
+  Quintic<T> q{p[0], T(0), T(0), T(0), T(0), p[4]};
+  for (int k = 1; k < 5; ++k) q[k] = fused(T(k) / T(5), p[k - 1] - p[k], p[k]);
+  return q;
+}
+
+/// dp/dt.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline Quintic<T> derivative(const Quintic<T>& p, const T& h) {
   std::array<T, 5> d;
   for (int k = 0; k < 5; ++k) d[k] = T(5) / h * (p[k + 1] - p[k]);
-  Quintic<T> raised{d[0], T(0), T(0), T(0), T(0), d[4]};
-  for (int k = 1; k < 5; ++k) raised[k] = fused(T(k) / T(5), d[k - 1] - d[k], d[k]);
-  return raised;
+  return raised(d);
+}
+
+/// The cubic with values a, b and slopes da, db at the ends of a step of h.
+template <class T>
+[[nodiscard]] Quintic<T> cubic_hermite(const T& h, const T& a, const T& da, const T& b,
+                                       const T& db) {
+  const T third = h / T(3), inner = fused(third, da, a), outer = fused(-third, db, b);
+  return raised<T>(
+      {a, (a + T(3) * inner) / T(4), (inner + outer) / T(2), (T(3) * outer + b) / T(4), b});
+}
+
+/// p/s of a polynomial with p(0) = 0.
+template <class T> [[nodiscard]] Quintic<T> divided_by_s(const Quintic<T>& p) {
+  std::array<T, 5> r;
+  for (int k = 0; k < 5; ++k) r[k] = T(5) / T(k + 1) * p[k + 1];
+  return raised(r);
 }
 
 /// No |p(s)| is larger.
@@ -73,6 +95,13 @@ template <class T> [[nodiscard, gnu::always_inline]] inline T bound(const Quinti
   T largest(0);
   for (const T& c : p) largest = larger(largest, T(abs(c)));
   return largest;
+}
+
+/// p without its root at s = 0: p/s, or p/s² where p/s is zero there but for rounding.
+template <class T> [[nodiscard]] Quintic<T> without_root_at_start(const Quintic<T>& p) {
+  using std::abs;
+  const Quintic<T> once = divided_by_s(p);
+  return abs(once[0]) > T(1e-8) * bound(once) ? once : divided_by_s(once);
 }
 
 template <class T> [[nodiscard]] bool all_negative(const Quintic<T>& p) {

@@ -30,6 +30,8 @@
 
 #include "core/mechanics/recursion.hpp"
 
+#include <vector>
+
 namespace wingspread {
 
 /// What the passes know of one body beside its BodyFrame.
@@ -56,6 +58,17 @@ template <class T> struct AugmentedFrame {
 template <class T> struct HingeConstraint {
   T added_inertia = T(0); ///< E, kg·m²
   bool locked = false;
+};
+
+/// What the recursion works on: all bodies of a wing.
+template <class T> struct Augmented {
+  std::vector<BodyFrame<T>> frames;      ///< 0 … n
+  std::vector<AugmentedFrame<T>> bodies; ///< 0 … n
+
+  void resize(int n) {
+    frames.assign(n + 1, BodyFrame<T>{});
+    bodies.assign(n + 1, AugmentedFrame<T>{});
+  }
 };
 
 /// Eqs. (8), (9), (11) at body i, the children's made; 0 is a free base. Its frame has been placed.
@@ -106,7 +119,7 @@ void load(const Topology& tree, const Frames& frames, Augmented& bodies, int i, 
 }
 
 /// Eq. (7): what a free base does. @pre its load was made with τ = 0 and E = 0
-template <class T> void release_augmented_base(AugmentedFrame<T>& base) {
+template <class T> void accelerate_free_base(AugmentedFrame<T>& base) {
   const Sym2<T>& K = base.K;
   const T inverse = T(1) / fused(K.xx, K.yy, -(K.xy * K.xy));
   base.acceleration = {inverse * fused(K.xy, base.b.y, -(K.yy * base.b.x)),
@@ -139,6 +152,32 @@ template <class T>
 template <class T>
 [[nodiscard]] T axis_moment(const AugmentedFrame<T>& own, const T& parents_acceleration) {
   return dot(own.H, own.acceleration) + fused(own.N, parents_acceleration, own.m);
+}
+
+// ---- the passes over a whole wing, whose frames have been placed
+
+/// (8), (9), (11). @param hinge hinge(i) → HingeConstraint<T>
+template <BaseMotion M, class T, class Topology, class Constraint>
+void factorize_all(const Wing<T>& wing, const Topology& tree, Augmented<T>& parts,
+                   Constraint&& hinge) {
+  tree.inward([&](int i) { factorize(wing, tree, parts.frames, parts.bodies, i, hinge(i)); });
+  if constexpr (M == BaseMotion::free)
+    factorize(wing, tree, parts.frames, parts.bodies, 0, HingeConstraint<T>{});
+}
+
+/// (10), (12), then what the base does: by (7) when it is free; when the wing moves, as its frame
+/// says; else nothing. @param tau tau(i), N·m
+template <bool moving, BaseMotion M, class T, class Topology, class Moment>
+void load_all(const Topology& tree, Augmented<T>& parts, Moment&& tau) {
+  tree.inward([&](int i) { load<moving>(tree, parts.frames, parts.bodies, i, T(tau(i))); });
+  AugmentedFrame<T>& base = parts.bodies[0];
+  if constexpr (M == BaseMotion::free) {
+    load<moving>(tree, parts.frames, parts.bodies, 0, T(0));
+    accelerate_free_base(base);
+  } else {
+    base.acceleration = moving ? parts.frames[0].acceleration : Vec2<T>{T(0), T(0)};
+    base.angular_acceleration = moving ? parts.frames[0].angular_acceleration : T(0);
+  }
 }
 
 } // namespace wingspread

@@ -9,7 +9,7 @@ namespace wingspread {
 /// Mass properties and motion of everything that moves, seen from the base's origin: axes inertial,
 /// positions and velocities less the base's own, so that a spacecraft far out or fast loses no
 /// digits.
-template <class T> struct Motion {
+template <class T> struct TotalMotion {
   T kinetic = T(0);                 ///< ½ Σ (m v² + J ω²), J
   T mass = T(0);                    ///< Σ m, kg
   Vec2<T> first_moment{T(0), T(0)}; ///< Σ m r, kg·m
@@ -37,7 +37,7 @@ template <class T> struct Motion {
 /// from the position and velocity of its parent's hinge point.
 template <class T, class Topology>
 void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<BodyFrame<T>>& frames,
-                 int parent, const Vec2<T>& point, const Vec2<T>& velocity, Motion<T>& sum) {
+                 int parent, const Vec2<T>& point, const Vec2<T>& velocity, TotalMotion<T>& sum) {
   tree.for_each_child(parent, [&](int i) {
     const BodyFrame<T>& own = frames[i];
     const Vec2<T> hinge = point + own.arm;
@@ -52,11 +52,12 @@ void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<Bo
 /// Motion of all bodies at (x, t) as seen from the base's origin;
 /// places the system there. Cost O(n).
 template <class T, class Topology, BaseMotion M>
-[[nodiscard]] Motion<T> motion(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+[[nodiscard]] TotalMotion<T> total_motion(System<T, Topology, M>& system, const State<T>& x,
+                                          const T& t) {
   system.place_all(x, t);
   const auto& frames = system.work().frames;
   const Vec2<T> origin{T(0), T(0)};
-  Motion<T> sum;
+  TotalMotion<T> sum;
   if constexpr (M == BaseMotion::free) {
     const BodyTerms<T>& base = system.wing().bodies[0];
     sum.add(base.mass, base.central_inertia, origin, origin, frames[0].rate);
@@ -78,7 +79,7 @@ template <class T, class Topology, BaseMotion M>
 /// Kinetic energy in inertial axes, J.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T kinetic_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
-  const Motion<T> now = motion(system, x, t);
+  const TotalMotion<T> now = total_motion(system, x, t);
   const Vec2<T> v = base_velocity(system, x, t);
   return now.kinetic + dot(v, now.linear) + T(0.5) * now.mass * dot(v, v);
 }
@@ -111,7 +112,7 @@ template <class T> struct Conserved {
 template <class T, class Topology>
 [[nodiscard]] Conserved<T> conserved(System<T, Topology, BaseMotion::free>& system,
                                      const State<T>& x, const T& t) {
-  const Motion<T> now = motion(system, x, t);
+  const TotalMotion<T> now = total_motion(system, x, t);
   return {Vec2<T>{x[0], x[1]} + now.center(),
           base_velocity(system, x, t) + scaled(T(1) / now.mass, now.linear), now.spin()};
 }
@@ -123,7 +124,7 @@ template <class T, class Topology>
 template <class T, class Topology>
 void keep_momentum(System<T, Topology, BaseMotion::free>& system, const Conserved<T>& kept,
                    State<T>& x, const T& t) {
-  const Motion<T> now = motion(system, x, t);
+  const TotalMotion<T> now = total_motion(system, x, t);
   const Vec2<T> center = now.center();
   const T rate = (kept.spin - now.spin()) / now.central_inertia();
   const Vec2<T> linear = scaled(T(1) / now.mass, now.linear);

@@ -48,19 +48,20 @@ template <class T>
 
 /// Regularized Coulomb friction; smooth, so that a hinge creeps where a real one would stick.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline T coulomb_moment(const HingeTerms<T>& hinge,
-                                                          const T& rate) {
+[[nodiscard, gnu::always_inline]] inline T regularized_friction_moment(const HingeTerms<T>& hinge,
+                                                                       const T& rate) {
   using std::sqrt;
-  return -(hinge.coulomb * rate) / sqrt(fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
+  return -(hinge.regularized_friction * rate) /
+         sqrt(fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
 }
 
 /// −d/dφ̇ of it: the damping that it is for small changes, N·m·s/rad.
 template <class T>
-[[nodiscard, gnu::always_inline]] inline T coulomb_damping(const HingeTerms<T>& hinge,
-                                                           const T& rate) {
+[[nodiscard, gnu::always_inline]] inline T regularized_friction_damping(const HingeTerms<T>& hinge,
+                                                                        const T& rate) {
   using std::sqrt;
   const T slip = hinge.slip_rate * hinge.slip_rate, square = fused(rate, rate, slip);
-  return hinge.coulomb * slip / (square * sqrt(square));
+  return hinge.regularized_friction * slip / (square * sqrt(square));
 }
 
 /// h0 + Δh u²(3 − 2u) from 0 to 1 over u ∈ [0, 1]; constant outside.

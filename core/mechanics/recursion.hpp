@@ -148,7 +148,7 @@ template <BaseMotion M, class Topology, class Frames>
 }
 
 /// Acceleration of a free base's centre of mass, eq. (7), after its inward pass. Sets a_0 and α_0.
-template <class T> inline void release_base(BodyFrame<T>& base) {
+template <class T> inline void accelerate_free_base(BodyFrame<T>& base) {
   const Sym2<T>& K = base.stiffness;
   const T inverse = T(1) / fused(K.xx, K.yy, -(K.xy * K.xy));
   base.acceleration = {inverse * fused(K.xy, base.bias.y, -(K.yy * base.bias.x)),

@@ -1,7 +1,7 @@
 /// The right-hand side of a wing's equations of motion.
 #pragma once
 
-#include "core/mechanics/layout.hpp"
+#include "core/mechanics/kinematics.hpp"
 #include "core/mechanics/workspace.hpp"
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace wingspread {
 
-/// dx/dt of one wing. Motion is the base's; Topology a Tree or a Chain<N>.
-template <class T, class Topology, BaseMotion Motion> class System {
+/// dx/dt of one wing. M is the base's motion; Topology a Tree or a Chain<N>.
+template <class T, class Topology, BaseMotion M> class System {
 public:
-  static constexpr BaseMotion motion = Motion;
+  static constexpr BaseMotion base_motion = M;
 
   System(const Wing<T>& wing, const Topology& topology, const std::optional<double>& smoothing,
          Workspace<T>& work)
@@ -26,7 +26,6 @@ public:
     work_.laws.resize(n + 1);
     work_.nonlinear.resize(n + 1);
     work_.held.resize(n);
-    work_.linear.resize(n);
     reset();
   }
 
@@ -37,10 +36,7 @@ public:
     work_.holding.assign(layout_.bodies + 1, T(0));
     work_.stuck = 0;
     work_.evaluations = 0;
-    for (int i = 1; i <= layout_.bodies; ++i) {
-      work_.held.hinges[i].locked = work_.linear.hinges[i].locked = false;
-      update_law(i);
-    }
+    for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
   }
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
@@ -54,7 +50,7 @@ public:
   /// The state at t = 0.
   void start(State<T>& x) const {
     x.assign(layout_.size(), T(0));
-    if constexpr (Motion == BaseMotion::free) {
+    if constexpr (M == BaseMotion::free) {
       const BaseTerms<T>& base = wing_.base;
       const int v = layout_.freedoms();
       x[0] = base.position.x, x[1] = base.position.y, x[2] = base.angle;
@@ -76,7 +72,6 @@ public:
   void touch(int i, Contact contact) {
     work_.stuck += (contact == Contact::stuck) - (work_.contact[i] == Contact::stuck);
     work_.contact[i] = contact;
-    work_.held.hinges[i].locked = work_.linear.hinges[i].locked = contact == Contact::stuck;
     update_law(i);
   }
   [[nodiscard]] bool sticks(int i) const { return work_.contact[i] == Contact::stuck; }
@@ -88,8 +83,8 @@ public:
 
   /// Kinematics alone: places every body in the workspace's frames.
   void place_all(const State<T>& x, const T& t) {
-    place_base(work_.frames[0], x, t);
-    place_bodies(work_.frames, x);
+    place_base<M>(wing_, layout_, work_.frames[0], x, t);
+    place_bodies<M>(wing_, topology_, work_.frames, x);
   }
 
   /// Moment of hinge i, N·m; if it sticks, what held it at the last evaluation.
@@ -105,7 +100,8 @@ public:
   /// What the moment of hinge i is without the friction that holds it, N·m.
   [[nodiscard]] T sliding_moment(const State<T>& x, int i) const {
     const T linear = linear_moment(work_.laws[i], x[layout_.angle(i)], x[layout_.rate(i)]);
-    return wing_.has_coulomb || layout_.smoothed ? linear + nonlinear_moment(x, i) : linear;
+    return wing_.has_regularized_friction || layout_.smoothed ? linear + nonlinear_moment(x, i)
+                                                              : linear;
   }
 
   /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
@@ -116,52 +112,6 @@ public:
 
   /// Whether evaluations leave the hinge forces in the workspace.
   void want_forces(bool want) { wants_forces_ = want; }
-
-  // ---- linear solves: (M + E) q̈ = τ, E = c_d D + c_k K over the hinges, by the recursion itself
-
-  /// Damping and stiffness of hinge i in the linear model at x: what can make the equations stiff.
-  struct Resistance {
-    T damping;   ///< N·m·s/rad, ≥ 0
-    T stiffness; ///< N·m/rad, ≥ 0
-  };
-  [[nodiscard]] Resistance resistance(const State<T>& x, int i) const {
-    const LinearLaw<T>& law = work_.laws[i];
-    Resistance r{law.damping, larger(law.stiffness, T(0))};
-    if (wing_.hinges[i].coulomb > T(0))
-      r.damping = r.damping + coulomb_damping(wing_.hinges[i], x[layout_.rate(i)]);
-    if (layout_.smoothed && wing_.hinges[i].has_latch) {
-      const T weight = smooth_step(x[layout_.latch(i)] / epsilon_);
-      r.damping = fused(weight, wing_.hinges[i].damping, r.damping);
-      r.stiffness = fused(weight, wing_.hinges[i].stiffness, r.stiffness);
-    }
-    return r;
-  }
-
-  /// Factorizes M + E at (x, t) for the added inertias of the hinges, E(i). Cost O(n), about half
-  /// an evaluation.
-  template <class AddedInertia>
-  void factorize_at(const State<T>& x, const T& t, AddedInertia&& added) {
-    Augmented<T>& parts = work_.linear;
-    place_base(parts.frames[0], x, t);
-    place_bodies(parts.frames, x);
-    for (int i = 1; i <= layout_.bodies; ++i) parts.hinges[i].added_inertia = added(i);
-    factorize_placed(parts);
-  }
-
-  /// Solves (M + E) q̈ = τ with the last factorization: τ(i) of the hinges, none on a free base.
-  /// @param qdd freedoms() numbers: those of a free base first
-  template <class Moment> void solve(Moment&& tau, T* qdd) {
-    Augmented<T>& parts = work_.linear;
-    topology_.inward(
-        [&](int i) { load<false>(topology_, parts.frames, parts.bodies, i, T(tau(i))); });
-    parts.bodies[0].acceleration = {T(0), T(0)};
-    parts.bodies[0].angular_acceleration = T(0);
-    if constexpr (Motion == BaseMotion::free) release<false>(parts, qdd);
-    topology_.outward([&](int i) {
-      qdd[first_coordinate + i - 1] =
-          accelerate_augmented<false>(topology_, parts.frames, parts.bodies, i);
-    });
-  }
 
 private:
   template <bool forces>
@@ -177,7 +127,7 @@ private:
     }
   }
 
-  static constexpr int first_coordinate = Motion == BaseMotion::free ? 3 : 0; ///< φ_1 in q
+  static constexpr int first_coordinate = base_freedoms<M>; ///< φ_1 in q
   [[nodiscard]] int freedoms() const { return first_coordinate + topology_.bodies(); }
 
   [[nodiscard]] bool latch_acts(int i) const {
@@ -186,61 +136,31 @@ private:
 
   void update_law(int i) {
     const Contact contact = work_.contact[i];
-    const T friction = contact == Contact::forward    ? -wing_.hinges[i].kinetic
-                       : contact == Contact::backward ? wing_.hinges[i].kinetic
+    const T friction = contact == Contact::forward    ? -wing_.hinges[i].kinetic_friction
+                       : contact == Contact::backward ? wing_.hinges[i].kinetic_friction
                                                       : T(0);
     work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction);
-  }
-
-  void factorize_placed(Augmented<T>& parts) {
-    topology_.inward([&](int i) {
-      factorize(wing_, topology_, parts.frames, parts.bodies, i, parts.hinges[i]);
-    });
-    if constexpr (Motion == BaseMotion::free)
-      factorize(wing_, topology_, parts.frames, parts.bodies, 0, parts.hinges[0]);
-  }
-
-  /// @param qdd the base's three accelerations
-  template <bool moving> void release(Augmented<T>& parts, T* qdd) {
-    load<moving>(topology_, parts.frames, parts.bodies, 0, T(0));
-    release_augmented_base(parts.bodies[0]);
-    qdd[0] = parts.bodies[0].acceleration.x, qdd[1] = parts.bodies[0].acceleration.y;
-    qdd[2] = parts.bodies[0].angular_acceleration;
   }
 
   /// The right-hand side with hinges locked by friction; leaves what holds them in the workspace.
   [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
     Augmented<T>& parts = work_.held;
-    std::vector<BodyFrame<T>>& frames = parts.frames;
-    place_base(frames[0], x, t);
-    place_bodies(frames, x);
-    apply_moments(frames, x);
-    factorize_placed(parts);
-    topology_.inward(
-        [&](int i) { load<true>(topology_, frames, parts.bodies, i, frames[i].moment); });
-    parts.bodies[0].acceleration = frames[0].acceleration;
-    parts.bodies[0].angular_acceleration = frames[0].angular_acceleration;
-    if constexpr (Motion == BaseMotion::free) release<true>(parts, &dxdt[layout_.freedoms()]);
+    place_base<M>(wing_, layout_, parts.frames[0], x, t);
+    place_bodies<M>(wing_, topology_, parts.frames, x);
+    apply_moments(parts.frames, x);
+    factorize_all<M>(wing_, topology_, parts, [&](int i) {
+      return HingeConstraint<T>{T(0), sticks(i)};
+    });
+    load_all<true, M>(topology_, parts, [&](int i) { return parts.frames[i].moment; });
+    if constexpr (M == BaseMotion::free) copy_base(parts.bodies[0], dxdt);
     topology_.outward([&](int i) {
-      dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology_, frames, parts.bodies, i);
+      dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology_, parts.frames, parts.bodies, i);
       const T& parents = parts.bodies[topology_.parent_of(i)].angular_acceleration;
       work_.holding[i] = axis_moment(parts.bodies[i], parents);
       if (wants_forces_) work_.forces[i] = augmented_force(parts.bodies[i], parents);
     });
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
-  }
-
-  template <class Frames>
-  [[gnu::always_inline]] void place_bodies(Frames& frames, const State<T>& x) {
-    const T* const angles = x.data() + first_coordinate;
-    const T* const rates = angles + freedoms();
-    topology_.outward([&](int i) __attribute__((always_inline)) {
-      turn<Motion>(topology_, frames, i, angles[i - 1], rates[i - 1]);
-    });
-    topology_.outward([&](int i) __attribute__((always_inline)) {
-      place<Motion>(wing_, topology_, frames, i);
-    });
   }
 
   template <class Frames>
@@ -251,7 +171,7 @@ private:
     topology_.outward([&](int i) __attribute__((always_inline)) {
       frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
     });
-    if (!wing_.has_coulomb && !layout_.smoothed) return;
+    if (!wing_.has_regularized_friction && !layout_.smoothed) return;
     find_nonlinear_moments(x);
     topology_.outward([&](int i) __attribute__((always_inline)) {
       frames[i].moment = frames[i].moment + work_.nonlinear[i];
@@ -265,7 +185,8 @@ private:
 
   [[nodiscard]] T nonlinear_moment(const State<T>& x, int i) const {
     const T& rate = x[layout_.rate(i)];
-    T m = wing_.has_coulomb ? coulomb_moment(wing_.hinges[i], rate) : T(0);
+    T m =
+        wing_.has_regularized_friction ? regularized_friction_moment(wing_.hinges[i], rate) : T(0);
     if (layout_.smoothed && wing_.hinges[i].has_latch)
       m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)],
                                     epsilon_);
@@ -285,15 +206,15 @@ private:
   template <bool forces, class Frames>
   [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
                                        const T& t) {
-    place_base(frames[0], x, t);
-    place_bodies(frames, x);
+    place_base<M>(wing_, layout_, frames[0], x, t);
+    place_bodies<M>(wing_, topology_, frames, x);
     apply_moments(frames, x);
     topology_.inward([&](int i)
                          __attribute__((always_inline)) { gather(wing_, topology_, frames, i); });
     accelerate_base(frames, dxdt);
     T* const accelerations = dxdt.data() + first_coordinate + freedoms();
     topology_.outward([&](int i) __attribute__((always_inline)) {
-      accelerations[i - 1] = accelerate<Motion>(topology_, frames, i);
+      accelerations[i - 1] = accelerate<M>(topology_, frames, i);
     });
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
@@ -303,40 +224,22 @@ private:
       });
   }
 
-  [[gnu::always_inline]] void place_base(BodyFrame<T>& base, const State<T>& x, const T& t) const {
-    if constexpr (Motion == BaseMotion::fixed) {
-      base.angle = base.rate = base.minus_rate_squared = base.angular_acceleration = T(0);
-      base.acceleration = {T(0), T(0)};
-      base.rotation = {T(0), T(1)};
-      return;
-    }
-    if constexpr (Motion == BaseMotion::prescribed) {
-      const BaseTerms<T>& given = wing_.base;
-      base.rate = fused(given.angular_acceleration, t, given.rate);
-      base.angle = fused(t, fused(T(0.5) * given.angular_acceleration, t, given.rate), given.angle);
-      base.acceleration = given.acceleration;
-      base.angular_acceleration = given.angular_acceleration;
-    }
-    if constexpr (Motion == BaseMotion::free) {
-      base.angle = x[2];
-      base.rate = x[layout_.freedoms() + 2];
-      base.moment = T(0);
-      base.mass_moment = {T(0), T(0)};
-    }
-    base.minus_rate_squared = -(base.rate * base.rate);
-    base.rotation = sine_cosine(base.angle);
-  }
-
   template <class Frames>
   [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) const {
-    if constexpr (Motion == BaseMotion::free) {
+    if constexpr (M == BaseMotion::free) {
       BodyFrame<T>& base = frames[0];
       gather(wing_, topology_, frames, 0);
-      release_base(base);
-      const int v = layout_.freedoms();
-      dxdt[v] = base.acceleration.x, dxdt[v + 1] = base.acceleration.y;
-      dxdt[v + 2] = base.angular_acceleration;
+      accelerate_free_base(base);
+      copy_base(base, dxdt);
     }
+  }
+
+  /// The accelerations of a free base, from its frame in either recursion.
+  template <class Frame>
+  [[gnu::always_inline]] void copy_base(const Frame& base, State<T>& dxdt) const {
+    const int v = layout_.freedoms();
+    dxdt[v] = base.acceleration.x, dxdt[v + 1] = base.acceleration.y;
+    dxdt[v + 2] = base.angular_acceleration;
   }
 
   [[gnu::noinline]] void advance_latches(const State<T>& x, State<T>& dxdt) const {

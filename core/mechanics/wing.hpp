@@ -29,14 +29,20 @@ template <class T> struct HingeTerms {
   T sense;           ///< sign(latched − stowed)
   T drive;           ///< s·(spring − harness) at the latched angle, N·m
   T drive_slope;     ///< its derivative by φ, N·m/rad
-  T coulomb;         ///< of the regularized friction, N·m
   T viscous;         ///< N·m·s/rad
-  T slip_rate;       ///< ω_s of the regularized friction, rad/s
-  T kinetic;         ///< τ_c of the exact friction, N·m
-  T limit;           ///< τ_s of the exact friction, the most that it can hold, N·m
+  // of the two models of Coulomb's friction a hinge has one, and zeros for the other
+  T regularized_friction; ///< τ_c, N·m
+  T slip_rate;            ///< ω_s of the regularized friction, rad/s
+  T kinetic_friction;     ///< τ_c of the exact friction, N·m
+  T static_friction;      ///< τ_s of the exact friction, the most that it can hold, N·m
   bool has_latch;
   T stiffness; ///< of the latch once engaged, N·m/rad
   T damping;   ///< N·m·s/rad
+
+  /// Whether the friction is exact: then it holds the hinge at rest, up to a limit.
+  [[nodiscard]] bool can_stick() const { return static_friction > T(0); }
+  /// The most that friction, of whichever model, adds to the moment, N·m.
+  [[nodiscard]] T most_friction() const { return regularized_friction + static_friction; }
 };
 
 template <class T> struct BaseTerms {
@@ -50,12 +56,12 @@ template <class T> struct BaseTerms {
 template <class T> struct Wing {
   BaseTerms<T> base;
   Tree tree;
-  std::vector<int> hinge_of;         ///< body i → its hinge's index in the scene; [0] unused
-  std::vector<BodyTerms<T>> bodies;  ///< 0 … n
-  std::vector<HingeTerms<T>> hinges; ///< 0 … n; [0] unused
-  std::vector<T> initial_rates;      ///< 0 … n; rad/s
-  bool has_coulomb = false; ///< any hinge has regularized friction; else its pass is skipped
-  bool can_stick = false;   ///< any hinge has exact friction
+  std::vector<int> hinge_of;             ///< body i → its hinge's index in the scene; [0] unused
+  std::vector<BodyTerms<T>> bodies;      ///< 0 … n
+  std::vector<HingeTerms<T>> hinges;     ///< 0 … n; [0] unused
+  std::vector<T> initial_rates;          ///< 0 … n; rad/s
+  bool has_regularized_friction = false; ///< any hinge; else its pass is skipped
+  bool can_stick = false;                ///< any hinge
 
   [[nodiscard]] int size() const { return tree.bodies(); }
 };
@@ -78,9 +84,10 @@ template <class T> [[nodiscard]] HingeTerms<T> hinge_terms(const Hinge& hinge) {
   terms.drive = sense * at_latched;
   terms.drive_slope = sense * (at_latched - at_stowed) / travel;
   const bool exact = hinge.friction.model == FrictionModel::exact;
-  terms.coulomb = T(exact ? 0 : hinge.friction.coulomb);
-  terms.kinetic = T(exact ? hinge.friction.coulomb : 0);
-  terms.limit = exact ? T(hinge.friction.static_level.value_or(hinge.friction.coulomb)) : T(0);
+  terms.regularized_friction = T(exact ? 0 : hinge.friction.coulomb);
+  terms.kinetic_friction = T(exact ? hinge.friction.coulomb : 0);
+  terms.static_friction =
+      exact ? T(hinge.friction.static_level.value_or(hinge.friction.coulomb)) : T(0);
   terms.viscous = T(hinge.friction.viscous);
   terms.slip_rate = T(hinge.friction.regularization_rate);
   terms.has_latch = hinge.latch.has_value();
@@ -129,7 +136,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
       base.motion,  vec2<T>(base.acceleration), T(base.angular_acceleration), T(base.angle),
       T(base.rate), vec2<T>(base.position),     vec2<T>(base.velocity)};
   wing.bodies[0] = detail::body_terms<T>(base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
-  wing.has_coulomb = wing.can_stick = false;
+  wing.has_regularized_friction = wing.can_stick = false;
   for (int i = 1; i <= wing.size(); ++i) {
     const Hinge& hinge = scene.hinges[wing.hinge_of[i]];
     const Body& body = scene.bodies[hinge.child];
@@ -140,8 +147,9 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
     wing.bodies[i] = detail::body_terms<T>(body.mass, body.inertia, center, arm);
     wing.hinges[i] = detail::hinge_terms<T>(hinge);
     wing.initial_rates[i] = T(hinge.initial_rate);
-    wing.has_coulomb = wing.has_coulomb || wing.hinges[i].coulomb > T(0);
-    wing.can_stick = wing.can_stick || wing.hinges[i].limit > T(0);
+    wing.has_regularized_friction =
+        wing.has_regularized_friction || wing.hinges[i].regularized_friction > T(0);
+    wing.can_stick = wing.can_stick || wing.hinges[i].can_stick();
   }
 }
 

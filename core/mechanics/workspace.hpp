@@ -11,19 +11,6 @@ namespace wingspread {
 /// What the exact friction of a hinge does: oppose a motion, or hold it.
 enum class Contact : signed char { backward = -1, none = 0, forward = 1, stuck = 2 };
 
-/// What the augmented recursion works on.
-template <class T> struct Augmented {
-  std::vector<BodyFrame<T>> frames;       ///< 0 … n
-  std::vector<AugmentedFrame<T>> bodies;  ///< 0 … n
-  std::vector<HingeConstraint<T>> hinges; ///< 0 … n
-
-  void resize(int n) {
-    frames.assign(n + 1, BodyFrame<T>{});
-    bodies.assign(n + 1, AugmentedFrame<T>{});
-    hinges.assign(n + 1, HingeConstraint<T>{});
-  }
-};
-
 /// What changes from phase to phase of a run, and scratch space. Owned by the caller, one a thread.
 template <class T> struct Workspace {
   std::vector<BodyFrame<T>> frames; ///< 0 … n
@@ -36,7 +23,6 @@ template <class T> struct Workspace {
   std::vector<T> holding;         ///< 1 … n: axis moment at the last evaluation that held a hinge
   int stuck = 0;                  ///< how many stick
   Augmented<T> held;              ///< of the evaluation while hinges stick
-  Augmented<T> linear;            ///< of the linear solves
   long evaluations = 0;
 };
 

@@ -5,7 +5,7 @@
 /// all over the step: a friction that changes sign inside is noticed.
 #pragma once
 
-#include "core/methods/methods.hpp"
+#include "core/methods/method.hpp"
 
 #include <array>
 #include <utility>

@@ -4,7 +4,8 @@
 
 #include "core/dense/roughness.hpp"
 #include "core/dense/step.hpp"
-#include "core/methods/methods.hpp"
+#include "core/mechanics/hinge_moment.hpp"
+#include "core/methods/method.hpp"
 
 namespace wingspread {
 

@@ -22,7 +22,8 @@
 /// (2005) 761-787].
 #pragma once
 
-#include "core/methods/methods.hpp"
+#include "core/mechanics/linear_solve.hpp"
+#include "core/methods/method.hpp"
 
 #include <array>
 
@@ -94,18 +95,18 @@ public:
     added_.resize(at.bodies + 1), spring_.resize(at.bodies + 1);
     solved_.resize(at.freedoms());
     for (int i = 1; i <= at.bodies; ++i) {
-      const auto hinge = system.resistance(from.x, i);
+      const auto hinge = resistance(system, from.x, i);
       spring_[i] = eta * hinge.stiffness;
       added_[i] = eta * (hinge.damping + spring_[i]);
     }
-    system.factorize_at(from.x, from.t, [&](int i) { return added_[i]; });
+    linear_.factorize(system, from.x, from.t, [&](int i) { return added_[i]; });
   }
 
   /// R ← (1 − ηJ)⁻¹ R. Cost about half an evaluation.
   template <class System> void solve(System& system, State<T>& R) {
     const Layout& at = system.layout();
-    system.solve(
-        [&](int i) { return fused(added_[i], R[at.rate(i)], spring_[i] * R[at.angle(i)]); },
+    linear_.solve(
+        system, [&](int i) { return fused(added_[i], R[at.rate(i)], spring_[i] * R[at.angle(i)]); },
         solved_.data());
     const int v = at.freedoms();
     for (int k = 0; k < v; ++k) {
@@ -115,6 +116,7 @@ public:
   }
 
 private:
+  LinearSolve<T> linear_;
   T eta_ = T(0);
   State<T> added_, spring_, solved_;
 };

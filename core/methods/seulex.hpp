@@ -11,6 +11,7 @@
 #pragma once
 
 #include "core/methods/rosenbrock.hpp"
+#include "core/methods/state_algebra.hpp"
 
 namespace wingspread {
 

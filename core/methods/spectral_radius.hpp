@@ -5,7 +5,7 @@
 /// of springs, latches and friction at the present configuration.
 #pragma once
 
-#include "core/mechanics/layout.hpp"
+#include "core/mechanics/linear_solve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ public:
   template <class AnySystem>
   [[nodiscard]] double estimate(AnySystem& system, const State<T>& x, const T& t) {
     const int size = system.layout().freedoms();
-    system.factorize_at(x, t, [](int) { return T(0); });
+    linear_.factorize(system, x, t, [](int) { return T(0); });
     q_.assign(size, T(0)), next_.assign(size, T(0)), v_.resize(size);
     for (int k = 0; k < size; ++k) v_[k] = T(k % 2 == 0 ? 1 : -1) / T(k + 1);
     const double first = growth(system, x, 0);
@@ -52,9 +52,10 @@ private:
   /// (q, v) → (v, −M⁻¹(Kq + Dv))
   template <class AnySystem> void apply(AnySystem& system, const State<T>& x) {
     const Layout& at = system.layout();
-    system.solve(
+    linear_.solve(
+        system,
         [&](int i) {
-          const auto hinge = system.resistance(x, i);
+          const auto hinge = resistance(system, x, i);
           const int k = at.angle(i);
           return -fused(hinge.stiffness, q_[k], hinge.damping * v_[k]);
         },
@@ -71,6 +72,7 @@ private:
     return largest;
   }
 
+  LinearSolve<T> linear_;
   State<T> q_, v_, next_;
 };
 

@@ -1,7 +1,7 @@
 /// Accepting steps and choosing their size.
 #pragma once
 
-#include "core/mechanics/system.hpp"
+#include "core/mechanics/layout.hpp"
 #include "core/number/power.hpp"
 
 #include <algorithm>

@@ -1,7 +1,10 @@
 /// The methods by name, and the one place that knows them all.
 #pragma once
 
+#include "core/methods/adams_bashforth_moulton.hpp"
+#include "core/methods/bulirsch_stoer.hpp"
 #include "core/methods/dop853.hpp"
+#include "core/methods/runge_kutta.hpp"
 #include "core/methods/seulex.hpp"
 
 #include <array>

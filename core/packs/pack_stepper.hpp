@@ -5,6 +5,7 @@
 #include "core/dense/roughness.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
+#include "core/methods/runge_kutta.hpp"
 #include "core/packs/pack_engine.hpp"
 #include "core/peaks/moment_peaks.hpp"
 
@@ -58,10 +59,12 @@ public:
       HingeTerms<P>& hinge = wing_.hinges[i];
       const HingeTerms<double>& from = wing.hinges[i];
       set(hinge.latched, from.latched), set(hinge.sense, from.sense);
-      set(hinge.coulomb, from.coulomb), set(hinge.slip_rate, from.slip_rate);
+      set(hinge.regularized_friction, from.regularized_friction),
+          set(hinge.slip_rate, from.slip_rate);
       hinge.has_latch = hinge.has_latch || from.has_latch;
     }
-    wing_.has_coulomb = wing_.has_coulomb || wing.has_coulomb;
+    wing_.has_regularized_friction =
+        wing_.has_regularized_friction || wing.has_regularized_friction;
   }
 
   void set_run(int lane, const Workspace<double>& work, const Step<double>& step,
@@ -163,8 +166,10 @@ private:
     wing_.bodies.assign(wing.bodies.size(), {one, one, none, none, none, one, P(-1.0)});
     HingeTerms<P> hinge{};
     hinge.sense = hinge.slip_rate = one;
-    hinge.stowed = hinge.latched = hinge.drive = hinge.drive_slope = hinge.coulomb = zero;
-    hinge.viscous = hinge.kinetic = hinge.limit = hinge.stiffness = hinge.damping = zero;
+    hinge.stowed = hinge.latched = hinge.drive = hinge.drive_slope = hinge.regularized_friction =
+        zero;
+    hinge.viscous = hinge.kinetic_friction = hinge.static_friction = hinge.stiffness =
+        hinge.damping = zero;
     wing_.hinges.assign(wing.hinges.size(), hinge);
     return wing_;
   }

@@ -30,7 +30,7 @@ public:
   [[nodiscard]] std::vector<T>& before() { return before_; }
 
   /// The last evaluation of `system` was at t: takes the forces as they stand.
-  void observe(const AnySystem& system, const T& t) {
+  void sample(const AnySystem& system, const T& t) {
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       before_[i] = magnitude(system, static_cast<int>(i));
       peaks[i].raise(before_[i], t);
@@ -64,7 +64,7 @@ public:
   }
 
   /// That step has been made, and its last evaluation was there.
-  void settle(const AnySystem& system) {
+  void confirm(const AnySystem& system) {
     const Doubt doubt = doubts_.back();
     doubts_.pop_back();
     peaks[doubt.hinge].raise(magnitude(system, doubt.hinge), doubt.time);

@@ -35,8 +35,8 @@ public:
       low = smaller(low, linear_[k]), high = larger(high, linear_[k]);
       slowest = smaller(slowest, rate_[k]), fastest = larger(fastest, rate_[k]);
     }
-    low = low - select(fastest > T(0), hinge_.coulomb, T(0));
-    high = high + select(slowest < T(0), hinge_.coulomb, T(0));
+    low = low - select(fastest > T(0), hinge_.regularized_friction, T(0));
+    high = high + select(slowest < T(0), hinge_.regularized_friction, T(0));
     const T linear = larger(high, T(-low));
     return smoothed_ ? linear + bound(latch_) : linear;
   }
@@ -50,7 +50,8 @@ public:
 
   [[nodiscard]] T operator()(const T& s) const {
     T m = value(linear_, s);
-    if (hinge_.coulomb > T(0)) m = m + coulomb_moment(hinge_, value(rate_, s));
+    if (hinge_.regularized_friction > T(0))
+      m = m + regularized_friction_moment(hinge_, value(rate_, s));
     if (smoothed_) m = m - smooth_step(step_.cubic(latch_state_, s) / epsilon_) * value(latch_, s);
     return m;
   }
@@ -91,8 +92,8 @@ template <class T, class AnySystem>
   const Layout& at = system.layout();
   const LinearLaw<T>& law = system.work().laws[i];
   const T& rate = x[at.rate(i)];
-  const T damping = system.wing().hinges[i].coulomb > T(0)
-                        ? law.damping + coulomb_damping(system.wing().hinges[i], rate)
+  const T damping = system.wing().hinges[i].regularized_friction > T(0)
+                        ? law.damping + regularized_friction_damping(system.wing().hinges[i], rate)
                         : law.damping;
   return -fused(law.stiffness, rate, damping * dxdt[at.rate(i)]);
 }
@@ -107,7 +108,7 @@ template <class T> struct DoubtfulMoment {
 /// Raises `peak` to the largest |moment| of hinge i over the step where that lies at one of its
 /// ends. A maximum inside that the dense output finds must be made sure of by a step of the method
 /// that ends there: then the peak has the method's accuracy, not the interpolant's.
-/// @return where; `settle_moment` takes it from there
+/// @return where; `confirm_moment` takes it from there
 template <class T, class AnySystem>
 [[nodiscard]] std::optional<DoubtfulMoment<T>>
 raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i) {
@@ -132,9 +133,9 @@ raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int 
 /// Newton's method.
 /// @return whether a step to the new `doubt.s` is worth making
 template <class T, class AnySystem>
-[[nodiscard]] bool settle_moment(DoubtfulMoment<T>& doubt, PeakOf<T>& peak, const AnySystem& system,
-                                 const Step<T>& step, int i, const State<T>& x,
-                                 const State<T>& dxdt) {
+[[nodiscard]] bool confirm_moment(DoubtfulMoment<T>& doubt, PeakOf<T>& peak,
+                                  const AnySystem& system, const Step<T>& step, int i,
+                                  const State<T>& x, const State<T>& dxdt) {
   using std::abs;
   const T M = system.moment(x, i);
   peak.raise(T(abs(M)), step.t + doubt.s * step.h);
@@ -153,7 +154,7 @@ void raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& 
                        Hold&& hold) {
   using std::abs;
   const T most = MomentOverStep<T, AnySystem>(system, step, i).most();
-  if (!(most + system.wing().hinges[i].limit > peak.value)) return;
+  if (!(most + system.wing().hinges[i].static_friction > peak.value)) return;
   for (int k = 1; k <= 4; ++k) {
     const T s = T(k) / T(4);
     peak.raise(T(abs(system.moment(hold(s), i))), step.t + s * step.h);

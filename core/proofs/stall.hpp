@@ -43,7 +43,7 @@ template <class T>
   const T y = hinge.sense * (angle - hinge.latched); // < 0 before the latch
   const LinearLaw<T> open = linear_law(hinge, engaged);
   const LinearLaw<T> beyond = linear_law(hinge, engaged || hinge.has_latch);
-  const T drive = hinge.sense * open.drive, tau = hinge.kinetic;
+  const T drive = hinge.sense * open.drive, tau = hinge.kinetic_friction;
   // the least of P + τ|y' − y| over y' behind, between y and the latch, and beyond it
   T best = least(open.stiffness, T(-drive - tau), T(-infinity), y) + tau * y;
   const T gate = larger(y, T(0));
@@ -64,7 +64,7 @@ template <class T, class Topology, BaseMotion M>
   const Layout& at = system.layout();
   if (at.smoothed) return std::nullopt;
   using std::abs;
-  const Motion<T> now = motion(system, x, t);
+  const TotalMotion<T> now = total_motion(system, x, t);
   T budget = M == BaseMotion::free ? now.central_kinetic() : now.kinetic;
   T scale = now.kinetic;
   for (int i = 1; i <= at.bodies; ++i) {
@@ -80,7 +80,7 @@ template <class T, class Topology, BaseMotion M>
     if (!hinge.has_latch || system.work().engaged[i]) continue;
     const T own = detail::most_given(hinge, false, x[at.angle(i)]);
     const T to_latch = potential(linear_law(hinge, false), x[at.angle(i)]) -
-                       hinge.kinetic * abs(x[at.angle(i)] - hinge.latched);
+                       hinge.kinetic_friction * abs(x[at.angle(i)] - hinge.latched);
     const T missing = -(budget - own + to_latch);
     if (!(missing > T(1e-9) * (scale + abs(to_latch)))) return std::nullopt;
     least = least ? smaller(*least, missing) : missing;

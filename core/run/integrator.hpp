@@ -10,8 +10,8 @@
 #include "core/packs/pack_engine.hpp"
 #include "core/peaks/force_peaks.hpp"
 #include "core/peaks/moment_peaks.hpp"
+#include "core/proofs/energy_above_rest.hpp"
 #include "core/proofs/peak_bounds.hpp"
-#include "core/proofs/settled.hpp"
 #include "core/proofs/stall.hpp"
 #include "core/run/record.hpp"
 
@@ -306,13 +306,13 @@ private:
   }
 
   void take_force() {
-    forces_.settle(system_);
+    forces_.confirm(system_);
     probe_next();
   }
 
   void take_moment() {
-    if (settle_moment(*doubt_, moments_[due_moment_], system_, step_, due_moment_, scratch_,
-                      dscratch_))
+    if (confirm_moment(*doubt_, moments_[due_moment_], system_, step_, due_moment_, scratch_,
+                       dscratch_))
       return probe(Stage::moment, doubt_->s);
     probe_next();
   }
@@ -327,7 +327,7 @@ private:
     if (goal_.audit && latches_.empty()) watch_energy();
     if (system_.work().stuck > 0) {
       system_(step_.x, dscratch_, step_.t);
-      events_.observe(step_.x);
+      events_.begin_step(step_.x);
     }
     notify();
     if (!happens(due_)) {
@@ -343,7 +343,7 @@ private:
       fail("a hinge has turned past 1e8 rad");
   }
 
-  void observe_moments() {
+  void sample_moments() {
     using std::abs;
     for (int i = 1; i <= at_.bodies; ++i)
       moments_[i].raise(T(abs(system_.moment(step_.x, i))), step_.t);
@@ -402,12 +402,12 @@ private:
   /// The right-hand side has changed, or is new: evaluates it, at t⁺.
   void restart(int let_go) {
     if (system_.wing().can_stick)
-      settle_contacts(system_, step_.x, step_.dxdt, step_.t, let_go);
+      sort_contacts(system_, step_.x, step_.dxdt, step_.t, let_go);
     else
       system_(step_.x, step_.dxdt, step_.t);
-    observe_moments();
-    if (goal_.peak_force) forces_.observe(system_, step_.t);
-    events_.observe(step_.x);
+    sample_moments();
+    if (goal_.peak_force) forces_.sample(system_, step_.t);
+    events_.begin_step(step_.x);
     notify();
     choice_.restart(static_cast<double>(step_.t), system_.work().evaluations);
     begin_phase();

@@ -1,5 +1,7 @@
 #include "studies/support/linear_wing.hpp"
 
+#include "core/mechanics/linear_solve.hpp"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -55,11 +57,13 @@ std::vector<Eigenvalue> LinearWing::eigenvalues(const State<double>& x) {
   const int m = static_cast<int>(held.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * m, 2 * m);
   A.topRightCorner(m, m).setIdentity();
-  system_.factorize_at(x, 0.0, [](int) { return 0.0; });
+  LinearSolve<double> linear;
+  linear.factorize(system_, x, 0.0, [](int) { return 0.0; });
   std::vector<double> column(hinges());
   for (int c = 0; c < m; ++c) {
-    system_.solve([&](int i) { return i == held[c] ? 1.0 : 0.0; }, column.data());
-    const auto hinge = system_.resistance(x, held[c]);
+    linear.solve(
+        system_, [&](int i) { return i == held[c] ? 1.0 : 0.0; }, column.data());
+    const auto hinge = resistance(system_, x, held[c]);
     for (int r = 0; r < m; ++r) {
       A(m + r, c) = -column[held[r] - 1] * hinge.stiffness;
       A(m + r, m + c) = -column[held[r] - 1] * hinge.damping;

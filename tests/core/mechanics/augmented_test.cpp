@@ -12,7 +12,7 @@
 //
 // are n equations for m: what crosses each hinge, friction that holds it included.
 #include "core/mechanics/augmented.hpp"
-#include "core/mechanics/system.hpp"
+#include "core/mechanics/linear_solve.hpp"
 #include "tests/support/dense_wing.hpp"
 #include "tests/support/random_scenes.hpp"
 
@@ -166,7 +166,7 @@ Motions<double> recursive(const Scene& scene, const WingState<double>& state,
   if (M == BaseMotion::free) {
     factorize(at.wing, tree, frames, bodies, 0, HingeConstraint<double>{});
     load<true>(tree, frames, bodies, 0, 0.0);
-    release_augmented_base(bodies[0]);
+    accelerate_free_base(bodies[0]);
   }
   Motions<double> result{Vector<double>(n), Columns2<double>(2, n), {}, Vector<double>(n)};
   result.base << bodies[0].acceleration.x, bodies[0].acceleration.y, bodies[0].angular_acceleration;
@@ -335,8 +335,11 @@ template <BaseMotion M> void check_linear_solve(std::uint64_t seed, int n) {
   auto& system = wing.at.system;
   const std::vector<int>& hinge_of = wing.at.wing.hinge_of;
   std::vector<double> qdd(system.layout().freedoms());
-  system.factorize_at(wing.at.x, 0.0, [&](int i) { return wing.constraints.added[hinge_of[i]]; });
-  system.solve([&](int i) { return wing.constraints.tau[hinge_of[i]]; }, qdd.data());
+  LinearSolve<double> linear;
+  linear.factorize(system, wing.at.x, 0.0,
+                   [&](int i) { return wing.constraints.added[hinge_of[i]]; });
+  linear.solve(
+      system, [&](int i) { return wing.constraints.tau[hinge_of[i]]; }, qdd.data());
 
   Scene still = wing.scene;
   still.base.acceleration = {0, 0}, still.base.angular_acceleration = 0;

@@ -41,10 +41,10 @@ TEST_CASE("viscous friction and the engaged latch oppose") {
 
 TEST_CASE("regularized friction is the Coulomb level at speed and linear in the rate at rest") {
   const HingeTerms<double> h = terms(1, 0);
-  CHECK(coulomb_moment(h, 10.0) == Approx(-0.1));
-  CHECK(coulomb_moment(h, -10.0) == Approx(0.1));
-  CHECK(coulomb_moment(h, 0.0) == 0);
-  CHECK(coulomb_moment(h, 1e-3) == Approx(-0.1 / std::sqrt(2.0)));
+  CHECK(regularized_friction_moment(h, 10.0) == Approx(-0.1));
+  CHECK(regularized_friction_moment(h, -10.0) == Approx(0.1));
+  CHECK(regularized_friction_moment(h, 0.0) == 0);
+  CHECK(regularized_friction_moment(h, 1e-3) == Approx(-0.1 / std::sqrt(2.0)));
 }
 
 TEST_CASE("a smoothed latch engages over its widths") {

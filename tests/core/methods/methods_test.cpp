@@ -173,22 +173,21 @@ TEST_CASE("the order of the multistep method climbs to eight, its corrector's to
 namespace {
 
 /// A wing whose accelerations turn into something else at one evaluation.
-template <class AnySystem> struct Faulty {
-  AnySystem& system;
-  double what = 0;
-  int left = std::numeric_limits<int>::max(); ///< evaluations until then
+template <class AnySystem> struct Faulty : AnySystem {
+  double what;
+  int left; ///< evaluations until then
+
+  explicit Faulty(const AnySystem& system, double number = 0,
+                  int evaluations = std::numeric_limits<int>::max())
+      : AnySystem(system), what(number), left(evaluations) {}
 
   template <class T> void operator()(const State<T>& x, State<T>& dxdt, const T& t) {
-    system(x, dxdt, t);
+    AnySystem::operator()(x, dxdt, t);
     if (left-- == 0) dxdt.back() = T(what);
   }
-  // what the implicit methods ask for
-  [[nodiscard]] const Layout& layout() const { return system.layout(); }
-  template <class T> [[nodiscard]] auto resistance(const State<T>& x, int i) const {
-    return system.resistance(x, i);
+  template <class T> void stage(const State<T>& x, State<T>& dxdt, const T& t) {
+    (*this)(x, dxdt, t);
   }
-  template <class... Args> void factorize_at(const Args&... args) { system.factorize_at(args...); }
-  template <class... Args> void solve(Args&&... args) { system.solve(args...); }
 };
 
 /// A method in the middle of its run.

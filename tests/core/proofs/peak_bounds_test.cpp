@@ -1,6 +1,6 @@
 // The bounds on what a latched wing can still see: states are sought that break them.
 #include "core/proofs/peak_bounds.hpp"
-#include "core/proofs/settled.hpp"
+#include "core/proofs/energy_above_rest.hpp"
 #include "tests/support/closed_forms.hpp"
 #include "tests/support/random_scenes.hpp"
 

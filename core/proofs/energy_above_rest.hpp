@@ -23,7 +23,7 @@ template <class T, class Topology, BaseMotion M>
     const T y = x[at.angle(i)] - law.latched - law.drive / law.stiffness;
     energy = energy + T(0.5) * law.stiffness * y * y;
   }
-  const Motion<T> now = motion(system, x, t);
+  const TotalMotion<T> now = total_motion(system, x, t);
   energy = energy + (M == BaseMotion::free ? now.central_kinetic() : now.kinetic);
   return energy + T(64 * epsilon_of<T>) * now.kinetic; // what the difference may have lost
 }

@@ -1,0 +1,51 @@
+/// Where a wing's bodies are and how they move, from its state. No forces.
+#pragma once
+
+#include "core/mechanics/layout.hpp"
+#include "core/mechanics/recursion.hpp"
+
+namespace wingspread {
+
+/// What of q belongs to the base; the hinges' angles follow.
+template <BaseMotion M> inline constexpr int base_freedoms = M == BaseMotion::free ? 3 : 0;
+
+/// Angle, rate, rotation of the base at (x, t), and its accelerations where they are given.
+template <BaseMotion M, class T>
+[[gnu::always_inline]] inline void place_base(const Wing<T>& wing, const Layout& at,
+                                              BodyFrame<T>& base, const State<T>& x, const T& t) {
+  if constexpr (M == BaseMotion::fixed) {
+    base.angle = base.rate = base.minus_rate_squared = base.angular_acceleration = T(0);
+    base.acceleration = {T(0), T(0)};
+    base.rotation = {T(0), T(1)};
+    return;
+  }
+  if constexpr (M == BaseMotion::prescribed) {
+    const BaseTerms<T>& given = wing.base;
+    base.rate = fused(given.angular_acceleration, t, given.rate);
+    base.angle = fused(t, fused(T(0.5) * given.angular_acceleration, t, given.rate), given.angle);
+    base.acceleration = given.acceleration;
+    base.angular_acceleration = given.angular_acceleration;
+  }
+  if constexpr (M == BaseMotion::free) {
+    base.angle = x[2];
+    base.rate = x[at.freedoms() + 2];
+    base.moment = T(0);
+    base.mass_moment = {T(0), T(0)};
+  }
+  base.minus_rate_squared = -(base.rate * base.rate);
+  base.rotation = sine_cosine(base.angle);
+}
+
+/// All other bodies, once the base is placed. Frames: any array of BodyFrame<T>, 0 … n.
+template <BaseMotion M, class T, class Topology, class Frames>
+[[gnu::always_inline]] inline void place_bodies(const Wing<T>& wing, const Topology& tree,
+                                                Frames& frames, const State<T>& x) {
+  const T* const angles = x.data() + base_freedoms<M>;
+  const T* const rates = angles + base_freedoms<M> + tree.bodies();
+  tree.outward([&](int i) __attribute__((always_inline)) {
+    turn<M>(tree, frames, i, angles[i - 1], rates[i - 1]);
+  });
+  tree.outward([&](int i) __attribute__((always_inline)) { place<M>(wing, tree, frames, i); });
+}
+
+} // namespace wingspread
