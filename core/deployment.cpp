@@ -57,13 +57,13 @@ const std::vector<MethodInfo>& methods() {
   return list;
 }
 
-struct Deployment::Workspace {
+struct Deployment::Kept {
   std::vector<std::pair<int, int>> tree; ///< (parent, child) of every hinge of the scene before
   Wing<double> wing;
-  wingspread::Workspace<double> scratch;
+  Workspace<double> scratch;
 };
 
-Deployment::Deployment() : workspace_(std::make_unique<Workspace>()) {}
+Deployment::Deployment() : kept_(std::make_unique<Kept>()) {}
 Deployment::~Deployment() = default;
 Deployment::Deployment(Deployment&&) noexcept = default;
 Deployment& Deployment::operator=(Deployment&&) noexcept = default;
@@ -111,12 +111,12 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
   std::vector<std::pair<int, int>> tree(scene.hinges.size());
   std::transform(scene.hinges.begin(), scene.hinges.end(), tree.begin(),
                  [](const Hinge& hinge) { return std::pair(hinge.parent, hinge.child); });
-  if (tree != workspace_->tree) {
-    workspace_->wing = make_wing<double>(scene, outward_order(scene));
-    workspace_->tree = std::move(tree);
+  if (tree != kept_->tree) {
+    kept_->wing = make_wing<double>(scene, outward_order(scene));
+    kept_->tree = std::move(tree);
   }
-  runs().set_parameters(workspace_->wing, scene);
-  return runs().alone(workspace_->wing, workspace_->scratch, integration, goal, observer);
+  runs().set_parameters(kept_->wing, scene);
+  return runs().alone(kept_->wing, kept_->scratch, integration, goal, observer);
 }
 
 DeploymentPack::DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal)
@@ -135,8 +135,7 @@ Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
     return {};
   }
   const Wing<double> structure = make_wing<double>(scene, outward_order(scene));
-  const PackShape shape{scene.base.motion, method == Method::dop853, goal_.peak_force,
-                        goal_.peak_moment};
+  const PackShape shape{method == Method::dop853, goal_.peak_force, goal_.peak_moment};
   const std::unique_ptr<PackEngine> engine = make_engine(set_, structure, shape);
   const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
     while (const std::optional<long> name = next(scene)) {

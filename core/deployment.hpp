@@ -42,8 +42,8 @@ public:
                             const Observer& observer = {});
 
 private:
-  struct Workspace;
-  std::unique_ptr<Workspace> workspace_;
+  struct Kept;
+  std::unique_ptr<Kept> kept_;
 };
 
 /// Runs many scenes, several at once in the lanes of vector registers. Each outcome has the bits

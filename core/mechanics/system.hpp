@@ -44,8 +44,8 @@ public:
   [[nodiscard]] const Topology& topology() const { return topology_; }
   [[nodiscard]] const Workspace<T>& work() const { return work_; }
   [[nodiscard]] const T& epsilon() const { return epsilon_; }
-  /// For those made elsewhere.
-  [[nodiscard]] long& count_evaluations() { return work_.evaluations; }
+  /// For evaluations made elsewhere: their number, and the forces at the last one.
+  [[nodiscard]] Workspace<T>& made_elsewhere() { return work_; }
 
   /// The state at t = 0.
   void start(State<T>& x) const {

@@ -10,6 +10,7 @@
 /// [0 E2; −M⁻¹K −M⁻¹D] of springs, latches and friction at the present configuration.
 #pragma once
 
+#include "core/methods/held_back_steps.hpp"
 #include "core/methods/steppers.hpp"
 
 #include <algorithm>
@@ -34,77 +35,72 @@ public:
   [[nodiscard]] Method active() const { return active_; }
   [[nodiscard]] bool automatic() const { return automatic_; }
 
-  /// A place in a run.
-  struct Mark {
-    double time = 0;
-    long evaluations = 0; ///< of the run
-    long steps = 0;       ///< of the phase
-  };
-
   /// A phase begins. ρ counts as 0 until it is measured.
   void restart(double time, long evaluations) {
     active_ = explicit_;
-    radius_ = 0;
     steps_ = 0;
-    from_ = {time, evaluations};
+    held_back_.last_free = mark(time, evaluations);
+    held_back_.wait_until = 0;
+    set_radius(0);
     patience_ = first_patience;
     pause_ = first_pause;
-    wait_until_ = 0;
   }
 
   /// Whether ρ should be measured anew before the next step.
   [[nodiscard]] bool wants_radius() const {
     return automatic_ && steps_ % radius_interval == first_radius;
   }
-  void set_radius(double radius) { radius_ = radius; }
+  void set_radius(double radius) {
+    const double limit = explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
+                                                     : DormandPrince5<double>::stable_real;
+    stable_step_ = radius > 0 ? limit / radius : 1e300;
+    held_back_.shortest = held_back_share * stable_step_;
+  }
 
   /// Whether after a step of h another method may have to be thought of: `after_step` then needs to
   /// know how quickly things change.
   [[nodiscard]] bool may_leave(double h) const {
     return automatic_ &&
-           (active_ != explicit_ || (steps_ + 1 >= earliest_leave() && h > held_back_step()));
+           (active_ != explicit_ || held_back_.may_leave(h, static_cast<double>(steps_ + 1)));
   }
 
-  /// A step of h was accepted. @param now but for its steps
+  /// A step of h was accepted, which ends at `time`.
+  /// @param evaluations of the run
   /// @param quickness by how much the motion changes in a unit of time, 1/s
   /// @return whether another method goes on from here
-  [[nodiscard]] bool after_step(double h, Mark now, double quickness) {
+  [[nodiscard]] bool after_step(double h, double time, long evaluations, double quickness) {
     if (!automatic_) return false;
-    now.steps = ++steps_;
+    ++steps_;
+    const Mark now = mark(time, evaluations);
     return active_ == explicit_ ? leave_explicit(h, now, quickness) : leave_implicit(now);
+  }
+
+  /// The step that the method now active should try first.
+  [[nodiscard]] double first_step(double h) const {
+    return active_ == explicit_ ? std::min(h, 0.5 * stable_step_) : h;
   }
 
   // ---- steps made elsewhere with the explicit method
 
+  [[nodiscard]] long steps() const { return steps_; } ///< of this phase
   /// Steps that may be accepted before ρ is due.
   [[nodiscard]] long steps_to_radius() const {
     if (!automatic_) return std::numeric_limits<long>::max();
     return (radius_interval + first_radius - 1 - steps_ % radius_interval) % radius_interval;
   }
-  /// Steps longer than this are held back by stability, s.
-  [[nodiscard]] double held_back_step() const { return held_back * stable_step(); }
-  static constexpr int enough = 10; ///< steps in a row held back by stability
-  /// Steps made in this phase; those before which no other method is thought of, whatever happens;
-  /// and the last that was not held back.
-  [[nodiscard]] long steps() const { return steps_; }
-  [[nodiscard]] long wait_until() const { return wait_until_; }
-  [[nodiscard]] const Mark& last_free() const { return from_; }
-  /// So many steps have been accepted; the `free`-th (≤ 0: none) was the last not held back, with
-  /// `then` at its end.
-  void catch_up(long steps, long free, Mark then) {
+  [[nodiscard]] const HeldBackSteps<double>& held_back() const { return held_back_; }
+  /// So many steps of the phase have been accepted, none of which may leave.
+  void resume(long steps, const HeldBackSteps<double>& held_back) {
     if (!automatic_) return;
-    then.steps = steps_ + free;
-    if (free > 0) from_ = then;
-    steps_ += steps;
-  }
-
-  /// The step that the method now active should try first.
-  [[nodiscard]] double first_step(double h) const {
-    return active_ == explicit_ ? std::min(h, 0.5 * stable_step()) : h;
+    steps_ = steps;
+    held_back_ = held_back;
   }
 
 private:
-  [[nodiscard]] long earliest_leave() const { return std::max(from_.steps + enough, wait_until_); }
+  using Mark = StepMark<double>;
+  [[nodiscard]] Mark mark(double time, long evaluations) const {
+    return {time, static_cast<double>(evaluations), static_cast<double>(steps_)};
+  }
 
   static constexpr double break_even = 5e-3; // rtol; see the work-precision study
   static constexpr double break_even_smoothed = 5e-4;
@@ -113,7 +109,7 @@ private:
   static constexpr int long_enough = 400;     // to try without promise
   /// Steps until it is thought of again where there was no promise; doubled each time.
   static constexpr int first_pause = 10, longest_pause = 80;
-  static constexpr double held_back = 0.4; // of the stable step: what such a step has at least
+  static constexpr double held_back_share = 0.4; // of the stable step: that of one held back
   /// An implicit step costs as much as about ten explicit ones, and cannot be much longer than the
   /// motion takes to change: where the stable step is a larger part of that, it cannot pay.
   static constexpr double worth_trying = 0.02;
@@ -125,29 +121,21 @@ private:
   /// (measured).
   static constexpr double implicit_cost = 1.5;
 
-  [[nodiscard]] double stable_step() const {
-    const double limit = explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
-                                                     : DormandPrince5<double>::stable_real;
-    return radius_ > 0 ? limit / radius_ : 1e300;
-  }
-
-  [[nodiscard]] double speed_until(const Mark& now) const {
-    return (now.time - from_.time) /
-           static_cast<double>(std::max(now.evaluations - from_.evaluations, 1L));
+  /// Time integrated per evaluation.
+  [[nodiscard]] static double speed(const Mark& from, const Mark& now) {
+    return (now.time - from.time) / std::max(now.evaluations - from.evaluations, 1.0);
   }
 
   [[nodiscard]] bool leave_explicit(double h, const Mark& now, double quickness) {
-    if (!(h > held_back_step())) {
-      from_ = now;
-      return false;
-    }
-    if (steps_ < earliest_leave()) return false;
-    if (!(stable_step() * quickness < worth_trying) && steps_ < from_.steps + long_enough) {
-      wait_until_ = steps_ + pause_;
+    held_back_.accepted(true, h, now);
+    if (!held_back_.may_leave(h, now.steps)) return false;
+    const bool promising = stable_step_ * quickness < worth_trying;
+    if (!promising && now.steps < held_back_.last_free.steps + long_enough) {
+      held_back_.wait_until = now.steps + pause_;
       pause_ = std::min(2 * pause_, longest_pause);
       return false;
     }
-    explicit_speed_ = speed_until(now);
+    explicit_speed_ = speed(held_back_.last_free, now);
     active_ = Method::seulex;
     tried_ = 0;
     return true;
@@ -155,23 +143,24 @@ private:
 
   [[nodiscard]] bool leave_implicit(const Mark& now) {
     ++tried_;
-    if (tried_ == trial - 2) from_ = now; // it has found its order and step
+    if (tried_ == trial - 2) implicit_from_ = now; // it has found its order and step
     if (tried_ < trial) return false;
-    const bool pays = speed_until(now) / implicit_cost > explicit_speed_;
+    const bool pays = speed(implicit_from_, now) / implicit_cost > explicit_speed_;
     tried_ = trial - 3;
     if (pays) return false;
     active_ = explicit_;
-    from_ = now;
-    wait_until_ = steps_ + patience_;
+    held_back_.last_free = now;
+    held_back_.wait_until = now.steps + patience_;
     patience_ = std::min(2 * patience_, longest_patience);
     return true;
   }
 
   bool automatic_;
   Method explicit_ = Method::dopri5, active_ = Method::dopri5;
-  double radius_ = 0, explicit_speed_ = 0;
-  long steps_ = 0, wait_until_ = 0;
-  Mark from_; ///< where the steps began that are held back, or the measure of the implicit method
+  double stable_step_ = 0, explicit_speed_ = 0;
+  long steps_ = 0;
+  HeldBackSteps<double> held_back_{}; ///< of the explicit method
+  Mark implicit_from_{};              ///< from where the implicit method is measured
   int tried_ = 0, patience_ = first_patience, pause_ = first_pause;
 };
 

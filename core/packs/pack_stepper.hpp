@@ -6,10 +6,13 @@
 #include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
 #include "core/methods/runge_kutta.hpp"
+#include "core/packs/fields.hpp"
 #include "core/packs/pack_engine.hpp"
+#include "core/packs/structure.hpp"
 #include "core/peaks/moment_peaks.hpp"
 
 #include <optional>
+#include <type_traits>
 
 namespace wingspread {
 
@@ -23,97 +26,57 @@ public:
   PackStepper(const Wing<double>& wing, const Topology& topology, const PackShape& shape)
       : shape_(shape), topology_(topology), system_(make(wing), topology_, std::nullopt, work_),
         at_(system_.layout()) {
+    const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
-      x->assign(at_.size(), P(0.0));
-    const std::size_t n = at_.bodies + 1;
+      x->assign(at_.size(), none);
     for (std::vector<P>* v : {&waits_, &moments_, &forces_, &force_before_, &force_after_})
-      v->assign(n, P(0.0));
-    step_.t = P(0.0);
-    rtol_ = atol_ = rough_atol_ = P(1.0);
-    error_size_ = busy_ = due_ = shown_ = steps_ = t_end_ = step_.h = P(0.0);
-    held_back_step_ = last_free_ = enough_ = wait_ = tries_to_free_ = free_time_ = P(0.0);
+      v->assign(at_.bodies + 1, none);
+    rtol_ = atol_ = tolerance_of_dense_ = P(1.0);
+    step_.t = step_.h = error_size_ = busy_ = t_end_ = none;
+    begun_ = look_ = evaluations_before_ = none;
+    pace_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
   }
 
   [[nodiscard]] int width() const override { return W; }
-  [[nodiscard]] int evaluations_per_try() const override { return Formula::evaluations; }
   [[nodiscard]] long rounds() const override { return round_; }
 
-  void set_wing(int lane, const Wing<double>& wing) override {
-    const auto set = [lane](P& to, double from) { to.v[lane] = from; };
-    const auto set2 = [lane](Vec2<P>& to, const Vec2<double>& from) {
-      to.x.v[lane] = from.x, to.y.v[lane] = from.y;
-    };
-    BaseTerms<P>& base = wing_.base;
-    set2(base.acceleration, wing.base.acceleration);
-    set(base.angular_acceleration, wing.base.angular_acceleration);
-    set(base.angle, wing.base.angle), set(base.rate, wing.base.rate);
-    for (int i = 0; i <= at_.bodies; ++i) {
-      BodyTerms<P>& body = wing_.bodies[i];
-      const BodyTerms<double>& from = wing.bodies[i];
-      set(body.mass, from.mass), set(body.inertia, from.inertia);
-      set2(body.mass_moment, from.mass_moment), set2(body.arm, from.arm);
-      set(body.minus_inverse, from.minus_inverse);
-    }
-    for (int i = 1; i <= at_.bodies; ++i) {
-      HingeTerms<P>& hinge = wing_.hinges[i];
-      const HingeTerms<double>& from = wing.hinges[i];
-      set(hinge.latched, from.latched), set(hinge.sense, from.sense);
-      set(hinge.regularized_friction, from.regularized_friction),
-          set(hinge.slip_rate, from.slip_rate);
-      hinge.has_latch = hinge.has_latch || from.has_latch;
-    }
-    wing_.has_regularized_friction =
-        wing_.has_regularized_friction || wing.has_regularized_friction;
-  }
+  void set_wing(int lane, const Wing<double>& wing) override { set_lane(lane, wing_, wing); }
 
-  void set_run(int lane, const Workspace<double>& work, const Step<double>& step,
-               const Watch& watch, const Stretch& stretch) override {
+  void carry(int lane, const Handover& run) override {
+    const double now = static_cast<double>(round_);
+    step_.t.v[lane] = run.step.t, step_.h.v[lane] = run.h;
+    set_lane(lane, step_.x, run.step.x), set_lane(lane, step_.dxdt, run.step.dxdt);
+    set_lane(lane, pace_, run.pace);
+    set_lane(lane, work_.laws, run.work.laws);
     for (int i = 1; i <= at_.bodies; ++i) {
-      LinearLaw<P>& law = work_.laws[i];
-      const LinearLaw<double>& from = work.laws[i];
-      law.latched.v[lane] = from.latched, law.drive.v[lane] = from.drive;
-      law.stiffness.v[lane] = from.stiffness, law.damping.v[lane] = from.damping;
-      waits_[i].v[lane] = work.engaged[i] ? 0 : 1;
-      moments_[i].v[lane] = watch.moments ? (*watch.moments)[i].value : 0;
-      forces_[i].v[lane] = watch.forces ? (*watch.forces)[i].value : 0;
-      force_before_[i].v[lane] = watch.force_before ? (*watch.force_before)[i] : 0;
+      waits_[i].v[lane] = run.work.engaged[i] ? 0 : 1;
+      moments_[i].v[lane] = run.moments ? run.moments[i].value : 0;
+      forces_[i].v[lane] = run.forces ? run.forces[i].value : 0;
+      force_before_[i].v[lane] = run.force_before ? run.force_before[i] : 0;
     }
-    step_.t.v[lane] = step.t;
-    for (int k = 0; k < at_.size(); ++k)
-      step_.x[k].v[lane] = step.x[k], step_.dxdt[k].v[lane] = step.dxdt[k];
-    rtol_.v[lane] = watch.rtol, atol_.v[lane] = watch.atol;
-    rough_atol_.v[lane] = watch.atol_of_interpolant;
-    step_.h.v[lane] = stretch.h;
-    memory_.log_error.v[lane] = stretch.memory.log_error;
-    memory_.most.v[lane] = stretch.memory.most;
-    memory_.h.v[lane] = stretch.memory.h;
+    rtol_.v[lane] = run.tolerance.rtol, atol_.v[lane] = run.tolerance.atol;
+    tolerance_of_dense_.v[lane] = run.tolerance_of_dense;
+    t_end_.v[lane] = run.t_end;
+    begun_.v[lane] = now, look_.v[lane] = now + static_cast<double>(run.tries);
+    evaluations_before_.v[lane] = static_cast<double>(run.evaluations) - now * Formula::evaluations;
     busy_.v[lane] = 1;
-    shown_.v[lane] = static_cast<double>(round_);
-    due_.v[lane] = static_cast<double>(round_) + static_cast<double>(stretch.tries);
-    steps_.v[lane] = 0;
-    t_end_.v[lane] = stretch.t_end;
-    held_back_step_.v[lane] = stretch.held_back_step;
-    last_free_.v[lane] = stretch.last_free;
-    enough_.v[lane] = stretch.enough, wait_.v[lane] = stretch.wait;
   }
 
   void set_idle(int lane) override { busy_.v[lane] = step_.h.v[lane] = 0; }
 
-  void get_start(int lane, Step<double>& step, std::vector<double>& forces) const override {
-    for (int k = 0; k < at_.size(); ++k)
-      step.x[k] = step_.x[k].v[lane], step.dxdt[k] = step_.dxdt[k].v[lane];
-    if (!shape_.forces) return;
-    for (int i = 1; i <= at_.bodies; ++i) forces[i] = force_before_[i].v[lane];
-  }
-
-  void get_end(int lane, State<double>& x1, State<double>& dxdt1,
-               std::vector<Vec2<double>>& forces) const override {
-    for (int k = 0; k < at_.size(); ++k)
-      x1[k] = step_.x1[k].v[lane], dxdt1[k] = step_.dxdt1[k].v[lane];
-    if (!shape_.forces) return;
-    for (int i = 1; i <= at_.bodies; ++i)
-      forces[i] = {work_.forces[i].x.v[lane], work_.forces[i].y.v[lane]};
+  [[nodiscard]] Carried hand_back(int lane, const Place& place) const override {
+    const long tries = round_ - 1 - static_cast<long>(begun_.v[lane]);
+    if (tries > 0) {
+      place.step.t = step_.t.v[lane], place.step.h = step_.h.v[lane];
+      get_lane(lane, step_.x, place.step.x), get_lane(lane, step_.dxdt, place.step.dxdt);
+      if (shape_.forces) get_lane(lane, force_before_, place.force_before);
+    }
+    get_lane(lane, step_.x1, place.x1), get_lane(lane, step_.dxdt1, place.dxdt1);
+    if (shape_.forces) get_lane(lane, work_.forces, place.forces);
+    Carried carried{tries, (tries + 1) * Formula::evaluations, error_size_.v[lane], {}};
+    get_lane(lane, pace_, carried.pace);
+    return carried;
   }
 
   LaneSet advance() override {
@@ -126,21 +89,6 @@ public:
       go_on(judgement, !asks);
       if (const LaneSet asking = set_of(asks); asking != 0) return asking;
     }
-  }
-
-  [[nodiscard]] double error(int lane) const override { return error_size_.v[lane]; }
-
-  [[nodiscard]] Progress progress(int lane) const override {
-    const auto at = [lane](const P& p) { return p.v[lane]; };
-    const auto count = [lane](const P& p) { return static_cast<long>(p.v[lane]); };
-    return {round_ - 1 - count(shown_),
-            count(steps_),
-            at(step_.t),
-            at(step_.h),
-            {at(memory_.log_error), at(memory_.most), at(memory_.h)},
-            count(last_free_),
-            count(tries_to_free_),
-            at(free_time_)};
   }
 
 private:
@@ -156,21 +104,20 @@ private:
   }
 
   /// A wing of this structure, with harmless numbers in every lane.
-  const Wing<P>& make(const Wing<double>& wing) {
-    wing_.tree = wing.tree;
-    wing_.base.motion = wing.base.motion;
-    const P one(1.0), zero(0.0);
-    const Vec2<P> none{zero, zero};
-    wing_.base.acceleration = none;
-    wing_.base.angular_acceleration = wing_.base.angle = wing_.base.rate = zero;
-    wing_.bodies.assign(wing.bodies.size(), {one, one, none, none, none, one, P(-1.0)});
-    HingeTerms<P> hinge{};
-    hinge.sense = hinge.slip_rate = one;
-    hinge.stowed = hinge.latched = hinge.drive = hinge.drive_slope = hinge.regularized_friction =
-        zero;
-    hinge.viscous = hinge.kinetic_friction = hinge.static_friction = hinge.stiffness =
-        hinge.damping = zero;
-    wing_.hinges.assign(wing.hinges.size(), hinge);
+  const Wing<P>& make(const Wing<double>& structure) {
+    Wing<double> harmless = structure;
+    harmless.base = {};
+    for (BodyTerms<double>& body : harmless.bodies) {
+      body = {};
+      body.mass = body.inertia = body.central_inertia = 1, body.minus_inverse = -1;
+    }
+    for (HingeTerms<double>& hinge : harmless.hinges) hinge = {}, hinge.sense = hinge.slip_rate = 1;
+    wing_.base.motion = structure.base.motion;
+    wing_.tree = structure.tree;
+    wing_.bodies.resize(structure.bodies.size());
+    wing_.hinges.resize(structure.hinges.size());
+    wing_.initial_rates.resize(structure.initial_rates.size());
+    for (int lane = 0; lane < W; ++lane) set_lane(lane, wing_, harmless);
     return wing_;
   }
 
@@ -183,9 +130,9 @@ private:
   [[nodiscard]] Judgement judge() {
     error_size_ = scaled_error_of(formula_, step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
     Mask accepted = error_size_ <= P(1.0);
-    P factor = step_factor(Formula::error_order, error_size_, step_.h, memory_);
+    P factor = step_factor(Formula::error_order, error_size_, step_.h, pace_.memory);
     if constexpr (Formula::order > 5) {
-      const P rough = roughness(at_, step_.h, step_.dxdt, step_.dxdt1, rough_atol_);
+      const P rough = roughness(at_, step_.h, step_.dxdt, step_.dxdt1, tolerance_of_dense_);
       const Mask too_rough = rough > P(1.0);
       const P most = factor_by_roughness(rough);
       factor = select(accepted, select(too_rough, most, smaller(factor, most)), factor);
@@ -199,12 +146,10 @@ private:
     const Mask& accepted = judgement.accepted;
     const P& next = judgement.next;
     const P end = step_.t + step_.h, now = select(accepted, end, step_.t);
-    const Mask late = due_ < P(static_cast<double>(round_));
+    const Mask late = look_ < P(static_cast<double>(round_));
     const Mask at_an_end = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
     if constexpr (M == BaseMotion::free) return late || at_an_end || accepted;
-    const P made = steps_ + P(1.0);
-    const Mask may_leave =
-        step_.h > held_back_step_ && made >= last_free_ + enough_ && made >= wait_;
+    const Mask may_leave = pace_.held_back.may_leave(step_.h, P(pace_.steps + P(1.0)));
     return late || at_an_end || (accepted && (may_leave || worth_a_look()));
   }
 
@@ -219,17 +164,21 @@ private:
       for (int i = 1; i <= at_.bodies; ++i)
         force_before_[i] = select(accepted, force_after_[i], force_before_[i]);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
-    steps_ = select(accepted, P(steps_ + P(1.0)), steps_);
-    const Mask free = accepted && !(step_.h > held_back_step_);
-    last_free_ = select(free, steps_, last_free_);
-    tries_to_free_ = select(free, P(P(static_cast<double>(round_)) - shown_), tries_to_free_);
-    free_time_ = select(free, step_.t, free_time_);
-    StepMemory<P> after = memory_;
-    after.accepted(error_size_, step_.h);
-    memory_.log_error = select(accepted, after.log_error, memory_.log_error);
-    memory_.h = select(accepted, after.h, memory_.h);
-    memory_.most = select(accepted, after.most, select(these, P(1.0), memory_.most));
+    keep_pace(accepted, these);
     step_.h = select(these, judgement.next, step_.h);
+  }
+
+  /// As the run itself would count the step.
+  void keep_pace(const Mask& accepted, const Mask& these) {
+    pace_.steps = select(accepted, P(pace_.steps + P(1.0)), pace_.steps);
+    const P evaluations(static_cast<double>(round_ * Formula::evaluations));
+    pace_.held_back.accepted(accepted, step_.h,
+                             {step_.t, evaluations_before_ + evaluations, pace_.steps});
+    StepMemory<P> after = pace_.memory, cut = pace_.memory;
+    after.accepted(error_size_, step_.h);
+    cut.rejected();
+    assign_where(these, pace_.memory, cut);
+    assign_where(accepted, pace_.memory, after);
   }
 
   /// Lanes in which an event, a peak or an angle past bounds may lie inside the step: all tests are
@@ -269,54 +218,28 @@ private:
   Formula formula_;
   Step<P> step_;
   State<P> error_;
-  P rtol_, atol_, rough_atol_, error_size_;
+  P rtol_, atol_, tolerance_of_dense_, error_size_, t_end_;
   std::vector<P> waits_, moments_, forces_, force_before_, force_after_;
-  StepMemory<P> memory_;
-  // as in Stretch and Progress; rounds are counted as doubles
-  P busy_, due_, shown_, steps_, t_end_, held_back_step_, last_free_, enough_, wait_,
-      tries_to_free_, free_time_;
+  Pace<P> pace_;
+  P busy_; ///< 1 where a lane has a run, else 0
+  /// Rounds, counted as numbers: when the run was taken, and after which it must know.
+  P begun_, look_;
+  P evaluations_before_; ///< of the run, less those of all rounds before it was taken
   long round_ = 0;
 };
-
-namespace detail {
-
-template <int W, BaseMotion M, class Topology>
-[[nodiscard]] std::unique_ptr<PackEngine>
-pack_stepper(const Wing<double>& wing, const Topology& topology, const PackShape& shape) {
-  using P = Pack<W>;
-  if (shape.eighth_order)
-    return std::make_unique<PackStepper<W, Topology, M, DormandPrince853<P>>>(wing, topology,
-                                                                              shape);
-  return std::make_unique<PackStepper<W, Topology, M, DormandPrince5<P>>>(wing, topology, shape);
-}
-
-template <int W, int N = 1>
-[[nodiscard]] std::unique_ptr<PackEngine> chain_stepper(const Wing<double>& wing,
-                                                        const PackShape& shape) {
-  if constexpr (N <= longest_static_chain) {
-    if (wing.size() == N) return pack_stepper<W, BaseMotion::fixed>(wing, Chain<N>{}, shape);
-    return chain_stepper<W, N + 1>(wing, shape);
-  } else {
-    return pack_stepper<W, BaseMotion::fixed>(wing, wing.tree, shape);
-  }
-}
-
-} // namespace detail
 
 /// The stepper of a structure, in packs of W.
 template <int W>
 [[nodiscard]] std::unique_ptr<PackEngine> make_pack_stepper(const Wing<double>& wing,
                                                             const PackShape& shape) {
-  switch (shape.motion) {
-  case BaseMotion::prescribed:
-    return detail::pack_stepper<W, BaseMotion::prescribed>(wing, wing.tree, shape);
-  case BaseMotion::free:
-    return detail::pack_stepper<W, BaseMotion::free>(wing, wing.tree, shape);
-  case BaseMotion::fixed:
-    break;
-  }
-  if (is_chain(wing.tree)) return detail::chain_stepper<W>(wing, shape);
-  return detail::pack_stepper<W, BaseMotion::fixed>(wing, wing.tree, shape);
+  return with_structure(wing, [&]<BaseMotion M>(const auto& topology) {
+    using Topology = std::decay_t<decltype(topology)>;
+    const auto make = [&]<class Formula>() -> std::unique_ptr<PackEngine> {
+      return std::make_unique<PackStepper<W, Topology, M, Formula>>(wing, topology, shape);
+    };
+    return shape.eighth_order ? make.template operator()<DormandPrince853<Pack<W>>>()
+                              : make.template operator()<DormandPrince5<Pack<W>>>();
+  });
 }
 
 } // namespace wingspread

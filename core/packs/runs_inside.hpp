@@ -2,36 +2,14 @@
 /// of instructions.
 #pragma once
 
-#include "core/packs/lanes.hpp"
+#include "core/packs/packed_runs.hpp"
 #include "core/packs/runs.hpp"
+#include "core/packs/structure.hpp"
 #include "core/run/integrator.hpp"
 
 #include <type_traits>
 
 namespace wingspread::detail {
-
-/// visit.operator()<motion>(topology): the chain of a length known to the compiler, if it has one.
-template <int N = 1, class Visit> auto with_chain(const Wing<double>& wing, Visit&& visit) {
-  if constexpr (N <= longest_static_chain) {
-    if (wing.size() == N) return visit.template operator()<BaseMotion::fixed>(Chain<N>{});
-    return with_chain<N + 1>(wing, visit);
-  } else {
-    return visit.template operator()<BaseMotion::fixed>(wing.tree);
-  }
-}
-
-template <class Visit> auto with_structure(const Wing<double>& wing, Visit&& visit) {
-  switch (wing.base.motion) {
-  case BaseMotion::prescribed:
-    return visit.template operator()<BaseMotion::prescribed>(wing.tree);
-  case BaseMotion::free:
-    return visit.template operator()<BaseMotion::free>(wing.tree);
-  case BaseMotion::fixed:
-    break;
-  }
-  if (is_chain(wing.tree)) return with_chain(wing, visit);
-  return visit.template operator()<BaseMotion::fixed>(wing.tree);
-}
 
 inline void set_numbers(Wing<double>& wing, const Scene& scene) { set_parameters(wing, scene); }
 
@@ -49,8 +27,7 @@ inline Occupancy run_in_lanes(const Wing<double>& structure, PackEngine& engine,
                               const Runs::Done& done) {
   return with_structure(structure, [&]<BaseMotion M>(const auto& topology) {
     using Topology = std::decay_t<decltype(topology)>;
-    return wingspread::Lanes<Topology, M>(structure, topology, engine, method, how, goal)
-        .run(next, done);
+    return PackedRuns<Topology, M>(structure, topology, engine, method, how, goal).run(next, done);
   });
 }
 

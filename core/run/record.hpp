@@ -5,7 +5,18 @@
 #include "core/outcome.hpp"
 #include "core/peaks/peak.hpp"
 
+#include <array>
+#include <cstdio>
+#include <string>
+
 namespace wingspread {
+
+/// Four significant digits.
+[[nodiscard]] inline std::string in_words(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
 
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] double total_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {

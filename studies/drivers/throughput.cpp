@@ -7,7 +7,7 @@
 //   /usr/bin/python3 studies/plots/plot_throughput.py results/throughput
 
 #include "core/deployment.hpp"
-#include "core/packs/pack_engine.hpp"
+#include "core/packs/instruction_set.hpp"
 #include "montecarlo/campaign/campaign.hpp"
 #include "montecarlo/runs/engine.hpp"
 #include "montecarlo/runs/run.hpp"

@@ -16,7 +16,7 @@
 
 namespace wingspread {
 
-template <class Topology, BaseMotion M> class Lanes {
+template <class Topology, BaseMotion M> class PackedRuns {
   using AnySystem = System<double, Topology, M>;
 
   struct Lane {
@@ -36,9 +36,9 @@ template <class Topology, BaseMotion M> class Lanes {
 
 public:
   /// @param method of the engine
-  Lanes(const Wing<double>& structure, const Topology& topology, PackEngine& engine, Method method,
-        const Integration& how, const Goal& goal)
-      : engine_(engine), method_(method), how_(how), goal_(goal) {
+  PackedRuns(const Wing<double>& structure, const Topology& topology, PackEngine& engine,
+             Method method, const Integration& how, const Goal& goal)
+      : engine_(engine), method_(method) {
     for (int l = 0; l < engine.width(); ++l)
       lanes_[l] = std::make_unique<Lane>(structure, topology, how, goal);
   }
@@ -63,63 +63,45 @@ private:
   /// The engine has come to a step of the lane that its run must know.
   template <class Next, class Done> void answer(int l, Next&& next, Done&& done) {
     Lane& lane = *lanes_[l];
-    const Progress progress = engine_.progress(l);
+    const Carried carried = engine_.hand_back(l, lane.run.place());
     ++count_.looks;
-    count_.busy += progress.tries + 1;
-    lane.run.catch_up(progress, engine_.evaluations_per_try());
-    if (progress.steps > 0) engine_.get_start(l, lane.run.step(), lane.run.forces().before());
-    const auto& asked = lane.run.asked();
-    engine_.get_end(l, *asked.x1, *asked.dxdt1, lane.work.forces);
-    lane.run.take(lane.run.verdict_of(engine_.error(l)));
-    carry_on(l, next, done);
-  }
-
-  /// Makes the steps that the engine cannot; then the lane is ready for it, with this run or the
-  /// next.
-  template <class Next, class Done> void carry_on(int l, Next&& next, Done&& done) {
-    Lane& lane = *lanes_[l];
-    for (; !lane.run.ended() && !lane.run.fits_pack(method_); ++count_.scalar)
-      lane.run.take(lane.run.make_try());
-    if (!lane.run.ended()) return show(l);
+    count_.busy += carried.tries + 1;
+    lane.run.take_back(carried);
+    if (can_be_carried(lane)) return engine_.carry(l, lane.run.hand_over());
     done(lane.name, lane.run.outcome());
     refill(l, next, done);
   }
 
+  /// Begins the runs that come next, until one can be carried or there are no more.
   template <class Next, class Done> void refill(int l, Next&& next, Done&& done) {
     Lane& lane = *lanes_[l];
-    for (;;) {
-      const std::optional<long> name = next(lane.wing);
-      busy_ += (name ? 1 : 0) - (lane.busy ? 1 : 0);
-      lane.busy = name.has_value();
-      if (!name) return engine_.set_idle(l);
-      lane.name = *name;
+    while (takes_next(lane, next)) {
       lane.run.begin();
-      for (; !lane.run.ended() && !lane.run.fits_pack(method_); ++count_.scalar)
-        lane.run.take(lane.run.make_try());
-      if (!lane.run.ended()) break;
+      if (can_be_carried(lane)) {
+        engine_.set_wing(l, lane.wing);
+        return engine_.carry(l, lane.run.hand_over());
+      }
       done(lane.name, lane.run.outcome());
     }
-    engine_.set_wing(l, lane.wing);
-    show(l);
+    engine_.set_idle(l);
   }
 
-  /// Gives the engine what it needs for the run's next steps.
-  void show(int l) {
-    Lane& lane = *lanes_[l];
-    const Tolerance tolerance = lane.run.tolerance();
-    Watch watch;
-    if (goal_.peak_moment) watch.moments = &lane.run.moments();
-    if (goal_.peak_force)
-      watch.forces = &lane.run.forces().peaks, watch.force_before = &lane.run.forces().before();
-    watch.rtol = tolerance.rtol, watch.atol = tolerance.atol;
-    watch.atol_of_interpolant = how_.atol;
-    engine_.set_run(l, lane.work, lane.run.step(), watch, lane.run.stretch());
+  template <class Next> [[nodiscard]] bool takes_next(Lane& lane, Next&& next) {
+    const std::optional<long> name = next(lane.wing);
+    busy_ += (name ? 1 : 0) - (lane.busy ? 1 : 0);
+    lane.busy = name.has_value();
+    lane.name = name.value_or(0);
+    return lane.busy;
+  }
+
+  /// Makes the steps that the engine cannot. @return false if the run has ended with them
+  [[nodiscard]] bool can_be_carried(Lane& lane) {
+    for (; !lane.run.ended() && !lane.run.can_be_carried(method_); ++count_.scalar) lane.run.go();
+    return !lane.run.ended();
   }
 
   PackEngine& engine_;
   Method method_;
-  const Integration& how_;
-  const Goal& goal_;
   std::array<std::unique_ptr<Lane>, most_lanes> lanes_;
   Occupancy count_;
   int busy_ = 0; ///< lanes with a run

@@ -1,0 +1,36 @@
+/// The one place that knows for which kinds of wing the templates are compiled.
+#pragma once
+
+#include "core/mechanics/wing.hpp"
+
+namespace wingspread {
+
+namespace detail {
+
+/// The chain of a length that the compiler knows, if it has that.
+template <int N = 1, class Visit> auto with_chain(const Wing<double>& wing, Visit&& visit) {
+  if constexpr (N <= longest_static_chain) {
+    if (wing.size() == N) return visit.template operator()<BaseMotion::fixed>(Chain<N>{});
+    return with_chain<N + 1>(wing, visit);
+  } else {
+    return visit.template operator()<BaseMotion::fixed>(wing.tree);
+  }
+}
+
+} // namespace detail
+
+/// visit.operator()<motion>(topology) for the wing's own.
+template <class Visit> auto with_structure(const Wing<double>& wing, Visit&& visit) {
+  switch (wing.base.motion) {
+  case BaseMotion::prescribed:
+    return visit.template operator()<BaseMotion::prescribed>(wing.tree);
+  case BaseMotion::free:
+    return visit.template operator()<BaseMotion::free>(wing.tree);
+  case BaseMotion::fixed:
+    break;
+  }
+  if (is_chain(wing.tree)) return detail::with_chain(wing, visit);
+  return visit.template operator()<BaseMotion::fixed>(wing.tree);
+}
+
+} // namespace wingspread

@@ -1,0 +1,88 @@
+/// What is told of a run, while it goes on and when it has ended.
+#pragma once
+
+#include "core/methods/steppers.hpp"
+#include "core/run/peak_search.hpp"
+#include "core/run/record.hpp"
+#include "core/run/underway.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wingspread {
+
+/// Keeps a run's latches, phases and energy, tells its observer, and draws up its outcome.
+template <class T, class AnySystem> class Diary {
+public:
+  Diary(Underway<T, AnySystem>& run, const Observer& observer) : run_(run), observer_(observer) {}
+
+  /// A run begins.
+  void start() {
+    outcome_ = {};
+    latches_.clear();
+    phases_.clear();
+    largest_drift_ = 0;
+    initial_energy_ = energy();
+  }
+
+  /// Those that have engaged, in order of time.
+  [[nodiscard]] std::vector<LatchEvent>& latches() { return latches_; }
+  [[nodiscard]] bool any_latch() const { return !latches_.empty(); }
+
+  /// A method goes on from where the run stands. @param steps accepted so far
+  void begin_phase(Method method, long steps) {
+    const std::string name = name_of(method);
+    if (!phases_.empty() && phases_.back().method == name) return;
+    end_phase(steps);
+    phases_.push_back({name, static_cast<double>(run_.step.t), 0, -steps});
+  }
+
+  void watch_energy() {
+    if (run_.goal.audit && !any_latch())
+      largest_drift_ = std::max(largest_drift_, std::abs(energy() - initial_energy_));
+  }
+
+  void notify() {
+    if (observer_) observer_(sample_at(run_.system, run_.step.x, run_.step.t));
+  }
+
+  /// The run has come to its end.
+  void close(Status status, std::string reason, const Work& work,
+             const PeakSearch<T, AnySystem>& peaks) {
+    end_phase(work.steps);
+    const Wing<T>& wing = run_.system.wing();
+    Outcome& out = outcome_;
+    out.status = status;
+    out.reason = std::move(reason);
+    out.phases = std::move(phases_);
+    out.t_end = static_cast<double>(run_.step.t);
+    out.latches = std::move(latches_);
+    if (run_.goal.peak_moment) out.peak_moment = in_scene_order(wing, peaks.moments());
+    if (run_.goal.peak_force) out.peak_force = in_scene_order(wing, peaks.forces());
+    out.work = work;
+    out.final = configuration_at(run_.system, run_.step.x, run_.step.t);
+    out.energy = {initial_energy_, energy(), largest_drift_};
+  }
+  [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
+
+private:
+  void end_phase(long steps) {
+    if (phases_.empty()) return;
+    phases_.back().to = static_cast<double>(run_.step.t);
+    phases_.back().steps += steps;
+  }
+
+  [[nodiscard]] double energy() { return total_energy(run_.system, run_.step.x, run_.step.t); }
+
+  Underway<T, AnySystem>& run_;
+  const Observer& observer_;
+  Outcome outcome_;
+  std::vector<LatchEvent> latches_;
+  std::vector<Phase> phases_;
+  double initial_energy_ = 0, largest_drift_ = 0; ///< J
+};
+
+} // namespace wingspread

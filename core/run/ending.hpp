@@ -1,0 +1,122 @@
+/// Why a run ends where it does, unless it fails.
+#pragma once
+
+#include "core/events/events.hpp"
+#include "core/proofs/energy_above_rest.hpp"
+#include "core/proofs/peak_bounds.hpp"
+#include "core/proofs/stall.hpp"
+#include "core/run/diary.hpp"
+#include "core/run/peak_search.hpp"
+#include "core/run/record.hpp"
+#include "core/run/underway.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace wingspread {
+
+/// Decides whether a run has come to its end: at t_end, at its first latch, once all that was asked
+/// is known, or by a proof that nothing more can happen.
+template <class T, class AnySystem> class Ending {
+public:
+  Ending(Underway<T, AnySystem>& run, const Events<T, AnySystem>& events,
+         const Diary<T, AnySystem>& diary, const PeakSearch<T, AnySystem>& peaks)
+      : run_(run), events_(events), diary_(diary), peaks_(peaks) {}
+
+  /// A run begins.
+  void start() {
+    stalled_ = bounds_ready_ = false;
+    why_stalled_.clear();
+    since_last_look_ = 0;
+  }
+
+  /// Whether the run ends where it stands.
+  [[nodiscard]] bool is_reached() {
+    const Goal& goal = run_.goal;
+    if (!(run_.step.t < T(run_.how.t_end))) return true;
+    if (goal.first_latch_only && diary_.any_latch()) return true;
+    if (goal.to_t_end) return false;
+    if (rests_for_ever() && (latches_left() || diary_.any_latch())) return true;
+    if (!proofs_may_end()) return !latches_left() && diary_.any_latch() && !wants_peaks();
+    const bool look = steps_to_look() == 0;
+    ++since_last_look_;
+    return look && (latches_left() ? lacks_energy() : no_peak_can_rise());
+  }
+
+  /// Of a run that has come to its end.
+  [[nodiscard]] Status status() {
+    if (!latches_left()) return diary_.any_latch() ? Status::deployed : Status::timed_out;
+    return rests_for_ever() || lacks_energy() ? Status::stalled : Status::timed_out;
+  }
+  [[nodiscard]] const std::string& why_stalled() const { return why_stalled_; }
+
+  /// Steps until the proofs are tried: they cost an evaluation and more.
+  [[nodiscard]] long steps_to_look() const {
+    const int interval = latches_left() ? 64 : 16;
+    if (!proofs_may_end()) return std::numeric_limits<long>::max();
+    return interval - 1 - since_last_look_ % interval;
+  }
+  /// So many steps were accepted elsewhere. @pre no more than `steps_to_look`
+  void pass(long steps) {
+    if (proofs_may_end()) since_last_look_ += steps;
+  }
+
+private:
+  [[nodiscard]] bool latches_left() const { return events_.latches_left() > 0; }
+  [[nodiscard]] bool wants_peaks() const { return run_.goal.peak_moment || run_.goal.peak_force; }
+
+  /// Whether the run may end, from here to the next event, by a proof that nothing more can happen.
+  [[nodiscard]] bool proofs_may_end() const {
+    if (run_.goal.to_t_end) return false;
+    return latches_left() ? !wants_peaks() : diary_.any_latch() && wants_peaks();
+  }
+
+  /// All hinges stick, under a load that stays as it is.
+  [[nodiscard]] bool rests_for_ever() {
+    if (run_.system.work().stuck < run_.at.bodies || !loads_are_constant(run_.system.wing()))
+      return false;
+    stall("every hinge sticks, and the load on them stays as it is");
+    return true;
+  }
+
+  [[nodiscard]] bool lacks_energy() {
+    if (stalled_) return true;
+    const std::optional<T> missing = energy_missing(run_.system, run_.step.x, run_.step.t);
+    if (missing)
+      stall("energy: no hinge can reach its latch, the nearest to it lacks " +
+            in_words(static_cast<double>(*missing)) + " J");
+    return stalled_;
+  }
+
+  void stall(const std::string& why) {
+    if (stalled_) return;
+    stalled_ = true;
+    why_stalled_ = why + ", from t = " + in_words(static_cast<double>(run_.step.t)) + " s on";
+  }
+
+  [[nodiscard]] bool no_peak_can_rise() {
+    const std::optional<T> energy = energy_above_rest(run_.system, run_.step.x, run_.step.t);
+    if (!energy) return false;
+    if (!bounds_ready_) bounds_.prepare(run_.system);
+    bounds_ready_ = true;
+    bounds_.bound(run_.system, *energy);
+    for (int i = 1; i <= run_.at.bodies; ++i) {
+      if (run_.goal.peak_moment && bounds_.moment[i] > peaks_.moments()[i].value) return false;
+      if (run_.goal.peak_force && bounds_.force[i] > peaks_.forces()[i].value) return false;
+    }
+    return true;
+  }
+
+  Underway<T, AnySystem>& run_;
+  const Events<T, AnySystem>& events_;
+  const Diary<T, AnySystem>& diary_;
+  const PeakSearch<T, AnySystem>& peaks_;
+  PeakBounds<T> bounds_;
+  bool bounds_ready_ = false;
+  bool stalled_ = false; ///< no hinge can reach its latch any more
+  std::string why_stalled_;
+  long since_last_look_ = 0; ///< steps
+};
+
+} // namespace wingspread

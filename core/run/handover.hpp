@@ -1,0 +1,60 @@
+/// What a run and an engine say to each other where the engine makes steps for it, several runs at
+/// once:
+///
+///     run → engine   Handover   where the run stands, how far it may be carried, what to watch for
+///     engine → run   Carried    how far it came, and the error of the step that the run must know
+///
+/// That step, and the state it starts from, the engine leaves in the run's own `Place`.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/workspace.hpp"
+#include "core/methods/held_back_steps.hpp"
+#include "core/methods/method.hpp"
+#include "core/methods/step_control.hpp"
+#include "core/peaks/peak.hpp"
+
+#include <vector>
+
+namespace wingspread {
+
+/// What a run carries from step to step beside its state. An engine has one in packs.
+template <class P> struct Pace {
+  P steps;              ///< accepted in this phase
+  StepMemory<P> memory; ///< of step control
+  HeldBackSteps<P> held_back;
+};
+
+/// A run as an engine takes it. What is referred to stays with the run.
+struct Handover {
+  const Step<double>& step;      ///< t, x and dxdt: where it stands
+  double h;                      ///< the step to try first, s
+  const Workspace<double>& work; ///< laws, and latches that wait
+  Tolerance tolerance;           ///< of a step
+  double tolerance_of_dense;     ///< absolute, of the roughness of a step's dense output
+  const PeakOf<double>* moments; ///< 1 … n: so far; none: not asked for
+  const PeakOf<double>* forces;  ///< the same
+  const double* force_before;    ///< 1 … n: at the step's start, where forces are asked for
+  double t_end;                  ///< s; a step from which the next may reach it is the run's
+  long tries;                    ///< that may be made before one is the run's
+  long evaluations;              ///< so far
+  Pace<double> pace;
+};
+
+/// Where an engine leaves what it brings back.
+struct Place {
+  Step<double>& step;                ///< t, h, x and dxdt, if the run was carried
+  std::vector<double>& force_before; ///< 1 … n: at its start, where forces are asked for
+  State<double>&x1, &dxdt1;          ///< the end of the step made last
+  std::vector<Vec2<double>>& forces; ///< 1 … n: there, where they are asked for
+};
+
+/// How far a run was carried, without the step made last.
+struct Carried {
+  long tries;       ///< 0: the step made last is the one that the run asked for
+  long evaluations; ///< of these, and of that step
+  double error;     ///< of that step, as in Verdict
+  Pace<double> pace;
+};
+
+} // namespace wingspread

@@ -1,0 +1,92 @@
+/// The largest moments and forces of a run.
+#pragma once
+
+#include "core/peaks/force_peaks.hpp"
+#include "core/peaks/moment_peaks.hpp"
+#include "core/run/underway.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace wingspread {
+
+/// Looks for peaks in every step accepted. One that the dense output shows inside a step is in
+/// doubt until a step of the method that ends there has made sure of it.
+template <class T, class AnySystem> class PeakSearch {
+public:
+  explicit PeakSearch(Underway<T, AnySystem>& run) : run_(run) {}
+
+  [[nodiscard]] const std::vector<PeakOf<T>>& moments() const { return moments_; }
+  [[nodiscard]] const std::vector<PeakOf<T>>& forces() const { return forces_.peaks; }
+  /// Forces where the step starts, 1 … n, N; only where they are asked for.
+  [[nodiscard]] std::vector<T>& force_before() { return forces_.before(); }
+
+  /// A run begins.
+  void start() {
+    moments_.assign(run_.at.bodies + 1, {});
+    if (run_.goal.peak_force) forces_.start(run_.at.bodies);
+  }
+
+  /// The right-hand side has just been evaluated where the run stands, and is new.
+  void include_start() {
+    using std::abs;
+    const Step<T>& step = run_.step;
+    for (int i = 1; i <= run_.at.bodies; ++i)
+      moments_[i].raise(T(abs(run_.system.moment(step.x, i))), step.t);
+    if (run_.goal.peak_force) forces_.sample(run_.system, step.t);
+  }
+
+  /// A step was accepted, and the last evaluation was at its end.
+  /// @return the first doubt: the fraction of the step to which the method must make one of its own
+  [[nodiscard]] std::optional<T> first_doubt() {
+    made_sure_ = false;
+    hinge_ = 0;
+    doubt_.reset();
+    if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
+    return next_doubt();
+  }
+
+  /// That step has been made, to the state inside the step under way. @return the next doubt
+  [[nodiscard]] std::optional<T> resolve_doubt() {
+    if (!doubt_)
+      forces_.confirm(run_.system);
+    else if (confirm_moment(*doubt_, moments_[hinge_], run_.system, run_.step, hinge_, run_.x,
+                            run_.dxdt))
+      return doubt_->s;
+    return next_doubt();
+  }
+
+  /// Whether the method has made steps inside the one accepted.
+  [[nodiscard]] bool made_sure() const { return made_sure_; }
+
+private:
+  /// Forces first, then the moments of hinge after hinge.
+  [[nodiscard]] std::optional<T> next_doubt() {
+    std::optional<T> s;
+    if (run_.goal.peak_force) s = forces_.doubtful();
+    while (!s && run_.goal.peak_moment && ++hinge_ <= run_.at.bodies) s = doubtful_moment();
+    made_sure_ = made_sure_ || s;
+    return s;
+  }
+
+  [[nodiscard]] std::optional<T> doubtful_moment() {
+    PeakOf<T>& peak = moments_[hinge_];
+    if (run_.system.sticks(hinge_)) {
+      raise_held_moment(peak, run_.system, run_.step, hinge_,
+                        [this](const T& s) -> const State<T>& { return run_.evaluate_at(s); });
+      return std::nullopt;
+    }
+    doubt_ = raise_moment(peak, run_.system, run_.step, hinge_);
+    if (!doubt_) return std::nullopt;
+    return doubt_->s;
+  }
+
+  Underway<T, AnySystem>& run_;
+  std::vector<PeakOf<T>> moments_; ///< 1 … n
+  ForcePeaks<T, AnySystem> forces_;
+  int hinge_ = 0;                          ///< whose moment is looked at
+  std::optional<DoubtfulMoment<T>> doubt_; ///< of it; none while forces are in doubt
+  bool made_sure_ = false;
+};
+
+} // namespace wingspread

@@ -1,0 +1,230 @@
+/// How far a run goes next, and by which method.
+#pragma once
+
+#include "core/methods/long_steps.hpp"
+#include "core/methods/method_choice.hpp"
+#include "core/methods/spectral_radius.hpp"
+#include "core/methods/steppers.hpp"
+#include "core/methods/time_scales.hpp"
+#include "core/run/handover.hpp"
+#include "core/run/record.hpp"
+#include "core/run/underway.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace wingspread {
+
+/// The methods of a run: makes and judges steps, chooses the next one's size and what makes it.
+template <class T, class AnySystem> class Stepping {
+public:
+  explicit Stepping(Underway<T, AnySystem>& run) : run_(run), choice_(first_choice()) {}
+
+  /// A run begins.
+  void start() {
+    tried_ = steps_ = rejected_ = 0;
+    choice_ = first_choice();
+  }
+
+  /// The right-hand side has changed, or is new. @param any_latch whether one has engaged
+  void restart(bool any_latch) {
+    any_latch_ = any_latch;
+    choice_.restart(static_cast<double>(run_.step.t), run_.system.work().evaluations);
+    begin_with_method();
+    h_ = T(-1);
+  }
+
+  [[nodiscard]] Method method() const { return choice_.active(); }
+  [[nodiscard]] long steps() const { return steps_; } ///< accepted
+  [[nodiscard]] Work work() const { return {steps_, rejected_, run_.system.work().evaluations}; }
+
+  /// What a step may lose now. Up to the first latch 32 times less than asked: the phase takes a
+  /// few per cent of a run's steps, and what is lost in it shifts all that follows.
+  [[nodiscard]] Tolerance tolerance() const {
+    const double finer = !any_latch_ && method() != Method::runge_kutta4 ? 32 : 1;
+    return {run_.how.rtol / finer, run_.how.atol / finer};
+  }
+
+  // ---- a step: planned, made, judged
+
+  /// Chooses the step to try next. @return why there is none, if so
+  [[nodiscard]] std::optional<std::string> plan() {
+    if (h_ < T(0)) choose_first_step();
+    if (tried_ >= run_.how.max_steps)
+      return "the limit of " + std::to_string(run_.how.max_steps) + " steps was reached";
+    const T rest = T(run_.how.t_end) - run_.step.t, wanted = wanted_step(rest);
+    last_ = wanted >= rest * T(1 - 1e-12);
+    run_.step.h = last_ ? rest : wanted;
+    if (!(run_.step.h > T(4 * epsilon_of<T>) * run_.step.t))
+      return "the step size fell below round-off: the equations are too stiff or not finite here";
+    return std::nullopt;
+  }
+
+  /// Whether the step planned ends at t_end.
+  [[nodiscard]] bool is_last() const { return last_; }
+
+  /// Makes a step of h from where the run stands.
+  [[nodiscard]] Verdict attempt(const T& h, State<T>& x1, State<T>& dxdt1) {
+    return steppers_.with(method(), [&](auto& stepper) {
+      const Step<T>& step = run_.step;
+      return stepper.attempt(run_.system, Start<T>{step.t, step.x, step.dxdt}, h, x1, dxdt1);
+    });
+  }
+
+  /// The step under way was tried, with this verdict of the method. @return whether it is accepted
+  [[nodiscard]] bool accepts(const Verdict& given) {
+    ++tried_;
+    verdict_ = judged(given);
+    return verdict_.accepted();
+  }
+
+  /// The whole step planned was accepted: foresees the next one.
+  void foresee() {
+    const T next = run_.step.h * T(verdict_.factor);
+    h_ = last_ && !(verdict_.factor < 1) ? larger(h_, next) : next;
+  }
+
+  /// Plans anew after a rejection. @return why that cannot be, if so
+  [[nodiscard]] std::optional<std::string> cut() {
+    ++rejected_;
+    const bool fixed = steppers_.with(method(), [](auto& stepper) {
+      stepper.rejected();
+      return std::decay_t<decltype(stepper)>::fixed_step;
+    });
+    if (fixed) return why_fixed_step_fails();
+    h_ = run_.step.h * T(verdict_.factor);
+    return plan();
+  }
+
+  /// The run goes on to the end of the step accepted. @param at_event which was cut short for one
+  void advance(bool at_event) {
+    ++steps_;
+    Step<T>& step = run_.step;
+    steppers_.with(method(),
+                   [&](auto& stepper) { stepper.accepted(verdict_, static_cast<double>(step.h)); });
+    const T end(run_.how.t_end);
+    step.t = last_ && !at_event ? end : T(step.t + step.h);
+    if (end - step.t <= T(8 * epsilon_of<T>) * step.t) step.t = end;
+    std::swap(step.x, step.x1);
+    std::swap(step.dxdt, step.dxdt1);
+  }
+
+  /// `auto` looks at the step that has led here. @return whether it goes on with another method
+  [[nodiscard]] bool changes_method() {
+    const double h = static_cast<double>(run_.step.h);
+    const double quick = choice_.may_leave(h) ? quickness(run_.system, run_.step) : 0;
+    const bool changes = choice_.after_step(h, static_cast<double>(run_.step.t),
+                                            run_.system.work().evaluations, quick);
+    if (changes) {
+      begin_with_method();
+      h_ = T(choice_.first_step(static_cast<double>(h_)));
+    }
+    if (choice_.wants_radius())
+      choice_.set_radius(radius_.estimate(run_.system, run_.step.x, run_.step.t));
+    return changes;
+  }
+
+  // ---- steps made elsewhere
+
+  /// Tries that the run need not know, if no event, peak or proof is due.
+  [[nodiscard]] long tries_to_look() const {
+    return std::min(run_.how.max_steps - tried_ - 1, choice_.steps_to_radius());
+  }
+  [[nodiscard]] Pace<double> pace() {
+    return {static_cast<double>(choice_.steps()), memory(), choice_.held_back()};
+  }
+  /// The run was carried so far. @return steps accepted
+  long resume(const Carried& carried) {
+    const long steps = static_cast<long>(carried.pace.steps) - choice_.steps();
+    tried_ += carried.tries;
+    steps_ += steps;
+    rejected_ += carried.tries - steps;
+    memory() = carried.pace.memory;
+    choice_.resume(static_cast<long>(carried.pace.steps), carried.pace.held_back);
+    return steps;
+  }
+  /// The method's verdict on a step of h with this scaled error.
+  [[nodiscard]] Verdict verdict_of(double error, double h) {
+    return steppers_.with(method(), [&](auto& stepper) -> Verdict {
+      if constexpr (requires { stepper.verdict(error, h); }) return stepper.verdict(error, h);
+      return {error, 1};
+    });
+  }
+
+private:
+  [[nodiscard]] MethodChoice first_choice() const {
+    return {run_.how.method, run_.how.rtol, run_.how.smoothing.has_value()};
+  }
+
+  void begin_with_method() {
+    steppers_.with(method(), [&](auto& stepper) {
+      stepper.restart(tolerance());
+      if constexpr (requires { stepper.memory(); })
+        if (!any_latch_) stepper.memory().foresee();
+    });
+  }
+
+  void choose_first_step() {
+    const Step<T>& step = run_.step;
+    const T rest = T(run_.how.t_end) - step.t;
+    h_ = steppers_.with(method(), [&](auto& stepper) {
+      using Stepper = std::decay_t<decltype(stepper)>;
+      if (Stepper::fixed_step) return T(2 * run_.how.step); // it takes two at a time
+      return first_step(run_.system, step.x, step.dxdt, step.t, Stepper::order, tolerance().rtol,
+                        tolerance().atol, time_to_a_radian(run_.at, step, rest), run_.x, run_.dxdt);
+    });
+  }
+
+  /// @param rest to t_end
+  [[nodiscard]] T wanted_step(const T& rest) const {
+    if (AnySystem::base_motion == BaseMotion::prescribed && run_.system.work().stuck > 0)
+      return smaller(h_, time_of_base(run_.system.wing().base, run_.step.t, rest));
+    return h_;
+  }
+
+  /// Adds what else a step must satisfy where the method takes long ones: a dense output that shows
+  /// what happens inside.
+  [[nodiscard]] Verdict judged(Verdict verdict) const {
+    if (!verdict.accepted() || !takes_long_steps(method())) return verdict;
+    // whether a hinge that grazes its latch reaches it is the interpolant's word
+    const double finer = method() == Method::bulirsch_stoer ? 10 : 1;
+    const Step<T>& step = run_.step;
+    const T rough = roughness(run_.at, step.h, step.dxdt, step.dxdt1, T(run_.how.atol));
+    limit_roughness(finer * static_cast<double>(rough), verdict);
+    if (!verdict.accepted() || method() != Method::fehlberg78 || !run_.at.smoothed) return verdict;
+    const double quadrature = quadrature_error<T>(run_.system, step, tolerance());
+    if (quadrature > 1)
+      verdict = {quadrature, std::max(0.2, 0.8 * power_roughly(quadrature, -1.0 / 6))};
+    return verdict;
+  }
+
+  [[nodiscard]] std::string why_fixed_step_fails() const {
+    const std::string step = "the fixed step of " + in_words(run_.how.step) + " s ";
+    if (!std::isfinite(verdict_.error)) return step + "gives numbers that are not finite";
+    return step + "misses the tolerance " + in_words(verdict_.error) + "-fold";
+  }
+
+  /// Of the step control of a method that an engine has.
+  [[nodiscard]] StepMemory<double>& memory() {
+    return steppers_.with(method(), [](auto& stepper) -> StepMemory<double>& {
+      if constexpr (requires { stepper.memory(); }) return stepper.memory();
+      std::abort();
+    });
+  }
+
+  Underway<T, AnySystem>& run_;
+  MethodChoice choice_;
+  SpectralRadius<T> radius_;
+  Steppers<T> steppers_;
+  Verdict verdict_{0, 1};  ///< on the step last tried
+  T h_ = T(0);             ///< of the next step, s; negative: to be chosen
+  bool last_ = false;      ///< the step planned ends at t_end
+  bool any_latch_ = false; ///< has engaged
+  long tried_ = 0, steps_ = 0, rejected_ = 0;
+};
+
+} // namespace wingspread
