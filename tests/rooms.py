@@ -11,7 +11,6 @@ one include path. It also fails on a room that is too full, a file that is too l
 import collections
 import pathlib
 import re
-import subprocess
 import sys
 
 ORDER = """
@@ -55,9 +54,8 @@ def room_of(path):
 
 
 def main():
-    files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "core", "distributions", "montecarlo"],
-                           check=True, capture_output=True, text=True).stdout.split()
-    files = [file for file in files if re.search(r"\.[ch]pp$", file) and pathlib.Path(file).exists()]
+    files = sorted(str(file) for folder in ("core", "distributions", "montecarlo")
+                   for file in pathlib.Path(folder).rglob("*.[ch]pp"))
     faults, units, uses = [], collections.defaultdict(set), collections.defaultdict(set)
     for file in files:
         room = room_of(file)
