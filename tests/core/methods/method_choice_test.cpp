@@ -1,7 +1,6 @@
 // `auto`: what integrates a run, and when.
 #include "core/deployment.hpp"
 #include "core/methods/method_choice.hpp"
-#include "core/methods/spectral_radius.hpp"
 #include "tests/support/closed_forms.hpp"
 
 #include <catch2/catch.hpp>
@@ -127,26 +126,5 @@ TEST_CASE("a method that is asked for by name is the only one") {
   for (const std::string_view name : method_names) {
     if (name == "runge_kutta4") continue; // its step would have to be chosen
     CHECK(methods_used(run(seed_scene(), 1e-6, std::string(name))) == name);
-  }
-}
-
-TEST_CASE("the spectral radius is found within a fifth") {
-  for (const auto& [stiffness, damping] : {std::pair(1e4, 1.), {1e4, 1e4}, {1e9, 1e3}, {0., 10.}}) {
-    Scene scene = latching_panel();
-    scene.hinges[0].latch = Latch{stiffness, damping};
-    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
-    set_parameters(wing, scene);
-    Workspace<double> work;
-    System<double, Tree, BaseMotion::fixed> system(wing, wing.tree, std::nullopt, work);
-    State<double> x;
-    system.start(x);
-    SpectralRadius<double> radius;
-    CHECK(radius.estimate(system, x, 0.0) == 0); // constant moment, no latch yet
-    system.engage(1);
-    // I λ² + d λ + k = 0
-    const double d = damping / panel_inertia / 2, k = stiffness / panel_inertia;
-    const double exact = d * d < k ? std::sqrt(k) : d + std::sqrt(d * d - k);
-    CAPTURE(stiffness, damping);
-    CHECK(radius.estimate(system, x, 0.0) == Approx(exact).epsilon(0.2));
   }
 }

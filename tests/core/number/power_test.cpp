@@ -1,4 +1,3 @@
-#include "core/methods/step_control.hpp"
 #include "core/number/power.hpp"
 #include "tests/support/random_scenes.hpp"
 
@@ -17,61 +16,4 @@ TEST_CASE("powers are good to what step control needs") {
   CHECK(worst_log < 6e-8);
   CHECK(worst_exp < 2e-7);
   for (const double x : {1.0, 2.0, 0.5, 1024.0}) CHECK(exp2_roughly(log2_roughly(x)) == x);
-}
-
-TEST_CASE("step control: a scalar and a lane of a pack get the same factor") {
-  using P = Pack<4>;
-  oracle::Draws draws(4);
-  for (int trial = 0; trial < 2000; ++trial) {
-    StepMemory<P> memories;
-    P errors(0.0), sizes(0.0);
-    StepMemory<double> memory[4];
-    for (int lane = 0; lane < 4; ++lane) {
-      const double before = draws.log_uniform(1e-12, 1);
-      if (draws.uniform(0, 1) < 0.5) memory[lane].foresee();
-      memory[lane].accepted(before, draws.log_uniform(0.1, 10));
-      if (draws.uniform(0, 1) < 0.2) memory[lane].rejected();
-      memories.log_error.v[lane] = memory[lane].log_error;
-      memories.most.v[lane] = memory[lane].most, memories.h.v[lane] = memory[lane].h;
-      sizes.v[lane] = draws.log_uniform(0.1, 10);
-      const double odd[] = {0,
-                            1,
-                            std::nextafter(1.0, 2.0),
-                            1e99,
-                            1e101,
-                            std::numeric_limits<double>::infinity(),
-                            std::numeric_limits<double>::quiet_NaN()};
-      errors.v[lane] = trial < 7 ? odd[trial] : draws.log_uniform(1e-14, 1e4);
-    }
-    for (const int order : {4, 7}) {
-      const P factors = step_factor(order, errors, sizes, memories);
-      for (int lane = 0; lane < 4; ++lane)
-        CHECK(factors.v[lane] ==
-              step_factor(order, double(errors.v[lane]), double(sizes.v[lane]), memory[lane]));
-    }
-  }
-}
-
-TEST_CASE("step control: what cannot be judged is cut to a tenth, what is too large by its size") {
-  const StepMemory<double> fresh;
-  CHECK(step_factor(7, std::numeric_limits<double>::quiet_NaN(), 1.0, fresh) == 0.1);
-  CHECK(step_factor(7, std::numeric_limits<double>::infinity(), 1.0, fresh) == 0.1);
-  CHECK(step_factor(7, 1e30, 1.0, fresh) == 0.2);
-  CHECK(step_factor(7, 2.0, 1.0, fresh) < 0.9);
-  CHECK(step_factor(7, 0.0, 1.0, fresh) > 5);
-  StepMemory<double> rejected = fresh;
-  rejected.rejected();
-  CHECK(step_factor(7, 0.0, 1.0, rejected) == 1);
-}
-
-TEST_CASE("step control foresees that steps go on to grow shorter, where it is asked to") {
-  // an error that grows by 2⁸ at equal steps halves the steps of order 8
-  StepMemory<double> plain, foreseeing;
-  foreseeing.foresee();
-  for (StepMemory<double>* memory : {&plain, &foreseeing}) memory->accepted(0.5, 1);
-  const double h = 0.5, error = 0.5; // the step before was twice as long: as long again would miss
-  CHECK(step_factor(7, error, h, plain) > 0.9);
-  CHECK(step_factor(7, error, h, foreseeing) == Approx(0.5 * 0.9 * std::pow(0.5, -1.0 / 8)));
-  CHECK(step_factor(7, error, 1.5, foreseeing) == step_factor(7, error, 1.5, plain)); // they grow
-  CHECK(step_factor(7, 2.0, h, foreseeing) == step_factor(7, 2.0, h, plain));         // a rejection
 }

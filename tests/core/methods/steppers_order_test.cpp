@@ -1,15 +1,12 @@
-// Every method by itself: its order down to round-off, its estimate, what it makes of NaN, and what
-// it makes of a tolerance. Their stability is in stability_test.cpp.
-#include "core/deployment.hpp"
-#include "tests/support/reference_run.hpp"
+// Every method by itself: its order down to round-off, and its estimate.
+#include "core/methods/steppers.hpp"
 #include "tests/support/stepping.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <string>
-#include <type_traits>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -168,151 +165,4 @@ TEST_CASE("the order of the multistep method climbs to eight, its corrector's to
   const auto exact = after_steps<Quad>(fehlberg, quad, Quad(span) / 256, 256);
   check_multistep<long double>(exact, span, 64, 1e-16); // its coefficients are doubles
   check_multistep<double>(exact, span, 64, 1e-14);
-}
-
-namespace {
-
-/// A wing whose accelerations turn into something else at one evaluation.
-template <class AnySystem> struct Faulty : AnySystem {
-  double what;
-  int left; ///< evaluations until then
-
-  explicit Faulty(const AnySystem& system, double number = 0,
-                  int evaluations = std::numeric_limits<int>::max())
-      : AnySystem(system), what(number), left(evaluations) {}
-
-  template <class T> void operator()(const State<T>& x, State<T>& dxdt, const T& t) {
-    AnySystem::operator()(x, dxdt, t);
-    if (left-- == 0) dxdt.back() = T(what);
-  }
-  template <class T> void stage(const State<T>& x, State<T>& dxdt, const T& t) {
-    (*this)(x, dxdt, t);
-  }
-};
-
-/// A method in the middle of its run.
-template <class Stepper> struct UnderWay {
-  RingingWing<double> wing;
-  Stepping<double> at{wing.system, wing.start};
-  Stepper stepper;
-  double h = 1e-4;
-
-  explicit UnderWay(const Stepper& fresh) : stepper(fresh) {
-    stepper.restart(tolerance);
-    int accepted = 0;
-    for (int tries = 0; tries < 40 && accepted < 12; ++tries) accepted += go_on(stepper, h);
-    REQUIRE(accepted == 12);
-  }
-
-  /// One try. @return whether it was accepted
-  bool go_on(Stepper& with, double& step) {
-    const Verdict verdict = at.attempt(with, wing.system, step);
-    if (verdict.accepted())
-      at.accept(with, verdict, step);
-    else
-      with.rejected();
-    step *= verdict.factor;
-    return verdict.accepted();
-  }
-
-  static constexpr Tolerance tolerance{1e-6, 1e-8};
-};
-
-} // namespace
-
-TEST_CASE("a number that is none, at any evaluation of a step, rejects that step and no other") {
-  Steppers<double> methods_there_are;
-  for (std::size_t m = 0; m < method_names.size(); ++m)
-    methods_there_are.with(static_cast<Method>(m), [&](auto& fresh) {
-      using Stepper = std::decay_t<decltype(fresh)>;
-      UnderWay<Stepper> run(fresh);
-      const auto start = run.at;
-      Faulty counting{run.wing.system};
-      auto sound = run.stepper;
-      REQUIRE(run.at.attempt(sound, counting, run.h).accepted());
-      const int evaluations = std::numeric_limits<int>::max() - counting.left;
-      REQUIRE(evaluations >= (method_names[m] == "adams_bashforth_moulton" ? 2 : 4));
-
-      for (const double what :
-           {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-        for (int k = 0; k < evaluations; ++k) {
-          CAPTURE(method_names[m], what, k, evaluations);
-          run.at = start;
-          auto poisoned = run.stepper;
-          Faulty faulty{run.wing.system, what, k};
-          const Verdict verdict = run.at.attempt(poisoned, faulty, run.h);
-          REQUIRE(faulty.left < 0);
-          REQUIRE_FALSE(verdict.accepted());
-          poisoned.rejected();
-          if (Stepper::fixed_step) continue;
-          REQUIRE(verdict.factor > 0);
-          REQUIRE(verdict.factor < 1);
-          // as if nothing had been
-          double h = run.h * verdict.factor;
-          const double end = run.at.t + h;
-          REQUIRE(run.go_on(poisoned, h));
-          RingingWing<long double> exact;
-          exact.start.assign(start.x.begin(), start.x.end());
-          Adaptive<long double, Fehlberg78<long double>> fehlberg;
-          const auto there = after_steps<long double>(fehlberg, exact, (end - start.t) / 4.L, 4);
-          const State<long double> got(run.at.x.begin(), run.at.x.end());
-          REQUIRE(apart(got, there) < 1e-6L);
-        }
-    });
-}
-
-namespace {
-
-/// The seed wing to just after its last latch, in extended precision.
-const ReferenceOutcome& seed_reference() {
-  static const ReferenceOutcome outcome = [] {
-    ReferenceOptions options;
-    options.t_end = 7, options.rtol = 1e-15, options.atol = 1e-16;
-    return high_precision_run<long double>(seed_scene(), options);
-  }();
-  return outcome;
-}
-
-/// What the seed wing's latches and its state at 7 s are off.
-double deployment_error(const Integration& how) {
-  Goal goal{.peak_moment = false, .peak_force = false, .audit = false, .to_t_end = true};
-  const Outcome out = Deployment().run(seed_scene(), how, goal);
-  CAPTURE(out.reason);
-  REQUIRE(out.latches.size() == 3);
-  double worst = 0;
-  for (int i = 0; i < 3; ++i)
-    worst = std::max({worst, std::abs(out.latches[i].time - seed_reference().latches[i].time),
-                      std::abs(out.final.angles[i] - seed_reference().final.angles(i)),
-                      std::abs(out.final.rates[i] - seed_reference().final.rates(i))});
-  return worst;
-}
-
-} // namespace
-
-TEST_CASE("the error of a whole deployment follows the tolerance") {
-  for (const MethodInfo& method : methods()) {
-    if (method.name == "runge_kutta4") continue;
-    // a method of order 3 takes 1e5 steps for 1e-11; extrapolation of a linear solve rounds
-    const int last = method.name == "rosenbrock_w" ? 9 : 12;
-    const double round_off = method.name == "seulex" ? 5e-9 : 5e-13;
-    for (int digits = 3; digits <= last; ++digits) {
-      Integration how;
-      how.method = method.name, how.t_end = 7;
-      how.rtol = std::pow(10., -digits), how.atol = 0.1 * how.rtol;
-      CAPTURE(method.name, digits);
-      CHECK(deployment_error(how) < 3 * how.rtol + round_off);
-    }
-  }
-}
-
-TEST_CASE("the error of a whole deployment falls with the fourth power of a fixed step") {
-  double before = 0;
-  for (const double step : {4e-3, 2e-3, 1e-3, 5e-4}) {
-    Integration how;
-    how.method = "runge_kutta4", how.step = step, how.t_end = 7, how.rtol = how.atol = 1;
-    const double error = deployment_error(how);
-    CAPTURE(step, std::log10(error));
-    if (before > 0) CHECK(std::log2(before / error) == Approx(4).margin(0.6));
-    before = error;
-  }
 }

@@ -1,0 +1,95 @@
+// The door: what cannot be run says so, and one Deployment serves any scenes.
+#include "core/deployment.hpp"
+#include "tests/support/whole_runs.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+TEST_CASE("what cannot be run says so") {
+  Scene scene = oracle::seed_scene();
+  SECTION("an unphysical draw is invalid, with each reason") {
+    scene.bodies[1].mass = -1;
+    scene.hinges[0].friction.coulomb = std::nan("");
+    const Outcome out = Deployment().run(scene, {}, {});
+    CHECK(out.status == Status::invalid);
+    CHECK_THAT(out.reason,
+               Catch::Contains("bodies." + scene.bodies[1].name + ".mass is -1, expected > 0"));
+    CHECK_THAT(out.reason,
+               Catch::Contains("hinges.root.friction.coulomb is nan, expected a finite number"));
+  }
+  SECTION("numbers that overflow fail the run and give no result") {
+    scene.hinges[0].spring = {1e300, 1e300};
+    const Outcome out = Deployment().run(scene, {}, {});
+    CHECK(out.status == Status::failed);
+    CHECK(!out.reason.empty());
+    for (const Peak& peak : out.peak_moment) CHECK(std::isfinite(peak.value));
+  }
+  SECTION(
+      "what no step can follow in the middle of a run fails it there, and keeps what came before") {
+    scene.hinges[0].latch = Latch{1e308, 100};
+    const Outcome out = Deployment().run(scene, {}, {});
+    CHECK(out.status == Status::failed);
+    CHECK_THAT(out.reason, Catch::Contains("step size") && Catch::Contains("at t = 4.81"));
+    CHECK(out.latches.size() == 1);
+    for (const Peak& peak : out.peak_moment) CHECK(std::isfinite(peak.value));
+    for (const Peak& peak : out.peak_force) CHECK(std::isfinite(peak.value));
+  }
+  SECTION("a latch too stiff for the method reaches the limit of steps") {
+    for (Hinge& hinge : scene.hinges) hinge.latch = Latch{1e9, 1e5};
+    Integration how;
+    how.method = "dopri5";
+    how.max_steps = 2000;
+    const Outcome out = Deployment().run(scene, how, {});
+    CHECK(out.status == Status::failed);
+    CHECK_THAT(out.reason, Catch::Contains("limit of 2000 steps"));
+  }
+  SECTION("a wing without the torque to unfold is timed out") {
+    for (Hinge& hinge : scene.hinges) hinge.spring = {0, 0};
+    const Outcome out = Deployment().run(scene, {}, {});
+    CHECK(out.status == Status::timed_out);
+    CHECK(out.latches.empty());
+    CHECK(out.t_end == 60);
+  }
+}
+
+TEST_CASE("a body without mass or inertia is refused by name") {
+  for (const auto& [mass, inertia] : {std::pair(0., 0.5), {10., 0.}, {-0., 0.5}}) {
+    Scene scene = seed_scene();
+    scene.bodies[1].mass = mass, scene.bodies[1].inertia = inertia;
+    const std::string path =
+        "bodies.panel_2." + std::string(mass > 0 ? "inertia" : "mass") + " is ";
+    for (const MethodInfo& method : methods()) {
+      Integration how;
+      how.method = method.name;
+      const Outcome out = Deployment().run(scene, how, {});
+      CHECK(out.status == Status::invalid);
+      CHECK_THAT(out.reason, Catch::Contains(path) && Catch::Contains("expected > 0"));
+      CHECK(out.latches.empty());
+    }
+  }
+}
+
+TEST_CASE("one workspace serves scenes of different topology") {
+  Deployment deployment;
+  const Outcome first = deployment.run(oracle::seed_scene(), {}, {});
+  (void)deployment.run(oracle::two_wing_free_spacecraft(), {}, {});
+  (void)deployment.run(oracle::latching_panel(), {}, {});
+  const Outcome again = deployment.run(oracle::seed_scene(), {}, {});
+  REQUIRE(first.latches.size() == again.latches.size());
+  for (std::size_t k = 0; k < first.latches.size(); ++k)
+    CHECK(first.latches[k].time == again.latches[k].time);
+  CHECK(first.peak_force[1].value == again.peak_force[1].value);
+}
+
+TEST_CASE("a workspace tells a star from a chain of as many bodies") {
+  Scene chain = oracle::seed_scene(), star = chain;
+  for (Hinge& hinge : star.hinges) hinge.parent = base_index;
+  Deployment deployment;
+  (void)deployment.run(star, {}, {});
+  const Outcome after = deployment.run(chain, {}, {}), fresh = Deployment().run(chain, {}, {});
+  REQUIRE(after.latches.size() == fresh.latches.size());
+  for (std::size_t k = 0; k < fresh.latches.size(); ++k)
+    CHECK(after.latches[k].time == fresh.latches[k].time);
+}

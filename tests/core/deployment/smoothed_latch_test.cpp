@@ -1,0 +1,72 @@
+// The smoothed latch: against CVODE on the dense model, and against the event latch that it tends to.
+#include "core/deployment.hpp"
+#include "tests/support/whole_runs.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// The seed scene with a smoothed latch, by CVODE, to just after its second latch.
+ReferenceOutcome smoothed_reference(std::optional<double> smoothing) {
+  ReferenceOptions options;
+  options.t_end = 6.3, options.rtol = 1e-11, options.atol = 1e-13, options.max_step = 1e-2;
+  options.smoothing = smoothing;
+  return cvode_run(seed_scene(), options);
+}
+
+} // namespace
+
+TEST_CASE("a smoothed latch is as wrong as its width, and no wronger") {
+  const ReferenceOutcome event = smoothed_reference({});
+  std::vector<double> root_errors;
+  for (const double epsilon : {1e-4, 1e-3, 1e-2}) {
+    const ReferenceOutcome exact = smoothed_reference(epsilon);
+    root_errors.push_back(exact.peak_moment[0].value / event.peak_moment[0].value - 1);
+    Integration how = within(1e-9, 6.3, 1e-4);
+    how.smoothing = epsilon;
+    CAPTURE(epsilon);
+    with_every_method(
+        seed_scene(), how, to_the_end, MayGiveUp::all_but_auto, [&](const Outcome& out) {
+          // the reference is good to 1e-7 (its own tests); the kinks of the smooth steps cost the
+          // methods of high order more than their error estimates see, still far less than
+          // the smoothing itself does
+          for (int hinge : {0, 1})
+            CHECK(relative(out.peak_moment[hinge].value, exact.peak_moment[hinge].value) < 1e-5);
+        });
+  }
+  // what the smoothing itself does to the peak: about 15 ε, at first linearly
+  CHECK(root_errors[0] == Approx(0.00154).epsilon(0.01));
+  CHECK(root_errors[1] / root_errors[0] == Approx(10).epsilon(0.1));
+  CHECK(root_errors[2] == Approx(0.219).epsilon(0.01));
+}
+
+TEST_CASE("the smoothed latch tends to the event latch") {
+  const double exact = run(oracle::seed_scene(), 1e-9, 9).peak_moment[0].value;
+  double before = 1;
+  for (const double epsilon : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    Integration how;
+    how.t_end = 9;
+    how.smoothing = epsilon;
+    const Outcome out = Deployment().run(oracle::seed_scene(), how, {});
+    REQUIRE(out.status == Status::deployed);
+    const double deviation = relative(out.peak_moment[0].value, exact);
+    CHECK(deviation < before);
+    before = deviation;
+  }
+  CHECK(before < 1e-3);
+}
+
+TEST_CASE("the smoothed latch agrees with CVODE on the dense model") {
+  oracle::ReferenceOptions options;
+  options.t_end = 9, options.rtol = 1e-10, options.atol = 1e-12, options.max_step = 1e-3,
+  options.smoothing = 1e-3;
+  const oracle::ReferenceOutcome exact = oracle::cvode_run(oracle::seed_scene(), options);
+  Integration how;
+  how.rtol = 1e-9, how.atol = 1e-12, how.t_end = 9, how.smoothing = 1e-3;
+  Goal goal;
+  goal.to_t_end = true;
+  compare(Deployment().run(oracle::seed_scene(), how, goal), exact, 1e-7, 1e-5);
+}

@@ -1,0 +1,139 @@
+// Why and where a run ends, and what it has seen until then.
+#include "core/deployment.hpp"
+#include "tests/support/whole_runs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+TEST_CASE("without peaks a run ends at its last latch") {
+  Integration how;
+  Goal goal{.peak_moment = false, .peak_force = false, .audit = false, .to_t_end = false};
+  const Outcome out = Deployment().run(oracle::seed_scene(), how, goal);
+  CHECK(out.status == Status::deployed);
+  CHECK(out.t_end == out.latches.back().time);
+  CHECK(out.peak_moment.empty());
+  CHECK(out.peak_force.empty());
+}
+
+TEST_CASE("a campaign's run may stop early: no peak is lost by it") {
+  const oracle::ReferenceOutcome exact = reference(oracle::seed_scene(), 12);
+  const Outcome whole = run(oracle::seed_scene(), 1e-9, 60),
+                early = run(oracle::seed_scene(), 1e-9, 60, false);
+  CHECK(whole.t_end == 60);
+  CHECK(early.t_end < 20);
+  for (int i = 0; i < 3; ++i) {
+    CHECK(early.peak_moment[i].value == whole.peak_moment[i].value);
+    CHECK(early.peak_force[i].value == whole.peak_force[i].value);
+  }
+  compare(early, exact, 1e-8, 1e-7);
+}
+
+TEST_CASE("an early end loses no peak on random wings") {
+  int early_ends = 0;
+  for (std::uint64_t seed = 100; seed < 160; ++seed) {
+    oracle::RandomScene options;
+    options.bodies = 1 + static_cast<int>(seed % 3);
+    options.mass_lower = 1, options.mass_upper = 20;
+    options.motion = seed % 2 == 0 ? BaseMotion::fixed : BaseMotion::free;
+    const Scene scene = oracle::random_scene(seed, options);
+    const Outcome whole = run(scene, 1e-7, 15), early = run(scene, 1e-7, 15, false);
+    if (whole.status != Status::deployed) continue;
+    early_ends += early.t_end < whole.t_end;
+    CAPTURE(seed);
+    for (std::size_t i = 0; i < whole.peak_moment.size(); ++i) {
+      CHECK(early.peak_moment[i].value == whole.peak_moment[i].value);
+      CHECK(early.peak_force[i].value == whole.peak_force[i].value);
+    }
+  }
+  CHECK(early_ends >= 5);
+}
+
+TEST_CASE("a run may end at the instant of a latch") {
+  const Scene scene = oracle::latching_panel();
+  const double t = run(scene, 1e-8, 5).latches.at(0).time;
+  for (const int ulps : {-4, -1, 0, 1, 2, 4, 5, 50}) {
+    double t_end = t;
+    for (int k = 0; k < std::abs(ulps); ++k) t_end = std::nextafter(t_end, ulps > 0 ? 1e9 : 0);
+    const Outcome out = run(scene, 1e-8, t_end);
+    CAPTURE(ulps, out.reason);
+    CHECK(out.status != Status::failed);
+    CHECK(out.t_end <= t_end);
+  }
+}
+
+TEST_CASE("a run that ends at the instant of a latch, or an ulp beside it, is consistent") {
+  Scene scene = latching_panel(); // at a steady 1/4 rad/s from 1 to 0: exactly 4 s
+  scene.hinges[0].spring = {0, 0};
+  scene.hinges[0].stowed = 1, scene.hinges[0].initial_rate = -0.25;
+  const double ulp = std::numeric_limits<double>::epsilon() * 4;
+  for (const double beside : {0., ulp, -ulp, 5 * ulp, -5 * ulp, 1e-9, -1e-9})
+    for (const Goal& goal : {latches_only, Goal{}, to_the_end}) {
+      const double t_end = 4 + beside;
+      CAPTURE(beside, goal.to_t_end);
+      with_every_method(scene, within(1e-8, t_end), goal, MayGiveUp::fixed_step,
+                        [&](const Outcome& out) {
+                          const bool latched = !out.latches.empty();
+                          CHECK(out.status == (latched ? Status::deployed : Status::timed_out));
+                          if (std::abs(beside) > 1e-12) CHECK(latched == (beside > 0));
+                          CHECK(out.t_end <= t_end);
+                          CHECK(relative(out.t_end, 4) < 1e-8);
+                          // the sum of a few thousand equal steps
+                          if (latched) CHECK(relative(out.latches[0].time, 4) < 1e-11);
+                        });
+    }
+}
+
+TEST_CASE("what stops being a number fails the run") {
+  SECTION("a motion that outgrows the numbers") {
+    // unstable: φ̈ = 33² (φ − 1.5), past 1e308 at about 21 s, and its square at half that
+    Scene scene = unit_oscillator(1.6);
+    pull_towards(scene.hinges[0], 1.5, -33 * 33 * panel_inertia);
+    for (const Goal& goal : {Goal{}, latches_only}) {
+      const Integration how = within(1e-6, 30);
+      for (const MethodInfo& method : methods()) {
+        Integration with = how;
+        with.method = method.name;
+        const Outcome out = Deployment().run(scene, with, goal);
+        CAPTURE(method.name, out.reason, out.t_end);
+        CHECK(gave_up(out));
+        CHECK(finite(out));
+      }
+    }
+  }
+  SECTION("angles past the last whole radian that a double can tell") {
+    // the same scene: φ = 1.5 + 0.1 cosh 33 t is 1e20 rad at 1.5 s; |f| = m c |φ̇², φ̈|
+    Scene scene = unit_oscillator(1.6);
+    pull_towards(scene.hinges[0], 1.5, -33 * 33 * panel_inertia);
+    const double rate = 0.1 * 33 * std::sinh(33 * 1.5);
+    with_every_method(scene, within(1e-8, 1.5), {}, MayGiveUp::all, [&](const Outcome& out) {
+      CHECK(relative(out.final.rates[0], rate) < 1e-5);
+      CHECK(relative(out.peak_force[0].value, 10 * 0.5 * rate * rate) < 1e-5);
+    });
+  }
+  SECTION("an engagement that overflows") {
+    Scene scene = seed_scene();
+    scene.hinges[0].latch = Latch{1e308, 100};
+    const Integration how = within(1e-8, 7);
+    with_every_method(scene, how, {}, MayGiveUp::all,
+                      [&](const Outcome& out) { check_latches(out, seed_reference(), 1e-6); });
+  }
+}
+
+TEST_CASE("a tolerance below round-off is met as far as it goes, or refused; it does not hang") {
+  for (const double rtol : {1e-15, 1e-16, 1e-18}) {
+    Integration how = within(rtol, 7, 1e-4);
+    how.atol = 1e-20, how.max_steps = 20'000;
+    Goal goal;
+    goal.first_latch_only = true;
+    with_every_method(seed_scene(), how, goal, MayGiveUp::all, [&](const Outcome& out) {
+      REQUIRE(out.latches.size() == 1);
+      const ReferenceLatch& exact = seed_reference().latches[0];
+      CHECK(relative(out.latches[0].time, exact.time) < 1e-10);
+      CHECK(relative(out.latches[0].rates[0], exact.rates[0]) < 1e-10);
+    });
+  }
+}
