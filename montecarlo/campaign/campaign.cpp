@@ -3,6 +3,7 @@
 #include "distributions/random_stream.hpp"
 #include "montecarlo/campaign/correlations.hpp"
 #include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 
 #include <fmt/format.h>

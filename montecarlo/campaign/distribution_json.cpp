@@ -1,12 +1,12 @@
 #include "montecarlo/campaign/distribution_json.hpp"
 
 #include "montecarlo/formats/csv.hpp"
+#include "montecarlo/formats/files.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -49,12 +49,8 @@ template <class L> void read_parameters(JsonObject& object, L& law) {
 }
 
 double parse_cell(const CsvReader& reader, const std::string& cell, const std::string& column) {
-  double value = 0;
-  const char* end = cell.data() + cell.size();
-  const auto parsed = std::from_chars(cell.data(), end, value);
-  if (parsed.ec != std::errc{} || parsed.ptr != end || !std::isfinite(value))
-    throw reader.error(column, fmt::format("'{}'", cell), "a finite number");
-  return value;
+  if (const auto value = parse_csv_number(cell)) return *value;
+  throw reader.error(column, fmt::format("'{}'", cell), "a finite number");
 }
 
 /// The numbers of one column of a CSV file whose first record names its columns.

@@ -5,8 +5,8 @@
 #include "montecarlo/commands/method_list.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/runs/run.hpp"
-#include "montecarlo/summary/summary_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -33,19 +33,13 @@ int check(const std::filesystem::path& file) {
 /// `run`, then a column for each draw.
 void write_draws(const RunPlan& plan, std::ostream& out) {
   std::string line = "run";
-  for (const std::string& name : plan.names().draws) {
-    line += ',';
-    append_csv_cell(line, name);
-  }
+  for (const std::string& name : plan.names().draws) append_csv_cells(line, name);
   std::vector<double> draws(plan.names().draws.size());
   for (long k = 0; k < plan.campaign().sampling.runs && out; ++k) {
     out << line << '\n';
     line = std::to_string(k);
     plan.draw(k, draws);
-    for (const double draw : draws) {
-      line += ',';
-      append_csv_cell(line, draw);
-    }
+    for (const double draw : draws) append_csv_cells(line, draw);
   }
   out << line << '\n' << std::flush;
 }

@@ -4,10 +4,10 @@
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/results_folder.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/margin/margin_report.hpp"
-#include "montecarlo/summary/summary_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,10 +2,10 @@
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/folder/results_folder.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/rare/rare_report.hpp"
-#include "montecarlo/summary/summary_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

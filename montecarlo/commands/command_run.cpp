@@ -3,10 +3,10 @@
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/machine/team.hpp"
-#include "montecarlo/summary/summary_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,11 +2,11 @@
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/sensitivity/design_folder.hpp"
 #include "montecarlo/sensitivity/sensitivity_text.hpp"
-#include "montecarlo/summary/summary_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "montecarlo/commands/outcome_text.hpp"
 #include "montecarlo/commands/trajectory.hpp"
 #include "montecarlo/folder/replay.hpp"
-#include "montecarlo/summary/summary_json.hpp"
+#include "montecarlo/formats/json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

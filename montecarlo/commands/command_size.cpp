@@ -1,8 +1,8 @@
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/commands.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/spec_error.hpp"
 #include "montecarlo/statistics/wilks.hpp"
-#include "montecarlo/summary/summary_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,8 +12,6 @@
 
 namespace wingspread {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct SizeOptions {
   std::optional<double> probability, width, proportion;

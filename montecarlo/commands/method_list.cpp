@@ -3,14 +3,11 @@
 #include "montecarlo/formats/text_layout.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
 namespace wingspread {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string order(int value) { return value == 0 ? "–" : std::to_string(value); }
 

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "core/deployment.hpp"
-
-#include <nlohmann/json_fwd.hpp>
+#include "montecarlo/formats/json.hpp"
 
 #include <span>
 #include <string>
@@ -15,6 +14,6 @@ namespace wingspread {
 [[nodiscard]] std::string methods_text(std::span<const MethodInfo> methods);
 
 /// An array of objects. What does not apply is null; a limit that is infinite is "unbounded".
-[[nodiscard]] nlohmann::ordered_json methods_json(std::span<const MethodInfo> methods);
+[[nodiscard]] Json methods_json(std::span<const MethodInfo> methods);
 
 } // namespace wingspread

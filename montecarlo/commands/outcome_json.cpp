@@ -1,15 +1,9 @@
 #include "montecarlo/commands/outcome_json.hpp"
 
-#include "montecarlo/formats/json_number.hpp"
-
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 
 namespace wingspread {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json vector(const Eigen::Vector2d& v) {
   return Json::array({json_number(v.x()), json_number(v.y())});

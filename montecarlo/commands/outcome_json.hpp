@@ -6,13 +6,12 @@
 #pragma once
 
 #include "core/deployment.hpp"
-
-#include <nlohmann/json_fwd.hpp>
+#include "montecarlo/formats/json.hpp"
 
 namespace wingspread {
 
 /// @param scene whose run it was
 /// Of an invalid run nothing but its status and reason is there; of a failed one no peak is known.
-[[nodiscard]] nlohmann::ordered_json outcome_json(const Scene& scene, const Outcome& outcome);
+[[nodiscard]] Json outcome_json(const Scene& scene, const Outcome& outcome);
 
 } // namespace wingspread

@@ -11,10 +11,8 @@ TrajectoryWriter::TrajectoryWriter(std::filesystem::path path, const Scene& scen
     : path_(std::move(path)), out_(path_, std::ios::binary | std::ios::trunc) {
   std::string header = "t";
   for (const Hinge& hinge : scene.hinges)
-    for (const char* quantity : {".angle", ".rate", ".moment"}) {
-      header += ',';
-      append_csv_cell(header, hinge.name + quantity);
-    }
+    for (const char* quantity : {".angle", ".rate", ".moment"})
+      append_csv_cells(header, hinge.name + quantity);
   out_ << header << ",kinetic,potential,total\n";
   if (!out_) throw unwritable(path_);
 }
@@ -25,15 +23,10 @@ Observer TrajectoryWriter::observer() {
 
 void TrajectoryWriter::write(const Sample& sample) {
   std::string line;
-  const auto add = [&line](double value) {
-    line += ',';
-    append_csv_cell(line, value);
-  };
   append_csv_cell(line, sample.t);
   for (std::size_t i = 0; i < sample.angles.size(); ++i)
-    for (const double value : {sample.angles[i], sample.rates[i], sample.moments[i]}) add(value);
-  for (const double value : {sample.kinetic, sample.potential, sample.kinetic + sample.potential})
-    add(value);
+    append_csv_cells(line, sample.angles[i], sample.rates[i], sample.moments[i]);
+  append_csv_cells(line, sample.kinetic, sample.potential, sample.kinetic + sample.potential);
   out_ << line << '\n';
 }
 

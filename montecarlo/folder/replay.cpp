@@ -1,5 +1,7 @@
 #include "montecarlo/folder/replay.hpp"
 
+#include "montecarlo/formats/csv.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +17,7 @@ bool same(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-std::string shown(double value) {
-  return std::isnan(value) ? "nothing" : fmt::format("{:.17g}", value);
-}
+std::string shown(double value) { return std::isnan(value) ? "nothing" : csv_cell(value); }
 
 } // namespace
 

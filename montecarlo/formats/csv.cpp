@@ -32,6 +32,12 @@ void append_csv_cell(std::string& buffer, double value) {
   buffer.append(digits.data(), end);
 }
 
+std::string csv_cell(double value) {
+  std::string cell;
+  append_csv_cell(cell, value);
+  return cell;
+}
+
 std::optional<double> parse_csv_number(std::string_view cell) {
   double value = 0;
   const char* last = cell.data() + cell.size();

@@ -4,6 +4,7 @@
 
 #include "montecarlo/formats/spec_error.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <iosfwd>
 #include <optional>
@@ -19,6 +20,21 @@ void append_csv_cell(std::string& buffer, std::string_view text);
 /// Appends `value` with 17 significant digits (C's "%.17g", in any locale), which read back to the
 /// same double; appends nothing, an empty cell, when it is not finite.
 void append_csv_cell(std::string& buffer, double value);
+template <std::integral Integer> void append_csv_cell(std::string& buffer, Integer value) {
+  buffer += std::to_string(value);
+}
+/// An empty cell where there is none.
+template <class T> void append_csv_cell(std::string& buffer, const std::optional<T>& value) {
+  if (value) append_csv_cell(buffer, *value);
+}
+
+/// Appends each as a cell behind a comma: what follows the first cell of a record.
+template <class... Cells> void append_csv_cells(std::string& buffer, const Cells&... cells) {
+  ((buffer += ',', append_csv_cell(buffer, cells)), ...);
+}
+
+/// "1.5": the number as its cell.
+[[nodiscard]] std::string csv_cell(double value);
 
 /// The number that the whole of `cell` spells;
 /// nothing when it spells none, or one that is not finite.

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 namespace wingspread {
@@ -13,6 +14,14 @@ SpecError unwritable(const std::filesystem::path& path, const std::error_code& w
 }
 
 } // namespace
+
+std::optional<std::string> read_text(const std::filesystem::path& path) {
+  std::error_code unknown; // a path that cannot be asked about cannot be opened either
+  std::ifstream in;
+  if (!std::filesystem::is_directory(path, unknown)) in.open(path, std::ios::binary);
+  if (!in.is_open()) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
 
 SpecError unwritable(const std::filesystem::path& path) {
   return unwritable(path, std::error_code(errno, std::generic_category()),

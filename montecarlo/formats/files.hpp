@@ -1,4 +1,4 @@
-/// Writing files, whole or not at all.
+/// Files: read whole, and written whole or not at all.
 #pragma once
 
 #include "montecarlo/formats/spec_error.hpp"
@@ -6,9 +6,14 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace wingspread {
+
+/// The bytes of a file; nothing when it cannot be read.
+[[nodiscard]] std::optional<std::string> read_text(const std::filesystem::path& path);
 
 /// The end of the name under which a file is written before it gets its own.
 inline constexpr std::string_view part_suffix = ".part";

@@ -1,102 +1,123 @@
 #include "montecarlo/formats/json_parse.hpp"
 
+#include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/spec_error.hpp"
 
-#include <fstream>
-#include <iterator>
-#include <set>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 namespace wingspread {
 namespace {
 
-/// Follows the parser through the document, to find keys that stand twice: the parser itself keeps
-/// the last of them without a word.
-class KeyWatch {
+/// "line 3, column 1" of a text's byte, counted from 1; one beyond the end is where it ends.
+std::string place_in(std::string_view text, std::size_t byte) {
+  const std::string_view read = text.substr(0, std::min(byte, text.size()));
+  const std::size_t line_start = read.rfind('\n') + 1; // npos + 1 is 0
+  return fmt::format("line {}, column {}", 1 + std::ranges::count(read, '\n'), byte - line_start);
+}
+
+/// Takes the document from the parser, value by value, and what is wrong with it. (The parser's own
+/// builder keeps the last of the values of a key that stands twice, without a word.)
+class DocumentBuilder : public nlohmann::json_sax<Json> {
 public:
-  explicit KeyWatch(std::string file) : file_(std::move(file)) {}
+  DocumentBuilder(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
 
-  void see(Json::parse_event_t event, const Json& parsed) {
-    using Event = Json::parse_event_t;
-    switch (event) {
-    case Event::object_start:
-    case Event::array_start:
-      count_element();
-      open_.push_back({event == Event::array_start, 0, {}, {}});
-      break;
-    case Event::object_end:
-    case Event::array_end:
-      open_.pop_back();
-      break;
-    case Event::key:
-      see_key(parsed.get<std::string>());
-      break;
-    case Event::value:
-      count_element();
-      break;
-    }
-  }
-
-  /// Of the value that the parser is about to read.
-  std::string next_pointer() {
-    count_element();
-    return pointer();
-  }
-
+  Json document;
   std::vector<Problem> problems;
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(number_integer_t value) override { return add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return add(value); }
+  bool number_float(number_float_t value, const string_t& /*as written*/) override {
+    return add(value);
+  }
+  bool string(string_t& value) override { return add(std::move(value)); }
+  bool binary(binary_t& value) override { return add(std::move(value)); } // JSON has none
+
+  bool start_object(std::size_t /*unknown*/) override { return open(Json::object()); }
+  bool start_array(std::size_t /*unknown*/) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& key) override {
+    Container& in = open_.back();
+    in.key = std::move(key);
+    if (in.value->contains(in.key))
+      problems.push_back(
+          {file_, next_pointer(), fmt::format("the key \"{}\" a second time", in.key), "it once"});
+    return true;
+  }
+
+  bool parse_error(std::size_t byte, const std::string& token,
+                   const nlohmann::detail::exception& error) override {
+    constexpr int number_overflow = 406;
+    if (error.id == number_overflow)
+      problems = {
+          {file_, next_pointer(), "the number " + token, "a number within the range of a double"}};
+    else
+      problems = {syntax_problem(byte, error.what())};
+    return false;
+  }
 
 private:
   struct Container {
-    bool array;
-    std::size_t elements; // begun so far
-    std::string key;      // the last one seen
-    std::set<std::string> keys;
+    Json* value;
+    std::string key; ///< of an object: that of its last member
   };
 
-  void count_element() {
-    if (!open_.empty() && open_.back().array) ++open_.back().elements;
+  /// Puts a value where the parser has come to. @return true: to go on
+  bool add(Json value) {
+    (void)place(std::move(value));
+    return true;
   }
 
-  void see_key(const std::string& key) {
-    open_.back().key = key;
-    if (!open_.back().keys.insert(key).second)
-      problems.push_back({file_, pointer(), "the key \"" + key + "\" a second time", "it once"});
+  bool open(Json container) {
+    open_.push_back({place(std::move(container)), {}});
+    return true;
   }
 
-  std::string pointer() const {
-    std::string path;
-    for (const Container& in : open_)
-      path += pointer_token(in.array ? std::to_string(in.elements - 1) : in.key);
-    return path;
+  bool close() {
+    open_.pop_back();
+    return true;
   }
 
+  Json* place(Json value) {
+    if (open_.empty()) return &(document = std::move(value));
+    const auto& [in, key] = open_.back();
+    if (in->is_array()) return &in->emplace_back(std::move(value));
+    return &((*in)[key] = std::move(value));
+  }
+
+  /// Of the value that comes next.
+  [[nodiscard]] std::string next_pointer() const {
+    std::string pointer;
+    for (const auto& [in, key] : open_) {
+      const bool innermost = in == open_.back().value;
+      pointer +=
+          pointer_token(in->is_array() ? std::to_string(in->size() - (innermost ? 0 : 1)) : key);
+    }
+    return pointer;
+  }
+
+  /// @param message "[json.exception…] parse error at …: syntax error … - unexpected '}'; expected
+  ///   string literal"
+  [[nodiscard]] Problem syntax_problem(std::size_t byte, std::string_view message) const {
+    const std::string_view words = message.substr(message.find(": ") + 2);
+    const std::size_t mark = words.find("; expected ");
+    const std::string_view found = words.substr(0, mark);
+    return {file_, "", fmt::format("{}: {}", place_in(text_, byte), found),
+            mark == std::string_view::npos ? "valid JSON" : std::string(words.substr(mark + 11))};
+  }
+
+  std::string_view text_;
   std::string file_;
-  std::vector<Container> open_;
+  std::vector<Container> open_; ///< from the document inwards
 };
-
-/// The parser's "[json.exception…] parse error at line 3, column 1: syntax error … - unexpected
-/// '}'; expected string literal" without its bracket, split into what it found and what it
-/// expected.
-Problem syntax_problem(const std::string& file, std::string_view message) {
-  const auto cut_before = [&message](std::string_view mark) {
-    if (const auto at = message.find(mark); at != std::string_view::npos)
-      message.remove_prefix(at + mark.size());
-  };
-  cut_before("] ");
-  cut_before("parse error at ");
-  const auto at = message.find("; expected ");
-  if (at == std::string_view::npos) return {file, "", std::string(message), "valid JSON"};
-  return {file, "", std::string(message.substr(0, at)), std::string(message.substr(at + 11))};
-}
-
-/// The number in the parser's "number overflow parsing '1e999'".
-std::string quoted_number(std::string_view message) {
-  const auto first = message.find('\'') + 1;
-  return std::string(message.substr(first, message.rfind('\'') - first));
-}
 
 } // namespace
 
@@ -107,29 +128,10 @@ std::string pointer_token(std::string_view key) {
 }
 
 Json parse_json(const std::string& text, const std::string& file) {
-  KeyWatch watch(file);
-  Json document;
-  try {
-    document = Json::parse(text, [&watch](int, Json::parse_event_t event, Json& parsed) {
-      watch.see(event, parsed);
-      return true;
-    });
-  } catch (const Json::parse_error& error) {
-    throw SpecError({syntax_problem(file, error.what())});
-  } catch (const Json::out_of_range& error) {
-    throw SpecError({{file, watch.next_pointer(), "the number " + quoted_number(error.what()),
-                      "a number within the range of a double"}});
-  }
-  if (!watch.problems.empty()) throw SpecError(std::move(watch.problems));
-  return document;
-}
-
-std::optional<std::string> read_text(const std::filesystem::path& path) {
-  std::error_code unknown; // a path that cannot be asked about cannot be opened either
-  std::ifstream in;
-  if (!std::filesystem::is_directory(path, unknown)) in.open(path, std::ios::binary);
-  if (!in.is_open()) return std::nullopt;
-  return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  DocumentBuilder builder(text, file);
+  (void)Json::sax_parse(text, &builder); // false with problems
+  if (!builder.problems.empty()) throw SpecError(std::move(builder.problems));
+  return std::move(builder.document);
 }
 
 Json parse_json_file(const std::filesystem::path& path) {

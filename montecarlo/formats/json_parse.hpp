@@ -1,25 +1,18 @@
 /// Strict JSON (RFC 8259) from text or a file.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "montecarlo/formats/json.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace wingspread {
 
-/// The JSON value used throughout: its objects keep the order in which they were written.
-using Json = nlohmann::ordered_json;
-
 /// @param file the name that problems carry
 /// @throws SpecError for broken syntax, NaN and Infinity included (with line and column), and for
 ///   numbers beyond a double and keys that stand twice in one object (with their pointer)
 [[nodiscard]] Json parse_json(const std::string& text, const std::string& file = "");
-
-/// The bytes of a file; nothing when it cannot be read.
-[[nodiscard]] std::optional<std::string> read_text(const std::filesystem::path& path);
 
 /// @throws SpecError as parse_json does, and when the file cannot be read
 [[nodiscard]] Json parse_json_file(const std::filesystem::path& path);

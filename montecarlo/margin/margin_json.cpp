@@ -1,4 +1,4 @@
-#include "montecarlo/formats/json_number.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/margin/margin_report.hpp"
 #include "montecarlo/runs/run.hpp"
 

@@ -1,6 +1,6 @@
 #include "montecarlo/rare/rare_report.hpp"
 
-#include "montecarlo/formats/json_number.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/runs/results.hpp"
 

@@ -163,16 +163,9 @@ void append_row(std::string& buffer, const ResultRow& row) {
   buffer += fmt::format_int(row.run).c_str();
   buffer += ',';
   buffer += to_string(row.status);
-  for (const auto* numbers : {&row.draws, &row.outputs}) {
-    for (const double number : *numbers) {
-      buffer += ',';
-      append_csv_cell(buffer, number);
-    }
-  }
-  for (const auto* text : {&row.latch_order, &row.reason}) {
-    buffer += ',';
-    append_csv_cell(buffer, *text);
-  }
+  for (const auto* numbers : {&row.draws, &row.outputs})
+    for (const double number : *numbers) append_csv_cells(buffer, number);
+  append_csv_cells(buffer, row.latch_order, row.reason);
   buffer += '\n';
 }
 

@@ -3,8 +3,8 @@
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/json_reader.hpp"
-#include "montecarlo/summary/summary_json.hpp"
 
 #include <fstream>
 

@@ -1,7 +1,7 @@
 #include "montecarlo/sensitivity/sensitivity_text.hpp"
 
 #include "montecarlo/formats/csv.hpp"
-#include "montecarlo/formats/json_number.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/statistics/statistics.hpp"
@@ -27,14 +27,6 @@ Json value_json(double value, const Bounds& bounds) {
 }
 
 Bounds bounds_of(const Interval& interval) { return {interval.lower, interval.upper}; }
-
-void append_value(std::string& line, double value, const Bounds& bounds) {
-  for (const double cell :
-       {value, bounds.lower.value_or(undefined), bounds.upper.value_or(undefined)}) {
-    line += ',';
-    append_csv_cell(line, cell);
-  }
-}
 
 /// "+0.123   −0.456 – −0.345", 30 columns wide.
 std::string value_text(double value, const Bounds& bounds) {
@@ -80,12 +72,6 @@ std::string heading_of(const std::string& output, long count, const char* counte
 
 std::string quoted(const std::vector<std::string>& names) {
   return fmt::format("\"{}\"", fmt::join(names, "\", \""));
-}
-
-Json names_json(const std::vector<std::string>& names) {
-  Json json = Json::array();
-  for (const std::string& name : names) json.push_back(name);
-  return json;
 }
 
 } // namespace
@@ -147,8 +133,8 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
             {"moves_nothing", "no coefficient differs from 0 at this confidence taken over all "
                               "outputs together"}}},
           {"outputs", outputs},
-          {"do_not_vary", names_json(all.unvaried)},
-          {"moves_nothing", names_json(all.idle)}};
+          {"do_not_vary", all.unvaried},
+          {"moves_nothing", all.idle}};
 }
 
 Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
@@ -184,7 +170,7 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
             {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
             {"moves_nothing", "all outputs of all rows are the same without it, bit for bit"}}},
           {"outputs", outputs},
-          {"moves_nothing", names_json(all.idle())}};
+          {"moves_nothing", all.idle()}};
 }
 
 std::string sensitivity_csv(const RankSensitivity& all) {
@@ -193,11 +179,9 @@ std::string sensitivity_csv(const RankSensitivity& all) {
   for (const OutputRanks& output : all.outputs)
     for (std::size_t j = 0; j < all.dispersions.size(); ++j) {
       append_csv_cell(text, output.output);
-      text += ',';
-      append_csv_cell(text, all.dispersions[j]);
-      text += fmt::format(",{},{}", output.count, output.missing);
+      append_csv_cells(text, all.dispersions[j], output.count, output.missing);
       for (const Coefficient& c : {output.effects[j].spearman, output.effects[j].partial})
-        append_value(text, c.value, c.bounds);
+        append_csv_cells(text, c.value, c.bounds.lower, c.bounds.upper);
       text += '\n';
     }
   return text;
@@ -209,11 +193,9 @@ std::string sensitivity_csv(const SobolSensitivity& all) {
   for (const auto& [name, indices] : all.outputs)
     for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
       append_csv_cell(text, name);
-      text += ',';
-      append_csv_cell(text, all.dispersions[i]);
-      text += fmt::format(",{},{}", indices.rows, indices.left_out);
+      append_csv_cells(text, all.dispersions[i], indices.rows, indices.left_out);
       for (const SobolIndex& index : {indices.effects[i].first, indices.effects[i].total})
-        append_value(text, index.value, bounds_of(index.interval));
+        append_csv_cells(text, index.value, index.interval.lower, index.interval.upper);
       text += '\n';
     }
   return text;

@@ -1,6 +1,6 @@
 #include "montecarlo/summary/summary_json.hpp"
 
-#include "montecarlo/formats/json_number.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
 
@@ -13,8 +13,6 @@
 namespace wingspread {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view replicates_agree =
     "no bounds: all replicates agree, which says nothing about the error";
@@ -263,20 +261,12 @@ std::string histograms_csv(const Summary& summary) {
     const Histogram& histogram = output.histogram;
     for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
       append_csv_cell(csv, output.name);
-      for (const double edge : {histogram.edges[i], histogram.edges[i + 1]}) {
-        csv += ',';
-        append_csv_cell(csv, edge);
-      }
-      csv += fmt::format(",{},", histogram.counts[i]);
-      append_csv_cell(csv, histogram.density(i));
+      append_csv_cells(csv, histogram.edges[i], histogram.edges[i + 1], histogram.counts[i],
+                       histogram.density(i));
       csv += '\n';
     }
   }
   return csv;
-}
-
-std::string json_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 } // namespace wingspread

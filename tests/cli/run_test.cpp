@@ -1,4 +1,3 @@
-#include "montecarlo/summary/summary_json.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,7 @@
 /// For the tests of what reads JSON: a small document to spoil, and the messages that come of it.
 #pragma once
 
+#include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json_parse.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 #include "montecarlo/formats/spec_error.hpp"

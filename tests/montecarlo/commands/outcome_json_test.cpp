@@ -1,6 +1,6 @@
 #include "montecarlo/commands/outcome_json.hpp"
 #include "montecarlo/commands/outcome_text.hpp"
-#include "montecarlo/summary/summary_json.hpp"
+#include "montecarlo/formats/json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>

@@ -88,6 +88,14 @@ TEST_CASE("what is not finite is an empty CSV cell") {
   CHECK(cell(std::numeric_limits<double>::infinity()).empty());
 }
 
+TEST_CASE("cells of any kind follow the first one of a record", "[csv]") {
+  std::string record = "7";
+  append_csv_cells(record, 0.5, "a, b", -3L, std::optional<double>{}, std::optional(2.),
+                   std::size_t{9});
+  CHECK(record == "7,0.5,\"a, b\",-3,,2,9");
+  CHECK(csv_cell(0.1) == "0.10000000000000001");
+}
+
 TEST_CASE("the reader knows lines, bytes and whether a record was ended") {
   std::istringstream in("a,\"b\nc\"\r\nd\ne");
   CsvReader reader(in, "some.csv");

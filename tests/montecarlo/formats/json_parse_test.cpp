@@ -31,6 +31,13 @@ TEST_CASE("Whatever is not strict JSON is refused with its place", "[json_parse]
                     "literal; last read: '/', expected valid JSON"},
        {"[1, {\"a\": [0, 1e999]}]",
         "f.json: /1/a/1: found the number 1e999, expected a number within the range of a double"},
+       {"[\n{\"a\":\n  {\"b\": 1 \"c\"}}]",
+        "f.json: found line 3, column 13: syntax error while parsing object - unexpected string "
+        "literal, expected '}'"},
+       {"[1,\n2\n", "f.json: found line 3, column 1: syntax error while parsing array - unexpected "
+                    "end of input, expected ']'"},
+       {"{\"a\": [1e999], \"b\": }",
+        "f.json: /a/0: found the number 1e999, expected a number within the range of a double"},
        {"-1e400",
         "f.json: found the number -1e400, expected a number within the range of a double"}}));
   CAPTURE(text);

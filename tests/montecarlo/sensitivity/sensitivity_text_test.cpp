@@ -1,7 +1,7 @@
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/runs/engine.hpp"
 #include "montecarlo/sensitivity/saltelli.hpp"
 #include "montecarlo/sensitivity/sensitivity_text.hpp"
-#include "montecarlo/summary/summary_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
