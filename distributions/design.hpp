@@ -3,7 +3,7 @@
 ///
 ///   u = design(run, name)  →  dependence between dispersions  →  quantile(u) = the value
 ///
-/// A dispersion sees only its own u; what couples several of them (dependence.hpp) works on one
+/// A dispersion sees only its own u; what couples several of them (copula.hpp) works on one
 /// run's u, between the design and the quantiles, and leaves each of them uniform.
 ///
 /// A design that stratifies is repeated independently, so that its error can be judged: of R

@@ -18,23 +18,24 @@ namespace wingspread {
 enum class Range { finite, positive, non_negative };
 
 /// A parameter of a law: its name in a campaign's file, where it lives, and what it may be.
-template <class Law, class Value> struct Parameter {
+template <class Law, class Value> struct LawParameter {
   std::string_view name;
   Value Law::*member;
   Range range = Range::finite; ///< of the value, or of each element
 };
 
-template <class Law, class Value> Parameter(const char*, Value Law::*) -> Parameter<Law, Value>;
 template <class Law, class Value>
-Parameter(const char*, Value Law::*, Range) -> Parameter<Law, Value>;
+LawParameter(const char*, Value Law::*) -> LawParameter<Law, Value>;
+template <class Law, class Value>
+LawParameter(const char*, Value Law::*, Range) -> LawParameter<Law, Value>;
 
 struct Normal {
   double mean = 0;
   double std = 1; ///< > 0
   static constexpr std::string_view type = "normal";
   static constexpr auto parameters() {
-    return std::array{Parameter{"mean", &Normal::mean},
-                      Parameter{"std", &Normal::std, Range::positive}};
+    return std::array{LawParameter{"mean", &Normal::mean},
+                      LawParameter{"std", &Normal::std, Range::positive}};
   }
 };
 
@@ -43,7 +44,8 @@ struct Uniform {
   double upper = 1; ///< > lower
   static constexpr std::string_view type = "uniform";
   static constexpr auto parameters() {
-    return std::array{Parameter{"lower", &Uniform::lower}, Parameter{"upper", &Uniform::upper}};
+    return std::array{LawParameter{"lower", &Uniform::lower},
+                      LawParameter{"upper", &Uniform::upper}};
   }
 };
 
@@ -53,8 +55,9 @@ struct Triangular {
   double upper = 1;  ///< > lower
   static constexpr std::string_view type = "triangular";
   static constexpr auto parameters() {
-    return std::array{Parameter{"lower", &Triangular::lower}, Parameter{"mode", &Triangular::mode},
-                      Parameter{"upper", &Triangular::upper}};
+    return std::array{LawParameter{"lower", &Triangular::lower},
+                      LawParameter{"mode", &Triangular::mode},
+                      LawParameter{"upper", &Triangular::upper}};
   }
 };
 
@@ -64,8 +67,8 @@ struct Lognormal {
   double sigma_log = 1; ///< standard deviation of Z, > 0
   static constexpr std::string_view type = "lognormal";
   static constexpr auto parameters() {
-    return std::array{Parameter{"mu_log", &Lognormal::mu_log},
-                      Parameter{"sigma_log", &Lognormal::sigma_log, Range::positive}};
+    return std::array{LawParameter{"mu_log", &Lognormal::mu_log},
+                      LawParameter{"sigma_log", &Lognormal::sigma_log, Range::positive}};
   }
 };
 
@@ -74,8 +77,8 @@ struct Weibull {
   double scale = 1; ///< > 0
   static constexpr std::string_view type = "weibull";
   static constexpr auto parameters() {
-    return std::array{Parameter{"shape", &Weibull::shape, Range::positive},
-                      Parameter{"scale", &Weibull::scale, Range::positive}};
+    return std::array{LawParameter{"shape", &Weibull::shape, Range::positive},
+                      LawParameter{"scale", &Weibull::scale, Range::positive}};
   }
 };
 
@@ -84,8 +87,8 @@ struct Gamma {
   double scale = 1; ///< > 0
   static constexpr std::string_view type = "gamma";
   static constexpr auto parameters() {
-    return std::array{Parameter{"shape", &Gamma::shape, Range::positive},
-                      Parameter{"scale", &Gamma::scale, Range::positive}};
+    return std::array{LawParameter{"shape", &Gamma::shape, Range::positive},
+                      LawParameter{"scale", &Gamma::scale, Range::positive}};
   }
 };
 
@@ -97,9 +100,9 @@ struct Beta {
   double upper = 1; ///< > lower
   static constexpr std::string_view type = "beta";
   static constexpr auto parameters() {
-    return std::array{Parameter{"alpha", &Beta::alpha, Range::positive},
-                      Parameter{"beta", &Beta::beta, Range::positive},
-                      Parameter{"lower", &Beta::lower}, Parameter{"upper", &Beta::upper}};
+    return std::array{LawParameter{"alpha", &Beta::alpha, Range::positive},
+                      LawParameter{"beta", &Beta::beta, Range::positive},
+                      LawParameter{"lower", &Beta::lower}, LawParameter{"upper", &Beta::upper}};
   }
 };
 
@@ -107,7 +110,7 @@ struct Exponential {
   double rate = 1; ///< > 0; the mean is 1/rate
   static constexpr std::string_view type = "exponential";
   static constexpr auto parameters() {
-    return std::array{Parameter{"rate", &Exponential::rate, Range::positive}};
+    return std::array{LawParameter{"rate", &Exponential::rate, Range::positive}};
   }
 };
 
@@ -117,8 +120,8 @@ struct Discrete {
   std::vector<double> weights; ///< ≥ 0, one for each value, not all zero; need not add up to 1
   static constexpr std::string_view type = "discrete";
   static constexpr auto parameters() {
-    return std::array{Parameter{"values", &Discrete::values},
-                      Parameter{"weights", &Discrete::weights, Range::non_negative}};
+    return std::array{LawParameter{"values", &Discrete::values},
+                      LawParameter{"weights", &Discrete::weights, Range::non_negative}};
   }
 };
 
@@ -128,13 +131,15 @@ struct Discrete {
 struct Empirical {
   std::vector<double> values;
   static constexpr std::string_view type = "empirical";
-  static constexpr auto parameters() { return std::array{Parameter{"values", &Empirical::values}}; }
+  static constexpr auto parameters() {
+    return std::array{LawParameter{"values", &Empirical::values}};
+  }
 };
 
 struct Constant {
   double value = 0;
   static constexpr std::string_view type = "constant";
-  static constexpr auto parameters() { return std::array{Parameter{"value", &Constant::value}}; }
+  static constexpr auto parameters() { return std::array{LawParameter{"value", &Constant::value}}; }
 };
 
 using ContinuousLaw =

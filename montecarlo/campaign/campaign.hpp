@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "distributions/dependence.hpp"
+#include "distributions/copula.hpp"
 #include "montecarlo/campaign/campaign_settings.hpp"
 #include "montecarlo/campaign/dispersion.hpp"
 #include "montecarlo/campaign/margin_spec.hpp"
@@ -11,20 +11,21 @@
 #include "montecarlo/campaign/stopping_rule.hpp"
 #include "montecarlo/formats/json_parse.hpp"
 
-#include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace wingspread {
 
+/// The key of a results file that holds its stamp: of no account to the campaign itself.
+inline constexpr const char* stamp_key = "wingspread";
+
 struct Campaign {
   Scene scene; ///< nominal
   std::vector<Dispersion> dispersions;
-  std::vector<RankCorrelation> correlations; ///< between dispersions; their matrix is possible
+  std::vector<RankCorrelation>
+      wanted_correlations; ///< between dispersions; their matrix is possible
   Sampling sampling;
   Integration integration;
   Outputs outputs = default_outputs();
@@ -36,35 +37,6 @@ struct Campaign {
   /// files. Reads back to the same campaign, wherever it is put.
   Json resolved;
 };
-
-/// @param directory that the files named in the text are relative to
-/// @param file      the name that problems carry
-/// @throws SpecError with all that is wrong
-[[nodiscard]] Campaign read_campaign(const std::string& text,
-                                     const std::filesystem::path& directory,
-                                     const std::string& file = "");
-
-/// @throws SpecError with all that is wrong
-[[nodiscard]] Campaign read_campaign_file(const std::filesystem::path& path);
-[[nodiscard]] Scene read_scene_file(const std::filesystem::path& path);
-
-/// Reads either, told apart by their keys: a campaign has a scene, a scene has bodies.
-/// @throws SpecError with all that is wrong
-[[nodiscard]] std::variant<Scene, Campaign> read_file(const std::filesystem::path& path);
-
-/// Replaces the number of runs and the seed, where given; `resolved` follows. @pre runs ≥ 1
-/// @throws SpecError when the runs are fewer than the design's replicates
-void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
-                       std::optional<std::uint64_t> seed);
-
-/// Replaces the widths at which it stops by those that stand here, and notes what is wrong with
-/// them; `resolved` follows.
-void override_stopping(Campaign& campaign, const JsonCursor& at);
-
-/// Reads requirements that stand in a file of their own, by the campaign's rules: an array.
-/// @throws SpecError with all that is wrong
-[[nodiscard]] std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
-                                                              const Campaign& campaign);
 
 /// At how many numbers of runs it may stop.
 [[nodiscard]] long count_looks(const Campaign& campaign);

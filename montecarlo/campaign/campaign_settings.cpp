@@ -53,7 +53,7 @@ void read_quantiles(const JsonCursor& at, std::vector<double>& quantiles) {
     if (!is_proper_share(*here))
       at.element(i).refuse("a number, > 0 and < 1");
     else if (std::find(quantiles.begin(), here, *here) != here)
-      at.element(i).refuse(at.element(i).value().dump() + " a second time", "each quantile once");
+      at.element(i).refuse_repeated("each quantile once");
   }
 }
 

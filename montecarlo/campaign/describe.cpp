@@ -91,7 +91,7 @@ std::string describe_distribution(const Distribution& distribution) {
 
 std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
   std::vector<std::string> targets;
-  for (const ParameterRef& target : dispersion.targets)
+  for (const SceneParameter& target : dispersion.targets)
     targets.push_back(fmt::format("{} (nominal {} {})", path_of(scene, target), target.in(scene),
                                   unit_of(target)));
   return fmt::format(
@@ -163,10 +163,8 @@ std::string describe_requirement(const Campaign& campaign, const Requirement& re
 }
 
 std::string describe_margin(const MarginSpec& margin, const Scene& scene) {
-  std::vector<std::string> paths;
-  for (const ParameterRef& parameter : margin.scaled) paths.push_back(path_of(scene, parameter));
-  return fmt::format("{} scaled by {} to {}, {}, {}", fmt::join(paths, ", "), margin.lower,
-                     margin.upper,
+  return fmt::format("{} scaled by {} to {}, {}, {}",
+                     fmt::join(paths_of(scene, margin.scaled), ", "), margin.lower, margin.upper,
                      margin.mode == MarginMode::joint ? "all together" : "hinge by hinge",
                      !margin.one_spring_out ? "no spring lost"
                      : margin.nominal       ? "with and without a spring lost"
@@ -207,9 +205,9 @@ std::string describe(const Campaign& campaign) {
                      counted(std::ssize(campaign.dispersions), "dispersion", "dispersions") + "\n";
   for (const Dispersion& dispersion : campaign.dispersions)
     text += fmt::format("  {}\n", describe_dispersion(campaign.scene, dispersion));
-  if (!campaign.correlations.empty())
-    text += counted(std::ssize(campaign.correlations), "correlation", "correlations") + "\n";
-  for (const RankCorrelation& correlation : campaign.correlations)
+  if (!campaign.wanted_correlations.empty())
+    text += counted(std::ssize(campaign.wanted_correlations), "correlation", "correlations") + "\n";
+  for (const RankCorrelation& correlation : campaign.wanted_correlations)
     text += fmt::format("  {}\n", describe_correlation(campaign, correlation));
   text += "sampling: " + describe_sampling(campaign.sampling) + "\n";
   text += "integration: " + describe_integration(campaign.integration) + "\n";

@@ -35,30 +35,6 @@ bool is_taken(const std::string& name) {
          *parse_output_name(name).unit != '\0';
 }
 
-/// The parameters that the path at the cursor names; a problem when there are none.
-std::vector<ParameterMatch> read_path(const JsonCursor& at, const Scene* scene) {
-  std::string path;
-  if (!at.read(path, "a string, the path of a parameter") || !scene) return {};
-  ParameterMatches found = resolve(*scene, path);
-  if (found.matches.empty()) at.refuse(found.expected);
-  return std::move(found.matches);
-}
-
-/// Adds what the paths of `to` name; a problem for each parameter named twice.
-void read_targets(const JsonCursor& to, const Scene* scene, std::vector<ParameterRef>& targets) {
-  if (!to.value().is_array() || to.value().empty()) {
-    to.refuse("an array of at least one parameter's path");
-    return;
-  }
-  for (const JsonCursor& path : to.elements())
-    for (const ParameterMatch& match : read_path(path, scene)) {
-      if (std::ranges::find(targets, match.parameter) == targets.end())
-        targets.push_back(match.parameter);
-      else
-        path.refuse(path_of(*scene, match.parameter) + " a second time", "each parameter once");
-    }
-}
-
 /// One copy of the dispersion for each match of `each`, named after the body or hinge.
 std::vector<Dispersion> expand(const JsonCursor& each, const Scene* scene,
                                const Dispersion& pattern) {
@@ -85,7 +61,7 @@ std::vector<Dispersion> read_targets(JsonObject& object, const Scene* scene,
   else if (each)
     return expand(*each, scene, dispersion);
   else if (to)
-    read_targets(*to, scene, dispersion.targets);
+    dispersion.targets = read_paths(*to, scene);
   return {std::move(dispersion)};
 }
 
@@ -128,9 +104,9 @@ void check_names(const std::vector<Sourced>& all) {
 
 /// Notes each dispersion that sets a parameter which one before it has written.
 void check_order(const std::vector<Sourced>& all, const Scene& scene) {
-  std::map<ParameterRef, std::string> writers;
+  std::map<SceneParameter, std::string> writers;
   for (const auto& [dispersion, at] : all)
-    for (const ParameterRef& target : dispersion.targets) {
+    for (const SceneParameter& target : dispersion.targets) {
       const auto [writer, first] = writers.emplace(target, dispersion.name);
       if (!first && dispersion.apply == Apply::set)
         at.refuse(fmt::format("\"set\" of {}, which \"{}\" has written before",

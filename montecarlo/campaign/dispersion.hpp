@@ -2,7 +2,7 @@
 #pragma once
 
 #include "distributions/distribution.hpp"
-#include "montecarlo/campaign/parameter.hpp"
+#include "montecarlo/campaign/scene_parameter.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 
 #include <array>
@@ -24,7 +24,7 @@ struct Dispersion {
   std::string name; ///< of the draw: its column, and its random stream
   Distribution distribution;
   Apply apply = Apply::set;
-  std::vector<ParameterRef> targets;
+  std::vector<SceneParameter> targets;
 };
 
 struct Dispersions {

@@ -58,24 +58,6 @@ Json write_keys(const std::array<Key<Owner>, n>& keys, const Owner& owner) {
   return json;
 }
 
-std::vector<ParameterRef> read_scaled(const JsonCursor& at, const Scene* scene) {
-  std::vector<ParameterRef> scaled;
-  if (!at.value().is_array() || at.value().empty())
-    at.refuse("an array of at least one parameter's path");
-  for (const JsonCursor& element : at.elements()) {
-    std::string path;
-    if (!element.read(path, "a string, the path of a parameter") || !scene) continue;
-    const ParameterMatches found = resolve(*scene, path);
-    if (found.matches.empty()) element.refuse(found.expected);
-    for (const ParameterMatch& match : found.matches)
-      if (std::ranges::find(scaled, match.parameter) == scaled.end())
-        scaled.push_back(match.parameter);
-      else
-        element.refuse(path_of(*scene, match.parameter) + " a second time", "each parameter once");
-  }
-  return scaled;
-}
-
 void read_range(const JsonCursor& at, MarginSpec& margin) {
   std::vector<double> range;
   if (!at.read(range, expected_range)) return;
@@ -91,7 +73,7 @@ void read_cases(const JsonCursor& at, MarginSpec& margin) {
   std::set<std::size_t> cases;
   for (const JsonCursor& element : at.elements())
     if (const auto index = element.choice(case_names); index && !cases.insert(*index).second)
-      element.refuse(describe_value(element.value()) + " a second time", "each case once");
+      element.refuse_repeated("each case once");
   margin.nominal = cases.contains(0);
   margin.one_spring_out = cases.contains(1);
 }
@@ -145,10 +127,10 @@ Json write_motorization(const MotorizationSpec& spec, const Scene& scene) {
 }
 
 void refuse_unusable(const JsonCursor& at, const MarginSpec& margin, const Scene& scene) {
-  const auto of_hinge = [](const ParameterRef& parameter) {
-    return parameter.owner == ParameterRef::Owner::hinge;
+  const auto of_hinge = [](const SceneParameter& parameter) {
+    return parameter.owner == SceneParameter::Owner::hinge;
   };
-  const auto is_spring = [&](const ParameterRef& parameter) {
+  const auto is_spring = [&](const SceneParameter& parameter) {
     const auto torques = spring_torques(scene, parameter.index);
     return of_hinge(parameter) && std::ranges::find(torques, parameter) != torques.end();
   };
@@ -161,8 +143,8 @@ void refuse_unusable(const JsonCursor& at, const MarginSpec& margin, const Scene
 
 } // namespace
 
-std::vector<ParameterRef> spring_torques(const Scene& scene, int hinge) {
-  std::vector<ParameterRef> torques;
+std::vector<SceneParameter> spring_torques(const Scene& scene, int hinge) {
+  std::vector<SceneParameter> torques;
   for (const char* path : {"hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"})
     for (const ParameterMatch& match : resolve(scene, path).matches)
       if (match.parameter.index == hinge) torques.push_back(match.parameter);
@@ -175,7 +157,7 @@ MarginSpec read_margin(const JsonCursor& at, const Scene* scene) {
   const std::size_t before = at.problems().size();
   JsonObject object(at, "what to size: an object");
   if (const auto scale = object.require("scale", "the paths of the parameters to size"))
-    margin.scaled = read_scaled(*scale, scene);
+    margin.scaled = read_paths(*scale, scene);
   if (const auto range = object.require("range", expected_range)) read_range(*range, margin);
   object.optional_choice("mode", margin.mode, margin_mode_names);
   const std::string points = fmt::format("an integer from 2 to {}", most_points);
@@ -191,11 +173,10 @@ MarginSpec read_margin(const JsonCursor& at, const Scene* scene) {
 }
 
 Json write_margin(const MarginSpec& margin, const Scene& scene) {
-  Json scale = Json::array(), cases = Json::array();
-  for (const ParameterRef& parameter : margin.scaled) scale.push_back(path_of(scene, parameter));
+  Json cases = Json::array();
   if (margin.nominal) cases.push_back(case_names[0]);
   if (margin.one_spring_out) cases.push_back(case_names[1]);
-  return {{"scale", scale},
+  return {{"scale", paths_of(scene, margin.scaled)},
           {"range", {margin.lower, margin.upper}},
           {"mode", margin_mode_names[static_cast<std::size_t>(margin.mode)]},
           {"points", margin.points},

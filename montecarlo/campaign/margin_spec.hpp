@@ -10,8 +10,8 @@
 ///                                   "points": 21 } }
 #pragma once
 
-#include "montecarlo/campaign/motorization.hpp"
-#include "montecarlo/campaign/parameter.hpp"
+#include "montecarlo/campaign/motorization_factors.hpp"
+#include "montecarlo/campaign/scene_parameter.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 
 #include <array>
@@ -42,8 +42,8 @@ struct MotorizationSpec {
 };
 
 struct MarginSpec {
-  std::vector<ParameterRef> scaled; ///< each once, in the order given; at least one
-  double lower = 0, upper = 0;      ///< of the scale: 0 < lower < upper
+  std::vector<SceneParameter> scaled; ///< each once, in the order given; at least one
+  double lower = 0, upper = 0;        ///< of the scale: 0 < lower < upper
   MarginMode mode = MarginMode::joint;
   std::int64_t points = 13;           ///< scales looked at first, from end to end, ≥ 2
   double edge_tolerance = 0.01;       ///< how closely an edge is located, relative, in (0, 1)
@@ -60,6 +60,6 @@ struct MarginSpec {
 [[nodiscard]] Json write_margin(const MarginSpec& margin, const Scene& scene);
 
 /// The torques of a hinge's spring, stowed and latched.
-[[nodiscard]] std::vector<ParameterRef> spring_torques(const Scene& scene, int hinge);
+[[nodiscard]] std::vector<SceneParameter> spring_torques(const Scene& scene, int hinge);
 
 } // namespace wingspread

@@ -75,7 +75,7 @@ void read_outputs(const JsonCursor& at, Outputs& outputs) {
   for (const JsonCursor& element : at.elements()) {
     const auto index = element.choice(output_family_names);
     if (index && !outputs.insert(static_cast<OutputFamily>(*index)).second)
-      element.refuse(describe_value(element.value()) + " a second time", "each family once");
+      element.refuse_repeated("each family once");
   }
 }
 

@@ -1,3 +1,4 @@
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/campaign/describe.hpp"
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/command_options.hpp"
@@ -6,7 +7,7 @@
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/runs/run_plan.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
@@ -21,7 +22,7 @@ namespace {
 struct MarginOptions {
   std::filesystem::path campaign, out;
   SamplingOptions sampling;
-  int threads = 0;
+  CrewOptions crew;
   bool json = false;
 };
 
@@ -62,14 +63,9 @@ int conclude(const Campaign& campaign, const MarginResult& result) {
                                    "more runs, or a point further from what they break",
                                    result.confirmation_seed)
                      : "no scale of the springs in the range meets all requirements");
-  if (result.failed > 0) {
-    fmt::print(stderr,
-               "error: {} of {} runs failed numerically, and count against every "
-               "requirement\n",
-               result.failed, result.runs);
-    return exit_code::failed_runs;
-  }
-  return is_met(result) ? exit_code::done : exit_code::not_met;
+  const int code =
+      report_failed(result.failed, result.runs, ", and count against every requirement");
+  return code != exit_code::done || is_met(result) ? code : exit_code::not_met;
 }
 
 int margin(const MarginOptions& options) {
@@ -77,12 +73,13 @@ int margin(const MarginOptions& options) {
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   refuse_used_folder(options.out, "a new or an empty folder");
   const Interrupt interrupt;
+  ThreadEvaluator evaluator(crew_of(options.crew), interrupt.flag());
   Progress progress(stderr);
   MarginResult result;
   try {
     find_margin(
-        campaign, options.threads, interrupt.flag(),
-        [&](long made) { progress.show({.done = made, .total = made + 1}); }, result);
+        campaign, evaluator, [&](long made) { progress.show({.done = made, .total = made + 1}); },
+        result);
   } catch (const Stopped&) {
     make_folder(options.out);
     write_file(options.out / margin_csv_file, margin_csv(campaign, result));
@@ -91,9 +88,7 @@ int margin(const MarginOptions& options) {
     return exit_code::interrupted;
   }
   const MarginReport report{campaign, result, motorization_of(campaign, result)};
-  const Stamp stamp = stamp_of(campaign, {});
-  const Json about{{"version", stamp.version}, {"seed", stamp.seed}, {"hash", stamp.hash}};
-  const std::string json = json_text(margin_json(report, about));
+  const std::string json = json_text(margin_json(report, stamp_json(stamp_of(campaign, {}))));
   make_folder(options.out);
   write_file(options.out / margin_json_file, json);
   write_file(options.out / margin_csv_file, margin_csv(campaign, result));
@@ -113,7 +108,7 @@ void add_margin(CLI::App& app, Action& action) {
   command->add_option("--out", options->out, "The folder for the results: new, or empty")
       ->required();
   add_sampling_options(*command, options->sampling);
-  add_threads_option(*command, options->threads);
+  add_crew_options(*command, options->crew);
   command->add_flag("--json", options->json, "Print JSON in place of the report");
   command->footer(
       R"(Scales what the campaign's "margin" names, runs the same draws at every scale, judges the

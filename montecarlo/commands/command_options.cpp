@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -33,6 +34,25 @@ std::string refuse_seed(const std::string& text) {
   return fmt::format("found {}, expected an integer from 0 to 2^64 - 1", text);
 }
 
+/// The one asked for; refused where this processor has not got it.
+InstructionSet instruction_set(const std::string& name, int lanes) {
+  const std::vector<InstructionSet>& sets = instruction_sets();
+  const auto fits = [&](InstructionSet set) {
+    return (name.empty() || name == to_string(set)) && (lanes == 0 || lanes == lanes_of(set));
+  };
+  const auto found = std::find_if(sets.rbegin(), sets.rend(), fits);
+  if (found != sets.rend()) return *found;
+  std::vector<std::string> offered;
+  for (const InstructionSet set : sets)
+    offered.push_back(fmt::format("{} ({})", to_string(set), lanes_of(set)));
+  throw CLI::ValidationError(
+      name.empty()
+          ? fmt::format("--lanes {}", lanes)
+          : fmt::format("--isa {}{}", name, lanes ? fmt::format(" --lanes {}", lanes) : ""),
+      fmt::format("this processor has not got that; it offers (lanes): {}",
+                  fmt::join(offered, ", ")));
+}
+
 std::string title(const StoredCampaign& stored, const Summary& summary) {
   const Campaign& campaign = stored.campaign;
   std::string text = fmt::format("{} · {} runs · {}, seed {}", campaign.scene.name, summary.runs,
@@ -52,11 +72,6 @@ void print_histograms(const Summary& summary) {
   for (const OutputSummary& output : summary.outputs)
     fmt::print("\n{}", draw_histogram(output.name, parse_output_name(output.name).unit,
                                       output.histogram, table_width));
-}
-
-long count_failed(const Summary& summary) {
-  const auto found = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
-  return found == summary.statuses.end() ? 0 : found->count;
 }
 
 /// Says which requirements are not met. @return whether all are
@@ -86,11 +101,25 @@ void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
       ->type_name("N");
 }
 
-void add_threads_option(CLI::App& command, int& threads) {
+void add_crew_options(CLI::App& command, CrewOptions& options) {
   constexpr int most_threads = 1024;
-  command.add_option("--threads", threads, "How many threads; all processors if left out")
+  command.add_option("--threads", options.threads, "How many threads; all processors if left out")
       ->check(CLI::Range(1, most_threads).description(""))
       ->type_name("N");
+  command
+      .add_option("--lanes", options.lanes,
+                  "How many runs a thread makes at once: 1, 2, 4 or 8; else the most")
+      ->check(CLI::IsMember({1, 2, 4, 8}).description(""))
+      ->type_name("L");
+  command
+      .add_option("--isa", options.isa,
+                  "Instructions: scalar, neon, avx2 or avx512; else the widest")
+      ->check(CLI::IsMember({"scalar", "neon", "avx2", "avx512"}).description(""))
+      ->type_name("NAME");
+}
+
+Crew crew_of(const CrewOptions& options) {
+  return {options.threads, instruction_set(options.isa, options.lanes)};
 }
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {
@@ -107,6 +136,12 @@ void add_display_options(CLI::App& command, Display& display) {
                    "Print the table, and each output's histogram below it");
 }
 
+int report_failed(long failed, long runs, std::string_view consequence) {
+  if (failed == 0) return exit_code::done;
+  fmt::print(stderr, "error: {} of {} runs failed numerically{}\n", failed, runs, consequence);
+  return exit_code::failed_runs;
+}
+
 int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display) {
   if (display.table || display.histograms || is_terminal(stdout)) {
     fmt::print("{}", summary_table(summary, title(stored, summary), stored.folder.string()));
@@ -117,11 +152,11 @@ int show_results(const StoredCampaign& stored, const Summary& summary, const Dis
       fmt::print("{}\n", (stored.folder / file).string());
   }
   const bool met = stored.stamp.shard || report_requirements(summary);
-  const long failed = count_failed(summary);
-  if (failed == 0) return met ? exit_code::done : exit_code::not_met;
-  fmt::print(stderr, "error: {} of {} runs failed numerically; {} has their reasons\n", failed,
-             summary.runs, (stored.folder / summary_file).string());
-  return exit_code::failed_runs;
+  const auto failed = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
+  const int code =
+      report_failed(failed->count, summary.runs,
+                    fmt::format("; {} has their reasons", (stored.folder / summary_file).string()));
+  return code != exit_code::done || met ? code : exit_code::not_met;
 }
 
 } // namespace wingspread

@@ -1,3 +1,4 @@
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
@@ -26,6 +27,7 @@ struct RareCommandOptions {
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
   RareOptions rare;
+  CrewOptions crew;
   bool json = false;
 };
 
@@ -52,10 +54,7 @@ int warn_of_failures(const RareResult& result) {
   if (invalid > 0)
     fmt::print(stderr, "warning: {} of {} runs had an unphysical draw, and count as the event\n",
                invalid, result.estimate.evaluations);
-  if (failed == 0) return exit_code::done;
-  fmt::print(stderr, "error: {} of {} runs failed numerically, and count as the event\n", failed,
-             result.estimate.evaluations);
-  return exit_code::failed_runs;
+  return report_failed(failed, result.estimate.evaluations, ", and count as the event");
 }
 
 void warn_if_doubtful(const RareResult& result) {
@@ -78,13 +77,13 @@ int rare(const RareCommandOptions& given) {
   override_settings(settings, [&](const JsonCursor& at) { read_statistics(at, spec); });
   options.confidence = spec.confidence;
   const Interrupt interrupt;
+  ThreadEvaluator evaluator(crew_of(given.crew), interrupt.flag());
   Progress progress(stderr);
   try {
-    const RareResult result =
-        estimate_rare_event(campaign, options, interrupt.flag(),
-                            [&](long made) { progress.show({.done = made, .total = made + 1}); });
-    const Stamp stamp = stamp_of(campaign, {});
-    const Json about{{"version", stamp.version}, {"seed", stamp.seed}, {"hash", stamp.hash}};
+    const RareResult result = estimate_rare_event(campaign, options, evaluator, [&](long made) {
+      progress.show({.done = made, .total = made + 1});
+    });
+    const Json about = stamp_json(stamp_of(campaign, {}));
     fmt::print("{}", given.json ? json_text(rare_json(result, options, campaign, about))
                                 : rare_text(result, options, campaign));
     warn_if_doubtful(result);
@@ -119,7 +118,7 @@ void add_rare(CLI::App& app, Action& action) {
       ->type_name("R");
   add_seed_option(*command, options->seed);
   command->add_option("--confidence", options->confidence, "Of the bounds, e.g. 0.99");
-  add_threads_option(*command, options->rare.threads);
+  add_crew_options(*command, options->crew);
   command->add_flag("--json", options->json, "Print JSON in place of text");
   command->footer(
       R"(Subset simulation: runs that came nearest to the event are the start of chains that go nearer

@@ -1,3 +1,4 @@
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/folder/merge.hpp"

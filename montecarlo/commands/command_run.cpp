@@ -1,3 +1,4 @@
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
@@ -23,9 +24,7 @@ namespace {
 struct RunOptions {
   std::filesystem::path campaign, out;
   SamplingOptions sampling;
-  int threads = 0;
-  int lanes = 0;   ///< 0: as the instruction set has
-  std::string isa; ///< none: the widest
+  CrewOptions crew;
   bool resume = false;
   std::string shard;
   std::vector<std::string> until;
@@ -49,39 +48,20 @@ std::string refuse_shard(const std::string& text) {
   return fmt::format("found {}, expected I/N with whole numbers 1 ≤ I ≤ N ≤ {}", text, most_shards);
 }
 
-/// The one asked for; refused where this processor has not got it.
-InstructionSet instruction_set(const std::string& name, int lanes) {
-  const std::vector<InstructionSet>& sets = instruction_sets();
-  const auto fits = [&](InstructionSet set) {
-    return (name.empty() || name == to_string(set)) && (lanes == 0 || lanes == lanes_of(set));
-  };
-  const auto found = std::find_if(sets.rbegin(), sets.rend(), fits);
-  if (found != sets.rend()) return *found;
-  std::vector<std::string> offered;
-  for (const InstructionSet set : sets)
-    offered.push_back(fmt::format("{} ({})", to_string(set), lanes_of(set)));
-  throw CLI::ValidationError(
-      name.empty()
-          ? fmt::format("--lanes {}", lanes)
-          : fmt::format("--isa {}{}", name, lanes ? fmt::format(" --lanes {}", lanes) : ""),
-      fmt::format("this processor has not got that; it offers (lanes): {}",
-                  fmt::join(offered, ", ")));
-}
-
 std::string host_name() {
   char name[256] = {};
   return gethostname(name, sizeof name - 1) == 0 ? name : "";
 }
 
 /// timing.json: what this session did and on what.
-std::string timing_text(const Tally& tally, double seconds, int threads, InstructionSet set,
+std::string timing_text(const Tally& tally, double seconds, const Crew& crew,
                         const Occupancy& lanes, bool interrupted) {
   const long made = tally.done - tally.before;
   return json_text({{"host", host_name()},
                     {"processors", std::thread::hardware_concurrency()},
-                    {"threads", threads},
-                    {"instruction_set", to_string(set)},
-                    {"lanes", lanes_of(set)},
+                    {"threads", team_size(crew.threads)},
+                    {"instruction_set", to_string(crew.set)},
+                    {"lanes", lanes_of(crew.set)},
                     {"lane_occupancy", lanes.tries > 0 ? Json(static_cast<double>(lanes.busy) /
                                                               static_cast<double>(lanes.tries))
                                                        : Json()},
@@ -105,7 +85,7 @@ void count(const Batch& batch, Tally& tally) {
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
-bool make_remaining(FolderWriter& folder, const RunPlan& plan, int threads, InstructionSet set) {
+bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew) {
   const Interrupt interrupt;
   Tally tally{.total = folder.stored().runs().size()};
   count(folder.results(), tally);
@@ -117,16 +97,15 @@ bool make_remaining(FolderWriter& folder, const RunPlan& plan, int threads, Inst
     count(batch, tally);
     progress.show(tally);
   };
-  Occupancy lanes;
+  ThreadEvaluator evaluator(crew, interrupt.flag());
   bool interrupted = false;
   while (!interrupted) {
     const RunRange remaining = folder.remaining();
     if (remaining.size() == 0) break;
-    const long made = make_runs(plan, remaining, threads, interrupt.flag(), keep, set, &lanes);
-    interrupted = made < remaining.size();
+    interrupted = evaluator.make(plan, remaining, {keep, true}) < remaining.size();
   }
   write_file(folder.stored().folder / timing_file,
-             timing_text(tally, progress.seconds(), team_size(threads), set, lanes, interrupted));
+             timing_text(tally, progress.seconds(), crew, evaluator.occupancy(), interrupted));
   return interrupted;
 }
 
@@ -147,16 +126,16 @@ std::string refuse_until(const std::string& text) {
 }
 
 int run(const RunOptions& options) {
-  const InstructionSet set = instruction_set(options.isa, options.lanes);
+  const Crew crew = crew_of(options.crew);
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   override_until(campaign, options.until);
   const RunPlan plan(campaign);
   FolderWriter folder(options.out, plan, parse_shard(options.shard), options.resume);
-  const bool interrupted = make_remaining(folder, plan, options.threads, set);
+  const bool interrupted = make_remaining(folder, plan, crew);
   const StoredCampaign& stored = folder.stored();
   const Summary summary =
-      write_statistics(stored, folder.results(), campaign.statistics, options.threads);
+      write_statistics(stored, folder.results(), campaign.statistics, crew.threads);
   const int shown = show_results(stored, summary, options.display);
   if (!interrupted) return shown;
   fmt::print(stderr,
@@ -173,17 +152,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
   command->add_option("--out", options->out, "The results folder: new, or empty")->required();
   add_sampling_options(*command, options->sampling);
-  add_threads_option(*command, options->threads);
-  command
-      ->add_option("--lanes", options->lanes,
-                   "How many runs a thread makes at once: 1, 2, 4 or 8; else the most")
-      ->check(CLI::IsMember({1, 2, 4, 8}).description(""))
-      ->type_name("L");
-  command
-      ->add_option("--isa", options->isa,
-                   "Instructions: scalar, neon, avx2 or avx512; else the widest")
-      ->check(CLI::IsMember({"scalar", "neon", "avx2", "avx512"}).description(""))
-      ->type_name("NAME");
+  add_crew_options(*command, options->crew);
   command->add_flag("--resume", options->resume,
                     "Go on where an earlier run into the folder stopped");
   command->add_option("--shard", options->shard, "Only part I of N of the runs, e.g. 2/5")

@@ -1,3 +1,4 @@
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
@@ -24,7 +25,7 @@ struct SensitivityOptions {
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
   long resamples = 1000;
-  int threads = 0;
+  CrewOptions crew;
   bool resume = false, json = false;
 };
 
@@ -51,13 +52,6 @@ double confidence_of(const SensitivityOptions& options, StatisticsSpec spec) {
   return spec.confidence;
 }
 
-int report_failed(const Results& results) {
-  const auto failed = std::ranges::count(results.status, Status::failed);
-  if (failed > 0)
-    fmt::print(stderr, "error: {} of {} runs failed numerically\n", failed, results.size());
-  return failed > 0 ? exit_code::failed_runs : exit_code::done;
-}
-
 /// Prints the analysis, and writes its two files where there is a folder.
 template <class Sensitivity>
 void show(const Sensitivity& all, const Json& about, const std::string& title,
@@ -76,9 +70,9 @@ int rank(const SensitivityOptions& options) {
   const StoredCampaign stored = read_stored_campaign(options.from);
   const Results results = read_stored_results(stored).results;
   const double confidence = confidence_of(options, stored.campaign.statistics);
-  const Json about{
-      {"version", stored.stamp.version}, {"seed", stored.stamp.seed}, {"hash", stored.stamp.hash}};
-  show(rank_sensitivity(results, confidence), about,
+  Stamp stamp = stored.stamp;
+  stamp.shard.reset();
+  show(rank_sensitivity(results, confidence), stamp_json(stamp),
        fmt::format("{} · {} runs · rank correlations", stored.campaign.scene.name, results.size()),
        options.from, options.json);
   return exit_code::done;
@@ -90,11 +84,12 @@ int sobol(const SaltelliDesign& design, const Results& results, const Sensitivit
   const std::string kind(design_names[static_cast<std::size_t>(sampling.design)]);
   const Bootstrap bootstrap{options.resamples, confidence_of(options, design.campaign.statistics),
                             sampling.seed};
-  show(sobol_sensitivity(results, design.rows, kind, bootstrap), stamp_json(design),
+  show(sobol_sensitivity(results, design.rows, kind, bootstrap), stamp_json(stamp_of(design)),
        fmt::format("{} · {} samples, {} runs · {}, seed {} · Sobol' indices",
                    design.campaign.scene.name, design.rows, results.size(), kind, sampling.seed),
        folder, options.json);
-  return report_failed(results);
+  return report_failed(std::ranges::count(results.status, Status::failed),
+                       std::ssize(results.runs));
 }
 
 int sobol_again(const SensitivityOptions& options) {
@@ -105,18 +100,22 @@ int sobol_again(const SensitivityOptions& options) {
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
-bool make_runs_of(const RunPlan& plan, RunRange remaining, int threads, const BatchSink& sink) {
+bool make_runs_of(const RunPlan& plan, RunRange remaining, const Crew& crew,
+                  const BatchSink& sink) {
   const Interrupt interrupt;
   Progress progress(stderr);
   Tally tally{.done = remaining.first, .total = remaining.last, .before = remaining.first};
-  return make_runs(plan, remaining, threads, interrupt.flag(), [&](const Batch& batch) {
-           sink(batch);
-           tally.done += std::ssize(batch.rows);
-           progress.show(tally);
-         }) < remaining.size();
+  const auto keep = [&](const Batch& batch) {
+    sink.take(batch);
+    tally.done += std::ssize(batch.rows);
+    progress.show(tally);
+  };
+  return ThreadEvaluator(crew, interrupt.flag()).make(plan, remaining, {keep, sink.wants_csv}) <
+         remaining.size();
 }
 
 int sobol_new(const SensitivityOptions& options) {
+  const Crew crew = crew_of(options.crew);
   SaltelliDesign design{read_campaign_file(options.from), options.samples.value_or(1000)};
   override_sampling(design.campaign, std::nullopt, options.seed);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
@@ -124,12 +123,12 @@ int sobol_new(const SensitivityOptions& options) {
   std::optional<DesignFolderWriter> folder;
   if (!options.out.empty()) folder.emplace(options.out, design, plan, options.resume);
   Results own(plan.names());
-  const BatchSink sink = [&](const Batch& batch) {
+  const auto keep = [&](const Batch& batch) {
     if (folder) return folder->add(batch);
     for (const ResultRow& row : batch.rows) own.append(row);
   };
   const Results& results = folder ? folder->results() : own;
-  if (make_runs_of(plan, {std::ssize(results.runs), runs}, options.threads, sink)) {
+  if (make_runs_of(plan, {std::ssize(results.runs), runs}, crew, {keep, folder.has_value()})) {
     fmt::print(stderr, "interrupted: {}\n",
                folder
                    ? fmt::format("{} of {} runs are kept; the same command with --resume goes on",
@@ -166,7 +165,7 @@ void add_sensitivity(CLI::App& app, Action& action) {
   command->add_option("--out", options->out,
                       "Of a campaign's file: the folder to keep its runs in");
   command->add_flag("--resume", options->resume, "Go on where an earlier run into it stopped");
-  add_threads_option(*command, options->threads);
+  add_crew_options(*command, options->crew);
   command->add_flag("--json", options->json, "Print JSON in place of the table");
   command->footer(
       R"(From a results folder: Spearman's and partial rank correlations of every output with every

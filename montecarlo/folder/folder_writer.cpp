@@ -29,7 +29,8 @@ std::string fixed_runs(const Sampling& sampling) {
 }
 
 /// Refuses to mix the rows of two campaigns, seeds, shards or versions.
-void refuse_other(const StoredCampaign& there, const Campaign& campaign, const Stamp& stamp) {
+void refuse_other_campaign(const StoredCampaign& there, const Campaign& campaign,
+                           const Stamp& stamp) {
   std::vector<Problem> problems;
   const auto compare = [&](const char* key, const std::string& found, const std::string& ours) {
     if (found != ours)
@@ -73,7 +74,7 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
   if (!resume)
     refuse_used_folder(stored_.folder, "a new or an empty folder (--resume continues a campaign)");
   if (!fresh) {
-    refuse_other(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);
+    refuse_other_campaign(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);
     rows_.go_on_behind(read_stored_results(stored_), stored_.runs().first);
   } else {
     make_folder(stored_.folder);

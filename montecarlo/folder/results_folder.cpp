@@ -1,6 +1,6 @@
 #include "montecarlo/folder/results_folder.hpp"
 
-#include "montecarlo/folder/version.hpp"
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
@@ -15,41 +15,6 @@
 
 namespace wingspread {
 namespace {
-
-constexpr const char* stamp_key = "wingspread";
-constexpr const char* stamp_expected = "what `wingspread run` wrote: version, seed and hash";
-
-Json write_stamp(const Stamp& stamp) {
-  Json json{{"version", stamp.version}, {"seed", stamp.seed}, {"hash", stamp.hash}};
-  if (stamp.shard) json["shard"] = {{"index", stamp.shard->index}, {"of", stamp.shard->of}};
-  return json;
-}
-
-void read_shard(const JsonCursor& at, std::optional<Shard>& shard) {
-  JsonObject object(at, "an object with index and of");
-  std::int64_t index = 0, of = 0;
-  object.required("index", index, "an integer, ≥ 1");
-  object.required("of", of, "an integer, ≥ index");
-  object.refuse_others();
-  if (index >= 1 && index <= of && of <= most_shards)
-    shard = {index, of};
-  else if (object.is_object())
-    at.refuse(fmt::format("{} of {}", index, of), "1 ≤ index ≤ of");
-}
-
-Stamp read_stamp(const JsonCursor& document) {
-  Stamp stamp;
-  JsonObject campaign(document, "a campaign: an object");
-  const auto at = campaign.require(stamp_key, stamp_expected);
-  if (!at) return stamp;
-  JsonObject object(*at, stamp_expected);
-  object.required("version", stamp.version, "a string, the program's version");
-  object.required("seed", stamp.seed, "an integer from 0 to 2^64 - 1");
-  object.required("hash", stamp.hash, "a string, the campaign's hash");
-  if (const auto shard = object.find("shard")) read_shard(*shard, stamp.shard);
-  object.refuse_others();
-  return stamp;
-}
 
 std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
   std::filesystem::path path = folder / campaign_file;
@@ -80,7 +45,7 @@ Replication replication_of(const Sampling& sampling, const Results& results) {
 
 /// The stamp for summary.json, which also says when runs are missing.
 Json about(const StoredCampaign& stored, const Summary& summary) {
-  Json json = write_stamp(stored.stamp);
+  Json json = stamp_json(stored.stamp);
   if (stored.foreign) json["foreign"] = true;
   if (summary.runs < stored.runs().size() && !summary.stopped)
     json["partial"] = {{"done", summary.runs}, {"of", stored.runs().size()}};
@@ -138,23 +103,8 @@ StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be
 
 } // namespace
 
-RunRange shard_runs(long runs, const std::optional<Shard>& shard) {
-  if (!shard) return {0, runs};
-  const long whole = runs / shard->of, rest = runs % shard->of; // i·runs itself could overflow
-  const auto end = [&](long i) { return i * whole + i * rest / shard->of; };
-  return {end(shard->index - 1), end(shard->index)};
-}
-
-Stamp stamp_of(const Campaign& campaign, const std::optional<Shard>& shard) {
-  return {std::string(version()), campaign.sampling.seed, campaign_hash(campaign.resolved), shard};
-}
-
-std::string describe(const std::optional<Shard>& shard) {
-  return shard ? fmt::format("shard {}/{}", shard->index, shard->of) : "all runs";
-}
-
 std::string campaign_text(const Campaign& campaign, const Stamp& stamp) {
-  Json json{{stamp_key, write_stamp(stamp)}};
+  Json json{{stamp_key, stamp_json(stamp)}};
   for (const auto& [key, value] : campaign.resolved.items())
     if (key != stamp_key) json[key] = value;
   return json_text(json);

@@ -7,7 +7,8 @@
 #pragma once
 
 #include "montecarlo/campaign/campaign.hpp"
-#include "montecarlo/runs/engine.hpp"
+#include "montecarlo/folder/stamp.hpp"
+#include "montecarlo/runs/evaluator.hpp"
 #include "montecarlo/runs/results.hpp"
 #include "montecarlo/summary/summary.hpp"
 
@@ -24,32 +25,6 @@ inline constexpr const char* timing_file = "timing.json";
 inline constexpr const char* summary_file = "summary.json";
 inline constexpr const char* histograms_json_file = "histograms.json";
 inline constexpr const char* histograms_csv_file = "histograms.csv";
-
-/// Part `index` of `of`, counted from 1.
-struct Shard {
-  long index = 1, of = 1;
-  bool operator==(const Shard&) const = default;
-};
-inline constexpr long most_shards = 1'000'000;
-
-/// Its runs of R: from ⌊(I − 1)R/N⌋ up to, not including, ⌊I·R/N⌋. All of them without a shard.
-/// @pre 1 ≤ index ≤ of ≤ most_shards
-[[nodiscard]] RunRange shard_runs(long runs, const std::optional<Shard>& shard);
-
-/// What identifies a folder: the value of "wingspread" in campaign.json and summary.json.
-struct Stamp {
-  std::string version; ///< of the program
-  std::uint64_t seed = 0;
-  std::string hash; ///< of the campaign; the same for all of its shards
-  std::optional<Shard> shard;
-  bool operator==(const Stamp&) const = default;
-};
-
-/// That of the campaign as this program runs it.
-[[nodiscard]] Stamp stamp_of(const Campaign& campaign, const std::optional<Shard>& shard);
-
-/// "shard 2/5", or "all runs".
-[[nodiscard]] std::string describe(const std::optional<Shard>& shard);
 
 /// campaign.json's text.
 [[nodiscard]] std::string campaign_text(const Campaign& campaign, const Stamp& stamp);

@@ -1,7 +1,7 @@
 /// Rows that come batch by batch: kept for the statistics, and appended to their file.
 #pragma once
 
-#include "montecarlo/runs/engine.hpp"
+#include "montecarlo/runs/evaluator.hpp"
 #include "montecarlo/runs/results.hpp"
 
 #include <filesystem>

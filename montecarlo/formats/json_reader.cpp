@@ -100,6 +100,14 @@ bool JsonCursor::refuse(std::string_view found, std::string_view expected,
   return false;
 }
 
+bool JsonCursor::refuse_repeated(std::string_view expected) const {
+  return refuse_repeated(describe_value(*value_), expected);
+}
+
+bool JsonCursor::refuse_repeated(std::string_view what, std::string_view expected) const {
+  return refuse(fmt::format("{} a second time", what), expected);
+}
+
 bool JsonCursor::read(double& out, std::string_view expected) const {
   if (!value_->is_number() || !std::isfinite(value_->get<double>())) return refuse(expected);
   out = value_->get<double>();

@@ -52,6 +52,10 @@ public:
   bool refuse(std::string_view expected) const;
   bool refuse(std::string_view found, std::string_view expected, std::string_view below = "") const;
 
+  /// The same for a value that is there before: "3 a second time".
+  bool refuse_repeated(std::string_view expected) const;
+  bool refuse_repeated(std::string_view what, std::string_view expected) const;
+
   /// Reads the value. When it is of another type, or an integer out of its type's range, notes the
   /// problem, leaves `out` as it was and returns false.
   bool read(double& out, std::string_view expected) const;

@@ -1,6 +1,6 @@
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/margin/margin_report.hpp"
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/runs/run_plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,9 @@ public:
   [[nodiscard]] Json json() const {
     const auto windows = windows_of(looks_);
     const Window* best = widest(windows);
-    Json json{{"name", search_.name}, {"scales", paths()}, {"looks", looks_.size()}};
+    Json json{{"name", search_.name},
+              {"scales", paths_of(report_.campaign.scene, search_.scaled)},
+              {"looks", looks_.size()}};
     json["window"] = best ? window(*best) : Json(nullptr);
     json["other_windows"] = Json::array();
     for (const Window& other : windows)
@@ -51,13 +53,6 @@ public:
   }
 
 private:
-  [[nodiscard]] Json paths() const {
-    Json paths = Json::array();
-    for (const ParameterRef& parameter : search_.scaled)
-      paths.push_back(path_of(report_.campaign.scene, parameter));
-    return paths;
-  }
-
   [[nodiscard]] Json name(std::size_t condition) const {
     return {{"requirement", conditions_[condition].requirement},
             {"case", conditions_[condition].which_case}};
@@ -101,7 +96,7 @@ private:
     if (!search_.recommended) return nullptr;
     const double scale = *search_.recommended;
     Json values = Json::object();
-    for (const ParameterRef& parameter : search_.scaled)
+    for (const SceneParameter& parameter : search_.scaled)
       values[path_of(report_.campaign.scene, parameter)] =
           scale * parameter.in(report_.campaign.scene);
     return {{"scale", scale},
@@ -229,7 +224,7 @@ Json margin_json(const MarginReport& report, const Json& about) {
   for (const MarginCase& each : report.result.cases) cases.push_back(each.name);
   for (const MarginSearch& search : report.result.searches)
     searches.push_back(SearchJson(report, search).json());
-  return {{"wingspread", about},
+  return {{stamp_key, about},
           {"scene", report.campaign.scene.name},
           {"met", is_met(report.result)},
           {"runs_per_scale", report.campaign.sampling.runs},

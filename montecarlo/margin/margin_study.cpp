@@ -1,9 +1,9 @@
 #include "montecarlo/margin/margin_study.hpp"
 
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/campaign/distribution_json.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/machine/interrupt.hpp"
-#include "montecarlo/runs/engine.hpp"
 
 #include <fmt/format.h>
 
@@ -48,8 +48,8 @@ std::vector<MarginCase> cases_of(const MarginSpec& spec, const Scene& scene) {
   if (spec.nominal) cases.push_back({"nominal", {}});
   if (!spec.one_spring_out) return cases;
   for (int hinge = 0; hinge < std::ssize(scene.hinges); ++hinge) {
-    const std::vector<ParameterRef> torques = spring_torques(scene, hinge);
-    const auto is_sized = [&](const ParameterRef& torque) {
+    const std::vector<SceneParameter> torques = spring_torques(scene, hinge);
+    const auto is_sized = [&](const SceneParameter& torque) {
       return std::ranges::find(spec.scaled, torque) != spec.scaled.end();
     };
     if (std::ranges::any_of(torques, is_sized))
@@ -62,7 +62,7 @@ std::vector<MarginCase> cases_of(const MarginSpec& spec, const Scene& scene) {
 std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene) {
   if (spec.mode == MarginMode::joint) return {{"joint", spec.scaled, {}, {}, {}}};
   std::vector<MarginSearch> searches;
-  for (const ParameterRef& parameter : spec.scaled) {
+  for (const SceneParameter& parameter : spec.scaled) {
     const std::string& name = scene.hinges[parameter.index].name;
     auto found = std::ranges::find(searches, name, &MarginSearch::name);
     if (found == searches.end()) found = searches.insert(found, MarginSearch{name, {}, {}, {}, {}});
@@ -84,13 +84,13 @@ std::string free_name(const Campaign& campaign) {
 /// Makes the runs that a search asks for.
 class Looking {
 public:
-  Looking(const Campaign& campaign, int threads, const std::atomic<bool>& stop,
-          const std::function<void(long)>& progress, MarginResult& result)
-      : campaign_(campaign), threads_(threads), stop_(stop), progress_(progress), result_(result) {
+  Looking(const Campaign& campaign, Evaluator& evaluator, const std::function<void(long)>& progress,
+          MarginResult& result)
+      : campaign_(campaign), evaluator_(evaluator), progress_(progress), result_(result) {
     campaign_.outputs = outputs_for(campaign.requirements);
   }
 
-  [[nodiscard]] ScaleLook at(const std::vector<ParameterRef>& parameters, double scale) {
+  [[nodiscard]] ScaleLook at(const std::vector<SceneParameter>& parameters, double scale) {
     const Campaign sized = scaled(campaign_, parameters, scale);
     const double springs = static_cast<double>(campaign_.margin->springs_per_hinge);
     ScaleLook look;
@@ -109,10 +109,11 @@ private:
     Results results(plan.names());
     const RunRange range{0, campaign.sampling.runs};
     const long before = result_.runs;
-    const long made = make_runs(plan, range, threads_, stop_, [&](const Batch& batch) {
+    const auto keep = [&](const Batch& batch) {
       for (const ResultRow& row : batch.rows) results.append(row);
       progress_(before + std::ssize(results.runs));
-    });
+    };
+    const long made = evaluator_.make(plan, range, {keep});
     result_.runs += made;
     if (made < range.size()) throw Stopped{};
     CaseLook look;
@@ -124,8 +125,7 @@ private:
   }
 
   Campaign campaign_;
-  int threads_;
-  const std::atomic<bool>& stop_;
+  Evaluator& evaluator_;
   const std::function<void(long)>& progress_;
   MarginResult& result_;
 };
@@ -187,7 +187,7 @@ OutOfOrder out_of_order(const MarginSearch& search, const MarginCondition& condi
   return {relapses(below, condition), relapses(above, condition)};
 }
 
-Campaign scaled(const Campaign& campaign, const std::vector<ParameterRef>& parameters,
+Campaign scaled(const Campaign& campaign, const std::vector<SceneParameter>& parameters,
                 double scale) {
   Campaign sized = campaign;
   Dispersion& factor = sized.dispersions.emplace_back();
@@ -195,29 +195,26 @@ Campaign scaled(const Campaign& campaign, const std::vector<ParameterRef>& param
   factor.distribution.law = Constant{scale};
   factor.apply = Apply::scale;
   factor.targets = parameters;
-  Json paths = Json::array();
-  for (const ParameterRef& parameter : parameters)
-    paths.push_back(path_of(campaign.scene, parameter));
   sized.resolved["dispersions"].push_back(
       {{"name", factor.name},
        {"distribution", write_distribution(factor.distribution)},
        {"apply", apply_names[static_cast<std::size_t>(factor.apply)]},
-       {"to", paths}});
+       {"to", paths_of(campaign.scene, parameters)}});
   return sized;
 }
 
-Scene scaled(Scene scene, const std::vector<ParameterRef>& parameters, double scale) {
-  for (const ParameterRef& parameter : parameters) parameter.in(scene) *= scale;
+Scene scaled(Scene scene, const std::vector<SceneParameter>& parameters, double scale) {
+  for (const SceneParameter& parameter : parameters) parameter.in(scene) *= scale;
   return scene;
 }
 
-void find_margin(const Campaign& campaign, int threads, const std::atomic<bool>& stop,
+void find_margin(const Campaign& campaign, Evaluator& evaluator,
                  const std::function<void(long)>& progress, MarginResult& result) {
   refuse_unsuitable(campaign);
   const MarginSpec& spec = *campaign.margin;
   result = {cases_of(spec, campaign.scene), searches_of(spec, campaign.scene),
             campaign.sampling.seed + 1, 0, 0};
-  Looking looking(campaign, threads, stop, progress, result);
+  Looking looking(campaign, evaluator, progress, result);
   for (MarginSearch& search : result.searches) {
     const auto judge = [&](double scale) {
       return failing(search.seen[scale] = looking.at(search.scaled, scale));

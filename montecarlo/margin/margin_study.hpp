@@ -23,10 +23,10 @@
 
 #include "montecarlo/campaign/campaign.hpp"
 #include "montecarlo/margin/window_search.hpp"
+#include "montecarlo/runs/evaluator.hpp"
 #include "montecarlo/summary/verdict.hpp"
 
 #include <array>
-#include <atomic>
 #include <functional>
 #include <map>
 #include <string>
@@ -36,8 +36,8 @@ namespace wingspread {
 
 /// A state of the wing in which the requirements have to hold.
 struct MarginCase {
-  std::string name;                   ///< "nominal", "root spring out"
-  std::vector<ParameterRef> weakened; ///< torques of which a spring is lost
+  std::string name;                     ///< "nominal", "root spring out"
+  std::vector<SceneParameter> weakened; ///< torques of which a spring is lost
 };
 
 /// What the runs of one case at one scale came to.
@@ -50,7 +50,7 @@ using ScaleLook = std::vector<CaseLook>; ///< one for each case
 /// What is scaled together, and what was found.
 struct MarginSearch {
   std::string name; ///< of the hinge; "joint" for all together
-  std::vector<ParameterRef> scaled;
+  std::vector<SceneParameter> scaled;
   std::map<double, ScaleLook> seen; ///< by scale
   std::optional<double> recommended;
   std::optional<ScaleLook> confirmation; ///< runs of another seed at the recommended scale
@@ -88,18 +88,17 @@ struct OutOfOrder {
 
 /// The campaign with one dispersion more, after all others: a constant factor on the parameters,
 /// `margin_scale` by name (or with a number behind it, if that is taken). Its file says so too.
-[[nodiscard]] Campaign scaled(const Campaign& campaign, const std::vector<ParameterRef>& parameters,
-                              double scale);
-[[nodiscard]] Scene scaled(Scene scene, const std::vector<ParameterRef>& parameters, double scale);
+[[nodiscard]] Campaign scaled(const Campaign& campaign,
+                              const std::vector<SceneParameter>& parameters, double scale);
+[[nodiscard]] Scene scaled(Scene scene, const std::vector<SceneParameter>& parameters,
+                           double scale);
 
 /// Finds the window, or those of every hinge.
-/// @param threads  0: as many as OpenMP offers; the result does not depend on it
-/// @param stop     once true, no further run is begun and Stopped is thrown
 /// @param progress told how many runs there have been, one call at a time
 /// @param result   filled as it goes on: when stopped it has the scales that were finished
 /// @throws SpecError when the campaign asks for no margin or has no requirements, or when so few
-///   runs cannot show one; Stopped
-void find_margin(const Campaign& campaign, int threads, const std::atomic<bool>& stop,
+///   runs cannot show one; Stopped when the evaluator makes fewer than it is asked for
+void find_margin(const Campaign& campaign, Evaluator& evaluator,
                  const std::function<void(long)>& progress, MarginResult& result);
 
 } // namespace wingspread

@@ -170,7 +170,7 @@ private:
   [[nodiscard]] std::string new_values() const {
     std::string text =
         fmt::format("\n{:<60}{:>12}{:>14}\n", "NEW SPRINGS", "present", "recommended");
-    for (const ParameterRef& parameter : search_.scaled) {
+    for (const SceneParameter& parameter : search_.scaled) {
       const double value = parameter.in(report_.campaign.scene);
       text += fmt::format("  {:<58}{:>12.5g}{:>14.5g} {}\n",
                           shortened(path_of(report_.campaign.scene, parameter), 57), value,

@@ -1,6 +1,6 @@
 #include "montecarlo/margin/motorization_study.hpp"
 
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/runs/run_plan.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <algorithm>

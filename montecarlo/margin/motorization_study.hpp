@@ -4,6 +4,7 @@
 
 #include "montecarlo/campaign/campaign.hpp"
 #include "montecarlo/campaign/margin_spec.hpp"
+#include "montecarlo/margin/motorization.hpp"
 
 #include <array>
 #include <string>

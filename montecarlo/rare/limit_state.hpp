@@ -26,7 +26,7 @@
 #pragma once
 
 #include "montecarlo/campaign/campaign.hpp"
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/campaign/outputs.hpp"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include "distributions/continuous_law.hpp"
 #include "montecarlo/formats/spec_error.hpp"
-#include "montecarlo/machine/team.hpp"
+#include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <algorithm>
@@ -18,110 +18,84 @@ double in_unit_interval(double z) {
   return std::clamp(tails(Normal{}, z).below, least, 1 - least);
 }
 
-/// Runs of the campaign at points of the normal space.
-class NormalRuns {
-public:
-  NormalRuns(const Campaign& campaign, const LimitState& limit_state)
-      : campaign_(campaign), limit_state_(limit_state), plan_(campaign) {}
-
-  [[nodiscard]] std::vector<double> draws_at(const NormalPoint& z) const {
-    std::vector<double> draws(z.size());
-    std::ranges::transform(z, draws.begin(), in_unit_interval);
-    plan_.to_draws(draws);
-    return draws;
-  }
-
-  /// @param scene the campaign's, as it was or as this function left it
-  void set_scene(const NormalPoint& z, Scene& scene) const {
-    apply(campaign_, draws_at(z), campaign_.scene, scene);
-  }
-
-  [[nodiscard]] Outcome run(const NormalPoint& z) const {
-    Scene scene = campaign_.scene;
-    set_scene(z, scene);
-    return Deployment().run(scene, campaign_.integration, limit_state_.goal());
-  }
-
-  struct Judged {
-    double g;
-    Status status;
-  };
-
-  /// Makes the runs that are still to be claimed, until asked to stop; one thread's part.
-  template <class Claim>
-  void judge(std::span<const NormalPoint> points, const Claim& claim,
-             std::vector<Judged>& judged) const {
-    Scene ended = campaign_.scene; // that of a run which has ended
-    const auto next = [&](Scene& scene) -> std::optional<long> {
-      const std::optional<std::size_t> k = claim();
-      if (!k) return std::nullopt;
-      set_scene(points[*k], scene);
-      return static_cast<long>(*k);
-    };
-    const auto done = [&](long k, Outcome&& outcome) {
-      set_scene(points[static_cast<std::size_t>(k)], ended);
-      judged[static_cast<std::size_t>(k)] = {limit_state_.of(ended, outcome), outcome.status};
-    };
-    DeploymentPack(instruction_sets().back(), campaign_.integration, limit_state_.goal())
-        .run(campaign_.scene, next, done);
-  }
-
-private:
-  const Campaign& campaign_;
-  const LimitState& limit_state_;
-  RunPlan plan_;
-};
-
-/// All points on all threads, in their order whichever is done first. @throws Stopped
-std::vector<NormalRuns::Judged> judge_all(const NormalRuns& runs,
-                                          std::span<const NormalPoint> points, int threads,
-                                          const std::atomic<bool>& stop) {
-  std::vector<NormalRuns::Judged> judged(points.size());
-  std::atomic<std::size_t> next = 0;
-  std::atomic<bool> broken = false; // by an exception
-  const auto claim = [&]() -> std::optional<std::size_t> {
-    if (stop || broken) return std::nullopt;
-    const std::size_t k = next++;
-    return k < points.size() ? std::optional(k) : std::nullopt;
-  };
-  on_team(
-      threads, [&] { runs.judge(points, claim, judged); }, [&] { broken = true; });
-  if (stop) throw Stopped{};
-  return judged;
-}
-
 double distance(const NormalPoint& z) {
   Sum square;
   for (const double coordinate : z) square.add(coordinate * coordinate);
   return std::sqrt(square.value());
 }
 
+/// Runs of the campaign at points of the normal space.
+class NormalRuns {
+public:
+  NormalRuns(const Campaign& campaign, const LimitState& limit_state, Evaluator& evaluator)
+      : evaluator_(evaluator),
+        plan_(campaign,
+              [this](long k, std::span<double> u) {
+                std::ranges::transform(points_[static_cast<std::size_t>(k)], u.begin(),
+                                       in_unit_interval);
+              },
+              {"g", limit_state.goal(), [&limit_state](const Scene& scene, const Outcome& outcome) {
+                 return limit_state.of(scene, outcome);
+               }}) {}
+  NormalRuns(const NormalRuns&) = delete;
+  NormalRuns& operator=(const NormalRuns&) = delete;
+  ~NormalRuns() = default;
+
+  struct Judged {
+    double g;
+    Status status;
+  };
+
+  /// What the runs at the points come to, in their order. @throws Stopped
+  [[nodiscard]] std::vector<Judged> judge(std::span<const NormalPoint> points) {
+    points_ = points;
+    const RunRange all{0, std::ssize(points)};
+    std::vector<Judged> judged;
+    const auto keep = [&](const Batch& batch) {
+      for (const ResultRow& row : batch.rows) judged.push_back({row.outputs.front(), row.status});
+    };
+    if (evaluator_.make(plan_, all, {keep}) < all.size()) throw Stopped{};
+    return judged;
+  }
+
+  [[nodiscard]] LikeliestRun run_at(const NormalPoint& z) {
+    points_ = {&z, 1};
+    LikeliestRun likeliest{distance(z), z, std::vector<double>(z.size()), {}, {}};
+    plan_.draw(0, likeliest.draws);
+    ResultRow row = Runner(plan_).run(0);
+    likeliest.status = row.status;
+    likeliest.reason = std::move(row.reason);
+    return likeliest;
+  }
+
+private:
+  Evaluator& evaluator_;
+  std::span<const NormalPoint> points_; ///< that the plan's runs are made at
+  RunPlan plan_;
+};
+
 std::optional<LikeliestRun> likeliest_of(const std::vector<SubsetEstimate>& estimates,
-                                         const NormalRuns& runs) {
+                                         NormalRuns& runs) {
   const NormalPoint* nearest = nullptr;
   for (const SubsetEstimate& estimate : estimates)
     for (const NormalPoint& point : estimate.inside)
       if (!nearest || distance(point) < distance(*nearest)) nearest = &point;
-  if (!nearest) return std::nullopt;
-  const Outcome outcome = runs.run(*nearest);
-  return LikeliestRun{distance(*nearest), *nearest, runs.draws_at(*nearest), outcome.status,
-                      outcome.reason};
+  return nearest ? std::optional(runs.run_at(*nearest)) : std::nullopt;
 }
 
 } // namespace
 
 RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& options,
-                               const std::atomic<bool>& stop,
-                               const std::function<void(long)>& progress) {
+                               Evaluator& evaluator, const std::function<void(long)>& progress) {
   if (campaign.dispersions.empty())
     throw SpecError({{"", "/dispersions", "none", "at least one: there is nothing to vary"}});
   const LimitState limit_state(campaign, options.event);
-  const NormalRuns runs(campaign, limit_state);
+  NormalRuns runs(campaign, limit_state, evaluator);
   RareResult result;
   long made = 0;
   const LimitStateFunction g = [&](std::span<const NormalPoint> points) {
     std::vector<double> values;
-    for (const auto& [value, status] : judge_all(runs, points, options.threads, stop)) {
+    for (const auto& [value, status] : runs.judge(points)) {
       values.push_back(value);
       ++result.statuses[static_cast<std::size_t>(status)];
     }

@@ -1,14 +1,13 @@
 /// The probability of a rare event in a campaign: independent subset simulations over its draws.
 ///
-///   z → u = Φ(z) → dependence, quantiles → draws → run → g (limit_state.hpp)
+///   z → u = Φ(z) → copula, quantiles → draws → run → g (limit_state.hpp)
 #pragma once
 
-#include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/rare/limit_state.hpp"
 #include "montecarlo/rare/subset_simulation.hpp"
+#include "montecarlo/runs/evaluator.hpp"
 
 #include <array>
-#include <atomic>
 #include <functional>
 #include <vector>
 
@@ -20,7 +19,6 @@ struct RareOptions {
   long repeats = 5;    ///< ≥ 1
   double confidence = 0.95;
   double smallest = 1e-10;
-  int threads = 0; ///< 0: as many as OpenMP offers
 };
 
 /// The point of the event that is nearest to the middle of all draws,
@@ -40,11 +38,11 @@ struct RareResult {
   std::optional<LikeliestRun> likeliest; ///< none when the event was not met
 };
 
-/// @param stop     once true, no further run is begun and Stopped is thrown
 /// @param progress told how many runs there have been, on the calling thread
-/// @throws SpecError for an event that there is not in the campaign, or one without dispersions
+/// @throws SpecError for an event that there is not in the campaign, or one without dispersions;
+///   Stopped when the evaluator makes fewer runs than it is asked for
 [[nodiscard]] RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& options,
-                                             const std::atomic<bool>& stop,
+                                             Evaluator& evaluator,
                                              const std::function<void(long)>& progress);
 
 } // namespace wingspread

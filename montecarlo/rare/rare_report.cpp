@@ -92,7 +92,7 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
     by_status[to_string(status)] = result.statuses[static_cast<std::size_t>(status)];
   for (const SubsetEstimate& estimate : result.estimates)
     repeats.push_back(estimate_json(estimate, options.event));
-  return {{"wingspread", about},
+  return {{stamp_key, about},
           {"event", describe(options.event)},
           {"probability", all.probability},
           {"reached", all.reached},

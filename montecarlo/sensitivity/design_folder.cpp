@@ -1,5 +1,6 @@
 #include "montecarlo/sensitivity/design_folder.hpp"
 
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/formats/files.hpp"
@@ -17,12 +18,12 @@ Json body(const SaltelliDesign& design) {
 }
 
 std::string design_text(const SaltelliDesign& design) {
-  Json json{{"wingspread", stamp_json(design)}};
+  Json json{{stamp_key, stamp_json(stamp_of(design))}};
   json.update(body(design));
   return json_text(json);
 }
 
-void refuse_other(const std::filesystem::path& folder, const SaltelliDesign& design) {
+void refuse_other_design(const std::filesystem::path& folder, const SaltelliDesign& design) {
   const std::filesystem::path path = folder / design_file;
   const auto there = read_text(path);
   if (there != design_text(design))
@@ -32,10 +33,8 @@ void refuse_other(const std::filesystem::path& folder, const SaltelliDesign& des
 
 } // namespace
 
-Json stamp_json(const SaltelliDesign& design) {
-  return {{"version", version()},
-          {"seed", design.campaign.sampling.seed},
-          {"hash", campaign_hash(body(design))}};
+Stamp stamp_of(const SaltelliDesign& design) {
+  return {std::string(version()), design.campaign.sampling.seed, campaign_hash(body(design)), {}};
 }
 
 bool is_design_folder(const std::filesystem::path& folder) {
@@ -50,13 +49,13 @@ SaltelliDesign read_design(const std::filesystem::path& folder) {
   JsonObject object(JsonCursor(document, path.string(), problems), "a design: an object");
   std::int64_t rows = 0;
   object.required("samples", rows, "an integer, ≥ 1");
-  const auto stamp = object.require("wingspread", "version, seed and hash");
+  const auto stamp = object.require(stamp_key, "version, seed and hash");
   const auto campaign = object.require("campaign", "a campaign");
   object.refuse_others();
   if (!problems.empty()) throw SpecError(std::move(problems));
   SaltelliDesign design{read_campaign(campaign->value().dump(), folder, path.string()), rows};
   const Json& there = stamp->value();
-  const bool same = there.is_object() && there.value("hash", Json()) == stamp_json(design)["hash"];
+  const bool same = there.is_object() && there.value("hash", Json()) == stamp_of(design).hash;
   if (rows < 1 || !same)
     throw SpecError({{path.string(), "/wingspread/hash", "that of another design",
                       "a design that nobody changed after it was run"}});
@@ -78,7 +77,7 @@ DesignFolderWriter::DesignFolderWriter(const std::filesystem::path& folder,
                                        bool resume)
     : rows_(folder / design_runs_file, plan.names()) {
   if (resume && std::filesystem::exists(folder / design_file)) {
-    refuse_other(folder, design);
+    refuse_other_design(folder, design);
     rows_.go_on_behind(read_design_runs(folder, plan), 0);
   } else {
     refuse_used_folder(folder, "a new or an empty folder (--resume continues a design)");

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "montecarlo/folder/row_writer.hpp"
+#include "montecarlo/folder/stamp.hpp"
 #include "montecarlo/sensitivity/saltelli.hpp"
 
 #include <filesystem>
@@ -38,7 +39,7 @@ struct SaltelliDesign {
                                            const RunPlan& plan);
 
 /// What identifies a design: version, seed and hash.
-[[nodiscard]] Json stamp_json(const SaltelliDesign& design);
+[[nodiscard]] Stamp stamp_of(const SaltelliDesign& design);
 
 /// Grows design_runs.csv; a folder left at any moment can be opened again to go on.
 class DesignFolderWriter {

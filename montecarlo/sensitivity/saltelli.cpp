@@ -38,9 +38,9 @@ void refuse_unsuitable(const Campaign& campaign) {
                       fmt::format("at most {} for Sobol' points: the design takes two coordinates "
                                   "for each",
                                   most_sobol_dimensions / 2)}});
-  if (!campaign.correlations.empty())
+  if (!campaign.wanted_correlations.empty())
     throw SpecError(
-        {{"", "/correlations", fmt::format("{} of them", campaign.correlations.size()),
+        {{"", "/correlations", fmt::format("{} of them", campaign.wanted_correlations.size()),
           "independent dispersions: a correlated one has no share of the variance of its own (run "
           "the campaign, and take its results folder for rank correlations)"}});
 }

@@ -5,7 +5,7 @@
 /// the campaign's run k. Which point of which row a run is: sobol_indices.hpp.
 #pragma once
 
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/runs/run_plan.hpp"
 
 namespace wingspread {
 

@@ -121,7 +121,7 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
                               {"entangled", output.entangled},
                               {"dispersions", effects}};
   }
-  return {{"wingspread", about},
+  return {{stamp_key, about},
           {"method", "rank correlation"},
           {"runs", all.runs},
           {"confidence", all.confidence},
@@ -153,7 +153,7 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
                      {"variance", json_number(indices.variance)},
                      {"dispersions", effects}};
   }
-  return {{"wingspread", about},
+  return {{stamp_key, about},
           {"method", "Sobol' indices"},
           {"design", all.design},
           {"samples", all.rows},

@@ -1,6 +1,6 @@
 #include "montecarlo/statistics/rank_correlation.hpp"
 
-#include "distributions/dependence.hpp"
+#include "distributions/copula.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 #include "montecarlo/statistics/two_sided.hpp"
 

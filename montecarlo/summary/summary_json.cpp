@@ -1,5 +1,6 @@
 #include "montecarlo/summary/summary_json.hpp"
 
+#include "montecarlo/campaign/campaign.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
@@ -229,7 +230,7 @@ std::vector<double> densities(const Histogram& histogram) {
 } // namespace
 
 Json summary_json(const Summary& summary, const Json& about) {
-  Json json{{"wingspread", about}, {"runs", summary.runs}, {"confidence", summary.confidence}};
+  Json json{{stamp_key, about}, {"runs", summary.runs}, {"confidence", summary.confidence}};
   json["status"] = statuses_json(summary);
   add_reasons(json, summary);
   add_latch_orders(json, summary);

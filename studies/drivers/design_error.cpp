@@ -5,9 +5,10 @@
 //   build/release/studies/design_error --quick         8 replicates of 64 … 512 runs
 //   /usr/bin/python3 studies/plots/plot_design_error.py results/design_error
 
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/files.hpp"
-#include "montecarlo/runs/engine.hpp"
+#include "montecarlo/runs/evaluator.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <CLI/CLI.hpp>
@@ -56,11 +57,12 @@ LatchRates make(Campaign campaign, const Sampling& sampling) {
     }
   made.columns.resize(chosen.size());
   const std::atomic<bool> stop = false;
-  (void)make_runs(plan, {0, sampling.runs}, 0, stop, [&](const Batch& batch) {
+  const auto keep = [&](const Batch& batch) {
     for (const ResultRow& row : batch.rows)
       for (std::size_t c = 0; c < chosen.size(); ++c)
         made.columns[c].push_back(row.outputs[chosen[c]]);
-  });
+  };
+  (void)ThreadEvaluator({}, stop).make(plan, {0, sampling.runs}, {keep});
   fmt::print(stderr, "  {} {}   \r", name_of(sampling.design), sampling.runs);
   return made;
 }

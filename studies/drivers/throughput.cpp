@@ -8,9 +8,8 @@
 
 #include "core/deployment.hpp"
 #include "core/packs/instruction_set.hpp"
-#include "montecarlo/campaign/campaign.hpp"
-#include "montecarlo/runs/engine.hpp"
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/campaign/campaign_json.hpp"
+#include "montecarlo/runs/evaluator.hpp"
 #include "studies/peers/plain_odeint.hpp"
 #include "studies/support/pack_kernel.hpp"
 #include "studies/support/study.hpp"
@@ -376,7 +375,8 @@ private:
       for (int time = 0; time < 3; ++time) {
         const std::atomic<bool> never{false};
         const double start = wall_seconds();
-        (void)make_runs(plan, {0, count}, team, never, [](const Batch&) {});
+        const auto drop = [](const Batch&) {};
+        (void)ThreadEvaluator({.threads = team}, never).make(plan, {0, count}, {drop, true});
         best = std::min(best, wall_seconds() - start);
       }
       const double rate = static_cast<double>(count) / best;

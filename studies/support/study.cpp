@@ -1,6 +1,6 @@
 #include "studies/support/study.hpp"
 
-#include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/files.hpp"
 

@@ -1,9 +1,11 @@
 /// For the tests of what runs campaigns: a campaign of the seed scene, run into a folder.
 #pragma once
 
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
+#include <atomic>
 #include <map>
 
 namespace wingspread::test {
@@ -39,6 +41,18 @@ inline Json full_campaign(int runs) {
 
 inline Campaign campaign_of(const Json& json) { return read_campaign(json.dump(), ""); }
 
+inline const std::atomic<bool> never = false;
+
+/// The rows of a range of runs.
+inline Results rows_of(const RunPlan& plan, RunRange range, int threads = 2) {
+  Results results(plan.names());
+  const auto keep = [&](const Batch& batch) {
+    for (const ResultRow& row : batch.rows) results.append(row);
+  };
+  (void)ThreadEvaluator({.threads = threads}, never).make(plan, range, {keep});
+  return results;
+}
+
 /// A rule of one goal, as `run --until` takes it.
 inline StoppingRule rule_of(const char* text) {
   StoppingRule rule;
@@ -68,8 +82,9 @@ inline long run_into(const std::filesystem::path& path, const Campaign& campaign
     made += std::ssize(batch.rows);
     if (session.stop_after >= 0 && made >= session.stop_after) stop = true;
   };
+  ThreadEvaluator evaluator({.threads = session.threads}, stop);
   while (!stop && folder.remaining().size() > 0)
-    (void)make_runs(plan, folder.remaining(), session.threads, stop, keep);
+    (void)evaluator.make(plan, folder.remaining(), {keep, true});
   (void)write_statistics(folder.stored(), folder.results(), campaign.statistics);
   return made;
 }

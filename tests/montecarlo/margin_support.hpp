@@ -2,7 +2,6 @@
 #pragma once
 
 #include "montecarlo/margin/margin_study.hpp"
-#include "montecarlo/runs/run.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <cmath>
@@ -60,12 +59,11 @@ inline ClosedForm closed_form(const Campaign& campaign, double scale, double lim
   return count;
 }
 
-inline const std::atomic<bool> unstopped = false;
-
 inline MarginResult margin_of(const Campaign& campaign, int threads = 2) {
   MarginResult result;
+  ThreadEvaluator evaluator({.threads = threads}, never);
   find_margin(
-      campaign, threads, unstopped, [](long) {}, result);
+      campaign, evaluator, [](long) {}, result);
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/campaign/scene_json.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
@@ -334,7 +334,7 @@ TEST_CASE("Correlated independent draws may have requirements, and all of it rea
       parse_json(R"([{ "output": "deployed", "probability": 0.99, "confidence": 0.9 }])");
   document["until"] = parse_json(R"([{ "output": "stalled", "width": 0.01 }])");
   const Campaign campaign = read(document);
-  CHECK((campaign.correlations.size() == 1 && campaign.requirements.size() == 1));
+  CHECK((campaign.wanted_correlations.size() == 1 && campaign.requirements.size() == 1));
   CHECK(campaign.until.size() == 1);
   CHECK(read(campaign.resolved).resolved == campaign.resolved);
 }

@@ -1,3 +1,4 @@
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/campaign/describe.hpp"
 #include "montecarlo/campaign/scene_json.hpp"
 #include "tests/montecarlo/spec_support.hpp"

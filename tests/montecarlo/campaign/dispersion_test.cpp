@@ -41,7 +41,7 @@ TEST_CASE("`to` is one draw for all of its targets", "[dispersion]") {
   CHECK(dispersions.list[0].name == "m");
   CHECK(dispersions.list[0].apply == Apply::scale);
   std::vector<std::string> paths;
-  for (const ParameterRef& target : dispersions.list[0].targets)
+  for (const SceneParameter& target : dispersions.list[0].targets)
     paths.push_back(path_of(scene, target));
   CHECK(paths ==
         std::vector<std::string>{"bodies.inner.mass", "bodies.outer.mass", "bodies.outer.inertia"});

@@ -8,22 +8,6 @@
 using namespace wingspread;
 using namespace wingspread::test;
 
-TEST_CASE("shards are consecutive and make up the whole") {
-  CHECK(shard_runs(100, {}) == RunRange{0, 100});
-  CHECK(shard_runs(10, Shard{2, 3}) == RunRange{3, 6});
-  for (const long runs : {1L, 7L, 100L, 1'000'000'000'000'000'000L})
-    for (const long of : {1L, 3L, 7L, 64L, most_shards}) {
-      long next = 0;
-      for (long i = 1; i <= std::min(of, 100L); ++i) {
-        const RunRange range = shard_runs(runs, Shard{i, of});
-        CHECK(range.first == next);
-        CHECK(std::abs(range.size() - runs / of) <= 1);
-        next = range.last;
-      }
-      CHECK(shard_runs(runs, Shard{of, of}).last == runs);
-    }
-}
-
 TEST_CASE("a stored campaign reads back with its stamp") {
   const Folder folder;
   const Campaign campaign = campaign_of(quick_campaign(10));

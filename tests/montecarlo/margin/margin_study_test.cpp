@@ -1,3 +1,4 @@
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/margin/margin_study.hpp"
 #include "tests/montecarlo/margin_support.hpp"
@@ -68,10 +69,7 @@ TEST_CASE("the confirmation is by other draws, those of the next seed", "[margin
   const MarginSearch& search = result.searches.front();
   const Campaign sized = scaled(campaign_of(json), search.scaled, *search.recommended);
   const RunPlan plan(sized);
-  Results results(plan.names());
-  (void)make_runs(plan, {0, 300}, 1, unstopped, [&](const Batch& batch) {
-    for (const ResultRow& row : batch.rows) results.append(row);
-  });
+  const Results results = rows_of(plan, {0, 300});
   for (std::size_t k = 0; k < 2; ++k)
     CHECK(judge(sized.requirements[k], results).broken ==
           search.confirmation->front().verdicts[k].broken);
@@ -233,9 +231,9 @@ TEST_CASE("an interruption ends it, and keeps the scales that were finished", "[
   const Campaign campaign = campaign_of(one_panel_margin(200));
   std::atomic<bool> stop = false;
   MarginResult result;
-  CHECK_THROWS_AS(find_margin(
-                      campaign, 1, stop, [&](long made) { stop = made >= 500; }, result),
-                  Stopped);
+  ThreadEvaluator evaluator({.threads = 1}, stop);
+  const auto watch = [&](long made) { stop = made >= 500; };
+  CHECK_THROWS_AS(find_margin(campaign, evaluator, watch, result), Stopped);
   const MarginSearch& search = result.searches.front();
   CHECK(search.seen.size() == 2);
   CHECK(search.seen.contains(0.5));

@@ -1,3 +1,4 @@
+#include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/rare/rare_event.hpp"
 #include "montecarlo/statistics/binomial_bounds.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
@@ -11,7 +12,6 @@ using namespace wingspread::test;
 
 namespace {
 
-const std::atomic<bool> never = false;
 const auto untold = [](long) {};
 
 /// One panel, whose spring pulls 2 N·m at first and 0.2 at last against friction of `coulomb`: it
@@ -48,8 +48,9 @@ Json one_panel(double coulomb) {
 double coulomb_for(double beta) { return 1.1 - beta * std::hypot(1.1 * 0.05, 0.03); }
 double tail(double beta) { return std::erfc(beta / std::sqrt(2)) / 2; }
 
-RareResult estimate(const Json& campaign, const RareOptions& options) {
-  return estimate_rare_event(campaign_of(campaign), options, never, untold);
+RareResult estimate(const Json& campaign, const RareOptions& options, const Crew& crew = {}) {
+  ThreadEvaluator evaluator(crew, never);
+  return estimate_rare_event(campaign_of(campaign), options, evaluator, untold);
 }
 
 } // namespace
@@ -81,10 +82,7 @@ TEST_CASE("the same as counted in a campaign of its own") {
   const Campaign campaign = campaign_of(json);
   const RunPlan plan(campaign);
   constexpr long runs = 10'000;
-  long stalled = 0;
-  (void)make_runs(plan, {0, runs}, 2, never, [&](const Batch& batch) {
-    for (const ResultRow& row : batch.rows) stalled += row.status == Status::stalled;
-  });
+  const long stalled = std::ranges::count(rows_of(plan, {0, runs}).status, Status::stalled);
   const Interval counted = clopper_pearson(stalled, runs, 0.999);
   CHECK(counted.lower < tail(2.3));
   CHECK(counted.upper > tail(2.3));
@@ -150,10 +148,7 @@ TEST_CASE("an output beyond a limit, above and below, agrees with its own quanti
   json["outputs"] = {"latch_time"};
   const Campaign campaign = campaign_of(json);
   const RunPlan plan(campaign);
-  std::vector<double> times;
-  (void)make_runs(plan, {0, 4000}, 2, never, [&](const Batch& batch) {
-    for (const ResultRow& row : batch.rows) times.push_back(row.outputs.front());
-  });
+  Spilled<double> times = rows_of(plan, {0, 4000}).outputs.front().values;
   std::ranges::sort(times);
   for (const bool above : {true, false}) {
     const double limit = above ? times[4000 - 41] : times[40]; // about 1 %
@@ -166,22 +161,24 @@ TEST_CASE("an output beyond a limit, above and below, agrees with its own quanti
   }
 }
 
-TEST_CASE("the same seed gives the same estimate for any threads, another seed another",
+TEST_CASE("the same seed gives the same estimate for any threads and lanes, another seed another",
           "[parallel]") {
   Json json = one_panel(coulomb_for(3));
-  const auto with = [&](int threads) {
-    return estimate(json, {.samples = 200, .repeats = 2, .threads = threads});
+  const auto with = [&](const Crew& crew) {
+    return estimate(json, {.samples = 200, .repeats = 2}, crew);
   };
-  const RareResult one = with(1);
-  for (const int threads : {2, 5}) {
-    const RareResult again = with(threads);
+  const RareResult one = with({.threads = 1});
+  std::vector<Crew> crews{{.threads = 2}, {.threads = 5}};
+  for (const InstructionSet set : instruction_sets()) crews.push_back({.threads = 2, .set = set});
+  for (const Crew& crew : crews) {
+    const RareResult again = with(crew);
     CHECK(again.estimate.probability == one.estimate.probability);
     CHECK(again.estimate.variation == one.estimate.variation);
     CHECK(again.statuses == one.statuses);
     CHECK(again.likeliest->draws == one.likeliest->draws);
   }
   json["sampling"]["seed"] = 4;
-  CHECK(with(2).estimate.probability != one.estimate.probability);
+  CHECK(with({}).estimate.probability != one.estimate.probability);
 }
 
 TEST_CASE("draws of the far tails are those of their laws, correlated ones too") {
@@ -199,8 +196,9 @@ TEST_CASE("draws of the far tails are those of their laws, correlated ones too")
 
 TEST_CASE("an interruption ends it, and bad events are refused") {
   const std::atomic<bool> stop = true;
+  ThreadEvaluator stopped({}, stop);
   const Campaign campaign = campaign_of(one_panel(1));
-  CHECK_THROWS_AS(estimate_rare_event(campaign, {.samples = 100}, stop, untold), Stopped);
+  CHECK_THROWS_AS(estimate_rare_event(campaign, {.samples = 100}, stopped, untold), Stopped);
   CHECK_THROWS_WITH(estimate(one_panel(1), {.event = {"root.peak_momnet", 1}}),
                     Catch::Contains("--output: found \"root.peak_momnet\"") &&
                         Catch::Contains("did you mean \"root.peak_moment\"?"));

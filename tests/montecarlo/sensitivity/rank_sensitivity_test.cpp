@@ -1,5 +1,5 @@
 #include "distributions/continuous_law.hpp"
-#include "distributions/dependence.hpp"
+#include "distributions/copula.hpp"
 #include "distributions/random_stream.hpp"
 #include "montecarlo/sensitivity/rank_sensitivity.hpp"
 #include "montecarlo/statistics/ranked_column.hpp"

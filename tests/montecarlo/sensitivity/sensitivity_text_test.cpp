@@ -1,5 +1,5 @@
 #include "montecarlo/formats/json.hpp"
-#include "montecarlo/runs/engine.hpp"
+#include "montecarlo/runs/evaluator.hpp"
 #include "montecarlo/sensitivity/saltelli.hpp"
 #include "montecarlo/sensitivity/sensitivity_text.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
@@ -9,23 +9,9 @@
 using namespace wingspread;
 using namespace wingspread::test;
 
-namespace {
-
-const std::atomic<bool> never = false;
-
-Results made(const RunPlan& plan, long runs) {
-  Results results(plan.names());
-  (void)make_runs(plan, {0, runs}, 2, never, [&](const Batch& batch) {
-    for (const ResultRow& row : batch.rows) results.append(row);
-  });
-  return results;
-}
-
-} // namespace
-
 TEST_CASE("rank correlations as JSON, CSV and a table", "[parallel]") {
   const Campaign campaign = campaign_of(quick_campaign(60));
-  const RankSensitivity all = rank_sensitivity(made(RunPlan(campaign), 60), 0.9);
+  const RankSensitivity all = rank_sensitivity(rows_of(RunPlan(campaign), {0, 60}), 0.9);
   const Json json = parse_json(json_text(sensitivity_json(all, {{"seed", 7}})));
   CHECK(json["wingspread"]["seed"] == 7);
   CHECK(json["runs"] == 60);
@@ -55,7 +41,8 @@ TEST_CASE("Sobol' indices as JSON, CSV and a table; what changes nothing is name
   const Campaign campaign = campaign_of(json);
   const RunPlan plan = saltelli_plan(campaign, 12);
   const long runs = saltelli_runs(12, campaign.dispersions.size());
-  const SobolSensitivity all = sobol_sensitivity(made(plan, runs), 12, "random", {.resamples = 50});
+  const SobolSensitivity all =
+      sobol_sensitivity(rows_of(plan, {0, runs}), 12, "random", {.resamples = 50});
   CHECK(all.idle() == std::vector<std::string>{"none"});
   CHECK(warnings(all) == std::vector<std::string>{"no output of any run changes with \"none\""});
   const Json read = parse_json(json_text(sensitivity_json(all, {})));

@@ -1,7 +1,6 @@
-/// One run of a campaign, and the row of the results that it gives. The engine that makes all runs
-/// and the replay that makes one again both go through here, so they cannot differ.
+/// What all runs of a campaign share: where each is drawn, how far it goes, and what is kept of it.
 ///
-///   run k → draws → scene → core's Deployment → Outcome → ResultRow
+///   run k → point of the unit cube → dependence → quantiles → draws (→ scene: campaign.hpp)
 #pragma once
 
 #include "distributions/design.hpp"
@@ -11,6 +10,7 @@
 #include "montecarlo/runs/results.hpp"
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,17 +21,31 @@ namespace wingspread {
 /// @param u one for each dispersion in their order, to be set; each strictly within (0, 1)
 using UnitPoints = std::function<void(long run, std::span<double> u)>;
 
-/// What all runs of a campaign share, worked out once. Immutable, so one plan serves all threads.
+/// One number to take of a run in place of the campaign's outputs.
+struct Measure {
+  std::string name;
+  Goal goal; ///< what a run has to compute for it
+  /// Of the scene that was run; pure. Kept as it is, NaN and infinity too.
+  std::function<double(const Scene&, const Outcome&)> of;
+};
+
+/// Immutable, so one plan serves all threads.
 class RunPlan {
 public:
   /// @pre the campaign outlives the plan
   explicit RunPlan(const Campaign& campaign);
   /// The campaign's runs at other points than its own.
   RunPlan(const Campaign& campaign, UnitPoints points);
+  /// Besides, all that is kept of them is the measure: the only column of outputs.
+  RunPlan(const Campaign& campaign, UnitPoints points, Measure measure);
 
   [[nodiscard]] const Campaign& campaign() const { return *campaign_; }
   [[nodiscard]] const ResultNames& names() const { return names_; }
+  /// The campaign's own columns of outputs, where no measure is in their place.
   [[nodiscard]] const std::vector<OutputColumn>& columns() const { return columns_; }
+  [[nodiscard]] const std::optional<Measure>& measure() const { return measure_; }
+  /// What a run has to compute.
+  [[nodiscard]] const Goal& goal() const { return goal_; }
 
   /// The draws of run k, one for each dispersion in their order. Pure.
   /// @param draws as many as the campaign has dispersions
@@ -43,45 +57,13 @@ public:
 private:
   const Campaign* campaign_;
   std::vector<OutputColumn> columns_;
+  std::optional<Measure> measure_;
+  Goal goal_;
   ResultNames names_;
   std::vector<PreparedDistribution> distributions_;
   PreparedDesign design_;
   GaussianCopula copula_;
   UnitPoints points_; ///< empty: the design's
-};
-
-/// Makes runs one after another; each thread has its own.
-class Runner {
-public:
-  /// @pre the plan outlives the runner
-  explicit Runner(const RunPlan& plan);
-
-  /// Run k's row. An unphysical draw gives a row of status `invalid`.
-  [[nodiscard]] ResultRow run(long k);
-
-  /// Run k in full, with its row: watched, and with its energy audited, neither of which changes a
-  /// bit of the row.
-  struct Replay {
-    Outcome outcome;
-    ResultRow row;
-  };
-  [[nodiscard]] Replay replay(long k, const Observer& observer);
-
-  /// The rows of the runs that `next` names until it names none, several at once; each row is that
-  /// of `run`. @param done takes them in the order in which they end
-  Occupancy run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
-                    const std::function<void(ResultRow&&)>& done);
-
-private:
-  [[nodiscard]] Replay make(long k, const Goal& goal, const Observer& observer);
-  /// Draws for run k into `draws` and sets the scene to it.
-  void set_scene(long k, std::vector<double>& draws, Scene& scene) const;
-  [[nodiscard]] ResultRow row_of(long k, std::vector<double>&& draws, Outcome& outcome) const;
-
-  const RunPlan* plan_;
-  Goal goal_;
-  Deployment deployment_;
-  Scene scene_; ///< of the last run
 };
 
 } // namespace wingspread

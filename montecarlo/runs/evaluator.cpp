@@ -1,4 +1,4 @@
-#include "montecarlo/runs/engine.hpp"
+#include "montecarlo/runs/evaluator.hpp"
 
 #include "montecarlo/machine/team.hpp"
 
@@ -40,7 +40,7 @@ private:
 
   void hand_on(const Finished& finished) {
     cut_ = true; // stays so if the sink throws
-    if (!finished.batch.rows.empty()) sink_(finished.batch);
+    if (!finished.batch.rows.empty()) sink_.take(finished.batch);
     done_ += std::ssize(finished.batch.rows);
     cut_ = !finished.complete;
   }
@@ -56,7 +56,8 @@ private:
 template <class Claim> class Chunks {
 public:
   /// @param claim claim() returns the number and range of the next chunk, none when there is none
-  Chunks(InOrder& in_order, Claim claim) : in_order_(in_order), claim_(std::move(claim)) {}
+  Chunks(InOrder& in_order, bool wants_csv, Claim claim)
+      : in_order_(in_order), wants_csv_(wants_csv), claim_(std::move(claim)) {}
 
   [[nodiscard]] std::optional<long> next() {
     if (open_ == nullptr || open_->issued == open_->range.size()) {
@@ -99,11 +100,13 @@ private:
   };
 
   void hand_over(long number, Chunk&& chunk, bool complete) {
-    for (const ResultRow& row : chunk.batch.rows) append_row(chunk.batch.csv, row);
+    if (wants_csv_)
+      for (const ResultRow& row : chunk.batch.rows) append_row(chunk.batch.csv, row);
     in_order_.finish(number, std::move(chunk.batch), complete);
   }
 
   InOrder& in_order_;
+  bool wants_csv_;
   Claim claim_;
   std::map<long, Chunk> chunks_; ///< by number
   Chunk* open_ = nullptr;
@@ -111,14 +114,13 @@ private:
 
 } // namespace
 
-long make_runs(const RunPlan& plan, RunRange range, int threads, const std::atomic<bool>& stop,
-               const BatchSink& sink, InstructionSet set, Occupancy* lanes) {
-  const int team = team_size(threads);
+long ThreadEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
+  const int team = team_size(crew_.threads);
   const long size = chunk_size(range, team);
   InOrder in_order(sink);
   std::atomic<long> next_chunk = 0;
   std::atomic<bool> broken = false; // by an exception
-  const auto stopped = [&] { return stop.load() || broken.load(); };
+  const auto stopped = [&] { return stop_.load() || broken.load(); };
   std::mutex adding;
   const auto claim = [&]() -> std::optional<std::pair<long, RunRange>> {
     if (stopped()) return std::nullopt;
@@ -128,13 +130,13 @@ long make_runs(const RunPlan& plan, RunRange range, int threads, const std::atom
   };
   const auto work = [&] {
     Runner runner(plan);
-    Chunks chunks(in_order, claim);
+    Chunks chunks(in_order, sink.wants_csv, claim);
     const auto next = [&] { return stopped() ? std::nullopt : chunks.next(); };
     const Occupancy full =
-        runner.run_all(set, next, [&](ResultRow&& row) { chunks.take(std::move(row)); });
+        runner.run_all(crew_.set, next, [&](ResultRow&& row) { chunks.take(std::move(row)); });
     chunks.close();
     const std::lock_guard lock(adding);
-    if (lanes) *lanes += full;
+    occupancy_ += full;
   };
   on_team(team, work, [&] { broken = true; });
   return in_order.done();

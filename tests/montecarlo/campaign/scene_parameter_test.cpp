@@ -1,5 +1,5 @@
-#include "montecarlo/campaign/parameter.hpp"
 #include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/campaign/scene_parameter.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>

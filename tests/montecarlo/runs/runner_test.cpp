@@ -1,4 +1,4 @@
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/runs/runner.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -19,42 +19,6 @@ std::string line(const ResultRow& row) {
 }
 
 } // namespace
-
-TEST_CASE("a draw depends on seed, run and name alone") {
-  const Campaign few = campaign_of(quick_campaign(10)), many = campaign_of(quick_campaign(1000));
-  const RunPlan plan_few(few), plan_many(many);
-  CHECK(plan_few.names().draws ==
-        std::vector<std::string>{"root_spring", "mass.panel_1", "mass.panel_2", "mass.panel_3"});
-  std::vector<double> one(4), other(4);
-  for (const long k : {0L, 1L, 9L}) {
-    plan_few.draw(k, one);
-    plan_many.draw(k, other);
-    CHECK(one == other);
-    const double u = uniform(7, static_cast<std::uint64_t>(k), stream_name("mass.panel_2"));
-    CHECK(one[2] == PreparedDistribution({Uniform{9, 11}, {}}).quantile(u));
-  }
-}
-
-TEST_CASE("every design draws by the dispersions' names, not by their places") {
-  for (const char* design : {"random", "latin_hypercube", "sobol"}) {
-    Json json = quick_campaign(64);
-    json["sampling"]["design"] = design;
-    json["sampling"]["replicates"] = 4;
-    json["correlations"] =
-        parse_json(R"([{ "between": ["root_spring", "mass.panel_2"], "spearman": -0.5 }])");
-    Json turned = json;
-    std::reverse(turned["dispersions"].begin(), turned["dispersions"].end());
-    const Campaign one = campaign_of(json), other = campaign_of(turned);
-    const RunPlan plan(one), turned_plan(other);
-    std::vector<double> here(4), there(4);
-    for (long k = 0; k < 64; ++k) {
-      plan.draw(k, here);
-      turned_plan.draw(k, there);
-      std::rotate(there.begin(), there.end() - 1, there.end()); // the spring has come last
-      CHECK(here == there);
-    }
-  }
-}
 
 TEST_CASE("a row is the scene with the draws applied, run") {
   const Campaign campaign = campaign_of(quick_campaign(10));

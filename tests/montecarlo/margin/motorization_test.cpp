@@ -1,4 +1,4 @@
-#include "montecarlo/campaign/motorization.hpp"
+#include "montecarlo/margin/motorization.hpp"
 
 #include <catch2/catch.hpp>
 

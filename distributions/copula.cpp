@@ -1,4 +1,4 @@
-#include "distributions/dependence.hpp"
+#include "distributions/copula.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <boost/math/distributions/normal.hpp>

@@ -1,4 +1,4 @@
-#include "montecarlo/campaign/parameter.hpp"
+#include "montecarlo/campaign/scene_parameter.hpp"
 
 #include "montecarlo/formats/nearest.hpp"
 
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -83,11 +84,11 @@ constexpr std::array hinge_fields{
     Field<Hinge>{"latch.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.latch->damping; }, has_latch, needs_latch}};
 // clang-format on
 
-using Owner = ParameterRef::Owner;
+using Owner = SceneParameter::Owner;
 
 /// Calls `use(owner, its fields)` with the base, body or hinge that a parameter belongs to.
 template <class SceneType, class Use>
-decltype(auto) with_owner(const ParameterRef& parameter, SceneType& scene, Use use) {
+decltype(auto) with_owner(const SceneParameter& parameter, SceneType& scene, Use use) {
   switch (parameter.owner) {
   case Owner::body:
     return use(scene.bodies[parameter.index], body_fields);
@@ -155,13 +156,13 @@ std::vector<std::string> candidates(const Scene& scene, const Path& path) {
 
 } // namespace
 
-double& ParameterRef::in(Scene& scene) const {
+double& SceneParameter::in(Scene& scene) const {
   return with_owner(*this, scene, [this](auto& its, const auto& fields) -> double& {
     return fields[field].write(its);
   });
 }
 
-double ParameterRef::in(const Scene& scene) const {
+double SceneParameter::in(const Scene& scene) const {
   return with_owner(*this, scene, [this](const auto& its, const auto& fields) {
     return fields[field].read(its);
   });
@@ -183,7 +184,28 @@ ParameterMatches resolve(const Scene& scene, std::string_view path) {
   return found;
 }
 
-std::string path_of(const Scene& scene, const ParameterRef& parameter) {
+std::vector<ParameterMatch> read_path(const JsonCursor& at, const Scene* scene) {
+  std::string path;
+  if (!at.read(path, "a string, the path of a parameter") || !scene) return {};
+  ParameterMatches found = resolve(*scene, path);
+  if (found.matches.empty()) at.refuse(found.expected);
+  return std::move(found.matches);
+}
+
+std::vector<SceneParameter> read_paths(const JsonCursor& at, const Scene* scene) {
+  std::vector<SceneParameter> parameters;
+  if (!at.value().is_array() || at.value().empty())
+    at.refuse("an array of at least one parameter's path");
+  for (const JsonCursor& element : at.elements())
+    for (const ParameterMatch& match : read_path(element, scene))
+      if (std::ranges::find(parameters, match.parameter) == parameters.end())
+        parameters.push_back(match.parameter);
+      else
+        element.refuse_repeated(path_of(*scene, match.parameter), "each parameter once");
+  return parameters;
+}
+
+std::string path_of(const Scene& scene, const SceneParameter& parameter) {
   return with_owner(parameter, scene, [&](const auto& owner, const auto& fields) {
     const std::string_view field = fields[parameter.field].path;
     if constexpr (requires { owner.name; }) {
@@ -195,7 +217,13 @@ std::string path_of(const Scene& scene, const ParameterRef& parameter) {
   });
 }
 
-std::string_view unit_of(const ParameterRef& parameter) {
+std::vector<std::string> paths_of(const Scene& scene, std::span<const SceneParameter> parameters) {
+  std::vector<std::string> paths;
+  for (const SceneParameter& parameter : parameters) paths.push_back(path_of(scene, parameter));
+  return paths;
+}
+
+std::string_view unit_of(const SceneParameter& parameter) {
   switch (parameter.owner) {
   case Owner::body:
     return body_fields[parameter.field].unit;

@@ -1,7 +1,7 @@
 /// A campaign's rank correlations: which dispersions vary together, and how much.
 #pragma once
 
-#include "distributions/dependence.hpp"
+#include "distributions/copula.hpp"
 #include "montecarlo/campaign/dispersion.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 
@@ -16,9 +16,9 @@ namespace wingspread {
 /// them that some can.
 /// @param dispersions null when they have problems of their own: then names are not looked up
 [[nodiscard]] std::vector<RankCorrelation>
-read_correlations(const JsonCursor& at, const std::vector<Dispersion>* dispersions);
+read_wanted_correlations(const JsonCursor& at, const std::vector<Dispersion>* dispersions);
 
-[[nodiscard]] Json write_correlations(const std::vector<RankCorrelation>& correlations,
-                                      const std::vector<Dispersion>& dispersions);
+[[nodiscard]] Json write_wanted_correlations(const std::vector<RankCorrelation>& correlations,
+                                             const std::vector<Dispersion>& dispersions);
 
 } // namespace wingspread

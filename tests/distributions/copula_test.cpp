@@ -1,4 +1,4 @@
-#include "distributions/dependence.hpp"
+#include "distributions/copula.hpp"
 #include "distributions/design.hpp"
 #include "distributions/prepared_distribution.hpp"
 

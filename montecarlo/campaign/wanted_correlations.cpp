@@ -1,4 +1,4 @@
-#include "montecarlo/campaign/correlations.hpp"
+#include "montecarlo/campaign/wanted_correlations.hpp"
 
 #include "montecarlo/formats/nearest.hpp"
 
@@ -111,8 +111,8 @@ void refuse_impossible(const JsonCursor& at, const std::vector<RankCorrelation>&
 
 } // namespace
 
-std::vector<RankCorrelation> read_correlations(const JsonCursor& at,
-                                               const std::vector<Dispersion>* dispersions) {
+std::vector<RankCorrelation> read_wanted_correlations(const JsonCursor& at,
+                                                      const std::vector<Dispersion>* dispersions) {
   if (!at.value().is_array()) at.refuse("an array of correlations");
   std::vector<RankCorrelation> correlations;
   const std::size_t problems_before = at.problems().size();
@@ -131,8 +131,8 @@ std::vector<RankCorrelation> read_correlations(const JsonCursor& at,
   return correlations;
 }
 
-Json write_correlations(const std::vector<RankCorrelation>& correlations,
-                        const std::vector<Dispersion>& dispersions) {
+Json write_wanted_correlations(const std::vector<RankCorrelation>& correlations,
+                               const std::vector<Dispersion>& dispersions) {
   Json json = Json::array();
   for (const auto& [first, second, spearman] : correlations)
     json.push_back(

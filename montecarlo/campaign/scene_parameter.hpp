@@ -2,8 +2,9 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
+#include "montecarlo/formats/json_reader.hpp"
 
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,7 @@ namespace wingspread {
 
 /// One parameter of a scene, and of every copy of it.
 /// Cheap to copy and to follow: no search, no string.
-struct ParameterRef {
+struct SceneParameter {
   enum class Owner { base, body, hinge };
   Owner owner = Owner::base;
   int index = 0; ///< of the body or hinge
@@ -20,12 +21,12 @@ struct ParameterRef {
 
   [[nodiscard]] double& in(Scene& scene) const;
   [[nodiscard]] double in(const Scene& scene) const;
-  auto operator<=>(const ParameterRef&) const = default;
+  auto operator<=>(const SceneParameter&) const = default;
 };
 
 /// A parameter that a path names.
 struct ParameterMatch {
-  ParameterRef parameter;
+  SceneParameter parameter;
   std::string name; ///< of its body or hinge; empty for the base
 };
 
@@ -39,10 +40,18 @@ struct ParameterMatches {
 /// hinge without a latch, say, has no latch.stiffness.
 [[nodiscard]] ParameterMatches resolve(const Scene& scene, std::string_view path);
 
+/// Reads a path; a problem when it names nothing.
+/// @param scene null when it has problems of its own: then paths are not looked up
+[[nodiscard]] std::vector<ParameterMatch> read_path(const JsonCursor& at, const Scene* scene);
+/// Reads an array of paths, at least one; a problem for each parameter that is named twice.
+[[nodiscard]] std::vector<SceneParameter> read_paths(const JsonCursor& at, const Scene* scene);
+
 /// The path of one parameter.
-[[nodiscard]] std::string path_of(const Scene& scene, const ParameterRef& parameter);
+[[nodiscard]] std::string path_of(const Scene& scene, const SceneParameter& parameter);
+[[nodiscard]] std::vector<std::string> paths_of(const Scene& scene,
+                                                std::span<const SceneParameter> parameters);
 /// Its unit, e.g. "kg".
-[[nodiscard]] std::string_view unit_of(const ParameterRef& parameter);
+[[nodiscard]] std::string_view unit_of(const SceneParameter& parameter);
 
 /// The paths of all parameters that the scene has.
 [[nodiscard]] std::vector<std::string> parameter_paths(const Scene& scene);

@@ -1,4 +1,4 @@
-#include "montecarlo/campaign/motorization.hpp"
+#include "montecarlo/margin/motorization.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,17 +27,6 @@ void add_root(const LinearTorque& torque, std::vector<double>& points) {
 }
 
 } // namespace
-
-EcssFactors ecss_measured() {
-  EcssFactors factors;
-  factors.motor = 1.2;
-  factors.friction = factors.hysteresis = factors.harness = 1.5;
-  return factors;
-}
-
-NasaFactors nasa_development_test() { return {1.35, 2.5, 1.15}; }
-NasaFactors nasa_acceptance() { return {1.25, 2, 1.1}; }
-NasaFactors nasa_one_spring_out() { return {1, 1, 1}; }
 
 double ecss_required(const MotorizationTerms& t, const EcssFactors& f) {
   const double resisting = f.inertia * t.inertia + f.spring * t.spring + f.motor * t.motor +

@@ -1,6 +1,6 @@
-#include "montecarlo/campaign/campaign.hpp"
-#include "montecarlo/campaign/correlations.hpp"
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/campaign/campaign_json.hpp"
+#include "montecarlo/campaign/wanted_correlations.hpp"
+#include "montecarlo/runs/runner.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -45,8 +45,8 @@ std::string triple(double a, double b, double c) {
 
 TEST_CASE("Correlations are read by the names of the dispersions", "[correlations]") {
   const Campaign campaign = read(list({pair("mass.outer", "spring", 0.6)}));
-  REQUIRE(campaign.correlations.size() == 1);
-  const auto [first, second, spearman] = campaign.correlations[0];
+  REQUIRE(campaign.wanted_correlations.size() == 1);
+  const auto [first, second, spearman] = campaign.wanted_correlations[0];
   CHECK((first == 0 && second == 2 && spearman == 0.6));
   CHECK(campaign.resolved["correlations"].dump() ==
         R"([{"between":["spring","mass.outer"],"spearman":0.6}])");

@@ -1,0 +1,196 @@
+#include "montecarlo/campaign/campaign_json.hpp"
+
+#include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/campaign/wanted_correlations.hpp"
+#include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/json_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr const char* expected_scene = "a scene, or the name of the file that holds it";
+
+/// More dispersions than Sobol' points have coordinates.
+void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, std::size_t dispersions) {
+  if (sampling.design == DesignKind::sobol && dispersions > most_sobol_dimensions)
+    at.refuse(fmt::format("{} dispersions", dispersions),
+              fmt::format("up to {} with the design \"sobol\"", most_sobol_dimensions));
+}
+
+/// What holds for independent draws only is refused with the designs whose draws depend on each
+/// other, rather than left to mislead.
+void refuse_dependent_draws(const JsonCursor& at, const char* what, DesignKind design) {
+  if (design == DesignKind::random) return;
+  at.refuse(fmt::format("{} with the design \"{}\"", what,
+                        design_names[static_cast<std::size_t>(design)]),
+            "the design \"random\": their statistics are exact for independent draws, and hold for "
+            "no others");
+}
+
+std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs) {
+  std::vector<std::string> names;
+  for (OutputColumn& column : output_columns(scene, outputs))
+    names.push_back(std::move(column.name));
+  return names;
+}
+
+/// Requirements and widths to stop at: what names the campaign's outputs, and needs its draws to be
+/// independent.
+/// @param scene null when it or its outputs are wrong themselves: then no output is missed
+class GuaranteeReader {
+public:
+  GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design)
+      : known_(scene), design_(design) {
+    if (!known_) return;
+    names_ = output_names(*scene, outputs);
+    all_names_ = output_names(*scene, all_outputs());
+  }
+  void read(const JsonCursor& at, std::vector<Requirement>& requirements) const {
+    read_requirements(at, known_ ? &names_ : nullptr, all_names_, requirements);
+    if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
+  }
+  void read(const JsonCursor& at, StoppingRule& until) const {
+    read_stopping_rule(at, known_ ? &names_ : nullptr, until);
+    if (!until.empty()) refuse_dependent_draws(at, "widths to stop at", design_);
+  }
+
+private:
+  bool known_;
+  DesignKind design_;
+  std::vector<std::string> names_, all_names_;
+};
+
+GuaranteeReader guarantee_reader(const Campaign& campaign) {
+  return {&campaign.scene, campaign.outputs, campaign.sampling.design};
+}
+
+/// A scene that stands in the campaign, or in the file that is named there.
+Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& directory) {
+  if (!at.value().is_string()) return read_scene(at);
+  const std::filesystem::path path = directory / at.value().get<std::string>();
+  const auto text = read_text(path);
+  try {
+    if (text) {
+      const Json document = parse_json(*text, path.string());
+      return read_scene(JsonCursor(document, path.string(), at.problems()));
+    }
+    at.refuse(fmt::format("no file that can be read at \"{}\"", path.string()), expected_scene);
+  } catch (const SpecError& error) {
+    at.problems().insert(at.problems().end(), error.problems().begin(), error.problems().end());
+  }
+  return {};
+}
+
+Json write_campaign(const Campaign& campaign, Json dispersions) {
+  Json json{{"scene", write_scene(campaign.scene)},
+            {"dispersions", std::move(dispersions)},
+            {"sampling", write_sampling(campaign.sampling)},
+            {"integration", write_integration(campaign.integration)},
+            {"outputs", write_outputs(campaign.outputs)},
+            {"statistics", write_statistics(campaign.statistics)}};
+  // Not there when there are none: what a campaign does not use does not change its hash.
+  if (!campaign.wanted_correlations.empty())
+    json["correlations"] =
+        write_wanted_correlations(campaign.wanted_correlations, campaign.dispersions);
+  if (!campaign.requirements.empty())
+    json["requirements"] = write_requirements(campaign.requirements);
+  if (!campaign.until.empty()) json["until"] = write_stopping_rule(campaign.until);
+  if (campaign.margin) json["margin"] = write_margin(*campaign.margin, campaign.scene);
+  return json;
+}
+
+/// @throws SpecError with all that is wrong
+Campaign read_document(const Json& document, const std::filesystem::path& directory,
+                       const std::string& file) {
+  std::vector<Problem> problems;
+  Campaign campaign;
+  JsonObject object(JsonCursor(document, file, problems), "a campaign: an object");
+  if (const auto scene = object.require("scene", expected_scene))
+    campaign.scene = read_scene_member(*scene, directory);
+  const Scene* const scene = problems.empty() ? &campaign.scene : nullptr;
+  const Scene* usable = scene; // to look outputs up
+  Dispersions dispersions{{}, Json::array()};
+  const auto list = object.find("dispersions");
+  if (list) dispersions = read_dispersions(*list, scene, directory);
+  const bool named = problems.empty();
+  if (const auto at = object.find("sampling")) read_sampling(*at, campaign.sampling);
+  if (const auto at = object.find("integration")) read_integration(*at, campaign.integration);
+  const std::size_t before_outputs = problems.size();
+  if (const auto at = object.find("outputs")) read_outputs(*at, campaign.outputs);
+  if (problems.size() > before_outputs) usable = nullptr;
+  if (const auto at = object.find("statistics")) read_statistics(*at, campaign.statistics);
+  if (const auto at = object.find("correlations"))
+    campaign.wanted_correlations =
+        read_wanted_correlations(*at, named ? &dispersions.list : nullptr);
+  if (list) refuse_dimensions(*list, campaign.sampling, dispersions.list.size());
+  const GuaranteeReader guarantees(usable, campaign.outputs, campaign.sampling.design);
+  if (const auto at = object.find("requirements")) guarantees.read(*at, campaign.requirements);
+  if (const auto at = object.find("until")) guarantees.read(*at, campaign.until);
+  if (!campaign.statistics.tolerance_limits.empty())
+    refuse_dependent_draws(object.at().member("statistics").member("tolerance"), "tolerance limits",
+                           campaign.sampling.design);
+  if (const auto at = object.find("margin")) campaign.margin = read_margin(*at, scene);
+  (void)object.find(stamp_key); // known, and of no account
+  object.refuse_others();
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  campaign.dispersions = std::move(dispersions.list);
+  campaign.resolved = write_campaign(campaign, std::move(dispersions.resolved));
+  return campaign;
+}
+
+} // namespace
+
+Campaign read_campaign(const std::string& text, const std::filesystem::path& directory,
+                       const std::string& file) {
+  return read_document(parse_json(text, file), directory, file);
+}
+
+Campaign read_campaign_file(const std::filesystem::path& path) {
+  return read_document(parse_json_file(path), path.parent_path(), path.string());
+}
+
+Scene read_scene_file(const std::filesystem::path& path) {
+  return read_scene(parse_json_file(path), path.string());
+}
+
+std::variant<Scene, Campaign> read_file(const std::filesystem::path& path) {
+  const Json document = parse_json_file(path);
+  constexpr std::array campaign_keys{"scene", "dispersions", "sampling"};
+  const auto has = [&](const char* key) { return document.contains(key); };
+  if (std::ranges::any_of(campaign_keys, has))
+    return read_document(document, path.parent_path(), path.string());
+  return read_scene(document, path.string());
+}
+
+void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
+                       std::optional<std::uint64_t> seed) {
+  if (runs && has_replicates(campaign.sampling) && *runs < campaign.sampling.replicates)
+    throw SpecError({{"", "--runs", std::to_string(*runs),
+                      fmt::format("at least {}, one for each of the campaign's replicates",
+                                  campaign.sampling.replicates)}});
+  campaign.sampling.runs = runs.value_or(campaign.sampling.runs);
+  campaign.sampling.seed = seed.value_or(campaign.sampling.seed);
+  campaign.resolved["sampling"] = write_sampling(campaign.sampling);
+}
+
+void override_stopping(Campaign& campaign, const JsonCursor& at) {
+  guarantee_reader(campaign).read(at, campaign.until);
+  campaign.resolved["until"] = write_stopping_rule(campaign.until);
+}
+
+std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
+                                                const Campaign& campaign) {
+  const Json document = parse_json_file(path);
+  std::vector<Problem> problems;
+  std::vector<Requirement> requirements;
+  guarantee_reader(campaign).read(JsonCursor(document, path.string(), problems), requirements);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  return requirements;
+}
+
+} // namespace wingspread

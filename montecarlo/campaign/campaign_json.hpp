@@ -1,0 +1,44 @@
+/// A campaign from JSON, and parts of it put in place of what its file says.
+#pragma once
+
+#include "montecarlo/campaign/campaign.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace wingspread {
+
+/// @param directory that the files named in the text are relative to
+/// @param file      the name that problems carry
+/// @throws SpecError with all that is wrong
+[[nodiscard]] Campaign read_campaign(const std::string& text,
+                                     const std::filesystem::path& directory,
+                                     const std::string& file = "");
+
+/// @throws SpecError with all that is wrong
+[[nodiscard]] Campaign read_campaign_file(const std::filesystem::path& path);
+[[nodiscard]] Scene read_scene_file(const std::filesystem::path& path);
+
+/// Reads either, told apart by their keys: a campaign has a scene, a scene has bodies.
+/// @throws SpecError with all that is wrong
+[[nodiscard]] std::variant<Scene, Campaign> read_file(const std::filesystem::path& path);
+
+/// Replaces the number of runs and the seed, where given; `resolved` follows. @pre runs ≥ 1
+/// @throws SpecError when the runs are fewer than the design's replicates
+void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
+                       std::optional<std::uint64_t> seed);
+
+/// Replaces the widths at which it stops by those that stand here, and notes what is wrong with
+/// them; `resolved` follows.
+void override_stopping(Campaign& campaign, const JsonCursor& at);
+
+/// Reads requirements that stand in a file of their own, by the campaign's rules: an array.
+/// @throws SpecError with all that is wrong
+[[nodiscard]] std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
+                                                              const Campaign& campaign);
+
+} // namespace wingspread

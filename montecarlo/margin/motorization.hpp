@@ -1,0 +1,48 @@
+/// Static motorization margins of a hinge: by how much its spring's torque exceeds what resists,
+/// with the standards' factors on every term. Kinetic energy and viscous terms are not counted.
+/// Symbols and factors: motorization_factors.hpp.
+///
+///   ECSS-E-ST-33-01C:  T_min = m (f_I I + f_S S + f_HM HM + f_FR FR + f_HY HY + f_HA HA + f_HD HD)
+///                              + f_TD TD + TL,     margin = a T / T_min − 1 (1)
+///   NASA-STD-5017B:    margin = T / (FS_f ΣT_f + FS_v ΣT_v + FS_a ΣT_a) − 1 (2)
+///
+/// with m = 2, a = 0.8 for springs; the static margin of (2) leaves T_a out. Both have to be ≥ 0.
+///
+/// Every term is linear in the travel x but where a torque changes its sense, and (1) and (2) are
+/// quotients of them: between such places they are monotone, so the worst is at one of them or at
+/// an end, and is found exactly.
+#pragma once
+
+#include "core/scene/scene.hpp"
+#include "montecarlo/campaign/motorization_factors.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace wingspread {
+
+inline constexpr std::string_view ecss_standard = "ECSS-E-ST-33-01C";
+inline constexpr std::string_view nasa_standard = "NASA-STD-5017B";
+
+/// T_min of (1).
+[[nodiscard]] double ecss_required(const MotorizationTerms& terms, const EcssFactors& factors);
+/// (1). +∞ where nothing resists a spring; −1 where there is no torque at all.
+[[nodiscard]] double ecss_margin(const MotorizationTerms& terms, const EcssFactors& factors);
+/// (2) without T_a; the special values of ecss_margin.
+[[nodiscard]] double nasa_static_margin(const MotorizationTerms& terms, const NasaFactors& factors);
+/// (2) in full.
+[[nodiscard]] double nasa_dynamic_margin(const MotorizationTerms& terms,
+                                         const NasaFactors& factors);
+
+/// The hinge's terms at x of its travel, 0 stowed … 1 latched, on top of `other` that the scene
+/// does not know. A torque that changes its sense changes its side: a spring that pulls back is S.
+/// A harness that helps is not counted on. FR is the level that holds at rest: `static` of the
+/// exact friction, else `coulomb`.
+[[nodiscard]] MotorizationTerms terms_at(const Hinge& hinge, double x,
+                                         const MotorizationTerms& other = {});
+
+/// Where the margins may have their least: both ends of the travel, and where spring or harness
+/// changes its sense; ascending.
+[[nodiscard]] std::vector<double> turning_points(const Hinge& hinge);
+
+} // namespace wingspread
