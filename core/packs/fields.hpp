@@ -10,6 +10,7 @@
 #include "core/methods/step_control.hpp"
 #include "core/number/pack.hpp"
 #include "core/number/planar.hpp"
+#include "core/peaks/reaction_bound.hpp"
 #include "core/run/handover.hpp"
 
 #include <tuple>
@@ -55,6 +56,11 @@ concept A = is_a<std::remove_const_t<S>, Struct>;
       s;
   return std::tie(base, tree, hinge_of, bodies, hinges, initial_rates, has_regularized_friction,
                   can_stick);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<Lever> auto& s) {
+  auto& [mass, arm, sigma, moment] = s;
+  return std::tie(mass, arm, sigma, moment);
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<LinearLaw> auto& s) {

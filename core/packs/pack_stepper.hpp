@@ -10,6 +10,7 @@
 #include "core/packs/pack_engine.hpp"
 #include "core/packs/structure.hpp"
 #include "core/peaks/moment_peaks.hpp"
+#include "core/peaks/reaction_bound.hpp"
 
 #include <optional>
 #include <type_traits>
@@ -36,12 +37,19 @@ public:
     begun_ = look_ = evaluations_before_ = none;
     pace_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
+    levers_.assign(at_.bodies + 1, {none, none, {none, none}, none});
+    bound_.resize(at_.bodies);
   }
 
   [[nodiscard]] int width() const override { return W; }
   [[nodiscard]] long rounds() const override { return round_; }
 
-  void set_wing(int lane, const Wing<double>& wing) override { set_lane(lane, wing_, wing); }
+  void set_wing(int lane, const Wing<double>& wing) override {
+    set_lane(lane, wing_, wing);
+    if (!shape_.forces) return;
+    set_levers(wing, topology_, levers_of_wing_);
+    set_lane(lane, levers_, levers_of_wing_);
+  }
 
   void carry(int lane, const Handover& run) override {
     const double now = static_cast<double>(round_);
@@ -196,9 +204,17 @@ private:
       if (!shape_.forces) continue;
       const Vec2<P>& force = work_.forces[i];
       force_after_[i] = sqrt(dot(force, force));
-      look = look || P(1.25) * larger(force_before_[i], force_after_[i]) > forces_[i];
     }
-    return look;
+    return shape_.forces ? look || a_force_may_rise() : look;
+  }
+
+  [[nodiscard]] Mask a_force_may_rise() {
+    bound_.over_step(system_, levers_, step_);
+    Mask any{};
+    for (int i = 1; i <= at_.bodies; ++i)
+      any = any || !(fused(P(1.0), bound_.rise(i), larger(force_before_[i], force_after_[i])) <=
+                     forces_[i]);
+    return any;
   }
 
   [[nodiscard]] Mask may_engage(int i) const {
@@ -220,6 +236,9 @@ private:
   State<P> error_;
   P rtol_, atol_, tolerance_of_dense_, error_size_, t_end_;
   std::vector<P> waits_, moments_, forces_, force_before_, force_after_;
+  std::vector<Lever<P>> levers_;
+  std::vector<Lever<double>> levers_of_wing_; ///< scratch
+  ReactionBound<P> bound_;
   Pace<P> pace_;
   P busy_; ///< 1 where a lane has a run, else 0
   /// Rounds, counted as numbers: when the run was taken, and after which it must know.

@@ -5,6 +5,7 @@
 #include "core/number/planar.hpp"
 #include "core/peaks/maximum.hpp"
 #include "core/peaks/peak.hpp"
+#include "core/peaks/reaction_bound.hpp"
 
 #include <array>
 #include <optional>
@@ -13,16 +14,20 @@
 namespace wingspread {
 
 /// Raises every hinge's `peaks` to its largest |reaction| over the step, given those at both ends.
-/// A step with an end within a quarter of a peak is sampled at three inner points by evaluating the
-/// recursion on the dense output, and refined beside the largest.
+/// A step that may rise above a peak by `ReactionBound` is halved, and once more, by evaluating the
+/// recursion on the dense output; where a quarter may still, its maximum is sought.
 template <class T, class AnySystem> class ForcePeaks {
 public:
   std::vector<PeakOf<T>> peaks; ///< 1 … n
 
-  void start(int bodies) {
+  /// A run of the system begins.
+  void start(const AnySystem& system) {
+    const int bodies = system.layout().bodies;
     peaks.assign(bodies + 1, {});
     before_.assign(bodies + 1, T(0));
     inner_.assign(bodies + 1, {});
+    set_levers(system.wing(), system.topology(), levers_);
+    bound_.resize(bodies);
     doubts_.clear();
   }
 
@@ -39,19 +44,22 @@ public:
 
   /// The last evaluation was at the step's end. What lies inside the step is left in doubt.
   void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
+    bound_.over_step(system, levers_, step);
     bool promising = false;
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       const T end = magnitude(system, static_cast<int>(i));
       inner_[i] = {before_[i], T(0), T(0), T(0), end};
-      promising = promising || T(1.25) * larger(before_[i], end) > peaks[i].value;
       before_[i] = end;
+      promising = promising || may_rise(i, inner_[i][0], inner_[i][4], T(1));
     }
     if (!promising) return;
-    for (int k = 1; k <= 3; ++k) {
-      evaluate(system, step, T(k) / T(4), x, dxdt);
-      for (std::size_t i = 1; i < peaks.size(); ++i)
-        inner_[i][k] = magnitude(system, static_cast<int>(i));
-    }
+    sample(system, step, 2, x, dxdt);
+    promising = false;
+    for (std::size_t i = 1; i < peaks.size(); ++i)
+      for (const std::size_t end : {0, 4})
+        promising = promising || may_rise(i, inner_[i][end], inner_[i][2], T(1) / T(4));
+    if (!promising) return;
+    for (const int k : {1, 3}) sample(system, step, k, x, dxdt);
     for (std::size_t i = 1; i < peaks.size(); ++i)
       raise(system, step, static_cast<int>(i), x, dxdt);
   }
@@ -82,25 +90,42 @@ private:
     return sqrt(dot(f, f));
   }
 
+  /// Whether |reaction| i may exceed its peak between points where it is a and b.
+  /// @param part of the rise over the whole step
+  [[nodiscard]] bool may_rise(std::size_t i, const T& a, const T& b, const T& part) const {
+    return !(fused(part, bound_.rise(static_cast<int>(i)), larger(a, b)) <= peaks[i].value);
+  }
+
+  /// At k quarters of the step.
+  void sample(AnySystem& system, const Step<T>& step, int k, State<T>& x, State<T>& dxdt) {
+    evaluate(system, step, T(k) / T(4), x, dxdt);
+    for (std::size_t i = 1; i < peaks.size(); ++i)
+      inner_[i][k] = magnitude(system, static_cast<int>(i));
+  }
+
   static void evaluate(AnySystem& system, const Step<T>& step, const T& s, State<T>& x,
                        State<T>& dxdt) {
     step.interpolate(system.layout(), s, x);
     system(x, dxdt, step.t + s * step.h);
   }
 
+  /// Given all five samples.
   void raise(AnySystem& system, const Step<T>& step, int i, State<T>& x, State<T>& dxdt) {
-    std::size_t best = 0;
-    for (std::size_t k = 1; k <= 4; ++k)
-      if (inner_[i][k] > inner_[i][best]) best = k;
-    if (inner_[i][best] < T(sample_margin) * peaks[i].value) return;
-    peaks[i].raise(inner_[i][0], step.t);
-    peaks[i].raise(inner_[i][4], step.t + step.h);
-    if (at_an_end_for_sure(inner_[i], best)) return;
-    const auto [found, vertex] = maximum_near(inner_[i], best, [&](const T& s) {
-      evaluate(system, step, s, x, dxdt);
-      return magnitude(system, i);
-    });
-    if (found.value > peaks[i].value) doubts_.push_back({i, vertex, T(step.t + vertex * step.h)});
+    const std::array<T, 5>& f = inner_[i];
+    peaks[i].raise(f[0], step.t);
+    peaks[i].raise(f[4], step.t + step.h);
+    T highest = peaks[i].value;
+    for (std::size_t k = 0; k <= 4; ++k) {
+      const bool crest = (k == 0 || f[k] >= f[k - 1]) && (k == 4 || f[k] >= f[k + 1]);
+      if (!crest || !may_rise(i, f[k], f[k], T(1) / T(16)) || at_an_end_for_sure(f, k)) continue;
+      const auto [found, vertex] = maximum_near(f, k, [&](const T& s) {
+        evaluate(system, step, s, x, dxdt);
+        return magnitude(system, i);
+      });
+      if (!(found.value > highest)) continue;
+      highest = found.value;
+      doubts_.push_back({i, vertex, T(step.t + vertex * step.h)});
+    }
   }
 
   /// The samples rise or fall towards an end so steeply that a parabola through the last three has
@@ -114,6 +139,8 @@ private:
     return slope > T(2) * abs(curvature);
   }
 
+  std::vector<Lever<T>> levers_; ///< 0 … n
+  ReactionBound<T> bound_;
   std::vector<T> before_;
   std::vector<std::array<T, 5>> inner_;
   std::vector<Doubt> doubts_; ///< last in, first out

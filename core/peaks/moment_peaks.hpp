@@ -21,10 +21,9 @@ public:
     const LinearLaw<T>& law = system.work().laws[i];
     const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
     rate_ = derivative(angle, step.h);
-    for (int k = 0; k < 6; ++k) {
-      linear_[k] = linear_moment(law, angle[k], rate_[k]);
+    for (int k = 0; k < 6; ++k) linear_[k] = linear_moment(law, angle[k], rate_[k]);
+    for (int k = 0; smoothed_ && k < 6; ++k)
       latch_[k] = fused(hinge_.stiffness, angle[k] - hinge_.latched, hinge_.damping * rate_[k]);
-    }
   }
 
   /// No |moment| in the step is larger, by the hulls of the polynomials; friction opposes the rate,

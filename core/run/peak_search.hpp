@@ -24,7 +24,7 @@ public:
   /// A run begins.
   void start() {
     moments_.assign(run_.at.bodies + 1, {});
-    if (run_.goal.peak_force) forces_.start(run_.at.bodies);
+    if (run_.goal.peak_force) forces_.start(run_.system);
   }
 
   /// The right-hand side has just been evaluated where the run stands, and is new.

@@ -1,0 +1,164 @@
+/// How far a hinge force inside a step may exceed those at its ends.
+///
+/// The force on body i at its hinge accelerates everything outward of it. With e_k = (cos θ_k, sin θ_k)
+/// and all vectors in their bodies' frames (|.| are constants of the wing),
+///
+///     Y_i = Σ m_j r̈_j = μ_i r̈ of hinge i + Σ σ_k × ë_k over k = i and outward of it                 (1)
+///     r̈ of hinge i    = r̈ of the base + Σ l_c × ë_p over the hinges c from the base to i, p: parent
+///
+/// | symbol | meaning                                                              | unit |
+/// |--------|----------------------------------------------------------------------|------|
+/// | μ_i    | mass of body i and of all outward of it                              | kg   |
+/// | l_c    | from the parent's hinge to hinge c                                   | m    |
+/// | σ_k    | first moment about hinge k: its body, and μ_c at each hinge c on it  | kg·m |
+///
+/// Between the ends of an interval a function leaves its chord by h²/8 of its largest second
+/// derivative, and a chord is nowhere longer than at one of its ends. So
+///
+///     |Y_i| ≤ larger |Y_i| at an end + h²/8 (μ_i A_i + B_i)                                        (2)
+///     A_i = A_p + |l_i| W_p        B_i = |σ_i| W_i + Σ B_j over the children                       (3)
+///     W_k ≥ |d⁴e_k/dt⁴| = |i θ⁽⁴⁾ − 4 θ̇ θ⃛ − 3 θ̈² − 6 i θ̇² θ̈ + θ̇⁴|                                 (4)
+///
+/// with the derivatives of θ_k bounded by the Bernstein coefficients of the step's quintics: a proof
+/// for the motion of the dense output, whose forces at the ends are the true ones. Of a swing that
+/// a step follows over less than a whole period, the quintic's second derivative leaves its chord
+/// by at least three quarters of what the swing's own does; (2) is taken 4/3 times.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/system.hpp"
+
+#include <array>
+#include <vector>
+
+namespace wingspread {
+
+/// What (2) and (3) need of a body and its hinge.
+template <class T> struct Lever {
+  T mass;        ///< μ
+  T arm;         ///< |l|
+  Vec2<T> sigma; ///< own frame
+  T moment;      ///< |σ|
+};
+
+/// @param levers 0 … n
+template <class T, class Topology>
+void set_levers(const Wing<T>& wing, const Topology& tree, std::vector<Lever<T>>& levers) {
+  using std::sqrt;
+  levers.assign(tree.bodies() + 1, {T(0), T(0), {T(0), T(0)}, T(0)});
+  tree.inward([&](int i) {
+    const BodyTerms<T>& body = wing.bodies[i];
+    Lever<T>&own = levers[i], &parents = levers[tree.parent_of(i)];
+    own.mass = own.mass + body.mass;
+    own.sigma = own.sigma + body.mass_moment;
+    own.arm = sqrt(dot(body.arm, body.arm));
+    own.moment = sqrt(dot(own.sigma, own.sigma));
+    parents.mass = parents.mass + own.mass;
+    parents.sigma = fused(own.mass, body.arm, parents.sigma);
+  });
+}
+
+template <class T> class ReactionBound {
+public:
+  void resize(int bodies) {
+    paths_.resize(bodies + 1);
+    hinge_.assign(bodies + 1, T(0)), turn_.assign(bodies + 1, T(0));
+    sum_.assign(bodies + 1, T(0));
+  }
+
+  /// Cost O(n), less than an evaluation.
+  template <class Topology, BaseMotion M>
+  void over_step(const System<T, Topology, M>& system, const std::vector<Lever<T>>& levers,
+                 const Step<T>& step) {
+    const auto& tree = system.topology();
+    const Layout& at = system.layout();
+    const Scale scale(step.h);
+    start_at_base(system, step, scale);
+    tree.outward([&](int i) __attribute__((always_inline)) {
+      const int p = tree.parent_of(i);
+      const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
+      for (int k = 0; k < 6; ++k) paths_[i][k] = paths_[p][k] + angle[k];
+      turn_[i] = of_turning(paths_[i], scale);
+      hinge_[i] = fused(levers[i].arm, turn_[p], hinge_[p]);
+      sum_[i] = T(0);
+    });
+    const T weight = step.h * step.h * T(1.0 / 6); // 4/3 of 1/8
+    tree.inward([&](int i) __attribute__((always_inline)) {
+      const int p = tree.parent_of(i);
+      sum_[i] = fused(levers[i].moment, turn_[i], sum_[i]);
+      sum_[p] = sum_[p] + sum_[i];
+      turn_[i] = weight * fused(levers[i].mass, hinge_[i], sum_[i]);
+    });
+  }
+
+  /// By how much |Y_i| may exceed what it is at the step's ends, N; a quarter of it between the ends
+  /// and the middle, and so on.
+  [[nodiscard]] const T& rise(int i) const { return turn_[i]; }
+
+private:
+  /// Of differences of a quintic's coefficients: k-th ones make bounds of the k-th derivative.
+  struct Scale {
+    explicit Scale(const T& h)
+        : first(T(5) / h), second(T(0.8) * first * first), third(T(0.6) * first * second),
+          fourth(T(0.4) * first * third) {}
+    T first, second, third, fourth;
+  };
+
+  /// A and W of the base, and its angle.
+  template <class Topology, BaseMotion M>
+  void start_at_base(const System<T, Topology, M>& system, const Step<T>& step,
+                     const Scale& scale) {
+    paths_[0].fill(T(0));
+    hinge_[0] = turn_[0] = sum_[0] = T(0);
+    if constexpr (M == BaseMotion::free) {
+      const int n = system.layout().freedoms();
+      for (const int k : {0, 1}) hinge_[0] = hinge_[0] + of_moving(step.coordinate(k, n), scale);
+      paths_[0] = step.coordinate(2, n);
+      turn_[0] = of_turning(paths_[0], scale);
+    }
+    if constexpr (M == BaseMotion::prescribed) { // θ̈ is constant, and so is the origin's r̈
+      const BaseTerms<T>& base = system.wing().base;
+      const T& second = base.angular_acceleration;
+      const T first = fused(second, step.t, base.rate), last = fused(second, step.h, first);
+      const T turned = step.h * fused(T(0.5) * step.h, second, first);
+      paths_[0] = hermite<T>(step.h, {T(0), first, second}, {turned, last, second});
+      turn_[0] = of_turning(paths_[0], scale);
+    }
+  }
+
+  template <class... U>
+  [[nodiscard, gnu::always_inline]] static inline T largest(const T& first, const U&... rest) {
+    using std::abs;
+    T most = abs(first);
+    ((most = larger(most, T(abs(rest)))), ...);
+    return most;
+  }
+
+  /// |d⁴/dt⁴| of a coordinate.
+  [[nodiscard]] static T of_moving(const Quintic<T>& p, const Scale& scale) {
+    const T a = p[0] - T(4) * p[1] + T(6) * p[2] - T(4) * p[3] + p[4];
+    const T b = p[1] - T(4) * p[2] + T(6) * p[3] - T(4) * p[4] + p[5];
+    return scale.fourth * largest(a, b);
+  }
+
+  /// (4)
+  [[nodiscard, gnu::always_inline]] static inline T of_turning(const Quintic<T>& p,
+                                                               const Scale& scale) {
+    const T a0 = p[1] - p[0], a1 = p[2] - p[1], a2 = p[3] - p[2], a3 = p[4] - p[3],
+            a4 = p[5] - p[4];
+    const T b0 = a1 - a0, b1 = a2 - a1, b2 = a3 - a2, b3 = a4 - a3;
+    const T c0 = b1 - b0, c1 = b2 - b1, c2 = b3 - b2;
+    const T first = scale.first * largest(a0, a1, a2, a3, a4);
+    const T second = scale.second * largest(b0, b1, b2, b3);
+    const T third = scale.third * largest(c0, c1, c2);
+    const T fourth = scale.fourth * largest(T(c1 - c0), T(c2 - c1));
+    const T square = first * first;
+    const T slow = fused(square, square, T(3) * second * second);
+    return fourth + fused(T(4) * first, third, fused(T(6) * square, second, slow));
+  }
+
+  std::vector<Quintic<T>> paths_;     ///< θ over the step, 0 … n
+  std::vector<T> hinge_, turn_, sum_; ///< A, W (in the end the outcome), B
+};
+
+} // namespace wingspread

@@ -1,0 +1,74 @@
+// Peak forces of whole runs against the dense oracle in extended precision.
+#include "core/deployment.hpp"
+#include "tests/support/closed_forms.hpp"
+#include "tests/support/reference_run.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// Three panels of which the middle hinge's largest force lies inside a step, near half of a fast
+/// swing's period, where both ends of the step are below 0.55 of it.
+Scene swinging_wing() {
+  Scene scene = seed_scene();
+  const LinearTorque springs[] = {{1.99048, 1.39333}, {1.49485, 0.498283}, {0.72635, 0.0968466}};
+  const Latch latches[] = {{11475.5, 11.7765}, {10182.2, 3.97612}, {10278, 4.55992}};
+  for (int i = 0; i < 3; ++i)
+    scene.hinges[i].spring = springs[i], scene.hinges[i].latch = latches[i];
+  return scene;
+}
+
+double largest_error(const std::vector<Peak>& got, const std::vector<ReferencePeak>& expected) {
+  double worst = 0;
+  for (std::size_t i = 0; i < got.size(); ++i)
+    worst = std::max(worst, std::abs(got[i].value / expected[i].value - 1));
+  return worst;
+}
+
+} // namespace
+
+TEST_CASE("a peak force is found where both ends of a step are low, by every method") {
+  const Scene scene = swinging_wing();
+  ReferenceOptions options;
+  options.t_end = 9, options.rtol = 1e-15, options.atol = 1e-16;
+  const ReferenceOutcome exact = high_precision_run<long double>(scene, options);
+  CHECK(exact.peak_force[1].value == Approx(167.98457).epsilon(1e-6));
+  for (const MethodInfo& method : methods())
+    for (const double rtol : {1e-3, 1e-4, 1e-6}) {
+      if (method.name == "runge_kutta4" || (method.name == "rosenbrock_w" && rtol < 1e-4)) continue;
+      Integration how = within(rtol, 9);
+      how.method = method.name;
+      const Outcome out = Deployment().run(scene, how, to_the_end);
+      CAPTURE(method.name, rtol);
+      // what the steps' own errors add up to in the moments, the forces may be off; ten times the
+      // tolerance where the moments happen to be better
+      const double moments = largest_error(out.peak_moment, exact.peak_moment);
+      CHECK(largest_error(out.peak_force, exact.peak_force) < 3 * moments + 10 * rtol);
+    }
+}
+
+TEST_CASE("peak forces of loosely integrated wings are as good as their moments") {
+  double worst = 0;
+  for (int k = 0; k < 60; ++k) {
+    Draws draws(1000 + k);
+    Scene scene = seed_scene();
+    for (Hinge& hinge : scene.hinges) {
+      const double spring = draws.uniform(0.95, 1.05);
+      hinge.spring.torque_stowed *= spring, hinge.spring.torque_latched *= spring;
+      hinge.latch = Latch{1e4 * draws.uniform(0.8, 1.2), draws.log_uniform(1, 130)};
+    }
+    Integration tight = within(1e-11, 9);
+    tight.method = "dop853";
+    const Outcome exact = Deployment().run(scene, tight, to_the_end),
+                  loose = Deployment().run(scene, within(1e-3, 9), to_the_end);
+    for (int i = 0; i < 3; ++i)
+      worst = std::max(worst, std::abs(loose.peak_force[i].value / exact.peak_force[i].value - 1));
+  }
+  CHECK(worst < 2e-3); // twice the tolerance; a missed peak is off by 2 to 12 %
+}
