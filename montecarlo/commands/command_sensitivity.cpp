@@ -7,7 +7,8 @@
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/sensitivity/design_folder.hpp"
-#include "montecarlo/sensitivity/sensitivity_text.hpp"
+#include "montecarlo/sensitivity/rank_report.hpp"
+#include "montecarlo/sensitivity/sobol_report.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,0 +1,101 @@
+#include "montecarlo/sensitivity/sobol_report.hpp"
+
+#include "montecarlo/folder/stamp.hpp"
+#include "montecarlo/formats/csv.hpp"
+#include "montecarlo/formats/json.hpp"
+#include "montecarlo/formats/text_layout.hpp"
+#include "montecarlo/sensitivity/effect_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+Bounds bounds_of(const Interval& interval) { return {interval.lower, interval.upper}; }
+
+} // namespace
+
+Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
+  Json outputs = Json::object();
+  for (const auto& [name, indices] : all.outputs) {
+    Json effects = Json::object();
+    for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
+      const auto& [first, total, inert] = indices.effects[i];
+      effects[all.dispersions[i]] = {{"first", value_json(first.value, bounds_of(first.interval))},
+                                     {"total", value_json(total.value, bounds_of(total.interval))},
+                                     {"inert", inert}};
+    }
+    outputs[name] = {{"rows", indices.rows},
+                     {"left_out", indices.left_out},
+                     {"mean", json_number(indices.mean)},
+                     {"variance", json_number(indices.variance)},
+                     {"dispersions", effects}};
+  }
+  return {{stamp_key, about},
+          {"method", "Sobol' indices"},
+          {"design", all.design},
+          {"samples", all.rows},
+          {"runs", all.runs},
+          {"partial", all.runs < all.total},
+          {"confidence", all.confidence},
+          {"definitions",
+           {{"first", "Saltelli 2010: mean of f_B (f_ABi - f_A) over the variance"},
+            {"total", "Jansen 1999: mean of (f_A - f_ABi)^2 over twice the variance"},
+            {"bounds", fmt::format("percentile bootstrap over rows, {} resamples, two-sided; of "
+                                   "stratified designs rather too wide",
+                                   all.resamples)},
+            {"left_out", "rows in which one of the points does not have the output"},
+            {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
+            {"moves_nothing", "all outputs of all rows are the same without it, bit for bit"}}},
+          {"outputs", outputs},
+          {"moves_nothing", all.idle()}};
+}
+
+std::string sensitivity_csv(const SobolSensitivity& all) {
+  std::string text = "output,dispersion,rows,left_out,first,first_lower,first_upper,"
+                     "total,total_lower,total_upper\n";
+  for (const auto& [name, indices] : all.outputs)
+    for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
+      append_csv_cell(text, name);
+      append_csv_cells(text, all.dispersions[i], indices.rows, indices.left_out);
+      for (const SobolIndex& index : {indices.effects[i].first, indices.effects[i].total})
+        append_csv_cells(text, index.value, index.interval.lower, index.interval.upper);
+      text += '\n';
+    }
+  return text;
+}
+
+std::string sensitivity_table(const SobolSensitivity& all, std::string_view title) {
+  std::string text = fmt::format("{}\n", title);
+  const std::string columns = column_names("total", "first", all.confidence);
+  for (const auto& [name, indices] : all.outputs) {
+    const SobolIndices& found = indices;
+    const auto size = [&](std::size_t i) { return found.effects[i].total.value; };
+    const auto line = [&](std::size_t i) {
+      const auto& [first, total, inert] = found.effects[i];
+      return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[i], name_width - 2),
+                         name_width, value_text(total.value, bounds_of(total.interval)),
+                         value_text(first.value, bounds_of(first.interval)));
+    };
+    text += effect_block(heading_of(name, found.rows, "rows", found.left_out), columns,
+                         all.dispersions.size(), size, line);
+    double sum = 0;
+    for (const SobolEffect& effect : found.effects) sum += effect.first.value;
+    if (!std::isnan(sum))
+      text += fmt::format("  {:<{}}{:>39.3f}\n", "sum of the first-order", name_width, sum);
+  }
+  return text;
+}
+
+std::vector<std::string> warnings(const SobolSensitivity& all) {
+  std::vector<std::string> list;
+  if (const std::vector<std::string> idle = all.idle(); !idle.empty())
+    list.push_back(fmt::format("no output of any run changes with {}", quoted(idle)));
+  if (all.runs < all.total)
+    list.push_back(fmt::format("only {} of {} runs are there", all.runs, all.total));
+  return list;
+}
+
+} // namespace wingspread
