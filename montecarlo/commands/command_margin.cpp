@@ -9,6 +9,8 @@
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/margin/margin_report.hpp"
+#include "montecarlo/margin/margin_study.hpp"
+#include "montecarlo/margin/scaled_springs.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,27 +28,12 @@ struct MarginOptions {
   bool json = false;
 };
 
-/// Static margins with the present springs, and with the recommended ones of a joint search.
-std::vector<ScaledMotorization> motorization_of(const Campaign& campaign,
-                                                const MarginResult& result) {
-  const MarginSpec& spec = *campaign.margin;
-  std::vector<ScaledMotorization> all{{1, study_motorization(campaign, campaign.scene, spec)}};
-  const MarginSearch& search = result.searches.front();
-  if (spec.mode == MarginMode::joint && search.recommended && *search.recommended != 1) {
-    const double scale = *search.recommended;
-    all.push_back({scale, study_motorization(scaled(campaign, search.scaled, scale),
-                                             scaled(campaign.scene, search.scaled, scale), spec)});
-  }
-  return all;
-}
-
 /// The campaign with the recommended springs, ready to be run.
 void write_recommended(const Campaign& campaign, const MarginResult& result,
                        const std::filesystem::path& folder) {
-  const MarginSearch& search = result.searches.front();
-  if (campaign.margin->mode != MarginMode::joint || !search.recommended) return;
-  write_file(folder / recommended_file,
-             json_text(scaled(campaign, search.scaled, *search.recommended).resolved));
+  if (const MarginSearch* search = recommending(campaign, result))
+    write_file(folder / recommended_file,
+               json_text(scaled(campaign, search->scaled, *search->recommended).resolved));
 }
 
 /// What there is to say besides the report.
@@ -87,12 +74,12 @@ int margin(const MarginOptions& options) {
                (options.out / margin_csv_file).string());
     return exit_code::interrupted;
   }
-  const MarginReport report{campaign, result, motorization_of(campaign, result)};
+  const MarginReport report = margin_report(campaign, result);
   const std::string json = json_text(margin_json(report, stamp_json(stamp_of(campaign, {}))));
   make_folder(options.out);
   write_file(options.out / margin_json_file, json);
   write_file(options.out / margin_csv_file, margin_csv(campaign, result));
-  write_file(options.out / motorization_csv_file, motorization_csv(report));
+  write_file(options.out / motorization_csv_file, motorization_csv(campaign, report.motorization));
   write_recommended(campaign, result, options.out);
   fmt::print("{}", options.json ? json : margin_text(report));
   return conclude(campaign, result);

@@ -1,27 +1,17 @@
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/margin/margin_report.hpp"
-#include "montecarlo/runs/run_plan.hpp"
-
-#include <algorithm>
-#include <cmath>
+#include "montecarlo/summary/verdict_json.hpp"
 
 namespace wingspread {
 namespace {
 
 /// A requirement's verdict in a case at a scale.
-Json verdict_json(const Verdict& verdict, const std::string& which_case) {
+Json case_verdict_json(const Verdict& verdict, const std::string& which_case) {
   Json json{{"case", which_case}};
   json.update(write_requirements({&verdict.requirement, 1}).front());
   json["verdict"] = to_string(verdict.decision);
   json["disproved"] = verdict.disproved;
-  json["failures"] = {{"seen", verdict.broken.size()},
-                      {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)}};
-  json["observed"] = {{"share", json_number(verdict.share)}};
-  json["guaranteed"] = {{"share", json_number(verdict.guaranteed_share)}};
-  if (verdict.requirement.output != deployed_output) {
-    json["observed"]["value"] = json_number(verdict.observed);
-    json["guaranteed"]["value"] = json_number(verdict.guaranteed);
-  }
+  json.update(evidence_json(verdict));
   return json;
 }
 
@@ -30,8 +20,7 @@ class SearchJson {
 public:
   SearchJson(const MarginReport& report, const MarginSearch& search)
       : report_(report), search_(search), looks_(looks_of(search)),
-        conditions_(conditions(report, search)),
-        numbers_(conditions_of(report.campaign, report.result)) {}
+        conditions_(condition_findings(report.campaign, report.result, search)) {}
 
   [[nodiscard]] Json json() const {
     const auto windows = windows_of(looks_);
@@ -59,9 +48,8 @@ private:
   }
 
   [[nodiscard]] Json evidence(std::size_t condition, double scale) const {
-    const auto& [which, requirement] = numbers_[condition];
-    return verdict_json(search_.seen.at(scale)[which].verdicts[requirement],
-                        conditions_[condition].which_case);
+    const ConditionFinding& found = conditions_[condition];
+    return case_verdict_json(verdict_of(search_.seen.at(scale), found.condition), found.which_case);
   }
 
   [[nodiscard]] Json edge(const MarginEdge& edge) const {
@@ -88,7 +76,7 @@ private:
     Json json = Json::array();
     for (std::size_t which = 0; which < look.size(); ++which)
       for (const Verdict& verdict : look[which].verdicts)
-        json.push_back(verdict_json(verdict, report_.result.cases[which].name));
+        json.push_back(case_verdict_json(verdict, report_.result.cases[which].name));
     return json;
   }
 
@@ -137,62 +125,8 @@ private:
   const MarginReport& report_;
   const MarginSearch& search_;
   Looks looks_;
-  std::vector<ConditionReport> conditions_;
-  std::vector<MarginCondition> numbers_;
+  std::vector<ConditionFinding> conditions_;
 };
-
-Json spread_json(const MarginSpread& spread, std::span<const double> probabilities) {
-  Json quantiles = Json::array();
-  for (std::size_t k = 0; k < spread.quantiles.size(); ++k)
-    quantiles.push_back({{"p", probabilities[k]}, {"value", json_number(spread.quantiles[k])}});
-  return {{"quantiles", quantiles},
-          {"share_below_0", json_number(spread.share_short)},
-          {"least", json_number(spread.least)},
-          {"worst_run", spread.worst_run}};
-}
-
-Json draws_of_run(const Campaign& campaign, const RunPlan& plan, long run) {
-  Json json = Json::object();
-  std::vector<double> draws(campaign.dispersions.size());
-  if (run < 0) return json;
-  plan.draw(run, draws);
-  for (std::size_t i = 0; i < draws.size(); ++i)
-    json[campaign.dispersions[i].name] = json_number(draws[i]);
-  return json;
-}
-
-/// A hinge's least margins over its travel, kind by kind.
-Json hinge_json(const MarginReport& report, const RunPlan& plan, const HingeMotorization& each) {
-  const Hinge& hinge = report.campaign.scene.hinges[each.hinge];
-  Json json{{"hinge", hinge.name}};
-  for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
-    Json entry{{"nominal", json_number(each.worst[kind])},
-               {"angle", hinge.stowed + (hinge.latched - hinge.stowed) * each.worst_at[kind]}};
-    entry["draws"] = spread_json(each.worst_spread[kind], report.campaign.statistics.quantiles);
-    entry["draws"]["worst_draw"] =
-        draws_of_run(report.campaign, plan, each.worst_spread[kind].worst_run);
-    json[std::string(margin_kind_names[kind])] = std::move(entry);
-  }
-  return json;
-}
-
-Json motorization_json(const MarginReport& report) {
-  const RunPlan plan(report.campaign);
-  Json json{{"standards", {{"ecss", ecss_standard}, {"nasa", nasa_standard}}}};
-  json["factors"] = write_margin(*report.campaign.margin, report.campaign.scene)["motorization"];
-  json["springs_per_hinge"] = report.campaign.margin->springs_per_hinge;
-  json["at"] = Json::array();
-  for (const auto& [scale, study] : report.motorization) {
-    Json hinges = Json::array();
-    for (const HingeMotorization& each : study.hinges)
-      hinges.push_back(hinge_json(report, plan, each));
-    json["at"].push_back({{"scale", scale},
-                          {"draws", study.draws},
-                          {"invalid", study.invalid},
-                          {"least_over_travel", hinges}});
-  }
-  return json;
-}
 
 Json definitions() {
   return {
@@ -235,7 +169,7 @@ Json margin_json(const MarginReport& report, const Json& about) {
           {"mode", margin_mode_names[static_cast<std::size_t>(spec.mode)]},
           {"cases", cases},
           {"searches", searches},
-          {"motorization", motorization_json(report)},
+          {"motorization", motorization_json(report.campaign, report.motorization)},
           {"definitions", definitions()}};
 }
 

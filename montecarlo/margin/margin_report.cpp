@@ -1,83 +1,20 @@
 #include "montecarlo/margin/margin_report.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include "montecarlo/margin/scaled_springs.hpp"
 
 namespace wingspread {
-namespace {
 
-std::string_view kind_of(const std::vector<Window>& holds) {
-  if (holds.empty()) return "never";
-  if (holds.size() > 1) return "several";
-  const bool lower = holds.front().below.has_value(), upper = holds.front().above.has_value();
-  if (lower) return upper ? "both" : "lower";
-  return upper ? "upper" : "always";
-}
-
-/// Whether a condition is broken by nothing but runs that did not deploy.
-bool lacks_deployment(const Verdict& verdict, const CaseLook& look) {
-  const long deployed = look.statuses[static_cast<std::size_t>(Status::deployed)];
-  return std::ssize(verdict.broken) == verdict.runs - deployed;
-}
-
-MarginEdge edge(const MarginSearch& search, double passing, const std::optional<double>& failing) {
-  MarginEdge edge{passing, failing, {}, {}};
-  if (!failing) return edge;
-  const ScaleLook& look = search.seen.at(*failing);
-  const Failing why = telling(look);
-  edge.set_by.assign(why.begin(), why.end());
-  std::ranges::set_difference(wingspread::failing(look), why, std::back_inserter(edge.as_well));
-  return edge;
-}
-
-} // namespace
-
-std::vector<ConditionReport> conditions(const MarginReport& report, const MarginSearch& search) {
-  const Looks looks = looks_of(search);
-  std::vector<ConditionReport> all;
-  for (const MarginCondition& condition : conditions_of(report.campaign, report.result)) {
-    const auto holds = windows_of(looks, all.size());
-    ConditionReport& each = all.emplace_back();
-    each.requirement = to_string(report.campaign.requirements[condition.requirement]);
-    each.which_case = report.result.cases[condition.which_case].name;
-    each.holds = holds;
-    each.kind = kind_of(holds);
-    if (search.recommended)
-      each.out_of_order = out_of_order(search, condition, *search.recommended);
+MarginReport margin_report(const Campaign& campaign, const MarginResult& result) {
+  const MarginSpec& spec = *campaign.margin;
+  MarginReport report{campaign, result, {{1, study_motorization(campaign, campaign.scene, spec)}}};
+  const MarginSearch* search = recommending(campaign, result);
+  if (search && *search->recommended != 1) {
+    const double scale = *search->recommended;
+    report.motorization.push_back(
+        {scale, study_motorization(scaled(campaign, search->scaled, scale),
+                                   scaled(campaign.scene, search->scaled, scale), spec)});
   }
-  return all;
-}
-
-MarginEdge lower_edge(const MarginSearch& search, const Window& window) {
-  return edge(search, window.lower, window.below);
-}
-
-MarginEdge upper_edge(const MarginSearch& search, const Window& window) {
-  return edge(search, window.upper, window.above);
-}
-
-Failing telling(const ScaleLook& look) {
-  Failing all;
-  std::size_t first = 0; // condition of the case
-  for (const CaseLook& each : look) {
-    std::optional<std::size_t> deployment; // the condition that stands for its want
-    for (std::size_t k = 0; k < each.verdicts.size(); ++k) {
-      const Verdict& verdict = each.verdicts[k];
-      if (verdict.decision == Decision::pass) continue;
-      const bool is_deployed = verdict.requirement.output == deployed_output;
-      if (!is_deployed && !lacks_deployment(verdict, each))
-        all.insert(first + k);
-      else if (is_deployed || !deployment)
-        deployment = first + k;
-    }
-    if (deployment) all.insert(*deployment);
-    first += each.verdicts.size();
-  }
-  return all;
-}
-
-bool is_met(const MarginResult& result) {
-  return std::ranges::all_of(result.searches, is_confirmed);
+  return report;
 }
 
 } // namespace wingspread

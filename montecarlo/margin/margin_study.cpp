@@ -1,15 +1,13 @@
 #include "montecarlo/margin/margin_study.hpp"
 
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/campaign/distribution_json.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/margin/scaled_springs.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
-#include <set>
 #include <utility>
 
 namespace wingspread {
@@ -71,16 +69,6 @@ std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene
   return searches;
 }
 
-std::string free_name(const Campaign& campaign) {
-  const auto is_taken = [&](const std::string& name) {
-    return std::ranges::find(campaign.dispersions, name, &Dispersion::name) !=
-           campaign.dispersions.end();
-  };
-  std::string name = "margin_scale";
-  for (int number = 2; is_taken(name); ++number) name = fmt::format("margin_scale_{}", number);
-  return name;
-}
-
 /// Makes the runs that a search asks for.
 class Looking {
 public:
@@ -130,83 +118,7 @@ private:
   MarginResult& result_;
 };
 
-const Verdict& verdict_of(const ScaleLook& look, const MarginCondition& condition) {
-  return look[condition.which_case].verdicts[condition.requirement];
-}
-
-/// Draws that break the condition at a look, having kept to it at the one before.
-long relapses(const std::vector<const ScaleLook*>& looks, const MarginCondition& condition) {
-  std::set<long> relapsed;
-  for (std::size_t k = 1; k < looks.size(); ++k) {
-    const Spilled<long>& before = verdict_of(*looks[k - 1], condition).broken;
-    const std::set<long> broken(before.begin(), before.end());
-    for (const long run : verdict_of(*looks[k], condition).broken)
-      if (!broken.contains(run)) relapsed.insert(run);
-  }
-  return std::ssize(relapsed);
-}
-
 } // namespace
-
-std::vector<MarginCondition> conditions_of(const Campaign& campaign, const MarginResult& result) {
-  std::vector<MarginCondition> conditions;
-  for (std::size_t which = 0; which < result.cases.size(); ++which)
-    for (std::size_t requirement = 0; requirement < campaign.requirements.size(); ++requirement)
-      conditions.push_back({which, requirement});
-  return conditions;
-}
-
-Failing failing(const ScaleLook& look) {
-  Failing failing;
-  std::size_t condition = 0;
-  for (const CaseLook& each : look)
-    for (const Verdict& verdict : each.verdicts) {
-      if (verdict.decision != Decision::pass) failing.insert(condition);
-      ++condition;
-    }
-  return failing;
-}
-
-Looks looks_of(const MarginSearch& search) {
-  Looks looks;
-  for (const auto& [scale, look] : search.seen) looks[scale] = failing(look);
-  return looks;
-}
-
-bool is_confirmed(const MarginSearch& search) {
-  return search.confirmation && failing(*search.confirmation).empty();
-}
-
-OutOfOrder out_of_order(const MarginSearch& search, const MarginCondition& condition,
-                        double middle) {
-  std::vector<const ScaleLook*> below, above; // inwards
-  for (const auto& [scale, look] : search.seen) {
-    if (scale <= middle) below.push_back(&look);
-    if (scale >= middle) above.insert(above.begin(), &look);
-  }
-  return {relapses(below, condition), relapses(above, condition)};
-}
-
-Campaign scaled(const Campaign& campaign, const std::vector<SceneParameter>& parameters,
-                double scale) {
-  Campaign sized = campaign;
-  Dispersion& factor = sized.dispersions.emplace_back();
-  factor.name = free_name(campaign);
-  factor.distribution.law = Constant{scale};
-  factor.apply = Apply::scale;
-  factor.targets = parameters;
-  sized.resolved["dispersions"].push_back(
-      {{"name", factor.name},
-       {"distribution", write_distribution(factor.distribution)},
-       {"apply", apply_names[static_cast<std::size_t>(factor.apply)]},
-       {"to", paths_of(campaign.scene, parameters)}});
-  return sized;
-}
-
-Scene scaled(Scene scene, const std::vector<SceneParameter>& parameters, double scale) {
-  for (const SceneParameter& parameter : parameters) parameter.in(scene) *= scale;
-  return scene;
-}
 
 void find_margin(const Campaign& campaign, Evaluator& evaluator,
                  const std::function<void(long)>& progress, MarginResult& result) {

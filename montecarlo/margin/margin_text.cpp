@@ -1,33 +1,20 @@
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/margin/margin_report.hpp"
-#include "montecarlo/statistics/binomial_bounds.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace wingspread {
 namespace {
-
-std::string scale_text(const std::optional<double>& scale) {
-  return scale ? fmt::format("{}", *scale) : "–";
-}
-
-/// A margin: "+0.67"; "∞" where nothing resists.
-std::string margin_text(double margin) {
-  if (std::isnan(margin)) return "–";
-  return std::isinf(margin) ? "∞" : fmt::format("{:+.2f}", margin);
-}
 
 /// What was seen of one search, in words.
 class SearchText {
 public:
   SearchText(const MarginReport& report, const MarginSearch& search)
       : report_(report), search_(search), looks_(looks_of(search)),
-        conditions_(conditions(report, search)),
-        numbers_(conditions_of(report.campaign, report.result)) {}
+        conditions_(condition_findings(report.campaign, report.result, search)) {}
 
   [[nodiscard]] std::string text() const {
     const auto windows = windows_of(looks_);
@@ -54,14 +41,14 @@ private:
   }
 
   [[nodiscard]] std::string name(std::size_t condition) const {
-    const auto& [requirement, which_case, holds, kind, disorder] = conditions_[condition];
-    return report_.result.cases.size() == 1 ? requirement
-                                            : fmt::format("{} ({})", requirement, which_case);
+    const ConditionFinding& found = conditions_[condition];
+    return report_.result.cases.size() == 1
+               ? found.requirement
+               : fmt::format("{} ({})", found.requirement, found.which_case);
   }
 
   [[nodiscard]] const Verdict& verdict(std::size_t condition, double scale) const {
-    const auto& [which, requirement] = numbers_[condition];
-    return search_.seen.at(scale)[which].verdicts[requirement];
+    return verdict_of(search_.seen.at(scale), conditions_[condition].condition);
   }
 
   [[nodiscard]] static std::string line(const char* label, double scale, std::string_view text) {
@@ -183,13 +170,9 @@ private:
     std::string text = fmt::format("\n{:<10}{:>12}{:>26}   {}\n", "SCALE", "deployed",
                                    fmt::format("{:g} % bounds", 100 * confidence()), "not met");
     for (const auto& [scale, look] : search_.seen) {
-      const CaseLook& first = look.front();
-      const long deployed = first.statuses[static_cast<std::size_t>(Status::deployed)];
-      const long runs = report_.campaign.sampling.runs;
-      const Interval bounds = clopper_pearson(deployed, runs, confidence());
-      text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale,
-                          percent(static_cast<double>(deployed) / static_cast<double>(runs)),
-                          percent_range(bounds.lower, bounds.upper),
+      const DeployedShare deployed = deployed_share(look.front(), confidence());
+      text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale, percent(deployed.share),
+                          percent_range(deployed.bounds.lower, deployed.bounds.upper),
                           shortened(outputs_of(telling(look)), table_width - 48));
     }
     return text;
@@ -202,7 +185,7 @@ private:
     std::vector<std::string> outputs;
     for (const std::size_t condition : failing) {
       const Requirement& requirement =
-          report_.campaign.requirements[numbers_[condition].requirement];
+          report_.campaign.requirements[conditions_[condition].condition.requirement];
       if (std::ranges::find(outputs, requirement.output) == outputs.end())
         outputs.push_back(requirement.output);
     }
@@ -212,45 +195,8 @@ private:
   const MarginReport& report_;
   const MarginSearch& search_;
   Looks looks_;
-  std::vector<ConditionReport> conditions_;
-  std::vector<MarginCondition> numbers_;
+  std::vector<ConditionFinding> conditions_;
 };
-
-constexpr std::array kind_texts{"ECSS", "NASA", "NASA, one spring out"};
-
-/// A line for each hinge and kind: the least over the travel.
-std::string motorization_lines(const MarginReport& report, const ScaledMotorization& at) {
-  std::string text;
-  for (const HingeMotorization& each : at.study.hinges)
-    for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
-      const Hinge& hinge = report.campaign.scene.hinges[each.hinge];
-      const MarginSpread& spread = each.worst_spread[kind];
-      const double angle = hinge.stowed + (hinge.latched - hinge.stowed) * each.worst_at[kind];
-      text += fmt::format("  {:<8}{:<16}{:<22}{:>9}{:>9.3f}{:>10}{:>10}{:>8}\n",
-                          kind == 0 ? scale_text(at.scale) : "",
-                          kind == 0 ? shortened(hinge.name, 15) : "", kind_texts[kind],
-                          margin_text(each.worst[kind]), angle,
-                          margin_text(spread.quantiles.empty() ? NAN : spread.quantiles.front()),
-                          margin_text(spread.least), spread.worst_run);
-    }
-  return text;
-}
-
-std::string motorization(const MarginReport& report) {
-  const MotorizationSpec& spec = report.campaign.margin->motorization;
-  const auto& quantiles = report.campaign.statistics.quantiles;
-  std::string text =
-      fmt::format("\nSTATIC MOTORIZATION MARGINS, least over the travel; 0 or more is enough\n"
-                  "{} ({}), {} ({})\n",
-                  ecss_standard, ecss_basis_names[static_cast<std::size_t>(spec.ecss_basis)],
-                  nasa_standard, nasa_basis_names[static_cast<std::size_t>(spec.nasa_basis)]);
-  const std::string quantile =
-      quantiles.empty() ? "–" : fmt::format("{:g} %", 100 * quantiles.front());
-  text += fmt::format("{:<10}{:<16}{:<22}{:>9}{:>9}{:>10}{:>10}{:>8}\n", "SCALE", "hinge", "by",
-                      "nominal", "at rad", quantile, "least", "run");
-  for (const ScaledMotorization& at : report.motorization) text += motorization_lines(report, at);
-  return text;
-}
 
 } // namespace
 
@@ -262,7 +208,7 @@ std::string margin_text(const MarginReport& report) {
                   design_names[static_cast<std::size_t>(sampling.design)], sampling.seed);
   for (const MarginSearch& search : report.result.searches)
     text += SearchText(report, search).text();
-  return text + motorization(report);
+  return text + motorization_text(report.campaign, report.motorization);
 }
 
 } // namespace wingspread

@@ -4,6 +4,7 @@
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
+#include "montecarlo/summary/verdict_json.hpp"
 
 #include <fmt/format.h>
 
@@ -179,14 +180,7 @@ Json verdict_json(const Summary& summary, const Verdict& verdict) {
   json["margin"] = json_number(verdict.margin);
   json["evidence"] = evidence(verdict);
   json["runs"] = verdict.runs;
-  json["failures"] = {{"seen", verdict.broken.size()},
-                      {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)}};
-  json["observed"] = {{"share", json_number(verdict.share)}};
-  json["guaranteed"] = {{"share", verdict.guaranteed_share}};
-  if (verdict.requirement.output != deployed_output) {
-    json["observed"]["value"] = json_number(verdict.observed);
-    json["guaranteed"]["value"] = json_number(verdict.guaranteed);
-  }
+  json.update(evidence_json(verdict));
   if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
   if (summary.looks > 1) json["confidence_at_each_look"] = verdict.confidence;
   add_broken(json, verdict);

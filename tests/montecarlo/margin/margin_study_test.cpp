@@ -1,6 +1,7 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/margin/margin_study.hpp"
+#include "montecarlo/margin/scaled_springs.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -173,41 +174,6 @@ TEST_CASE("requirements that cannot be met together leave no window", "[margin]"
   for (double scale = 0.5; scale <= 2; scale *= 1.002)
     CHECK(closed_form(campaign, scale, 0.2).too_fast > allowed);
   CHECK(closed_by(looks) == std::vector<std::size_t>{1});
-}
-
-TEST_CASE("draws that do not go with the others are counted at the edge where they are",
-          "[margin]") {
-  const auto look = [](std::vector<long> broken) {
-    Verdict verdict;
-    verdict.broken = std::move(broken);
-    return ScaleLook{CaseLook{{}, {verdict}}};
-  };
-  MarginSearch search;
-  search.seen = {{0.5, look({3, 1, 2})}, {0.6, look({1, 2})}, {0.7, look({4, 1})}, {0.8, look({})},
-                 {0.9, look({5})},       {1.0, look({})},     {1.1, look({6, 7})}};
-  const OutOfOrder found = out_of_order(search, {0, 0}, 0.8);
-  CHECK(found.lower == 1); // 4, which kept to it at 0.6
-  CHECK(found.upper == 1); // 5, which keeps to it at 1.0
-}
-
-TEST_CASE("a scaled campaign has one dispersion more, and the same draws", "[margin]") {
-  const Campaign campaign = campaign_of(one_panel_margin(10));
-  const Campaign once = scaled(campaign, campaign.margin->scaled, 1.25);
-  const Campaign twice = scaled(once, campaign.margin->scaled, 2);
-  CHECK(once.dispersions.back().name == "margin_scale");
-  CHECK(twice.dispersions.back().name == "margin_scale_2");
-  CHECK(read_campaign(twice.resolved.dump(), "").resolved == twice.resolved);
-  std::vector<double> draws(3), more(5);
-  RunPlan(campaign).draw(7, draws);
-  RunPlan(twice).draw(7, more);
-  CHECK(std::ranges::equal(draws, std::span(more).first(3)));
-  Scene scene = campaign.scene, other = campaign.scene;
-  apply(campaign, draws, campaign.scene, scene);
-  apply(twice, more, campaign.scene, other);
-  CHECK(other.hinges[0].spring.torque_stowed == scene.hinges[0].spring.torque_stowed * 1.25 * 2);
-  CHECK(other.hinges[0].friction.coulomb == scene.hinges[0].friction.coulomb);
-  CHECK(scaled(campaign.scene, campaign.margin->scaled, 1.5).hinges[0].spring.torque_latched ==
-        0.2 * 1.5);
 }
 
 TEST_CASE("a campaign without a margin, requirements or runs enough is refused, all at once",

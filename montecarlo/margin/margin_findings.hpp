@@ -1,0 +1,48 @@
+/// What the window of spring strength comes to: where each requirement holds, what sets the edges.
+#pragma once
+
+#include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/margin/margin_result.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wingspread {
+
+/// Where a requirement in a case holds.
+struct ConditionFinding {
+  MarginCondition condition;
+  std::string requirement, which_case;
+  std::vector<Window> holds;
+  std::string_view kind; ///< "always", "never", "lower", "upper", "both" or "several": its edges
+  std::optional<OutOfOrder> out_of_order; ///< none without a window
+};
+[[nodiscard]] std::vector<ConditionFinding> condition_findings(const Campaign& campaign,
+                                                               const MarginResult& result,
+                                                               const MarginSearch& search);
+
+/// An edge of a window.
+struct MarginEdge {
+  double passing;                   ///< the outermost scale that passes
+  std::optional<double> failing;    ///< the next one out; none at the end of the range
+  std::vector<std::size_t> set_by;  ///< those of the conditions that fail there which tell why
+  std::vector<std::size_t> as_well; ///< and those that fail by the same runs, which do not deploy
+};
+[[nodiscard]] MarginEdge lower_edge(const MarginSearch& search, const Window& window);
+[[nodiscard]] MarginEdge upper_edge(const MarginSearch& search, const Window& window);
+
+/// The conditions that fail, less those that fail for runs alone which did not deploy, when in
+/// their case that "deployed" is required, or another condition before them, says so already.
+[[nodiscard]] Failing telling(const ScaleLook& look);
+
+/// Whether every search has a window that is confirmed: what the command's exit status says.
+[[nodiscard]] bool is_met(const MarginResult& result);
+
+/// The search whose scale the recommended springs have: that of all springs together, where it has a
+/// window. Null else, for springs that were sized one at a time are not recommended together.
+[[nodiscard]] const MarginSearch* recommending(const Campaign& campaign,
+                                               const MarginResult& result);
+
+} // namespace wingspread

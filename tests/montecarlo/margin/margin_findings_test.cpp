@@ -1,0 +1,109 @@
+#include "montecarlo/margin/margin_findings.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+constexpr long runs = 100;
+
+/// A verdict of which so many runs break the requirement, and 5 may.
+Verdict verdict(const char* output, long broken) {
+  Verdict made;
+  made.requirement.output = output;
+  made.runs = runs;
+  made.allowed = 5;
+  made.decision = broken <= 5 ? Decision::pass : Decision::fail;
+  for (long run = 0; run < broken; ++run) made.broken.push_back(run);
+  return made;
+}
+
+/// A case in which so many runs did not deploy.
+CaseLook case_of(long stalled, std::vector<Verdict> verdicts) {
+  CaseLook look;
+  look.statuses[static_cast<std::size_t>(Status::deployed)] = runs - stalled;
+  look.statuses[static_cast<std::size_t>(Status::stalled)] = stalled;
+  look.verdicts = std::move(verdicts);
+  return look;
+}
+
+/// Of the two requirements of one_panel_margin: stalled runs break both.
+ScaleLook look(long stalled, long too_fast) {
+  return {case_of(stalled,
+                  {verdict("deployed", stalled), verdict("root.latch_rate", stalled + too_fast)})};
+}
+
+} // namespace
+
+TEST_CASE("what fails by runs alone that did not deploy is said once", "[margin]") {
+  CHECK(telling(look(8, 0)) == Failing{0});
+  CHECK(telling(look(8, 1)) == Failing{0, 1});
+  CHECK(telling(look(0, 8)) == Failing{1});
+  CHECK(telling(look(3, 2)).empty());
+  // Where "deployed" is not required, the first that fails for want of it stands for the others; and
+  // in each case by itself.
+  const CaseLook unasked =
+      case_of(8, {verdict("root.latch_rate", 8), verdict("tip.latch_rate", 8)});
+  CHECK(telling({unasked, unasked}) == Failing{0, 2});
+}
+
+TEST_CASE("an edge says what sets it, and what fails there by the same runs", "[margin]") {
+  MarginSearch search;
+  search.seen = {{0.5, look(9, 0)}, {0.8, look(0, 0)}, {1.2, look(1, 3)}, {1.5, look(0, 7)}};
+  const auto windows = windows_of(looks_of(search));
+  REQUIRE(windows.size() == 1);
+  const MarginEdge lower = lower_edge(search, windows.front());
+  CHECK((lower.passing == 0.8 && lower.failing == 0.5));
+  CHECK(lower.set_by == std::vector<std::size_t>{0});
+  CHECK(lower.as_well == std::vector<std::size_t>{1});
+  const MarginEdge upper = upper_edge(search, windows.front());
+  CHECK((upper.passing == 1.2 && upper.failing == 1.5));
+  CHECK(upper.set_by == std::vector<std::size_t>{1});
+  CHECK(upper.as_well.empty());
+  search.seen.erase(1.5);
+  const auto open = windows_of(looks_of(search));
+  const MarginEdge end = upper_edge(search, open.front());
+  CHECK((end.passing == 1.2 && !end.failing && end.set_by.empty()));
+}
+
+TEST_CASE("each condition's edges have a word", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(100));
+  MarginResult result;
+  result.cases = {{"nominal", {}}};
+  const auto kinds = [&](const std::map<double, ScaleLook>& seen) {
+    MarginSearch search;
+    search.seen = seen;
+    std::vector<std::string_view> kinds;
+    for (const ConditionFinding& found : condition_findings(campaign, result, search)) {
+      kinds.push_back(found.kind);
+      CHECK((found.which_case == "nominal" && !found.out_of_order));
+    }
+    return kinds;
+  };
+  using Words = std::vector<std::string_view>;
+  const ScaleLook good = look(0, 0), stalls = look(9, 0), fast = look(0, 9);
+  CHECK(kinds({{1, good}, {2, good}}) == Words{"always", "always"});
+  CHECK(kinds({{1, stalls}, {2, good}}) == Words{"lower", "lower"});
+  CHECK(kinds({{1, good}, {2, fast}}) == Words{"always", "upper"});
+  CHECK(kinds({{1, stalls}, {2, good}, {3, fast}}) == Words{"lower", "both"});
+  CHECK(kinds({{1, fast}, {2, fast}}) == Words{"always", "never"});
+  CHECK(kinds({{1, good}, {2, fast}, {3, good}}) == Words{"always", "several"});
+}
+
+TEST_CASE("springs are recommended where they were sized together, and have a window", "[margin]") {
+  Json json = one_panel_margin(100);
+  MarginResult result;
+  result.searches.emplace_back();
+  CHECK(recommending(campaign_of(json), result) == nullptr);
+  CHECK_FALSE(is_met(result));
+  result.searches.front().recommended = 1.2;
+  CHECK(recommending(campaign_of(json), result) == &result.searches.front());
+  CHECK_FALSE(is_met(result)); // not confirmed
+  result.searches.front().confirmation = look(0, 0);
+  CHECK(is_met(result));
+  json["margin"]["mode"] = "each";
+  CHECK(recommending(campaign_of(json), result) == nullptr);
+}
