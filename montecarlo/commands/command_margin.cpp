@@ -1,7 +1,7 @@
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
+#include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/results_folder.hpp"
 #include "montecarlo/formats/files.hpp"

@@ -1,6 +1,7 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
+#include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/merge.hpp"
 
 #include <CLI/CLI.hpp>

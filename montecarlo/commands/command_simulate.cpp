@@ -1,12 +1,11 @@
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
-#include "montecarlo/commands/outcome_json.hpp"
-#include "montecarlo/commands/outcome_text.hpp"
-#include "montecarlo/commands/trajectory.hpp"
 #include "montecarlo/folder/replay.hpp"
 #include "montecarlo/formats/json.hpp"
+#include "montecarlo/report/outcome_report.hpp"
+#include "montecarlo/report/replay_report.hpp"
+#include "montecarlo/report/trajectory.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -104,29 +103,6 @@ int simulate(const SimulateOptions& options) {
   fmt::print("{}", options.json ? json_text(outcome_json(task.scene, outcome))
                                 : outcome_text(task.scene, outcome));
   return status_code(outcome);
-}
-
-Json replay_json(const Replayed& replayed, const Scene& scene) {
-  Json json = outcome_json(scene, replayed.outcome);
-  json["run"] = replayed.row.run;
-  json["draws"] = Json::object();
-  for (std::size_t i = 0; i < replayed.row.draws.size(); ++i)
-    json["draws"][replayed.names.draws[i]] = replayed.row.draws[i];
-  json["same_as_recorded"] = replayed.recorded ? Json(replayed.differences.empty()) : Json(nullptr);
-  return json;
-}
-
-std::string replay_text(const Replayed& replayed, const Scene& scene) {
-  std::string text = outcome_text(scene, replayed.outcome);
-  if (!replayed.row.draws.empty()) text += "\nDRAW\n";
-  for (std::size_t i = 0; i < replayed.row.draws.size(); ++i)
-    text += fmt::format("  {:<40}{:>24.17g}\n", replayed.names.draws[i], replayed.row.draws[i]);
-  if (!replayed.recorded)
-    text += fmt::format("\nRun {} is not in {}: there is nothing to compare it with.\n",
-                        replayed.row.run, runs_file);
-  else if (replayed.differences.empty())
-    text += fmt::format("\nRun {} is the one in {}, bit for bit.\n", replayed.row.run, runs_file);
-  return text;
 }
 
 int replay(const ReplayOptions& options) {

@@ -1,4 +1,3 @@
-#include "montecarlo/commands/cli.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/spec_error.hpp"

@@ -3,7 +3,7 @@
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/text_layout.hpp"
-#include "montecarlo/runs/run.hpp"
+#include "montecarlo/runs/run_plan.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-#include "montecarlo/commands/method_list.hpp"
 #include "montecarlo/folder/version.hpp"
+#include "montecarlo/report/method_list.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

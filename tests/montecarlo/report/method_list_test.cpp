@@ -1,5 +1,5 @@
-#include "montecarlo/commands/method_list.hpp"
 #include "montecarlo/formats/json_parse.hpp"
+#include "montecarlo/report/method_list.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "montecarlo/commands/trajectory.hpp"
+#include "montecarlo/report/trajectory.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "montecarlo/commands/method_list.hpp"
+#include "montecarlo/report/method_list.hpp"
 
 #include "montecarlo/formats/text_layout.hpp"
 

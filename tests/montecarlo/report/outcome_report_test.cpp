@@ -1,6 +1,5 @@
-#include "montecarlo/commands/outcome_json.hpp"
-#include "montecarlo/commands/outcome_text.hpp"
 #include "montecarlo/formats/json.hpp"
+#include "montecarlo/report/outcome_report.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "montecarlo/commands/outcome_text.hpp"
+#include "montecarlo/report/outcome_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "montecarlo/commands/outcome_json.hpp"
+#include "montecarlo/report/outcome_report.hpp"
 
 #include <cmath>
 

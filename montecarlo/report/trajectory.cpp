@@ -1,4 +1,4 @@
-#include "montecarlo/commands/trajectory.hpp"
+#include "montecarlo/report/trajectory.hpp"
 
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/files.hpp"

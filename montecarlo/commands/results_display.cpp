@@ -1,0 +1,81 @@
+#include "montecarlo/commands/results_display.hpp"
+
+#include "montecarlo/commands/commands.hpp"
+#include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/formats/text_layout.hpp"
+#include "montecarlo/machine/progress.hpp"
+#include "montecarlo/summary/table.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+std::string title(const StoredCampaign& stored, const Summary& summary) {
+  const Campaign& campaign = stored.campaign;
+  std::string text = fmt::format("{} · {} runs · {}, seed {}", campaign.scene.name, summary.runs,
+                                 design_names[static_cast<std::size_t>(campaign.sampling.design)],
+                                 campaign.sampling.seed);
+  if (summary.replicates > 0)
+    text += fmt::format(", {} replicate{}", summary.replicates, summary.replicates == 1 ? "" : "s");
+  if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
+  if (summary.stopped)
+    text += fmt::format(" · stopped, of {} at most", stored.runs().size());
+  else if (summary.runs < stored.runs().size())
+    text += fmt::format(" · partial, of {} runs", stored.runs().size());
+  return text;
+}
+
+void print_histograms(const Summary& summary) {
+  for (const OutputSummary& output : summary.outputs)
+    fmt::print("\n{}", draw_histogram(output.name, parse_output_name(output.name).unit,
+                                      output.histogram, table_width));
+}
+
+/// Says which requirements are not met. @return whether all are
+bool report_requirements(const Summary& summary) {
+  bool met = true;
+  for (const Verdict& verdict : summary.requirements) {
+    if (verdict.decision == Decision::pass) continue;
+    met = false;
+    fmt::print(stderr, "not met: {}: {}: {}\n", to_string(verdict.requirement),
+               to_string(verdict.decision), evidence(verdict));
+  }
+  return met;
+}
+
+} // namespace
+
+void add_display_options(CLI::App& command, Display& display) {
+  command.add_flag("--table", display.table, "Print the table even when it is not to a terminal");
+  command.add_flag("--histograms", display.histograms,
+                   "Print the table, and each output's histogram below it");
+}
+
+int report_failed(long failed, long runs, std::string_view consequence) {
+  if (failed == 0) return exit_code::done;
+  fmt::print(stderr, "error: {} of {} runs failed numerically{}\n", failed, runs, consequence);
+  return exit_code::failed_runs;
+}
+
+int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display) {
+  if (display.table || display.histograms || is_terminal(stdout)) {
+    fmt::print("{}", summary_table(summary, title(stored, summary), stored.folder.string()));
+    if (display.histograms) print_histograms(summary);
+  } else {
+    for (const char* file :
+         {campaign_file, runs_file, summary_file, histograms_json_file, histograms_csv_file})
+      fmt::print("{}\n", (stored.folder / file).string());
+  }
+  const bool met = stored.stamp.shard || report_requirements(summary);
+  const auto failed = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
+  const int code =
+      report_failed(failed->count, summary.runs,
+                    fmt::format("; {} has their reasons", (stored.folder / summary_file).string()));
+  return code != exit_code::done || met ? code : exit_code::not_met;
+}
+
+} // namespace wingspread

@@ -1,0 +1,36 @@
+/// Results shown on standard output: as a table on a terminal, else as the paths of their files.
+#pragma once
+
+#include "montecarlo/folder/results_folder.hpp"
+
+#include <string_view>
+
+namespace CLI {
+class App;
+}
+
+namespace wingspread {
+
+/// How results are shown on standard output.
+struct Display {
+  bool table = false;      ///< the table even when standard output is no terminal
+  bool histograms = false; ///< and a drawing of each output's histogram below it
+};
+void add_display_options(CLI::App& command, Display& display);
+
+/// What --help says of it.
+inline constexpr const char* display_help =
+    "Standard output is the table of results if that is a terminal; otherwise the paths of the\n"
+    "files written, one a line.\n";
+
+/// Says on standard error that runs failed numerically.
+/// @param consequence behind it, e.g. "; summary.json has their reasons"
+/// @return the exit status
+int report_failed(long failed, long runs, std::string_view consequence = "");
+
+/// Shows the results, and says on standard error when runs failed and requirements are not met.
+/// @return the exit status: that runs failed numerically comes before a requirement that is not
+///   met, and a shard alone is not held to those
+int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display);
+
+} // namespace wingspread

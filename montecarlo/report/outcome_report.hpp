@@ -1,0 +1,21 @@
+/// One run in full: as JSON, for `simulate --json` and `replay --json`, and for a terminal.
+#pragma once
+
+#include "core/deployment.hpp"
+#include "montecarlo/formats/json.hpp"
+
+#include <string>
+
+namespace wingspread {
+
+/// Strict JSON: what did not happen is null, as is what was not asked for. Latches stand in order
+/// of time. Beside the keys of the contract: `reason`, `method` (those of the phases) and `phases`.
+/// Of an invalid run nothing but its status and reason is there; of a failed one no peak is known.
+/// @param scene whose run it was
+[[nodiscard]] Json outcome_json(const Scene& scene, const Outcome& outcome);
+
+/// In words and tables: how it ended, the latches in order of time, the hinges' peaks and final
+/// state, energy and work.
+[[nodiscard]] std::string outcome_text(const Scene& scene, const Outcome& outcome);
+
+} // namespace wingspread
