@@ -76,12 +76,12 @@ TEST_CASE("each condition's edges have a word", "[margin]") {
   const auto kinds = [&](const std::map<double, ScaleLook>& seen) {
     MarginSearch search;
     search.seen = seen;
-    std::vector<std::string_view> kinds;
+    std::vector<std::string_view> found_kinds;
     for (const ConditionFinding& found : condition_findings(campaign, result, search)) {
-      kinds.push_back(found.kind);
+      found_kinds.push_back(found.kind);
       CHECK((found.which_case == "nominal" && !found.out_of_order));
     }
-    return kinds;
+    return found_kinds;
   };
   using Words = std::vector<std::string_view>;
   const ScaleLook good = look(0, 0), stalls = look(9, 0), fast = look(0, 9);
