@@ -11,7 +11,9 @@
 
 namespace wingspread {
 
-enum class Event { latch, rest, release };
+/// `graze`: nothing happens, but what holds a hinge comes so near its limit that only the method can
+/// tell.
+enum class Event { latch, rest, release, graze };
 
 /// An event inside a step.
 template <class T> struct Due {
@@ -39,8 +41,7 @@ public:
 
   /// The earliest one in the step, by the interpolant, whose word on whether it happens is final.
   /// x and dxdt are overwritten.
-  [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x,
-                                            State<T>& dxdt) const {
+  [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x, State<T>& dxdt) {
     std::optional<Due<T>> first;
     const auto offer = [&](Event event, int i, const std::optional<T>& s, const T& slope) {
       if (s && (!first || *s < first->s)) first = Due<T>{event, i, *s, slope};
@@ -51,7 +52,9 @@ public:
     }
     if (system_.work().stuck > 0) {
       const auto release = holding_.first_release(system_, step, x, dxdt);
-      if (release) offer(Event::release, release->hinge, release->s, release->slope);
+      if (release)
+        offer(release->slope > T(0) ? Event::release : Event::graze, release->hinge, release->s,
+              release->slope);
     }
     return first;
   }
@@ -71,6 +74,7 @@ public:
       return {against * step.x1[r], against * step.dxdt1[r]};
     }
     case Event::release:
+    case Event::graze:
       break;
     }
     return {Holding<T>::excess(system_, step.x1, i), due.slope};
@@ -86,7 +90,7 @@ public:
     const int resting = due && due->event == Event::rest ? due->hinge : 0;
     const bool engaged = latches_.engage_those_there(latching, step, latches);
     const bool rested = rest_those_there(system_, resting, step);
-    return due || engaged || rested;
+    return (due && due->event != Event::graze) || engaged || rested;
   }
 
 private:

@@ -1,12 +1,11 @@
 /// What exact friction holds: the instant at which it no longer can.
 #pragma once
 
+#include "core/dense/curved_search.hpp"
 #include "core/dense/step.hpp"
+#include "core/events/held_load.hpp"
 #include "core/mechanics/system.hpp"
 
-#include <boost/math/tools/toms748_solve.hpp>
-
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -16,11 +15,12 @@ namespace wingspread {
 /// mirrored wings let go together.
 inline constexpr double release_tolerance = 1e-9;
 
-/// A hinge that sticks and is due to be let go inside the step.
+/// A hinge that sticks and is due to be let go inside the step; or one whose friction comes so near
+/// its limit there, and falls again, that it takes a step of the method to know.
 template <class T> struct Release {
   int hinge;
   T s;     ///< fraction of the step
-  T slope; ///< of the friction's excess over the limit there, N·m/s
+  T slope; ///< of the friction's excess over the limit there, N·m/s; 0 where it only comes near
 };
 
 /// Watches the friction that holds hinges over a step.
@@ -34,34 +34,22 @@ public:
   }
 
   /// The earliest release in the step; the last evaluation was at its end, and is again afterwards.
-  /// Sampled at quarters of the step where the friction comes near its limit, and located on the
-  /// dense output. x and dxdt are overwritten.
+  /// Sought on the dense output wherever the load's curvature does not rule it out. x and dxdt are
+  /// overwritten.
   template <class AnySystem>
   [[nodiscard]] std::optional<Release<T>> first_release(AnySystem& system, const Step<T>& step,
-                                                        State<T>& x, State<T>& dxdt) const {
+                                                        State<T>& x, State<T>& dxdt) {
     if (!comes_near(system, step)) return std::nullopt;
     std::optional<Release<T>> first;
-    const auto at = [&](int i, const T& s) {
-      step.interpolate(system.layout(), s, x);
-      system(x, dxdt, step.t + s * step.h);
-      return excess(system, x, i);
-    };
     for (int i = 1; i <= system.layout().bodies; ++i) {
-      if (!system.sticks(i)) continue;
-      T lower(0);
-      for (int k = 1; k <= 4; ++k) {
-        const T s = T(k) / T(4);
-        if (first && lower >= first->s) break;
-        if (at(i, s) > T(0)) {
-          const T root = locate(lower, s, [&](const T& z) { return at(i, z); });
-          const T width(1e-3);
-          const T slope =
-              (at(i, T(root + width)) - at(i, T(root - width))) / (T(2) * width * step.h);
-          if (!first || root < first->s) first = Release<T>{i, root, slope};
-          break;
-        }
-        lower = s;
-      }
+      if (!system.sticks(i) || !(larger(before_[i], after_[i]) + bound_.rise(i) > T(0))) continue;
+      const auto excess_at = [&](const T& s) {
+        step.interpolate(system.layout(), s, x);
+        system(x, dxdt, step.t + s * step.h);
+        return excess(system, x, i);
+      };
+      const auto found = release_of(excess_at, i, system.wing().hinges[i].static_friction, step.h);
+      if (found && (!first || found->s < first->s)) first = found;
     }
     system(step.x1, dxdt, step.t + step.h);
     return first;
@@ -76,29 +64,38 @@ public:
   }
 
 private:
-  /// Whether any could pass its limit: at the step's end, or by twice its change over the step.
+  /// Whether any could pass its limit.
   template <class AnySystem>
-  [[nodiscard]] bool comes_near(const AnySystem& system, const Step<T>& step) const {
-    using std::abs;
+  [[nodiscard]] bool comes_near(const AnySystem& system, const Step<T>& step) {
+    bound_.over_step(system, step);
+    after_.resize(before_.size());
+    bool near = false;
     for (int i = 1; i <= system.layout().bodies; ++i) {
       if (!system.sticks(i)) continue;
-      const T after = excess(system, step.x1, i), change = abs(after - before_[i]);
-      if (larger(after, before_[i]) + T(2) * change >
-          T(-0.05) * system.wing().hinges[i].static_friction)
-        return true;
+      after_[i] = excess(system, step.x1, i);
+      near = near || larger(before_[i], after_[i]) + bound_.rise(i) > T(0);
     }
-    return false;
+    return near;
   }
 
-  template <class Function> [[nodiscard]] static T locate(T lower, T upper, Function f) {
-    const T below = f(lower), above = f(upper);
-    if (!(below < T(0))) return lower;
-    std::uintmax_t iterations = 60;
-    const auto root = boost::math::tools::toms748_solve(
-        f, lower, upper, below, above, boost::math::tools::eps_tolerance<T>(40), iterations);
-    return root.second;
+  template <class Function>
+  [[nodiscard]] std::optional<Release<T>> release_of(const Function& excess_at, int i,
+                                                     const T& limit, const T& h) const {
+    constexpr double grazes = 1e-3, width = 1e-3;
+    Sampled<T> crest{T(0), larger(before_[i], after_[i])};
+    const auto s =
+        first_positive(excess_at, before_[i], after_[i], bound_.rise(i), T(1e-10) * limit, crest);
+    if (s) {
+      const T slope = (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * h);
+      return Release<T>{i, *s, slope};
+    }
+    const bool inside = crest.s > T(0.02) && crest.s < T(0.98);
+    if (inside && crest.value > T(-grazes) * limit) return Release<T>{i, crest.s, T(0)};
+    return std::nullopt;
   }
 
+  HeldLoadBound<T> bound_;
+  std::vector<T> after_;
   std::vector<T> before_;
 };
 

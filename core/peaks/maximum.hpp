@@ -1,7 +1,7 @@
 /// The maximum of a smooth function of which samples are known.
 #pragma once
 
-#include "core/number/scalar.hpp"
+#include "core/dense/curved_search.hpp"
 
 #include <array>
 #include <cmath>
@@ -9,9 +9,6 @@
 #include <utility>
 
 namespace wingspread {
-
-/// A function's value at a fraction of the step.
-template <class T> struct Sampled { T s, value; };
 
 /// The maximum of f near the largest of samples at the ends and at equal distances between them,
 /// by parabolas through the best three points, within a bracket [Brent 1973, 5]. Good to

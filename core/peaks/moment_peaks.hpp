@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/dense/step.hpp"
+#include "core/events/held_load.hpp"
 #include "core/mechanics/hinge_moment.hpp"
 #include "core/peaks/maximum.hpp"
 #include "core/peaks/peak.hpp"
@@ -146,18 +147,23 @@ template <class T, class AnySystem>
 }
 
 /// The same for a hinge that sticks, whose moment takes an evaluation to know: it is at most its
-/// linear part and the static limit; what that does not dismiss is sampled.
-/// @param hold hold(s) evaluates on the dense output; s = 1 last
-template <class T, class AnySystem, class Hold>
-void raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
-                       Hold&& hold) {
-  using std::abs;
+/// linear part and the static limit; what that does not dismiss is sought by its curvature.
+/// @param load load(s): |moment| by an evaluation on the dense output
+/// @return where a step of the method must make sure of it
+template <class T, class AnySystem, class Load>
+[[nodiscard]] std::optional<T> raise_held_moment(PeakOf<T>& peak, const AnySystem& system,
+                                                 const Step<T>& step, int i,
+                                                 HeldLoadBound<T>& bound, Load&& load) {
   const T most = MomentOverStep<T, AnySystem>(system, step, i).most();
-  if (!(most + system.wing().hinges[i].static_friction > peak.value)) return;
-  for (int k = 1; k <= 4; ++k) {
-    const T s = T(k) / T(4);
-    peak.raise(T(abs(system.moment(hold(s), i))), step.t + s * step.h);
-  }
+  if (!(most + system.wing().hinges[i].static_friction > peak.value)) return std::nullopt;
+  bound.over_step(system, step);
+  const T first = load(T(0)), last = load(T(1));
+  const Sampled<T> found =
+      largest_of(load, first, last, bound.rise(i), peak.value, T(1e-10) * peak.value);
+  peak.raise(first, step.t);
+  peak.raise(last, step.t + step.h);
+  if (!(found.value > peak.value)) return std::nullopt;
+  return found.s;
 }
 
 } // namespace wingspread

@@ -25,10 +25,10 @@
 /// by at least three quarters of what the swing's own does; (2) is taken 4/3 times.
 #pragma once
 
+#include "core/dense/derivative_bounds.hpp"
 #include "core/dense/step.hpp"
 #include "core/mechanics/system.hpp"
 
-#include <array>
 #include <vector>
 
 namespace wingspread {
@@ -96,13 +96,7 @@ public:
   [[nodiscard]] const T& rise(int i) const { return turn_[i]; }
 
 private:
-  /// Of differences of a quintic's coefficients: k-th ones make bounds of the k-th derivative.
-  struct Scale {
-    explicit Scale(const T& h)
-        : first(T(5) / h), second(T(0.8) * first * first), third(T(0.6) * first * second),
-          fourth(T(0.4) * first * third) {}
-    T first, second, third, fourth;
-  };
+  using Scale = DifferenceScale<T>;
 
   /// A and W of the base, and its angle.
   template <class Topology, BaseMotion M>
@@ -112,49 +106,20 @@ private:
     hinge_[0] = turn_[0] = sum_[0] = T(0);
     if constexpr (M == BaseMotion::free) {
       const int n = system.layout().freedoms();
-      for (const int k : {0, 1}) hinge_[0] = hinge_[0] + of_moving(step.coordinate(k, n), scale);
+      for (const int k : {0, 1})
+        hinge_[0] = hinge_[0] + derivative_bounds(step.coordinate(k, n), scale).fourth;
       paths_[0] = step.coordinate(2, n);
       turn_[0] = of_turning(paths_[0], scale);
     }
     if constexpr (M == BaseMotion::prescribed) { // θ̈ is constant, and so is the origin's r̈
-      const BaseTerms<T>& base = system.wing().base;
-      const T& second = base.angular_acceleration;
-      const T first = fused(second, step.t, base.rate), last = fused(second, step.h, first);
-      const T turned = step.h * fused(T(0.5) * step.h, second, first);
-      paths_[0] = hermite<T>(step.h, {T(0), first, second}, {turned, last, second});
+      paths_[0] = turn_of_base(system.wing().base, step);
       turn_[0] = of_turning(paths_[0], scale);
     }
   }
 
-  template <class... U>
-  [[nodiscard, gnu::always_inline]] static inline T largest(const T& first, const U&... rest) {
-    using std::abs;
-    T most = abs(first);
-    ((most = larger(most, T(abs(rest)))), ...);
-    return most;
-  }
-
-  /// |d⁴/dt⁴| of a coordinate.
-  [[nodiscard]] static T of_moving(const Quintic<T>& p, const Scale& scale) {
-    const T a = p[0] - T(4) * p[1] + T(6) * p[2] - T(4) * p[3] + p[4];
-    const T b = p[1] - T(4) * p[2] + T(6) * p[3] - T(4) * p[4] + p[5];
-    return scale.fourth * largest(a, b);
-  }
-
-  /// (4)
-  [[nodiscard, gnu::always_inline]] static inline T of_turning(const Quintic<T>& p,
+  [[nodiscard, gnu::always_inline]] static inline T of_turning(const Quintic<T>& angle,
                                                                const Scale& scale) {
-    const T a0 = p[1] - p[0], a1 = p[2] - p[1], a2 = p[3] - p[2], a3 = p[4] - p[3],
-            a4 = p[5] - p[4];
-    const T b0 = a1 - a0, b1 = a2 - a1, b2 = a3 - a2, b3 = a4 - a3;
-    const T c0 = b1 - b0, c1 = b2 - b1, c2 = b3 - b2;
-    const T first = scale.first * largest(a0, a1, a2, a3, a4);
-    const T second = scale.second * largest(b0, b1, b2, b3);
-    const T third = scale.third * largest(c0, c1, c2);
-    const T fourth = scale.fourth * largest(T(c1 - c0), T(c2 - c1));
-    const T square = first * first;
-    const T slow = fused(square, square, T(3) * second * second);
-    return fourth + fused(T(4) * first, third, fused(T(6) * square, second, slow));
+    return fourth_of_direction(derivative_bounds(angle, scale));
   }
 
   std::vector<Quintic<T>> paths_;     ///< θ over the step, 0 … n

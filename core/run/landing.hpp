@@ -30,6 +30,7 @@ public:
 
   /// The step so cut was accepted. @return whether it must be cut anew; if not, its end is the event
   [[nodiscard]] bool misses_event() {
+    if (due_->event == Event::graze) return finds_release();
     Step<T>& step = run_.step;
     const auto at = events_.indicator(*due_, step);
     const T late = at.value / at.slope, size = larger(late, T(-late));
@@ -41,6 +42,8 @@ public:
     }
     shift_end(-late); // the rest is linear: its square is below round-off
     step.h = smaller(T(step.h - late), longest_);
+    if (run_.goal.peak_moment || run_.goal.peak_force)
+      run_.system(step.x1, step.dxdt1, step.t + step.h); // forces and accelerations follow
     return false;
   }
 
@@ -60,6 +63,17 @@ public:
   }
 
 private:
+  /// The step ends where what holds a hinge is largest: did it pass its limit on the way there?
+  [[nodiscard]] bool finds_release() {
+    if (++corrections_ > 3) return false;
+    const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt);
+    if (!seen) return false;
+    due_ = seen;
+    longest_ = run_.step.h;
+    cut(due_->s * longest_);
+    return true;
+  }
+
   void cut(const T& h) {
     const T shortest = T(8 * epsilon_of<T>) * larger(run_.step.t, longest_);
     run_.step.h = smaller(larger(h, shortest), longest_);

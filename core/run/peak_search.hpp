@@ -41,14 +41,16 @@ public:
   [[nodiscard]] std::optional<T> first_doubt() {
     made_sure_ = false;
     hinge_ = 0;
-    doubt_.reset();
+    doubt_.reset(), held_at_.reset();
     if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
     return next_doubt();
   }
 
   /// That step has been made, to the state inside the step under way. @return the next doubt
   [[nodiscard]] std::optional<T> resolve_doubt() {
-    if (!doubt_)
+    if (held_at_)
+      confirm_held_moment();
+    else if (!doubt_)
       forces_.confirm(run_.system);
     else if (confirm_moment(*doubt_, moments_[hinge_], run_.system, run_.step, hinge_, run_.x,
                             run_.dxdt))
@@ -72,13 +74,22 @@ private:
   [[nodiscard]] std::optional<T> doubtful_moment() {
     PeakOf<T>& peak = moments_[hinge_];
     if (run_.system.sticks(hinge_)) {
-      raise_held_moment(peak, run_.system, run_.step, hinge_,
-                        [this](const T& s) -> const State<T>& { return run_.evaluate_at(s); });
-      return std::nullopt;
+      held_at_ = raise_held_moment(peak, run_.system, run_.step, hinge_, held_, [this](const T& s) {
+        using std::abs;
+        return T(abs(run_.system.moment(run_.evaluate_at(s), hinge_)));
+      });
+      return held_at_;
     }
     doubt_ = raise_moment(peak, run_.system, run_.step, hinge_);
     if (!doubt_) return std::nullopt;
     return doubt_->s;
+  }
+
+  void confirm_held_moment() {
+    using std::abs;
+    moments_[hinge_].raise(T(abs(run_.system.moment(run_.x, hinge_))),
+                           run_.step.t + *held_at_ * run_.step.h);
+    held_at_.reset();
   }
 
   Underway<T, AnySystem>& run_;
@@ -86,6 +97,8 @@ private:
   ForcePeaks<T, AnySystem> forces_;
   int hinge_ = 0;                          ///< whose moment is looked at
   std::optional<DoubtfulMoment<T>> doubt_; ///< of it; none while forces are in doubt
+  HeldLoadBound<T> held_;
+  std::optional<T> held_at_; ///< where the moment of a hinge that sticks is in doubt
   bool made_sure_ = false;
 };
 

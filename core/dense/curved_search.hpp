@@ -1,0 +1,107 @@
+/// Where a function over a step is positive, and where it is largest, given how far it can leave its
+/// chords: between s = a and b it is nowhere above its larger end by more than rise·(b − a)², and
+/// runs one way from end to end where these differ by more than eight times that (its slope is that
+/// of the chord give or take (b − a) of its second derivative, of which rise is an eighth).
+///
+/// Intervals are halved until that settles them: nothing is missed between samples.
+#pragma once
+
+#include "core/number/scalar.hpp"
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace wingspread {
+
+/// A function's value at a fraction of the step.
+template <class T> struct Sampled { T s, value; };
+
+namespace detail {
+
+template <class T> struct Stretch { Sampled<T> a, b; };
+
+/// Stretches to be looked at, last in, first out: no more than one a halving.
+template <class T> class OpenStretches {
+public:
+  void push(const Stretch<T>& stretch) { open_[count_++] = stretch; }
+  [[nodiscard]] bool full() const { return count_ + 2 > open_.size(); }
+  [[nodiscard]] std::optional<Stretch<T>> pop() {
+    if (count_ == 0) return std::nullopt;
+    return open_[--count_];
+  }
+
+private:
+  std::array<Stretch<T>, 48> open_;
+  std::size_t count_ = 0;
+};
+
+/// The most that the function may be inside above its larger end.
+template <class T> [[nodiscard]] T rise_inside(const Stretch<T>& at, const T& rise) {
+  using std::abs;
+  const T width = at.b.s - at.a.s, most = rise * width * width;
+  return abs(at.b.value - at.a.value) > T(8) * most ? T(0) : most;
+}
+
+template <class T, class Function>
+[[nodiscard]] T root_of_rise(const Stretch<T>& at, const Function& f) {
+  std::uintmax_t iterations = 60;
+  return boost::math::tools::toms748_solve(f, at.a.s, at.b.s, at.a.value, at.b.value,
+                                           boost::math::tools::eps_tolerance<T>(40), iterations)
+      .second;
+}
+
+} // namespace detail
+
+/// The first s in [0, 1] where f > 0; none where f stays ≤ 0 or exceeds it by no more than `close`.
+/// @param first, last f at s = 0 and 1
+/// @param crest raised to the largest sample made on the way
+template <class T, class Function>
+[[nodiscard]] std::optional<T> first_positive(const Function& f, const T& first, const T& last,
+                                              const T& rise, const T& close, Sampled<T>& crest) {
+  if (first > T(0)) return T(0);
+  detail::OpenStretches<T> open;
+  open.push({{T(0), first}, {T(1), last}});
+  while (const auto at = open.pop()) {
+    const T inside = detail::rise_inside(*at, rise);
+    const bool ends_above = at->b.value > T(0);
+    if (!ends_above && !(larger(at->a.value, at->b.value) + inside > T(0))) continue;
+    if (inside <= close || open.full()) {
+      if (!ends_above) continue;
+      return at->a.value < T(0) ? detail::root_of_rise(*at, f) : at->a.s;
+    }
+    const T s = T(0.5) * (at->a.s + at->b.s);
+    const Sampled<T> middle{s, f(s)};
+    if (middle.value > crest.value) crest = middle;
+    if (!(middle.value > T(0))) open.push({middle, at->b}); // else the first lies before it
+    open.push({at->a, middle});
+  }
+  return std::nullopt;
+}
+
+/// Where f is largest, to `close`, if that is more than `floor`; else one of the samples.
+template <class T, class Function>
+[[nodiscard]] Sampled<T> largest_of(const Function& f, const T& first, const T& last, const T& rise,
+                                    const T& floor, const T& close) {
+  Sampled<T> best = last > first ? Sampled<T>{T(1), last} : Sampled<T>{T(0), first};
+  detail::OpenStretches<T> open;
+  open.push({{T(0), first}, {T(1), last}});
+  while (const auto at = open.pop()) {
+    const T inside = detail::rise_inside(*at, rise);
+    if (!(larger(at->a.value, at->b.value) + inside > larger(best.value, floor)) ||
+        inside <= close || open.full())
+      continue;
+    const T s = T(0.5) * (at->a.s + at->b.s);
+    const Sampled<T> middle{s, f(s)};
+    if (middle.value > best.value) best = middle;
+    const bool left_first = at->a.value > at->b.value;
+    open.push(left_first ? detail::Stretch<T>{middle, at->b} : detail::Stretch<T>{at->a, middle});
+    open.push(left_first ? detail::Stretch<T>{at->a, middle} : detail::Stretch<T>{middle, at->b});
+  }
+  return best;
+}
+
+} // namespace wingspread

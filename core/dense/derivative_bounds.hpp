@@ -1,0 +1,61 @@
+/// Bounds of a quintic's derivatives over its step, by the hulls of their Bernstein coefficients.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/wing.hpp"
+
+namespace wingspread {
+
+/// Of differences of a quintic's coefficients: k-th ones make coefficients of the k-th derivative.
+template <class T> struct DifferenceScale {
+  explicit DifferenceScale(const T& h)
+      : first(T(5) / h), second(T(0.8) * first * first), third(T(0.6) * first * second),
+        fourth(T(0.4) * first * third) {}
+  T first, second, third, fourth;
+};
+
+/// No |d/dt|, |d²/dt²|, … in the step is larger.
+template <class T> struct DerivativeBounds { T first, second, third, fourth; };
+
+namespace detail {
+template <class T, class... U>
+[[nodiscard, gnu::always_inline]] inline T largest_magnitude(const T& first, const U&... rest) {
+  using std::abs;
+  T most = abs(first);
+  ((most = larger(most, T(abs(rest)))), ...);
+  return most;
+}
+} // namespace detail
+
+template <class T>
+[[nodiscard, gnu::always_inline]] inline DerivativeBounds<T>
+derivative_bounds(const Quintic<T>& p, const DifferenceScale<T>& scale) {
+  using detail::largest_magnitude;
+  const T a0 = p[1] - p[0], a1 = p[2] - p[1], a2 = p[3] - p[2], a3 = p[4] - p[3], a4 = p[5] - p[4];
+  const T b0 = a1 - a0, b1 = a2 - a1, b2 = a3 - a2, b3 = a4 - a3;
+  const T c0 = b1 - b0, c1 = b2 - b1, c2 = b3 - b2;
+  return {scale.first * largest_magnitude(a0, a1, a2, a3, a4),
+          scale.second * largest_magnitude(b0, b1, b2, b3),
+          scale.third * largest_magnitude(c0, c1, c2),
+          scale.fourth * largest_magnitude(T(c1 - c0), T(c2 - c1))};
+}
+
+/// |d⁴/dt⁴ (cos θ, sin θ)| = |i θ⁽⁴⁾ − 4 θ̇ θ⃛ − 3 θ̈² − 6 i θ̇² θ̈ + θ̇⁴| is no larger.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T fourth_of_direction(const DerivativeBounds<T>& angle) {
+  const T square = angle.first * angle.first;
+  const T slow = fused(square, square, T(3) * angle.second * angle.second);
+  return angle.fourth +
+         fused(T(4) * angle.first, angle.third, fused(T(6) * square, angle.second, slow));
+}
+
+/// How far a base of prescribed motion turns over a step.
+template <class T>
+[[nodiscard]] Quintic<T> turn_of_base(const BaseTerms<T>& base, const Step<T>& step) {
+  const T& second = base.angular_acceleration;
+  const T first = fused(second, step.t, base.rate), last = fused(second, step.h, first);
+  const T turned = step.h * fused(T(0.5) * step.h, second, first);
+  return hermite<T>(step.h, {T(0), first, second}, {turned, last, second});
+}
+
+} // namespace wingspread

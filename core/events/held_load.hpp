@@ -1,0 +1,130 @@
+/// How far the moment that a locked hinge bears may leave its chord inside a step.
+///
+/// The moment on body i at hinge i, from the motion of all that is outward of it (× is the plane's
+/// cross product, e_k = (cos θ_k, sin θ_k), and |.| are constants of the wing):
+///
+///     L_i = J_i θ̈_i + m_i g_i × r̈_i + Σ ( L_c + l_c × Y_c ) over the hinges c on body i           (1)
+///
+/// | symbol | meaning                                                    | unit |
+/// |--------|------------------------------------------------------------|------|
+/// | g_i    | from hinge i to the body's centre of mass                  | m    |
+/// | l_c    | from hinge i to hinge c                                    | m    |
+/// | Y_c    | the force on body c at its hinge (reaction_bound.hpp)      | N    |
+///
+/// so that, with bounds of the derivatives of θ, and from them of e, r̈ and Y,
+///
+///     |d²L_i/dt²| ≤ J_i |θ_i⁽⁴⁾| + m_i |g_i| (r⁽⁴⁾ + 2 |ė_i| r⁽³⁾ + |ë_i| r⁽²⁾)
+///                   + Σ ( |d²L_c/dt²| + |l_c| (Ÿ_c + 2 |ė_i| Ẏ_c + |ë_i| Y_c) )                    (2)
+///
+/// and L leaves its chord over an interval of h by h²/8 of that; taken 4/3 times, as forces are.
+#pragma once
+
+#include "core/dense/derivative_bounds.hpp"
+#include "core/dense/step.hpp"
+#include "core/mechanics/system.hpp"
+
+#include <vector>
+
+namespace wingspread {
+
+template <class T> class HeldLoadBound {
+public:
+  /// Cost O(n), about an evaluation.
+  template <class Topology, BaseMotion M>
+  void over_step(const System<T, Topology, M>& system, const Step<T>& step) {
+    const auto& tree = system.topology();
+    const Wing<T>& wing = system.wing();
+    bodies_.assign(tree.bodies() + 1, Bounds{});
+    const DifferenceScale<T> scale(step.h);
+    start_at_base(system, step, scale);
+    tree.outward([&](int i) {
+      const Bounds& parent = bodies_[tree.parent_of(i)];
+      Bounds& own = bodies_[i];
+      const Quintic<T> angle =
+          step.coordinate(system.layout().angle(i), system.layout().freedoms());
+      for (int k = 0; k < 6; ++k) own.path[k] = parent.path[k] + angle[k];
+      own.turn(derivative_bounds(own.path, scale));
+      const T arm = length(wing.bodies[i].arm);
+      own.hinge = added(parent.hinge, arm, parent.direction);
+      const T center = length(wing.bodies[i].center), mass = wing.bodies[i].mass;
+      const Derivatives mass_center = added(own.hinge, center, own.direction);
+      own.force = added(own.force, mass, mass_center);
+      own.moment = fused(wing.bodies[i].central_inertia, own.angle_fourth,
+                         mass * center * own.turned_with(mass_center));
+    });
+    tree.inward([&](int i) {
+      const Bounds& own = bodies_[i];
+      Bounds& parent = bodies_[tree.parent_of(i)];
+      parent.force = added(parent.force, T(1), own.force);
+      parent.moment = parent.moment +
+                      fused(length(wing.bodies[i].arm), parent.turned_with(own.force), own.moment);
+    });
+    weight_ = step.h * step.h * T(1.0 / 6);
+  }
+
+  /// By how much |L_i| may exceed what it is at the step's ends, N·m; times (b − a)² between s = a
+  /// and b.
+  [[nodiscard]] T rise(int i) const { return weight_ * bodies_[i].moment; }
+
+private:
+  /// Of a vector's second, third and fourth derivative; of a force: itself and its first two.
+  struct Derivatives {
+    T second = T(0), third = T(0), fourth = T(0);
+  };
+
+  struct Bounds {
+    Quintic<T> path{};     ///< θ
+    T rate = T(0);         ///< |ė| = |θ̇|
+    T angle_fourth = T(0); ///< |θ⁽⁴⁾|
+    Derivatives direction; ///< of e
+    Derivatives hinge;     ///< of the hinge's point
+    Derivatives force;     ///< Y
+    T moment = T(0);       ///< |d²L/dt²|
+
+    void turn(const DerivativeBounds<T>& angle) {
+      const T square = angle.first * angle.first;
+      rate = angle.first, angle_fourth = angle.fourth;
+      direction.second = angle.second + square;
+      direction.third = angle.third + angle.first * fused(T(3), angle.second, square);
+      direction.fourth = fourth_of_direction(angle);
+    }
+    /// |d²/dt² (e × v)| for a v whose zeroth, first and second derivatives are so bounded.
+    [[nodiscard]] T turned_with(const Derivatives& v) const {
+      return fused(direction.second, v.second, fused(T(2) * rate, v.third, v.fourth));
+    }
+  };
+
+  [[nodiscard]] static T length(const Vec2<T>& v) {
+    using std::sqrt;
+    return sqrt(dot(v, v));
+  }
+  [[nodiscard]] static Derivatives added(const Derivatives& a, const T& by, const Derivatives& b) {
+    return {fused(by, b.second, a.second), fused(by, b.third, a.third),
+            fused(by, b.fourth, a.fourth)};
+  }
+
+  template <class Topology, BaseMotion M>
+  void start_at_base(const System<T, Topology, M>& system, const Step<T>& step,
+                     const DifferenceScale<T>& scale) {
+    Bounds& base = bodies_[0];
+    if constexpr (M == BaseMotion::free) {
+      const int n = system.layout().freedoms();
+      for (const int k : {0, 1}) {
+        const DerivativeBounds<T> b = derivative_bounds(step.coordinate(k, n), scale);
+        base.hinge = added(base.hinge, T(1), {b.second, b.third, b.fourth});
+      }
+      base.path = step.coordinate(2, n);
+    }
+    if constexpr (M == BaseMotion::prescribed) { // accelerations are constant
+      const BaseTerms<T>& given = system.wing().base;
+      base.hinge.second = length(given.acceleration);
+      base.path = turn_of_base(given, step);
+    }
+    base.turn(derivative_bounds(base.path, scale));
+  }
+
+  std::vector<Bounds> bodies_; ///< 0 … n
+  T weight_ = T(0);
+};
+
+} // namespace wingspread

@@ -1,0 +1,138 @@
+/// Any motion of a wing over a step, and what follows from positions alone.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/system.hpp"
+#include "tests/support/random_scenes.hpp"
+
+#include <algorithm>
+#include <complex>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace wingspread::oracle {
+
+using Point = std::complex<long double>;
+
+/// Any motion of a wing over a step, by the quintics through random jets at its ends.
+template <BaseMotion M> struct AnyMotion {
+  AnyMotion(const Scene& scene, std::uint64_t seed, double h, double swing)
+      : wing(make_wing<double>(scene, outward_order(scene))), system(with_numbers(scene)) {
+    oracle::Draws draws(seed);
+    const Layout& at = system.layout();
+    step.t = draws.uniform(0, 3), step.h = h;
+    for (State<double>* x : {&step.x, &step.dxdt, &step.x1, &step.dxdt1}) x->assign(at.size(), 0);
+    for (int k = 0; k < at.freedoms(); ++k) {
+      const int r = k + at.freedoms();
+      const double angle = draws.uniform(-3, 3), rate = draws.uniform(-1, 1);
+      step.x[k] = angle, step.x1[k] = angle + h * (rate + draws.uniform(-swing, swing));
+      step.x[r] = step.dxdt[k] = rate + draws.uniform(-swing, swing);
+      step.x1[r] = step.dxdt1[k] = rate + draws.uniform(-swing, swing);
+      step.dxdt[r] = draws.uniform(-swing, swing) / h;
+      step.dxdt1[r] = draws.uniform(-swing, swing) / h;
+    }
+  }
+
+  /// Of the base's angle, or of body i's relative one, or of the base's place.
+  [[nodiscard]] long double coordinate(int k, long double s) const {
+    const Quintic<double> p = step.coordinate(k, system.layout().freedoms());
+    Quintic<long double> q;
+    std::copy(p.begin(), p.end(), q.begin());
+    return value(q, s);
+  }
+
+  struct Place {
+    std::vector<Point> hinge, center; ///< 0 … n; of mass
+    std::vector<long double> angle;
+  };
+  [[nodiscard]] Place place(long double s) const {
+    const BaseTerms<double>& base = wing.base;
+    const long double t = step.t + s * step.h;
+    std::vector<Point> hinge(wing.size() + 1), center(wing.size() + 1);
+    std::vector<long double> angle(wing.size() + 1, 0);
+    if (M == BaseMotion::free)
+      hinge[0] = {coordinate(0, s), coordinate(1, s)}, angle[0] = coordinate(2, s);
+    if (M == BaseMotion::prescribed) {
+      angle[0] = base.angle + t * (base.rate + base.angular_acceleration * t / 2);
+      hinge[0] = Point(base.acceleration.x, base.acceleration.y) * (t * t / 2);
+    }
+    const auto along = [](const Vec2<double>& v, long double turn) {
+      return Point(v.x, v.y) * std::polar(1.0L, turn);
+    };
+    for (int i = 1; i <= wing.size(); ++i) {
+      const int p = wing.tree.parent_of(i);
+      angle[i] = angle[p] + coordinate(system.layout().angle(i), s);
+      hinge[i] = hinge[p] + along(wing.bodies[i].arm, angle[p]);
+      center[i] = hinge[i] + along(wing.bodies[i].center, angle[i]);
+    }
+    return {hinge, center, angle};
+  }
+
+  /// |Y_i| at s, by differences of positions.
+  [[nodiscard]] std::vector<double> forces(double s) const {
+    const long double d = 1e-4L, wide = d * step.h;
+    const auto before = place(s - d).center, at = place(s).center, after = place(s + d).center;
+    std::vector<Point> sum(wing.size() + 1);
+    std::vector<double> result(wing.size() + 1);
+    for (int i = wing.size(); i >= 1; --i) {
+      sum[i] += static_cast<long double>(wing.bodies[i].mass) *
+                (before[i] - 2.0L * at[i] + after[i]) / (wide * wide);
+      sum[wing.tree.parent_of(i)] += sum[i];
+      result[i] = static_cast<double>(std::abs(sum[i]));
+    }
+    return result;
+  }
+
+  /// The moment of hinge i on all that is outward of it, at s, by differences of positions.
+  [[nodiscard]] std::vector<double> loads(double s) const {
+    const long double d = 1e-4L, wide = d * step.h;
+    const Place before = place(s - d), at = place(s), after = place(s + d);
+    std::vector<double> result(wing.size() + 1);
+    for (int i = 1; i <= wing.size(); ++i) {
+      long double sum = 0;
+      for (int j = i; j <= wing.size(); ++j) {
+        int k = j;
+        while (k > i) k = wing.tree.parent_of(k);
+        if (k != i) continue;
+        const BodyTerms<double>& body = wing.bodies[j];
+        const Point a = (before.center[j] - 2.0L * at.center[j] + after.center[j]) / (wide * wide);
+        sum += static_cast<long double>(body.mass) *
+               std::imag(std::conj(at.center[j] - at.hinge[i]) * a);
+        sum += static_cast<long double>(body.central_inertia) *
+               (before.angle[j] - 2.0L * at.angle[j] + after.angle[j]) / (wide * wide);
+      }
+      result[i] = static_cast<double>(std::abs(sum));
+    }
+    return result;
+  }
+
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, M> system;
+  Step<double> step;
+
+private:
+  System<double, Tree, M> with_numbers(const Scene& scene) {
+    set_parameters(wing, scene);
+    return {wing, wing.tree, std::nullopt, work};
+  }
+};
+
+/// Largest part of the rise that `values` take inside [from, to] of the step above their ends.
+/// @param values values(s): 1 … n
+/// @param rise rise(i): the most that they may, over the whole step
+template <class Values, class Rise>
+double part_taken(int hinges, double from, double to, const Values& values, const Rise& rise) {
+  const auto first = values(from), last = values(to);
+  double most = 0;
+  for (int k = 1; k < 32; ++k) {
+    const auto inside = values(from + (to - from) * k / 32);
+    for (int i = 1; i <= hinges; ++i)
+      most = std::max(most, (inside[i] - std::max(first[i], last[i])) /
+                                ((to - from) * (to - from) * rise(i)));
+  }
+  return most;
+}
+
+} // namespace wingspread::oracle

@@ -1,0 +1,62 @@
+#include "core/dense/curved_search.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numbers>
+
+using namespace wingspread;
+
+namespace {
+
+/// size·sin(turns·s + phase) + shift, whose second derivative is size·turns² at most.
+struct Wave {
+  double size, turns, phase, shift;
+  double operator()(double s) const { return size * std::sin(turns * s + phase) + shift; }
+  [[nodiscard]] double rise() const { return size * turns * turns / 8; }
+};
+
+} // namespace
+
+TEST_CASE("the first point where a function is positive is found, however narrow the crest") {
+  int found = 0;
+  for (int k = 0; k < 400; ++k) {
+    const double margin = std::pow(10, -8 + 7.0 * (k % 20) / 20); // of the crest over zero
+    const Wave wave{1, 3 + 0.05 * k, 4.7 + 0.37 * k, margin - 1};
+    const double left = std::numbers::pi / 2 - std::acos(1 - margin); // where it crosses
+    const double turn = 2 * std::numbers::pi;
+    const double cycles = std::ceil((wave.phase - left) / turn);
+    const double expected = (left + cycles * turn - wave.phase) / wave.turns;
+    Sampled<double> crest{0, -1e9};
+    if (wave(0) > 0) continue;
+    const auto s = first_positive(wave, wave(0), wave(1), wave.rise(), 1e-12, crest);
+    CAPTURE(k, margin, expected);
+    REQUIRE(s.has_value() == (expected <= 1));
+    if (!s) continue;
+    ++found;
+    CHECK(std::abs(wave(*s)) < 1e-9);
+    CHECK(*s == Approx(expected).margin(1e-8 + 1e-12 / std::sqrt(margin)));
+  }
+  CHECK(found > 100);
+}
+
+TEST_CASE("the largest value is found, at an end or inside, and none below the floor is sought") {
+  int inside = 0;
+  for (int k = 0; k < 400; ++k) {
+    const Wave wave{2, 0.5 + 0.04 * k, 0.61 * k, 5};
+    int calls = 0;
+    const auto counted = [&](double s) { return ++calls, wave(s); };
+    const Sampled<double> best = largest_of(counted, wave(0), wave(1), wave.rise(), 0.0, 1e-12);
+    double expected = std::max(wave(0), wave(1));
+    for (int n = 1; n < 2000; ++n) expected = std::max(expected, wave(n / 2000.0));
+    CAPTURE(k);
+    CHECK(best.value > expected - 1e-12);
+    CHECK(best.value < expected + 2 * std::pow(wave.turns / 4000, 2));
+    CHECK(calls < 200); // two crests or three of the same height
+    inside += best.s > 0 && best.s < 1;
+    calls = 0;
+    (void)largest_of(counted, wave(0), wave(1), wave.rise(), 7 + wave.rise() + 1, 1e-12);
+    CHECK(calls == 0);
+  }
+  CHECK(inside > 100);
+}
