@@ -40,13 +40,15 @@ public:
   template <class Topology, BaseMotion M, class AddedInertia>
   void factorize(const System<T, Topology, M>& system, const State<T>& x, const T& t,
                  AddedInertia&& added) {
-    if (static_cast<int>(parts_.frames.size()) != system.layout().bodies + 1)
-      parts_.resize(system.layout().bodies);
-    place_base<M>(system.wing(), system.layout(), parts_.frames[0], x, t);
-    place_bodies<M>(system.wing(), system.topology(), parts_.frames, x);
-    factorize_all<M>(system.wing(), system.topology(), parts_, [&](int i) {
+    factorize_with(system, x, t, [&](int i) {
       return HingeConstraint<T>{added(i), system.sticks(i)};
     });
+  }
+
+  /// Factorizes M at (x, t) as if no hinge stuck: for what is to hold once any of them slips.
+  template <class Topology, BaseMotion M>
+  void factorize_unlocked(const System<T, Topology, M>& system, const State<T>& x, const T& t) {
+    factorize_with(system, x, t, [](int) { return HingeConstraint<T>{}; });
   }
 
   /// Solves (1) with the last factorization: τ(i) of the hinges, none on a free base.
@@ -69,6 +71,17 @@ public:
   [[nodiscard]] const std::vector<BodyFrame<T>>& frames() const { return parts_.frames; }
 
 private:
+  /// @param constraint constraint(i) of hinge i
+  template <class Topology, BaseMotion M, class Constraint>
+  void factorize_with(const System<T, Topology, M>& system, const State<T>& x, const T& t,
+                      Constraint&& constraint) {
+    if (static_cast<int>(parts_.frames.size()) != system.layout().bodies + 1)
+      parts_.resize(system.layout().bodies);
+    place_base<M>(system.wing(), system.layout(), parts_.frames[0], x, t);
+    place_bodies<M>(system.wing(), system.topology(), parts_.frames, x);
+    factorize_all<M>(system.wing(), system.topology(), parts_, constraint);
+  }
+
   Augmented<T> parts_;
 };
 

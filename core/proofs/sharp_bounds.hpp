@@ -102,7 +102,7 @@ private:
   /// M_0⁻¹ and F, a unit moment of hinge k at a time.
   template <class AnySystem> void invert(const AnySystem& system) {
     const int n = system.layout().bodies;
-    linear_.factorize(system, rest_, T(0), [](int) { return T(0); });
+    linear_.factorize_unlocked(system, rest_, T(0)); // what sticks may slip later
     for (int k = 1; k <= n; ++k) {
       linear_.solve(
           system, [k](int i) { return T(i == k ? 1 : 0); }, column_.data());
