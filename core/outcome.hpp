@@ -32,8 +32,9 @@ struct Goal {
   bool first_latch_only = false; ///< end at the first latch
 };
 
-/// `stalled`: a hinge has not latched, and there is proof that none will any more. A scene without
-/// any latch ends `timed_out`.
+/// `stalled`: a hinge has not latched, and there is proof that none will any more, though some may
+/// swing on; the reason says which: everything sticks, or energy is missing. A scene without any
+/// latch ends `timed_out`.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
 

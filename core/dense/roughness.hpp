@@ -1,25 +1,34 @@
 /// Whether the interpolant over a step shows what happens inside.
 #pragma once
 
-#include "core/mechanics/layout.hpp"
+#include "core/dense/step.hpp"
 #include "core/number/power.hpp"
 
 namespace wingspread {
 
 /// The error of the quintic over a step against its tolerance, in hundredths of what the
 /// coordinates move: near 1 a step spans a quarter of a period. Estimated by the difference to the
-/// cubic at the middle, h/32 (φ̇0 − φ̇1) + h²/64 (φ̈0 + φ̈1), which grows with h³.
+/// cubic, s²(1 − s)² times the line from d0/2 to d1/2, with
+///
+///     d0 + d1 = h² (φ̈0 + φ̈1) + 2h (φ̇0 − φ̇1)          the even part, 1/64 of it at the middle
+///     d1 − d0 = h² (φ̈1 − φ̈0) + 12 (φ1 − φ0) − 6h (φ̇0 + φ̇1)   the odd one, at most 1/(100 √5)
+///
+/// which grow, against the move, with h³ and h⁴.
 /// @return > 1 if the step is too long
-template <class T>
-[[nodiscard]] T roughness(const Layout& at, const T& h, const State<T>& dxdt, const State<T>& dxdt1,
-                          const T& atol) {
+template <class T> [[nodiscard]] T roughness(const Layout& at, const Step<T>& step, const T& atol) {
   using std::abs;
+  const T& h = step.h;
+  const State<T>&dxdt = step.dxdt, &dxdt1 = step.dxdt1;
   T worst(0);
   for (int k = 0; k < at.freedoms(); ++k) {
     const int a = at.freedoms() + k;
-    const T gap = fused(T(h / T(32)), dxdt[k] - dxdt1[k], h * h / T(64) * (dxdt[a] + dxdt1[a]));
+    const T even = fused(T(h / T(32)), dxdt[k] - dxdt1[k], h * h / T(64) * (dxdt[a] + dxdt1[a]));
+    const T twelfth = fused(h * h / T(12), dxdt1[a] - dxdt[a],
+                            fused(T(-0.5) * h, dxdt[k] + dxdt1[k], step.x1[k] - step.x[k]));
+    const T rounding = T(4 * 0x1p-52) * larger(T(abs(step.x[k])), T(abs(step.x1[k])));
+    const T odd = T(0.12 / 2.2360679774997896) * (abs(twelfth) - rounding);
     const T move = fused(h, larger(T(abs(dxdt[k])), T(abs(dxdt1[k]))), T(T(1e3) * atol));
-    worst = larger(worst, T(abs(gap)) / (T(0.01) * move));
+    worst = larger(worst, larger(T(abs(even)), odd) / (T(0.01) * move));
   }
   return worst;
 }

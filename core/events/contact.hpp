@@ -60,12 +60,19 @@ template <class T, class AnySystem>
   return moves;
 }
 
-/// Whether hinge i, which was at rest and has been let go, sets out against its own friction.
+/// Those that were at rest and have been let go, but set out against their own friction.
 template <class T, class AnySystem>
-[[nodiscard]] bool runs_against_friction(const AnySystem& system, const State<T>& dxdt, int i) {
-  const T along = T(sliding_sense(system, i)) * dxdt[system.layout().rate(i)];
-  return !(along > T(-release_tolerance) * system.wing().hinges[i].static_friction /
-                       system.wing().bodies[i].central_inertia);
+[[nodiscard]] Contacts running_against_friction(const AnySystem& system, const State<T>& dxdt,
+                                                const std::vector<char>& resting) {
+  Contacts moves;
+  for (int i = 1; i <= system.layout().bodies; ++i) {
+    if (!resting[i] || system.sticks(i)) continue;
+    const T along = T(sliding_sense(system, i)) * dxdt[system.layout().rate(i)];
+    const T none = T(release_tolerance) * system.wing().hinges[i].static_friction /
+                   system.wing().bodies[i].central_inertia;
+    if (!(along > -none)) moves.emplace_back(i, Contact::stuck);
+  }
+  return moves;
 }
 
 } // namespace detail
@@ -76,22 +83,22 @@ template <class T, class AnySystem>
 ///
 /// All at rest are locked first, and all that exceed their limits let go at once, until none does:
 /// independent of the hinges' order. One that would then run against its own friction is locked
-/// again; after 64 of these, which no wing has needed, the rest slide as they are.
+/// again; after 64 of these a hinge, which no wing has needed, the rest slide as they are.
 /// @param let_go a hinge whose release is due: it is held no more though rounding may say so;
 ///               0: none
 template <class T, class AnySystem>
 void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int let_go) {
   const std::vector<char> resting = detail::lock_those_at_rest(system, x);
   const T slack(let_go != 0 ? 1 + release_tolerance : 1 + 1e-12);
-  for (int relocks = 0;;) {
+  for (std::size_t relocks = 0, most = 64 * resting.size();;) {
     system(x, dxdt, t);
     detail::Contacts moves = detail::too_weakly_held(system, x, slack, let_go);
     let_go = 0;
-    for (int i = 1; moves.empty() && i <= system.layout().bodies; ++i) {
-      if (!resting[i] || system.sticks(i) || ++relocks > 64) continue;
-      if (detail::runs_against_friction(system, dxdt, i)) moves.emplace_back(i, Contact::stuck);
+    if (moves.empty()) {
+      moves = detail::running_against_friction(system, dxdt, resting);
+      relocks += moves.size();
     }
-    if (moves.empty()) return;
+    if (moves.empty() || relocks > most) return;
     for (const auto& [i, contact] : moves) system.touch(i, contact);
   }
 }

@@ -140,7 +140,7 @@ private:
     Mask accepted = error_size_ <= P(1.0);
     P factor = step_factor(Formula::error_order, error_size_, step_.h, pace_.memory);
     if constexpr (Formula::order > 5) {
-      const P rough = roughness(at_, step_.h, step_.dxdt, step_.dxdt1, tolerance_of_dense_);
+      const P rough = roughness(at_, step_, tolerance_of_dense_);
       const Mask too_rough = rough > P(1.0);
       const P most = factor_by_roughness(rough);
       factor = select(accepted, select(too_rough, most, smaller(factor, most)), factor);

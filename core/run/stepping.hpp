@@ -193,7 +193,7 @@ private:
     // whether a hinge that grazes its latch reaches it is the interpolant's word
     const double finer = method() == Method::bulirsch_stoer ? 10 : 1;
     const Step<T>& step = run_.step;
-    const T rough = roughness(run_.at, step.h, step.dxdt, step.dxdt1, T(run_.how.atol));
+    const T rough = roughness(run_.at, step, T(run_.how.atol));
     limit_roughness(finer * static_cast<double>(rough), verdict);
     if (!verdict.accepted() || method() != Method::fehlberg78 || !run_.at.smoothed) return verdict;
     const double quadrature = quadrature_error<T>(run_.system, step, tolerance());

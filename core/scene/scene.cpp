@@ -50,8 +50,10 @@ void inspect(const Base& base, Inspector& check) {
 void inspect(const Friction& friction, const Owner& owner, Inspector& check) {
   check.require(friction.coulomb >= 0, friction.coulomb, owner, "friction.coulomb", ">= 0");
   check.require(friction.viscous >= 0, friction.viscous, owner, "friction.viscous", ">= 0");
-  check.require(friction.regularization_rate > 0, friction.regularization_rate, owner,
-                "friction.regularization_rate", "> 0");
+  check.require(friction.regularization_rate >= 1e-150, friction.regularization_rate, owner,
+                "friction.regularization_rate",
+                friction.regularization_rate > 0 ? ">= 1e-150"
+                                                 : "> 0"); // its square must not vanish
   if (friction.static_level)
     check.require(*friction.static_level >= friction.coulomb, *friction.static_level, owner,
                   "friction.static", ">= friction.coulomb");

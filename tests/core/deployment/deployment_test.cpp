@@ -19,6 +19,17 @@ TEST_CASE("what cannot be run says so") {
     CHECK_THAT(out.reason,
                Catch::Contains("hinges.root.friction.coulomb is nan, expected a finite number"));
   }
+  SECTION("a regularization rate whose square vanishes is refused, not found out by a run") {
+    scene.hinges[0].friction.coulomb = 0.1, scene.hinges[0].friction.regularization_rate = 1e-200;
+    const Outcome out = Deployment().run(scene, {}, {});
+    CHECK(out.status == Status::invalid);
+    CHECK_THAT(out.reason, Catch::Contains("hinges.root.friction.regularization_rate is "
+                                           "9.9999999999999998e-201, expected >= 1e-150"));
+    scene.hinges[0].friction.regularization_rate = 1e-150;
+    Integration how;
+    how.max_steps = 2000; // a layer that no double can follow
+    CHECK(Deployment().run(scene, how, {}).status != Status::invalid);
+  }
   SECTION("numbers that overflow fail the run and give no result") {
     scene.hinges[0].spring = {1e300, 1e300};
     const Outcome out = Deployment().run(scene, {}, {});
