@@ -1,39 +1,16 @@
 #include "core/deployment.hpp"
+#include "tests/core/packs/same_bits.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
-#include <cstring>
-#include <map>
-#include <string>
+#include <optional>
+#include <vector>
 
 using namespace wingspread;
+using oracle::require_equal_bits;
 
 namespace {
-
-/// All of an outcome, in a form in which equal means equal bits.
-std::string bits_of(const Outcome& outcome) {
-  std::string all = std::string(to_string(outcome.status)) + outcome.reason;
-  const auto add = [&](double x) {
-    std::array<char, sizeof x> bytes{};
-    std::memcpy(bytes.data(), &x, sizeof x);
-    all.append(bytes.data(), bytes.size());
-  };
-  for (const LatchEvent& latch : outcome.latches) {
-    add(latch.hinge), add(latch.time);
-    for (const double rate : latch.rates) add(rate);
-  }
-  for (const auto* peaks : {&outcome.peak_moment, &outcome.peak_force})
-    for (const Peak& peak : *peaks) add(peak.value), add(peak.time);
-  for (const Phase& phase : outcome.phases) all += phase.method, add(phase.from), add(phase.to);
-  for (const auto* v : {&outcome.final.angles, &outcome.final.rates})
-    for (const double x : *v) add(x);
-  add(outcome.final.base_angle), add(outcome.final.base_rate);
-  add(outcome.t_end), add(outcome.energy.final);
-  add(static_cast<double>(outcome.work.steps)), add(static_cast<double>(outcome.work.rejected));
-  add(static_cast<double>(outcome.work.rhs_evaluations));
-  return all;
-}
 
 /// `count` units of a wing: springs, masses and latches vary.
 std::vector<Scene> units(const Scene& drawing, int count) {
@@ -51,38 +28,6 @@ std::vector<Scene> units(const Scene& drawing, int count) {
     scenes.push_back(scene);
   }
   return scenes;
-}
-
-/// The outcomes by name, through the lanes.
-std::map<long, std::string> in_lanes(InstructionSet set, const std::vector<Scene>& scenes,
-                                     const Integration& how, const Goal& goal) {
-  std::map<long, std::string> outcomes;
-  long next = 0;
-  DeploymentPack pack(set, how, goal);
-  pack.run(
-      scenes.front(),
-      [&](Scene& scene) -> std::optional<long> {
-        if (next == std::ssize(scenes)) return std::nullopt;
-        scene = scenes[next];
-        return next++;
-      },
-      [&](long name, Outcome&& outcome) {
-        REQUIRE(outcomes.emplace(name, bits_of(outcome)).second);
-      });
-  return outcomes;
-}
-
-/// Every run through the lanes of every instruction set is the run alone.
-void require_equal_bits(const std::vector<Scene>& scenes, const Integration& how,
-                        const Goal& goal) {
-  std::map<long, std::string> alone;
-  Deployment deployment;
-  for (std::size_t k = 0; k < scenes.size(); ++k)
-    alone[static_cast<long>(k)] = bits_of(deployment.run(scenes[k], how, goal));
-  for (const InstructionSet set : instruction_sets()) {
-    CAPTURE(to_string(set));
-    REQUIRE((in_lanes(set, scenes, how, goal) == alone));
-  }
 }
 
 const Goal all{.audit = false};

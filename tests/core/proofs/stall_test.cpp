@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace wingspread;
 using namespace wingspread::oracle;
 
@@ -49,4 +51,47 @@ TEST_CASE("a hinge that still moves, or may, is not stalled") {
     CHECK(out.final.rates[0] < 0);
     CHECK(out.final.rates[1] == 0);
   }
+}
+
+TEST_CASE(
+    "a hinge that just can pay for its friction deploys, and one that just cannot is stalled") {
+  // It swings against a spring about φ = 0 from −1 rad on, and sticks beyond: its latch at 0.6 rad is
+  // reached if ½ I ω² + ½ κ (1 − 0.36) pays for τ_c · 1.6 rad. Steps are short, so that the proof is
+  // tried (after each 64th) long before.
+  const double stiffness = 0.8, rate = 1.1, travel = 1.6;
+  const double energy = 0.5 * panel_inertia * rate * rate + 0.5 * stiffness * (1 - 0.36);
+  const double critical = energy / travel;
+  for (const char* method : {"cash_karp54", "dopri5"})
+    for (const double part : {0.8, 0.99, 0.999, 1.001, 1.01}) {
+      Scene scene = latching_panel();
+      Hinge& hinge = scene.hinges[0];
+      hinge.stowed = -1, hinge.latched = 0.6, hinge.initial_rate = rate;
+      pull_towards(hinge, 0, stiffness);
+      rub(hinge, part * critical, 2 * critical);
+      Integration how = within(1e-12, 60);
+      how.method = method;
+      const Outcome out = Deployment().run(scene, how, latches_only);
+      CAPTURE(method, part, out.reason);
+      CHECK(out.work.steps >= 63); // the proof has been tried
+      CHECK(out.status == (part < 1 ? Status::deployed : Status::stalled));
+      if (part > 1) continue;
+      REQUIRE(out.latches.size() == 1);
+      const double left = std::sqrt(2 * (1 - part) * energy / panel_inertia);
+      CHECK(out.latches[0].rates[0] == Approx(left).epsilon(1e-8));
+    }
+}
+
+TEST_CASE("a wing that lacks a little energy is stalled before it stops") {
+  // the same panel with a weaker spring and more speed: half its way is enough to know
+  Scene scene = latching_panel();
+  Hinge& hinge = scene.hinges[0];
+  hinge.stowed = -1, hinge.latched = 0.6, hinge.initial_rate = 1.1;
+  pull_towards(hinge, 0, 0.8);
+  rub(hinge, 3, 3);
+  Integration how = within(1e-12, 60);
+  how.method = "cash_karp54";
+  const Outcome out = Deployment().run(scene, how, latches_only);
+  CHECK(out.status == Status::stalled);
+  CHECK_THAT(out.reason, Catch::Contains("energy: no hinge can reach its latch"));
+  CHECK(out.final.rates[0] > 0.01); // it still moves: none will latch any more, not: none will move
 }
