@@ -1,5 +1,5 @@
-/// Where latches engage: a hinge passes its latched angle in the deploying sense, and its latch is a
-/// spring and a damper from then on.
+/// Where latches engage: a hinge passes its latched angle in the deploying sense,
+/// and its latch is a spring and a damper from then on.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -57,8 +57,8 @@ public:
     return first_nonnegative(angle);
   }
 
-  /// At the start of a step: engages the hinge that was due (0: none), and with it every waiting one
-  /// that stands at its latched angle, all at this one instant.
+  /// At the start of a step: engages the hinge that was due (0: none), and with it every waiting
+  /// one that stands at its latched angle, all at this one instant.
   /// @param latches those that engage are added
   /// @return whether there was any
   bool engage_those_there(int due, const Step<T>& step, std::vector<LatchEvent>& latches) {

@@ -10,15 +10,14 @@
 
 namespace wingspread {
 
-/// dx/dt of one wing. M is the base's motion; Topology a Tree or a Chain<N>.
+/// dx/dt of one wing. M is the base's motion, the wing's own; Topology the type by which
+/// the compiler sees its tree: Tree, or for a short chain Chain<N>.
 template <class T, class Topology, BaseMotion M> class System {
 public:
   static constexpr BaseMotion base_motion = M;
 
-  System(const Wing<T>& wing, const Topology& topology, const std::optional<double>& smoothing,
-         Workspace<T>& work)
-      : wing_(wing), topology_(topology),
-        work_(work), layout_{first_coordinate, topology.bodies(), smoothing.has_value()},
+  System(const Wing<T>& wing, const std::optional<double>& smoothing, Workspace<T>& work)
+      : wing_(wing), work_(work), layout_{first_coordinate, wing.size(), smoothing.has_value()},
         epsilon_(smoothing.value_or(0)) {
     const int n = layout_.bodies;
     work_.frames.assign(n + 1, BodyFrame<T>{});
@@ -41,7 +40,9 @@ public:
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const Wing<T>& wing() const { return wing_; }
-  [[nodiscard]] const Topology& topology() const { return topology_; }
+  [[nodiscard, gnu::always_inline]] decltype(auto) topology() const {
+    return seen_as<Topology>(wing_.tree);
+  }
   [[nodiscard]] const Workspace<T>& work() const { return work_; }
   [[nodiscard]] const T& epsilon() const { return epsilon_; }
   /// For evaluations made elsewhere: their number, and the forces at the last one.
@@ -84,7 +85,7 @@ public:
   /// Kinematics alone: places every body in the workspace's frames.
   void place_all(const State<T>& x, const T& t) {
     place_base<M>(wing_, layout_, work_.frames[0], x, t);
-    place_bodies<M>(wing_, topology_, work_.frames, x);
+    place_bodies<M>(wing_, topology(), work_.frames, x);
   }
 
   /// Moment of hinge i, N·m; if it sticks, what held it at the last evaluation.
@@ -128,7 +129,7 @@ private:
   }
 
   static constexpr int first_coordinate = base_freedoms<M>; ///< φ_1 in q
-  [[nodiscard]] int freedoms() const { return first_coordinate + topology_.bodies(); }
+  [[nodiscard]] int freedoms() const { return first_coordinate + topology().bodies(); }
 
   [[nodiscard]] bool latch_acts(int i) const {
     return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
@@ -146,16 +147,16 @@ private:
   [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
     Augmented<T>& parts = work_.held;
     place_base<M>(wing_, layout_, parts.frames[0], x, t);
-    place_bodies<M>(wing_, topology_, parts.frames, x);
+    place_bodies<M>(wing_, topology(), parts.frames, x);
     apply_moments(parts.frames, x);
-    factorize_all<M>(wing_, topology_, parts, [&](int i) {
+    factorize_all<M>(wing_, topology(), parts, [&](int i) {
       return HingeConstraint<T>{T(0), sticks(i)};
     });
-    load_all<true, M>(topology_, parts, [&](int i) { return parts.frames[i].moment; });
+    load_all<true, M>(topology(), parts, [&](int i) { return parts.frames[i].moment; });
     if constexpr (M == BaseMotion::free) copy_base(parts.bodies[0], dxdt);
-    topology_.outward([&](int i) {
-      dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology_, parts.frames, parts.bodies, i);
-      const T& parents = parts.bodies[topology_.parent_of(i)].angular_acceleration;
+    topology().outward([&](int i) {
+      dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology(), parts.frames, parts.bodies, i);
+      const T& parents = parts.bodies[topology().parent_of(i)].angular_acceleration;
       work_.holding[i] = axis_moment(parts.bodies[i], parents);
       if (wants_forces_) work_.forces[i] = augmented_force(parts.bodies[i], parents);
     });
@@ -168,12 +169,12 @@ private:
     const T* const angles = x.data() + first_coordinate;
     const T* const rates = angles + freedoms();
     const LinearLaw<T>* const laws = work_.laws.data();
-    topology_.outward([&](int i) __attribute__((always_inline)) {
+    topology().outward([&](int i) __attribute__((always_inline)) {
       frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
     });
     if (!wing_.has_regularized_friction && !layout_.smoothed) return;
     find_nonlinear_moments(x);
-    topology_.outward([&](int i) __attribute__((always_inline)) {
+    topology().outward([&](int i) __attribute__((always_inline)) {
       frames[i].moment = frames[i].moment + work_.nonlinear[i];
     });
   }
@@ -198,7 +199,7 @@ private:
     const T* const rates = x.data() + freedoms();
     T* const velocities = dxdt.data();
     for (int k = 0; k < first_coordinate; ++k) velocities[k] = rates[k];
-    topology_.outward([&](int i) __attribute__((always_inline)) {
+    topology().outward([&](int i) __attribute__((always_inline)) {
       velocities[first_coordinate + i - 1] = rates[first_coordinate + i - 1];
     });
   }
@@ -207,19 +208,19 @@ private:
   [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
                                        const T& t) {
     place_base<M>(wing_, layout_, frames[0], x, t);
-    place_bodies<M>(wing_, topology_, frames, x);
+    place_bodies<M>(wing_, topology(), frames, x);
     apply_moments(frames, x);
-    topology_.inward([&](int i)
-                         __attribute__((always_inline)) { gather(wing_, topology_, frames, i); });
+    topology().inward([&](int i)
+                          __attribute__((always_inline)) { gather(wing_, topology(), frames, i); });
     accelerate_base(frames, dxdt);
     T* const accelerations = dxdt.data() + first_coordinate + freedoms();
-    topology_.outward([&](int i) __attribute__((always_inline)) {
-      accelerations[i - 1] = accelerate<M>(topology_, frames, i);
+    topology().outward([&](int i) __attribute__((always_inline)) {
+      accelerations[i - 1] = accelerate<M>(topology(), frames, i);
     });
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
     if (forces && wants_forces_)
-      topology_.outward([&](int i) __attribute__((always_inline)) {
+      topology().outward([&](int i) __attribute__((always_inline)) {
         work_.forces[i] = hinge_force(frames[i]);
       });
   }
@@ -228,7 +229,7 @@ private:
   [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) const {
     if constexpr (M == BaseMotion::free) {
       BodyFrame<T>& base = frames[0];
-      gather(wing_, topology_, frames, 0);
+      gather(wing_, topology(), frames, 0);
       accelerate_free_base(base);
       copy_base(base, dxdt);
     }
@@ -250,7 +251,6 @@ private:
   }
 
   const Wing<T>& wing_;
-  const Topology& topology_;
   Workspace<T>& work_;
   Layout layout_;
   T epsilon_;

@@ -58,6 +58,15 @@ inline constexpr int longest_static_chain = 4;
 template <class Topology> inline constexpr bool is_static = false;
 template <int N> inline constexpr bool is_static<Chain<N>> = true;
 
+/// A wing's tree as the recursion's templates take it: itself, or the chain that it is.
+/// @pre Topology is Tree, or the chain of its length
+template <class Topology> [[nodiscard]] constexpr decltype(auto) seen_as(const Tree& tree) {
+  if constexpr (is_static<Topology>)
+    return Topology{};
+  else
+    return (tree);
+}
+
 /// The tree in which body i's parent is parents[i] (parents[0] = −1, parents[i] < i).
 [[nodiscard]] inline Tree make_tree(std::vector<int> parents) {
   const int count = static_cast<int>(parents.size());

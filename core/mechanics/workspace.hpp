@@ -1,4 +1,5 @@
-/// What a run changes while it goes on, beside its state: laws, latches, contacts, and scratch space.
+/// What a run changes while it goes on, beside its state:
+/// laws, latches, contacts, and scratch space.
 #pragma once
 
 #include "core/mechanics/augmented.hpp"

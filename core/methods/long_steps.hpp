@@ -1,5 +1,5 @@
-/// What a step must satisfy beside its own error where a method takes long ones: a dense output that
-/// shows what happens inside.
+/// What a step must satisfy beside its own error where a method takes long ones:
+/// a dense output that shows what happens inside.
 #pragma once
 
 #include "core/dense/roughness.hpp"

@@ -13,7 +13,6 @@
 #include "core/peaks/reaction_bound.hpp"
 
 #include <optional>
-#include <type_traits>
 
 namespace wingspread {
 
@@ -24,9 +23,8 @@ class PackStepper : public PackEngine {
   using AnySystem = System<P, Topology, M>;
 
 public:
-  PackStepper(const Wing<double>& wing, const Topology& topology, const PackShape& shape)
-      : shape_(shape), topology_(topology), system_(make(wing), topology_, std::nullopt, work_),
-        at_(system_.layout()) {
+  PackStepper(const Wing<double>& wing, const PackShape& shape)
+      : shape_(shape), system_(make(wing), std::nullopt, work_), at_(system_.layout()) {
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
       x->assign(at_.size(), none);
@@ -47,7 +45,7 @@ public:
   void set_wing(int lane, const Wing<double>& wing) override {
     set_lane(lane, wing_, wing);
     if (!shape_.forces) return;
-    set_levers(wing, topology_, levers_of_wing_);
+    set_levers(wing, system_.topology(), levers_of_wing_);
     set_lane(lane, levers_, levers_of_wing_);
   }
 
@@ -226,7 +224,6 @@ private:
   }
 
   PackShape shape_;
-  Topology topology_;
   Wing<P> wing_;
   Workspace<P> work_;
   AnySystem system_;
@@ -251,10 +248,9 @@ private:
 template <int W>
 [[nodiscard]] std::unique_ptr<PackEngine> make_pack_stepper(const Wing<double>& wing,
                                                             const PackShape& shape) {
-  return with_structure(wing, [&]<BaseMotion M>(const auto& topology) {
-    using Topology = std::decay_t<decltype(topology)>;
+  return with_structure(wing, [&]<class Topology, BaseMotion M>() {
     const auto make = [&]<class Formula>() -> std::unique_ptr<PackEngine> {
-      return std::make_unique<PackStepper<W, Topology, M, Formula>>(wing, topology, shape);
+      return std::make_unique<PackStepper<W, Topology, M, Formula>>(wing, shape);
     };
     return shape.eighth_order ? make.template operator()<DormandPrince853<Pack<W>>>()
                               : make.template operator()<DormandPrince5<Pack<W>>>();

@@ -20,10 +20,8 @@ template <class Topology, BaseMotion M> class PackedRuns {
   using AnySystem = System<double, Topology, M>;
 
   struct Lane {
-    Lane(const Wing<double>& structure, const Topology& topology, const Integration& how,
-         const Goal& goal)
-        : wing(structure), system(wing, topology, how.smoothing, work),
-          run(system, how, goal, nobody) {}
+    Lane(const Wing<double>& structure, const Integration& how, const Goal& goal)
+        : wing(structure), system(wing, how.smoothing, work), run(system, how, goal, nobody) {}
 
     Observer nobody;
     Wing<double> wing;
@@ -36,11 +34,11 @@ template <class Topology, BaseMotion M> class PackedRuns {
 
 public:
   /// @param method of the engine
-  PackedRuns(const Wing<double>& structure, const Topology& topology, PackEngine& engine,
-             Method method, const Integration& how, const Goal& goal)
+  PackedRuns(const Wing<double>& structure, PackEngine& engine, Method method,
+             const Integration& how, const Goal& goal)
       : engine_(engine), method_(method) {
     for (int l = 0; l < engine.width(); ++l)
-      lanes_[l] = std::make_unique<Lane>(structure, topology, how, goal);
+      lanes_[l] = std::make_unique<Lane>(structure, how, goal);
   }
 
   /// @param next next(wing) sets a wing's numbers to those of the run that comes next and returns

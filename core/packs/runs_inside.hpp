@@ -7,17 +7,14 @@
 #include "core/packs/structure.hpp"
 #include "core/run/integrator.hpp"
 
-#include <type_traits>
-
 namespace wingspread::detail {
 
 inline void set_numbers(Wing<double>& wing, const Scene& scene) { set_parameters(wing, scene); }
 
 inline Outcome run_alone(const Wing<double>& wing, Workspace<double>& scratch,
                          const Integration& how, const Goal& goal, const Observer& observer) {
-  return with_structure(wing, [&]<BaseMotion M>(const auto& topology) {
-    using Topology = std::decay_t<decltype(topology)>;
-    System<double, Topology, M> system(wing, topology, how.smoothing, scratch);
+  return with_structure(wing, [&]<class Topology, BaseMotion M>() {
+    System<double, Topology, M> system(wing, how.smoothing, scratch);
     return Integrator<double, Topology, M>(system, how, goal, observer).run();
   });
 }
@@ -25,9 +22,8 @@ inline Outcome run_alone(const Wing<double>& wing, Workspace<double>& scratch,
 inline Occupancy run_in_lanes(const Wing<double>& structure, PackEngine& engine, Method method,
                               const Integration& how, const Goal& goal, const Runs::NextWing& next,
                               const Runs::Done& done) {
-  return with_structure(structure, [&]<BaseMotion M>(const auto& topology) {
-    using Topology = std::decay_t<decltype(topology)>;
-    return PackedRuns<Topology, M>(structure, topology, engine, method, how, goal).run(next, done);
+  return with_structure(structure, [&]<class Topology, BaseMotion M>() {
+    return PackedRuns<Topology, M>(structure, engine, method, how, goal).run(next, done);
   });
 }
 

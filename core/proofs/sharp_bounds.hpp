@@ -1,9 +1,9 @@
 /// Bounds on what every hinge can still see near rest, from the energy and the linear model there.
 ///
-/// On a fixed base, with (1) of peak_bounds.hpp. By that hinge i stays within √(2E/κ_i) of its rest, so body
-/// k within ρ_k, the sum along its path. Turning the bodies so far changes the velocities of all
-/// masses by at most Σ ρ_k a_k |ω_k| in the norm √(Σ m v²), a_k² = Σ m (lever of a mass about the
-/// hinge of k)², and |ω_k| ≤ √W_k ‖ω‖ in the norm of the mass matrix M_0 at rest, W = its inverse
+/// On a fixed base, with (1) of peak_bounds.hpp: by that hinge i stays within √(2E/κ_i) of its rest,
+/// so body k within ρ_k, the sum along its path. Turning the bodies so far changes the velocities of
+/// all masses by at most Σ ρ_k a_k |ω_k| in the norm √(Σ m v²), a_k² = Σ m (lever of a mass about
+/// the hinge of k)², and |ω_k| ≤ √W_k ‖ω‖ in the norm of the mass matrix M_0 at rest, W = its inverse
 /// in absolute rates. Hence with
 ///
 ///     η = Σ ρ_k a_k √W_k:    (1 − η)² M_0 ≤ M ≤ (1 + η)² M_0                                   (5)

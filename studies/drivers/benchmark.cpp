@@ -59,14 +59,13 @@ struct EvaluationTime {
   double dependent, independent; // ns: each needing the last, and not
 };
 
-template <class Topology>
-EvaluationTime recursion(const Wing<double>& wing, const Topology& topology) {
+template <class Topology> EvaluationTime recursion(const Wing<double>& wing) {
   Workspace<double> work;
-  System<double, Topology, BaseMotion::fixed> system(wing, topology, std::nullopt, work);
+  System<double, Topology, BaseMotion::fixed> system(wing, std::nullopt, work);
   State<double> x, dxdt;
   system.start(x);
   dxdt = x;
-  const int n = topology.bodies();
+  const int n = wing.size();
   const double dependent = time_of([&] {
     system(x, dxdt, 0.0);
     for (int i = 0; i < n; ++i) x[i] = fused(1e-300, dxdt[n + i], x[i]);
@@ -94,12 +93,12 @@ Json evaluations() {
     const Scene scene = stack(n);
     Wing<double> wing = make_wing<double>(scene, outward_order(scene));
     set_parameters(wing, scene);
-    const EvaluationTime tree = recursion(wing, wing.tree);
+    const EvaluationTime tree = recursion<Tree>(wing);
     EvaluationTime best = tree;
-    if (n == 1) best = recursion(wing, Chain<1>{});
-    if (n == 2) best = recursion(wing, Chain<2>{});
-    if (n == 3) best = recursion(wing, Chain<3>{});
-    if (n == 4) best = recursion(wing, Chain<4>{});
+    if (n == 1) best = recursion<Chain<1>>(wing);
+    if (n == 2) best = recursion<Chain<2>>(wing);
+    if (n == 3) best = recursion<Chain<3>>(wing);
+    if (n == 4) best = recursion<Chain<4>>(wing);
     Json row{{"bodies", n},
              {"ns", best.dependent},
              {"ns_per_body", best.dependent / n},

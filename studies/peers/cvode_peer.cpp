@@ -86,9 +86,9 @@ namespace {
 /// @tparam Memory CvodePeer's
 template <class Topology, class Memory> class Run final : public Problem {
 public:
-  Run(const Wing<double>& wing, const Topology& topology, Workspace<double>& work, Memory& memory,
-      const Integration& how, const Goal& goal)
-      : system_(wing, topology, how.smoothing, work), memory_(memory), how_(how), goal_(goal),
+  Run(const Wing<double>& wing, Workspace<double>& work, Memory& memory, const Integration& how,
+      const Goal& goal)
+      : system_(wing, how.smoothing, work), memory_(memory), how_(how), goal_(goal),
         peaks_(system_.layout().bodies + 1), before_(system_.layout().bodies + 1) {}
 
   [[nodiscard]] Outcome run() {
@@ -257,8 +257,9 @@ Outcome CvodePeer::run(const Scene& scene, const Integration& how, const Goal& g
   if (!memory_ || memory_->size != size || memory_->roots != n)
     memory_ = std::make_unique<Memory>(kind_, size, n);
   Workspace<double> work;
-  if (n == 3 && is_chain(wing.tree)) return Run(wing, Chain<3>{}, work, *memory_, how, goal).run();
-  return Run(wing, wing.tree, work, *memory_, how, goal).run();
+  if (n == 3 && is_chain(wing.tree))
+    return Run<Chain<3>, Memory>(wing, work, *memory_, how, goal).run();
+  return Run<Tree, Memory>(wing, work, *memory_, how, goal).run();
 }
 
 } // namespace wingspread::study

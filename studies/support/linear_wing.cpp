@@ -18,7 +18,7 @@ Wing<double> wing_of(const Scene& scene) {
 } // namespace
 
 LinearWing::LinearWing(const Scene& scene)
-    : wing_(wing_of(scene)), system_(wing_, wing_.tree, std::nullopt, work_) {}
+    : wing_(wing_of(scene)), system_(wing_, std::nullopt, work_) {}
 
 void LinearWing::engage(int hinge) {
   for (int i = 1; i <= hinges(); ++i)

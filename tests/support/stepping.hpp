@@ -17,8 +17,7 @@ template <class T> struct TestWing {
   State<T> start;
 
   /// At the scene's start, latches open.
-  explicit TestWing(const Scene& scene)
-      : wing(made(scene)), system(wing, wing.tree, std::nullopt, work) {
+  explicit TestWing(const Scene& scene) : wing(made(scene)), system(wing, std::nullopt, work) {
     system.start(start);
   }
   TestWing(const TestWing&) = delete;

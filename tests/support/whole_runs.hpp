@@ -1,5 +1,5 @@
-/// Whole runs, and what holds them against references: another formulation, other integrators, closed
-/// forms.
+/// Whole runs, and what holds them against references:
+/// another formulation, other integrators, closed forms.
 #pragma once
 
 #include "tests/support/closed_forms.hpp"

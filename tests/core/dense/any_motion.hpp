@@ -115,7 +115,7 @@ template <BaseMotion M> struct AnyMotion {
 private:
   System<double, Tree, M> with_numbers(const Scene& scene) {
     set_parameters(wing, scene);
-    return {wing, wing.tree, std::nullopt, work};
+    return {wing, std::nullopt, work};
   }
 };
 

@@ -1,4 +1,4 @@
-// The smoothed latch: against CVODE on the dense model, and against the event latch that it tends to.
+// The smoothed latch: against CVODE on the dense model, and the event latch that it tends to.
 #include "core/deployment.hpp"
 #include "tests/support/whole_runs.hpp"
 

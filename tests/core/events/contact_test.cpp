@@ -1,5 +1,5 @@
-// Exact (set-valued) Coulomb friction: hinges that slide, come to rest and stick, against closed forms
-// and the energy that friction takes.
+// Exact (set-valued) Coulomb friction: hinges that slide, come to rest and stick,
+// against closed forms and the energy that friction takes.
 #include "core/deployment.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
 #include "tests/support/whole_runs.hpp"

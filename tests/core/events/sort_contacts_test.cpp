@@ -29,7 +29,7 @@ TEST_CASE("the contacts of a long chain at rest are those that friction allows")
     Wing<double> wing = make_wing<double>(scene, outward_order(scene));
     set_parameters(wing, scene);
     Workspace<double> work;
-    System<double, Tree, BaseMotion::fixed> system(wing, wing.tree, std::nullopt, work);
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
     State<double> x, dxdt(system.layout().size());
     system.start(x);
     sort_contacts(system, x, dxdt, 0.0, 0);

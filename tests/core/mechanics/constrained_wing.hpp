@@ -116,7 +116,7 @@ template <BaseMotion M> struct Posed {
   State<double> x;
 
   Posed(const Scene& scene, const WingState<double>& state)
-      : wing(made(scene, state)), system(wing, wing.tree, std::nullopt, work) {
+      : wing(made(scene, state)), system(wing, std::nullopt, work) {
     const Layout& at = system.layout();
     system.start(x);
     if (M == BaseMotion::free) {

@@ -23,7 +23,7 @@ template <class T> struct Evaluated {
 template <class T, BaseMotion M>
 Evaluated<T> evaluate(const Wing<T>& wing, const oracle::WingState<double>& state) {
   Workspace<T> work;
-  System<T, Tree, M> system(wing, wing.tree, std::nullopt, work);
+  System<T, Tree, M> system(wing, std::nullopt, work);
   const Layout& at = system.layout();
   State<T> x, dxdt;
   system.start(x);
@@ -167,9 +167,8 @@ TEST_CASE("a chain known to the compiler gives the bits of the tree") {
   Wing<double> wing = make_wing<double>(scene, outward_order(scene));
   set_parameters(wing, scene);
   Workspace<double> one, other;
-  System<double, Tree, BaseMotion::fixed> tree(wing, wing.tree, std::nullopt, one);
-  const Chain<3> three;
-  System<double, Chain<3>, BaseMotion::fixed> chain(wing, three, std::nullopt, other);
+  System<double, Tree, BaseMotion::fixed> tree(wing, std::nullopt, one);
+  System<double, Chain<3>, BaseMotion::fixed> chain(wing, std::nullopt, other);
   State<double> x, a, b;
   tree.start(x);
   a = b = x;

@@ -13,7 +13,7 @@ TEST_CASE("the spectral radius is found within a fifth") {
     Wing<double> wing = make_wing<double>(scene, outward_order(scene));
     set_parameters(wing, scene);
     Workspace<double> work;
-    System<double, Tree, BaseMotion::fixed> system(wing, wing.tree, std::nullopt, work);
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
     State<double> x;
     system.start(x);
     SpectralRadius<double> radius;

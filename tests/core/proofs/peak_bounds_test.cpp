@@ -14,8 +14,7 @@ namespace {
 struct Latched {
   /// @param stuck hinges that stick when the bounds are prepared, and slip afterwards
   explicit Latched(const Scene& scene, const std::vector<int>& stuck = {})
-      : wing(with_numbers(scene)), system(wing, wing.tree, std::nullopt, work),
-        at(system.layout()) {
+      : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
     for (int i = 1; i <= at.bodies; ++i) system.engage(i);
     for (const int i : stuck) system.touch(i, Contact::stuck);
     bounds.prepare(system);
