@@ -104,43 +104,85 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
   return json;
 }
 
-/// @throws SpecError with all that is wrong
+/// Reads a campaign part by part: what comes later is looked up only in what was sound before.
+class CampaignReader {
+public:
+  CampaignReader(const Json& document, std::filesystem::path directory, const std::string& file)
+      : directory_(std::move(directory)),
+        object_(JsonCursor(document, file, problems_), "a campaign: an object") {}
+
+  /// @throws SpecError with all that is wrong
+  [[nodiscard]] Campaign read() {
+    read_scene_and_dispersions();
+    read_settings();
+    read_dependence();
+    read_guarantees();
+    if (const auto at = object_.find("margin")) campaign_.margin = read_margin(*at, scene_);
+    (void)object_.find(stamp_key); // known, and of no account
+    object_.refuse_others();
+    if (!problems_.empty()) throw SpecError(std::move(problems_));
+    campaign_.resolved = write_campaign(campaign_, std::move(resolved_dispersions_));
+    return std::move(campaign_);
+  }
+
+private:
+  template <class Part>
+  void read_part(const char* key, void (*reader)(const JsonCursor&, Part&), Part& part) {
+    if (const auto at = object_.find(key)) reader(*at, part);
+  }
+
+  void read_scene_and_dispersions() {
+    if (const auto at = object_.require("scene", expected_scene))
+      campaign_.scene = read_scene_member(*at, directory_);
+    if (problems_.empty()) scene_ = &campaign_.scene;
+    if (const auto at = object_.find("dispersions")) {
+      Dispersions varied = read_dispersions(*at, scene_, directory_);
+      campaign_.dispersions = std::move(varied.list);
+      resolved_dispersions_ = std::move(varied.resolved);
+    }
+    named_ = problems_.empty();
+  }
+
+  void read_settings() {
+    read_part("sampling", read_sampling, campaign_.sampling);
+    read_part("integration", read_integration, campaign_.integration);
+    const std::size_t before = problems_.size();
+    read_part("outputs", read_outputs, campaign_.outputs);
+    outputs_known_ = scene_ && problems_.size() == before;
+    read_part("statistics", read_statistics, campaign_.statistics);
+  }
+
+  void read_dependence() {
+    if (const auto at = object_.find("correlations"))
+      campaign_.wanted_correlations =
+          read_wanted_correlations(*at, named_ ? &campaign_.dispersions : nullptr);
+    if (const auto at = object_.find("dispersions"))
+      refuse_dimensions(*at, campaign_.sampling, campaign_.dispersions.size());
+  }
+
+  void read_guarantees() {
+    const DesignKind design = campaign_.sampling.design;
+    const GuaranteeReader guarantees(outputs_known_ ? scene_ : nullptr, campaign_.outputs, design);
+    if (const auto at = object_.find("requirements")) guarantees.read(*at, campaign_.requirements);
+    if (const auto at = object_.find("until")) guarantees.read(*at, campaign_.until);
+    if (!campaign_.statistics.tolerance_limits.empty())
+      refuse_dependent_draws(object_.at().member("statistics").member("tolerance"),
+                             "tolerance limits", design);
+  }
+
+  std::filesystem::path directory_;
+  std::vector<Problem> problems_;
+  JsonObject object_;
+  Campaign campaign_;
+  Json resolved_dispersions_ = Json::array();
+  const Scene* scene_ = nullptr; ///< null when it has problems of its own
+  bool named_ = false;           ///< the dispersions have none either
+  bool outputs_known_ = false;
+};
+
 Campaign read_document(const Json& document, const std::filesystem::path& directory,
                        const std::string& file) {
-  std::vector<Problem> problems;
-  Campaign campaign;
-  JsonObject object(JsonCursor(document, file, problems), "a campaign: an object");
-  if (const auto scene = object.require("scene", expected_scene))
-    campaign.scene = read_scene_member(*scene, directory);
-  const Scene* const scene = problems.empty() ? &campaign.scene : nullptr;
-  const Scene* usable = scene; // to look outputs up
-  Dispersions dispersions{{}, Json::array()};
-  const auto list = object.find("dispersions");
-  if (list) dispersions = read_dispersions(*list, scene, directory);
-  const bool named = problems.empty();
-  if (const auto at = object.find("sampling")) read_sampling(*at, campaign.sampling);
-  if (const auto at = object.find("integration")) read_integration(*at, campaign.integration);
-  const std::size_t before_outputs = problems.size();
-  if (const auto at = object.find("outputs")) read_outputs(*at, campaign.outputs);
-  if (problems.size() > before_outputs) usable = nullptr;
-  if (const auto at = object.find("statistics")) read_statistics(*at, campaign.statistics);
-  if (const auto at = object.find("correlations"))
-    campaign.wanted_correlations =
-        read_wanted_correlations(*at, named ? &dispersions.list : nullptr);
-  if (list) refuse_dimensions(*list, campaign.sampling, dispersions.list.size());
-  const GuaranteeReader guarantees(usable, campaign.outputs, campaign.sampling.design);
-  if (const auto at = object.find("requirements")) guarantees.read(*at, campaign.requirements);
-  if (const auto at = object.find("until")) guarantees.read(*at, campaign.until);
-  if (!campaign.statistics.tolerance_limits.empty())
-    refuse_dependent_draws(object.at().member("statistics").member("tolerance"), "tolerance limits",
-                           campaign.sampling.design);
-  if (const auto at = object.find("margin")) campaign.margin = read_margin(*at, scene);
-  (void)object.find(stamp_key); // known, and of no account
-  object.refuse_others();
-  if (!problems.empty()) throw SpecError(std::move(problems));
-  campaign.dispersions = std::move(dispersions.list);
-  campaign.resolved = write_campaign(campaign, std::move(dispersions.resolved));
-  return campaign;
+  return CampaignReader(document, directory, file).read();
 }
 
 } // namespace

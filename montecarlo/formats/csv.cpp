@@ -1,5 +1,7 @@
 #include "montecarlo/formats/csv.hpp"
 
+#include "montecarlo/formats/number_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,11 +41,8 @@ std::string csv_cell(double value) {
 }
 
 std::optional<double> parse_csv_number(std::string_view cell) {
-  double value = 0;
-  const char* last = cell.data() + cell.size();
-  const auto [end, error] = std::from_chars(cell.data(), last, value);
-  if (error != std::errc{} || end != last || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto value = parse_number<double>(cell);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 CsvReader::CsvReader(std::istream& in, std::string file) : in_(in), file_(std::move(file)) {}

@@ -1,11 +1,12 @@
 #include "montecarlo/runs/results.hpp"
 
+#include "montecarlo/formats/number_text.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -58,14 +59,11 @@ Places find_places(CsvReader& reader, const ResultNames& names) {
 
 long parse_run(const CsvReader& reader, const std::string& cell, const Results& results) {
   const long least = results.runs.empty() ? 0 : results.runs.back() + 1;
-  const char* last = cell.data() + cell.size();
-  long run = -1;
-  const auto [end, error] = std::from_chars(cell.data(), last, run);
-  if (error != std::errc{} || end != last || run < least)
-    throw reader.error(
-        "run", fmt::format("'{}'", cell),
-        fmt::format("a whole number of at least {} (runs count from 0, in order)", least));
-  return run;
+  const auto run = parse_number<long>(cell);
+  if (run && *run >= least) return *run;
+  throw reader.error(
+      "run", fmt::format("'{}'", cell),
+      fmt::format("a whole number of at least {} (runs count from 0, in order)", least));
 }
 
 Status parse_status(const CsvReader& reader, const std::string& cell) {
