@@ -1,11 +1,12 @@
 #include "montecarlo/commands/command_options.hpp"
 
+#include "montecarlo/formats/number_text.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <utility>
 
@@ -22,9 +23,7 @@ std::string option_of(std::string_view pointer) {
 
 /// CLI11 itself would take -1 for 2^64 − 1.
 std::string refuse_seed(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error == std::errc{} && end == text.data() + text.size()) return "";
+  if (parse_number<std::uint64_t>(text)) return "";
   return fmt::format("found {}, expected an integer from 0 to 2^64 - 1", text);
 }
 

@@ -3,10 +3,10 @@
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/merge.hpp"
+#include "montecarlo/formats/number_text.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <memory>
 
 namespace wingspread {
@@ -34,9 +34,8 @@ int merge(const MergeOptions& options) {
 
 /// A whole number as such, so that it is read as one; anything else as text, to be refused.
 Json bins_given(const std::string& text) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && end == text.data() + text.size() ? Json(number) : Json(text);
+  const auto number = parse_number<std::int64_t>(text);
+  return number ? Json(*number) : Json(text);
 }
 
 int analyze(const AnalyzeOptions& options) {

@@ -5,6 +5,7 @@
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
+#include "montecarlo/formats/number_text.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/machine/team.hpp"
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <thread>
 #include <unistd.h>
@@ -32,15 +32,12 @@ struct RunOptions {
 };
 
 /// "2/5"; nothing when it is no shard.
-std::optional<Shard> parse_shard(const std::string& text) {
-  Shard shard;
-  const char *at = text.data(), *end = at + text.size();
-  const auto index = std::from_chars(at, end, shard.index);
-  if (index.ec != std::errc{} || index.ptr == end || *index.ptr != '/') return std::nullopt;
-  const auto of = std::from_chars(index.ptr + 1, end, shard.of);
-  if (of.ec != std::errc{} || of.ptr != end) return std::nullopt;
-  const bool valid = 1 <= shard.index && shard.index <= shard.of && shard.of <= most_shards;
-  return valid ? std::optional(shard) : std::nullopt;
+std::optional<Shard> parse_shard(std::string_view text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = parse_number<long>(text.substr(0, slash));
+  const auto of = parse_number<long>(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !of || *index < 1 || *index > *of || *of > most_shards) return std::nullopt;
+  return Shard{*index, *of};
 }
 
 std::string refuse_shard(const std::string& text) {

@@ -3,6 +3,7 @@
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/folder/replay.hpp"
 #include "montecarlo/formats/json.hpp"
+#include "montecarlo/formats/number_text.hpp"
 #include "montecarlo/report/outcome_report.hpp"
 #include "montecarlo/report/replay_report.hpp"
 #include "montecarlo/report/trajectory.hpp"
@@ -10,7 +11,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <charconv>
 #include <limits>
 #include <memory>
 
@@ -49,10 +49,7 @@ Task read_task(const std::filesystem::path& path) {
 std::optional<double> parse_smoothed(std::string_view text) {
   if (!text.starts_with(smoothed_prefix)) return std::nullopt;
   text.remove_prefix(smoothed_prefix.size());
-  double epsilon = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), epsilon);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return epsilon;
+  return parse_number<double>(text);
 }
 
 std::string refuse_latch(const std::string& text) {

@@ -19,8 +19,7 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
   std::string text = fmt::format("{} · {} runs · {}, seed {}", campaign.scene.name, summary.runs,
                                  design_names[static_cast<std::size_t>(campaign.sampling.design)],
                                  campaign.sampling.seed);
-  if (summary.replicates > 0)
-    text += fmt::format(", {} replicate{}", summary.replicates, summary.replicates == 1 ? "" : "s");
+  if (summary.replicates > 0) text += ", " + counted(summary.replicates, "replicate", "replicates");
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
   if (summary.stopped)
     text += fmt::format(" · stopped, of {} at most", stored.runs().size());

@@ -49,6 +49,12 @@ std::string percent_range(double lower, double upper) {
   return fmt::format("{:.3f} – {:.3f} %", 100 * lower, 100 * upper);
 }
 
+std::string spaced(std::string_view name) {
+  std::string words(name);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
 std::string counted(long count, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }

@@ -24,6 +24,9 @@ inline constexpr int table_width = 100;
 /// "0.500 – 0.700 %" of 0.005 and 0.007.
 [[nodiscard]] std::string percent_range(double lower, double upper);
 
+/// "timed out" of "timed_out".
+[[nodiscard]] std::string spaced(std::string_view name);
+
 /// "1 body", "3 bodies".
 [[nodiscard]] std::string counted(long count, std::string_view one, std::string_view many);
 

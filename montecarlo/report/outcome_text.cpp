@@ -1,3 +1,4 @@
+#include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/report/outcome_report.hpp"
 
 #include <fmt/format.h>
@@ -21,13 +22,11 @@ std::string extent(const Outcome& outcome) {
     parts.push_back(fmt::format("{} to {:.4g} s", phase.method, phase.to));
   const std::size_t left = outcome.phases.size() - parts.size();
   return fmt::format("{}: {}", end, fmt::join(parts, ", ")) +
-         (left == 0 ? "" : fmt::format(" and {} more {}", left, left == 1 ? "phase" : "phases"));
+         (left == 0 ? "" : " and " + counted(static_cast<long>(left), "more phase", "more phases"));
 }
 
 std::string ending(const Scene& scene, const Outcome& outcome) {
-  std::string status = to_string(outcome.status);
-  std::ranges::replace(status, '_', ' ');
-  std::string text = fmt::format("{}: {}", scene.name, status);
+  std::string text = fmt::format("{}: {}", scene.name, spaced(to_string(outcome.status)));
   if (!outcome.reason.empty()) text += fmt::format(" ({})", outcome.reason);
   if (outcome.status == Status::invalid) return text + '\n';
   return text + fmt::format(", integrated {}\n", extent(outcome));

@@ -3,6 +3,7 @@
 #include "montecarlo/campaign/campaign.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
 #include "montecarlo/summary/verdict_json.hpp"
 
@@ -100,7 +101,7 @@ void add_latch_orders(Json& json, const Summary& summary) {
 std::string missing_bound(const Summary& summary, const OutputSummary& output) {
   if (summary.replicates == 1) return std::string(one_replicate);
   const long count = output.moments.count;
-  const std::string values = fmt::format("{} {}", count, count == 1 ? "value" : "values");
+  const std::string values = counted(count, "value", "values");
   if (summary.replicates > 1)
     return fmt::format("{} in {} replicates are too few, or agree too well, for every bound at a "
                        "confidence of {}",

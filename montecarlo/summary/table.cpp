@@ -18,13 +18,6 @@ namespace {
 constexpr std::size_t most_lines = 8; ///< of reasons and of latch orders
 constexpr std::size_t columns_per_block = 5;
 
-/// "timed_out" → "timed out".
-std::string words(std::string_view name) {
-  std::string text(name);
-  std::ranges::replace(text, '_', ' ');
-  return text;
-}
-
 std::string percent_bounds(const Bounds& bounds) {
   if (!bounds.lower || !bounds.upper) return "–";
   return percent_range(*bounds.lower, *bounds.upper);
@@ -47,8 +40,8 @@ std::string outcomes(const Summary& summary) {
   std::string text =
       fmt::format("\n{:<50}{:>10}{:>12}{:>26}\n", "OUTCOME", "runs", "share", bounds);
   for (const StatusShare& share : summary.statuses)
-    text += fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", words(to_string(share.status)), share.count,
-                        percent(share.rate), percent_bounds(share.bounds));
+    text += fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", spaced(to_string(share.status)),
+                        share.count, percent(share.rate), percent_bounds(share.bounds));
   if (summary.replicates == 1) text += fmt::format("  {}\n", one_replicate);
   return text;
 }
@@ -58,7 +51,7 @@ std::string reasons(const Summary& summary) {
   std::string text = fmt::format("\n{:<12}{:>8}  {}\n", "WHY", "runs", "reason");
   const std::size_t shown = std::min(summary.reasons.size(), most_lines);
   for (const auto& [status, reason, count] : std::span(summary.reasons).first(shown))
-    text += fmt::format("  {:<10}{:>8}  {}\n", words(to_string(status)), count,
+    text += fmt::format("  {:<10}{:>8}  {}\n", spaced(to_string(status)), count,
                         shortened(reason, table_width - 22));
   if (shown < summary.reasons.size())
     text +=
@@ -104,7 +97,7 @@ std::vector<NumberColumn> number_columns(const Summary& summary) {
 }
 
 std::string label(const OutputName& name) {
-  return name.quantity == "rate_at" ? "rate at " + name.other : words(name.quantity);
+  return name.quantity == "rate_at" ? "rate at " + name.other : spaced(name.quantity);
 }
 
 std::string output_line(const OutputSummary& output, std::span<const NumberColumn> columns) {

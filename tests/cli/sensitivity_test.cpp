@@ -68,14 +68,20 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   const std::vector<std::string> asked{"rare",      file, "--output",  "root.latch_time",
                                        "--above",   "6",  "--samples", "100",
                                        "--repeats", "2",  "--json"};
-  const auto with_threads = [&](const char* threads) {
+  const auto with = [&](const std::vector<std::string>& crew) {
     std::vector<std::string> arguments = asked;
-    arguments.insert(arguments.end(), {"--threads", threads});
+    arguments.insert(arguments.end(), crew.begin(), crew.end());
     return run_program(folder, arguments);
   };
-  const auto one = with_threads("1");
+  const auto one = with({"--threads", "1"});
   CHECK(one.code == 0);
-  CHECK(with_threads("3").out == one.out);
+  CHECK(with({"--threads", "3"}).out == one.out);
+  CHECK(with({"--isa", "scalar"}).out == one.out);
+  CHECK(with({"--lanes", "1"}).out == one.out);
+  const auto none = with({"--isa", "scalar", "--lanes", "8"});
+  CHECK(none.code == 2);
+  CHECK_THAT(none.error, Catch::Contains("--isa scalar --lanes 8: this processor has not got that; "
+                                         "it offers (lanes): scalar (1)"));
   const Json found = parse_json(one.out);
   CHECK(found["event"] == "root.latch_time > 6");
   CHECK(found["repeats"].size() == 2);

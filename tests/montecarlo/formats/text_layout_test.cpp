@@ -37,6 +37,7 @@ TEST_CASE("shares in percent, and counted things", "[text_layout]") {
   CHECK(percent(0.126, 0) == "13 %");
   CHECK(percent(std::numeric_limits<double>::quiet_NaN()) == "–");
   CHECK(percent_range(0.005, 0.5) == "0.500 – 50.000 %");
+  CHECK(spaced("timed_out") == "timed out");
   CHECK(counted(1, "body", "bodies") == "1 body");
   CHECK(counted(0, "body", "bodies") == "0 bodies");
 }
