@@ -7,7 +7,8 @@
 namespace wingspread {
 namespace {
 
-constexpr std::int64_t most_bins = 1'000'000;
+constexpr std::int64_t most_bins = 10'000;
+constexpr std::size_t most_quantiles = 1000;
 constexpr std::int64_t most_replicates = 1'000'000;
 constexpr std::string_view fixed_step_method = "runge_kutta4";
 
@@ -47,6 +48,8 @@ void read_latch_form(const JsonCursor& at, std::optional<double>& smoothing) {
 }
 
 void read_quantiles(const JsonCursor& at, std::vector<double>& quantiles) {
+  if (at.value().is_array() && at.value().size() > most_quantiles)
+    return void(at.refuse(fmt::format("at most {} quantiles", most_quantiles)));
   if (!at.read(quantiles, "an array of numbers, each > 0 and < 1")) return;
   for (std::size_t i = 0; i < quantiles.size(); ++i) {
     const auto here = quantiles.begin() + static_cast<std::ptrdiff_t>(i);
@@ -101,6 +104,8 @@ void read_sampling(const JsonCursor& at, Sampling& sampling) {
   JsonObject object(at, "an object with the sampling");
   object.optional_choice("design", sampling.design, design_names);
   object.optional("runs", sampling.runs, "an integer, ≥ 1", is_at_least_1);
+  if (sampling.runs > most_runs)
+    object.at().member("runs").refuse(fmt::format("at most {}", most_runs));
   object.optional("seed", sampling.seed, "an integer from 0 to 2^64 - 1");
   object.optional("replicates", sampling.replicates, "an integer, ≥ 1", is_at_least_1);
   const auto replicates = object.find("replicates");

@@ -18,9 +18,12 @@
 
 namespace wingspread {
 
+/// Statistics rank runs in 32 bits; runs.csv would take a terabyte.
+inline constexpr std::int64_t most_runs = (std::int64_t{1} << 31) - 1;
+
 struct Sampling {
   DesignKind design = DesignKind::random;
-  std::int64_t runs = 1000; ///< ≥ 1
+  std::int64_t runs = 1000; ///< from 1 to most_runs
   std::uint64_t seed = 1;
   std::int64_t replicates = 1; ///< independent repetitions of a design, ≥ 1
 };

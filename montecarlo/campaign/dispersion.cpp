@@ -3,6 +3,7 @@
 #include "distributions/random_stream.hpp"
 #include "montecarlo/campaign/distribution_json.hpp"
 #include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/formats/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,8 @@ namespace {
 constexpr std::array<std::string_view, 5> columns_of_runs{"run", "status", "latch_order", "reason",
                                                           "deployed"};
 
+constexpr std::size_t most_dispersions = 10'000;
+
 /// A dispersion of the campaign and where it was read.
 struct Sourced {
   Dispersion dispersion;
@@ -23,11 +26,8 @@ struct Sourced {
 };
 
 bool is_column_name(const std::string& name) {
-  const auto breaks_csv = [](char c) {
-    const auto code = static_cast<unsigned char>(c);
-    return code < 0x20 || code == 0x7F || c == ',' || c == '"';
-  };
-  return !name.empty() && std::ranges::none_of(name, breaks_csv);
+  return !name.empty() && name.find_first_of(",\"") == std::string::npos &&
+         !has_control_characters(name);
 }
 
 bool is_taken(const std::string& name) {
@@ -125,6 +125,9 @@ Dispersions read_dispersions(const JsonCursor& at, const Scene* scene,
   for (std::size_t i = 0; const JsonCursor& element : at.elements())
     for (Dispersion& read : read_dispersion(element, scene, directory, dispersions.resolved[i++]))
       all.push_back({std::move(read), element});
+  if (all.size() > most_dispersions)
+    at.refuse(fmt::format("{} dispersions", all.size()),
+              fmt::format("at most {}", most_dispersions));
   check_names(all);
   if (scene) check_order(all, *scene);
   for (Sourced& sourced : all) dispersions.list.push_back(std::move(sourced.dispersion));

@@ -2,6 +2,7 @@
 
 #include "montecarlo/formats/nearest.hpp"
 #include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/formats/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,7 @@
 namespace wingspread {
 namespace {
 
-bool is_not_empty(const std::string& text) { return !text.empty(); }
+bool is_name(const std::string& text) { return !text.empty() && !has_control_characters(text); }
 
 bool contains(std::span<const std::string> names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -51,7 +52,8 @@ Requirement read_requirement(const JsonCursor& at, const std::vector<std::string
                              std::span<const std::string> all_outputs) {
   Requirement requirement;
   JsonObject object(at, "a requirement: an object");
-  object.optional("name", requirement.name, "a string, not empty", is_not_empty);
+  object.optional("name", requirement.name, "a string, not empty, without control characters",
+                  is_name);
   const bool named =
       object.required("output", requirement.output, "a string, an output or \"deployed\"");
   if (named && outputs && object.is_object())

@@ -1,6 +1,7 @@
 #include "montecarlo/campaign/scene_json.hpp"
 
 #include "montecarlo/campaign/scene_tree.hpp"
+#include "montecarlo/formats/printable.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -189,8 +190,9 @@ Json write_hinge(const Scene& scene, const Hinge& hinge) {
 Scene read_scene(const JsonCursor& at) {
   Scene scene;
   JsonObject object(at, "a scene: an object");
-  object.required("name", scene.name, "a string, the scene's name, not empty",
-                  [](const std::string& name) { return !name.empty(); });
+  object.required(
+      "name", scene.name, "a string, the scene's name, not empty, without control characters",
+      [](const std::string& name) { return !name.empty() && !has_control_characters(name); });
   if (const auto base = object.require("base", "an object with the base's motion"))
     read_base(*base, scene.base);
   const Array bodies = read_list(object, "bodies", "an array of at least one body");

@@ -1,6 +1,7 @@
 #include "montecarlo/campaign/scene_tree.hpp"
 
 #include "montecarlo/formats/nearest.hpp"
+#include "montecarlo/formats/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -15,12 +16,8 @@ namespace {
 constexpr std::string_view base_name = "base";
 
 bool is_plain(std::string_view name) {
-  const auto has_meaning = [](char c) {
-    const auto code = static_cast<unsigned char>(c);
-    return code < 0x20 || code == 0x7F ||
-           std::string_view(".*/,\">").find(c) != std::string_view::npos;
-  };
-  return !name.empty() && std::ranges::none_of(name, has_meaning);
+  return !name.empty() && name.find_first_of(".*/,\">") == std::string_view::npos &&
+         !has_control_characters(name);
 }
 
 /// @param list "bodies" or "hinges"

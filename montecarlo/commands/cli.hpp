@@ -1,7 +1,21 @@
 /// The command line.
 #pragma once
 
+#include "montecarlo/commands/commands.hpp"
+
 namespace wingspread {
+
+/// What the arguments come to: something to do, or the exit status when all is said already.
+struct Understood {
+  Action action; ///< empty: nothing is left to do
+  int code = exit_code::done;
+};
+
+/// Understands the arguments and does nothing yet, but to answer --help, or to refuse.
+[[nodiscard]] Understood understand(int argc, const char* const* argv);
+
+/// Does it; what keeps it from being done is an error and its exit status.
+[[nodiscard]] int carry_out(const Action& action);
 
 /// Understands the arguments, does what they say and returns the exit status. What was asked for
 /// goes to standard output, errors as lines that begin with "error: " to standard error.

@@ -55,10 +55,24 @@ int conclude(const Campaign& campaign, const MarginResult& result) {
   return code != exit_code::done || is_met(result) ? code : exit_code::not_met;
 }
 
+/// A folder in which a study was cut off before its last file is as good as an empty one.
+void refuse_used(const std::filesystem::path& folder) {
+  const auto is_unfinished = [](const std::filesystem::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name == margin_csv_file || name == motorization_csv_file || name == recommended_file ||
+           name == lock_file || name.ends_with(part_suffix);
+  };
+  std::error_code unknown;
+  const std::filesystem::directory_iterator files(folder, unknown);
+  if (unknown || !std::ranges::all_of(files, is_unfinished))
+    refuse_used_folder(folder, "a new or an empty folder");
+}
+
 int margin(const MarginOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
-  refuse_used_folder(options.out, "a new or an empty folder");
+  refuse_used(options.out);
+  const FolderLock lock(options.out);
   const Interrupt interrupt;
   ThreadEvaluator evaluator(crew_of(options.crew), interrupt.flag());
   Progress progress(stderr);
@@ -77,10 +91,10 @@ int margin(const MarginOptions& options) {
   const MarginReport report = margin_report(campaign, result);
   const std::string json = json_text(margin_json(report, stamp_json(stamp_of(campaign, {}))));
   make_folder(options.out);
-  write_file(options.out / margin_json_file, json);
   write_file(options.out / margin_csv_file, margin_csv(campaign, result));
   write_file(options.out / motorization_csv_file, motorization_csv(campaign, report.motorization));
   write_recommended(campaign, result, options.out);
+  write_file(options.out / margin_json_file, json); // the last: with it the folder is complete
   fmt::print("{}", options.json ? json : margin_text(report));
   return conclude(campaign, result);
 }

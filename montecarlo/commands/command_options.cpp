@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace wingspread {
@@ -83,9 +82,8 @@ Crew crew_of(const CrewOptions& options) {
 }
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {
-  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   command.add_option("--runs", sampling.runs, "How many runs, in place of the campaign's number")
-      ->check(CLI::Range(std::int64_t{1}, most).description(""))
+      ->check(CLI::Range(std::int64_t{1}, most_runs).description(""))
       ->type_name("N");
   add_seed_option(command, sampling.seed);
 }

@@ -4,6 +4,7 @@
 #include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/merge.hpp"
 #include "montecarlo/formats/number_text.hpp"
+#include "montecarlo/machine/folder_lock.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -39,6 +40,8 @@ Json bins_given(const std::string& text) {
 }
 
 int analyze(const AnalyzeOptions& options) {
+  (void)read_any_campaign(options.folder); // there is one to be locked
+  const FolderLock lock(options.folder);
   StoredCampaign stored = read_any_campaign(options.folder);
   StatisticsSpec spec = stored.campaign.statistics;
   Json given = Json::object();

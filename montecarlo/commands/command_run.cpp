@@ -82,8 +82,8 @@ void count(const Batch& batch, Tally& tally) {
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
-bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew) {
-  const Interrupt interrupt;
+bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew,
+                    const Interrupt& interrupt) {
   Tally tally{.total = folder.stored().runs().size()};
   count(folder.results(), tally);
   tally.before = tally.done;
@@ -101,6 +101,7 @@ bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew)
     if (remaining.size() == 0) break;
     interrupted = evaluator.make(plan, remaining, {keep, true}) < remaining.size();
   }
+  folder.finish();
   write_file(folder.stored().folder / timing_file,
              timing_text(tally, progress.seconds(), crew, evaluator.occupancy(), interrupted));
   return interrupted;
@@ -122,6 +123,21 @@ std::string refuse_until(const std::string& text) {
                      text);
 }
 
+/// The statistics of what there is, which can be made later as well. @return the exit status
+int conclude(const FolderWriter& folder, const RunOptions& options, const std::string& kept) {
+  const StoredCampaign& stored = folder.stored();
+  try {
+    const Summary summary = write_statistics(stored, folder.results(), stored.campaign.statistics,
+                                             options.crew.threads);
+    return show_results(stored, summary, options.display);
+  } catch (const MachineError& error) {
+    throw MachineError(
+        fmt::format("{}\n{}, without their statistics: `wingspread analyze {}` makes "
+                    "them where there is room",
+                    error.what(), kept, stored.folder.string()));
+  }
+}
+
 int run(const RunOptions& options) {
   const Crew crew = crew_of(options.crew);
   Campaign campaign = read_campaign_file(options.campaign);
@@ -129,15 +145,18 @@ int run(const RunOptions& options) {
   override_until(campaign, options.until);
   const RunPlan plan(campaign);
   FolderWriter folder(options.out, plan, parse_shard(options.shard), options.resume);
-  const bool interrupted = make_remaining(folder, plan, crew);
-  const StoredCampaign& stored = folder.stored();
-  const Summary summary =
-      write_statistics(stored, folder.results(), campaign.statistics, crew.threads);
-  const int shown = show_results(stored, summary, options.display);
-  if (!interrupted) return shown;
-  fmt::print(stderr,
-             "interrupted: {} of {} runs are kept; the same command with --resume goes on\n",
-             summary.runs, stored.runs().size());
+  std::string interruption; // outlives the interrupt that says it
+  Interrupt interrupt;
+  const bool interrupted = make_remaining(folder, plan, crew, interrupt);
+  const std::string kept =
+      fmt::format("{} of {} runs are kept", folder.count(), folder.stored().runs().size());
+  interruption = fmt::format("interrupted: {}; the same command with --resume goes on\n", kept);
+  interrupt.end_at_once(interruption.c_str());
+  if (!interrupt.is_urgent()) {
+    const int code = conclude(folder, options, kept);
+    if (!interrupted) return code;
+  }
+  fmt::print(stderr, "{}", interruption);
   return exit_code::interrupted;
 }
 

@@ -6,9 +6,9 @@
 #include "montecarlo/runs/run_plan.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
-#include <fstream>
-#include <iostream>
+#include <functional>
 #include <memory>
 
 namespace wingspread {
@@ -19,18 +19,23 @@ struct SampleOptions {
   SamplingOptions sampling;
 };
 
-/// `run`, then a column for each draw.
-void write_draws(const RunPlan& plan, std::ostream& out) {
-  std::string line = "run";
-  for (const std::string& name : plan.names().draws) append_csv_cells(line, name);
+/// `run`, then a column for each draw; the lines go to the sink in blocks.
+void write_draws(const RunPlan& plan, const std::function<void(std::string_view)>& sink) {
+  constexpr std::size_t block_bytes = 1 << 16;
+  std::string block = "run";
+  for (const std::string& name : plan.names().draws) append_csv_cells(block, name);
+  block += '\n';
   std::vector<double> draws(plan.names().draws.size());
-  for (long k = 0; k < plan.campaign().sampling.runs && out; ++k) {
-    out << line << '\n';
-    line = std::to_string(k);
+  for (long k = 0; k < plan.campaign().sampling.runs; ++k) {
+    append_csv_cell(block, k);
     plan.draw(k, draws);
-    for (const double draw : draws) append_csv_cells(line, draw);
+    for (const double draw : draws) append_csv_cells(block, draw);
+    block += '\n';
+    if (block.size() < block_bytes) continue;
+    sink(block);
+    block.clear();
   }
-  out << line << '\n' << std::flush;
+  sink(block);
 }
 
 int sample(const SampleOptions& options) {
@@ -38,12 +43,12 @@ int sample(const SampleOptions& options) {
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   const RunPlan plan(campaign);
   if (options.out.empty()) {
-    write_draws(plan, std::cout);
+    write_draws(plan, [](std::string_view block) { fmt::print("{}", block); });
     return exit_code::done;
   }
-  std::ofstream out(options.out, std::ios::binary | std::ios::trunc);
-  if (out) write_draws(plan, out);
-  if (!out) throw unwritable(options.out);
+  WholeFile out(options.out);
+  write_draws(plan, [&](std::string_view block) { out.write(block); });
+  out.finish();
   return exit_code::done;
 }
 

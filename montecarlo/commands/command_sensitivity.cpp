@@ -69,6 +69,7 @@ void show(const Sensitivity& all, const Json& about, const std::string& title,
 int rank(const SensitivityOptions& options) {
   refuse_run_options(options);
   const StoredCampaign stored = read_stored_campaign(options.from);
+  const FolderLock lock(options.from);
   const Results results = read_stored_results(stored).results;
   const double confidence = confidence_of(options, stored.campaign.statistics);
   Stamp stamp = stored.stamp;
@@ -96,6 +97,7 @@ int sobol(const SaltelliDesign& design, const Results& results, const Sensitivit
 int sobol_again(const SensitivityOptions& options) {
   refuse_run_options(options);
   const SaltelliDesign design = read_design(options.from);
+  const FolderLock lock(options.from);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   return sobol(design, read_design_runs(options.from, plan).results, options, options.from);
 }
@@ -121,6 +123,9 @@ int sobol_new(const SensitivityOptions& options) {
   override_sampling(design.campaign, std::nullopt, options.seed);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
+  if (runs > most_runs)
+    throw SpecError({{"", "--samples", fmt::format("{}, which take {} runs", design.rows, runs),
+                      fmt::format("at most {} runs", most_runs)}});
   std::optional<DesignFolderWriter> folder;
   if (!options.out.empty()) folder.emplace(options.out, design, plan, options.resume);
   Results own(plan.names());
@@ -128,16 +133,18 @@ int sobol_new(const SensitivityOptions& options) {
     if (folder) return folder->add(batch);
     for (const ResultRow& row : batch.rows) own.append(row);
   };
-  const Results& results = folder ? folder->results() : own;
-  if (make_runs_of(plan, {std::ssize(results.runs), runs}, crew, {keep, folder.has_value()})) {
+  const RunRange remaining{folder ? folder->count() : 0, runs};
+  const bool interrupted = make_runs_of(plan, remaining, crew, {keep, folder.has_value()});
+  if (folder) folder->finish();
+  if (interrupted) {
     fmt::print(stderr, "interrupted: {}\n",
                folder
                    ? fmt::format("{} of {} runs are kept; the same command with --resume goes on",
-                                 results.size(), runs)
+                                 folder->count(), runs)
                    : "nothing is kept without --out");
     return exit_code::interrupted;
   }
-  return sobol(design, results, options, options.out);
+  return sobol(design, folder ? folder->results() : own, options, options.out);
 }
 
 int sensitivity(const SensitivityOptions& options) {
@@ -156,7 +163,7 @@ void add_sensitivity(CLI::App& app, Action& action) {
       ->add_option("--samples", options->samples,
                    "Of a campaign's file: rows of the design, 1000 if left out; each takes a "
                    "run for every dispersion, and two")
-      ->check(CLI::Range(2L, std::numeric_limits<long>::max()).description(""))
+      ->check(CLI::Range(2L, long{most_runs}).description(""))
       ->type_name("N");
   add_seed_option(*command, options->seed);
   command->add_option("--confidence", options->confidence, "Of all bounds, e.g. 0.99");

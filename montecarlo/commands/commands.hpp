@@ -1,6 +1,8 @@
 /// The commands. Each `add_` adds one to the command line, with its options and its help.
 #pragma once
 
+#include "montecarlo/machine/interrupt.hpp"
+
 #include <functional>
 #include <string>
 
@@ -13,10 +15,11 @@ namespace wingspread {
 /// What the program's exit status says.
 namespace exit_code {
 inline constexpr int done = 0;
-inline constexpr int not_met = 1;       ///< done, but a requirement is not shown to be met
-inline constexpr int bad_input = 2;     ///< nothing was done
-inline constexpr int failed_runs = 3;   ///< done, but some runs failed numerically
-inline constexpr int interrupted = 130; ///< what is done is kept and can be resumed
+inline constexpr int not_met = 1;         ///< done, but a requirement is not shown to be met
+inline constexpr int bad_input = 2;       ///< nothing was done
+inline constexpr int failed_runs = 3;     ///< done, but some runs failed numerically
+inline constexpr int machine_refused = 4; ///< no room, memory or permission; what is done is kept
+inline constexpr int interrupted = interrupted_status; ///< what is done is kept, can be resumed
 } // namespace exit_code
 
 /// What is to be done once the command line is understood; returns the exit status.

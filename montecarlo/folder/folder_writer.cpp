@@ -1,5 +1,6 @@
 #include "montecarlo/folder/folder_writer.hpp"
 
+#include "montecarlo/folder/replay.hpp"
 #include "montecarlo/formats/files.hpp"
 
 #include <fmt/format.h>
@@ -14,10 +15,11 @@ namespace {
 bool is_new(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder)) return true;
   if (!std::filesystem::is_directory(folder)) return false;
-  const auto is_part = [](const std::filesystem::directory_entry& entry) {
-    return entry.path().filename().string().ends_with(part_suffix);
+  const auto is_nothing = [](const std::filesystem::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.ends_with(part_suffix) || name == lock_file;
   };
-  return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_part);
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_nothing);
 }
 
 /// Why a campaign cannot be continued with another number of runs.
@@ -70,14 +72,20 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
     : stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)},
       rows_(stored_.folder / runs_file, plan.names()) {
   refuse_stopping_shard(stored_.campaign, shard);
-  const bool fresh = is_new(stored_.folder);
+  constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
   if (!resume)
-    refuse_used_folder(stored_.folder, "a new or an empty folder (--resume continues a campaign)");
+    refuse_used_folder(stored_.folder, expected);
+  else if (!is_new(stored_.folder))
+    (void)read_stored_campaign(stored_.folder); // before anything is made in what is no such folder
+  lock_.emplace(stored_.folder);
+  const bool fresh = is_new(stored_.folder);
+  if (!resume) refuse_used_folder(stored_.folder, expected);
   if (!fresh) {
     refuse_other_campaign(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);
-    rows_.go_on_behind(read_stored_results(stored_), stored_.runs().first);
+    ResultsFile read = read_stored_results(stored_);
+    refuse_other_rows(plan, read.results, stored_.folder / runs_file);
+    rows_.go_on_behind(std::move(read), stored_.runs().first);
   } else {
-    make_folder(stored_.folder);
     write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
   }
   rows_.open(plan.names());
@@ -85,9 +93,10 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
 
 RunRange FolderWriter::remaining() const {
   const RunRange runs = stored_.runs();
-  const long done = std::ssize(results().runs);
-  if (is_complete(stored_, results())) return {runs.first + done, runs.first + done};
+  const long done = rows_.count();
   const bool may_stop = !stored_.campaign.until.empty();
+  if (done >= runs.size() || (may_stop && is_complete(stored_, results())))
+    return {runs.first + done, runs.first + done};
   return {runs.first + done, may_stop ? next_checkpoint(done, runs.size()) : runs.last};
 }
 

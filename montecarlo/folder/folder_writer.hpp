@@ -3,6 +3,7 @@
 
 #include "montecarlo/folder/results_folder.hpp"
 #include "montecarlo/folder/row_writer.hpp"
+#include "montecarlo/machine/folder_lock.hpp"
 
 namespace wingspread {
 
@@ -10,12 +11,14 @@ namespace wingspread {
 /// any moment, by a signal or a crash, can be opened again to be continued.
 class FolderWriter {
 public:
-  /// Opens the folder, and makes it with its campaign.json if it is not there.
+  /// Opens the folder, and makes it with its campaign.json if it is not there. No other process may open it as
+  /// long as this is not destroyed.
   ///
   /// To resume: the folder is new, or has the same campaign, seed, shard and version; what was cut
   /// off at the end of runs.csv is taken away. Not to resume: it is new, or empty. A campaign that
   /// may stop has no shards: only all runs up to a checkpoint can tell.
-  /// @throws SpecError otherwise, with nothing written; and when it cannot be written
+  /// @throws SpecError otherwise, with nothing written; MachineError when another process has it, or it cannot
+  ///   be written
   FolderWriter(std::filesystem::path folder, const RunPlan& plan, const std::optional<Shard>& shard,
                bool resume);
 
@@ -23,14 +26,20 @@ public:
   /// next checkpoint. None when it is complete. Cost: at a checkpoint, that of its statistics.
   [[nodiscard]] RunRange remaining() const;
   [[nodiscard]] const StoredCampaign& stored() const { return stored_; }
+  /// @throws MachineError when there was no room for them in memory and its temporary files
   [[nodiscard]] const Results& results() const { return rows_.results(); }
+  /// How many runs are in the file.
+  [[nodiscard]] long count() const { return rows_.count(); }
 
-  /// Adds the next runs, to memory and to the file. @throws SpecError when they cannot be written
+  /// Adds the next runs, to the file and to memory. @throws MachineError when they cannot be written
   void add(const Batch& batch) { rows_.add(batch); }
+  /// All rows are on the device, and the file is closed. Once, behind the last batch.
+  void finish() { rows_.finish(); }
 
 private:
   StoredCampaign stored_;
   RowWriter rows_;
+  std::optional<FolderLock> lock_;
 };
 
 /// @throws SpecError unless there is no such folder, or nothing in it but what a crash left before

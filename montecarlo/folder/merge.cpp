@@ -5,33 +5,27 @@
 
 #include <fmt/format.h>
 
-#include <ostream>
+#include <algorithm>
 #include <string>
 #include <utility>
 
 namespace wingspread {
 namespace {
 
-/// A folder and its rows.
+/// A folder, and the runs that it has: one range, unless it is broken.
 struct Part {
-  StoredCampaign stored;
-  Results results;
-};
-
-/// Where a run's row is: in which part, and there in which row.
-struct Place {
-  std::ptrdiff_t part = -1;
-  std::size_t row = 0;
+  std::filesystem::path folder;
+  Stamp stamp;
+  RunRange own; ///< that it should have
+  std::vector<RunRange> present{};
 };
 
 /// "runs 3 to 5, 8": for messages.
 class RunList {
 public:
-  void add(long run) {
-    if (!ranges_.empty() && ranges_.back().last == run)
-      ++ranges_.back().last;
-    else if (ranges_.size() <= most) // one more than are shown
-      ranges_.push_back({run, run + 1});
+  void add(const RunRange& range) {
+    if (range.size() > 0 && ranges_.size() <= most)
+      ranges_.push_back(range); // one more than are shown
   }
   [[nodiscard]] bool empty() const { return ranges_.empty(); }
   [[nodiscard]] std::string text() const {
@@ -53,18 +47,17 @@ private:
 
 /// A problem for each folder that is not of the first one's campaign, seed and version.
 void refuse_strangers(const std::vector<Part>& parts) {
-  const Stamp& first = parts.front().stored.stamp;
-  const std::string name = parts.front().stored.folder.string();
+  const Part& first = parts.front();
   std::vector<Problem> problems;
-  for (const auto& [stored, results] : parts) {
+  for (const Part& part : parts) {
     const auto compare = [&](const char* key, const std::string& found, const std::string& ours) {
       if (found != ours)
-        problems.push_back({(stored.folder / campaign_file).string(),
+        problems.push_back({(part.folder / campaign_file).string(),
                             fmt::format("/wingspread/{}", key), found,
-                            fmt::format("{}, as in {}", ours, name)});
+                            fmt::format("{}, as in {}", ours, first.folder.string())});
     };
-    compare("hash", stored.stamp.hash, first.hash);
-    compare("version", stored.stamp.version, first.version);
+    compare("hash", part.stamp.hash, first.stamp.hash);
+    compare("version", part.stamp.version, first.stamp.version);
   }
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
@@ -75,109 +68,128 @@ void refuse_stopping(const StoredCampaign& stored) {
                       "a campaign that stops at a width", "one that can have shards"}});
 }
 
-/// The place of each run; a problem for each folder that has runs of those before it.
-Spilled<Place> find_places(const std::vector<Part>& parts, std::vector<Problem>& problems) {
-  Spilled<Place> places(static_cast<std::size_t>(parts.front().stored.campaign.sampling.runs), {});
+/// The campaign as one of its folders has it.
+StoredCampaign stored_in(const Part& part, const StoredCampaign& whole) {
+  StoredCampaign stored = whole;
+  stored.folder = part.folder;
+  stored.stamp = part.stamp;
+  return stored;
+}
+
+void find_present(Part& part, const StoredCampaign& whole) {
+  const auto take = [&](const ResultRow& row) {
+    if (part.present.empty() || part.present.back().last != row.run)
+      part.present.push_back({row.run, row.run});
+    ++part.present.back().last;
+  };
+  (void)for_each_stored_row(stored_in(part, whole), take);
+}
+
+RunRange common(const RunRange& a, const RunRange& b) {
+  return {std::max(a.first, b.first), std::min(a.last, b.last)};
+}
+
+/// A problem for each folder that has runs of those before it.
+void find_doubles(const std::vector<Part>& parts, std::vector<Problem>& problems) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto& [stored, results] = parts[p];
     RunList twice;
     std::string other;
-    for (std::size_t row = 0; row < results.size(); ++row) {
-      Place& place = places[static_cast<std::size_t>(results.runs[row])];
-      if (place.part >= 0) {
-        twice.add(results.runs[row]);
-        other = parts[static_cast<std::size_t>(place.part)].stored.folder.string();
-      } else {
-        place = {static_cast<std::ptrdiff_t>(p), row};
-      }
-    }
-    results.runs.release();
-    places.release();
+    for (std::size_t q = 0; q < p; ++q)
+      for (const RunRange& here : parts[p].present)
+        for (const RunRange& there : parts[q].present)
+          if (const RunRange both = common(here, there); both.size() > 0) {
+            twice.add(both);
+            other = parts[q].folder.string();
+          }
     if (!twice.empty())
-      problems.push_back({stored.folder.string(), "",
+      problems.push_back({parts[p].folder.string(), "",
                           fmt::format("runs {}, which {} has too", twice.text(), other),
                           "each run in one folder"});
   }
-  return places;
+}
+
+/// What is left of the range.
+/// @param present in order
+RunList missing_in(const RunRange& range, const std::vector<RunRange>& present) {
+  RunList missing;
+  long next = range.first;
+  for (const RunRange& there : present) {
+    missing.add({next, std::min(there.first, range.last)});
+    next = std::max(next, there.last);
+  }
+  missing.add({next, range.last});
+  return missing;
 }
 
 /// A problem for each folder that lacks runs of its own, and one for runs that no folder should
 /// have had.
-void find_missing(const std::vector<Part>& parts, const Spilled<Place>& places,
-                  std::vector<Problem>& problems) {
-  std::vector<bool> somebodys(places.size(), false);
-  for (const auto& [stored, results] : parts) {
-    const auto [first, last] = stored.runs();
-    RunList missing;
-    for (long run = first; run < last; ++run) {
-      somebodys[static_cast<std::size_t>(run)] = true;
-      if (places[static_cast<std::size_t>(run)].part < 0) missing.add(run);
-    }
-    if (!missing.empty())
+void find_missing(const std::vector<Part>& parts, long runs, std::vector<Problem>& problems) {
+  std::vector<RunRange> somebodys;
+  for (const Part& part : parts) {
+    somebodys.push_back(part.own);
+    if (const RunList missing = missing_in(part.own, part.present); !missing.empty())
       problems.push_back(
-          {stored.folder.string(), "", fmt::format("no runs {}", missing.text()),
-           fmt::format("{} complete (run it again with --resume)", describe(stored.stamp.shard))});
+          {part.folder.string(), "", fmt::format("no runs {}", missing.text()),
+           fmt::format("{} complete (run it again with --resume)", describe(part.stamp.shard))});
   }
-  RunList nobodys;
-  for (std::size_t run = 0; run < places.size(); ++run)
-    if (!somebodys[run]) nobodys.add(static_cast<long>(run));
-  if (!nobodys.empty())
+  std::ranges::sort(somebodys, {}, &RunRange::first);
+  if (const RunList nobodys = missing_in({0, runs}, somebodys); !nobodys.empty())
     problems.push_back({"", "", fmt::format("no folder with runs {}", nobodys.text()),
-                        fmt::format("folders with all of the campaign's {} runs", places.size())});
+                        fmt::format("folders with all of the campaign's {} runs", runs)});
 }
 
-/// Writes the rows in the order of their runs. @return their table
-Results write_in_order(const std::vector<Part>& parts, const Spilled<Place>& places,
-                       const ResultNames& names, std::ostream& out) {
-  constexpr std::size_t rows_held = 10'000;
-  Results all(names);
+/// Writes the rows in the order of their runs.
+/// @param parts complete, and no run in two of them
+void write_in_order(std::vector<Part> parts, const StoredCampaign& whole) {
+  constexpr std::size_t block_bytes = 1 << 16;
+  std::ranges::sort(parts, {}, [](const Part& part) { return part.own.first; });
+  WholeFile out(whole.folder / runs_file);
   std::string lines;
-  append_header(lines, names);
-  for (std::size_t run = 0; run < places.size(); ++run) {
-    const auto& [part, row] = places[run];
-    const Results& results = parts[static_cast<std::size_t>(part)].results;
-    const ResultRow made = results.row(row);
-    append_row(lines, made);
-    all.append(made);
-    if (run % rows_held != 0) continue;
-    out << lines;
+  append_header(lines, RunPlan(whole.campaign).names());
+  const auto take = [&](const ResultRow& row) {
+    append_row(lines, row);
+    if (lines.size() < block_bytes) return;
+    out.write(lines);
     lines.clear();
-    places.release();
-    for (const Part& each : parts) each.results.release();
-  }
-  out << lines;
-  return all;
+  };
+  for (const Part& part : parts) (void)for_each_stored_row(stored_in(part, whole), take);
+  out.write(lines);
+  out.finish();
+}
+
+/// An earlier merging of the same folders may have been cut off: it is done again.
+void refuse_other_folder(const std::filesystem::path& out, const std::string& text) {
+  if (read_text(out / campaign_file) != text)
+    refuse_used_folder(out, "a new or an empty folder for the merged results");
 }
 
 } // namespace
 
 Summary merge_folders(const std::vector<std::filesystem::path>& folders,
                       const std::filesystem::path& out) {
-  refuse_used_folder(out, "a new or an empty folder for the merged results");
+  StoredCampaign whole;
   std::vector<Part> parts;
   for (const auto& folder : folders) {
     StoredCampaign stored = read_stored_campaign(folder);
-    Results results = read_stored_results(stored).results;
-    parts.push_back({std::move(stored), std::move(results)});
+    parts.push_back({folder, stored.stamp, stored.runs()});
+    if (parts.size() == 1) whole = std::move(stored);
   }
   refuse_strangers(parts);
-  refuse_stopping(parts.front().stored);
-  std::vector<Problem> problems;
-  const Spilled<Place> places = find_places(parts, problems);
-  find_missing(parts, places, problems);
-  if (!problems.empty()) throw SpecError(std::move(problems));
-
-  StoredCampaign whole = parts.front().stored;
+  refuse_stopping(whole);
   whole.folder = out;
   whole.stamp.shard.reset();
-  const ResultNames names = RunPlan(whole.campaign).names();
-  make_folder(out);
-  write_file(out / campaign_file, campaign_text(whole.campaign, whole.stamp));
-  Results all;
-  write_file(out / runs_file,
-             [&](std::ostream& file) { all = write_in_order(parts, places, names, file); });
-  parts.clear();
-  return write_statistics(whole, all, whole.campaign.statistics);
+  const std::string text = campaign_text(whole.campaign, whole.stamp);
+  refuse_other_folder(out, text);
+  std::vector<Problem> problems;
+  for (Part& part : parts) find_present(part, whole);
+  find_doubles(parts, problems);
+  find_missing(parts, whole.campaign.sampling.runs, problems);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  const FolderLock lock(out);
+  refuse_other_folder(out, text);
+  write_file(out / campaign_file, text);
+  write_in_order(std::move(parts), whole);
+  return write_statistics(whole, read_stored_results(whole).results, whole.campaign.statistics);
 }
 
 } // namespace wingspread

@@ -1,11 +1,13 @@
 #include "montecarlo/folder/replay.hpp"
 
 #include "montecarlo/formats/csv.hpp"
+#include "montecarlo/formats/input_file.hpp"
+#include "montecarlo/runs/row_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 
 namespace wingspread {
@@ -18,6 +20,37 @@ bool same(double a, double b) {
 }
 
 std::string shown(double value) { return std::isnan(value) ? "nothing" : csv_cell(value); }
+
+/// Where in runs.csv a reader of rows is to begin to come to a run soon: at the beginning of a row, by bisection, for
+/// the runs increase. Behind the header where that cannot be told.
+std::size_t place_before(InputFile& in, long run, std::size_t header_bytes) {
+  constexpr std::size_t near = 1 << 16; // bytes that may as well be read
+  std::size_t first = header_bytes, last = in.size();
+  std::string line;
+  while (last - first > near) {
+    const std::size_t middle = first + (last - first) / 2;
+    in.seek(middle);
+    if (!std::getline(in, line)) return header_bytes; // the rest of a row
+    const std::size_t row = middle + line.size() + 1;
+    long there = -1;
+    if (!std::getline(in, line)) return header_bytes;
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), there);
+    if (error != std::errc{} || end == line.data() + line.size() || *end != ',')
+      return header_bytes;
+    if (there <= run && row < last)
+      first = row;
+    else
+      last = middle;
+  }
+  return first;
+}
+
+/// The run's row, if the reader comes to it.
+std::optional<ResultRow> find_row(RowReader& reader, long run) {
+  while (reader.next() && reader.row().run < run) {
+  }
+  return reader.row().run == run ? std::optional(reader.row()) : std::nullopt;
+}
 
 } // namespace
 
@@ -46,15 +79,41 @@ std::vector<std::string> differences(const ResultNames& names, const ResultRow& 
   return lines;
 }
 
+std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run) {
+  const std::filesystem::path path = stored.folder / runs_file;
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const ResultNames names = RunPlan(stored.campaign).names();
+  try {
+    InputFile in(path);
+    RowReader reader(in, path.string(), names, UnterminatedRow::drop);
+    in.seek(place_before(in, run, reader.complete_bytes()));
+    return find_row(reader, run);
+  } catch (const SpecError&) { // its place in the file is not known then
+    InputFile in(path);
+    RowReader reader(in, path.string(), names, UnterminatedRow::drop);
+    return find_row(reader, run);
+  }
+}
+
+void refuse_other_rows(const RunPlan& plan, const Results& results,
+                       const std::filesystem::path& file) {
+  if (results.size() == 0) return;
+  const ResultRow recorded = results.row(results.size() - 1);
+  std::vector<Problem> problems;
+  for (std::string& difference :
+       differences(plan.names(), recorded, Runner(plan).run(recorded.run)))
+    problems.push_back({file.string(), "", std::move(difference),
+                        "the same: all rows made by one program on one kind "
+                        "of machine"});
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
 ReplayRequest::ReplayRequest(const StoredCampaign& stored, long run) : stored_(&stored), run_(run) {
   const long runs = stored.campaign.sampling.runs;
   if (run < 0 || run >= runs)
     throw SpecError({{stored.folder.string(), "", fmt::format("no run {}", run),
                       fmt::format("a run from 0 to {}", runs - 1)}});
-  const Results results = read_stored_results(stored).results;
-  const auto found = std::ranges::lower_bound(results.runs, run);
-  if (found != results.runs.end() && *found == run)
-    recorded_ = results.row(static_cast<std::size_t>(found - results.runs.begin()));
+  recorded_ = find_stored_row(stored, run);
 }
 
 Replayed ReplayRequest::replay(const Observer& observer) const {

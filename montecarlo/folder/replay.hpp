@@ -16,6 +16,10 @@ struct Replayed {
   std::vector<std::string> differences;
 };
 
+/// Run k's row of runs.csv, if it is there. Cost: of a logarithm of the file's length, in time and memory.
+/// @throws SpecError when what is read of it is broken
+[[nodiscard]] std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run);
+
 /// Asks for run k of a folder.
 class ReplayRequest {
 public:
@@ -35,5 +39,12 @@ private:
 /// A line for each column in which two rows of one table differ, by as much as a bit.
 [[nodiscard]] std::vector<std::string>
 differences(const ResultNames& names, const ResultRow& recorded, const ResultRow& computed);
+
+/// Makes the last of the rows again, before more are put behind them: on another machine, with another library of
+/// mathematics or by a program that was changed it may come out otherwise, and so may the next ones.
+/// @param file that the rows are from
+/// @throws SpecError with each column that differs by as much as a bit
+void refuse_other_rows(const RunPlan& plan, const Results& results,
+                       const std::filesystem::path& file);
 
 } // namespace wingspread

@@ -2,14 +2,15 @@
 
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/input_file.hpp"
 #include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/runs/row_reader.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
 #include "montecarlo/summary/summary_json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <utility>
 
@@ -124,21 +125,32 @@ StoredCampaign read_any_campaign(const std::filesystem::path& folder) {
   return read_campaign_of(folder, true);
 }
 
-ResultsFile read_stored_results(const StoredCampaign& stored) {
-  const ResultNames names = RunPlan(stored.campaign).names();
+RowsRead for_each_stored_row(const StoredCampaign& stored,
+                             const std::function<void(const ResultRow&)>& take) {
   const std::filesystem::path path = stored.folder / runs_file;
-  if (!std::filesystem::exists(path)) return {Results(names), 0, false};
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw SpecError({{path.string(), "", "a file that cannot be read", "the runs' rows"}});
-  ResultsFile read = read_results(in, path.string(), names,
-                                  stored.foreign ? UnterminatedRow::read : UnterminatedRow::drop);
+  if (!std::filesystem::exists(path)) return {};
+  InputFile in(path);
+  RowReader reader(in, path.string(), RunPlan(stored.campaign).names(),
+                   stored.foreign ? UnterminatedRow::read : UnterminatedRow::drop);
   const auto [first, last] = stored.runs();
-  for (const long run : read.results.runs)
-    if (run < first || run >= last)
+  while (reader.next()) {
+    if (const long run = reader.row().run; run < first || run >= last)
       throw SpecError({{path.string(), "", fmt::format("run {}", run),
                         fmt::format("runs from {} up to {}, those of {}", first, last - 1,
                                     describe(stored.stamp.shard))}});
-  read.results.runs.release();
+    take(reader.row());
+  }
+  return {reader.complete_bytes(), reader.unterminated()};
+}
+
+ResultsFile read_stored_results(const StoredCampaign& stored) {
+  ResultsFile read{Results(RunPlan(stored.campaign).names()), 0, false};
+  const RowsRead rows =
+      for_each_stored_row(stored, [&](const ResultRow& row) { read.results.append(row); });
+  read.complete_bytes = rows.complete_bytes;
+  read.unterminated = rows.unterminated;
+  const auto [first, last] = stored.runs();
+  const std::filesystem::path path = stored.folder / runs_file;
   if (stored.foreign && !is_complete(stored, read.results))
     throw SpecError(
         {{path.string(), "", fmt::format("{} runs", read.results.size()),

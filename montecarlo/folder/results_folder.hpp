@@ -13,6 +13,7 @@
 #include "montecarlo/summary/summary.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,17 @@ struct StoredCampaign {
 /// The same, or a campaign that nobody has stamped, beside the runs.csv of another tool.
 /// @throws SpecError as read_stored_campaign does, less for the stamp that is not there
 [[nodiscard]] StoredCampaign read_any_campaign(const std::filesystem::path& folder);
+
+/// How a file of rows ends.
+struct RowsRead {
+  std::size_t complete_bytes = 0; ///< its length up to its last complete line; 0: no header
+  bool unterminated = false;      ///< something follows after that
+};
+
+/// Hands on the rows of runs.csv, less a last line that was cut off, one after another.
+/// @throws SpecError when it is broken, or has a run that is not the folder's
+RowsRead for_each_stored_row(const StoredCampaign& stored,
+                             const std::function<void(const ResultRow&)>& take);
 
 /// Reads runs.csv, less a last line that was cut off; nothing when there is no such file. Of
 /// another tool's file nothing is left out: it may do without the last line's end, and has all

@@ -1,7 +1,5 @@
 #include "montecarlo/folder/row_writer.hpp"
 
-#include "montecarlo/formats/files.hpp"
-
 #include <fmt/format.h>
 
 #include <utility>
@@ -13,22 +11,48 @@ RowWriter::RowWriter(std::filesystem::path file, const ResultNames& names)
 
 void RowWriter::go_on_behind(ResultsFile&& read, long first) {
   refuse_gaps(read.results, first, file_);
-  if (std::filesystem::exists(file_)) std::filesystem::resize_file(file_, read.complete_bytes);
+  std::error_code why;
+  if (read.unterminated) std::filesystem::resize_file(file_, read.complete_bytes, why);
+  if (why) refuse_path(file_, why.value(), "a file that can be written");
   results_ = std::move(read.results);
+  count_ = std::ssize(results_.runs);
 }
 
 void RowWriter::open(const ResultNames& names) {
-  out_.open(file_, std::ios::binary | std::ios::app);
-  if (!out_) throw unwritable(file_);
+  out_.emplace(file_, OutputFile::From::end);
   if (std::filesystem::file_size(file_) > 0) return;
   std::string header;
   append_header(header, names);
-  if (!(out_ << header << std::flush)) throw unwritable(file_);
+  out_->write(header);
 }
 
 void RowWriter::add(const Batch& batch) {
-  for (const ResultRow& row : batch.rows) results_.append(row);
-  if (!(out_ << batch.csv << std::flush)) throw unwritable(file_);
+  out_->write(batch.csv);
+  count_ += std::ssize(batch.rows);
+  keep(batch);
+  if (Clock::now() - synced_ < std::chrono::seconds(10)) return;
+  out_->sync();
+  synced_ = Clock::now();
+}
+
+void RowWriter::keep(const Batch& batch) {
+  if (no_room_) return;
+  try {
+    for (const ResultRow& row : batch.rows) results_.append(row);
+  } catch (const MachineError& error) {
+    no_room_ = error;
+    results_ = {};
+  }
+}
+
+void RowWriter::finish() {
+  out_->sync();
+  out_->close();
+}
+
+const Results& RowWriter::results() const {
+  if (no_room_) throw *no_room_;
+  return results_;
 }
 
 void refuse_gaps(const Results& results, long first, const std::filesystem::path& file) {

@@ -1,11 +1,13 @@
 /// Rows that come batch by batch: kept for the statistics, and appended to their file.
 #pragma once
 
+#include "montecarlo/formats/files.hpp"
 #include "montecarlo/runs/evaluator.hpp"
 #include "montecarlo/runs/results.hpp"
 
+#include <chrono>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 
 namespace wingspread {
 
@@ -20,18 +22,32 @@ public:
   void go_on_behind(ResultsFile&& read, long first);
 
   /// Opens the file; a new one gets its header. To be called once, before the first batch.
-  /// @throws SpecError when it cannot be written
+  /// @throws as refuse_path (machine_error.hpp) does when it cannot be written, here and below
   void open(const ResultNames& names);
 
-  /// Adds the next rows, to memory and to the file. @throws SpecError when they cannot be written
+  /// Adds the next rows, to the file and to memory; where memory has no more room for them (its temporary
+  /// files do not), to the file alone from then on. Every ten seconds it sees to it that they are on the device.
   void add(const Batch& batch);
 
-  [[nodiscard]] const Results& results() const { return results_; }
+  /// Sees to it that all rows are on the device, and closes the file. Once, and as the last.
+  void finish();
+
+  /// How many rows there are in the file.
+  [[nodiscard]] long count() const { return count_; }
+  /// @throws MachineError when there was no room for them
+  [[nodiscard]] const Results& results() const;
 
 private:
+  using Clock = std::chrono::steady_clock;
+
+  void keep(const Batch& batch);
+
   std::filesystem::path file_;
   Results results_;
-  std::ofstream out_;
+  std::optional<OutputFile> out_;
+  Clock::time_point synced_ = Clock::now();
+  long count_ = 0;
+  std::optional<MachineError> no_room_;
 };
 
 /// @throws SpecError unless the runs follow each other from `first` on without a gap

@@ -12,6 +12,11 @@
 #include <utility>
 
 namespace wingspread {
+namespace {
+
+constexpr std::size_t most_record_bytes = 16 << 20; // of a record over several lines
+
+} // namespace
 
 void append_csv_cell(std::string& buffer, std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
@@ -74,6 +79,8 @@ bool CsvReader::next() {
     record_ += '\n';
     record_ += physical_;
     quotes += std::ranges::count(physical_, '"');
+    if (record_.size() > most_record_bytes)
+      throw error("", fmt::format("a quote open for {} bytes", record_.size()), "a closing quote");
   }
   if (record_.ends_with('\r')) record_.pop_back();
   return true;

@@ -58,6 +58,9 @@ public:
   /// without one (RFC 4180 allows that too: the caller has to know which it is).
   [[nodiscard]] bool terminated() const { return terminated_; }
 
+  /// Whether a quoted cell carried the current record over to further lines.
+  [[nodiscard]] bool spans_lines() const { return lines_read_ > line_; }
+
   /// Line on which the current record begins, counted from 1.
   [[nodiscard]] std::size_t line() const { return line_; }
 

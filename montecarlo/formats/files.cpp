@@ -1,55 +1,91 @@
 #include "montecarlo/formats/files.hpp"
 
+#include "montecarlo/formats/input_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <atomic>
 #include <cerrno>
-#include <fstream>
+#include <climits>
+#include <cstdio>
 #include <iterator>
 #include <system_error>
+#include <unistd.h>
+#include <utility>
 
 namespace wingspread {
 namespace {
 
-SpecError unwritable(const std::filesystem::path& path, const std::error_code& why,
-                     const char* expected) {
-  return SpecError({{path.string(), "", why.message(), expected}});
+// A signal's handler can reach nothing but globals.
+std::array<char, PATH_MAX> part_path; // of the file that is being written
+std::atomic<bool> part_begun = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+bool is_special(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const auto found = std::filesystem::status(path, unknown);
+  return std::filesystem::exists(found) && !std::filesystem::is_regular_file(found);
+}
+
+/// The name under which the file is written, which is noted for a signal's handler.
+std::filesystem::path begin_part(const std::filesystem::path& path) {
+  if (is_special(path)) return path;
+  const std::string part = path.string() + std::string(part_suffix);
+  if (part.size() >= part_path.size()) refuse_path(path, ENAMETOOLONG, "a shorter name");
+  part_path[part.copy(part_path.data(), part.size())] = '\0';
+  part_begun = true;
+  return part;
 }
 
 } // namespace
 
-std::optional<std::string> read_text(const std::filesystem::path& path) {
-  std::error_code unknown; // a path that cannot be asked about cannot be opened either
-  std::ifstream in;
-  if (!std::filesystem::is_directory(path, unknown)) in.open(path, std::ios::binary);
-  if (!in.is_open()) return std::nullopt;
-  return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+void drop_part() noexcept {
+  if (part_begun.exchange(false)) unlink(part_path.data());
 }
 
-SpecError unwritable(const std::filesystem::path& path) {
-  return unwritable(path, std::error_code(errno, std::generic_category()),
-                    "a file that can be written");
+WholeFile::WholeFile(std::filesystem::path path)
+    : path_(std::move(path)), part_(begin_part(path_), OutputFile::From::beginning) {}
+
+WholeFile::~WholeFile() { drop_part(); }
+
+void WholeFile::finish() {
+  part_.sync();
+  part_.close();
+  if (part_.path() == path_) return;
+  if (std::rename(part_.path().c_str(), path_.c_str()) != 0)
+    refuse_path(path_, errno, "a file that can be written");
+  part_begun = false;
+  sync_folder(path_.parent_path());
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
-  write_file(path, [text](std::ostream& out) { out << text; });
+  WholeFile file(path);
+  file.write(text);
+  file.finish();
 }
 
-void write_file(const std::filesystem::path& path,
-                const std::function<void(std::ostream&)>& write) {
-  std::filesystem::path part = path;
-  part += part_suffix;
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  write(out);
-  out.flush();
-  if (!out) throw unwritable(part);
-  out.close();
-  std::error_code why;
-  std::filesystem::rename(part, path, why);
-  if (why) throw unwritable(path, why, "a file that can be written");
+void remove_parts(const std::filesystem::path& folder) {
+  std::error_code unreadable; // then there is nothing to be seen
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable))
+    if (entry.path().filename().string().ends_with(part_suffix)) unlink(entry.path().c_str());
 }
 
 void make_folder(const std::filesystem::path& path) {
   std::error_code why;
   std::filesystem::create_directories(path, why);
-  if (why) throw unwritable(path, why, "a folder that can be made");
+  if (why) refuse_path(path, why.value(), "a folder that can be made");
+}
+
+std::optional<std::string> read_text(const std::filesystem::path& path) {
+  std::error_code unknown; // a path that cannot be asked about cannot be opened either
+  if (!std::filesystem::exists(path, unknown) || std::filesystem::is_directory(path, unknown))
+    return std::nullopt;
+  InputFile in(path);
+  if (in.size() > most_text_bytes)
+    throw SpecError({{path.string(), "", fmt::format("{} bytes", in.size()),
+                      fmt::format("at most {}", most_text_bytes)}});
+  return std::string{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 } // namespace wingspread

@@ -77,6 +77,11 @@ private:
   }
 
   bool open(Json container) {
+    if (open_.size() == most_json_levels) { // whoever walks through it calls itself at each level
+      problems.push_back({file_, next_pointer(), "one more level of brackets",
+                          fmt::format("at most {}", most_json_levels)});
+      return false;
+    }
     open_.push_back({place(std::move(container)), {}});
     return true;
   }

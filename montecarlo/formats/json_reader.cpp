@@ -82,9 +82,13 @@ JsonCursor JsonCursor::element(std::size_t index) const {
   return at;
 }
 
-std::vector<JsonCursor> JsonCursor::elements() const {
+std::vector<JsonCursor> JsonCursor::elements(std::size_t most) const {
   std::vector<JsonCursor> all;
   if (!value_->is_array()) return all;
+  if (value_->size() > most) {
+    refuse(fmt::format("at most {} of them", most));
+    return all;
+  }
   for (std::size_t i = 0; i < value_->size(); ++i) all.push_back(element(i));
   return all;
 }

@@ -23,6 +23,10 @@
 
 namespace wingspread {
 
+/// Of a list that people write: bodies, dispersions, requirements. Some of what is done with them takes the square
+/// of their number.
+inline constexpr std::size_t most_elements = 1000;
+
 /// What a JSON value is, for a message: `-1`, `string "abc"`, `an array of 3`, `an object`.
 [[nodiscard]] std::string describe_value(const Json& value);
 
@@ -44,8 +48,8 @@ public:
   [[nodiscard]] JsonCursor member(std::string_view key) const;
   /// @pre value() is an array longer than that
   [[nodiscard]] JsonCursor element(std::size_t index) const;
-  /// The elements; nothing when it is no array.
-  [[nodiscard]] std::vector<JsonCursor> elements() const;
+  /// The elements; nothing when it is no array, and a problem and nothing when there are more.
+  [[nodiscard]] std::vector<JsonCursor> elements(std::size_t most = most_elements) const;
 
   /// Notes a problem here; returns false, for the caller to hand on. `below` is appended to the
   /// pointer, for what is missing and has no value of its own.

@@ -5,6 +5,11 @@
 #include <numeric>
 
 namespace wingspread {
+namespace {
+
+constexpr std::size_t longest_word = 200; // nothing that is longer is a slip of the pen
+
+} // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1); // distances from the part of a seen so far
@@ -23,6 +28,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   std::string best;
   std::size_t least = std::numeric_limits<std::size_t>::max();
+  if (word.size() > longest_word) return best;
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance >= least || 2 * distance > std::max(word.size(), candidate.size())) continue;

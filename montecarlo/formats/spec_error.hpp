@@ -25,7 +25,7 @@ public:
   explicit SpecError(std::vector<Problem> problems);
 
   [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }
-  /// One line per problem.
+  /// One line per problem; of very many the first, and how many more there are.
   [[nodiscard]] const char* what() const noexcept override { return message_.c_str(); }
 
 private:

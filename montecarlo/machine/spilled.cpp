@@ -1,6 +1,6 @@
 #include "montecarlo/machine/spilled.hpp"
 
-#include "montecarlo/formats/spec_error.hpp"
+#include "montecarlo/formats/machine_error.hpp"
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -20,9 +20,9 @@ std::string temporary_folder() {
   return named && *named ? named : "/var/tmp"; // /tmp may itself be memory
 }
 
-SpecError no_temporary_file(int error) {
-  return SpecError({{temporary_folder(), "", std::generic_category().message(error),
-                     "room for temporary data (TMPDIR names another folder)"}});
+MachineError no_temporary_file(int error) {
+  return MachineError({temporary_folder(), "", std::generic_category().message(error),
+                       "room for temporary data (TMPDIR names another folder)"});
 }
 
 /// A table of hundreds of columns takes more files than a process has unless it asks for them.

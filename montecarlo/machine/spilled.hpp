@@ -36,7 +36,7 @@ public:
   [[nodiscard]] std::size_t size() const { return size_; }
   /// Makes it longer, by zeros; what is mapped may move.
   /// @param bytes more than its size
-  /// @throws SpecError that names the folder, when it has no room or cannot be written
+  /// @throws MachineError that names the folder, when it has no room or cannot be written
   void grow(std::size_t bytes);
   /// Lets go of the memory that the bytes [first, last) take up; their values stay.
   void release(std::size_t first, std::size_t last) const;
@@ -91,7 +91,7 @@ public:
   [[nodiscard]] const T& front() const { return data_[0]; }
   [[nodiscard]] const T& back() const { return data_[size_ - 1]; }
 
-  /// @throws SpecError when there is no room for it on disk
+  /// @throws MachineError when there is no room for it on disk
   void push_back(const T& value) {
     const T copy = value; // it may be one of these
     if (size_ == room_) make_room();

@@ -1,20 +1,22 @@
 #include "montecarlo/report/trajectory.hpp"
 
 #include "montecarlo/formats/csv.hpp"
-#include "montecarlo/formats/files.hpp"
 
 #include <utility>
 
 namespace wingspread {
+namespace {
+
+constexpr std::size_t trajectory_block = 1 << 16; // bytes
+
+} // namespace
 
 TrajectoryWriter::TrajectoryWriter(std::filesystem::path path, const Scene& scene)
-    : path_(std::move(path)), out_(path_, std::ios::binary | std::ios::trunc) {
-  std::string header = "t";
+    : out_(std::move(path)), block_("t") {
   for (const Hinge& hinge : scene.hinges)
     for (const char* quantity : {".angle", ".rate", ".moment"})
-      append_csv_cells(header, hinge.name + quantity);
-  out_ << header << ",kinetic,potential,total\n";
-  if (!out_) throw unwritable(path_);
+      append_csv_cells(block_, hinge.name + quantity);
+  block_ += ",kinetic,potential,total\n";
 }
 
 Observer TrajectoryWriter::observer() {
@@ -22,16 +24,19 @@ Observer TrajectoryWriter::observer() {
 }
 
 void TrajectoryWriter::write(const Sample& sample) {
-  std::string line;
-  append_csv_cell(line, sample.t);
+  append_csv_cell(block_, sample.t);
   for (std::size_t i = 0; i < sample.angles.size(); ++i)
-    append_csv_cells(line, sample.angles[i], sample.rates[i], sample.moments[i]);
-  append_csv_cells(line, sample.kinetic, sample.potential, sample.kinetic + sample.potential);
-  out_ << line << '\n';
+    append_csv_cells(block_, sample.angles[i], sample.rates[i], sample.moments[i]);
+  append_csv_cells(block_, sample.kinetic, sample.potential, sample.kinetic + sample.potential);
+  block_ += '\n';
+  if (block_.size() < trajectory_block) return;
+  out_.write(block_);
+  block_.clear();
 }
 
 void TrajectoryWriter::finish() {
-  if (!out_.flush()) throw unwritable(path_);
+  out_.write(block_);
+  out_.finish();
 }
 
 } // namespace wingspread

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "core/deployment.hpp"
+#include "montecarlo/formats/files.hpp"
 
 #include <filesystem>
-#include <fstream>
+#include <string>
 
 namespace wingspread {
 
@@ -12,20 +13,20 @@ namespace wingspread {
 /// `potential` and `total`, with 17 significant digits, as the run goes on.
 class TrajectoryWriter {
 public:
-  /// Writes the header. @throws SpecError when the file cannot be written
+  /// Begins the file. @throws as refuse_path (machine_error.hpp) does when the file cannot be written
   TrajectoryWriter(std::filesystem::path path, const Scene& scene);
 
   /// What to hand to the run. @pre the writer outlives it
   [[nodiscard]] Observer observer();
 
-  /// @throws SpecError unless all of it is in the file
+  /// @throws as refuse_path does unless all of it is in the file
   void finish();
 
 private:
   void write(const Sample& sample);
 
-  std::filesystem::path path_;
-  std::ofstream out_;
+  WholeFile out_;
+  std::string block_; ///< lines that are still to be written
 };
 
 } // namespace wingspread

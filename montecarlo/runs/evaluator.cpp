@@ -1,6 +1,7 @@
 #include "montecarlo/runs/evaluator.hpp"
 
 #include "montecarlo/machine/team.hpp"
+#include "montecarlo/runs/in_order.hpp"
 
 #include <algorithm>
 #include <map>
@@ -17,40 +18,8 @@ long chunk_size(RunRange range, int threads) {
   return std::clamp<long>(range.size() / (8L * threads), 1, 32);
 }
 
-/// Hands batches on in the order of their chunks, whichever order they are finished in.
-class InOrder {
-public:
-  explicit InOrder(const BatchSink& sink) : sink_(sink) {}
-
-  /// @param complete false when the chunk was broken off: nothing after it will be handed on
-  void finish(long chunk, Batch batch, bool complete) {
-    const std::lock_guard lock(mutex_);
-    waiting_.emplace(chunk, Finished{std::move(batch), complete});
-    while (!cut_ && waiting_.contains(next_)) hand_on(waiting_.extract(next_++).mapped());
-  }
-
-  /// Runs handed on. @pre all threads are done
-  [[nodiscard]] long done() const { return done_; }
-
-private:
-  struct Finished {
-    Batch batch;
-    bool complete;
-  };
-
-  void hand_on(const Finished& finished) {
-    cut_ = true; // stays so if the sink throws
-    if (!finished.batch.rows.empty()) sink_.take(finished.batch);
-    done_ += std::ssize(finished.batch.rows);
-    cut_ = !finished.complete;
-  }
-
-  const BatchSink& sink_;
-  std::mutex mutex_;
-  std::map<long, Finished> waiting_; ///< by chunk
-  long next_ = 0, done_ = 0;
-  bool cut_ = false;
-};
+/// Chunks that may be begun beyond those handed on: some 30,000 runs, the rows of which take tens of MB.
+constexpr long most_ahead = 1024;
 
 /// One thread's chunks: the one that its runs come from, and those that wait for their last runs.
 template <class Claim> class Chunks {
@@ -117,23 +86,38 @@ private:
 long ThreadEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
   const int team = team_size(crew_.threads);
   const long size = chunk_size(range, team);
-  InOrder in_order(sink);
-  std::atomic<long> next_chunk = 0;
+  InOrder in_order(sink, most_ahead);
+  std::mutex claiming, adding;
+  long next_chunk = 0;              // guarded by claiming
   std::atomic<bool> broken = false; // by an exception
   const auto stopped = [&] { return stop_.load() || broken.load(); };
-  std::mutex adding;
+  const auto has_more = [&] { return range.first + next_chunk * size < range.last; };
   const auto claim = [&]() -> std::optional<std::pair<long, RunRange>> {
-    if (stopped()) return std::nullopt;
+    const std::lock_guard lock(claiming);
+    if (stopped() || !has_more() || !in_order.may_begin(next_chunk)) return std::nullopt;
     const long chunk = next_chunk++, first = range.first + chunk * size;
-    if (first >= range.last) return std::nullopt;
     return std::pair(chunk, RunRange{first, std::min(first + size, range.last)});
+  };
+  // A thread that has run out of chunks because one run keeps the others waiting has a rest.
+  const auto wait_for_more = [&] {
+    long chunk = 0;
+    {
+      const std::lock_guard lock(claiming);
+      if (stopped() || !has_more()) return false;
+      chunk = next_chunk;
+    }
+    in_order.wait_for(chunk, stopped);
+    return true;
   };
   const auto work = [&] {
     Runner runner(plan);
     Chunks chunks(in_order, sink.wants_csv, claim);
     const auto next = [&] { return stopped() ? std::nullopt : chunks.next(); };
-    const Occupancy full =
-        runner.run_all(crew_.set, next, [&](ResultRow&& row) { chunks.take(std::move(row)); });
+    Occupancy full{};
+    do
+      full +=
+          runner.run_all(crew_.set, next, [&](ResultRow&& row) { chunks.take(std::move(row)); });
+    while (wait_for_more());
     chunks.close();
     const std::lock_guard lock(adding);
     occupancy_ += full;

@@ -64,10 +64,14 @@ struct Results {
   void release() const;
 };
 
+/// The columns of runs.csv in the order in which they are written.
+[[nodiscard]] std::vector<std::string> header_cells(const ResultNames& names);
+
 /// Appends the header of runs.csv and its line feed.
 void append_header(std::string& buffer, const ResultNames& names);
 
 /// Appends one line of runs.csv and its line feed: rows can be written as they come.
+/// @pre its texts have no line breaks: what a crash cuts off is then part of the last line
 void append_row(std::string& buffer, const ResultRow& row);
 
 /// What to do with a last line that no line break ends.

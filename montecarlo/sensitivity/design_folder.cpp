@@ -2,12 +2,12 @@
 
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
+#include "montecarlo/folder/replay.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/input_file.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/json_reader.hpp"
-
-#include <fstream>
 
 namespace wingspread {
 namespace {
@@ -65,8 +65,7 @@ SaltelliDesign read_design(const std::filesystem::path& folder) {
 ResultsFile read_design_runs(const std::filesystem::path& folder, const RunPlan& plan) {
   const std::filesystem::path path = folder / design_runs_file;
   if (!std::filesystem::exists(path)) return {Results(plan.names()), 0, false};
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw SpecError({{path.string(), "", "a file that cannot be read", "the runs' rows"}});
+  InputFile in(path);
   ResultsFile read = read_results(in, path.string(), plan.names(), UnterminatedRow::drop);
   refuse_gaps(read.results, 0, path);
   return read;
@@ -76,12 +75,16 @@ DesignFolderWriter::DesignFolderWriter(const std::filesystem::path& folder,
                                        const SaltelliDesign& design, const RunPlan& plan,
                                        bool resume)
     : rows_(folder / design_runs_file, plan.names()) {
-  if (resume && std::filesystem::exists(folder / design_file)) {
-    refuse_other_design(folder, design);
-    rows_.go_on_behind(read_design_runs(folder, plan), 0);
-  } else {
+  const bool goes_on = resume && std::filesystem::exists(folder / design_file);
+  if (!goes_on)
     refuse_used_folder(folder, "a new or an empty folder (--resume continues a design)");
-    make_folder(folder);
+  lock_.emplace(folder);
+  if (goes_on) {
+    refuse_other_design(folder, design);
+    ResultsFile read = read_design_runs(folder, plan);
+    refuse_other_rows(plan, read.results, folder / design_runs_file);
+    rows_.go_on_behind(std::move(read), 0);
+  } else {
     write_file(folder / design_file, design_text(design));
   }
   rows_.open(plan.names());

@@ -9,6 +9,7 @@
 
 #include "montecarlo/folder/row_writer.hpp"
 #include "montecarlo/folder/stamp.hpp"
+#include "montecarlo/machine/folder_lock.hpp"
 #include "montecarlo/sensitivity/saltelli.hpp"
 
 #include <filesystem>
@@ -46,14 +47,19 @@ class DesignFolderWriter {
 public:
   /// @param resume the folder is new, or has the same design, by the same version; otherwise it is
   ///   new, or empty
-  /// @throws SpecError otherwise, and when it cannot be written
+  /// @throws SpecError otherwise; MachineError when another process has it, or it cannot be written
   DesignFolderWriter(const std::filesystem::path& folder, const SaltelliDesign& design,
                      const RunPlan& plan, bool resume);
 
   [[nodiscard]] const Results& results() const { return rows_.results(); }
+  /// How many runs are in the file.
+  [[nodiscard]] long count() const { return rows_.count(); }
   void add(const Batch& batch) { rows_.add(batch); }
+  /// All rows are on the device, and the file is closed. Once, behind the last batch.
+  void finish() { rows_.finish(); }
 
 private:
+  std::optional<FolderLock> lock_;
   RowWriter rows_;
 };
 

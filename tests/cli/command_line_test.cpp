@@ -46,7 +46,7 @@ TEST_CASE("a command line that makes no sense is refused") {
        "error: --shard: found 3/2, expected I/N with whole numbers 1 ≤ I ≤ N ≤ 1000000\n"
        "error: see wingspread run --help\n"},
       {{"run", "c.json", "--out", "r", "--runs", "0"},
-       "error: --runs: Value 0 not in range 1 to 9223372036854775807\n"
+       "error: --runs: Value 0 not in range 1 to 2147483647\n"
        "error: see wingspread run --help\n"},
       {{"run", "c.json", "--out", "r", "--threads", "0"},
        "error: --threads: Value 0 not in range 1 to 1024\nerror: see wingspread run --help\n"},

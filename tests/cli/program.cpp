@@ -11,8 +11,9 @@ extern char** environ;
 
 namespace wingspread::test {
 
-Program::Program(const Folder& folder, const std::vector<std::string>& arguments)
-    : out_(folder.path() / "stdout.txt"), error_(folder.path() / "stderr.txt") {
+Program::Program(const Folder& folder, const std::vector<std::string>& arguments,
+                 const std::filesystem::path& out)
+    : out_(out.empty() ? folder.path() / "stdout.txt" : out), error_(folder.path() / "stderr.txt") {
   std::vector<std::string> words{WINGSPREAD_BINARY};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -34,11 +35,13 @@ Finished Program::finish() const {
   int status = 0;
   waitpid(process_, &status, 0);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return {code, read_text(out_).value(), read_text(error_).value()};
+  const bool is_file = std::filesystem::is_regular_file(out_);
+  return {code, is_file ? read_text(out_).value() : "", read_text(error_).value()};
 }
 
-Finished run_program(const Folder& folder, const std::vector<std::string>& arguments) {
-  return Program(folder, arguments).finish();
+Finished run_program(const Folder& folder, const std::vector<std::string>& arguments,
+                     const std::filesystem::path& out) {
+  return Program(folder, arguments, out).finish();
 }
 
 std::vector<std::string> lines_of(const std::string& text) {

@@ -19,7 +19,9 @@ struct Finished {
 /// The program, started with these arguments, its two outputs into files of the folder.
 class Program {
 public:
-  Program(const Folder& folder, const std::vector<std::string>& arguments);
+  /// @param out where its standard output goes, if not into the folder
+  Program(const Folder& folder, const std::vector<std::string>& arguments,
+          const std::filesystem::path& out = {});
   void send(int signal) const;
   [[nodiscard]] Finished finish() const;
 
@@ -29,7 +31,8 @@ private:
 };
 
 /// Starts it and waits for its end.
-[[nodiscard]] Finished run_program(const Folder& folder, const std::vector<std::string>& arguments);
+[[nodiscard]] Finished run_program(const Folder& folder, const std::vector<std::string>& arguments,
+                                   const std::filesystem::path& out = {});
 
 /// Lines of a text.
 [[nodiscard]] std::vector<std::string> lines_of(const std::string& text);

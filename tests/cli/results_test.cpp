@@ -90,7 +90,7 @@ TEST_CASE("analyze refuses settings by their options") {
   CHECK(error == "error: --quantiles: found 1.5, expected a number, > 0 and < 1\n"
                  "error: --confidence: found 2.0, expected a number, > 0 and < 1\n"
                  "error: --bins: found string \"few\", expected \"auto\" or an integer from 1 to "
-                 "1000000\n");
+                 "10000\n");
   CHECK(contents(done.path) == before);
 }
 

@@ -147,22 +147,26 @@ TEST_CASE("an interrupted run keeps what is done, and resuming completes it", "[
   const Setting setting(quick_campaign(4000));
   const auto path = setting.folder.path() / "r";
   const int signal = GENERATE(SIGINT, SIGTERM);
+  const bool urgent = signal == SIGTERM; // it ends at once: the statistics can be made later
   const Program program(setting.folder,
                         {"run", setting.campaign, "--out", setting.out, "--threads", "2"});
   REQUIRE(wait_for_lines(path / runs_file, 50));
   program.send(signal);
   const auto [code, out, error] = program.finish();
   CHECK(code == 130);
-  CHECK(out == paths(setting.out));
+  CHECK(out == (urgent ? "" : paths(setting.out)));
   const StoredCampaign stored = read_stored_campaign(path);
   const ResultsFile file = read_stored_results(stored);
   const std::size_t done = file.results.size();
   CHECK_FALSE(file.unterminated);
   CHECK(done >= 50);
   REQUIRE(done < 4000); // else the machine was too fast to be interrupted
-  const Json summary = parse_json_file(path / summary_file);
-  CHECK(summary["runs"] == done);
-  CHECK(summary["wingspread"]["partial"] == Json{{"done", done}, {"of", 4000}});
+  CHECK(std::filesystem::exists(path / summary_file) != urgent);
+  if (!urgent) {
+    const Json summary = parse_json_file(path / summary_file);
+    CHECK(summary["runs"] == done);
+    CHECK(summary["wingspread"]["partial"] == Json{{"done", done}, {"of", 4000}});
+  }
   CHECK(error == "interrupted: " + std::to_string(done) +
                      " of 4000 runs are kept; the same command with --resume goes on\n");
   CHECK(parse_json_file(path / timing_file)["interrupted"] == true);

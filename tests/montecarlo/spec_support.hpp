@@ -65,11 +65,13 @@ inline Json spoil(Json document, const Spoiled& change) {
   return document;
 }
 
-/// The message of the SpecError that `read` throws; empty when it throws none.
+/// The message of the SpecError or MachineError that `read` throws; empty when it throws none.
 template <class Read> std::string message_of(Read read) {
   try {
     (void)read();
   } catch (const SpecError& error) {
+    return error.what();
+  } catch (const MachineError& error) {
     return error.what();
   }
   return "";

@@ -31,6 +31,7 @@ TEST_CASE("Each fault of the sampling is told", "[campaign_settings]") {
   const auto [json, message] = GENERATE(values<Case>(
       {{"1000", "found 1000, expected an object with the sampling"},
        {R"({"runs": 0})", "/runs: found 0, expected an integer, ≥ 1"},
+       {R"({"runs": 2147483648})", "/runs: found 2147483648, expected at most 2147483647"},
        {R"({"runs": 1.5})", "/runs: found 1.5, expected an integer, ≥ 1"},
        {R"({"seed": -1})", "/seed: found -1, expected an integer from 0 to 2^64 - 1"},
        {R"({"replicates": "2"})", "/replicates: found string \"2\", expected an integer, ≥ 1"},
@@ -149,15 +150,30 @@ TEST_CASE("Each fault of the statistics is told", "[campaign_settings]") {
         "/quantiles/2: found 1, expected a number, > 0 and < 1\n"
         "/quantiles/3: found 0.5 a second time, expected each quantile once"},
        {R"({"confidence": 95})", "/confidence: found 95, expected a number, > 0 and < 1"},
-       {R"({"bins": 0})", "/bins: found 0, expected \"auto\" or an integer from 1 to 1000000"},
+       {R"({"bins": 0})", "/bins: found 0, expected \"auto\" or an integer from 1 to 10000"},
        {R"({"bins": 1e7})",
-        "/bins: found 10000000.0, expected \"auto\" or an integer from 1 to 1000000"},
+        "/bins: found 10000000.0, expected \"auto\" or an integer from 1 to 10000"},
        {R"({"bins": "fd"})",
-        "/bins: found string \"fd\", expected \"auto\" or an integer from 1 to 1000000"},
+        "/bins: found string \"fd\", expected \"auto\" or an integer from 1 to 10000"},
        {R"({"bin": 3})",
         "/bin: found the unknown key \"bin\", expected \"quantiles\", \"confidence\", "
         "\"bins\" or \"tolerance\" (did you mean \"bins\"?)"}}));
   CHECK(read(json, StatisticsSpec{}, read_statistics).problems == message);
+}
+
+TEST_CASE("Lists that nobody writes by hand are refused before anything is done",
+          "[campaign_settings]") {
+  Json json{{"quantiles", Json::array()}, {"tolerance", Json::array()}};
+  for (int i = 1; i <= 1001; ++i) {
+    json["quantiles"].push_back(i / 1002.0);
+    json["tolerance"].push_back({{"probability", 0.9}, {"confidence", 0.9}});
+  }
+  CHECK(read(json.dump().c_str(), StatisticsSpec{}, read_statistics).problems ==
+        "/quantiles: found an array of 1001, expected at most 1000 quantiles\n"
+        "/tolerance: found an array of 1001, expected at most 1000 of them");
+  json["quantiles"].erase(0);
+  json["tolerance"].erase(0);
+  CHECK(read(json.dump().c_str(), StatisticsSpec{}, read_statistics).problems.empty());
 }
 
 TEST_CASE("Tolerance limits are read, and each fault of them is told", "[campaign_settings]") {

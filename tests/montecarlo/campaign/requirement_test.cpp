@@ -66,7 +66,8 @@ TEST_CASE("Each fault of a requirement is told", "[requirement]") {
        {"/0/probability", "1", "/0/probability: found 1, expected a number, > 0 and < 1"},
        {"/0/probability", "", "/0/probability: found nothing, expected a number, > 0 and < 1"},
        {"/1/confidence", "90", "/1/confidence: found 90, expected a number, > 0 and < 1"},
-       {"/1/name", "\"\"", "/1/name: found string \"\", expected a string, not empty"},
+       {"/1/name", "\"\"",
+        "/1/name: found string \"\", expected a string, not empty, without control characters"},
        {"/1/minimum", "1",
         "/1/minimum: found the unknown key \"minimum\", expected \"name\", \"output\", \"max\", "
         "\"min\", \"probability\" or \"confidence\""}}));

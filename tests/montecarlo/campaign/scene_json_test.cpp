@@ -85,9 +85,21 @@ TEST_CASE("The base takes the keys of its motion", "[scene_json]") {
 TEST_CASE("Each fault of a scene is told with place, found and expected", "[scene_json]") {
   const test::Spoiled change = GENERATE(values<test::Spoiled>(
       {{"", "[]", "found an array of 0, expected a scene: an object"},
-       {"/name", "", "/name: found nothing, expected a string, the scene's name, not empty"},
+       {"/name", "",
+        "/name: found nothing, expected a string, the scene's name, not empty, without control "
+        "characters"},
        {"/name", "\"\"",
-        "/name: found string \"\", expected a string, the scene's name, not empty"},
+        "/name: found string \"\", expected a string, the scene's name, not empty, without control "
+        "characters"},
+       {"/name", R"("a\u001b[31mb")",
+        "/name: found string \"a\\u001b[31mb\", expected a string, the scene's name, not empty, "
+        "without control "
+        "characters"},
+       {"/bodies/0/name", R"("a\u009bb")",
+        "/bodies/0/name: found string \"a\xC2\x9B"
+        "b\", expected a name, not empty, without . * / , \" > and control characters\n"
+        "/hinges/0/child: found string \"inner\", expected a body's name\n"
+        "/hinges/1/parent: found string \"inner\", expected \"base\" or a body's name"},
        {"/hinge", "1",
         "/hinge: found the unknown key \"hinge\", expected \"name\", \"base\", \"bodies\" or "
         "\"hinges\" "

@@ -36,6 +36,44 @@ TEST_CASE("a run that is not recorded can be replayed, one that does not exist c
           path.string() + ": found no run " + std::to_string(run) + ", expected a run from 0 to 9");
 }
 
+TEST_CASE("a row is found wherever it stands in a long file, and what is not there is not") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(10'000));
+  const auto path = folder.path() / "r";
+  (void)run_into(path, campaign, {.stop_after = 1});
+  const StoredCampaign stored = read_stored_campaign(path);
+  ResultRow row = Runner(RunPlan(campaign)).run(0);
+  std::string csv;
+  append_header(csv, RunPlan(campaign).names());
+  for (row.run = 0; row.run < 10'000; ++row.run) { // 3 MB
+    row.draws[0] = static_cast<double>(row.run);
+    if (row.run % 10 != 3) append_row(csv, row);
+  }
+  std::ofstream(path / runs_file, std::ios::binary) << csv;
+  for (long run = 0; run < 10'000; run += run < 20 || run > 9980 ? 1 : 97) {
+    CAPTURE(run);
+    const auto found = find_stored_row(stored, run);
+    REQUIRE(found.has_value() == (run % 10 != 3));
+    if (found) CHECK(found->draws[0] == static_cast<double>(run));
+  }
+  CHECK_FALSE(find_stored_row(stored, 10'000).has_value());
+}
+
+TEST_CASE("a broken file is refused with its line, wherever the search began") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(2000));
+  const auto path = folder.path() / "r";
+  (void)run_into(path, campaign);
+  const auto file = path / runs_file;
+  std::string text = read_text(file).value();
+  text.insert(text.find("\n1500,") + 6, ",x");
+  std::ofstream(file, std::ios::binary) << text;
+  const StoredCampaign stored = read_stored_campaign(path);
+  CHECK_THAT(message_of([&] { return find_stored_row(stored, 1500).has_value(); }),
+             Catch::StartsWith(file.string() + ": line 1502: "));
+  CHECK(find_stored_row(stored, 1200).has_value());
+}
+
 TEST_CASE("every difference is named with its column") {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const ResultNames names{{"k"}, {"a", "b", "c"}};

@@ -44,6 +44,28 @@ TEST_CASE("Whatever is not strict JSON is refused with its place", "[json_parse]
   CHECK(test::message_of([&] { return parse_json(text, "f.json"); }) == message);
 }
 
+TEST_CASE("Brackets stand within each other to a depth that nobody writes", "[json_parse]") {
+  const auto nested = [](std::size_t levels) {
+    return std::string(levels, '[') + std::string(levels, ']');
+  };
+  CHECK_NOTHROW(parse_json(nested(64)));
+  std::string place;
+  for (int level = 0; level < 64; ++level) place += "/0";
+  CHECK(test::message_of([&] { return parse_json(nested(65)); }) ==
+        place + ": found one more level of brackets, expected at most 64");
+  CHECK_THAT(test::message_of(
+                 [&] { return parse_json(R"({"dispersions": )" + std::string(300'000, '[')); }),
+             Catch::EndsWith("found one more level of brackets, expected at most 64"));
+}
+
+TEST_CASE("A text that is too long for a person's hand is not read", "[json_parse]") {
+  const test::Folder folder;
+  const auto path = folder.write("long.json", "");
+  std::filesystem::resize_file(path, most_text_bytes + 1);
+  CHECK(test::message_of([&] { return parse_json_file(path); }) ==
+        path.string() + ": found 67108865 bytes, expected at most 67108864");
+}
+
 TEST_CASE("Every key that stands twice in one object is refused", "[json_parse]") {
   const char* text = R"({"a": [[], {}, {"b/~": 1, "b/~": {}}], "c": {"a": 0}, "a": 2})";
   CHECK(test::message_of([&] { return parse_json(text); }) ==

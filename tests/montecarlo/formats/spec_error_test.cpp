@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace wingspread;
 
 TEST_CASE("A problem is told on one line, less what it lacks", "[spec_error]") {
@@ -9,6 +11,14 @@ TEST_CASE("A problem is told on one line, less what it lacks", "[spec_error]") {
         "a.json: /runs: found -1, expected an integer, ≥ 1");
   CHECK(to_string({"a.json", "", "nothing", "JSON"}) == "a.json: found nothing, expected JSON");
   CHECK(to_string({"", "/runs", "-1", "more"}) == "/runs: found -1, expected more");
+}
+
+TEST_CASE("Of very many problems a SpecError tells the first hundred", "[spec_error]") {
+  const SpecError error(std::vector<Problem>(250, {"", "/a", "1", "2"}));
+  const std::string message = error.what();
+  CHECK(std::count(message.begin(), message.end(), '\n') == 100);
+  CHECK(message.ends_with("/a: found 1, expected 2\nand 150 more problems"));
+  CHECK(error.problems().size() == 250);
 }
 
 TEST_CASE("A SpecError tells all of its problems and keeps them apart", "[spec_error]") {

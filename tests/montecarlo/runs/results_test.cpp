@@ -38,7 +38,7 @@ double finite_bits(std::mt19937_64& random) {
 
 Results random_results(std::uint64_t seed, int rows) {
   std::mt19937_64 random(seed);
-  const std::vector<std::string> texts{"", "root>mid>tip", "a \"b\", c", "two\nlines"};
+  const std::vector<std::string> texts{"", "root>mid>tip", "a \"b\", c", "µ; d"};
   Results results(names);
   for (long run = 0; run < rows; ++run) {
     ResultRow row{run,

@@ -1,0 +1,197 @@
+// What the machine refuses, and what endangers data that are there.
+#include "montecarlo/machine/folder_lock.hpp"
+#include "montecarlo/summary/summary_json.hpp"
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+#include <sys/stat.h>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// TMPDIR for the programs that are started while this lives.
+class TemporaryFolder {
+public:
+  explicit TemporaryFolder(const std::string& path) { setenv("TMPDIR", path.c_str(), 1); }
+  ~TemporaryFolder() { unsetenv("TMPDIR"); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+/// A campaign's folder with so many rows, of which the last is a true one and the others have the first one's values.
+void write_rows(const std::filesystem::path& path, const Campaign& campaign, long count) {
+  const RunPlan plan(campaign);
+  Runner runner(plan);
+  std::string csv;
+  append_header(csv, plan.names());
+  ResultRow row = runner.run(0);
+  for (row.run = 0; row.run + 1 < count; ++row.run) append_row(csv, row);
+  append_row(csv, runner.run(count - 1));
+  std::filesystem::create_directory(path);
+  write_file(path / campaign_file, campaign_text(campaign, stamp_of(campaign, {})));
+  write_file(path / runs_file, csv);
+}
+
+long lines_in(const std::filesystem::path& file) {
+  return std::ranges::count(read_text(file).value(), '\n');
+}
+
+} // namespace
+
+TEST_CASE("what is printed to a full device is not taken for done") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(100).dump());
+  const std::string scene = three_panel_file();
+  const std::vector<std::vector<std::string>> commands{
+      {"sample", campaign}, {"simulate", scene, "--t-end", "1"},
+      {"check", campaign},  {"methods"},
+      {"version"},          {"size", "--probability", "0.9", "--confidence", "0.9"},
+      {"--help"},           {"run", "--help"}};
+  for (const auto& command : commands) {
+    CAPTURE(command);
+    const auto [code, out, error] = run_program(folder, command, "/dev/full");
+    CHECK(code == 4);
+    CHECK_THAT(
+        error,
+        Catch::Contains("error: standard output: found No space left on device, expected room for "
+                        "what is printed\n"));
+  }
+}
+
+TEST_CASE("a file on a full device is the machine's refusal") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(10).dump());
+  for (const char* command : {"sample", "simulate"}) {
+    const auto [code, out, error] = run_program(folder, {command, campaign, "--out", "/dev/full"});
+    CHECK(code == 4);
+    CHECK(error ==
+          "error: /dev/full: found No space left on device, expected a file that can be written\n");
+  }
+}
+
+TEST_CASE("a folder in which a process is at work is refused by all that write to it") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(10).dump());
+  const std::string path = folder.path() / "r", design = folder.path() / "s",
+                    fresh = folder.path() / "fresh";
+  Json sized = quick_campaign(10);
+  sized["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.5, "confidence": 0.5 }])");
+  sized["margin"] =
+      parse_json(R"({ "scale": ["hinges.*.spring.torque_stowed"], "range": [0.9, 1.1] })");
+  const std::string margin = folder.write("m.json", sized.dump());
+  const std::vector<std::string> sobol{"sensitivity", campaign, "--samples", "4", "--out", design};
+  REQUIRE(run_program(folder, {"run", campaign, "--out", path}).code == 0);
+  REQUIRE(run_program(folder, sobol).code == 0);
+  const auto before = contents(path), design_before = contents(design);
+  const FolderLock held(path), held_design(design), held_fresh(fresh);
+  const std::vector<std::vector<std::string>> commands{
+      {"run", campaign, "--out", path, "--resume"},
+      {"run", campaign, "--out", fresh},
+      {"analyze", path},
+      {"sensitivity", path},
+      {"sensitivity", design},
+      {"sensitivity", campaign, "--samples", "4", "--out", design, "--resume"},
+      {"margin", margin, "--out", fresh},
+      {"merge", path, "--out", fresh}};
+  for (const auto& command : commands) {
+    CAPTURE(command);
+    const auto [code, out, error] = run_program(folder, command);
+    CHECK(code == 4);
+    CHECK(out.empty());
+    CHECK_THAT(
+        error,
+        Catch::StartsWith("error: " + folder.path().string()) &&
+            Catch::Contains(": found process " + std::to_string(getpid()) + " on ") &&
+            Catch::EndsWith(" at work in it, expected a folder that no other process writes to\n"));
+  }
+  auto after = contents(path), design_after = contents(design);
+  CHECK(after.erase(lock_file) == 1);
+  CHECK(design_after.erase(lock_file) == 1);
+  CHECK(after == before);
+  CHECK(design_after == design_before);
+}
+
+TEST_CASE("a stray quote costs no row") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(60).dump());
+  const std::string path = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", campaign, "--out", path}).code == 0);
+  const auto file = std::filesystem::path(path) / runs_file;
+  std::string text = read_text(file).value();
+  text.insert(text.find("\n4,deployed,") + 12, "\"");
+  std::ofstream(file, std::ios::binary) << text;
+  const auto [code, out, error] = run_program(folder, {"run", campaign, "--out", path, "--resume"});
+  CHECK(code == 2);
+  CHECK(error == "error: " + file.string() +
+                     ": line 6: found a quote that is never closed, expected a closing quote\n");
+  CHECK(read_text(file) == text);
+}
+
+TEST_CASE("rows that this program does not make are not gone on with") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(20).dump());
+  const std::string path = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", campaign, "--out", path}).code == 0);
+  const auto file = std::filesystem::path(path) / runs_file;
+  std::string text = read_text(file).value();
+  const std::size_t row = text.find("\n9,"), end = text.find('\n', row + 1) + 1;
+  const std::size_t digit =
+      text.find(',', text.find("deployed,", row) + 9) - 4; // of the first draw
+  text.resize(end);
+  text[digit] = text[digit] == '1' ? '2' : '1';
+  std::ofstream(file, std::ios::binary) << text;
+  const auto [code, out, error] = run_program(folder, {"run", campaign, "--out", path, "--resume"});
+  CHECK(code == 2);
+  CHECK_THAT(error,
+             Catch::StartsWith("error: " + file.string() +
+                               ": found run 9, column root_spring: recorded as ") &&
+                 Catch::EndsWith(
+                     ", expected the same: all rows made by one program on one kind of machine\n"));
+  CHECK(lines_of(error).size() == 1);
+  CHECK(read_text(file) == text);
+}
+
+TEST_CASE("without room for statistics a campaign goes on, and says so") {
+  const Folder folder;
+  const Json json =
+      quick_campaign(33'000); // columns of more than 32,768 numbers go to temporary files
+  const std::string file = folder.write("c.json", json.dump()), path = folder.path() / "r";
+  write_rows(path, campaign_of(json), 32'700);
+  const std::string missing = folder.path() / "missing";
+  const TemporaryFolder temporary(missing);
+  const auto [code, out, error] = run_program(folder, {"run", file, "--out", path, "--resume"});
+  CHECK(code == 4);
+  CHECK(out.empty());
+  CHECK(error == "error: " + missing +
+                     ": found No such file or directory, expected room for temporary data (TMPDIR "
+                     "names another "
+                     "folder)\nerror: 33000 of 33000 runs are kept, without their statistics: "
+                     "`wingspread analyze " +
+                     path + "` makes them where there is room\n");
+  CHECK(lines_in(std::filesystem::path(path) / runs_file) == 33'001);
+  CHECK_FALSE(std::filesystem::exists(std::filesystem::path(path) / summary_file));
+  setenv("TMPDIR", folder.path().c_str(), 1);
+  CHECK(run_program(folder, {"analyze", path}).code == 0);
+  CHECK(parse_json_file(std::filesystem::path(path) / summary_file)["runs"] == 33'000);
+}
+
+TEST_CASE("a scene without an end is refused") {
+  const Folder folder;
+  const std::string pipe = folder.path() / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(run_program(folder, {"check", "/dev/zero"}).error ==
+        "error: /dev/zero: found a device, expected a regular file\n");
+  const auto [code, out, error] = run_program(folder, {"check", pipe});
+  CHECK(code == 2);
+  CHECK(error == "error: " + pipe + ": found a pipe, expected a regular file\n");
+}
+
+TEST_CASE("what a file says does not reach the terminal as it is") {
+  const Folder folder;
+  const auto [code, out, error] = run_program(folder, {"check", folder.path() / "a\x1b[31mb"});
+  CHECK(code == 2);
+  CHECK_THAT(error, Catch::Contains(R"(a\x1b[31mb: found no file that can be read)"));
+}
