@@ -4,10 +4,16 @@
                                                   and temporary files 5 GB
     /usr/bin/python3 studies/drivers/memory.py --quick    seconds; fails where memory grows faster than it may
 
-Two measurements, each of a whole program on two threads by the most memory that it ever held (ru_maxrss,
-which counts what is resident of mapped files): `wingspread run` of the seed wing without friction to its
-last latch, and `wingspread analyze` of rows with all of the seed campaign's columns: those of a shorter run
-again and again, under new numbers. They are printed, and written to memory.csv in the folder.
+Measurements of whole programs on two threads, by the most memory that each ever held (ru_maxrss, which counts what
+is resident of mapped files):
+
+    run       of the seed wing without friction to its last latch
+    merge     of ten shards of such runs
+    replay    of one run of them
+    analyze   of rows with all of the seed campaign's columns: those of a shorter run again and again, under new
+              numbers
+
+They are printed, and written to memory.csv in the folder.
 """
 
 import argparse
@@ -37,15 +43,35 @@ def measure(command, *arguments):
     return time.monotonic() - start, usage.ru_maxrss / MIB
 
 
-def measure_run(program, folder, runs):
+def write_cheap_campaign(folder):
     """A campaign whose runs cost little, so that there can be many of them."""
     campaign = json.loads(CAMPAIGN.read_text())
-    campaign["scene"] = str(CHEAP_SCENE.resolve())
+    campaign["scene"] = json.loads(CHEAP_SCENE.read_text())
     campaign["dispersions"] = [each for each in campaign["dispersions"] if each["name"] in CHEAP_DISPERSIONS]
     campaign["outputs"] = ["latch_time", "latch_rate"]
     file = folder / "campaign.json"
     file.write_text(json.dumps(campaign))
-    return measure(program, "run", file, "--runs", runs, "--out", folder / "run")
+    return file
+
+
+def measure_run(program, folder, runs):
+    return measure(program, "run", write_cheap_campaign(folder), "--runs", runs, "--out", folder / "run")
+
+
+def measure_merge(program, folder, runs):
+    file = write_cheap_campaign(folder)
+    shards = [folder / f"shard{i}" for i in range(1, 11)]
+    for i, shard in enumerate(shards, 1):
+        measure(program, "run", file, "--runs", runs, "--shard", f"{i}/10", "--out", shard)
+    measured = measure(program, "merge", *shards, "--out", folder / "run")
+    for shard in shards:
+        shutil.rmtree(shard)
+    return measured
+
+
+def measure_replay(program, folder, runs):
+    measure_run(program, folder, runs)
+    return measure(program, "replay", folder / "run", "--run", runs - 2)
 
 
 def repeat_rows(source, folder, runs):
@@ -85,6 +111,8 @@ def main():
     table, growths = [("command", "runs", "runs.csv [MB]", "time [s]", "memory [MiB]")], []
     print("command        runs  runs.csv, MB    time, s  memory, MiB")
     for name, measured, part, sizes in (("run", measure_run, "run", run_sizes),
+                                        ("merge", measure_merge, "run", run_sizes),
+                                        ("replay", measure_replay, "run", run_sizes),
                                         ("analyze", measure_analyze, "repeated", analyze_sizes)):
         held = []
         for runs in sizes:

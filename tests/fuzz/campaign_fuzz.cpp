@@ -1,0 +1,39 @@
+/// A campaign from any bytes. It is refused with reasons, or it can be described, keeps its hash when what is
+/// stored of it is read back, and has draws and runs: two of them, of at most 20 steps.
+#include "montecarlo/campaign/campaign_json.hpp"
+#include "montecarlo/campaign/describe.hpp"
+#include "montecarlo/folder/results_folder.hpp"
+#include "montecarlo/runs/runner.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+using namespace wingspread;
+
+namespace {
+
+/// Not so many dispersions, runs and replicates that an input takes seconds.
+bool is_small(const Campaign& campaign) {
+  return campaign.dispersions.size() <= 64 && campaign.scene.bodies.size() <= 32 &&
+         (!has_replicates(campaign.sampling) || campaign.sampling.runs <= 100'000);
+}
+
+void run_some(Campaign& campaign) {
+  campaign.integration.max_steps = 20;
+  campaign.integration.t_end = std::min(campaign.integration.t_end, 1.0);
+  const RunPlan plan(campaign);
+  Runner runner(plan);
+  for (const long k : {0L, campaign.sampling.runs - 1}) (void)runner.run(k);
+}
+
+} // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Campaign campaign;
+  const std::string text(test::text_of(data, size));
+  if (!test::takes([&] { campaign = read_campaign(text, "/nonexistent"); })) return 0;
+  test::demand(!describe(campaign).empty(), "a campaign can be described");
+  const Stamp stamp = stamp_of(campaign, {});
+  const Campaign again = read_campaign(campaign_text(campaign, stamp), "/nonexistent");
+  test::demand(stamp_of(again, {}) == stamp, "a stored campaign keeps its hash");
+  if (is_small(campaign)) run_some(campaign);
+  return 0;
+}
