@@ -74,7 +74,9 @@ int rank(const SensitivityOptions& options) {
   const double confidence = confidence_of(options, stored.campaign.statistics);
   Stamp stamp = stored.stamp;
   stamp.shard.reset();
-  show(rank_sensitivity(results, confidence), stamp_json(stamp),
+  const RunsMade made{replication_of(stored.campaign.sampling, results),
+                      count_looks(stored.campaign)};
+  show(rank_sensitivity(results, confidence, made), stamp_json(stamp),
        fmt::format("{} · {} runs · rank correlations", stored.campaign.scene.name, results.size()),
        options.from, options.json);
   return exit_code::done;
@@ -84,9 +86,11 @@ int sobol(const SaltelliDesign& design, const Results& results, const Sensitivit
           const std::filesystem::path& folder) {
   const Sampling& sampling = design.campaign.sampling;
   const std::string kind(design_names[static_cast<std::size_t>(sampling.design)]);
-  const Bootstrap bootstrap{options.resamples, confidence_of(options, design.campaign.statistics),
-                            sampling.seed};
-  show(sobol_sensitivity(results, design.rows, kind, bootstrap), stamp_json(stamp_of(design)),
+  const int replicates =
+      has_replicates(sampling) ? static_cast<int>(saltelli_replicates(sampling, design.rows)) : 0;
+  const SobolBounds bounds{confidence_of(options, design.campaign.statistics), replicates,
+                           options.resamples, sampling.seed};
+  show(sobol_sensitivity(results, design.rows, kind, bounds), stamp_json(stamp_of(design)),
        fmt::format("{} · {} samples, {} runs · {}, seed {} · Sobol' indices",
                    design.campaign.scene.name, design.rows, results.size(), kind, sampling.seed),
        folder, options.json);
@@ -182,6 +186,10 @@ dispersion, over the runs that have the output. They show what rises or falls wi
 From a campaign's file: Sobol' indices, by runs of their own (a Saltelli design, drawn as the
 campaign is). The first-order index is the share of an output's variance that a dispersion is behind
 alone, the total index the share that it has a part in. With the sobol design, take a power of two.
+
+Bounds of draws that depend on each other (latin_hypercube, sobol) come from the design's
+replicates, and there are none with one. An output that did not happen at some point of a design
+has no Sobol' indices.
 
 In both, what matters most stands first; sensitivity.json and sensitivity.csv, in the folder if there
 is one, have all of it. A dispersion that moves no output is named on standard error.

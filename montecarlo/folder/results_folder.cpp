@@ -27,23 +27,6 @@ std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
   return path;
 }
 
-/// Which replicate of the campaign's design each row is from; none for independent draws. Only the
-/// replicates of which there are rows count: of the first runs, or of a shard, it can be fewer.
-Replication replication_of(const Sampling& sampling, const Results& results) {
-  if (!has_replicates(sampling)) return {};
-  const Design design = design_of(sampling);
-  Replication replication;
-  std::map<std::uint64_t, int> numbers;
-  for (const long run : results.runs) {
-    const std::uint64_t replicate = replicate_of(design, static_cast<std::uint64_t>(run));
-    replication.of_row.push_back(
-        numbers.try_emplace(replicate, static_cast<int>(numbers.size())).first->second);
-  }
-  results.runs.release();
-  replication.replicates = std::max(1, static_cast<int>(numbers.size()));
-  return replication;
-}
-
 /// The stamp for summary.json, which also says when runs are missing.
 Json about(const StoredCampaign& stored, const Summary& summary) {
   Json json = stamp_json(stored.stamp);

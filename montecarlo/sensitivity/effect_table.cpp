@@ -48,11 +48,11 @@ std::string column_names(std::string_view first, std::string_view second, double
 }
 
 std::string heading_of(const std::string& output, long count, std::string_view counted,
-                       long left_out) {
+                       long missing, std::string_view what_of_them) {
   const std::string unit = parse_output_name(output).unit;
   std::string text =
       fmt::format("{}{}{} · {} {}", output, unit.empty() ? "" : ", ", unit, count, counted);
-  if (left_out > 0) text += fmt::format(" · {} without it left out", left_out);
+  if (missing > 0) text += fmt::format(" · {} {}", missing, what_of_them);
   return text;
 }
 

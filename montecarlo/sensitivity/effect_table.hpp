@@ -25,9 +25,10 @@ inline constexpr std::size_t name_width = 30;
 [[nodiscard]] std::string column_names(std::string_view first, std::string_view second,
                                        double confidence);
 
-/// "root.latch_time, s · 90 runs · 10 without it left out".
+/// "root.latch_time, s · 90 runs · 10 without it left out", the last part where there are any.
 [[nodiscard]] std::string heading_of(const std::string& output, long count,
-                                     std::string_view counted, long left_out);
+                                     std::string_view counted, long missing,
+                                     std::string_view what_of_them);
 
 /// One output's heading and its first lines, the largest first; what is smaller is summed up in
 /// one.

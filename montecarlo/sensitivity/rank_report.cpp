@@ -4,6 +4,8 @@
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/sensitivity/effect_table.hpp"
+#include "montecarlo/statistics/bonferroni.hpp"
+#include "montecarlo/statistics/jackknife.hpp"
 
 #include <fmt/format.h>
 
@@ -11,13 +13,34 @@
 #include <cmath>
 
 namespace wingspread {
+namespace {
+
+/// What the bounds are, for the design of the runs.
+std::string bounds_definition(const RankSensitivity& all) {
+  if (all.replicates == 1) return std::string(one_replicate);
+  if (all.replicates > 1)
+    return fmt::format(
+        "jackknife over {} independent replicates, Fisher's z, Student's t, two-sided",
+        all.replicates);
+  std::string text =
+      fmt::format("spearman: Fisher's z, variance (1 + r^2/2)/(n - 3); prcc: jackknife "
+                  "over {} parts of the runs, Fisher's z, Student's t; two-sided",
+                  jackknife_groups);
+  if (all.looks > 1)
+    text += fmt::format(", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints "
+                        "the campaign stops",
+                        at_each_of(all.confidence, all.looks), all.looks);
+  return text;
+}
+
+} // namespace
 
 Json sensitivity_json(const RankSensitivity& all, const Json& about) {
   Json outputs = Json::object();
   for (const OutputRanks& output : all.outputs) {
     Json effects = Json::object();
     for (std::size_t j = 0; j < all.dispersions.size(); ++j) {
-      const auto& [spearman, partial] = output.effects[j];
+      const auto& [spearman, partial, seen] = output.effects[j];
       effects[all.dispersions[j]] = {{"spearman", value_json(spearman.value, spearman.bounds)},
                                      {"prcc", value_json(partial.value, partial.bounds)}};
     }
@@ -26,20 +49,24 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
                               {"entangled", output.entangled},
                               {"dispersions", effects}};
   }
-  return {{stamp_key, about},
-          {"method", "rank correlation"},
-          {"runs", all.runs},
-          {"confidence", all.confidence},
-          {"definitions",
-           {{"spearman", "Pearson's of the mid-ranks, over the runs that have the output"},
-            {"prcc", "partial correlation of the mid-ranks, all other dispersions held"},
-            {"bounds", "Fisher's z, variance (1 + r^2/2)/(n - held - 3), two-sided"},
-            {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
-            {"moves_nothing", "no coefficient differs from 0 at this confidence taken over all "
-                              "outputs together"}}},
-          {"outputs", outputs},
-          {"do_not_vary", all.unvaried},
-          {"moves_nothing", all.idle}};
+  return {
+      {stamp_key, about},
+      {"method", "rank correlation"},
+      {"runs", all.runs},
+      {"confidence", all.confidence},
+      {"definitions",
+       {{"spearman", "Pearson's of the mid-ranks, over the runs that have the output"},
+        {"prcc", "partial correlation of the mid-ranks, all other dispersions held"},
+        {"bounds", bounds_definition(all)},
+        {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
+        {"moves_nothing", "no coefficient differs from 0 at this confidence taken over all "
+                          "outputs together"},
+        {"follow_from_others", "dispersions of whose ranks half or more follow from the others': "
+                               "what they do together, prcc gives to none of them"}}},
+      {"outputs", outputs},
+      {"do_not_vary", all.unvaried},
+      {"moves_nothing", all.idle},
+      {"follow_from_others", all.collinear}};
 }
 
 std::string sensitivity_csv(const RankSensitivity& all) {
@@ -62,16 +89,17 @@ std::string sensitivity_table(const RankSensitivity& all, std::string_view title
   for (const OutputRanks& output : all.outputs) {
     const auto size = [&](std::size_t j) {
       const RankEffect& effect = output.effects[j];
-      return std::abs(output.entangled ? effect.spearman.value : effect.partial.value);
+      return std::fmax(std::abs(effect.spearman.value), std::abs(effect.partial.value));
     };
     const auto line = [&](std::size_t j) {
-      const auto& [spearman, partial] = output.effects[j];
+      const auto& [spearman, partial, seen] = output.effects[j];
       return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[j], name_width - 2),
                          name_width, value_text(partial.value, partial.bounds),
                          value_text(spearman.value, spearman.bounds));
     };
-    text += effect_block(heading_of(output.output, output.count, "runs", output.missing), columns,
-                         all.dispersions.size(), size, line);
+    text += effect_block(
+        heading_of(output.output, output.count, "runs", output.missing, "without it left out"),
+        columns, all.dispersions.size(), size, line);
   }
   return text;
 }
@@ -84,6 +112,12 @@ std::vector<std::string> warnings(const RankSensitivity& all) {
     list.push_back(fmt::format("no output is seen to rise or fall with {} in {} runs (one that "
                                "rises and falls would not be seen: Sobol' indices show it)",
                                quoted(all.idle), all.runs));
+  if (all.replicates == 1) list.emplace_back(one_replicate);
+  if (!all.collinear.empty())
+    list.push_back(
+        fmt::format("the draws of {} go together with those of others: what they do "
+                    "together is in Spearman's coefficients, and not in the partial ones",
+                    quoted(all.collinear)));
   if (std::ranges::any_of(all.outputs, &OutputRanks::entangled))
     list.emplace_back("two dispersions rank the runs alike, or there are too few runs: some "
                       "outputs have no partial coefficients");

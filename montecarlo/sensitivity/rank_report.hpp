@@ -18,7 +18,7 @@ namespace wingspread {
 /// A line for each output and dispersion.
 [[nodiscard]] std::string sensitivity_csv(const RankSensitivity& all);
 
-/// Output by output, the dispersions that matter most first.
+/// Output by output, the dispersions that matter most first: by the larger of their coefficients.
 [[nodiscard]] std::string sensitivity_table(const RankSensitivity& all, std::string_view title);
 
 /// What a designer should know before reading on; one a line, without its end.

@@ -25,7 +25,7 @@ std::vector<std::string> coordinates(const Campaign& campaign) {
 PreparedDesign design(const Campaign& campaign, long rows) {
   const Sampling& sampling = campaign.sampling;
   return {{sampling.design, sampling.seed, static_cast<std::uint64_t>(rows),
-           static_cast<std::uint64_t>(std::clamp<long>(sampling.replicates, 1, rows))},
+           static_cast<std::uint64_t>(saltelli_replicates(sampling, rows))},
           coordinates(campaign)};
 }
 
@@ -46,6 +46,10 @@ void refuse_unsuitable(const Campaign& campaign) {
 }
 
 } // namespace
+
+long saltelli_replicates(const Sampling& sampling, long rows) {
+  return std::clamp<long>(sampling.replicates, 1, rows);
+}
 
 long saltelli_runs(long rows, std::size_t dispersions) {
   const long points = static_cast<long>(dispersions) + 2;

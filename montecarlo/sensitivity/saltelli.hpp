@@ -12,6 +12,10 @@ namespace wingspread {
 /// How many runs the rows take. @throws SpecError when that is more than can be counted
 [[nodiscard]] long saltelli_runs(long rows, std::size_t dispersions);
 
+/// In how many replicates of the campaign's design the rows are: as many as its runs, but no more than
+/// there are rows.
+[[nodiscard]] long saltelli_replicates(const Sampling& sampling, long rows);
+
 /// The plan of a campaign whose runs are the design's.
 /// @param rows N, ≥ 1; what they are depends on it for Latin hypercubes alone
 /// @pre the campaign outlives the plan

@@ -1,25 +1,26 @@
 #include "montecarlo/sensitivity/sobol_indices.hpp"
 
 #include "distributions/random_stream.hpp"
+#include "montecarlo/statistics/jackknife.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 namespace wingspread {
 namespace {
 
-/// The rows that have all their values.
-std::vector<std::span<const double>> complete_rows(std::span<const double> values,
-                                                   std::size_t points) {
+/// A design's values, row by row: A, B, AB_1, …; a last row that is not complete is left aside.
+std::vector<std::span<const double>> rows_of(std::span<const double> values, std::size_t points) {
   std::vector<std::span<const double>> rows;
-  for (std::size_t at = 0; at + points <= values.size(); at += points) {
-    const std::span<const double> row = values.subspan(at, points);
-    if (std::ranges::none_of(row, [](double value) { return std::isnan(value); }))
-      rows.push_back(row);
-  }
+  for (std::size_t at = 0; at + points <= values.size(); at += points)
+    rows.push_back(values.subspan(at, points));
   return rows;
+}
+
+bool is_incomplete(std::span<const double> row) {
+  return std::ranges::any_of(row, [](double value) { return std::isnan(value); });
 }
 
 /// What a row adds to the sums over rows, for one dispersion.
@@ -90,51 +91,93 @@ void resample(std::uint64_t seed, long number, std::vector<std::size_t>& rows) {
     row = static_cast<std::size_t>(open_uniform(stream()) * static_cast<double>(rows.size()));
 }
 
-Interval percentiles(std::vector<double> values, double confidence) {
-  std::erase_if(values, [](double value) { return std::isnan(value); });
-  std::ranges::sort(values);
+Bounds percentiles(const std::vector<double>& values, double confidence) {
+  const std::vector<double> sorted = sorted_present(values);
   const double tail = (1 - confidence) / 2;
-  return {quantile(values, tail), quantile(values, 1 - tail)};
+  if (sorted.empty()) return {};
+  return {quantile(sorted, tail), quantile(sorted, 1 - tail)};
 }
 
+/// Estimates of all dispersions, once for each of several choices of rows.
+using Choices = std::vector<std::vector<Estimate>>;
+
+Choices resampled(const Table& table, std::size_t rows, const SobolBounds& how) {
+  Choices all;
+  std::vector<std::size_t> chosen(rows);
+  for (long k = 0; k < how.resamples; ++k) {
+    resample(how.seed, k, chosen);
+    all.push_back(estimates(table, chosen));
+  }
+  return all;
+}
+
+/// All rows but those of one replicate, for each; nothing where one of them has all the rows.
+Choices without_each(const Table& table, std::size_t rows, std::size_t replicates) {
+  Choices all;
+  if (replicates < 2 || rows < replicates) return all;
+  for (std::size_t left_out = 0; left_out < replicates; ++left_out) {
+    std::vector<std::size_t> chosen;
+    for (std::size_t row = 0; row < rows; ++row)
+      if (row % replicates != left_out) chosen.push_back(row);
+    all.push_back(estimates(table, chosen));
+  }
+  return all;
+}
+
+std::vector<double> of_dispersion(const Choices& choices, std::size_t i, double Estimate::*index) {
+  std::vector<double> values;
+  for (const std::vector<Estimate>& each : choices) values.push_back(each[i].*index);
+  return values;
+}
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
 bool is_inert(std::span<const std::span<const double>> rows, std::size_t i) {
-  return std::ranges::all_of(rows, [i](const auto& row) { return row[2 + i] == row[0]; });
+  return std::ranges::all_of(rows, [i](const auto& row) { return same(row[2 + i], row[0]); });
+}
+
+/// The indices of a design all of whose points have a value, put into the effects.
+void add_indices(std::span<const std::span<const double>> rows, double mean, const SobolBounds& how,
+                 std::vector<SobolEffect>& effects) {
+  const Table table = table_of(rows, effects.size(), mean);
+  std::vector<std::size_t> every(rows.size());
+  std::iota(every.begin(), every.end(), std::size_t{0});
+  const std::vector<Estimate> whole = estimates(table, every);
+  const bool independent = how.replicates == 0;
+  const Choices again =
+      independent ? resampled(table, rows.size(), how)
+                  : without_each(table, rows.size(), static_cast<std::size_t>(how.replicates));
+  const auto index = [&](std::size_t i, double Estimate::*which) -> SobolIndex {
+    const std::vector<double> values = of_dispersion(again, i, which);
+    const double value = whole[i].*which;
+    return {value, independent ? percentiles(values, how.confidence)
+                               : jackknife_bounds(value, values, how.confidence)};
+  };
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    effects[i].first = index(i, &Estimate::first);
+    effects[i].total = index(i, &Estimate::total);
+  }
 }
 
 } // namespace
 
 SobolIndices sobol_indices(std::span<const double> values, std::size_t dispersions,
-                           const Bootstrap& bootstrap) {
-  const auto rows = complete_rows(values, dispersions + 2);
+                           const SobolBounds& how) {
+  const auto rows = rows_of(values, dispersions + 2);
   std::vector<double> base;
-  for (const auto& row : rows) base.insert(base.end(), {row[0], row[1]});
+  for (const auto& row : rows)
+    for (const double value : row.first(2))
+      if (!std::isnan(value)) base.push_back(value);
   const Moments moments = wingspread::moments(base);
-  const long all = static_cast<long>(values.size() / (dispersions + 2));
-  SobolIndices result{std::ssize(rows), all - std::ssize(rows), moments.mean, undefined, {}};
-  if (rows.empty()) {
-    const SobolIndex none{undefined, {undefined, undefined}};
-    result.effects.assign(dispersions, {none, none, true});
-    return result;
-  }
+  SobolIndices result{
+      std::ssize(rows), std::ranges::count_if(rows, is_incomplete), moments.mean, undefined, {}};
+  const SobolIndex none{undefined, {}};
+  for (std::size_t i = 0; i < dispersions; ++i)
+    result.effects.push_back({none, none, is_inert(rows, i)});
+  if (base.empty()) return result;
   const double n = static_cast<double>(base.size());
   result.variance = moments.std * moments.std * (n - 1) / n;
-  const Table table = table_of(rows, dispersions, moments.mean);
-  std::vector<std::size_t> chosen(rows.size());
-  for (std::size_t row = 0; row < chosen.size(); ++row) chosen[row] = row;
-  const std::vector<Estimate> whole = estimates(table, chosen);
-  std::vector<std::vector<double>> first(dispersions), total(dispersions);
-  for (long k = 0; k < bootstrap.resamples; ++k) {
-    resample(bootstrap.seed, k, chosen);
-    const std::vector<Estimate> again = estimates(table, chosen);
-    for (std::size_t i = 0; i < dispersions; ++i) {
-      first[i].push_back(again[i].first);
-      total[i].push_back(again[i].total);
-    }
-  }
-  for (std::size_t i = 0; i < dispersions; ++i)
-    result.effects.push_back({{whole[i].first, percentiles(first[i], bootstrap.confidence)},
-                              {whole[i].total, percentiles(total[i], bootstrap.confidence)},
-                              is_inert(rows, i)});
+  if (result.incomplete == 0) add_indices(rows, moments.mean, how, result.effects);
   return result;
 }
 

@@ -15,7 +15,12 @@
 ///
 /// (1): A. Saltelli et al., Computer Physics Communications 181 (2010) 259–270, table 2 b; (2): M.
 /// J. W. Jansen, the same 117 (1999) 35–43. Both are exactly 0, with no error, for a dispersion
-/// that does nothing. Intervals: percentile bootstrap over the rows.
+/// that does nothing. Bounds: percentile bootstrap over rows that are independent; of rows that depend
+/// on each other the jackknife over the replicates of their design (jackknife.hpp).
+///
+/// An output that did not happen at some point has no indices: rows without those points are no longer
+/// a design (of 26 points a row 2 % that are missing take 41 % of the rows), and what is left of the
+/// cube is no product, so that the variance has no shares.
 #pragma once
 
 #include "montecarlo/statistics/bounds.hpp"
@@ -38,33 +43,35 @@ struct SaltelliPoint {
   return {run / points, run % points};
 }
 
-struct Bootstrap {
-  long resamples = 1000;
+/// How bounds come about.
+struct SobolBounds {
   double confidence = 0.95;
+  int replicates = 0;    ///< R, row k being of replicate k mod R; 0: the rows are independent
+  long resamples = 1000; ///< of independent rows
   std::uint64_t seed = 1;
 };
 
 struct SobolIndex {
-  double value; ///< NaN where V is 0
-  Interval interval;
+  double value; ///< NaN where V is 0, and where values are missing
+  Bounds bounds;
 };
 
 struct SobolEffect {
   SobolIndex first, total;
-  bool inert = true; ///< f_ABi is f_A, bit for bit, in all rows
+  bool inert = true; ///< f_ABi is f_A, bit for bit, in all rows; missing where that is
 };
 
 struct SobolIndices {
-  long rows = 0;     ///< used
-  long left_out = 0; ///< rows in which some point has no value
-  double mean, variance;
+  long rows = 0;         ///< N
+  long incomplete = 0;   ///< of those, in which some point has no value; no indices unless 0
+  double mean, variance; ///< of the values at A and B
   std::vector<SobolEffect> effects; ///< one for each dispersion
 };
 
-/// (1) and (2) with their intervals. Pure. Cost O(N d) for each resample.
+/// (1) and (2) with their bounds. Pure. Cost O(N d) for each resample.
 /// @param values of an output at the design's points, as its runs stand; NaN: it did not happen.
 ///   A last row that is not complete is left aside
 [[nodiscard]] SobolIndices sobol_indices(std::span<const double> values, std::size_t dispersions,
-                                         const Bootstrap& bootstrap);
+                                         const SobolBounds& how);
 
 } // namespace wingspread

@@ -5,6 +5,7 @@
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/sensitivity/effect_table.hpp"
+#include "montecarlo/summary/replication.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,22 @@
 namespace wingspread {
 namespace {
 
-Bounds bounds_of(const Interval& interval) { return {interval.lower, interval.upper}; }
+/// Where bounds are from, for the design of the rows.
+std::string bounds_definition(const SobolBounds& how) {
+  if (how.replicates == 1) return std::string(one_replicate);
+  if (how.replicates > 1)
+    return fmt::format("jackknife over {} independent replicates, Student's t, two-sided",
+                       how.replicates);
+  return fmt::format("percentile bootstrap over rows, {} resamples, two-sided", how.resamples);
+}
+
+/// The outputs that have no indices because they did not happen at some point.
+std::vector<std::string> incomplete(const SobolSensitivity& all) {
+  std::vector<std::string> names;
+  for (const auto& [name, indices] : all.outputs)
+    if (indices.incomplete > 0) names.push_back(name);
+  return names;
+}
 
 } // namespace
 
@@ -23,45 +39,45 @@ Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
     Json effects = Json::object();
     for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
       const auto& [first, total, inert] = indices.effects[i];
-      effects[all.dispersions[i]] = {{"first", value_json(first.value, bounds_of(first.interval))},
-                                     {"total", value_json(total.value, bounds_of(total.interval))},
+      effects[all.dispersions[i]] = {{"first", value_json(first.value, first.bounds)},
+                                     {"total", value_json(total.value, total.bounds)},
                                      {"inert", inert}};
     }
     outputs[name] = {{"rows", indices.rows},
-                     {"left_out", indices.left_out},
+                     {"incomplete", indices.incomplete},
                      {"mean", json_number(indices.mean)},
                      {"variance", json_number(indices.variance)},
                      {"dispersions", effects}};
   }
-  return {{stamp_key, about},
-          {"method", "Sobol' indices"},
-          {"design", all.design},
-          {"samples", all.rows},
-          {"runs", all.runs},
-          {"partial", all.runs < all.total},
-          {"confidence", all.confidence},
-          {"definitions",
-           {{"first", "Saltelli 2010: mean of f_B (f_ABi - f_A) over the variance"},
-            {"total", "Jansen 1999: mean of (f_A - f_ABi)^2 over twice the variance"},
-            {"bounds", fmt::format("percentile bootstrap over rows, {} resamples, two-sided; of "
-                                   "stratified designs rather too wide",
-                                   all.resamples)},
-            {"left_out", "rows in which one of the points does not have the output"},
-            {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
-            {"moves_nothing", "all outputs of all rows are the same without it, bit for bit"}}},
-          {"outputs", outputs},
-          {"moves_nothing", all.idle()}};
+  return {
+      {stamp_key, about},
+      {"method", "Sobol' indices"},
+      {"design", all.design},
+      {"samples", all.rows},
+      {"runs", all.runs},
+      {"partial", all.runs < all.total},
+      {"confidence", all.bounds.confidence},
+      {"definitions",
+       {{"first", "Saltelli 2010: mean of f_B (f_ABi - f_A) over the variance"},
+        {"total", "Jansen 1999: mean of (f_A - f_ABi)^2 over twice the variance"},
+        {"bounds", bounds_definition(all.bounds)},
+        {"incomplete", "rows in which one of the points does not have the output: where there are "
+                       "any, it has no indices"},
+        {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
+        {"moves_nothing", "all outputs of all rows are the same without it, bit for bit"}}},
+      {"outputs", outputs},
+      {"moves_nothing", all.idle()}};
 }
 
 std::string sensitivity_csv(const SobolSensitivity& all) {
-  std::string text = "output,dispersion,rows,left_out,first,first_lower,first_upper,"
+  std::string text = "output,dispersion,rows,incomplete,first,first_lower,first_upper,"
                      "total,total_lower,total_upper\n";
   for (const auto& [name, indices] : all.outputs)
     for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
       append_csv_cell(text, name);
-      append_csv_cells(text, all.dispersions[i], indices.rows, indices.left_out);
+      append_csv_cells(text, all.dispersions[i], indices.rows, indices.incomplete);
       for (const SobolIndex& index : {indices.effects[i].first, indices.effects[i].total})
-        append_csv_cells(text, index.value, index.interval.lower, index.interval.upper);
+        append_csv_cells(text, index.value, index.bounds.lower, index.bounds.upper);
       text += '\n';
     }
   return text;
@@ -69,18 +85,19 @@ std::string sensitivity_csv(const SobolSensitivity& all) {
 
 std::string sensitivity_table(const SobolSensitivity& all, std::string_view title) {
   std::string text = fmt::format("{}\n", title);
-  const std::string columns = column_names("total", "first", all.confidence);
+  const std::string columns = column_names("total", "first", all.bounds.confidence);
   for (const auto& [name, indices] : all.outputs) {
     const SobolIndices& found = indices;
     const auto size = [&](std::size_t i) { return found.effects[i].total.value; };
     const auto line = [&](std::size_t i) {
       const auto& [first, total, inert] = found.effects[i];
       return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[i], name_width - 2),
-                         name_width, value_text(total.value, bounds_of(total.interval)),
-                         value_text(first.value, bounds_of(first.interval)));
+                         name_width, value_text(total.value, total.bounds),
+                         value_text(first.value, first.bounds));
     };
-    text += effect_block(heading_of(name, found.rows, "rows", found.left_out), columns,
-                         all.dispersions.size(), size, line);
+    text += effect_block(heading_of(name, found.rows, "rows", found.incomplete,
+                                    "in which some point is without it: no indices"),
+                         columns, all.dispersions.size(), size, line);
     double sum = 0;
     for (const SobolEffect& effect : found.effects) sum += effect.first.value;
     if (!std::isnan(sum))
@@ -93,6 +110,13 @@ std::vector<std::string> warnings(const SobolSensitivity& all) {
   std::vector<std::string> list;
   if (const std::vector<std::string> idle = all.idle(); !idle.empty())
     list.push_back(fmt::format("no output of any run changes with {}", quoted(idle)));
+  if (all.bounds.replicates == 1) list.emplace_back(one_replicate);
+  if (const std::vector<std::string> names = incomplete(all); !names.empty())
+    list.push_back(
+        fmt::format("{} did not happen at some points of the design, and so without a value "
+                    "there have no indices (rank correlations of a campaign's runs take "
+                    "those that have it)",
+                    quoted(names)));
   if (all.runs < all.total)
     list.push_back(fmt::format("only {} of {} runs are there", all.runs, all.total));
   return list;

@@ -1,7 +1,7 @@
 #include "montecarlo/sensitivity/sobol_sensitivity.hpp"
 
-#include "montecarlo/sensitivity/rank_sensitivity.hpp"
 #include "montecarlo/statistics/statistics.hpp"
+#include "montecarlo/summary/summary.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -12,7 +12,9 @@ std::vector<std::string> SobolSensitivity::idle() const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < dispersions.size(); ++i) {
     const auto inert = [i](const Output& output) { return output.indices.effects[i].inert; };
-    const auto known = [](const Output& output) { return output.indices.rows > 0; };
+    const auto known = [](const Output& output) {
+      return output.indices.rows > output.indices.incomplete;
+    };
     if (std::ranges::all_of(outputs, inert) && std::ranges::any_of(outputs, known))
       names.push_back(dispersions[i]);
   }
@@ -20,22 +22,21 @@ std::vector<std::string> SobolSensitivity::idle() const {
 }
 
 SobolSensitivity sobol_sensitivity(const Results& results, long rows, std::string design,
-                                   const Bootstrap& bootstrap) {
+                                   const SobolBounds& bounds) {
   const std::size_t d = results.draws.size();
   SobolSensitivity all{rows,
                        static_cast<long>(results.size()),
                        rows * static_cast<long>(d + 2),
                        std::move(design),
-                       bootstrap.confidence,
-                       bootstrap.resamples,
+                       bounds,
                        {},
                        {}};
   for (const Column& draw : results.draws) all.dispersions.push_back(draw.name);
   for (const Column& output : results.outputs)
-    all.outputs.push_back({output.name, sobol_indices(output.values, d, bootstrap)});
+    all.outputs.push_back({output.name, sobol_indices(output.values, d, bounds)});
   const Column deployed = deployed_column(results);
   if (moments(sorted_present(deployed.values)).std > 0)
-    all.outputs.push_back({deployed.name, sobol_indices(deployed.values, d, bootstrap)});
+    all.outputs.push_back({deployed.name, sobol_indices(deployed.values, d, bounds)});
   return all;
 }
 

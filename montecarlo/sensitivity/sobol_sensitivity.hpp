@@ -15,8 +15,7 @@ struct SobolSensitivity {
   long runs = 0;  ///< made, of N (d + 2)
   long total = 0; ///< N (d + 2)
   std::string design;
-  double confidence = 0.95;
-  long resamples = 0;
+  SobolBounds bounds;
   std::vector<std::string> dispersions;
   struct Output {
     std::string name;
@@ -30,6 +29,6 @@ struct SobolSensitivity {
 /// All outputs' indices, and those of `deployed` (deployed_column()) when it varies.
 /// @param results of a Saltelli design, from its first run on
 [[nodiscard]] SobolSensitivity sobol_sensitivity(const Results& results, long rows,
-                                                 std::string design, const Bootstrap& bootstrap);
+                                                 std::string design, const SobolBounds& bounds);
 
 } // namespace wingspread

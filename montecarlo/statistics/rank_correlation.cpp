@@ -1,6 +1,7 @@
 #include "montecarlo/statistics/rank_correlation.hpp"
 
 #include "distributions/copula.hpp"
+#include "montecarlo/machine/team.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 #include "montecarlo/statistics/two_sided.hpp"
 
@@ -37,29 +38,45 @@ std::optional<Matrix> inverse_of(const Matrix& correlations) {
 
 } // namespace
 
-Bounds rank_correlation_bounds(double coefficient, long n, long held, double confidence) {
-  if (n - held <= 3) return {};
+Bounds rank_correlation_bounds(double coefficient, long n, double confidence) {
+  if (n <= 3) return {};
   const double z = std::atanh(coefficient);
-  const double s =
-      std::sqrt((1 + coefficient * coefficient / 2) / static_cast<double>(n - held - 3));
+  const double s = std::sqrt((1 + coefficient * coefficient / 2) / static_cast<double>(n - 3));
   const double reach = two_sided_normal(confidence) * s;
   return {std::tanh(z - reach), std::tanh(z + reach)};
 }
 
-PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& columns)
+PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& columns, int threads)
     : columns_(columns.size()),
       rows_(columns.empty() ? 0 : static_cast<long>(columns.front().size())) {
+  std::vector<Standard> standards;
   for (std::size_t j = 0; j < columns.size(); ++j)
-    if (varies(columns[j])) varying_.push_back(j);
+    if (const auto standard = standard_of(columns[j])) {
+      varying_.push_back(j);
+      standards.push_back(*standard);
+    }
   Matrix correlations = Matrix::Identity(index(varying_.size()), index(varying_.size()));
-  for (std::size_t i = 0; i < varying_.size(); ++i)
+  for_each_task(threads, varying_.size(), [&](std::size_t i) {
     for (std::size_t j = 0; j < i; ++j) {
+      const double products =
+          sum_of_products(columns[varying_[i]], standards[i], columns[varying_[j]], standards[j]);
       correlations(index(i), index(j)) = correlations(index(j), index(i)) =
-          pearson(columns[varying_[i]], columns[varying_[j]]);
+          pearson(standards[i], standards[j], products);
       columns[varying_[j]].release();
     }
+  });
   for (const Spilled<double>& column : columns) column.release();
   inverse_ = inverse_of(correlations);
+}
+
+std::vector<double> PartialCorrelations::explained() const {
+  std::vector<double> explained(columns_, undefined);
+  const long n = rows_, k = varying();
+  if (!inverse_ || n <= k) return explained;
+  for (std::size_t j = 0; j < varying_.size(); ++j)
+    explained[varying_[j]] = 1 - static_cast<double>(n - 1) /
+                                     (static_cast<double>(n - k) * (*inverse_)(index(j), index(j)));
+  return explained;
 }
 
 std::vector<double> PartialCorrelations::given(std::span<const double> plain) const {

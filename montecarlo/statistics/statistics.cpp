@@ -109,6 +109,13 @@ std::optional<Standard> standard_of(std::span<const double> values) {
   return standard;
 }
 
+double sum_of_products(std::span<const double> x, const Standard& of_x, std::span<const double> y,
+                       const Standard& of_y) {
+  Sum products;
+  for (std::size_t i = 0; i < x.size(); ++i) products.add(of_x.of(x[i]) * of_y.of(y[i]));
+  return products.value();
+}
+
 double pearson(const Standard& x, const Standard& y, double products) {
   return std::clamp(products / std::sqrt(x.squares * y.squares), -1.0, 1.0);
 }
@@ -117,10 +124,7 @@ double pearson(std::span<const double> x, std::span<const double> y) {
   assert(x.size() == y.size());
   const auto standard_x = standard_of(x), standard_y = standard_of(y);
   if (!standard_x || !standard_y) return undefined;
-  Sum products;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    products.add(standard_x->of(x[i]) * standard_y->of(y[i]));
-  return pearson(*standard_x, *standard_y, products.value());
+  return pearson(*standard_x, *standard_y, sum_of_products(x, *standard_x, y, *standard_y));
 }
 
 } // namespace wingspread

@@ -79,6 +79,10 @@ struct Standard {
 /// None for fewer than two values and for a constant sample. Cost O(n). @pre finite
 [[nodiscard]] std::optional<Standard> standard_of(std::span<const double> values);
 
+/// Σ z_x z_y. Cost O(n). @pre equally long
+[[nodiscard]] double sum_of_products(std::span<const double> x, const Standard& of_x,
+                                     std::span<const double> y, const Standard& of_y);
+
 /// Pearson's correlation of two samples from the sum of their products, Σ z_x z_y.
 [[nodiscard]] double pearson(const Standard& x, const Standard& y, double products);
 

@@ -131,13 +131,6 @@ OutputSummary summarize_output(const Column& column, const StatisticsSpec& spec,
           histogram(sorted, spec.bins)};
 }
 
-Column success_column(const Results& results) {
-  Column column{"deployed", {}};
-  std::ranges::transform(results.status, std::back_inserter(column.values),
-                         [](Status status) { return status == Status::deployed ? 1.0 : 0.0; });
-  return column;
-}
-
 /// The reasons, and each output.
 void summarize_columns(const Results& results, const StatisticsSpec& spec,
                        const Replication& replication, int threads, Summary& summary) {
@@ -152,7 +145,7 @@ void summarize_columns(const Results& results, const StatisticsSpec& spec,
 }
 
 std::vector<DrawCorrelation> correlate_draws(const Results& results, int threads) {
-  const Column deployed = success_column(results);
+  const Column deployed = deployed_column(results);
   std::vector<const Spilled<double>*> draws, outputs;
   for (const Column& draw : results.draws) draws.push_back(&draw.values);
   for (const Column& output : results.outputs) outputs.push_back(&output.values);
@@ -170,6 +163,16 @@ std::vector<DrawCorrelation> correlate_draws(const Results& results, int threads
 }
 
 } // namespace
+
+Column deployed_column(const Results& results) {
+  Column column{"deployed", {}};
+  for (const Status status : results.status) {
+    const bool stayed = status == Status::stalled || status == Status::timed_out;
+    column.values.push_back(status == Status::deployed ? 1 : stayed ? 0 : undefined);
+  }
+  results.status.release();
+  return column;
+}
 
 Summary summarize(const Results& results, const StatisticsSpec& spec,
                   const Replication& replication, int threads) {

@@ -11,6 +11,7 @@
 #include "montecarlo/statistics/histogram.hpp"
 #include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"
+#include "montecarlo/summary/replication.hpp"
 #include "montecarlo/summary/stopping.hpp"
 #include "montecarlo/summary/verdict.hpp"
 
@@ -19,13 +20,6 @@
 #include <vector>
 
 namespace wingspread {
-
-/// Which independent replicate of its design each row comes from: Latin hypercubes and scrambled
-/// Sobol' points depend on each other within one. Independent draws have no replicates.
-struct Replication {
-  int replicates = 0;      ///< 0: all draws are independent
-  std::vector<int> of_row; ///< per row of the results, in [0, replicates)
-};
 
 struct StatusShare {
   Status status;
@@ -70,16 +64,16 @@ struct OutputSummary {
   std::vector<ToleranceLimitEstimate> tolerance_limits{}; ///< over all runs (verdict.hpp)
 };
 
-/// Between a draw and an output, or `deployed`: 1 where the run deployed and 0 where it did not
-/// (Pearson's is then the point-biserial correlation).
+/// 1 for a run that deployed, 0 for one that stalled or timed out, NaN for the others: what became
+/// of them is not known.
+[[nodiscard]] Column deployed_column(const Results& results);
+
+/// Between a draw and an output, or `deployed` (deployed_column(); Pearson's is then the
+/// point-biserial correlation).
 struct DrawCorrelation {
   std::string draw, output;
   Correlation value;
 };
-
-/// Why there are no bounds where draws depend on each other and nothing tells how far.
-inline constexpr std::string_view one_replicate =
-    "no bounds: the draws of one replicate depend on each other; take two replicates or more";
 
 struct Summary {
   long runs = 0;

@@ -54,3 +54,45 @@ TEST_CASE("what is undefined is null, an empty cell and a dash; many are cut sho
   CHECK(said[0] == "the draws of \"d0\" do not vary");
   CHECK(said[1].starts_with("two dispersions rank the runs alike"));
 }
+
+TEST_CASE("what a dispersion does with others is not hidden by what it does by itself") {
+  RankSensitivity all;
+  all.dispersions = {"alone", "together", "nothing"};
+  const auto effect = [](double spearman, double partial) {
+    return RankEffect{{spearman, {}}, {partial, {}}};
+  };
+  all.outputs.push_back(
+      {"x.latch_time", 90, 0, {effect(0.3, 0.4), effect(0.77, 0.05), effect(0.02, 0.03)}, false});
+  all.collinear = {"together"};
+  const std::string table = sensitivity_table(all, "t");
+  CHECK(table.find("together") < table.find("alone"));
+  CHECK(table.find("alone") < table.find("nothing"));
+  CHECK(table.find("0.770", table.find("together")) < table.find("alone"));
+  CHECK(sensitivity_json(all, {})["follow_from_others"] == Json::array({"together"}));
+  CHECK(warnings(all) ==
+        std::vector<std::string>{
+            "the draws of \"together\" go together with those of others: what they do "
+            "together is in Spearman's coefficients, and not in the partial ones"});
+}
+
+TEST_CASE("the report says what its bounds are") {
+  const auto definition = [](int replicates, long looks) {
+    RankSensitivity all;
+    all.replicates = replicates;
+    all.looks = looks;
+    return sensitivity_json(all, {})["definitions"]["bounds"].get<std::string>();
+  };
+  CHECK(definition(0, 1) ==
+        "spearman: Fisher's z, variance (1 + r^2/2)/(n - 3); prcc: jackknife over "
+        "16 parts of the runs, Fisher's z, Student's t; two-sided");
+  CHECK(definition(0, 5) ==
+        definition(0, 1) +
+            ", at a confidence of 0.99 each, to hold at whichever of 5 checkpoints the "
+            "campaign stops");
+  CHECK(definition(8, 1) ==
+        "jackknife over 8 independent replicates, Fisher's z, Student's t, two-sided");
+  CHECK(definition(1, 1) == one_replicate);
+  RankSensitivity one;
+  one.replicates = 1;
+  CHECK(warnings(one) == std::vector<std::string>{std::string(one_replicate)});
+}

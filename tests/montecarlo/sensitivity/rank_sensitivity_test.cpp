@@ -1,5 +1,6 @@
 #include "distributions/continuous_law.hpp"
 #include "distributions/copula.hpp"
+#include "distributions/design.hpp"
 #include "distributions/random_stream.hpp"
 #include "montecarlo/sensitivity/rank_sensitivity.hpp"
 #include "montecarlo/statistics/ranked_column.hpp"
@@ -247,4 +248,95 @@ TEST_CASE("a dispersion that moves nothing is named, and seldom one that does") 
   }
   CHECK(named >= 88); // 95 expected at least, its standard deviation 2.2
   CHECK(wrongly == 0);
+}
+
+// Of six strong dispersions the ranks' own variance is not that of a partial coefficient: Fisher's z with
+// (1 + r²/2)/(n − g − 3) covers 87 % here, with 1/(n − g − 3) 79 %, in place of 95.
+TEST_CASE("the bounds of a partial coefficient hold it where other dispersions are strong too") {
+  const std::vector<double> weights{2, 0.5, 0.5, 0.5, 0.5, 0.5, 0.2};
+  double variance = 0, others = 0;
+  for (const double weight : weights) variance += weight * weight;
+  for (std::size_t j = 1; j < 6; ++j)
+    others += std::pow(spearman_correlation(weights[j] / std::sqrt(variance)), 2);
+  const double truth = spearman_correlation(2 / std::sqrt(variance)) / std::sqrt(1 - others);
+  constexpr int samples = 300;
+  int hits = 0;
+  for (int sample = 0; sample < samples; ++sample) {
+    const Columns x = normal_columns(7, 400, 9000 + static_cast<std::uint64_t>(sample));
+    const Results results = results_of({x.begin(), x.begin() + 6}, combination(x, weights));
+    const Bounds bounds = rank_sensitivity(results, 0.95).outputs[0].effects[0].partial.bounds;
+    hits += *bounds.lower <= truth && truth <= *bounds.upper;
+  }
+  CHECK(hits > 0.9 * samples); // the binomial's 4 standard deviations are 0.05
+}
+
+namespace {
+
+/// Runs of x0 + x1 over Sobol' points in so many replicates, run k in replicate k mod R.
+Results sobol_sum(std::uint64_t seed, long runs, int replicates, RunsMade& made) {
+  const PreparedDesign design({DesignKind::sobol, seed, static_cast<std::uint64_t>(runs),
+                               static_cast<std::uint64_t>(replicates)},
+                              {"x0", "x1"});
+  Columns x(2);
+  std::vector<double> y;
+  made.replication.replicates = replicates;
+  for (long k = 0; k < runs; ++k) {
+    for (std::size_t j = 0; j < 2; ++j)
+      x[j].push_back(design.uniform(static_cast<std::uint64_t>(k), j));
+    y.push_back(x[0].back() + x[1].back());
+    made.replication.of_row.push_back(static_cast<int>(k % replicates));
+  }
+  return results_of(x, y);
+}
+
+} // namespace
+
+// Spearman's of u and u + v, both uniform: F(s) = s²/2 below 1 and 1 − (2 − s)²/2 above, E F(u + v) u =
+// 1/2 · 1/2 + cov, cov = ∫∫ (u − 1/2) F = 7/120, so that ρ = 12 · 7/120 = 0.7.
+TEST_CASE("bounds of draws that depend on each other come from their replicates") {
+  int hits = 0;
+  constexpr int designs = 200;
+  double width = 0;
+  for (int k = 0; k < designs; ++k) {
+    RunsMade made;
+    const Results results = sobol_sum(static_cast<std::uint64_t>(k), 512, 8, made);
+    const RankSensitivity all = rank_sensitivity(results, 0.9, made);
+    CHECK(all.replicates == 8);
+    const Bounds bounds = all.outputs[0].effects[0].spearman.bounds;
+    hits += *bounds.lower <= 0.7 && 0.7 <= *bounds.upper;
+    width += (*bounds.upper - *bounds.lower) / designs;
+  }
+  CHECK(hits > 0.82 * designs); // the binomial's 4 standard deviations are 0.085
+  const Bounds independent = rank_correlation_bounds(0.7, 512, 0.9);
+  CHECK(width < 0.25 * (*independent.upper - *independent.lower)); // what the points gain
+}
+
+TEST_CASE("runs of one replicate have no bounds, and no dispersion is called idle for it") {
+  RunsMade made;
+  const Results results = sobol_sum(1, 256, 1, made);
+  const RankSensitivity all = rank_sensitivity(results, 0.95, made);
+  CHECK(all.outputs[0].effects[0].spearman.value == Approx(0.7).margin(0.05));
+  CHECK(!all.outputs[0].effects[0].spearman.bounds.lower);
+  CHECK(!all.outputs[0].effects[0].partial.bounds.lower);
+  CHECK(all.idle.empty());
+}
+
+TEST_CASE("a campaign that may stop at several looks shares its risk out among them") {
+  const Columns x = normal_columns(3, 200, 12);
+  const Results results = results_of({x[0], x[1]}, combination(x, {1, -0.5, 1}));
+  const auto effect = [&](double confidence, long looks) {
+    return rank_sensitivity(results, confidence, {{}, looks}).outputs[0].effects[0];
+  };
+  CHECK(*effect(0.9, 5).spearman.bounds.lower == *effect(0.98, 1).spearman.bounds.lower);
+  CHECK(*effect(0.9, 5).partial.bounds.upper == *effect(0.98, 1).partial.bounds.upper);
+  CHECK(*effect(0.9, 5).partial.bounds.upper > *effect(0.9, 1).partial.bounds.upper);
+}
+
+TEST_CASE("dispersions that follow from others are named") {
+  Columns x = normal_columns(5, 400, 13);
+  for (std::size_t k = 0; k < 400; ++k) x[1][k] = x[0][k] + 0.3 * x[1][k]; // R² 0.9
+  const std::vector<double> y = combination(x, {1, 1, 1, 0, 1});
+  const RankSensitivity all = rank_sensitivity(results_of({x[0], x[1], x[2], x[3]}, y), 0.95);
+  CHECK(all.collinear == std::vector<std::string>{"x0", "x1"});
+  CHECK(rank_sensitivity(results_of({x[0], x[2], x[3]}, y), 0.95).collinear.empty());
 }

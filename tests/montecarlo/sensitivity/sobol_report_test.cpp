@@ -30,7 +30,31 @@ TEST_CASE("Sobol' indices as JSON, CSV and a table; what changes nothing is name
   CHECK(effects["none"]["total"]["value"] == 0);
   CHECK(effects["root_spring"]["total"]["value"] > effects["none"]["total"]["value"]);
   CHECK(sensitivity_csv(all).starts_with(
-      "output,dispersion,rows,left_out,first,first_lower,first_upper,"
+      "output,dispersion,rows,incomplete,first,first_lower,first_upper,"
       "total,total_lower,total_upper\nroot.latch_time,root_spring,12,0,"));
   CHECK(sensitivity_table(all, "title").find("sum of the first-order") != std::string::npos);
+}
+
+TEST_CASE("an output without indices, and bounds that there are not, are told of") {
+  Json json = quick_campaign(1);
+  json["integration"]["t_end"] = 6.75; // some do not come to it
+  json["sampling"]["design"] = "sobol";
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan = saltelli_plan(campaign, 16);
+  const long runs = saltelli_runs(16, campaign.dispersions.size());
+  const SobolSensitivity all =
+      sobol_sensitivity(rows_of(plan, {0, runs}), 16, "sobol", {.replicates = 1});
+  const Json output = sensitivity_json(all, {})["outputs"]["deployment_time"];
+  const long incomplete = output["incomplete"];
+  CHECK((output["rows"] == 16 && 0 < incomplete && incomplete <= 16));
+  CHECK(output["dispersions"]["root_spring"]["total"]["value"].is_null());
+  CHECK(sensitivity_json(all, {})["definitions"]["bounds"] == one_replicate);
+  CHECK_THAT(sensitivity_table(all, "title"),
+             Catch::Contains("deployment_time, s · 16 rows · " + std::to_string(incomplete) +
+                             " in which some point is without it: no indices"));
+  const auto said = warnings(all);
+  REQUIRE(said.size() >= 2);
+  CHECK(said[0] == one_replicate);
+  CHECK_THAT(said[1], Catch::Contains("\"deployment_time\"") &&
+                          Catch::Contains("did not happen at some points of the design"));
 }

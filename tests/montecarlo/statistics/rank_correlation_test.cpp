@@ -6,20 +6,20 @@
 
 using namespace wingspread;
 
-// Python 3.11, math: tanh(atanh(r) ∓ 1.959963984540054 √((1 + r²/2)/(n − g − 3))).
-TEST_CASE("bounds of a rank correlation: worked by hand") {
-  const Bounds bounds = rank_correlation_bounds(0.5, 103, 0, 0.95);
+// Python 3.11, math: tanh(atanh(r) ∓ 1.959963984540054 √((1 + r²/2)/(n − 3))).
+TEST_CASE("bounds of Spearman's coefficient: worked by hand") {
+  const Bounds bounds = rank_correlation_bounds(0.5, 103, 0.95);
   CHECK(*bounds.lower == Approx(0.32874503087588147).epsilon(1e-12));
   CHECK(*bounds.upper == Approx(0.6394198469997987).epsilon(1e-12));
-  const Bounds held = rank_correlation_bounds(-0.5, 103, 60, 0.95);
-  CHECK(*held.lower == Approx(-0.7054170141941147).epsilon(1e-12));
-  CHECK(*held.upper == Approx(-0.21709957038485012).epsilon(1e-12));
+  const Bounds other = rank_correlation_bounds(-0.8, 43, 0.95);
+  CHECK(*other.lower == Approx(-0.8966099745203255).epsilon(1e-12));
+  CHECK(*other.upper == Approx(-0.6306936680956227).epsilon(1e-12));
 }
 
 TEST_CASE("few rows have no bounds, and a coefficient of 1 is its own") {
-  CHECK(!rank_correlation_bounds(0.5, 10, 7, 0.95).lower);
-  CHECK(rank_correlation_bounds(0.5, 11, 7, 0.95).lower);
-  CHECK(*rank_correlation_bounds(1, 100, 0, 0.95).lower == 1);
+  CHECK(!rank_correlation_bounds(0.5, 3, 0.95).lower);
+  CHECK(rank_correlation_bounds(0.5, 4, 0.95).lower);
+  CHECK(*rank_correlation_bounds(1, 100, 0.95).lower == 1);
 }
 
 // By hand: with C = [1 c; c 1], the textbook's r_0 = (a − c b)/√((1 − c²)(1 − b²)).
@@ -39,4 +39,14 @@ TEST_CASE("a column that does not vary has no partial coefficient, and twins hav
   const PartialCorrelations twins({{1, 2, 3, 4}, {8, 6, 4, 2}});
   CHECK(twins.entangled());
   CHECK(std::isnan(twins.given(std::vector{0.5, -0.5})[0]));
+}
+
+// By hand: of two columns with c = 0.6, C⁻¹_jj = 1/(1 − 0.36), and 1 − (4 − 1)/((4 − 2) C⁻¹_jj) = 0.04.
+TEST_CASE("how far a column follows from the others") {
+  const PartialCorrelations partial({{1, 2, 3, 4}, {2, 1, 4, 3}, {7, 7, 7, 7}});
+  const std::vector<double> explained = partial.explained();
+  CHECK(explained[0] == Approx(0.04).epsilon(1e-12));
+  CHECK(explained[1] == Approx(0.04).epsilon(1e-12));
+  CHECK(std::isnan(explained[2]));
+  CHECK(std::isnan(PartialCorrelations({{1, 2, 3, 4}, {8, 6, 4, 2}}).explained()[0]));
 }

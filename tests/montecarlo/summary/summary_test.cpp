@@ -137,3 +137,18 @@ TEST_CASE("no runs, or none in which anything happened, still have a summary") {
   CHECK(std::isnan(summary.outputs[0].quantiles[0].value));
   CHECK(find(summary, "k", "t").value.count == 0);
 }
+
+TEST_CASE(
+    "deployed is 1, not deployed 0, and of runs that were not made to an end nothing is known") {
+  Results results(ResultNames{{"k"}, {}});
+  const std::vector<Status> all{Status::deployed, Status::stalled, Status::timed_out,
+                                Status::invalid, Status::failed};
+  for (long run = 0; run < 5; ++run)
+    results.append(
+        {run, all[static_cast<std::size_t>(run)], {static_cast<double>(run)}, {}, "", ""});
+  const Column column = deployed_column(results);
+  CHECK((column.name == "deployed" && column.values.size() == 5));
+  CHECK((column.values[0] == 1 && column.values[1] == 0 && column.values[2] == 0));
+  CHECK((std::isnan(column.values[3]) && std::isnan(column.values[4])));
+  CHECK(find(summarize(results, {}), "k", "deployed").value.count == 3);
+}
