@@ -44,12 +44,14 @@ int conclude(const Campaign& campaign, const MarginResult& result) {
                        "moves; give them as \"inertia\" in the margin's \"torques\"\n");
   for (const MarginSearch& search : result.searches)
     if (!is_confirmed(search))
-      fmt::print(stderr, "not met: {}: {}\n", search.name,
-                 search.recommended
-                     ? fmt::format("runs of seed {} do not show it at the recommended scale: take "
-                                   "more runs, or a point further from what they break",
-                                   result.confirmation_seed)
-                     : "no scale of the springs in the range meets all requirements");
+      fmt::print(
+          stderr, "not met: {}: {}\n", search.name,
+          search.recommended
+              ? fmt::format("runs of seed {} do not show it at the recommended scale: choose a "
+                            "point further from what they break, or begin anew with another "
+                            "seed and more runs (going on until one passes would not show it)",
+                            result.confirmation_seed)
+              : "no scale of the springs in the range meets all requirements");
   const int code =
       report_failed(result.failed, result.runs, ", and count against every requirement");
   return code != exit_code::done || is_met(result) ? code : exit_code::not_met;
@@ -115,8 +117,11 @@ void add_margin(CLI::App& app, Action& action) {
       R"(Scales what the campaign's "margin" names, runs the same draws at every scale, judges the
 campaign's requirements there, and finds the scales between which all of them are met: each edge to
 1 % ("tolerance"), with the requirement that sets it and how many runs break it on either side.
-The recommended scale is in the middle, and is run again with another seed. Where no scale will do,
-it says which requirements rule that out. All runs are made: "until" is of no account here.
+The recommended scale is in the middle, and is run again with a seed of its own. Where no scale will
+do, it says which requirements rule that out. All runs are made: "until" is of no account here. They
+go only as far as the requirements need: where none is about a peak, a run that fails after its last
+latch has deployed here, and has failed in wingspread run. Each verdict holds with its requirement's
+confidence; the report says what all of them and both edges come to together.
 
   "margin": { "scale": ["hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"],
               "range": [0.5, 2] }

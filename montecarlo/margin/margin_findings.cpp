@@ -1,5 +1,7 @@
 #include "montecarlo/margin/margin_findings.hpp"
 
+#include "montecarlo/statistics/bonferroni.hpp"
+
 #include <algorithm>
 #include <iterator>
 
@@ -30,6 +32,14 @@ MarginEdge edge(const MarginSearch& search, double passing, const std::optional<
   return edge;
 }
 
+/// The confidence of each condition.
+std::vector<double> confidences_of(const Campaign& campaign, const MarginResult& result) {
+  std::vector<double> confidences;
+  for (const MarginCondition& condition : conditions_of(campaign, result))
+    confidences.push_back(campaign.requirements[condition.requirement].confidence);
+  return confidences;
+}
+
 } // namespace
 
 std::vector<ConditionFinding> condition_findings(const Campaign& campaign,
@@ -57,6 +67,19 @@ MarginEdge lower_edge(const MarginSearch& search, const Window& window) {
 
 MarginEdge upper_edge(const MarginSearch& search, const Window& window) {
   return edge(search, window.upper, window.above);
+}
+
+double window_confidence(const Campaign& campaign, const MarginResult& result,
+                         const Window& window) {
+  std::vector<double> confidences;
+  for (const bool is_edge : {window.below.has_value(), window.above.has_value()})
+    if (is_edge)
+      std::ranges::copy(confidences_of(campaign, result), std::back_inserter(confidences));
+  return joint_confidence(confidences);
+}
+
+double confirmation_confidence(const Campaign& campaign, const MarginResult& result) {
+  return joint_confidence(confidences_of(campaign, result));
 }
 
 Failing telling(const ScaleLook& look) {

@@ -33,6 +33,16 @@ struct MarginEdge {
 [[nodiscard]] MarginEdge lower_edge(const MarginSearch& search, const Window& window);
 [[nodiscard]] MarginEdge upper_edge(const MarginSearch& search, const Window& window);
 
+/// At least the confidence with which the window lies within the true one: every condition's risk once
+/// for each edge, Σ(1 − c) in all. The ends of the range are no edges: nothing is claimed of them. By
+/// the argument of margin_study.hpp, so for draws that are not out of order.
+[[nodiscard]] double window_confidence(const Campaign& campaign, const MarginResult& result,
+                                       const Window& window);
+
+/// At least the confidence with which all requirements hold in all cases at one scale, fixed
+/// beforehand, at which all verdicts are "pass": what confirms a recommended scale.
+[[nodiscard]] double confirmation_confidence(const Campaign& campaign, const MarginResult& result);
+
 /// The conditions that fail, less those that fail for runs alone which did not deploy, when in
 /// their case that "deployed" is required, or another condition before them, says so already.
 [[nodiscard]] Failing telling(const ScaleLook& look);

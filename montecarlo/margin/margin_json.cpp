@@ -69,7 +69,8 @@ private:
 
   [[nodiscard]] Json window(const Window& window) const {
     return {{"lower", edge(lower_edge(search_, window))},
-            {"upper", edge(upper_edge(search_, window))}};
+            {"upper", edge(upper_edge(search_, window))},
+            {"joint_confidence", window_confidence(report_.campaign, report_.result, window)}};
   }
 
   [[nodiscard]] Json verdicts(const ScaleLook& look) const {
@@ -93,6 +94,7 @@ private:
             {"confirmation",
              {{"seed", report_.result.confirmation_seed},
               {"passes", is_confirmed(search_)},
+              {"joint_confidence", confirmation_confidence(report_.campaign, report_.result)},
               {"verdicts", verdicts(*search_.confirmation)}}}};
   }
 
@@ -138,7 +140,15 @@ Json definitions() {
       {"as_well", "what fails there by the same runs, which do not deploy"},
       {"verdict", "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; what did not "
                   "deploy or happen counts against it; disproved: the opposite is shown"},
-      {"recommended", "geometric mean of the edges"},
+      {"recommended", "geometric mean of the edges; confirmed by draws of a seed of its own"},
+      {"joint_confidence",
+       "at least this for all requirements in all cases together, each verdict's "
+       "own being its requirement's: 1 - the sum of (1 - c), of a window over both "
+       "of its edges"},
+      {"runs",
+       "go as far as the requirements need: where none is about a peak they end at the last "
+       "latch, so that one which fails after it counts as deployed here and as failed in "
+       "wingspread run"},
       {"out_of_order", "draws that break a requirement at a scale, though not at one further out; "
                        "where there are none, the edge holds at the requirement's confidence"},
       {"ecss", "0.8 T / T_min - 1 at the least over the travel (0.8: \"available\"), T_min = 2 (I, "

@@ -1,5 +1,6 @@
 #include "montecarlo/margin/margin_study.hpp"
 
+#include "distributions/random_stream.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/machine/interrupt.hpp"
@@ -120,12 +121,18 @@ private:
 
 } // namespace
 
+std::uint64_t confirmation_seed(std::uint64_t seed) {
+  return RandomStream(seed, 0,
+                      stream_name("\x7F" // no dispersion's name: those hold no such character
+                                  "margin confirmation"))();
+}
+
 void find_margin(const Campaign& campaign, Evaluator& evaluator,
                  const std::function<void(long)>& progress, MarginResult& result) {
   refuse_unsuitable(campaign);
   const MarginSpec& spec = *campaign.margin;
   result = {cases_of(spec, campaign.scene), searches_of(spec, campaign.scene),
-            campaign.sampling.seed + 1, 0, 0};
+            confirmation_seed(campaign.sampling.seed), 0, 0};
   Looking looking(campaign, evaluator, progress, result);
   for (MarginSearch& search : result.searches) {
     const auto judge = [&](double scale) {

@@ -14,7 +14,15 @@
 /// takes a pass at s* itself, whose probability is at most 1 − c: so the search costs nothing, and
 /// the window lies within the true one with confidence c, requirement by requirement.
 /// `out_of_order` counts the draws that behave otherwise; runs of another seed at the recommended
-/// scale are looked at besides.
+/// scale are looked at besides. A window has two edges, and every requirement in every case its own
+/// risk at each: together they hold with 1 − Σ(1 − c) at least (window_confidence).
+///
+/// The other seed is drawn from the campaign's. The next number would be what a user takes next, to see
+/// fresh draws: they would be those that confirmed the scale.
+///
+/// A run goes only as far as the requirements need. Where none is about a peak it ends at the last
+/// latch, so that one which would have failed on the way to its peaks has deployed here, and has failed
+/// in `run` of a campaign that asks for peaks.
 ///
 /// One spring out: a hinge's torque comes from m equal springs. In one case more for each hinge
 /// whose springs are sized, its torque is (m − 1)/m of what was drawn. The requirements hold in all
@@ -28,6 +36,9 @@
 #include <functional>
 
 namespace wingspread {
+
+/// The seed of the runs that confirm a recommended scale.
+[[nodiscard]] std::uint64_t confirmation_seed(std::uint64_t seed);
 
 /// Finds the window, or those of every hinge.
 /// @param progress told how many runs there have been, one call at a time

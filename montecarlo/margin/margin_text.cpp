@@ -85,13 +85,22 @@ private:
   [[nodiscard]] std::string window(const Window& window) const {
     return edge("weakest springs", lower_edge(search_, window)) +
            line("recommended", *search_.recommended, confirmation()) +
-           edge("strongest springs", upper_edge(search_, window));
+           edge("strongest springs", upper_edge(search_, window)) + together(window);
+  }
+
+  /// What all requirements, and both edges, come to together.
+  [[nodiscard]] std::string together(const Window& window) const {
+    const double confidence = window_confidence(report_.campaign, report_.result, window);
+    return fmt::format("  {:<20}{:>8}  {}\n", "all together",
+                       fmt::format("{:.10g} %", 100 * confidence),
+                       "at least: every requirement in every case, at every edge of the window");
   }
 
   [[nodiscard]] std::string confirmation() const {
-    return fmt::format("{} runs with another seed, {}: {}", report_.campaign.sampling.runs,
-                       report_.result.confirmation_seed,
-                       is_confirmed(search_) ? "all requirements are met" : "NOT confirmed");
+    const std::string runs = fmt::format("{} runs of seed {}: ", report_.campaign.sampling.runs,
+                                         report_.result.confirmation_seed);
+    if (!is_confirmed(search_)) return runs + "NOT confirmed";
+    return runs + "all requirements are met";
   }
 
   [[nodiscard]] std::string no_window() const {

@@ -38,24 +38,29 @@ std::string source_of(const Summary& summary, const char* independent, const cha
 
 Json definitions(const Summary& summary) {
   const bool independent = summary.replicates == 0;
-  return {{"std", "divisor n - 1"},
-          {"mean_error",
-           independent ? "std / sqrt(count)" : source_of(summary, "", "spread of the means of")},
-          {"skewness", "G1 = m3/m2^1.5 sqrt(n(n - 1))/(n - 2), adjusted Fisher-Pearson"},
-          {"kurtosis", "G2 = (n - 1)/((n - 2)(n - 3)) ((n + 1)(m4/m2^2 - 3) + 6), excess"},
-          {"quantile", "order statistic of rank ceil(n p)"},
-          {"quantile_bounds", source_of(summary, "order statistics, binomial, two-sided",
-                                        "Woodruff: inverse of the pooled distribution, Student's t "
-                                        "over")},
-          {"rate_bounds", source_of(summary, "Clopper-Pearson, two-sided",
-                                    "Korn-Graubard: Clopper-Pearson for the effective number of "
-                                    "draws, Student's t over")},
-          {"spearman", "Pearson's of the mid-ranks"},
-          {"outputs", "over the runs in which they happened"},
-          {"requirements", independent
-                               ? "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; "
-                                 "what did not deploy or happen counts against them"
-                               : "none: the draws depend on each other"}};
+  Json json{
+      {"std", "divisor n - 1"},
+      {"mean_error",
+       independent ? "std / sqrt(count)" : source_of(summary, "", "spread of the means of")},
+      {"skewness", "G1 = m3/m2^1.5 sqrt(n(n - 1))/(n - 2), adjusted Fisher-Pearson"},
+      {"kurtosis", "G2 = (n - 1)/((n - 2)(n - 3)) ((n + 1)(m4/m2^2 - 3) + 6), excess"},
+      {"quantile", "order statistic of rank ceil(n p)"},
+      {"quantile_bounds", source_of(summary, "order statistics, binomial, two-sided",
+                                    "Woodruff: inverse of the pooled distribution, Student's t "
+                                    "over")},
+      {"rate_bounds", source_of(summary, "Clopper-Pearson, two-sided",
+                                "Korn-Graubard: Clopper-Pearson for the effective number of "
+                                "draws, Student's t over")},
+      {"spearman", "Pearson's of the mid-ranks"},
+      {"outputs", "over the runs in which they happened"},
+      {"requirements", independent
+                           ? "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; "
+                             "what did not deploy or happen counts against them"
+                           : "none: the draws depend on each other"}};
+  if (summary.requirements.size() > 1)
+    json["joint_confidence"] =
+        "at least this for all that pass together: 1 - the sum of (1 - c) over all requirements";
+  return json;
 }
 
 Json statuses_json(const Summary& summary) {
@@ -234,6 +239,8 @@ Json summary_json(const Summary& summary, const Json& about) {
     json["outputs"][output.name] = output_json(summary, output);
   json["correlations"] = correlations_json(summary);
   json["requirements"] = requirements_json(summary);
+  if (summary.requirements.size() > 1)
+    json["joint_confidence"] = joint_confidence(summary.requirements);
   if (!summary.until.empty()) json["until"] = until_json(summary);
   json["definitions"] = definitions(summary);
   return json;

@@ -184,6 +184,11 @@ std::string requirements(const Summary& summary, std::string_view folder) {
       text += "    " + shortened(evidence(verdict), table_width - 4) + '\n';
     text += broken_runs(verdict, folder);
   }
+  const auto passes = [](const Verdict& verdict) { return verdict.decision == Decision::pass; };
+  if (std::ranges::count_if(summary.requirements, passes) > 1)
+    text +=
+        fmt::format("  Those that pass hold each for itself; all together at {:.10g} % or more.\n",
+                    100 * joint_confidence(summary.requirements));
   return text;
 }
 

@@ -117,6 +117,12 @@ Verdict judge(const Requirement& requirement, const Results& results, long looks
   return verdict;
 }
 
+double joint_confidence(std::span<const Verdict> verdicts) {
+  std::vector<double> confidences;
+  for (const Verdict& verdict : verdicts) confidences.push_back(verdict.requirement.confidence);
+  return joint_confidence(confidences);
+}
+
 std::string evidence(const Verdict& verdict) {
   const long broken = std::ssize(verdict.broken);
   const std::string found =

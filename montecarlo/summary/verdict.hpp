@@ -13,6 +13,8 @@
 #include "montecarlo/runs/results.hpp"
 #include "montecarlo/statistics/wilks.hpp"
 
+#include <span>
+
 namespace wingspread {
 
 enum class Decision {
@@ -45,6 +47,10 @@ struct Verdict {
 /// @param looks at how many numbers of runs the campaign could have stopped (stopping_rule.hpp)
 /// @pre the draws of the runs are independent; the results have the output
 [[nodiscard]] Verdict judge(const Requirement& requirement, const Results& results, long looks = 1);
+
+/// At least the confidence with which whatever passes holds together, each verdict holding for itself:
+/// every requirement had its chance of a false pass, those too that did not take it.
+[[nodiscard]] double joint_confidence(std::span<const Verdict> verdicts);
 
 /// Why it came out so: "25 of 10000 runs break it, and 19 may".
 [[nodiscard]] std::string evidence(const Verdict& verdict);

@@ -107,3 +107,17 @@ TEST_CASE("springs are recommended where they were sized together, and have a wi
   json["margin"]["mode"] = "each";
   CHECK(recommending(campaign_of(json), result) == nullptr);
 }
+
+// Two requirements at 98 % in two cases: four conditions, of which each has its risk at every edge.
+TEST_CASE("all requirements, cases and edges together have the confidence that their risks leave",
+          "[margin]") {
+  Json json = one_panel_margin(100);
+  for (Json& requirement : json["requirements"]) requirement["confidence"] = 0.98;
+  const Campaign campaign = campaign_of(json);
+  MarginResult result;
+  result.cases = {{"nominal", {}}, {"root spring out", {}}};
+  CHECK(confirmation_confidence(campaign, result) == Approx(0.92).epsilon(1e-12));
+  CHECK(window_confidence(campaign, result, {0.8, 1.2, 0.7, 1.3}) == Approx(0.84).epsilon(1e-12));
+  CHECK(window_confidence(campaign, result, {0.8, 1.2, 0.7, {}}) == Approx(0.92).epsilon(1e-12));
+  CHECK(window_confidence(campaign, result, {0.8, 1.2, {}, {}}) == 1);
+}

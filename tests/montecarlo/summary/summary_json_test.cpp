@@ -204,7 +204,14 @@ TEST_CASE("summary.json: requirements with their evidence, and the runs to be se
   const Requirement time{"T-1", "root.latch_time", 11.5, {}, .9, .95};
   summary.requirements = {judge(time, results), judge({"", "deployed", {}, {}, .5, .9}, results),
                           judge({"", "deployed", {}, {}, .9999, .9}, results)};
-  const Json json = summary_json(summary, {})["requirements"];
+  const Json whole = summary_json(summary, {}), json = whole["requirements"];
+  double risk = 0;
+  for (const Verdict& verdict : summary.requirements) risk += 1 - verdict.requirement.confidence;
+  CHECK(whole["joint_confidence"].get<double>() == Approx(1 - risk).epsilon(1e-14));
+  CHECK(whole["definitions"].contains("joint_confidence"));
+  Summary single = summary;
+  single.requirements.resize(1);
+  CHECK_FALSE(summary_json(single, {}).contains("joint_confidence"));
   REQUIRE(json.size() == 3);
   CHECK(json[0]["name"] == "T-1");
   CHECK(json[0]["verdict"] == "fail");

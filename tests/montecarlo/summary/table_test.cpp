@@ -165,4 +165,9 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
         "  deployed 0.01"})
     CHECK_THAT(table, Catch::Contains(part));
   for (const std::string& line : lines(table)) CHECK(count_characters(line) <= table_width);
+  CHECK_THAT(table, !Catch::Contains("all together"));
+  summary.requirements[1] = summary.requirements[0];
+  CHECK_THAT(
+      summary_table(summary, "t", "out"),
+      Catch::Contains("  Those that pass hold each for itself; all together at 80 % or more.\n"));
 }
