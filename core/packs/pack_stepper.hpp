@@ -5,6 +5,7 @@
 #include "core/dense/roughness.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
+#include "core/methods/friction_layer.hpp"
 #include "core/methods/runge_kutta.hpp"
 #include "core/packs/fields.hpp"
 #include "core/packs/pack_engine.hpp"
@@ -132,11 +133,17 @@ private:
     P next; ///< step, or try
   };
 
-  /// As Adaptive::verdict and limit_roughness.
+  /// As Adaptive::verdict, layer_limits and limit_roughness.
   [[nodiscard]] Judgement judge() {
     error_size_ = scaled_error_of(formula_, step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
     Mask accepted = error_size_ <= P(1.0);
     P factor = step_factor(Formula::error_order, error_size_, step_.h, pace_.memory);
+    if (wing_.has_regularized_friction) {
+      const LayerLimits<P> layers = layer_limits(wing_, at_, step_, rtol_, atol_);
+      const Mask leaps = layers.cut < P(1.0);
+      factor = select(accepted, select(leaps, layers.cut, smaller(factor, layers.next)), factor);
+      accepted = accepted && !leaps;
+    }
     if constexpr (Formula::order > 5) {
       const P rough = roughness(at_, step_, tolerance_of_dense_);
       const Mask too_rough = rough > P(1.0);

@@ -1,6 +1,7 @@
 /// How far a run goes next, and by which method.
 #pragma once
 
+#include "core/methods/friction_layer.hpp"
 #include "core/methods/long_steps.hpp"
 #include "core/methods/method_choice.hpp"
 #include "core/methods/spectral_radius.hpp"
@@ -186,9 +187,10 @@ private:
     return h_;
   }
 
-  /// Adds what else a step must satisfy where the method takes long ones: a dense output that shows
-  /// what happens inside.
+  /// Adds what else a step must satisfy: it leaps over no layer of friction, and where the method
+  /// takes long ones, its dense output shows what happens inside.
   [[nodiscard]] Verdict judged(Verdict verdict) const {
+    if (verdict.accepted() && run_.system.wing().has_regularized_friction) limit_by_layers(verdict);
     if (!verdict.accepted() || !takes_long_steps(method())) return verdict;
     // whether a hinge that grazes its latch reaches it is the interpolant's word
     const double finer = method() == Method::bulirsch_stoer ? 10 : 1;
@@ -200,6 +202,17 @@ private:
     if (quadrature > 1)
       verdict = {quadrature, std::max(0.2, 0.8 * power_roughly(quadrature, -1.0 / 6))};
     return verdict;
+  }
+
+  void limit_by_layers(Verdict& verdict) const {
+    if (method() == Method::runge_kutta4) return; // its step is what it is
+    const Tolerance limit = tolerance();
+    const LayerLimits<T> layers =
+        layer_limits(run_.system.wing(), run_.at, run_.step, T(limit.rtol), T(limit.atol));
+    if (layers.cut < T(1))
+      verdict = {2, static_cast<double>(layers.cut)};
+    else
+      verdict.factor = std::min(verdict.factor, static_cast<double>(layers.next));
   }
 
   [[nodiscard]] std::string why_fixed_step_fails() const {

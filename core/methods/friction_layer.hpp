@@ -1,0 +1,75 @@
+/// Steps through the layer |φ̇| < ω_s in which regularized friction changes its sign.
+///
+/// The friction −τ_c φ̇/√(φ̇² + ω_s²) has its singularities at φ̇ = ±i ω_s. A step that takes a rate
+/// many times its distance to them, √(φ̇² + ω_s²), from one side of zero to the other has few stages
+/// in the layer, or none: its result is wrong and its estimate does not say so. A step whose rate
+/// changes by at most a few times the least distance on its way samples the layer, and its estimate
+/// can be trusted; towards zero such steps are a geometric series, and so they are away from it.
+///
+/// | symbol | meaning                                                        |       |
+/// |--------|----------------------------------------------------------------|-------|
+/// | v0, v1 | φ̇ at the step's ends; a: φ̈ at its end                          | rad/s |
+/// | d      | least distance: ω_s where v0 v1 < 0, else the ends' smaller one | rad/s |
+///
+/// What a step may lose by leaping over the layer is about a tenth of the change of rate that
+/// friction makes in it, τ_c h/J; where that is below the tolerance it may.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/wing.hpp"
+
+#include <cmath>
+
+namespace wingspread {
+
+/// How far the rate of a hinge with regularized friction may change in a step, times d.
+inline constexpr double longest_leap = 3;
+
+template <class T> struct LayerLimits {
+  T cut;  ///< the factor to a shorter try of a step that leaps; > 1 where none does
+  T next; ///< the largest factor to the next step, as the rates go at this one's end
+};
+
+namespace detail {
+
+/// By how much a rate of this size may change towards zero: to a quarter of it, while the layer is
+/// far; into and through the layer then.
+template <class T> [[nodiscard]] T reach_inward(const T& size, const T& slip_rate) {
+  const T kept = larger(slip_rate, T(size * T(1 / (longest_leap + 1))));
+  return select(size > T(longest_leap) * slip_rate, T(size - kept),
+                T(T(0.9 * longest_leap) * slip_rate));
+}
+
+} // namespace detail
+
+/// Of an accepted step. Cost: some twenty operations a hinge.
+template <class T>
+[[nodiscard]] LayerLimits<T> layer_limits(const Wing<T>& wing, const Layout& at,
+                                          const Step<T>& step, const T& rtol, const T& atol) {
+  using std::abs, std::sqrt;
+  LayerLimits<T> limits{T(1e10), T(1e10)};
+  for (int i = 1; i <= at.bodies; ++i) {
+    const HingeTerms<T>& hinge = wing.hinges[i];
+    const int r = at.rate(i);
+    const T &v0 = step.x[r], &v1 = step.x1[r], &a = step.dxdt1[r], &slip = hinge.slip_rate;
+    const T size0 = abs(v0), size1 = abs(v1), change = abs(v1 - v0);
+    const T at_stake =
+        T(0.1) * hinge.regularized_friction / wing.bodies[i].central_inertia * step.h;
+    const auto matters = at_stake > fused(rtol, larger(size0, size1), atol);
+    const T from0 = sqrt(fused(v0, v0, slip * slip)), from1 = sqrt(fused(v1, v1, slip * slip));
+    const auto crosses = v0 * v1 < T(0);
+    const T least = select(crosses, slip, smaller(from0, from1));
+    const T shorter = select(crosses || from1 < from0, detail::reach_inward(size0, slip),
+                             T(T(0.9 * longest_leap) * from0));
+    const T cut = larger(T(shorter / larger(change, T(1e-300))), T(0.01));
+    limits.cut =
+        select(matters && change > T(longest_leap) * least, smaller(limits.cut, cut), limits.cut);
+    const T ahead =
+        select(v1 * a < T(0), detail::reach_inward(size1, slip), T(T(longest_leap) * from1));
+    const T next = ahead / larger(T(abs(a) * step.h), T(1e-300));
+    limits.next = select(matters, smaller(limits.next, next), limits.next);
+  }
+  return limits;
+}
+
+} // namespace wingspread
