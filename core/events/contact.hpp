@@ -10,6 +10,7 @@
 #include "core/events/instant.hpp"
 #include "core/mechanics/system.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -82,23 +83,28 @@ template <class T, class AnySystem>
 /// at the end dxdt is the derivative with the contacts as they are then.
 ///
 /// All at rest are locked first, and all that exceed their limits let go at once, until none does:
-/// independent of the hinges' order. One that would then run against its own friction is locked
-/// again; after 64 of these a hinge, which no wing has needed, the rest slide as they are.
+/// independent of the hinges' order. Those that would then run against their own friction are locked
+/// again. Where that goes round in circles, one hinge is moved at a time, the first that is wrong
+/// [Murty 1974: least-index pivoting ends for a positive definite mass matrix, whose contacts are
+/// unique where τ_s = τ_c]; after 64 of these a hinge, which no wing has needed, the rest slide as
+/// they are.
 /// @param let_go a hinge whose release is due: it is held no more though rounding may say so;
 ///               0: none
 template <class T, class AnySystem>
 void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int let_go) {
   const std::vector<char> resting = detail::lock_those_at_rest(system, x);
   const T slack(let_go != 0 ? 1 + release_tolerance : 1 + 1e-12);
-  for (std::size_t relocks = 0, most = 64 * resting.size();;) {
+  const std::size_t together = 16, most = together + 64 * resting.size();
+  for (std::size_t round = 0;; ++round) {
     system(x, dxdt, t);
     detail::Contacts moves = detail::too_weakly_held(system, x, slack, let_go);
     let_go = 0;
-    if (moves.empty()) {
-      moves = detail::running_against_friction(system, dxdt, resting);
-      relocks += moves.size();
+    if (moves.empty() || round > together) {
+      const detail::Contacts back = detail::running_against_friction(system, dxdt, resting);
+      moves.insert(moves.end(), back.begin(), back.end());
     }
-    if (moves.empty() || relocks > most) return;
+    if (moves.empty() || round > most) return;
+    if (round > together) moves = {*std::min_element(moves.begin(), moves.end())};
     for (const auto& [i, contact] : moves) system.touch(i, contact);
   }
 }
