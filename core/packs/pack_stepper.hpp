@@ -2,10 +2,10 @@
 /// path over Pack<W>.
 #pragma once
 
+#include "core/dense/friction_layer.hpp"
 #include "core/dense/roughness.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
-#include "core/methods/friction_layer.hpp"
 #include "core/methods/runge_kutta.hpp"
 #include "core/packs/fields.hpp"
 #include "core/packs/pack_engine.hpp"

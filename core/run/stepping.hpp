@@ -1,7 +1,7 @@
 /// How far a run goes next, and by which method.
 #pragma once
 
-#include "core/methods/friction_layer.hpp"
+#include "core/dense/friction_layer.hpp"
 #include "core/methods/long_steps.hpp"
 #include "core/methods/method_choice.hpp"
 #include "core/methods/spectral_radius.hpp"

@@ -1,7 +1,7 @@
 // Steps through the layer in which regularized friction changes its sign: one by one, and whole
 // runs of rubbing wings against CVODE on the dense formulation.
+#include "core/dense/friction_layer.hpp"
 #include "core/deployment.hpp"
-#include "core/methods/friction_layer.hpp"
 #include "tests/core/packs/same_bits.hpp"
 #include "tests/support/closed_forms.hpp"
 #include "tests/support/reference_run.hpp"
