@@ -13,7 +13,7 @@ template <class T> struct Step {
   State<T> x1, dxdt1; ///< at t + h
 
   /// Coordinate k of q over the step; its rate stands `freedoms` further.
-  [[nodiscard]] Quintic<T> coordinate(int k, int freedoms) const {
+  [[nodiscard, gnu::always_inline]] Quintic<T> coordinate(int k, int freedoms) const {
     const int r = k + freedoms;
     return hermite<T>(h, {x[k], x[r], dxdt[r]}, {x1[k], x1[r], dxdt1[r]});
   }
