@@ -14,6 +14,8 @@
 namespace wingspread {
 namespace {
 
+constexpr std::size_t most_dispersions = 10'000;
+
 constexpr std::array<std::string_view, 5> columns_of_runs{"run", "status", "latch_order", "reason",
                                                           "deployed"};
 
@@ -122,7 +124,7 @@ Dispersions read_dispersions(const JsonCursor& at, const Scene* scene,
   if (!at.value().is_array()) at.refuse("an array of dispersions");
   Dispersions dispersions{{}, at.value()};
   std::vector<Sourced> all;
-  for (std::size_t i = 0; const JsonCursor& element : at.elements())
+  for (std::size_t i = 0; const JsonCursor& element : at.elements(most_dispersions))
     for (Dispersion& read : read_dispersion(element, scene, directory, dispersions.resolved[i++]))
       all.push_back({std::move(read), element});
   if (all.size() > most_dispersions)

@@ -13,6 +13,8 @@
 namespace wingspread {
 namespace {
 
+constexpr std::size_t most_correlations = 100'000;
+
 using Matrix = Eigen::MatrixXd;
 
 /// Of the coefficients that a message proposes. Rounding them changes an eigenvalue by some
@@ -116,7 +118,7 @@ std::vector<RankCorrelation> read_wanted_correlations(const JsonCursor& at,
   if (!at.value().is_array()) at.refuse("an array of correlations");
   std::vector<RankCorrelation> correlations;
   const std::size_t problems_before = at.problems().size();
-  for (const JsonCursor& element : at.elements()) {
+  for (const JsonCursor& element : at.elements(most_correlations)) {
     const auto read = read_correlation(element, dispersions);
     if (!read) continue;
     const auto is_same = [&](const RankCorrelation& other) {

@@ -45,7 +45,7 @@ void drop_part() noexcept {
 }
 
 WholeFile::WholeFile(std::filesystem::path path)
-    : path_(std::move(path)), part_(begin_part(path_), OutputFile::From::beginning) {}
+    : path_(std::move(path)), part_(begin_part(path_), OutputFile::From::beginning, path_) {}
 
 WholeFile::~WholeFile() { drop_part(); }
 

@@ -24,10 +24,11 @@ bool cannot_sync(int error) { return error == EINVAL || error == ENOTSUP || erro
 
 } // namespace
 
-OutputFile::OutputFile(std::filesystem::path path, From from) : path_(std::move(path)) {
+OutputFile::OutputFile(std::filesystem::path path, From from, std::filesystem::path called)
+    : path_(std::move(path)), called_(called.empty() ? path_ : std::move(called)) {
   const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | (from == From::end ? O_APPEND : O_TRUNC);
   file_ = without_signals([&] { return open(path_.c_str(), flags, 0666); });
-  if (file_ < 0) refuse_path(path_, errno, writable_file);
+  if (file_ < 0) refuse_path(called_, errno, writable_file);
 }
 
 OutputFile::~OutputFile() {
@@ -35,25 +36,26 @@ OutputFile::~OutputFile() {
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
+    : path_(std::move(other.path_)), called_(std::move(other.called_)),
+      file_(std::exchange(other.file_, -1)) {}
 
 void OutputFile::write(std::string_view text) {
   while (!text.empty()) {
     const auto written = without_signals([&] { return ::write(file_, text.data(), text.size()); });
-    if (written < 0) refuse_path(path_, errno, writable_file);
+    if (written < 0) refuse_path(called_, errno, writable_file);
     text.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
 void OutputFile::sync() {
   const int failed = without_signals([&] { return fsync(file_); });
-  if (failed != 0 && !cannot_sync(errno)) refuse_path(path_, errno, writable_file);
+  if (failed != 0 && !cannot_sync(errno)) refuse_path(called_, errno, writable_file);
 }
 
 void OutputFile::close() {
   // on Linux the file is closed whatever it returns, also when a signal came
   const int failed = ::close(std::exchange(file_, -1));
-  if (failed != 0 && errno != EINTR) refuse_path(path_, errno, writable_file);
+  if (failed != 0 && errno != EINTR) refuse_path(called_, errno, writable_file);
 }
 
 void sync_folder(const std::filesystem::path& folder) {

@@ -13,8 +13,9 @@ public:
     end        ///< behind what is there
   };
 
+  /// @param called how messages name it, where that is not its path
   /// @throws as refuse_path (machine_error.hpp) does, here and below
-  OutputFile(std::filesystem::path path, From from);
+  OutputFile(std::filesystem::path path, From from, std::filesystem::path called = {});
   /// Closes it without a word, for when something else has gone wrong.
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
@@ -30,7 +31,7 @@ public:
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
 private:
-  std::filesystem::path path_;
+  std::filesystem::path path_, called_;
   int file_ = -1;
 };
 

@@ -93,7 +93,7 @@ private:
     const double confidence = window_confidence(report_.campaign, report_.result, window);
     return fmt::format("  {:<20}{:>8}  {}\n", "all together",
                        fmt::format("{:.10g} %", 100 * confidence),
-                       "at least: every requirement in every case, at every edge of the window");
+                       "at least: every requirement, in every case, at each edge");
   }
 
   [[nodiscard]] std::string confirmation() const {

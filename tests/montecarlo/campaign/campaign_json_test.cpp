@@ -186,7 +186,8 @@ TEST_CASE("All faults of a campaign are told together", "[campaign_json]") {
   document["integration"] = {{"rtol", 2}};
   document["statistics"] = {{"confidence", 2}};
   CHECK(test::message_of([&] { return read_campaign(document.dump(), "", "c.json"); }) ==
-        "c.json: /scene/name: found 1, expected a string, the scene's name, not empty\n"
+        "c.json: /scene/name: found 1, expected a string, the scene's name, not empty, "
+        "without control characters\n"
         "c.json: /dispersions/0/apply: found string \"times\", expected \"set\", \"scale\" or "
         "\"add\"\n"
         "c.json: /integration/rtol: found 2, expected a number, > 0 and < 1\n"
@@ -238,7 +239,8 @@ TEST_CASE("A problem in the scene's own file is told under its name", "[campaign
   const auto path = folder.write("campaign.json", R"({"scene": "scene.json", "sampling": 3})");
   CHECK(test::message_of([&] { return read_campaign_file(path); }) ==
         scene.string() +
-            ": /name: found nothing, expected a string, the scene's name, not empty\n" +
+            ": /name: found nothing, expected a string, the scene's name, not empty, "
+            "without control characters\n" +
             path.string() + ": /sampling: found 3, expected an object with the sampling");
   folder.write("scene.json", "{");
   CHECK_THAT(test::message_of([&] { return read_campaign_file(path); }),
