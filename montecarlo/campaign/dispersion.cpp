@@ -14,8 +14,6 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t most_dispersions = 10'000;
-
 constexpr std::array<std::string_view, 5> columns_of_runs{"run", "status", "latch_order", "reason",
                                                           "deployed"};
 
