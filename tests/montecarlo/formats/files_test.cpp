@@ -20,7 +20,7 @@ TEST_CASE("what cannot be written is named, with the system's reason") {
   CHECK(message_of([&] {
           write_file(folder.path() / "no" / "a.json", "x");
           return 0;
-        }) == (folder.path() / "no" / "a.json.part").string() +
+        }) == (folder.path() / "no" / "a.json").string() +
                   ": found No such file or directory, expected a file that can be written");
   CHECK(message_of([&] {
           make_folder(file / "below");
