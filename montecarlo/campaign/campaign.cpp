@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <iterator>
 
 namespace wingspread {
 namespace {
@@ -26,6 +27,7 @@ void apply_draw(Apply how, double draw, double& target) {
 } // namespace
 
 long count_looks(const Campaign& campaign) {
+  if (campaign.until.empty()) return 1 + std::ssize(campaign.sampling.extended_from);
   return count_looks(campaign.until, campaign.sampling.runs);
 }
 

@@ -38,7 +38,8 @@ struct Campaign {
   Json resolved;
 };
 
-/// At how many numbers of runs it may stop.
+/// How many looks at growing data its bounds and verdicts share their risk among: the numbers of runs
+/// at which it may stop or, of one that was extended, those at which it was looked at and its own.
 [[nodiscard]] long count_looks(const Campaign& campaign);
 
 /// What tells campaigns apart: 16 hexadecimal digits that depend on the resolved campaign alone,

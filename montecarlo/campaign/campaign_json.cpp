@@ -32,6 +32,12 @@ void refuse_dependent_draws(const JsonCursor& at, const char* what, DesignKind d
             "no others");
 }
 
+/// Its checkpoints were fixed beforehand, and no more of them can be.
+void refuse_extended_rule(const JsonCursor& at) {
+  at.refuse("goals to stop at",
+            "none, for a campaign that was extended beyond the runs first made");
+}
+
 std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs) {
   std::vector<std::string> names;
   for (OutputColumn& column : output_columns(scene, outputs))
@@ -39,7 +45,7 @@ std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs
   return names;
 }
 
-/// Requirements and widths to stop at: what names the campaign's outputs, and needs its draws to be
+/// Requirements and goals to stop at: what names the campaign's outputs, and needs its draws to be
 /// independent.
 /// @param scene null when it or its outputs are wrong themselves: then no output is missed
 class GuaranteeReader {
@@ -54,9 +60,14 @@ public:
     read_requirements(at, known_ ? &names_ : nullptr, all_names_, requirements);
     if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
   }
-  void read(const JsonCursor& at, StoppingRule& until) const {
-    read_stopping_rule(at, known_ ? &names_ : nullptr, until);
-    if (!until.empty()) refuse_dependent_draws(at, "widths to stop at", design_);
+  /// @param requirements the campaign's; null when they are wrong themselves
+  void read(const JsonCursor& at, const std::vector<Requirement>* requirements,
+            StoppingRule& until) const {
+    std::vector<std::string> names;
+    if (requirements)
+      for (const Requirement& requirement : *requirements) names.push_back(name_of(requirement));
+    read_stopping_rule(at, known_ ? &names_ : nullptr, requirements ? &names : nullptr, until);
+    if (!until.empty()) refuse_dependent_draws(at, "goals to stop at", design_);
   }
 
 private:
@@ -163,8 +174,13 @@ private:
   void read_guarantees() {
     const DesignKind design = campaign_.sampling.design;
     const GuaranteeReader guarantees(outputs_known_ ? scene_ : nullptr, campaign_.outputs, design);
+    const std::size_t before = problems_.size();
     if (const auto at = object_.find("requirements")) guarantees.read(*at, campaign_.requirements);
-    if (const auto at = object_.find("until")) guarantees.read(*at, campaign_.until);
+    const bool sound = problems_.size() == before;
+    if (const auto at = object_.find("until"))
+      guarantees.read(*at, sound ? &campaign_.requirements : nullptr, campaign_.until);
+    if (!campaign_.until.empty() && !campaign_.sampling.extended_from.empty())
+      refuse_extended_rule(object_.at().member("until"));
     if (!campaign_.statistics.tolerance_limits.empty())
       refuse_dependent_draws(object_.at().member("statistics").member("tolerance"),
                              "tolerance limits", design);
@@ -215,13 +231,21 @@ void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
     throw SpecError({{"", "--runs", std::to_string(*runs),
                       fmt::format("at least {}, one for each of the campaign's replicates",
                                   campaign.sampling.replicates)}});
-  campaign.sampling.runs = runs.value_or(campaign.sampling.runs);
-  campaign.sampling.seed = seed.value_or(campaign.sampling.seed);
+  Sampling& sampling = campaign.sampling;
+  if (seed && *seed != sampling.seed) sampling.extended_from.clear(); // nobody has seen those draws
+  sampling.runs = runs.value_or(sampling.runs);
+  sampling.seed = seed.value_or(sampling.seed);
+  std::erase_if(sampling.extended_from, [&](std::int64_t seen) { return seen >= sampling.runs; });
+  campaign.resolved["sampling"] = write_sampling(campaign.sampling);
+}
+
+void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from) {
+  campaign.sampling.extended_from = std::move(extended_from);
   campaign.resolved["sampling"] = write_sampling(campaign.sampling);
 }
 
 void override_stopping(Campaign& campaign, const JsonCursor& at) {
-  guarantee_reader(campaign).read(at, campaign.until);
+  guarantee_reader(campaign).read(at, &campaign.requirements, campaign.until);
   campaign.resolved["until"] = write_stopping_rule(campaign.until);
 }
 

@@ -32,7 +32,11 @@ namespace wingspread {
 void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
                        std::optional<std::uint64_t> seed);
 
-/// Replaces the widths at which it stops by those that stand here, and notes what is wrong with
+/// Says at which numbers of runs its results were looked at before it was extended; `resolved`
+/// follows. @pre each less than the next, and than the number of runs
+void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from);
+
+/// Replaces the goals at which it stops by those that stand here, and notes what is wrong with
 /// them; `resolved` follows.
 void override_stopping(Campaign& campaign, const JsonCursor& at);
 

@@ -38,6 +38,23 @@ void refuse_replicates(const JsonCursor& at, const Sampling& sampling) {
     at.refuse(fmt::format("at most the number of runs, {}", sampling.runs));
 }
 
+/// The numbers of runs that a campaign had before it was extended.
+void read_extended_from(const JsonCursor& at, Sampling& sampling) {
+  constexpr const char* expected = "an array of integers ≥ 1, each less than the next";
+  if (sampling.design == DesignKind::latin_hypercube)
+    return void(at.refuse("none: a Latin hypercube of more runs has other draws"));
+  if (!at.value().is_array()) return void(at.refuse(expected));
+  std::int64_t before = 0;
+  for (const JsonCursor& element : at.elements()) {
+    std::int64_t runs = 0;
+    if (!element.read(runs, expected)) return;
+    if (runs <= before) return void(element.refuse(expected));
+    if (runs >= sampling.runs)
+      return void(element.refuse(fmt::format("less than the number of runs, {}", sampling.runs)));
+    sampling.extended_from.push_back(before = runs);
+  }
+}
+
 void read_latch_form(const JsonCursor& at, std::optional<double>& smoothing) {
   constexpr std::string_view expected = "\"event\" or { \"smoothed\": a number, rad, > 0 }";
   if (at.value() == "event") return smoothing.reset();
@@ -110,6 +127,8 @@ void read_sampling(const JsonCursor& at, Sampling& sampling) {
   object.optional("replicates", sampling.replicates, "an integer, ≥ 1", is_at_least_1);
   const auto replicates = object.find("replicates");
   if (replicates && has_replicates(sampling)) refuse_replicates(*replicates, sampling);
+  sampling.extended_from.clear();
+  if (const auto extended = object.find("extended_from")) read_extended_from(*extended, sampling);
   object.refuse_others();
 }
 
@@ -144,10 +163,12 @@ void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
 }
 
 Json write_sampling(const Sampling& sampling) {
-  return {{"design", design_names[static_cast<std::size_t>(sampling.design)]},
-          {"runs", sampling.runs},
-          {"seed", sampling.seed},
-          {"replicates", sampling.replicates}};
+  Json json{{"design", design_names[static_cast<std::size_t>(sampling.design)]},
+            {"runs", sampling.runs},
+            {"seed", sampling.seed},
+            {"replicates", sampling.replicates}};
+  if (!sampling.extended_from.empty()) json["extended_from"] = sampling.extended_from;
+  return json;
 }
 
 Json write_integration(const Integration& integration) {

@@ -26,6 +26,9 @@ struct Sampling {
   std::int64_t runs = 1000; ///< from 1 to most_runs
   std::uint64_t seed = 1;
   std::int64_t replicates = 1; ///< independent repetitions of a design, ≥ 1
+  /// Numbers of runs at which the results were looked at before more were made of the same draws:
+  /// each less than the next, and than `runs`. Every one is a look (count_looks).
+  std::vector<std::int64_t> extended_from{};
 };
 
 /// Whether the runs are in replicates, at most as many as runs: independent draws are not, whatever

@@ -118,7 +118,10 @@ std::string describe_replicates(const Sampling& sampling) {
 std::string describe_sampling(const Sampling& sampling) {
   return fmt::format("{}, {}, seed {}", design_names[static_cast<std::size_t>(sampling.design)],
                      counted(sampling.runs, "run", "runs"), sampling.seed) +
-         describe_replicates(sampling);
+         describe_replicates(sampling) +
+         (sampling.extended_from.empty() ? ""
+                                         : fmt::format(", extended: looked at after {} runs",
+                                                       fmt::join(sampling.extended_from, ", ")));
 }
 
 std::string describe_correlation(const Campaign& campaign, const RankCorrelation& correlation) {
@@ -178,8 +181,10 @@ std::string describe_guarantees(const Campaign& campaign) {
                         confidence, side_names[static_cast<std::size_t>(side)]);
   for (const Requirement& requirement : campaign.requirements)
     text += "requirement: " + describe_requirement(campaign, requirement) + "\n";
-  for (const WidthGoal& goal : campaign.until)
-    text += "until the interval's width is: " + to_string(goal) + "\n";
+  for (const StoppingGoal& goal : campaign.until)
+    text += (std::holds_alternative<WidthGoal>(goal) ? "until the interval's width is: "
+                                                     : "until it is passed or disproved: ") +
+            to_string(goal) + "\n";
   if (campaign.margin)
     text += "margin: " + describe_margin(*campaign.margin, campaign.scene) + "\n";
   return text;

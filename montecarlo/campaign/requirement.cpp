@@ -67,6 +67,10 @@ Requirement read_requirement(const JsonCursor& at, const std::vector<std::string
 
 } // namespace
 
+const std::string& name_of(const Requirement& requirement) {
+  return requirement.name.empty() ? requirement.output : requirement.name;
+}
+
 void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
                        std::span<const std::string> all_outputs,
                        std::vector<Requirement>& requirements) {

@@ -21,6 +21,9 @@ struct Requirement {
   double probability = 0, confidence = 0; ///< each in (0, 1); the confidence is one-sided
 };
 
+/// By what a stopping rule knows it: its name or, of one without, its output.
+[[nodiscard]] const std::string& name_of(const Requirement& requirement);
+
 /// Reads an array of them, and notes what is wrong.
 /// @param outputs the campaign's columns; nothing when they are not known, for a scene or a
 ///   list of outputs that is wrong itself: then no name is missed

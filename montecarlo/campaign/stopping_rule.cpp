@@ -13,6 +13,7 @@ namespace wingspread {
 namespace {
 
 constexpr long first_checkpoint = 1000;
+constexpr std::string_view decision_prefix = "requirement ";
 constexpr const char* quantile_expected = "a number, > 0 and < 1: the quantile that is meant";
 
 void refuse_unknown_output(const JsonCursor& at, const std::string& output,
@@ -49,16 +50,56 @@ void read_quantile(JsonObject& object, WidthGoal& goal) {
   if (goal.relative) object.at().refuse("a relative_width", "a width, for a share of runs");
 }
 
-WidthGoal read_goal(const JsonCursor& at, const std::vector<std::string>* outputs) {
+DecisionGoal read_decision_goal(JsonObject& object, const std::vector<std::string>* requirements) {
+  DecisionGoal goal;
+  const bool named =
+      object.required("requirement", goal.requirement, "a string, the name of a requirement");
+  if (named && requirements &&
+      std::ranges::find(*requirements, goal.requirement) == requirements->end())
+    object.at()
+        .member("requirement")
+        .refuse("a requirement of the campaign, by its name or its output" +
+                did_you_mean(goal.requirement, *requirements));
+  return goal;
+}
+
+WidthGoal read_width_goal(JsonObject& object, const std::vector<std::string>* outputs) {
   WidthGoal goal;
-  JsonObject object(at, "a width to be reached: an object");
   const bool named = object.required("output", goal.output, "a string, an output or a status");
   if (named && outputs && object.is_object())
-    refuse_unknown_output(at.member("output"), goal.output, *outputs);
+    refuse_unknown_output(object.at().member("output"), goal.output, *outputs);
   read_width(object, goal);
   read_quantile(object, goal);
+  return goal;
+}
+
+StoppingGoal read_goal(const JsonCursor& at, const std::vector<std::string>* outputs,
+                       const std::vector<std::string>* requirements) {
+  JsonObject object(at, "a width to be reached, or a requirement to be decided: an object");
+  const bool decision = object.is_object() && at.value().contains("requirement");
+  StoppingGoal goal = decision ? StoppingGoal(read_decision_goal(object, requirements))
+                               : read_width_goal(object, outputs);
   object.refuse_others();
   return goal;
+}
+
+Json write_goal(const WidthGoal& goal) {
+  Json json{{"output", goal.output}};
+  if (goal.quantile) json["quantile"] = *goal.quantile;
+  json[goal.relative ? "relative_width" : "width"] = goal.width;
+  return json;
+}
+
+Json write_goal(const DecisionGoal& goal) { return {{"requirement", goal.requirement}}; }
+
+std::string text_of(const WidthGoal& goal) {
+  const std::string quantile = goal.quantile ? fmt::format("@{}", *goal.quantile) : "";
+  if (goal.relative) return fmt::format("{}{} {:.10g}%", goal.output, quantile, 100 * goal.width);
+  return fmt::format("{}{} {}", goal.output, quantile, goal.width);
+}
+
+std::string text_of(const DecisionGoal& goal) {
+  return fmt::format("{}{}", decision_prefix, goal.requirement);
 }
 
 /// Splits off what follows the last `mark`, which has to be there.
@@ -73,24 +114,24 @@ std::optional<std::string_view> split_last(std::string_view& text, char mark) {
 } // namespace
 
 void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* outputs,
-                        StoppingRule& rule) {
-  if (!at.value().is_array()) return void(at.refuse("an array of widths to be reached"));
+                        const std::vector<std::string>* requirements, StoppingRule& rule) {
+  if (!at.value().is_array())
+    return void(at.refuse("an array of widths to be reached and requirements to be decided"));
   rule.clear();
-  for (const JsonCursor& element : at.elements()) rule.push_back(read_goal(element, outputs));
+  for (const JsonCursor& element : at.elements())
+    rule.push_back(read_goal(element, outputs, requirements));
 }
 
 Json write_stopping_rule(const StoppingRule& rule) {
   Json list = Json::array();
-  for (const WidthGoal& goal : rule) {
-    Json json{{"output", goal.output}};
-    if (goal.quantile) json["quantile"] = *goal.quantile;
-    json[goal.relative ? "relative_width" : "width"] = goal.width;
-    list.push_back(std::move(json));
-  }
+  for (const StoppingGoal& goal : rule)
+    list.push_back(std::visit([](const auto& each) { return write_goal(each); }, goal));
   return list;
 }
 
-std::optional<Json> parse_width_goal(std::string_view text) {
+std::optional<Json> parse_stopping_goal(std::string_view text) {
+  if (text.starts_with(decision_prefix) && text.size() > decision_prefix.size())
+    return Json{{"requirement", text.substr(decision_prefix.size())}};
   const bool percent = text.ends_with('%');
   std::string_view name = text.substr(0, text.find_last_not_of("% ") + 1);
   const auto width = split_last(name, ' ');
@@ -108,10 +149,8 @@ std::optional<Json> parse_width_goal(std::string_view text) {
   return goal;
 }
 
-std::string to_string(const WidthGoal& goal) {
-  const std::string quantile = goal.quantile ? fmt::format("@{}", *goal.quantile) : "";
-  if (goal.relative) return fmt::format("{}{} {:.10g}%", goal.output, quantile, 100 * goal.width);
-  return fmt::format("{}{} {}", goal.output, quantile, goal.width);
+std::string to_string(const StoppingGoal& goal) {
+  return std::visit([](const auto& each) { return text_of(each); }, goal);
 }
 
 long next_checkpoint(long done, long runs) {

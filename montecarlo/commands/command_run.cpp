@@ -107,19 +107,20 @@ bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew,
   return interrupted;
 }
 
-/// The widths at which to stop, in place of the campaign's; as it is where none are given.
+/// The goals at which to stop, in place of the campaign's; as it is where none are given.
 void override_until(Campaign& campaign, const std::vector<std::string>& until) {
   if (until.empty()) return;
   Json goals = Json::array();
-  for (const std::string& text : until) goals.push_back(parse_width_goal(text).value());
+  for (const std::string& text : until) goals.push_back(parse_stopping_goal(text).value());
   override_settings({{"until", goals}},
                     [&](const JsonCursor& at) { override_stopping(campaign, at.member("until")); });
 }
 
 std::string refuse_until(const std::string& text) {
-  if (parse_width_goal(text)) return "";
+  if (parse_stopping_goal(text)) return "";
   return fmt::format("found \"{}\", expected e.g. \"root.peak_moment@0.99 5\" (its 0.99 quantile "
-                     "known to within 5 N·m), \"root.peak_moment@0.99 2%\" or \"deployed 0.01\"",
+                     "known to within 5 N·m), \"root.peak_moment@0.99 2%\", \"deployed 0.01\" or "
+                     "\"requirement deployed\"",
                      text);
 }
 
@@ -170,14 +171,15 @@ void add_run(CLI::App& app, Action& action) {
   add_sampling_options(*command, options->sampling);
   add_crew_options(*command, options->crew);
   command->add_flag("--resume", options->resume,
-                    "Go on where an earlier run into the folder stopped");
+                    "Go on where an earlier run into the folder stopped, or with more --runs");
   command->add_option("--shard", options->shard, "Only part I of N of the runs, e.g. 2/5")
       ->type_name("I/N")
       ->check(refuse_shard);
   command
       ->add_option("--until", options->until,
-                   "Stop when a confidence interval is that narrow, e.g. \"deployed 0.01\"")
-      ->type_name("WIDTH")
+                   "Stop when an interval is that narrow, e.g. \"deployed 0.01\", or a "
+                   "requirement decided")
+      ->type_name("GOAL")
       ->allow_extra_args(false)
       ->check(refuse_until);
   add_display_options(*command, options->display);
@@ -191,10 +193,16 @@ campaign's confidence; several have to be reached together:
   "root.peak_moment@0.99 5"    of the 0.99 quantile, in N·m
   "root.peak_moment@0.99 2%"   the same, as a share of the quantile
   "deployed 0.01"              of the share of runs that deploy (or stall, …: any status)
+  "requirement deployed"       not a width: the requirement, by name or output, passed or disproved
 They are looked at after 1000, 2000, 4000, … runs and nowhere else, so that a campaign stops at
 the same run however it is made; its number of runs is the most it makes. Each look is a chance to
 be misled: all bounds and verdicts of such a campaign share their risk out among its checkpoints,
 and hold wherever it stopped. Not for shards, nor for draws that depend on each other.
+
+A verdict that fell short is not mended by more runs of the same draws: whoever goes on until one
+passes is misled more often than it says. State it in --until, or begin anew with another --seed and
+a number of runs fixed beforehand. --resume with more --runs is counted as another look, and the
+verdicts are held to that.
 
 Example:
   wingspread run campaign.json --out results/first --runs 2000 --threads 4

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -21,6 +22,8 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
                                  campaign.sampling.seed);
   if (summary.replicates > 0) text += ", " + counted(summary.replicates, "replicate", "replicates");
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
+  if (!summary.looked_at.empty())
+    text += fmt::format(" · look {}, after {}", summary.looks, fmt::join(summary.looked_at, ", "));
   if (summary.stopped)
     text += fmt::format(" · stopped, of {} at most", stored.runs().size());
   else if (summary.runs < stored.runs().size())
@@ -43,6 +46,14 @@ bool report_requirements(const Summary& summary) {
     fmt::print(stderr, "not met: {}: {}: {}\n", to_string(verdict.requirement),
                to_string(verdict.decision), evidence(verdict));
   }
+  const auto is_open = [](const Verdict& verdict) { return !is_decided(verdict); };
+  if (std::ranges::any_of(summary.requirements, is_open))
+    fmt::print(
+        stderr,
+        "note: more runs of the same draws are another look at them. To decide what is open, "
+        "state it as --until \"requirement {}\" or take another --seed, with a number of runs "
+        "fixed beforehand\n",
+        name_of(std::ranges::find_if(summary.requirements, is_open)->requirement));
   return met;
 }
 

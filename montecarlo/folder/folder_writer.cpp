@@ -1,12 +1,16 @@
 #include "montecarlo/folder/folder_writer.hpp"
 
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/folder/replay.hpp"
 #include "montecarlo/formats/files.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace wingspread {
 namespace {
@@ -22,39 +26,56 @@ bool is_new(const std::filesystem::path& folder) {
   return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_nothing);
 }
 
-/// Why a campaign cannot be continued with another number of runs.
-std::string fixed_runs(const Sampling& sampling) {
-  return sampling.design == DesignKind::latin_hypercube
-             ? "a Latin hypercube's strata, and so all of its draws, depend on the number of runs; "
-               "run it into a new folder"
-             : "the number of runs is part of a campaign; run it into a new folder";
+/// Why these runs cannot be added to those that are there; nothing when they can.
+std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaign& ours,
+                                      const Stamp& stamp) {
+  if (ours.sampling.runs < there.campaign.sampling.runs)
+    return "more can be added to them, but none taken away; run it into a new folder";
+  if (ours.sampling.design == DesignKind::latin_hypercube)
+    return "a Latin hypercube's strata, and so all of its draws, depend on the number of runs; "
+           "run it into a new folder";
+  if (!ours.until.empty() || !there.campaign.until.empty())
+    return "the checkpoints of a campaign that may stop early depend on the number of runs; run it "
+           "into a new folder";
+  if (stamp.shard || there.stamp.shard)
+    return "a shard's runs depend on the number of all; run it into a new folder";
+  return std::nullopt;
 }
 
 /// Refuses to mix the rows of two campaigns, seeds, shards or versions.
-void refuse_other_campaign(const StoredCampaign& there, const Campaign& campaign,
-                           const Stamp& stamp) {
+/// @param ours with the looks of what is there, as far as it has them
+void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, const Stamp& stamp) {
   std::vector<Problem> problems;
-  const auto compare = [&](const char* key, const std::string& found, const std::string& ours) {
-    if (found != ours)
+  const auto compare = [&](const char* key, const std::string& found, const std::string& expected) {
+    if (found != expected)
       problems.push_back({(there.folder / campaign_file).string(),
                           fmt::format("/wingspread/{}", key), found,
-                          fmt::format("{}, to continue what is there", ours)});
+                          fmt::format("{}, to continue what is there", expected)});
   };
-  const Sampling &found = there.campaign.sampling, &ours = campaign.sampling;
-  if (found.runs != ours.runs)
+  const std::int64_t found = there.campaign.sampling.runs, runs = ours.sampling.runs;
+  const auto fixed = found == runs ? std::nullopt : fixed_runs(there, ours, stamp);
+  if (fixed)
     problems.push_back({(there.folder / campaign_file).string(), "/sampling/runs",
-                        std::to_string(found.runs),
-                        fmt::format("{}: {}", ours.runs, fixed_runs(ours))});
-  compare("hash", there.stamp.hash, stamp.hash);
+                        std::to_string(found), fmt::format("{}: {}", runs, *fixed)});
+  Campaign same = ours; // but for the number of runs, which may grow
+  if (!fixed) override_sampling(same, found, std::nullopt);
+  compare("hash", there.stamp.hash, campaign_hash(same.resolved));
   compare("shard", describe(there.stamp.shard), describe(stamp.shard));
   compare("version", there.stamp.version, stamp.version);
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
+/// The looks that were taken when these rows had been made and more runs are added to them.
+std::vector<std::int64_t> looks_before(const Sampling& there, std::int64_t rows) {
+  std::vector<std::int64_t> looks = there.extended_from;
+  if (rows > 0 && (looks.empty() || rows > looks.back())) looks.push_back(rows);
+  return looks;
+}
+
 /// A shard cannot tell what all runs up to a checkpoint come to.
 void refuse_stopping_shard(const Campaign& campaign, const std::optional<Shard>& shard) {
   if (shard && !campaign.until.empty())
-    throw SpecError({{"", "", describe(shard) + " of a campaign that stops at a width",
+    throw SpecError({{"", "", describe(shard) + " of a campaign that may stop early",
                       "all runs: only they tell when to stop"}});
 }
 
@@ -81,14 +102,28 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
   const bool fresh = is_new(stored_.folder);
   if (!resume) refuse_used_folder(stored_.folder, expected);
   if (!fresh) {
-    refuse_other_campaign(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);
-    ResultsFile read = read_stored_results(stored_);
-    refuse_other_rows(plan, read.results, stored_.folder / runs_file);
-    rows_.go_on_behind(std::move(read), stored_.runs().first);
+    go_on(plan);
   } else {
     write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
   }
   rows_.open(plan.names());
+}
+
+void FolderWriter::go_on(const RunPlan& plan) {
+  const StoredCampaign there = read_stored_campaign(stored_.folder);
+  const Sampling& before = there.campaign.sampling;
+  if (stored_.campaign.sampling.extended_from.empty() &&
+      before.seed == stored_.campaign.sampling.seed)
+    note_extension(stored_.campaign, before.extended_from);
+  refuse_other_campaign(there, stored_.campaign, stored_.stamp);
+  ResultsFile read = read_stored_results(there);
+  refuse_other_rows(plan, read.results, stored_.folder / runs_file);
+  rows_.go_on_behind(std::move(read), stored_.runs().first);
+  if (before.runs < stored_.campaign.sampling.runs)
+    note_extension(stored_.campaign, looks_before(before, rows_.count()));
+  stored_.stamp = stamp_of(stored_.campaign, stored_.stamp.shard);
+  if (before.runs < stored_.campaign.sampling.runs)
+    write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
 }
 
 RunRange FolderWriter::remaining() const {

@@ -17,6 +17,11 @@ public:
   /// To resume: the folder is new, or has the same campaign, seed, shard and version; what was cut
   /// off at the end of runs.csv is taken away. Not to resume: it is new, or empty. A campaign that
   /// may stop has no shards: only all runs up to a checkpoint can tell.
+  ///
+  /// A campaign may be resumed with more runs than it had, unless its draws or checkpoints depend on
+  /// their number: its results were seen, so that this is one more look at the same draws, and is
+  /// noted in campaign.json (Sampling::extended_from). The folder becomes the one that this campaign
+  /// gives in one go.
   /// @throws SpecError otherwise, with nothing written; MachineError when another process has it, or it cannot
   ///   be written
   FolderWriter(std::filesystem::path folder, const RunPlan& plan, const std::optional<Shard>& shard,
@@ -37,6 +42,9 @@ public:
   void finish() { rows_.finish(); }
 
 private:
+  /// Takes over what is there, and notes when it is extended.
+  void go_on(const RunPlan& plan);
+
   StoredCampaign stored_;
   RowWriter rows_;
   std::optional<FolderLock> lock_;

@@ -65,7 +65,7 @@ void refuse_strangers(const std::vector<Part>& parts) {
 void refuse_stopping(const StoredCampaign& stored) {
   if (!stored.campaign.until.empty())
     throw SpecError({{(stored.folder / campaign_file).string(), "/until",
-                      "a campaign that stops at a width", "one that can have shards"}});
+                      "a campaign that may stop early", "one that can have shards"}});
 }
 
 /// The campaign as one of its folders has it.

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <span>
 #include <utility>
 
 namespace wingspread {
@@ -36,10 +36,23 @@ Json about(const StoredCampaign& stored, const Summary& summary) {
   return json;
 }
 
-/// The widths that decide when the campaign stops: at its own confidence, whatever the summary's.
-std::vector<WidthFound> widths_of(const Campaign& campaign, const Results& results) {
-  return find_widths(campaign.until, results,
-                     at_each_of(campaign.statistics.confidence, count_looks(campaign)));
+/// What decides when the campaign stops: at its own confidence, whatever the summary's.
+std::vector<GoalFound> goals_of(const Campaign& campaign, const Results& results,
+                                std::span<const Verdict> verdicts) {
+  return find_goals(campaign.until, results, verdicts,
+                    at_each_of(campaign.statistics.confidence, count_looks(campaign)));
+}
+
+/// Whether the rows up to a checkpoint meet every goal.
+bool goals_are_met(const Campaign& campaign, const Results& results) {
+  const auto decides = [](const StoppingGoal& goal) {
+    return std::holds_alternative<DecisionGoal>(goal);
+  };
+  std::vector<Verdict> verdicts;
+  if (std::ranges::any_of(campaign.until, decides))
+    for (const Requirement& requirement : campaign.requirements)
+      verdicts.push_back(judge(requirement, results, count_looks(campaign)));
+  return are_met(goals_of(campaign, results, verdicts));
 }
 
 /// The statistics, their confidence shared out among the looks that the campaign may take.
@@ -53,13 +66,15 @@ Summary summarize(const StoredCampaign& stored, const Results& results, const St
       summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
   summary.confidence = spec.confidence;
   summary.looks = looks;
+  summary.looked_at.assign(campaign.sampling.extended_from.begin(),
+                           campaign.sampling.extended_from.end());
   for (const Requirement& requirement : campaign.requirements)
     summary.requirements.push_back(judge(requirement, results, looks));
   for (std::size_t i = 0; i < results.outputs.size(); ++i)
     for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
       summary.outputs[i].tolerance_limits.push_back(
           {tolerance, output_limits(results, results.outputs[i], tolerance, looks)});
-  summary.until = widths_of(campaign, results);
+  summary.until = goals_of(campaign, results, summary.requirements);
   summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
   return summary;
 }
@@ -97,7 +112,7 @@ std::string campaign_text(const Campaign& campaign, const Stamp& stamp) {
 bool is_complete(const StoredCampaign& stored, const Results& results) {
   const long done = std::ssize(results.runs), runs = stored.runs().size();
   if (done >= runs) return true;
-  return is_checkpoint(done, runs) && are_met(widths_of(stored.campaign, results));
+  return is_checkpoint(done, runs) && goals_are_met(stored.campaign, results);
 }
 
 StoredCampaign read_stored_campaign(const std::filesystem::path& folder) {

@@ -11,8 +11,8 @@
 namespace wingspread {
 namespace {
 
-WidthFound find_width(const WidthGoal& goal, const Results& results, double confidence) {
-  WidthFound found{goal, {}, false};
+GoalFound find(const WidthGoal& goal, const Results& results, double confidence) {
+  GoalFound found{goal, {}, false};
   if (results.size() == 0) return found;
   if (const auto status = status_named(goal.output)) {
     const long hits = std::ranges::count(results.status, *status);
@@ -33,17 +33,32 @@ WidthFound find_width(const WidthGoal& goal, const Results& results, double conf
   return found;
 }
 
-} // namespace
-
-std::vector<WidthFound> find_widths(const StoppingRule& rule, const Results& results,
-                                    double confidence) {
-  std::vector<WidthFound> widths;
-  for (const WidthGoal& goal : rule) widths.push_back(find_width(goal, results, confidence));
-  return widths;
+/// Met when there is such a requirement, and each is passed or disproved.
+GoalFound find(const DecisionGoal& goal, std::span<const Verdict> verdicts) {
+  GoalFound found{goal, {}, false};
+  for (const Verdict& verdict : verdicts) {
+    if (name_of(verdict.requirement) != goal.requirement) continue;
+    found.met = is_decided(verdict);
+    if (!found.met) break;
+  }
+  return found;
 }
 
-bool are_met(std::span<const WidthFound> widths) {
-  return !widths.empty() && std::ranges::all_of(widths, &WidthFound::met);
+} // namespace
+
+std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& results,
+                                  std::span<const Verdict> verdicts, double confidence) {
+  std::vector<GoalFound> found;
+  for (const StoppingGoal& goal : rule)
+    if (const WidthGoal* width = std::get_if<WidthGoal>(&goal))
+      found.push_back(find(*width, results, confidence));
+    else
+      found.push_back(find(std::get<DecisionGoal>(goal), verdicts));
+  return found;
+}
+
+bool are_met(std::span<const GoalFound> goals) {
+  return !goals.empty() && std::ranges::all_of(goals, &GoalFound::met);
 }
 
 } // namespace wingspread

@@ -1,8 +1,9 @@
-/// How wide the intervals are by which a campaign may stop (campaign/stopping_rule.hpp).
+/// How far the goals are reached by which a campaign may stop (campaign/stopping_rule.hpp).
 #pragma once
 
 #include "montecarlo/campaign/stopping_rule.hpp"
 #include "montecarlo/runs/results.hpp"
+#include "montecarlo/summary/verdict.hpp"
 
 #include <optional>
 #include <span>
@@ -10,19 +11,22 @@
 
 namespace wingspread {
 
-/// A goal and how wide its interval is. Of a quantile, over the runs in which the output happened.
-struct WidthFound {
-  WidthGoal goal;
-  std::optional<double> width; ///< absolute; nothing where a bound does not exist
+/// A goal and how far it is reached. A quantile's interval is over the runs in which the output
+/// happened.
+struct GoalFound {
+  StoppingGoal goal;
+  std::optional<double> width; ///< of the interval, absolute; nothing where a bound does not exist
   bool met = false;
 };
 
+/// @param verdicts   on the campaign's requirements, at their confidence of one look
 /// @param confidence of each interval, two-sided
 /// @pre the draws of the runs are independent; the results have the outputs
-[[nodiscard]] std::vector<WidthFound> find_widths(const StoppingRule& rule, const Results& results,
-                                                  double confidence);
+[[nodiscard]] std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& results,
+                                                std::span<const Verdict> verdicts,
+                                                double confidence);
 
 /// Whether every goal is met; false without any.
-[[nodiscard]] bool are_met(std::span<const WidthFound> widths);
+[[nodiscard]] bool are_met(std::span<const GoalFound> goals);
 
 } // namespace wingspread

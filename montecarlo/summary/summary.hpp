@@ -88,9 +88,10 @@ struct Summary {
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
   // What the campaign asks for beyond its statistics; write_statistics (results_folder.hpp) adds it.
   std::vector<Verdict> requirements{};
-  std::vector<WidthFound> until{}; ///< the widths that decide when it stops
-  bool stopped = false;            ///< they did, before all runs were made
-  long looks = 1; ///< numbers of runs at which it could have: each bound's α is shared among them
+  std::vector<GoalFound> until{}; ///< what decides when it stops
+  bool stopped = false;           ///< they did, before all runs were made
+  long looks = 1;                 ///< at growing data: each bound's α is shared among them
+  std::vector<long> looked_at{};  ///< numbers of runs before the campaign was extended: looks too
 };
 
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes a run for

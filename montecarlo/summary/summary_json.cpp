@@ -23,6 +23,9 @@ constexpr std::string_view replicates_agree =
 /// Of bounds that hold at several looks at once.
 std::string at_looks(const Summary& summary) {
   if (summary.looks == 1) return "";
+  if (!summary.looked_at.empty())
+    return fmt::format(", at a confidence of {:.10g}: of one look of {} at draws seen before",
+                       at_each_of(summary.confidence, summary.looks), summary.looks);
   return fmt::format(
       ", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints the "
       "campaign stops",
@@ -60,6 +63,11 @@ Json definitions(const Summary& summary) {
   if (summary.requirements.size() > 1)
     json["joint_confidence"] =
         "at least this for all that pass together: 1 - the sum of (1 - c) over all requirements";
+  if (!summary.looked_at.empty())
+    json["extended"] =
+        "runs were added to draws whose results had been looked at: look k takes its "
+        "bounds and verdicts at 1 - (1 - c)/k; whoever takes the first of the looks "
+        "that suits has at most risk_of_all_looks times (1 - c)";
   return json;
 }
 
@@ -205,11 +213,19 @@ Json until_json(const Summary& summary) {
   Json goals = Json::array();
   for (const auto& [goal, width, met] : summary.until) {
     Json json = write_stopping_rule({goal}).front();
-    json["found"] = json_number(width);
+    if (std::holds_alternative<WidthGoal>(goal)) json["found"] = json_number(width);
     json["met"] = met;
     goals.push_back(std::move(json));
   }
   return {{"stopped", summary.stopped}, {"checkpoints", summary.looks}, {"widths", goals}};
+}
+
+/// A campaign that was extended: at which numbers of runs it was looked at before, and what that costs.
+Json extended_json(const Summary& summary) {
+  double harmonic = 0; // look k takes α/k
+  for (long look = 1; look <= summary.looks; ++look) harmonic += 1.0 / static_cast<double>(look);
+  return {
+      {"looked_at", summary.looked_at}, {"looks", summary.looks}, {"risk_of_all_looks", harmonic}};
 }
 
 Json correlations_json(const Summary& summary) {
@@ -242,6 +258,7 @@ Json summary_json(const Summary& summary, const Json& about) {
   if (summary.requirements.size() > 1)
     json["joint_confidence"] = joint_confidence(summary.requirements);
   if (!summary.until.empty()) json["until"] = until_json(summary);
+  if (!summary.looked_at.empty()) json["extended"] = extended_json(summary);
   json["definitions"] = definitions(summary);
   return json;
 }

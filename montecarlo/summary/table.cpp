@@ -196,9 +196,12 @@ std::string stopping(const Summary& summary) {
   if (summary.until.empty()) return "";
   std::string text =
       fmt::format("\n{:<58}{:>20}{:>20}\n", "UNTIL THE INTERVAL'S WIDTH IS", "found", "reached");
-  for (const auto& [goal, width, met] : summary.until)
-    text += fmt::format("  {:<56}{:>20}{:>20}\n", shortened(to_string(goal), 55), in_words(width),
+  for (const auto& [goal, width, met] : summary.until) {
+    const bool decision = std::holds_alternative<DecisionGoal>(goal);
+    const std::string found = decision ? (met ? "decided" : "open") : in_words(width);
+    text += fmt::format("  {:<56}{:>20}{:>20}\n", shortened(to_string(goal), 55), found,
                         met ? "yes" : "no");
+  }
   return text;
 }
 

@@ -117,6 +117,10 @@ Verdict judge(const Requirement& requirement, const Results& results, long looks
   return verdict;
 }
 
+bool is_decided(const Verdict& verdict) {
+  return verdict.decision == Decision::pass || verdict.disproved;
+}
+
 double joint_confidence(std::span<const Verdict> verdicts) {
   std::vector<double> confidences;
   for (const Verdict& verdict : verdicts) confidences.push_back(verdict.requirement.confidence);

@@ -48,6 +48,9 @@ struct Verdict {
 /// @pre the draws of the runs are independent; the results have the output
 [[nodiscard]] Verdict judge(const Requirement& requirement, const Results& results, long looks = 1);
 
+/// Whether the runs have decided it: passed or disproved.
+[[nodiscard]] bool is_decided(const Verdict& verdict);
+
 /// At least the confidence with which whatever passes holds together, each verdict holding for itself:
 /// every requirement had its chance of a false pass, those too that did not take it.
 [[nodiscard]] double joint_confidence(std::span<const Verdict> verdicts);

@@ -264,8 +264,47 @@ TEST_CASE("run --until refuses what cannot be reached for, by its option") {
   CHECK_THAT(refusal({"--until", "soon"}),
              Catch::StartsWith("error: --until: found \"soon\", expected e.g. "));
   CHECK(refusal({"--until", "deployed 0.1", "--shard", "1/2"}) ==
-        "error: found shard 1/2 of a campaign that stops at a width, expected all runs: only they "
+        "error: found shard 1/2 of a campaign that may stop early, expected all runs: only they "
         "tell when to stop\n");
+}
+
+TEST_CASE(
+    "run makes runs until a requirement is decided, and says what to do of one that is open") {
+  const Place program;
+  Json json = quick_campaign(1200);
+  json["outputs"] = {"latch_time"};
+  json["integration"]["t_end"] = 7; // some do not come to it
+  json["requirements"] = parse_json(
+      R"([{ "name": "D-1", "output": "deployed", "probability": 0.02, "confidence": 0.9 },
+          { "name": "D-2", "output": "deployed", "probability": 0.9999, "confidence": 0.9 }])");
+  const std::string campaign = program.file(json);
+  const auto decided =
+      program({"run", campaign, "--out", program.out, "--until", "requirement D-1", "--table"});
+  CHECK(decided.code == 1);
+  CHECK_THAT(decided.out, Catch::Contains("· 1000 runs ·") &&
+                              Catch::Contains("stopped, of 1200 at most") &&
+                              Catch::Contains("requirement D-1"));
+  CHECK_THAT(decided.error, !Catch::Contains("note: "));
+  const auto unknown =
+      program({"run", campaign, "--out", program.out + "2", "--until", "requirement D-3"});
+  CHECK(unknown.code == 2);
+  CHECK(unknown.error ==
+        "error: --until: found string \"D-3\", expected a requirement of the campaign, "
+        "by its name or its output (did you mean \"D-1\"?)\n");
+  // 13 of 20 runs deploy, which shows nothing of it: another look, or another seed
+  json["requirements"][1]["probability"] = 0.65;
+  const std::string close = program.file(json);
+  const auto open = program({"run", close, "--out", program.out + "3", "--runs", "20"});
+  CHECK(open.code == 1);
+  CHECK_THAT(open.error, Catch::Contains("7 of 20 runs break it, and 3 may: not shown, and not "
+                                         "disproved either\n"
+                                         "note: more runs of the same draws are another look at "
+                                         "them. To decide what is open, state it as --until "
+                                         "\"requirement D-2\" or take another --seed, with a "
+                                         "number of runs fixed beforehand\n"));
+  const auto longer =
+      program({"run", close, "--out", program.out + "3", "--runs", "40", "--resume", "--table"});
+  CHECK_THAT(longer.out, Catch::Contains("· 40 runs ·") && Catch::Contains("· look 2, after 20"));
 }
 
 TEST_CASE("what holds for independent draws is refused with Sobol' points, by its place") {
@@ -279,7 +318,7 @@ TEST_CASE("what holds for independent draws is refused with Sobol' points, by it
                              "statistics are exact for independent draws, and hold for no others\n";
   const auto until = program({"run", plain, "--out", program.out, "--until", "stalled 0.1"});
   CHECK(until.code == 2);
-  CHECK(until.error == "error: --until: found widths to stop at" + reason);
+  CHECK(until.error == "error: --until: found goals to stop at" + reason);
   CHECK_FALSE(std::filesystem::exists(program.out));
 
   CHECK(program({"run", plain, "--out", program.out}).code == 0);

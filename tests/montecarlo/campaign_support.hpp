@@ -57,8 +57,8 @@ inline Results rows_of(const RunPlan& plan, RunRange range, int threads = 2) {
 inline StoppingRule rule_of(const char* text) {
   StoppingRule rule;
   std::vector<Problem> problems;
-  const Json goals{parse_width_goal(text).value()};
-  read_stopping_rule(JsonCursor(goals, "", problems), nullptr, rule);
+  const Json goals{parse_stopping_goal(text).value()};
+  read_stopping_rule(JsonCursor(goals, "", problems), nullptr, nullptr, rule);
   return rule;
 }
 

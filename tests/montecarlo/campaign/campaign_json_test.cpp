@@ -142,7 +142,7 @@ TEST_CASE("What holds for independent draws only is refused with other designs",
                              "independent draws, and hold for no others";
   CHECK_THAT(message,
              Catch::Contains("/requirements: found requirements" + reason) &&
-                 Catch::Contains("/until: found widths to stop at" + reason) &&
+                 Catch::Contains("/until: found goals to stop at" + reason) &&
                  Catch::Contains("/statistics/tolerance: found tolerance limits" + reason));
 }
 
@@ -319,4 +319,40 @@ TEST_CASE("An output that is not known is told beside the faults of other parts"
   document["outputs"] = {"no_family"}; // then nobody knows which outputs there are
   CHECK_THAT(message(),
              Catch::Contains("/outputs/0: ") && !Catch::Contains("/requirements/0/output"));
+}
+
+TEST_CASE("A requirement to be decided is one of the campaign's", "[campaign]") {
+  Json document = test::small_campaign();
+  document["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.99, "confidence": 0.9 }])");
+  document["until"] = parse_json(R"([{ "requirement": "deployed" }])");
+  const Campaign campaign = read(document);
+  CHECK(campaign.resolved["until"] == document["until"]);
+  CHECK(read(campaign.resolved).resolved == campaign.resolved);
+  document["until"][0]["requirement"] = "deploy";
+  CHECK(test::message_of([&] { return read(document); }) ==
+        "/until/0/requirement: found string \"deploy\", expected a requirement of the campaign, by "
+        "its "
+        "name or its output (did you mean \"deployed\"?)");
+  document["requirements"][0]["probability"] = 2; // one that is wrong itself is not missed
+  CHECK(test::message_of([&] { return read(document); }) ==
+        "/requirements/0/probability: found 2, expected a number, > 0 and < 1");
+}
+
+TEST_CASE("An extended campaign's looks are its own, and none of another seed's", "[campaign]") {
+  Json document = test::small_campaign();
+  document["sampling"] = {{"runs", 4000}, {"extended_from", {1000, 2000}}};
+  Campaign campaign = read(document);
+  CHECK(count_looks(campaign) == 3);
+  CHECK(read(campaign.resolved).resolved == campaign.resolved);
+  override_sampling(campaign, 2000, std::nullopt);
+  CHECK(campaign.resolved["sampling"]["extended_from"] == Json::array({1000}));
+  override_sampling(campaign, 8000, 77);
+  CHECK_FALSE(campaign.resolved["sampling"].contains("extended_from"));
+  CHECK(count_looks(campaign) == 1);
+  document["until"] = parse_json(R"([{ "output": "stalled", "width": 0.01 }])");
+  CHECK(test::message_of([&] { return read(document); }) ==
+        "/until: found goals to stop at, expected none, for a campaign that was extended beyond "
+        "the runs "
+        "first made");
 }

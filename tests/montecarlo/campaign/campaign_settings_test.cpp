@@ -42,8 +42,8 @@ TEST_CASE("Each fault of the sampling is told", "[campaign_settings]") {
        {R"({"design": "lhs"})",
         "/design: found string \"lhs\", expected \"random\", \"latin_hypercube\" or \"sobol\""},
        {R"({"run": 1})",
-        "/run: found the unknown key \"run\", expected \"design\", \"runs\", \"seed\" or "
-        "\"replicates\" (did you mean \"runs\"?)"}}));
+        "/run: found the unknown key \"run\", expected \"design\", \"runs\", \"seed\", "
+        "\"replicates\" or \"extended_from\" (did you mean \"runs\"?)"}}));
   CHECK(read(json, Sampling{}, read_sampling).problems == message);
 }
 
@@ -196,4 +196,26 @@ TEST_CASE("Tolerance limits are read, and each fault of them is told", "[campaig
         "/tolerance/1: found 3, expected an object with probability and confidence");
   CHECK(read(R"({"tolerance": 1})", StatisticsSpec{}, read_statistics).problems ==
         "/tolerance: found 1, expected an array of tolerance limits");
+}
+
+TEST_CASE("the looks before a campaign was extended are read, and written where there are any") {
+  const auto fault = [](const char* json) {
+    return read(json, Sampling{}, read_sampling).problems;
+  };
+  const char* good = R"({"runs": 4000, "extended_from": [1000, 2000]})";
+  const auto [sampling, problems] = read(good, Sampling{}, read_sampling);
+  CHECK(problems.empty());
+  CHECK(sampling.extended_from == std::vector<std::int64_t>{1000, 2000});
+  CHECK(write_sampling(sampling)["extended_from"] == Json::array({1000, 2000}));
+  CHECK_FALSE(write_sampling(Sampling{}).contains("extended_from"));
+  CHECK(fault(R"({"runs": 2000, "extended_from": [2000]})") ==
+        "/extended_from/0: found 2000, expected less than the number of runs, 2000");
+  CHECK(fault(R"({"runs": 2000, "extended_from": [1000, 1000]})") ==
+        "/extended_from/1: found 1000, expected an array of integers ≥ 1, each less than the next");
+  CHECK(fault(R"({"runs": 2000, "extended_from": 1000})") ==
+        "/extended_from: found 1000, expected an array of integers ≥ 1, each less than the next");
+  CHECK(fault(R"({"design": "latin_hypercube", "runs": 2000, "extended_from": [1000]})") ==
+        "/extended_from: found an array of 1, expected none: a Latin hypercube of more runs has "
+        "other "
+        "draws");
 }

@@ -11,11 +11,13 @@ using namespace wingspread::test;
 namespace {
 
 const std::vector<std::string> outputs{"root.latch_time", "deployment_time"};
+const std::vector<std::string> requirements{"T-1", "deployed"};
 
 std::string problems_of_rule(const Json& document) {
   StoppingRule rule;
-  return problems_of(document,
-                     [&](const JsonCursor& at) { read_stopping_rule(at, &outputs, rule); });
+  return problems_of(document, [&](const JsonCursor& at) {
+    read_stopping_rule(at, &outputs, &requirements, rule);
+  });
 }
 
 } // namespace
@@ -30,13 +32,16 @@ TEST_CASE("Widths to stop at are read from words, and written as a campaign has 
              R"([{"output":"root.latch_time","quantile":0.99,"width":0.5}])"},
         Case{"root.latch_time@0.5 2%",
              R"([{"output":"root.latch_time","quantile":0.5,"relative_width":0.02}])"},
-        Case{"timed_out 0.01", R"([{"output":"timed_out","width":0.01}])"}}) {
+        Case{"timed_out 0.01", R"([{"output":"timed_out","width":0.01}])"},
+        Case{"requirement T-1", R"([{"requirement":"T-1"}])"},
+        Case{"requirement root latches in time", R"([{"requirement":"root latches in time"}])"}}) {
     CHECK(write_stopping_rule(rule_of(text)).dump() == json);
     CHECK(to_string(rule_of(text)[0]) == text);
   }
   CHECK(to_string(rule_of("root.latch_time@0.5 2 %")[0]) == "root.latch_time@0.5 2%");
-  for (const char* text : {"", " ", "deployed", "deployed x", "x@half 1", "deployed 1e999", "%"})
-    CHECK_FALSE(parse_width_goal(text));
+  for (const char* text : {"", " ", "deployed", "deployed x", "x@half 1", "deployed 1e999", "%",
+                           "requirement", "requirement "})
+    CHECK_FALSE(parse_stopping_goal(text));
 }
 
 TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
@@ -44,8 +49,10 @@ TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
                      { "output": "stalled", "width": 0.01 }])");
   CHECK(problems_of_rule(good).empty());
   const Spoiled change = GENERATE(values<Spoiled>(
-      {{"", "3", "found 3, expected an array of widths to be reached"},
-       {"/0", "3", "/0: found 3, expected a width to be reached: an object"},
+      {{"", "3",
+        "found 3, expected an array of widths to be reached and requirements to be decided"},
+       {"/0", "3",
+        "/0: found 3, expected a width to be reached, or a requirement to be decided: an object"},
        {"/0/output", "", "/0/output: found nothing, expected a string, an output or a status"},
        {"/1/output", "\"stall\"",
         "/1/output: found string \"stall\", expected an output of the campaign, or a status (did "
@@ -66,6 +73,19 @@ TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
   CHECK(problems_of_rule(spoil(good, change)) == change.message);
   CHECK(problems_of_rule(parse_json(R"([{ "output": "stalled", "relative_width": 0.5 }])")) ==
         "/0: found a relative_width, expected a width, for a share of runs");
+}
+
+TEST_CASE("Each fault of a requirement to be decided is told", "[stopping]") {
+  CHECK(problems_of_rule(parse_json(R"([{ "requirement": "T-1" }, { "requirement": "deployed" }])"))
+            .empty());
+  CHECK(problems_of_rule(parse_json(R"([{ "requirement": "T-2" }])")) ==
+        "/0/requirement: found string \"T-2\", expected a requirement of the campaign, by its name "
+        "or "
+        "its output (did you mean \"T-1\"?)");
+  CHECK(problems_of_rule(parse_json(R"([{ "requirement": 3 }])")) ==
+        "/0/requirement: found 3, expected a string, the name of a requirement");
+  CHECK(problems_of_rule(parse_json(R"([{ "requirement": "T-1", "width": 1 }])")) ==
+        "/0/width: found the unknown key \"width\", expected \"requirement\"");
 }
 
 TEST_CASE("Checkpoints are the powers of two times 1000, and the end", "[stopping]") {

@@ -85,24 +85,100 @@ TEST_CASE("of replicates only those count of which there are runs") {
   CHECK_THAT(bounds({.shard = Shard{64, 64}}, "one"), Catch::StartsWith("no bounds: "));
 }
 
-TEST_CASE("a campaign is not continued with another number of runs, least of all a Latin one") {
+TEST_CASE("a campaign is not continued with fewer runs, nor where draws or looks depend on them") {
   const Folder folder;
   const auto path = folder.path() / "r", file = path / campaign_file;
-  const auto sized = [](const char* design, int runs) {
+  const auto sized = [](const char* design, int runs, const char* until = nullptr) {
     Json json = quick_campaign(runs);
     json["sampling"]["design"] = design;
+    if (until) json["until"] = Json{parse_stopping_goal(until).value()};
     return campaign_of(json);
   };
+  const auto refused = [&](const Campaign& campaign, const Session& session = {.resume = true}) {
+    return refusal(path, campaign, session);
+  };
   (void)run_into(path, sized("latin_hypercube", 4));
-  CHECK_THAT(refusal(path, sized("latin_hypercube", 6), {.resume = true}),
+  CHECK_THAT(refused(sized("latin_hypercube", 6)),
              Catch::StartsWith(file.string() +
                                ": /sampling/runs: found 4, expected 6: a Latin hypercube's strata, "
                                "and so all of its draws, depend on the number of runs; run it into "
                                "a new folder\n"));
+  std::filesystem::remove_all(path);
+  (void)run_into(path, sized("random", 4));
   CHECK_THAT(
-      refusal(path, sized("sobol", 6), {.resume = true}),
-      Catch::Contains("found 4, expected 6: the number of runs is part of a campaign; run it "
+      refused(sized("random", 3)),
+      Catch::Contains("found 4, expected 3: more can be added to them, but none taken away; run "
+                      "it into a new folder\n"));
+  CHECK_THAT(
+      refused(sized("random", 6, "deployed 0.1")),
+      Catch::Contains("found 4, expected 6: the checkpoints of a campaign that may stop early "
+                      "depend on the number of runs; run it into a new folder\n"));
+  CHECK_THAT(
+      refused(sized("random", 6), {.shard = Shard{1, 2}, .resume = true}),
+      Catch::Contains("found 4, expected 6: a shard's runs depend on the number of all; run it "
                       "into a new folder\n"));
+  Json other = quick_campaign(6);
+  other["integration"]["t_end"] = 19;
+  CHECK_THAT(refused(campaign_of(other)), Catch::Contains("/wingspread/hash"));
+  other = quick_campaign(6);
+  other["sampling"]["seed"] = 8;
+  CHECK_THAT(refused(campaign_of(other)), Catch::Contains("/wingspread/hash"));
+}
+
+TEST_CASE("more runs are added to a campaign as one more look, and give what one go would have") {
+  const auto design = GENERATE(as<std::string>{}, "random", "sobol");
+  const Folder folder;
+  const auto path = folder.path() / "r", whole = folder.path() / "whole";
+  const auto sized = [&](int runs) {
+    Json json = quick_campaign(runs);
+    json["sampling"]["design"] = design;
+    json["sampling"]["replicates"] = 2;
+    return campaign_of(json);
+  };
+  CHECK(run_into(path, sized(8)) == 8);
+  const std::string first = read_text(path / runs_file).value();
+  CHECK(run_into(path, sized(16), {.resume = true, .stop_after = 0}) ==
+        0); // extended, and interrupted
+  CHECK(run_into(path, sized(16), {.resume = true}) == 8);
+  CHECK(run_into(path, sized(16), {.resume = true}) == 0); // the same command once more: no look
+  const Json stored = parse_json_file(path / campaign_file);
+  CHECK(stored["sampling"]["runs"] == 16);
+  CHECK(stored["sampling"]["extended_from"] == Json::array({8}));
+  CHECK(read_text(path / runs_file).value().starts_with(first));
+  (void)run_into(whole, read_campaign_file(path / campaign_file));
+  CHECK(contents(path) == contents(whole));
+
+  (void)run_into(path, sized(20), {.resume = true});
+  const Json summary = parse_json_file(path / summary_file);
+  CHECK(summary["extended"]["looked_at"] == Json::array({8, 16}));
+  CHECK(summary["extended"]["looks"] == 3);
+  CHECK(summary["extended"]["risk_of_all_looks"].get<double>() == Approx(1 + 1 / 2. + 1 / 3.));
+  CHECK(summary["runs"] == 20);
+}
+
+TEST_CASE("a verdict of a campaign that was extended is held to the looks that were taken") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  const auto sized = [&](int runs) {
+    Json json = quick_campaign(runs);
+    json["requirements"] = {{{"output", "deployed"}, {"probability", 0.5}, {"confidence", 0.9}}};
+    return campaign_of(json);
+  };
+  const auto verdict = [&] { return parse_json_file(path / summary_file)["requirements"][0]; };
+  (void)run_into(path, sized(8));
+  CHECK_FALSE(verdict().contains("confidence_at_each_look"));
+  (void)run_into(path, sized(16), {.resume = true});
+  CHECK(verdict()["confidence_at_each_look"].get<double>() == Approx(0.95).epsilon(1e-12));
+  CHECK(verdict()["failures"]["allowed"] == *allowed_failures(16, 0.5, 0.95));
+}
+
+TEST_CASE("a campaign extended before it was complete was looked at where it was left") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  const auto campaign = [](int runs) { return campaign_of(quick_campaign(runs)); };
+  (void)run_into(path, campaign(6), {.stop_after = 0}); // campaign.json, and no run
+  (void)run_into(path, campaign(8), {.resume = true});
+  CHECK_FALSE(parse_json_file(path / campaign_file)["sampling"].contains("extended_from"));
 }
 
 TEST_CASE("a folder that was left at any byte is completed to the same bytes") {

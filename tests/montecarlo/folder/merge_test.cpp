@@ -103,7 +103,7 @@ TEST_CASE("a campaign that stops at a width is not merged") {
   (void)run_into(path, campaign_of(json));
   CHECK(message_of([&] { return merge_folders({path}, folder.path() / "out"); }) ==
         (path / campaign_file).string() +
-            ": /until: found a campaign that stops at a width, expected "
+            ": /until: found a campaign that may stop early, expected "
             "one that can have shards");
   CHECK_FALSE(std::filesystem::exists(folder.path() / "out"));
 }

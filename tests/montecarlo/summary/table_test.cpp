@@ -154,7 +154,8 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
       deploys{"", "deployed", {}, {}, .99, .9};
   summary.requirements = {judge(peak, results), judge(deploys, results)};
   summary.outputs[2].tolerance_limits = {{{.95, .9, Side::upper}, {{}, 1000098.}}};
-  summary.until = {{{"deployed", {}, .01, false}, .127, false}};
+  summary.until = {{WidthGoal{"deployed", {}, .01, false}, .127, false},
+                   {DecisionGoal{"T-1"}, {}, true}};
   const std::string table = summary_table(summary, "t", "out");
   for (const char* part :
        {"  tip.peak_moment ≤ 2000000 N·m, 80 % at 90 % pass            10      14   1.0001e+06",
@@ -162,7 +163,8 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
         "    10 of 100 runs break it: disproved\n",
         "    wingspread replay out --run 9   and 19, 29, 39, 49, 59, …\n",
         "  tip.peak_moment                           95 % at 90 %", "UNTIL THE INTERVAL'S WIDTH IS",
-        "  deployed 0.01"})
+        "  deployed 0.01",
+        "  requirement T-1                                                      decided"})
     CHECK_THAT(table, Catch::Contains(part));
   for (const std::string& line : lines(table)) CHECK(count_characters(line) <= table_width);
   CHECK_THAT(table, !Catch::Contains("all together"));
