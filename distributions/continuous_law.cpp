@@ -1,5 +1,7 @@
 #include "distributions/continuous_law.hpp"
 
+#include "distributions/math_policy.hpp"
+
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/exponential.hpp>
 #include <boost/math/distributions/gamma.hpp>
@@ -17,32 +19,25 @@ namespace wingspread {
 namespace {
 
 namespace bm = boost::math;
-namespace bp = boost::math::policies;
 
-// No exception may cross a thread, so errors become NaN or infinity. And double stays double: long
-// double is another type on every machine, and costs several times as much for digits that the
-// tests show are not needed.
-using Policy =
-    bp::policy<bp::domain_error<bp::ignore_error>, bp::pole_error<bp::ignore_error>,
-               bp::overflow_error<bp::ignore_error>, bp::underflow_error<bp::ignore_error>,
-               bp::denorm_error<bp::ignore_error>, bp::evaluation_error<bp::ignore_error>,
-               bp::rounding_error<bp::ignore_error>,
-               bp::indeterminate_result_error<bp::ignore_error>, bp::promote_double<false>>;
-
-auto boost_law(const Normal& l) { return bm::normal_distribution<double, Policy>(l.mean, l.std); }
+auto boost_law(const Normal& l) {
+  return bm::normal_distribution<double, MathPolicy>(l.mean, l.std);
+}
 auto boost_law(const Uniform& l) {
-  return bm::uniform_distribution<double, Policy>(l.lower, l.upper);
+  return bm::uniform_distribution<double, MathPolicy>(l.lower, l.upper);
 }
 auto boost_law(const Lognormal& l) {
-  return bm::lognormal_distribution<double, Policy>(l.mu_log, l.sigma_log);
+  return bm::lognormal_distribution<double, MathPolicy>(l.mu_log, l.sigma_log);
 }
 auto boost_law(const Weibull& l) {
-  return bm::weibull_distribution<double, Policy>(l.shape, l.scale);
+  return bm::weibull_distribution<double, MathPolicy>(l.shape, l.scale);
 }
-auto boost_law(const Gamma& l) { return bm::gamma_distribution<double, Policy>(l.shape, l.scale); }
-auto boost_law(const Beta& l) { return bm::beta_distribution<double, Policy>(l.alpha, l.beta); }
+auto boost_law(const Gamma& l) {
+  return bm::gamma_distribution<double, MathPolicy>(l.shape, l.scale);
+}
+auto boost_law(const Beta& l) { return bm::beta_distribution<double, MathPolicy>(l.alpha, l.beta); }
 auto boost_law(const Exponential& l) {
-  return bm::exponential_distribution<double, Policy>(l.rate);
+  return bm::exponential_distribution<double, MathPolicy>(l.rate);
 }
 
 template <class L> Support support_of(const L& law) {
@@ -64,10 +59,10 @@ Tails tails_of(const Beta& law, double x) {
   const double from_lower = (x - law.lower) / (law.upper - law.lower);
   const double to_upper = (law.upper - x) / (law.upper - law.lower);
   if (from_lower <= to_upper)
-    return {bm::ibeta(law.alpha, law.beta, from_lower, Policy()),
-            bm::ibetac(law.alpha, law.beta, from_lower, Policy())};
-  return {bm::ibetac(law.beta, law.alpha, to_upper, Policy()),
-          bm::ibeta(law.beta, law.alpha, to_upper, Policy())};
+    return {bm::ibeta(law.alpha, law.beta, from_lower, MathPolicy()),
+            bm::ibetac(law.alpha, law.beta, from_lower, MathPolicy())};
+  return {bm::ibetac(law.beta, law.alpha, to_upper, MathPolicy()),
+          bm::ibeta(law.beta, law.alpha, to_upper, MathPolicy())};
 }
 
 // Boost's triangular law takes F from 1 − F beyond the mode, however small F is. Here each tail is
@@ -109,13 +104,13 @@ struct Distances {
 //   tail = x^a/(a B(a, b))·(1 − a(b − 1)/(a + 1) x + …), so x = f + (b − 1)/(a + 1) f² + …  (2)
 // with f its first term's solution. Where f underflows, Boost knows better.
 Distances beta_distances(double a, double b, double tail) {
-  const double f = std::pow(tail * a * bm::beta(a, b, Policy()), 1 / a);
+  const double f = std::pow(tail * a * bm::beta(a, b, MathPolicy()), 1 / a);
   if (f > 0 && f * (1 + b) < 1e-8) {
     const double near = f + (b - 1) / (a + 1) * f * f; // (2); what is left out is below epsilon
     return {near, 1 - near};
   }
   double far = 0;
-  const double near = bm::ibeta_inv(a, b, tail, &far, Policy());
+  const double near = bm::ibeta_inv(a, b, tail, &far, MathPolicy());
   return {near, far};
 }
 

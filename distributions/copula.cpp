@@ -1,7 +1,8 @@
 #include "distributions/copula.hpp"
 
+#include "distributions/continuous_law.hpp"
+
 #include <Eigen/Eigenvalues>
-#include <boost/math/distributions/normal.hpp>
 
 #include <cassert>
 #include <cmath>
@@ -13,22 +14,12 @@ namespace wingspread {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
-using Normal01 = boost::math::normal_distribution<double>;
 
 constexpr double converged = 1e-10;
 constexpr int most_projections = 2000;
 
-/// Φ⁻¹(u), from the smaller tail.
-double normal_score(double u) {
-  const Normal01 normal;
-  return u <= 0.5 ? boost::math::quantile(normal, u)
-                  : boost::math::quantile(boost::math::complement(normal, 1 - u));
-}
-
-Tails normal_tails(double z) {
-  const Normal01 normal;
-  return {boost::math::cdf(normal, z), boost::math::cdf(boost::math::complement(normal, z))};
-}
+/// Φ⁻¹(u).
+double normal_score(double u) { return inverse(Normal{}, {u, 1 - u}); }
 
 /// The nearest matrix of which no eigenvalue is below `smallest`.
 Matrix with_eigenvalues_from(const Matrix& matrix, double smallest) {
@@ -110,7 +101,7 @@ void GaussianCopula::couple(std::span<const double> u, std::span<Tails> coupled)
     if (row.weights.empty()) continue;
     double z = row.own * normal_score(u[row.target]);
     for (const auto& [before, weight] : row.weights) z += weight * normal_score(u[before]);
-    coupled[row.target] = normal_tails(z);
+    coupled[row.target] = tails(Normal{}, z);
   }
 }
 

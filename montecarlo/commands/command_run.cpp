@@ -17,6 +17,9 @@
 #include <memory>
 #include <thread>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <gnu/libc-version.h>
+#endif
 
 namespace wingspread {
 namespace {
@@ -50,11 +53,21 @@ std::string host_name() {
   return gethostname(name, sizeof name - 1) == 0 ? name : "";
 }
 
+/// Whose exp, log and sin draws and runs are made of: what "the same bytes" presumes.
+std::string math_library() {
+#ifdef __GLIBC__
+  return fmt::format("glibc {}", gnu_get_libc_version());
+#else
+  return "unknown";
+#endif
+}
+
 /// timing.json: what this session did and on what.
 std::string timing_text(const Tally& tally, double seconds, const Crew& crew,
                         const Occupancy& lanes, bool interrupted) {
   const long made = tally.done - tally.before;
   return json_text({{"host", host_name()},
+                    {"math_library", math_library()},
                     {"processors", std::thread::hardware_concurrency()},
                     {"threads", team_size(crew.threads)},
                     {"instruction_set", to_string(crew.set)},

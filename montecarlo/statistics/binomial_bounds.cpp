@@ -1,5 +1,7 @@
 #include "montecarlo/statistics/binomial_bounds.hpp"
 
+#include "distributions/math_policy.hpp"
+
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/special_functions/beta.hpp>
 
@@ -9,7 +11,7 @@
 namespace wingspread {
 namespace {
 
-using Binomial = boost::math::binomial_distribution<double>;
+using Binomial = boost::math::binomial_distribution<double, MathPolicy>;
 
 } // namespace
 
@@ -34,8 +36,8 @@ Interval clopper_pearson(long hits, long n, double confidence) {
 
 Interval clopper_pearson_of_share(double share, double n, double confidence) {
   const double hits = share * n, tail = (1 - confidence) / 2;
-  return {hits > 0 ? boost::math::ibeta_inv(hits, n - hits + 1, tail) : 0,
-          hits < n ? boost::math::ibetac_inv(hits + 1, n - hits, tail) : 1};
+  return {hits > 0 ? boost::math::ibeta_inv(hits, n - hits + 1, tail, MathPolicy()) : 0,
+          hits < n ? boost::math::ibetac_inv(hits + 1, n - hits, tail, MathPolicy()) : 1};
 }
 
 RankBounds quantile_rank_bounds(long n, double p, double confidence) {

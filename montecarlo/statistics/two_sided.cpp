@@ -1,6 +1,7 @@
 #include "montecarlo/statistics/two_sided.hpp"
 
 #include "distributions/continuous_law.hpp"
+#include "distributions/math_policy.hpp"
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -12,7 +13,8 @@ double two_sided_normal(double confidence) {
 }
 
 double two_sided_student(long degrees, double confidence) {
-  const boost::math::students_t student(static_cast<double>(degrees));
+  const boost::math::students_t_distribution<double, MathPolicy> student(
+      static_cast<double>(degrees));
   return boost::math::quantile(boost::math::complement(student, (1 - confidence) / 2));
 }
 

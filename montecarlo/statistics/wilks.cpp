@@ -1,5 +1,6 @@
 #include "montecarlo/statistics/wilks.hpp"
 
+#include "distributions/math_policy.hpp"
 #include "montecarlo/statistics/binomial_bounds.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
@@ -12,7 +13,7 @@
 namespace wingspread {
 namespace {
 
-using Binomial = boost::math::binomial_distribution<double>;
+using Binomial = boost::math::binomial_distribution<double, MathPolicy>;
 
 /// Whether a probability is at most 1 − c; round-off alone keeps none from it.
 bool is_at_most_risk(double probability, double c) {

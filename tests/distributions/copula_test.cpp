@@ -1,3 +1,4 @@
+#include "distributions/continuous_law.hpp"
 #include "distributions/copula.hpp"
 #include "distributions/design.hpp"
 #include "distributions/prepared_distribution.hpp"
@@ -185,4 +186,22 @@ TEST_CASE("the nearest correlation matrix is one, and nothing close by is nearer
   CHECK(possible > 500);
   const Eigen::MatrixXd sound = triple(0.5, 0.2, 0.1);
   CHECK((nearest_correlations(sound, smallest) - sound).norm() < 1e-14);
+}
+
+// The bits are those of the normal law as all draws have it, evaluated in double: in long double they
+// would be the processor's.
+TEST_CASE("coupled draws are evaluated as the normal law's own are") {
+  const std::vector<RankCorrelation> pair{{0, 1, 0.6}};
+  const GaussianCopula copula(order_by_name({"a", "b"}), pair);
+  const double r = normal_correlation(0.6), rest = std::sqrt(1 - r * r);
+  const PreparedDesign design({DesignKind::random, 5, 1000}, {"a", "b"});
+  const auto score = [](double u) { return inverse(Normal{}, {u, 1 - u}); };
+  std::array<Tails, 2> coupled{};
+  for (std::size_t k = 0; k < 1000; ++k) {
+    const std::array<double, 2> u{design.uniform(k, 0), design.uniform(k, 1)};
+    copula.couple(u, coupled);
+    const Tails expected = tails(Normal{}, rest * score(u[1]) + r * score(u[0]));
+    CHECK((coupled[1].below == expected.below && coupled[1].above == expected.above));
+    CHECK((coupled[0].below == u[0] && coupled[0].above == 1 - u[0]));
+  }
 }

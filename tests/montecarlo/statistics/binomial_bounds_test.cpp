@@ -1,3 +1,4 @@
+#include "distributions/math_policy.hpp"
 #include "montecarlo/statistics/binomial_bounds.hpp"
 #include "tests/montecarlo/sample_support.hpp"
 
@@ -5,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <limits>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -151,4 +153,19 @@ TEST_CASE(
     if (covers(k)) ++covered;
   }
   CHECK(static_cast<double>(covered) / trials == Approx(law).margin(band(law, trials)));
+}
+
+// As in two_sided_test.cpp.
+TEST_CASE("proportions' bounds are evaluated in double") {
+  using InDouble = boost::math::binomial_distribution<double, MathPolicy>;
+  long differing = 0;
+  for (long hits = 1; hits < 200; ++hits) {
+    const auto k = static_cast<double>(hits);
+    const double bound = InDouble::find_lower_bound_on_p(200, k, 0.05);
+    CHECK(clopper_pearson_lower(hits, 200, 0.95) ==
+          InDouble::find_lower_bound_on_p(200, k, 1 - 0.95));
+    differing += bound != Binomial::find_lower_bound_on_p(200, k, 0.05);
+  }
+  if (std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits)
+    CHECK(differing > 0); // or this test could not fail
 }

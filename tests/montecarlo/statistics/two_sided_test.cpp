@@ -1,8 +1,11 @@
+#include "distributions/math_policy.hpp"
 #include "montecarlo/statistics/two_sided.hpp"
 
+#include <boost/math/distributions/students_t.hpp>
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace wingspread;
@@ -23,4 +26,20 @@ TEST_CASE("Student's two-sided quantile in closed form") {
     CHECK(two_sided_student(1'000'000, c) ==
           Approx(z + (z * z * z + z) / 4e6).epsilon(1e-10)); // the next term is of 1/ν²
   }
+}
+
+// The bits are those of an evaluation in double, which every machine has, and not of one in long double.
+TEST_CASE("two-sided quantiles are evaluated in double") {
+  long differing = 0;
+  for (long degrees = 1; degrees <= 200; ++degrees) {
+    const boost::math::students_t_distribution<double, MathPolicy> in_double(
+        static_cast<double>(degrees));
+    const boost::math::students_t in_long_double(static_cast<double>(degrees));
+    const double tail = (1 - 0.95) / 2;
+    CHECK(two_sided_student(degrees, 0.95) == quantile(complement(in_double, tail)));
+    differing +=
+        quantile(complement(in_double, tail)) != quantile(complement(in_long_double, tail));
+  }
+  if (std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits)
+    CHECK(differing > 0); // or this test could not fail
 }
