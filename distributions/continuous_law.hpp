@@ -15,6 +15,10 @@ struct Tails {
   double above = 1; ///< P(X > x)
 };
 
+/// The point of a law that a uniform coordinate is at.
+/// @param u in [0, 1], with 1 − u exact: what a design gives
+[[nodiscard]] constexpr Tails tails_of_uniform(double u) { return {u, 1 - u}; }
+
 struct Support {
   double lower = 0;
   double upper = 0;

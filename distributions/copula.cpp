@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -18,8 +19,8 @@ using Matrix = Eigen::MatrixXd;
 constexpr double converged = 1e-10;
 constexpr int most_projections = 2000;
 
-/// Φ⁻¹(u).
-double normal_score(double u) { return inverse(Normal{}, {u, 1 - u}); }
+/// Φ⁻¹(u), by the smaller of its tails.
+double normal_score(Tails u) { return inverse(Normal{}, u); }
 
 /// The nearest matrix of which no eigenvalue is below `smallest`.
 Matrix with_eigenvalues_from(const Matrix& matrix, double smallest) {
@@ -95,8 +96,8 @@ GaussianCopula::GaussianCopula(std::vector<std::size_t> order,
   }
 }
 
-void GaussianCopula::couple(std::span<const double> u, std::span<Tails> coupled) const {
-  for (std::size_t i = 0; i < u.size(); ++i) coupled[i] = {u[i], 1 - u[i]};
+void GaussianCopula::couple(std::span<const Tails> u, std::span<Tails> coupled) const {
+  std::ranges::copy(u, coupled.begin());
   for (const Row& row : rows_) {
     if (row.weights.empty()) continue;
     double z = row.own * normal_score(u[row.target]);

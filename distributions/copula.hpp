@@ -61,10 +61,10 @@ public:
   /// Whether there is nothing to couple.
   [[nodiscard]] bool is_independent() const { return independent_; }
 
-  /// (2), with both tails of each u', either as accurate as it is small.
-  /// @param u       each strictly within (0, 1), with 1 − u exact
-  /// @param coupled as long. Cost: some 50 ns for each u and each of its correlations
-  void couple(std::span<const double> u, std::span<Tails> coupled) const;
+  /// (2), with both tails of each u and u': however close to 1 one is, its complement tells where.
+  /// @param u       each with both tails > 0
+  /// @param coupled as long, and apart. Cost: some 50 ns for each u and each of its correlations
+  void couple(std::span<const Tails> u, std::span<Tails> coupled) const;
 
 private:
   /// One dispersion's part of (2).

@@ -7,15 +7,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace wingspread {
 namespace {
 
-/// Φ(z), and neither 0 nor 1.
-double in_unit_interval(double z) {
-  constexpr double least = 0x1p-53;
-  return std::clamp(tails(Normal{}, z).below, least, 1 - least);
+/// Φ(z) and 1 − Φ(z), and neither of them 0. By 1 − Φ beyond the middle: Φ alone could not tell the
+/// points beyond 8.2 from each other.
+Tails unit_point(double z) {
+  constexpr double least = std::numeric_limits<double>::min();
+  const auto [below, above] = tails(Normal{}, z);
+  return {std::max(below, least), std::max(above, least)};
 }
 
 double distance(const NormalPoint& z) {
@@ -30,9 +33,8 @@ public:
   NormalRuns(const Campaign& campaign, const LimitState& limit_state, Evaluator& evaluator)
       : evaluator_(evaluator),
         plan_(campaign,
-              [this](long k, std::span<double> u) {
-                std::ranges::transform(points_[static_cast<std::size_t>(k)], u.begin(),
-                                       in_unit_interval);
+              [this](long k, std::span<Tails> u) {
+                std::ranges::transform(points_[static_cast<std::size_t>(k)], u.begin(), unit_point);
               },
               {"g", limit_state.goal(), [&limit_state](const Scene& scene, const Outcome& outcome) {
                  return limit_state.of(scene, outcome);

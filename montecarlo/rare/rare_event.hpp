@@ -1,6 +1,6 @@
 /// The probability of a rare event in a campaign: independent subset simulations over its draws.
 ///
-///   z → u = Φ(z) → copula, quantiles → draws → run → g (limit_state.hpp)
+///   z → u = Φ(z), with 1 − u → copula, quantiles → draws → run → g (limit_state.hpp)
 #pragma once
 
 #include "montecarlo/rare/limit_state.hpp"

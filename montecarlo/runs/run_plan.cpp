@@ -38,22 +38,22 @@ RunPlan::RunPlan(const Campaign& campaign, UnitPoints points, Measure measure)
 }
 
 void RunPlan::draw(long k, std::span<double> draws) const {
-  if (points_)
-    points_(k, draws);
-  else
-    for (std::size_t i = 0; i < draws.size(); ++i)
-      draws[i] = design_.uniform(static_cast<std::uint64_t>(k), i);
-  to_draws(draws);
-}
-
-void RunPlan::to_draws(std::span<double> point) const {
-  if (copula_.is_independent()) {
-    for (std::size_t i = 0; i < point.size(); ++i) point[i] = distributions_[i].quantile(point[i]);
+  const std::size_t count = draws.size();
+  if (!points_ && copula_.is_independent()) { // most campaigns: nothing is set aside
+    for (std::size_t i = 0; i < count; ++i)
+      draws[i] = distributions_[i].quantile(design_.uniform(static_cast<std::uint64_t>(k), i));
     return;
   }
-  std::vector<Tails> coupled(point.size());
-  copula_.couple(point, coupled);
-  for (std::size_t i = 0; i < point.size(); ++i) point[i] = distributions_[i].quantile(coupled[i]);
+  std::vector<Tails> u(count), coupled(count);
+  place(k, u);
+  copula_.couple(u, coupled);
+  for (std::size_t i = 0; i < count; ++i) draws[i] = distributions_[i].quantile(coupled[i]);
+}
+
+void RunPlan::place(long k, std::span<Tails> u) const {
+  if (points_) return points_(k, u);
+  for (std::size_t i = 0; i < u.size(); ++i)
+    u[i] = tails_of_uniform(design_.uniform(static_cast<std::uint64_t>(k), i));
 }
 
 } // namespace wingspread

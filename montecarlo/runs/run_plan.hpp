@@ -18,8 +18,8 @@
 namespace wingspread {
 
 /// Another rule than the campaign's design that puts runs into the unit cube; pure.
-/// @param u one for each dispersion in their order, to be set; each strictly within (0, 1)
-using UnitPoints = std::function<void(long run, std::span<double> u)>;
+/// @param u one for each dispersion in their order, to be set, by both of its tails: each > 0
+using UnitPoints = std::function<void(long run, std::span<Tails> u)>;
 
 /// One number to take of a run in place of the campaign's outputs.
 struct Measure {
@@ -51,10 +51,10 @@ public:
   /// @param draws as many as the campaign has dispersions
   void draw(long k, std::span<double> draws) const;
 
-  /// From a point of the unit cube to the draws there, in place: dependence, then quantiles. Pure.
-  void to_draws(std::span<double> point) const;
-
 private:
+  /// A run's point of the unit cube. @param u as many as there are dispersions
+  void place(long k, std::span<Tails> u) const;
+
   const Campaign* campaign_;
   std::vector<OutputColumn> columns_;
   std::optional<Measure> measure_;

@@ -63,11 +63,12 @@ RunPlan saltelli_plan(const Campaign& campaign, long rows) {
   refuse_unsuitable(campaign);
   const auto shared = std::make_shared<const PreparedDesign>(design(campaign, rows));
   const std::size_t d = campaign.dispersions.size();
-  return {campaign, [shared, d](long run, std::span<double> u) {
+  return {campaign, [shared, d](long run, std::span<Tails> u) {
             const SaltelliPoint point = saltelli_point(run, d);
             for (std::size_t i = 0; i < d; ++i) {
               const bool from_b = point.place == 1 || point.place == static_cast<long>(i) + 2;
-              u[i] = shared->uniform(static_cast<std::uint64_t>(point.row), from_b ? d + i : i);
+              u[i] = tails_of_uniform(
+                  shared->uniform(static_cast<std::uint64_t>(point.row), from_b ? d + i : i));
             }
           }};
 }

@@ -26,10 +26,9 @@ std::vector<std::vector<Tails>> coupled_columns() {
   const PreparedDesign design({DesignKind::random, 3, runs}, names);
   const GaussianCopula copula(order_by_name(names), correlations);
   std::vector<std::vector<Tails>> columns(names.size(), std::vector<Tails>(runs));
-  std::vector<double> u(names.size());
-  std::vector<Tails> row(names.size());
+  std::vector<Tails> u(names.size()), row(names.size());
   for (std::size_t k = 0; k < runs; ++k) {
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] = design.uniform(k, i);
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = tails_of_uniform(design.uniform(k, i));
     copula.couple(u, row);
     for (std::size_t i = 0; i < u.size(); ++i) columns[i][k] = row[i];
   }
@@ -121,7 +120,8 @@ TEST_CASE("laws of every kind keep their shape when coupled") {
 
 TEST_CASE("what is first by name, or is correlated with nothing, keeps its coordinate") {
   const GaussianCopula copula(order_by_name(names), correlations);
-  const std::vector<double> u{0.1, 0.9, 1 - 0x1p-53, 0x1p-53};
+  const std::vector<Tails> u{tails_of_uniform(0.1), tails_of_uniform(0.9),
+                             tails_of_uniform(1 - 0x1p-53), tails_of_uniform(0x1p-53)};
   std::vector<Tails> coupled(4);
   copula.couple(u, coupled);
   CHECK((coupled[2].below == 1 - 0x1p-53 && coupled[2].above == 0x1p-53)); // "b", first of three
@@ -136,14 +136,28 @@ TEST_CASE("both tails of a coupled coordinate are accurate") {
   // ρ = 0.5, mpmath 1.2.1 with 40 digits: z' = ∓9.678….
   const GaussianCopula copula({0, 1}, std::vector<RankCorrelation>{{0, 1, 0.5}});
   std::vector<Tails> low(2), high(2);
-  copula.couple(std::vector<double>{0x1p-40, 0x1p-40}, low);
-  copula.couple(std::vector<double>{1 - 0x1p-40, 1 - 0x1p-40}, high);
+  copula.couple(std::vector<Tails>(2, tails_of_uniform(0x1p-40)), low);
+  copula.couple(std::vector<Tails>(2, tails_of_uniform(1 - 0x1p-40)), high);
   CHECK(low[1].below == Approx(1.866726213638958e-22).epsilon(1e-12));
   CHECK(high[1].above == low[1].below); // not 1 − (1 − …), which is 0
   CHECK(high[1].below == 1);
   const PreparedDistribution normal({Normal{0, 1}, {}});
   CHECK(normal.quantile(high[1]) == Approx(9.678168165571679).epsilon(1e-13));
   CHECK(normal.quantile(low[1]) == Approx(-9.678168165571679).epsilon(1e-13));
+}
+
+// Of u = 1 − 1e-30 alone, which is 1, nothing would be left. Φ⁻¹(1e-30): mpmath, 40 digits.
+TEST_CASE("a coordinate next to 1 is coupled by its complement") {
+  const GaussianCopula copula({0, 1}, std::vector<RankCorrelation>{{0, 1, 0.5}});
+  std::vector<Tails> low(2), high(2);
+  copula.couple(std::vector<Tails>(2, Tails{1e-30, 1}), low);
+  copula.couple(std::vector<Tails>(2, Tails{1, 1e-30}), high);
+  CHECK(high[1].above == low[1].below);
+  const double z = inverse(Normal{}, {1e-30, 1});
+  CHECK(z == Approx(-11.464024688443616).epsilon(1e-14));
+  const double r = 2 * std::sin(0.5 * 3.14159265358979324 / 6);
+  CHECK(inverse(Normal{}, high[1]) == Approx(-z * (r + std::sqrt(1 - r * r))).epsilon(1e-13));
+  CHECK((high[0].below == 1 && high[0].above == 1e-30));
 }
 
 TEST_CASE("Cholesky's factor gives the matrix back, and impossible matrices have none") {
@@ -199,7 +213,7 @@ TEST_CASE("coupled draws are evaluated as the normal law's own are") {
   std::array<Tails, 2> coupled{};
   for (std::size_t k = 0; k < 1000; ++k) {
     const std::array<double, 2> u{design.uniform(k, 0), design.uniform(k, 1)};
-    copula.couple(u, coupled);
+    copula.couple(std::array{tails_of_uniform(u[0]), tails_of_uniform(u[1])}, coupled);
     const Tails expected = tails(Normal{}, rest * score(u[1]) + r * score(u[0]));
     CHECK((coupled[1].below == expected.below && coupled[1].above == expected.above));
     CHECK((coupled[0].below == u[0] && coupled[0].above == 1 - u[0]));

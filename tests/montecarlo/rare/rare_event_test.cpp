@@ -1,7 +1,7 @@
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/rare/rare_event.hpp"
 #include "montecarlo/statistics/binomial_bounds.hpp"
-#include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -20,26 +20,8 @@ const auto untold = [](long) {};
 ///
 ///     P(not deployed) = Φ(−β),  β = (1.1 − coulomb)/√((1.1·0.05)² + 0.03²)
 Json one_panel(double coulomb) {
-  Json campaign = parse_json(R"({
-    "scene": { "name": "one_panel", "base": { "motion": "fixed" },
-      "bodies": [ { "name": "panel", "mass": 10, "inertia": 0.5 } ],
-      "hinges": [ { "name": "root", "parent": "base", "child": "panel",
-        "parent_point": [0, 0], "child_point": [-0.505, 0.02],
-        "angle": { "stowed": 1.5707963267948966, "latched": 0 },
-        "spring": { "torque_stowed": 2.0, "torque_latched": 0.2 },
-        "friction": { "model": "exact", "coulomb": 0, "static": 0 },
-        "latch": { "stiffness": 1e4, "damping": 100 } } ] },
-    "dispersions": [
-      { "name": "spring", "distribution": { "type": "normal", "mean": 1, "std": 0.05 },
-        "apply": "scale",
-        "to": ["hinges.root.spring.torque_stowed", "hinges.root.spring.torque_latched"] },
-      { "name": "friction", "distribution": { "type": "normal", "mean": 0, "std": 0.03 },
-        "apply": "add",
-        "to": ["hinges.root.friction.coulomb", "hinges.root.friction.static"] },
-      { "name": "mass", "distribution": { "type": "uniform", "lower": 9, "upper": 11 },
-        "apply": "set", "to": ["bodies.panel.mass"] } ],
-    "integration": { "rtol": 1e-6, "atol": 1e-8 },
-    "sampling": { "runs": 100, "seed": 3 } })");
+  Json campaign = one_panel_margin(100);
+  for (const char* key : {"outputs", "requirements", "margin"}) campaign.erase(key);
   campaign["scene"]["hinges"][0]["friction"]["coulomb"] = coulomb;
   campaign["scene"]["hinges"][0]["friction"]["static"] = coulomb;
   return campaign;
@@ -192,6 +174,27 @@ TEST_CASE("draws of the far tails are those of their laws, correlated ones too")
   CHECK(beta > 4.5);
   CHECK(std::abs(std::log(found.estimate.probability / tail(beta))) <
         3.5 * found.estimate.variation);
+}
+
+// Friction alone varies, and stalls the wing from 9 standard deviations on: 1.1e-19. The point is in the upper tail,
+// where u = Φ(z) is 1 to the last bit: by u alone there is no draw beyond 8.2.
+TEST_CASE("an event far in the upper tail is reached by draws that are there, coupled or not") {
+  Json json = one_panel(1.1 - 9 * 0.03);
+  json["dispersions"][0]["distribution"] = {{"type", "constant"}, {"value", 1}};
+  for (const bool coupled : {false, true}) {
+    if (coupled) json["correlations"] = {{{"between", {"friction", "mass"}}, {"spearman", 0.5}}};
+    const RareResult found =
+        estimate(json, {.samples = 1000, .repeats = 2, .confidence = 0.99, .smallest = 1e-25});
+    INFO(found.estimate.probability << ", exactly " << tail(9));
+    CHECK(found.estimate.reached);
+    CHECK(std::abs(std::log(found.estimate.probability / tail(9))) < 4 * found.estimate.variation);
+    REQUIRE(found.likeliest);
+    const auto& [distance, z, draws, status, reason] = *found.likeliest;
+    CHECK(status == Status::stalled);
+    CHECK(draws[1] > 9 * 0.03);
+    CHECK(draws[1] < 9.5 * 0.03);
+    CHECK(draws[1] == Approx(0.03 * z[1]).epsilon(1e-12)); // "friction" is first by name
+  }
 }
 
 TEST_CASE("an interruption ends it, and bad events are refused") {
