@@ -124,7 +124,10 @@ void add_rare(CLI::App& app, Action& action) {
       R"(Subset simulation: runs that came nearest to the event are the start of chains that go nearer
 still, level by level, each a tenth as likely as the one before. It takes some ten thousand runs for
 one in a million. The variation is the estimate's standard deviation as a share of it; the repeats
-are independent, and show it too. Draws are independent ones, whatever the campaign's design.
+are independent, and show it too. On average it is too large by 0.4 of a repeat's squared variation,
+which more --samples reduce and more --repeats do not. Draws are independent ones, whatever the
+campaign's design. Where no way led to the event, what is printed is the estimated probability of
+the last level: more than the event's, but no proof of it.
 
 A run that has no such output (it stalled before, or failed) counts as the event.
 

@@ -42,7 +42,7 @@ std::string repeats_text(const RareResult& result, const RareOptions& options) {
   for (std::size_t k = 0; k < result.estimates.size(); ++k) {
     const SubsetEstimate& estimate = result.estimates[k];
     text += fmt::format("  {:<6}{:>14}{:>12}{:>10}  ", k + 1,
-                        fmt::format("{}{:.3g}", estimate.reached ? "" : "< ", estimate.probability),
+                        fmt::format("{}{:.3g}", estimate.reached ? "" : "≲ ", estimate.probability),
                         percent(estimate.variation, 0), estimate.evaluations);
     for (const SubsetLevel& level : estimate.levels)
       text += fmt::format(" {:.4g}", level_of(options.event, level.threshold));
@@ -104,14 +104,21 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
             {"from_chains", json_number(all.from_chains)},
             {"from_repeats", json_number(all.from_spread)}}},
           {"runs", all.evaluations},
+          {"bias", all.bias},
           {"plain_runs", json_number(all.plain_runs)},
           {"plain_sampling_is_enough", all.plain_is_enough()},
           {"definitions",
-           {{"probability", "mean of independent subset simulations; when the event was not "
-                            "reached, what it is below"},
+           {{"probability",
+             "mean of independent subset simulations; of those that did not reach the event, the "
+             "estimated probability of the last level that they did: more than the event's, but "
+             "an estimate"},
+            {"bias", "by how much the probability is too large on average, in units of it: 0.4 of "
+                     "a repeat's squared variation, as measured on events of known probability; "
+                     "not taken off, and not in the bounds"},
             {"variation", "coefficient of variation of the mean: by the correlation along chains, "
                           "by the repeats' spread, and the larger of the two"},
-            {"bounds", "probability exp(+- q variation), q normal or Student's, the wider"},
+            {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
+                       "lower one where a repeat did not reach the event"},
             {"plain_runs", "runs of plain sampling for the same variation"}}},
           {"samples", options.samples},
           {"repeats", repeats},
@@ -132,8 +139,15 @@ std::string rare_text(const RareResult& result, const RareOptions& options,
                         all.probability, 100 * options.confidence, all.interval.lower,
                         all.interval.upper, percent(all.variation, 0));
   else
-    text += fmt::format("P({}) is below {:.3g} or was not found: some repeats did not reach it\n",
-                        event, all.interval.upper);
+    text += fmt::format(
+        "P({}) was not found: {} of {} repeats did not reach it. The levels that were reached are\n"
+        "estimated at {:.3g}, {:g} % bound {:.3g}: an estimate of what P does not exceed, no "
+        "proof\n",
+        event, std::ranges::count(result.estimates, false, &SubsetEstimate::reached),
+        result.estimates.size(), all.probability, 100 * options.confidence, all.interval.upper);
+  if (all.reached && all.bias > 0)
+    text += fmt::format("Such an estimate is too large on average, by some {} here\n",
+                        percent(all.bias, 1));
   text += fmt::format("{} runs were made. {}", all.evaluations, plain_text(all));
   if (text.back() != '\n') text += '\n';
   text += repeats_text(result, options);

@@ -15,9 +15,10 @@
 namespace wingspread {
 namespace {
 
-constexpr long chain_length = 10;   // L
-constexpr double aimed_at = 0.44;   // share of moves taken
-constexpr double first_scale = 0.6; // λ of the first chains
+constexpr long chain_length = 10;      // L
+constexpr double aimed_at = 0.44;      // share of moves taken
+constexpr double first_scale = 0.6;    // λ of the first chains
+constexpr double bias_of_square = 0.4; // of an estimate with chains, in units of its δ²
 
 double standard_normal(RandomStream& stream) {
   const double u = open_uniform(stream());
@@ -240,14 +241,16 @@ RareEstimate combined(std::span<const SubsetEstimate> estimates, double confiden
   RareEstimate all;
   std::vector<double> probabilities;
   const double count = static_cast<double>(estimates.size());
-  double square = 0;
+  double square = 0, bias = 0;
   all.reached = std::ranges::all_of(estimates, &SubsetEstimate::reached);
   for (const SubsetEstimate& estimate : estimates) {
     probabilities.push_back(estimate.probability);
     all.evaluations += estimate.evaluations;
     square += std::pow(estimate.probability * estimate.variation, 2);
+    if (estimate.levels.size() > 1) bias += bias_of_square * std::pow(estimate.variation, 2);
   }
   all.probability = moments(probabilities).mean;
+  all.bias = bias / count;
   all.from_chains = std::sqrt(square) / (count * all.probability);
   all.from_spread = relative_spread(probabilities, all.probability);
   all.variation = std::fmax(all.from_chains, all.from_spread);
