@@ -50,9 +50,18 @@ bool goals_are_met(const Campaign& campaign, const Results& results) {
   };
   std::vector<Verdict> verdicts;
   if (std::ranges::any_of(campaign.until, decides))
-    for (const Requirement& requirement : campaign.requirements)
-      verdicts.push_back(judge(requirement, results, count_looks(campaign)));
+    verdicts = judge_all(campaign.requirements, results, count_looks(campaign));
   return are_met(goals_of(campaign, results, verdicts));
+}
+
+void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, long looks,
+                          Summary& summary) {
+  for (std::size_t i = 0; i < results.outputs.size(); ++i) {
+    const RankedOutput ranks(results, results.outputs[i]);
+    for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
+      summary.outputs[i].tolerance_limits.push_back(
+          {tolerance, output_limits(ranks, tolerance, looks)});
+  }
 }
 
 /// The statistics, their confidence shared out among the looks that the campaign may take.
@@ -68,12 +77,8 @@ Summary summarize(const StoredCampaign& stored, const Results& results, const St
   summary.looks = looks;
   summary.looked_at.assign(campaign.sampling.extended_from.begin(),
                            campaign.sampling.extended_from.end());
-  for (const Requirement& requirement : campaign.requirements)
-    summary.requirements.push_back(judge(requirement, results, looks));
-  for (std::size_t i = 0; i < results.outputs.size(); ++i)
-    for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
-      summary.outputs[i].tolerance_limits.push_back(
-          {tolerance, output_limits(results, results.outputs[i], tolerance, looks)});
+  summary.requirements = judge_all(campaign.requirements, results, looks);
+  if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
   summary.until = goals_of(campaign, results, summary.requirements);
   summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
   return summary;

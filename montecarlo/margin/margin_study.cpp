@@ -108,8 +108,7 @@ private:
     CaseLook look;
     for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
     result_.failed += look.statuses[static_cast<std::size_t>(Status::failed)];
-    for (const Requirement& requirement : campaign.requirements)
-      look.verdicts.push_back(judge(requirement, results));
+    look.verdicts = judge_all(campaign.requirements, results);
     return look;
   }
 

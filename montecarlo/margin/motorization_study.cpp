@@ -1,5 +1,6 @@
 #include "montecarlo/margin/motorization_study.hpp"
 
+#include "montecarlo/machine/spilled.hpp"
 #include "montecarlo/runs/run_plan.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
@@ -13,83 +14,52 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kinds = margin_kind_names.size();
+/// Of the travel at a time: each has a temporary file for every kind, where there are many draws.
+constexpr std::size_t most_places = 64;
 
 bool is_driven(const Hinge& hinge) {
   return hinge.latch || hinge.spring.torque_stowed != 0 || hinge.spring.torque_latched != 0;
 }
 
-/// What a draw makes of the hinges: as much of them as the margins need.
-struct Draw {
-  long run;
-  std::vector<Hinge> hinges; ///< those that are driven
-};
-
-Hinge without_names(const Hinge& hinge) {
-  Hinge law = hinge;
-  law.name.clear();
-  return law;
-}
-
-/// The physical draws; counts the others.
-std::vector<Draw> draws_of(const Campaign& campaign, std::span<const int> driven, long& invalid) {
-  const RunPlan plan(campaign);
-  std::vector<double> values(campaign.dispersions.size());
-  std::vector<Draw> draws;
-  Scene scene = campaign.scene;
-  for (long run = 0; run < campaign.sampling.runs; ++run) {
-    plan.draw(run, values);
-    apply(campaign, values, campaign.scene, scene);
-    if (!unphysical(scene).empty()) {
-      ++invalid;
-      continue;
-    }
-    Draw& draw = draws.emplace_back(Draw{run, {}});
-    for (const int hinge : driven) draw.hinges.push_back(without_names(scene.hinges[hinge]));
-  }
-  return draws;
-}
-
-/// Margins of every draw, kind by kind.
+/// Margins of every draw, kind by kind, as they come.
 class Spreads {
 public:
-  void add(const Margins& margins) {
-    for (std::size_t kind = 0; kind < kinds; ++kind) values_[kind].push_back(margins[kind]);
+  void add(long run, const Margins& margins) {
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      const double margin = margins[kind];
+      values_[kind].push_back(margin);
+      MarginSpread& spread = spreads_[kind];
+      if (spread.worst_run < 0 || margin < spread.least)
+        spread.least = margin, spread.worst_run = run;
+      if (margin < 0) ++short_[kind];
+    }
   }
 
-  [[nodiscard]] std::array<MarginSpread, kinds> of(std::span<const Draw> draws,
-                                                   std::span<const double> probabilities) {
-    std::array<MarginSpread, kinds> all;
-    for (std::size_t kind = 0; kind < kinds; ++kind)
-      all[kind] = spread(values_[kind], draws, probabilities);
-    return all;
+  /// Once, when all are there.
+  [[nodiscard]] std::array<MarginSpread, kinds> finished(std::span<const double> probabilities) {
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      Spilled<double>& values = values_[kind];
+      MarginSpread& spread = spreads_[kind];
+      if (values.empty()) spread.least = none;
+      spread.share_short = static_cast<double>(short_[kind]) / static_cast<double>(values.size());
+      std::ranges::sort(values);
+      for (const double p : probabilities) spread.quantiles.push_back(quantile(values, p));
+      values = {};
+    }
+    return spreads_;
   }
 
 private:
-  static MarginSpread spread(std::vector<double>& values, std::span<const Draw> draws,
-                             std::span<const double> probabilities) {
-    MarginSpread all;
-    const auto least = std::ranges::min_element(values);
-    all.least = values.empty() ? none : *least;
-    if (!values.empty()) all.worst_run = draws[least - values.begin()].run;
-    const auto is_short = [](double margin) { return margin < 0; };
-    all.share_short = static_cast<double>(std::ranges::count_if(values, is_short)) /
-                      static_cast<double>(values.size());
-    std::ranges::sort(values);
-    for (const double p : probabilities) all.quantiles.push_back(quantile(values, p));
-    return all;
-  }
-
-  std::array<std::vector<double>, kinds> values_;
+  std::array<Spilled<double>, kinds> values_;
+  std::array<MarginSpread, kinds> spreads_;
+  std::array<long, kinds> short_{};
 };
 
-/// One hinge of the wing and of its draws.
+/// One hinge of the wing.
 struct HingeStudy {
   const Hinge& nominal;
-  std::size_t place; ///< among those of a draw
-  const std::vector<Draw>& draws;
   const MotorizationTerms& other;
   const MarginSpec& spec;
-  const std::vector<double>& probabilities;
 
   [[nodiscard]] Margins margins_at(const Hinge& hinge, double x) const {
     return margins_of(terms_at(hinge, x, other), spec);
@@ -110,15 +80,13 @@ struct HingeStudy {
     return least;
   }
 
+  /// Without the draws.
   [[nodiscard]] TravelPoint point(double x) const {
     TravelPoint point;
     point.x = x;
     point.angle = nominal.stowed + (nominal.latched - nominal.stowed) * x;
     point.nominal = terms_at(nominal, x, other);
     point.margins = margins_of(point.nominal, spec);
-    Spreads spreads;
-    for (const Draw& draw : draws) spreads.add(margins_at(draw.hinges[place], x));
-    point.spread = spreads.of(draws, probabilities);
     return point;
   }
 
@@ -132,17 +100,59 @@ struct HingeStudy {
     return places;
   }
 
-  [[nodiscard]] HingeMotorization study(int hinge) const {
+  /// The nominal wing's, and the draws'. What is kept of a draw is a number for each place and kind, and lies in
+  /// temporary files where there are many: not the draw's hinges.
+  /// @param for_each_draw hands on the run's number and the hinge that it makes, draw by draw
+  template <class ForEachDraw>
+  [[nodiscard]] HingeMotorization study(int hinge, std::span<const double> probabilities,
+                                        const ForEachDraw& for_each_draw) const {
     HingeMotorization all;
     all.hinge = hinge;
     for (const double x : places()) all.travel.push_back(point(x));
     all.worst = worst(nominal, all.worst_at);
-    Spreads spreads;
-    for (Margins at{}; const Draw& draw : draws) spreads.add(worst(draw.hinges[place], at));
-    all.worst_spread = spreads.of(draws, probabilities);
+    Spreads least;
+    for_each_draw([&](long run, const Hinge& drawn) {
+      Margins at{};
+      least.add(run, worst(drawn, at));
+    });
+    all.worst_spread = least.finished(probabilities);
+    const std::span<TravelPoint> travel = all.travel;
+    for (std::size_t first = 0; first < travel.size(); first += most_places)
+      add_spreads(travel.subspan(first, std::min(most_places, travel.size() - first)),
+                  probabilities, for_each_draw);
     return all;
   }
+
+private:
+  template <class ForEachDraw>
+  void add_spreads(std::span<TravelPoint> places, std::span<const double> probabilities,
+                   const ForEachDraw& for_each_draw) const {
+    std::vector<Spreads> spreads(places.size());
+    for_each_draw([&](long run, const Hinge& drawn) {
+      for (std::size_t k = 0; k < places.size(); ++k)
+        spreads[k].add(run, margins_at(drawn, places[k].x));
+    });
+    for (std::size_t k = 0; k < places.size(); ++k)
+      places[k].spread = spreads[k].finished(probabilities);
+  }
 };
+
+/// Hands on the scenes of the physical draws. @return how many are not
+template <class Take> long for_each_scene(const Campaign& campaign, const Take& take) {
+  const RunPlan plan(campaign);
+  std::vector<double> values(campaign.dispersions.size());
+  Scene scene = campaign.scene;
+  long invalid = 0;
+  for (long run = 0; run < campaign.sampling.runs; ++run) {
+    plan.draw(run, values);
+    apply(campaign, values, campaign.scene, scene);
+    if (unphysical(scene).empty())
+      take(run, scene);
+    else
+      ++invalid;
+  }
+  return invalid;
+}
 
 } // namespace
 
@@ -157,19 +167,18 @@ Margins margins_of(const MotorizationTerms& terms, const MarginSpec& spec) {
 
 MotorizationStudy study_motorization(const Campaign& campaign, const Scene& nominal,
                                      const MarginSpec& spec) {
-  std::vector<int> driven;
-  for (int hinge = 0; hinge < std::ssize(nominal.hinges); ++hinge)
-    if (is_driven(nominal.hinges[hinge])) driven.push_back(hinge);
   MotorizationStudy all;
-  const std::vector<Draw> draws = draws_of(campaign, driven, all.invalid);
-  all.draws = std::ssize(draws);
-  for (std::size_t place = 0; place < driven.size(); ++place) {
-    const int hinge = driven[place];
-    all.hinges.push_back(HingeStudy{nominal.hinges[hinge], place, draws,
-                                    spec.motorization.torques[hinge], spec,
-                                    campaign.statistics.quantiles}
-                             .study(hinge));
+  for (int hinge = 0; hinge < std::ssize(nominal.hinges); ++hinge) {
+    if (!is_driven(nominal.hinges[hinge])) continue;
+    const HingeStudy study{nominal.hinges[hinge], spec.motorization.torques[hinge], spec};
+    const auto for_each_draw = [&](const auto& take) {
+      all.invalid = for_each_scene(
+          campaign, [&](long run, const Scene& scene) { take(run, scene.hinges[hinge]); });
+    };
+    all.hinges.push_back(study.study(hinge, campaign.statistics.quantiles, for_each_draw));
   }
+  if (all.hinges.empty()) all.invalid = for_each_scene(campaign, [](long, const Scene&) {});
+  all.draws = campaign.sampling.runs - all.invalid;
   return all;
 }
 

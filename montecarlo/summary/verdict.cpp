@@ -10,7 +10,9 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -42,20 +44,25 @@ double value_or_infinite(const Results& results, std::size_t row, double value) 
   return results.status[row] == Status::deployed && !std::isnan(value) ? value : infinity;
 }
 
-/// Of every run, the worst first; those that are equally bad by their number.
-std::vector<Badness> rank(const Requirement& requirement, const Results& results) {
-  const Column* column = column_of(results, requirement);
-  const double sign = sign_of(requirement);
-  std::vector<Badness> ranked;
-  ranked.reserve(results.size());
-  for (std::size_t row = 0; row < results.size(); ++row)
-    ranked.push_back({results.runs[row],
-                      value_or_infinite(results, row, column ? sign * column->values[row] : 0)});
+/// The numbers of the runs that break it, the worst first; those that are equally bad by their number.
+Spilled<long> breaking(const Requirement& requirement, const Results& results,
+                       const Column* column) {
+  const double sign = sign_of(requirement), limit = limit_of(requirement);
+  Spilled<long> broken; // first those that are worse than any number, as they come: by their number
+  std::vector<Badness> beyond;
+  for (std::size_t row = 0; row < results.size(); ++row) {
+    const double value = value_or_infinite(results, row, column ? sign * column->values[row] : 0);
+    if (value == infinity)
+      broken.push_back(results.runs[row]);
+    else if (value > limit)
+      beyond.push_back({results.runs[row], value});
+  }
   results.release();
-  std::ranges::sort(ranked, [](const Badness& a, const Badness& b) {
+  std::ranges::sort(beyond, [](const Badness& a, const Badness& b) {
     return a.value != b.value ? a.value > b.value : a.run < b.run;
   });
-  return ranked;
+  for (const auto& [run, value] : beyond) broken.push_back(run);
+  return broken;
 }
 
 Decision decide(const Verdict& verdict) {
@@ -65,22 +72,43 @@ Decision decide(const Verdict& verdict) {
 }
 
 /// Fills in what is said of the output's own values.
-void add_values(const std::vector<Badness>& ranked, Verdict& verdict) {
+void add_values(const RankedOutput& output, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
-  const auto value_at = [&](long index) -> std::optional<double> {
-    const double value = ranked[static_cast<std::size_t>(index)].value;
-    return std::isfinite(value) ? std::optional(sign_of(requirement) * value) : std::nullopt;
+  const auto value_at = [&](long place) -> std::optional<double> { // the worst has place 0
+    const auto index = static_cast<std::size_t>(place);
+    const auto values = requirement.min ? output.worst_below() : output.worst_above();
+    const double value = values[requirement.min ? index : values.size() - 1 - index];
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
   };
-  if (requirement.output == deployed_output) {
-    if (verdict.allowed) verdict.margin = verdict.guaranteed_share - requirement.probability;
-    return;
-  }
   if (verdict.runs > 0)
     verdict.observed =
         value_at(verdict.runs - quantile_rank(verdict.runs, requirement.probability));
   if (verdict.allowed) verdict.guaranteed = value_at(*verdict.allowed);
   if (verdict.guaranteed)
     verdict.margin = limit_of(requirement) - sign_of(requirement) * *verdict.guaranteed;
+}
+
+/// @param ranks the output's; null for "deployed"
+Verdict judge_one(const Requirement& requirement, const Results& results, const Column* column,
+                  const RankedOutput* ranks, long looks) {
+  Verdict verdict;
+  verdict.requirement = requirement;
+  verdict.runs = static_cast<long>(results.size());
+  verdict.confidence = at_each_of(requirement.confidence, looks);
+  verdict.broken = breaking(requirement, results, column);
+  const double p = requirement.probability, c = verdict.confidence;
+  const long n = verdict.runs, broken = std::ssize(verdict.broken);
+  verdict.allowed = allowed_failures(n, p, c);
+  verdict.least_runs = runs_to_show(p, c, 0);
+  verdict.disproved = is_disproved(n, p, c, broken);
+  verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
+  verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
+  verdict.decision = decide(verdict);
+  if (ranks)
+    add_values(*ranks, verdict);
+  else if (verdict.allowed)
+    verdict.margin = verdict.guaranteed_share - p;
+  return verdict;
 }
 
 } // namespace
@@ -97,24 +125,40 @@ std::string_view to_string(Decision decision) {
   return "undecided";
 }
 
+RankedOutput::RankedOutput(const Results& results, const Column& output) {
+  const std::size_t runs = results.size();
+  values_.reserve(runs);
+  for (std::size_t row = 0; row < runs; ++row)
+    if (const double value = output.values[row]; value_or_infinite(results, row, value) != infinity)
+      values_.push_back(value);
+  results.release();
+  std::ranges::sort(values_);
+  worse_ = runs - values_.size();
+  if (worse_ == 0) return;
+  values_.insert(values_.begin(), worse_, -infinity);
+  values_.insert(values_.end(), worse_, infinity);
+}
+
 Verdict judge(const Requirement& requirement, const Results& results, long looks) {
-  const std::vector<Badness> ranked = rank(requirement, results);
-  Verdict verdict;
-  verdict.requirement = requirement;
-  verdict.runs = std::ssize(ranked);
-  verdict.confidence = at_each_of(requirement.confidence, looks);
-  const double p = requirement.probability, c = verdict.confidence;
-  for (const auto& [run, value] : ranked)
-    if (value > limit_of(requirement)) verdict.broken.push_back(run);
-  const long n = verdict.runs, broken = std::ssize(verdict.broken);
-  verdict.allowed = allowed_failures(n, p, c);
-  verdict.least_runs = runs_to_show(p, c, 0);
-  verdict.disproved = is_disproved(n, p, c, broken);
-  verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
-  verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
-  verdict.decision = decide(verdict);
-  add_values(ranked, verdict);
-  return verdict;
+  return std::move(judge_all({&requirement, 1}, results, looks).front());
+}
+
+std::vector<Verdict> judge_all(std::span<const Requirement> requirements, const Results& results,
+                               long looks) {
+  std::vector<Verdict> verdicts(requirements.size());
+  std::vector<bool> judged(requirements.size(), false);
+  for (std::size_t first = 0; first < requirements.size(); ++first) {
+    if (judged[first]) continue;
+    const Column* column = column_of(results, requirements[first]);
+    std::optional<RankedOutput> ranks;
+    if (column) ranks.emplace(results, *column);
+    for (std::size_t k = first; k < requirements.size(); ++k) {
+      if (requirements[k].output != requirements[first].output) continue;
+      verdicts[k] = judge_one(requirements[k], results, column, ranks ? &*ranks : nullptr, looks);
+      judged[k] = true;
+    }
+  }
+  return verdicts;
 }
 
 bool is_decided(const Verdict& verdict) {
@@ -149,16 +193,9 @@ std::string replay_command(std::string_view folder, long run) {
   return fmt::format("wingspread replay {} --run {}", folder, run);
 }
 
-Bounds output_limits(const Results& results, const Column& output, const ToleranceLimitSpec& spec,
-                     long looks) {
-  const double sign = spec.side == Side::lower ? -1 : 1;
-  std::vector<double> values;
-  values.reserve(results.size());
-  for (std::size_t row = 0; row < results.size(); ++row)
-    values.push_back(sign * value_or_infinite(results, row, sign * output.values[row]));
-  results.release();
-  std::ranges::sort(values);
-  return tolerance_limits(values, spec.side, spec.probability, at_each_of(spec.confidence, looks));
+Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec, long looks) {
+  return tolerance_limits(spec.side == Side::lower ? output.worst_below() : output.worst_above(),
+                          spec.side, spec.probability, at_each_of(spec.confidence, looks));
 }
 
 } // namespace wingspread

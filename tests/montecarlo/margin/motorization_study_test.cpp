@@ -79,3 +79,39 @@ TEST_CASE("a hinge without spring and latch drives nothing, and has no margin", 
   REQUIRE(study.hinges.size() == 1);
   CHECK(study.hinges[0].hinge == 0);
 }
+
+// More places than are worked out at a time: the margins of each are still those of its own x.
+TEST_CASE("margins at many places are each place's own", "[motorization]") {
+  Json json = one_panel_margin(100);
+  json["scene"]["hinges"][0]["harness"] = {{"torque_stowed", 0.05}, {"torque_latched", 0.1}};
+  json["statistics"] = {{"quantiles", {0.3}}};
+  json["margin"]["motorization"] = {{"points", 150}};
+  const Campaign campaign = campaign_of(json);
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
+  const HingeMotorization& root = study.hinges.front();
+  REQUIRE(root.travel.size() == 150);
+  const RunPlan plan(campaign);
+  std::vector<double> draws(3);
+  std::vector<double> worst(100, 1e300); // NASA's, over the ends of the travel
+  for (const TravelPoint& point : root.travel) {
+    std::vector<std::pair<double, long>> margins;
+    for (long run = 0; run < 100; ++run) {
+      plan.draw(run, draws);
+      const double spring = draws[0] * (2 - 1.8 * point.x), harness = 0.05 + 0.05 * point.x;
+      margins.emplace_back(spring / (3 * (0.8 + draws[1] + harness)) - 1, run);
+      worst[static_cast<std::size_t>(run)] =
+          std::min(worst[static_cast<std::size_t>(run)], margins.back().first);
+    }
+    const auto is_short = [](const auto& margin) { return margin.first < 0; };
+    const MarginSpread& spread = point.spread[1];
+    CHECK(spread.share_short ==
+          static_cast<double>(std::ranges::count_if(margins, is_short)) / 100);
+    std::ranges::sort(margins);
+    CHECK(spread.least == Approx(margins.front().first).epsilon(1e-12));
+    CHECK(spread.worst_run == margins.front().second);
+    CHECK(spread.quantiles.at(0) == Approx(margins[29].first).epsilon(1e-12));
+  }
+  std::ranges::sort(worst);
+  CHECK(root.worst_spread[1].quantiles.at(0) == Approx(worst[29]).epsilon(1e-12));
+  CHECK(root.worst_spread[1].least == Approx(worst[0]).epsilon(1e-12));
+}

@@ -4,9 +4,14 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace wingspread;
 
@@ -140,7 +145,7 @@ TEST_CASE("a campaign that may have stopped earlier has to show more") {
 TEST_CASE("tolerance limits of an output put runs that did not deploy beyond every number") {
   Results results = counting(59);
   const auto limits = [&](Side side) {
-    return output_limits(results, results.outputs[0], {.95, .95, side});
+    return output_limits(RankedOutput(results, results.outputs[0]), {.95, .95, side});
   };
   CHECK(limits(Side::upper).upper == 59);
   CHECK(limits(Side::lower).lower == 1);
@@ -181,4 +186,85 @@ TEST_CASE("a wing as bad as a requirement just forbids passes as seldom as the c
   const double band = 5 * std::sqrt(risk * (1 - risk) / trials);
   CHECK(static_cast<double>(passed) / trials == Approx(risk).margin(band));
   CHECK(static_cast<double>(guaranteed) / trials == Approx(1 - risk).margin(band));
+}
+
+// By definition, from all runs sorted by how bad they are.
+TEST_CASE("many requirements at once are judged as each by itself, and as they are defined") {
+  std::mt19937_64 random(62);
+  Results results(ResultNames{{}, {"x", "y"}});
+  const std::vector<Status> kinds{Status::deployed, Status::deployed, Status::deployed,
+                                  Status::deployed, Status::stalled,  Status::failed};
+  for (long run = 5; run < 605; ++run) { // ties, values missing, values of runs that did not deploy
+    const auto value = [&] {
+      const auto number = static_cast<double>(random() % 40);
+      return number == 39 ? none : number - 20;
+    };
+    results.append({run, kinds[random() % 6], {}, {value(), value()}, "", ""});
+  }
+  std::vector<Requirement> requirements;
+  for (const char* output : {"x", "deployed", "y", "x"})
+    for (const double limit : {-30., -3., 0., 12., 30.})
+      for (const bool above : {true, false}) {
+        Requirement each{"", output, {}, {}, .6, .9};
+        if (output != std::string("deployed")) (above ? each.max : each.min) = limit;
+        requirements.push_back(each);
+      }
+  const std::vector<Verdict> verdicts = judge_all(requirements, results, 2);
+  REQUIRE(verdicts.size() == requirements.size());
+  for (std::size_t k = 0; k < verdicts.size(); ++k) {
+    const Requirement& requirement = requirements[k];
+    const Verdict &verdict = verdicts[k], alone = judge(requirement, results, 2);
+    const bool is_share = requirement.output == "deployed";
+    const auto& values = results.outputs[requirement.output == "y" ? 1 : 0].values;
+    const double sign = requirement.min ? -1 : 1;
+    std::vector<std::pair<double, long>> worst; // minus the badness, and the run
+    for (std::size_t row = 0; row < 600; ++row) {
+      const double value = is_share ? 0 : sign * values[row];
+      const bool counts = results.status[row] == Status::deployed && !std::isnan(value);
+      worst.emplace_back(counts ? -value : -std::numeric_limits<double>::infinity(),
+                         results.runs[row]);
+    }
+    std::ranges::sort(worst);
+    const double limit =
+        is_share ? 0 : sign * requirement.max.value_or(requirement.min.value_or(0));
+    std::vector<long> broken;
+    for (const auto& [badness, run] : worst)
+      if (-badness > limit) broken.push_back(run);
+    CHECK(verdict.broken == broken);
+    CHECK(alone.broken == verdict.broken);
+    CHECK((alone.decision == verdict.decision && alone.margin == verdict.margin));
+    CHECK((alone.observed == verdict.observed && alone.guaranteed == verdict.guaranteed));
+    CHECK(verdict.allowed == allowed_failures(600, .6, .95));
+    if (is_share) continue;
+    const auto at = [&](std::size_t place) {
+      return std::isinf(worst[place].first) ? std::nullopt
+                                            : std::optional(-sign * worst[place].first);
+    };
+    CHECK(verdict.observed == at(600 - 360)); // the 360th of 600 from the good side
+    CHECK(verdict.guaranteed == at(static_cast<std::size_t>(*verdict.allowed)));
+  }
+}
+
+// One look in two is taken at 1 − (1 − c)/2: two looks at .95 are at .975 each.
+TEST_CASE("tolerance limits and verdicts of two looks are those of half the risk") {
+  const Results results = counting(300);
+  const RankedOutput ranks(results, results.outputs[0]);
+  for (const Side side : {Side::upper, Side::lower, Side::both}) {
+    const Bounds at_two = output_limits(ranks, {.95, .95, side}, 2);
+    const Bounds half = output_limits(ranks, {.95, .975, side});
+    const Bounds at_one = output_limits(ranks, {.95, .95, side});
+    CHECK((at_two.lower == half.lower && at_two.upper == half.upper));
+    if (side != Side::both) // of these 3 are left out on either side at one look and at two
+      CHECK((at_two.lower != at_one.lower || at_two.upper != at_one.upper));
+  }
+  const auto upper = [&](long looks) {
+    return *output_limits(ranks, {.95, .95, Side::upper}, looks).upper;
+  };
+  // Summing the binomial law of 300 runs at 5 %: P(X ≤ 8) = .0341, P(X ≤ 7) = .0160, P(X ≤ 6) = .0066
+  CHECK(upper(1) == 300 - 8);
+  CHECK(upper(2) == 300 - 7);
+  CHECK(upper(5) == 300 - 6);
+  CHECK(judge(at_most(1000, .95, .95), results, 2).confidence == Approx(.975).epsilon(1e-15));
+  CHECK(judge(at_most(1000, .95, .95), results, 2).allowed == 7);
+  CHECK(judge(at_most(1000, .95, .95), results).allowed == 8);
 }
