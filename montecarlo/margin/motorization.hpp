@@ -2,9 +2,9 @@
 /// with the standards' factors on every term. Kinetic energy and viscous terms are not counted.
 /// Symbols and factors: motorization_factors.hpp.
 ///
-///   ECSS-E-ST-33-01C:  T_min = m (f_I I + f_S S + f_HM HM + f_FR FR + f_HY HY + f_HA HA + f_HD HD)
+///   ECSS:              T_min = m (f_I I + f_S S + f_HM HM + f_FR FR + f_HY HY + f_HA HA + f_HD HD)
 ///                              + f_TD TD + TL,     margin = a T / T_min − 1 (1)
-///   NASA-STD-5017B:    margin = T / (FS_f ΣT_f + FS_v ΣT_v + FS_a ΣT_a) − 1 (2)
+///   NASA:              margin = T / (FS_f ΣT_f + FS_v ΣT_v + FS_a ΣT_a) − 1 (2)
 ///
 /// with m = 2, a = 0.8 for springs; the static margin of (2) leaves T_a out. Both have to be ≥ 0.
 ///
@@ -21,8 +21,9 @@
 
 namespace wingspread {
 
-inline constexpr std::string_view ecss_standard = "ECSS-E-ST-33-01C";
-inline constexpr std::string_view nasa_standard = "NASA-STD-5017B";
+/// With the editions that the factors are of. ECSS's has been revised since (Rev.2 of 1 March 2019).
+inline constexpr std::string_view ecss_standard = "ECSS-E-ST-33-01C (6 March 2009)";
+inline constexpr std::string_view nasa_standard = "NASA-STD-5017B (6 December 2022)";
 
 /// T_min of (1).
 [[nodiscard]] double ecss_required(const MotorizationTerms& terms, const EcssFactors& factors);

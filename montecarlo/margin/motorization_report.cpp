@@ -153,7 +153,7 @@ std::string motorization_text(const Campaign& campaign,
   const auto& quantiles = campaign.statistics.quantiles;
   std::string text =
       fmt::format("\nSTATIC MOTORIZATION MARGINS, least over the travel; 0 or more is enough\n"
-                  "{} ({}), {} ({})\n",
+                  "{}: {}; {}: {}\n",
                   ecss_standard, ecss_basis_names[static_cast<std::size_t>(spec.ecss_basis)],
                   nasa_standard, nasa_basis_names[static_cast<std::size_t>(spec.nasa_basis)]);
   const std::string quantile =

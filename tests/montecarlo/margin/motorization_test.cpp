@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -70,6 +71,42 @@ TEST_CASE("NASA: static and dynamic margins", "[motorization]") {
   CHECK(nasa_dynamic_margin(terms, nasa_acceptance()) ==
         Approx(1 / (1.25 * .10 + 2 * .15 + 1.1 * .08) - 1).epsilon(1e-14));
   CHECK(nasa_dynamic_margin(terms, nasa_one_spring_out()) == Approx(1 / .33 - 1).epsilon(1e-14));
+}
+
+TEST_CASE("NASA: every term counts with the factor of its class, and with no other",
+          "[motorization]") {
+  using Terms = MotorizationTerms;
+  const NasaFactors told_apart{2, 5, 11}; // fixed, variable, acceleration
+  struct Case {
+    double Terms::*term;
+    double static_factor, dynamic_factor;
+  };
+  for (const auto& [term, static_factor, dynamic_factor] :
+       {Case{&Terms::inertia, 2, 2}, Case{&Terms::spring, 2, 2}, Case{&Terms::delivered, 2, 2},
+        Case{&Terms::motor, 5, 5}, Case{&Terms::friction, 5, 5}, Case{&Terms::hysteresis, 5, 5},
+        Case{&Terms::harness, 5, 5}, Case{&Terms::adhesion, 5, 5},
+        Case{&Terms::acceleration, 0, 11}}) {
+    Terms terms;
+    terms.available = 1000;
+    terms.adhesion = 1; // so that something resists
+    terms.*term += 1;
+    CHECK(nasa_static_margin(terms, told_apart) ==
+          Approx(1000 / (5 + static_factor) - 1).epsilon(1e-14));
+    CHECK(nasa_dynamic_margin(terms, told_apart) ==
+          Approx(1000 / (5 + dynamic_factor) - 1).epsilon(1e-14));
+  }
+  const auto factors = [](const NasaFactors& f) {
+    return std::array{f.fixed, f.variable, f.acceleration};
+  };
+  CHECK(factors({}) == std::array{1.5, 3.0, 1.25});
+  CHECK(factors(nasa_development_test()) == std::array{1.35, 2.5, 1.15});
+  CHECK(factors(nasa_acceptance()) == std::array{1.25, 2.0, 1.1});
+  CHECK(factors(nasa_one_spring_out()) == std::array{1.0, 1.0, 1.0});
+}
+
+TEST_CASE("the standards are named with their editions", "[motorization]") {
+  CHECK(ecss_standard == "ECSS-E-ST-33-01C (6 March 2009)");
+  CHECK(nasa_standard == "NASA-STD-5017B (6 December 2022)");
 }
 
 TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motorization]") {
