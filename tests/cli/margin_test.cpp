@@ -171,14 +171,33 @@ TEST_CASE("margin refuses a used folder, and what it cannot show, before anythin
 
 TEST_CASE("margin interrupted keeps the scales that were finished", "[parallel]") {
   const Place program;
-  const Json json = one_panel_margin(2'000'000);
-  const Program running(program.folder,
-                        {"margin", program.file(json), "--out", program.out, "--threads", "2"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  running.send(SIGINT);
-  const Finished finished = running.finish();
-  CHECK(finished.code == 130);
-  CHECK_THAT(finished.error, Catch::StartsWith("interrupted: the scales that were finished"));
-  CHECK(std::filesystem::exists(program.out + "/margin.csv"));
-  CHECK_FALSE(std::filesystem::exists(program.out + "/margin.json"));
+  Json json = one_panel_margin(1000);
+  json["margin"]["points"] = 100;
+  const std::string campaign = program.file(json), whole = program.out + "_whole";
+  CHECK(program({"margin", campaign, "--out", whole}).code == 0);
+  const auto all = lines_of(*read_text(whole + "/margin.csv"));
+  const auto csv = program.out + "/margin.csv";
+  std::vector<std::string> kept;
+  for (int wait = 20; kept.size() < 2;
+       wait *= 2) { // until a scale is finished by then, and not all are
+    const Program running(program.folder,
+                          {"margin", campaign, "--out", program.out, "--threads", "1"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait));
+    running.send(SIGINT);
+    const Finished finished = running.finish();
+    if (finished.code == 128 + SIGINT && finished.error.empty()) continue; // before it was armed
+    REQUIRE(finished.code == 130);
+    CHECK(finished.error == "interrupted: the scales that were finished are in " + csv + "\n");
+    CHECK_FALSE(std::filesystem::exists(program.out + "/margin.json"));
+    kept = lines_of(*read_text(csv));
+    REQUIRE(kept.front() == all.front()); // the header
+  }
+  // both requirements of the scales that were finished, as the whole study has them, and not of all
+  CHECK(kept.size() % 2 == 1);
+  CHECK(kept.size() < all.size());
+  for (const std::string& row : kept) CHECK(std::ranges::find(all, row) != all.end());
+  CHECK_THAT(kept[1], Catch::StartsWith("joint,0.5,nominal,1000,"));
+  // what is left is no hindrance, and is replaced by the whole
+  CHECK(program({"margin", campaign, "--out", program.out}).code == 0);
+  CHECK(contents(program.out) == contents(whole));
 }

@@ -100,6 +100,19 @@ TEST_CASE("within its stratum a point is anywhere") {
   CHECK(std::abs(chi_square_sigmas(counts, keys / 100.)) < 5);
 }
 
+TEST_CASE("two points of a replicate lie in their strata independently of each other") {
+  constexpr int keys = 20000;
+  const auto cell = [](std::uint64_t i, std::uint64_t r) {
+    const double position = 7 * latin_coordinate(i, 7, stream(r));
+    return static_cast<std::size_t>(10 * (position - std::floor(position)));
+  };
+  for (const std::uint64_t other : {1u, 3u, 6u}) {
+    std::vector<int> counts(100, 0);
+    for (std::uint64_t r = 0; r < keys; ++r) ++counts[10 * cell(0, r) + cell(other, r)];
+    CHECK(std::abs(chi_square_sigmas(counts, keys / 100.)) < 5);
+  }
+}
+
 TEST_CASE("another seed, name or replicate permutes otherwise") {
   const auto as_it_is = strata(50, {1, {7}, 0});
   CHECK(strata(50, {1, {7}, 0}) == as_it_is);

@@ -95,6 +95,32 @@ TEST_CASE("replicate proportions: worked by hand") {
   CHECK(narrow.upper.value() == Approx(0.45982656264883065).epsilon(1e-9));
 }
 
+// By hand: 1 of 4, 2 of 5 and 0 of 3 are 1/4 in all, with an error of √(3/2 · (0 + 0.75² + 0.75²))/12, so 16 draws'
+// worth less (t_11/t_2)²; mpmath 1.2.1 as above.
+TEST_CASE("replicate proportions of replicates that differ in size: worked by hand") {
+  const std::array<long, 3> hits{1, 2, 0}, sizes{4, 5, 3};
+  const Bounds wide = replicate_proportion_bounds(hits, sizes, 0.95);
+  CHECK(wide.lower.value() == Approx(0.0073014880160256065).epsilon(1e-8));
+  CHECK(wide.upper.value() == Approx(0.79556021022363307).epsilon(1e-8));
+  const Bounds narrow = replicate_proportion_bounds(hits, sizes, 0.5);
+  CHECK(narrow.lower.value() == Approx(0.14427990185073421).epsilon(1e-8));
+  CHECK(narrow.upper.value() == Approx(0.39140357539485563).epsilon(1e-8));
+}
+
+// By hand: 1, 3, 4, 8 of one replicate, 2, 5 of the next and 6, 7, 9 of the third. Up to 5, the median of the nine,
+// are 3 of 4, 2 of 2 and none of 3: F = 5/9, h − F n = 7/9, 8/9, −15/9; below it 3, 1, 0: F = 4/9, 11/9, 1/9, −12/9.
+// The larger error is √(3/2 · 338)/81 = 0.27799; t_2 is √(2/3) = 0.8165 at 50 %: 0.5 ∓ 0.22698 are ranks 3 and 7.
+TEST_CASE("replicate quantile bounds of replicates that differ in size: worked by hand") {
+  std::vector<ReplicateValue> values{{1, 0}, {3, 0}, {4, 0}, {8, 0}, {2, 1},
+                                     {5, 1}, {6, 2}, {7, 2}, {9, 2}};
+  std::ranges::sort(values, {}, &ReplicateValue::value);
+  const Bounds bounds = replicate_quantile_bounds(values, 3, 0.5, 0.5);
+  CHECK((bounds.lower == 3 && bounds.upper == 7));
+  // At 80 % t_2 = 1.8856, and the reach 0.52419 is more than there is on either side.
+  const Bounds wide = replicate_quantile_bounds(values, 3, 0.5, 0.8);
+  CHECK((!wide.lower && !wide.upper));
+}
+
 TEST_CASE("replicate proportions cover, few hits or many") {
   constexpr int trials = 4000;
   std::mt19937_64 random(47);

@@ -89,6 +89,32 @@ TEST_CASE("a campaign whose widths are not reached makes all of its runs", "[sto
   CHECK((until["stopped"] == false && until["widths"][0]["met"] == false));
 }
 
+TEST_CASE("of two goals both have to be met", "[stopping]") {
+  const auto made = [](const std::vector<const char*>& goals) {
+    const Folder folder;
+    Json json = quick_campaign(2500);
+    json["outputs"] = {"latch_time"};
+    json["until"] = Json::array();
+    for (const char* goal : goals) json["until"].push_back(parse_stopping_goal(goal).value());
+    const long runs = run_into(folder.path() / "r", campaign_of(json));
+    std::vector<bool> met;
+    const Json summary = parse_json_file(folder.path() / "r" / summary_file);
+    for (const Json& goal : summary["until"]["widths"]) met.push_back(goal["met"]);
+    CHECK(summary["until"]["stopped"] == (runs < 2500));
+    return std::pair(runs, met);
+  };
+  const char *soon = "deployed 0.5", *late = "root.latch_time@0.5 0.38%", *never = "stalled 1e-9";
+  CHECK(made({soon}) == std::pair(1000L, std::vector{true}));
+  CHECK(made({soon, late}) == std::pair(2000L, std::vector{true, true}));
+  CHECK(made({late, soon}) == std::pair(2000L, std::vector{true, true}));
+  CHECK(made({soon, never}) == std::pair(2500L, std::vector{true, false}));
+  CHECK(made({never, soon}) == std::pair(2500L, std::vector{false, true}));
+  const GoalFound met{WidthGoal{}, 1., true}, open{DecisionGoal{}, {}, false};
+  CHECK(are_met(std::vector{met, met}));
+  CHECK_FALSE(are_met(std::vector{met, open}));
+  CHECK_FALSE(are_met(std::vector{open, met}));
+}
+
 TEST_CASE("what stops at a width has no shards to make or to merge", "[stopping]") {
   const Folder folder;
   const Campaign campaign = stopping_campaign("deployed 0.5");

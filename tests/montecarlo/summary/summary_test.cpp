@@ -112,11 +112,20 @@ TEST_CASE("a summary correlates each draw with each output and with deployed") {
 
 TEST_CASE("without independent draws the bounds come from the replicates") {
   const Results results = ten_runs();
-  const Replication halves{2, {0, 1, 0, 1, 0, 1, 0, 1, 0, 0}};
-  const Summary summary = summarize(results, {{0.5}, 0.5, AutoBins{}}, halves);
+  const Replication halves{2, {0, 1, 0, 1, 0, 1, 0, 1, 0, 0}}; // six runs and four
+  const Summary summary = summarize(results, {{0.5}, 0.6, AutoBins{}}, halves);
   CHECK(summary.replicates == 2);
-  CHECK(*summary.statuses[0].bounds.lower != clopper_pearson(8, 10, 0.5).lower);
-  CHECK(summary.outputs[1].quantiles[0].bounds.lower);
+  // By hand: 4 of 6 and 4 of 4 deploy, 0.8 in all with an error of √(2/1 · (0.8² + 0.8²))/10 = 0.16, so 6.25
+  // draws' worth, less (t_9/t_1)² of them; mpmath 1.2.1 for those and for the inverse incomplete beta functions.
+  CHECK(*summary.statuses[0].bounds.lower == Approx(0.35694348995831723).epsilon(1e-8));
+  CHECK(*summary.statuses[0].bounds.upper == Approx(0.98749147581392793).epsilon(1e-8));
+  // By hand, with t_1 = tan(0.3 π) = 1.3764: below 19, the median of the eight latch times that there are, lie 2 of
+  // the first replicate's 4 and 1 of the second's 4: an error of √(2/1 · (0.5² + 0.5²))/8 = 1/8, to X_(3) and X_(6).
+  const Bounds& time = summary.outputs[0].quantiles[0].bounds;
+  CHECK((summary.outputs[0].missing == 2 && *time.lower == 14 && *time.upper == 35));
+  // Of the ten moments 3 of 6 and 1 of 4 lie below the median, 0: √(2/1 · (0.6² + 0.6²))/10 = 0.12, to X_(4) and X_(7).
+  const Bounds& moment = summary.outputs[1].quantiles[0].bounds;
+  CHECK((*moment.lower == -1 && *moment.upper == 2));
   // 5 − k is 0.5 on average; the replicates' sums of deviations are −2 and 2: √(8 · 2/1)/10
   CHECK(summary.outputs[1].mean_error == Approx(0.4));
   const Replication one{1, std::vector<int>(10, 0)};
