@@ -184,14 +184,13 @@ void add_run(CLI::App& app, Action& action) {
   add_sampling_options(*command, options->sampling);
   add_crew_options(*command, options->crew);
   command->add_flag("--resume", options->resume,
-                    "Go on where an earlier run into the folder stopped, or with more --runs");
+                    "Go on where an earlier run stopped, or with more --runs");
   command->add_option("--shard", options->shard, "Only part I of N of the runs, e.g. 2/5")
       ->type_name("I/N")
       ->check(refuse_shard);
   command
       ->add_option("--until", options->until,
-                   "Stop when an interval is that narrow, e.g. \"deployed 0.01\", or a "
-                   "requirement decided")
+                   "Stop when so much is known, e.g. \"deployed 0.01\" (see below)")
       ->type_name("GOAL")
       ->allow_extra_args(false)
       ->check(refuse_until);
