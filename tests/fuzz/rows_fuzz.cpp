@@ -1,6 +1,7 @@
 /// The rows of a results folder from any bytes. They are refused with a reason, or written again they read back
 /// to the same rows, and the length that is kept of a file cut off in its last line has all rows that were read.
 /// Their statistics can be worked out, and written as JSON and CSV.
+#include "montecarlo/formats/json.hpp"
 #include "montecarlo/runs/results.hpp"
 #include "montecarlo/summary/summary_json.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -30,7 +31,7 @@ void summarize_all(const Results& results) {
   StatisticsSpec spec;
   const Summary summary = summarize(results, spec, {}, 1);
   test::demand(summary.runs == static_cast<long>(results.size()), "no run is lost in the summary");
-  (void)summary_json(summary, {}).dump();
+  (void)json_text(summary_json(summary, {}));
   (void)histograms_csv(summary);
 }
 
