@@ -169,6 +169,7 @@ TEST_CASE("Cholesky's factor gives the matrix back, and impossible matrices have
   CHECK_FALSE(cholesky(triple(0.9, 0.9, -0.9)));
   CHECK_FALSE(cholesky(triple(1, 0, 0)));
   CHECK(cholesky(triple(0.999999, 0, 0)));
+  CHECK_FALSE(cholesky(triple(std::nextafter(1, 0), 0, 0))); // what is left is above 0 by rounding
 }
 
 TEST_CASE("the nearest correlation matrix: published values") {

@@ -120,3 +120,17 @@ TEST_CASE("another seed, name or replicate permutes otherwise") {
   CHECK(strata(50, {1, {8}, 0}) != as_it_is);
   CHECK(strata(50, {1, {7}, 1}) != as_it_is);
 }
+
+// Computed in Python by a transcription of the header's description, over a Philox of its own.
+TEST_CASE("a Latin hypercube's strata and coordinates: reference values") {
+  using Strata = std::vector<std::uint64_t>;
+  const ReplicateStream of = stream(2, "spring");
+  CHECK(strata(7, of) == Strata{2, 4, 3, 5, 6, 0, 1});
+  Strata first;
+  for (std::uint64_t i = 0; i < 7; ++i) first.push_back(latin_stratum(i, 1000, of));
+  CHECK(first == Strata{905, 573, 26, 533, 7, 174, 620});
+  CHECK(latin_coordinate(0, 7, of) == 0x1.251375df4832ap-2);
+  CHECK(latin_coordinate(1, 7, of) == 0x1.63bf06a876979p-1);
+  CHECK(latin_coordinate(0, 1000, of) == 0x1.cf5c9cb3576bbp-1);
+  CHECK(latin_coordinate(3, 1000, of) == 0x1.10ffa8929fc9fp-1);
+}

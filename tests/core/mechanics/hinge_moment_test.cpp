@@ -47,6 +47,16 @@ TEST_CASE("regularized friction is the Coulomb level at speed and linear in the 
   CHECK(regularized_friction_moment(h, 1e-3) == Approx(-0.1 / std::sqrt(2.0)));
 }
 
+TEST_CASE("regularized friction damps small changes as its slope says") {
+  const HingeTerms<double> h = terms(1, 0);
+  for (const double rate : {0.0, 3e-4, -1e-3, 0.02}) {
+    const double d = 1e-8; // rounding of the moments leaves 1e-7 of the smallest slope
+    CHECK((regularized_friction_moment(h, rate - d) - regularized_friction_moment(h, rate + d)) /
+              (2 * d) ==
+          Approx(regularized_friction_damping(h, rate)).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("a smoothed latch engages over its widths") {
   const HingeTerms<double> h = terms(1, 0);
   const double epsilon = 1e-2;

@@ -159,3 +159,21 @@ TEST_CASE("bounds made while hinges stick hold once they slip") {
     }
   }
 }
+
+TEST_CASE("friction of either model may be seen where no energy is left") {
+  for (const int panels : {3, 30}) // more than 24: the coarse bounds
+    for (const FrictionModel model : {FrictionModel::regularized, FrictionModel::exact}) {
+      oracle::RandomScene options;
+      options.bodies = panels;
+      options.motion = BaseMotion::fixed;
+      Scene scene = oracle::random_scene(40, options);
+      for (Hinge& hinge : scene.hinges) {
+        hinge.latch = Latch{1e4, 10};
+        hinge.friction = {};
+        hinge.friction.coulomb = 0.7, hinge.friction.model = model;
+      }
+      Latched wing(scene);
+      wing.bounds.bound(wing.system, 0.0);
+      for (int i = 1; i <= panels; ++i) CHECK(wing.bounds.moment[i] == Approx(0.7).epsilon(1e-8));
+    }
+}

@@ -62,6 +62,16 @@ TEST_CASE("missing runs are named, with the folder that should have them") {
         "part2: found no runs 5, expected shard 2/3 complete (run it again with --resume)");
 }
 
+TEST_CASE("a run that is missing between others is named") {
+  Shards shards;
+  const auto file = shards.parts[1] / runs_file;
+  std::string text = read_text(file).value();
+  const std::size_t row = text.find("\n4,") + 1;
+  std::ofstream(file, std::ios::binary) << text.erase(row, text.find('\n', row) + 1 - row);
+  CHECK(shards.refusal(shards.parts) ==
+        "part2: found no runs 4, expected shard 2/3 complete (run it again with --resume)");
+}
+
 TEST_CASE("runs that two folders have are named") {
   Shards shards;
   CHECK(shards.refusal({shards.parts[0], shards.parts[1], shards.parts[1], shards.parts[2]}) ==

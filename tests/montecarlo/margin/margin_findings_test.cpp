@@ -48,6 +48,9 @@ TEST_CASE("what fails by runs alone that did not deploy is said once", "[margin]
   const CaseLook unasked =
       case_of(8, {verdict("root.latch_rate", 8), verdict("tip.latch_rate", 8)});
   CHECK(telling({unasked, unasked}) == Failing{0, 2});
+  // Where it is, it stands for them wherever it is named.
+  CHECK(telling({case_of(8, {verdict("root.latch_rate", 8), verdict("deployed", 8)})}) ==
+        Failing{1});
 }
 
 TEST_CASE("an edge says what sets it, and what fails there by the same runs", "[margin]") {

@@ -17,8 +17,11 @@ TEST_CASE("draws that do not go with the others are counted at the edge where th
   search.seen = {{0.5, look({3, 1, 2})}, {0.6, look({1, 2})}, {0.7, look({4, 1})}, {0.8, look({})},
                  {0.9, look({5})},       {1.0, look({})},     {1.1, look({6, 7})}};
   const OutOfOrder found = out_of_order(search, {0, 0}, 0.8);
-  CHECK(found.lower == 1); // 4, which kept to it at 0.6
-  CHECK(found.upper == 1); // 5, which keeps to it at 1.0
+  CHECK(found.lower == 1);      // 4, which kept to it at 0.6
+  CHECK(found.upper == 1);      // 5, which keeps to it at 1.0
+  search.seen[0.8] = look({9}); // on both sides of the middle
+  const OutOfOrder there = out_of_order(search, {0, 0}, 0.8);
+  CHECK((there.lower == 2 && there.upper == 2));
 }
 
 // Of 4 runs 3 deployed; Clopper and Pearson's bounds at 90 %: 4p³ − 3p⁴ = 0.05 and p⁴ = 0.95.

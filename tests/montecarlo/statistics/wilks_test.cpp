@@ -133,3 +133,14 @@ TEST_CASE("tolerance limits contain their share as often as the binomial law say
   CHECK(static_cast<double>(below) / trials == Approx(one).margin(band(one, trials)));
   CHECK(static_cast<double>(within) / trials == Approx(two).margin(band(two, trials)));
 }
+
+// Where P(Bin(n, 1 - p) = 0) = pⁿ is the risk itself: 1 - c, as doubles have it, lies on either side of it.
+TEST_CASE("round-off keeps no number of runs from showing what it just shows") {
+  for (const double p : {0.3, 0.6, 0.7, 0.8, 0.9, 0.95})
+    for (const long n : {1L, 2L, 3L, 5L, 8L}) {
+      const double c = 1 - std::pow(p, static_cast<double>(n));
+      CAPTURE(p, n);
+      CHECK(runs_to_show(p, c, 0) == n);
+      CHECK(allowed_failures(n, p, c) == 0);
+    }
+}

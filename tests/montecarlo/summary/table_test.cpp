@@ -144,6 +144,9 @@ TEST_CASE("a drawn histogram puts bins together and loses no count") {
   for (std::size_t row = 1; row <= 17; ++row)
     sum += std::stol(rows[row].substr(rows[row].rfind(' ') + 1));
   CHECK(sum == histogram.total());
+  for (std::size_t row = 1; row <= 17; ++row)
+    CHECK(std::stod(rows[row]) == 3 * static_cast<double>(row - 1)); // its lower edge
+  CHECK(std::stod(rows[18]) == 50);
   CHECK(draw_histogram("x", "N", {}, 80) == "x, N\n  no values\n");
 }
 
