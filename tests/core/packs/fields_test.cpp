@@ -1,0 +1,85 @@
+#include "core/packs/fields.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+
+using P = Pack<2>;
+
+/// Every number of a struct becomes another one: first, first + 1, …
+void number_all(double& field, double& next) { field = next++; }
+template <class Struct> void number_all(Struct& all, double& next) {
+  for_each_field(all, all, [&](auto& field, auto& /*same*/) { number_all(field, next); });
+}
+template <class Struct> [[nodiscard]] Struct numbered(double first) {
+  Struct all{};
+  number_all(all, first);
+  return all;
+}
+
+/// Appends every number of a struct.
+void append(double field, std::vector<double>& to) { to.push_back(field); }
+template <class Struct> void append(const Struct& all, std::vector<double>& to) {
+  for_each_field(all, all, [&](const auto& field, const auto& /*same*/) { append(field, to); });
+}
+template <class Struct> [[nodiscard]] std::vector<double> numbers_of(const Struct& all) {
+  std::vector<double> numbers;
+  append(all, numbers);
+  return numbers;
+}
+
+/// Sets both lanes of Struct<P> from Struct<double>s, one after the other, and takes them out again.
+template <template <class> class Struct> void require_way_and_back(std::size_t count) {
+  const auto first = numbered<Struct<double>>(1), second = numbered<Struct<double>>(100);
+  REQUIRE(numbers_of(first).size() == count);
+  Struct<P> packs{};
+  set_lane(0, packs, first);
+  set_lane(1, packs, second);
+  Struct<double> out{};
+  get_lane(0, packs, out);
+  REQUIRE(numbers_of(out) == numbers_of(first));
+  get_lane(1, packs, out);
+  REQUIRE(numbers_of(out) == numbers_of(second));
+}
+
+} // namespace
+
+TEST_CASE("every number that is set in a lane comes back from it, whatever the others hold") {
+  require_way_and_back<Vec2>(2);
+  require_way_and_back<LinearLaw>(4);
+  require_way_and_back<BodyTerms>(10);
+  require_way_and_back<Pace>(9);
+}
+
+TEST_CASE("what is no number of a lane is the structure's, or holds where any lane has it") {
+  Wing<double> wing;
+  wing.bodies.resize(2), wing.hinges.resize(2), wing.initial_rates = {0, 3};
+  wing.hinges[1].static_friction = 5, wing.hinges[1].has_latch = true, wing.can_stick = true;
+  Wing<P> packs;
+  packs.bodies.resize(2), packs.hinges.resize(2), packs.initial_rates.resize(2);
+  packs.base.motion = BaseMotion::free;
+  set_lane(1, packs, wing);
+  REQUIRE(packs.hinges[1].static_friction.v[1] == 5);
+  REQUIRE(packs.hinges[1].static_friction.v[0] == 0);
+  REQUIRE(packs.initial_rates[1].v[1] == 3);
+  REQUIRE(packs.hinges[1].has_latch);
+  REQUIRE(packs.base.motion == BaseMotion::free);
+  wing.hinges[1].has_latch = wing.can_stick = false;
+  set_lane(0, packs, wing);
+  REQUIRE(packs.hinges[1].has_latch);
+  REQUIRE(packs.can_stick);
+}
+
+TEST_CASE("a struct is assigned in the lanes of the mask, all of it") {
+  Pace<P> to{}, from{};
+  set_lane(0, to, numbered<Pace<double>>(1)), set_lane(1, to, numbered<Pace<double>>(20));
+  set_lane(0, from, numbered<Pace<double>>(300)), set_lane(1, from, numbered<Pace<double>>(4000));
+  assign_where(to.steps > P(10.0), to, from); // lane 1
+  Pace<double> out{};
+  get_lane(0, to, out);
+  REQUIRE(numbers_of(out) == numbers_of(numbered<Pace<double>>(1)));
+  get_lane(1, to, out);
+  REQUIRE(numbers_of(out) == numbers_of(numbered<Pace<double>>(4000)));
+}
