@@ -80,19 +80,6 @@ const Runs& runs() {
 #endif
 }
 
-/// @pre the set has packs, and this processor has the set
-[[nodiscard]] std::unique_ptr<PackEngine> make_engine(InstructionSet set, const Wing<double>& wing,
-                                                      const PackShape& shape) {
-  switch (set) {
-  case InstructionSet::neon:
-    return make_neon_engine(wing, shape);
-  case InstructionSet::avx2:
-    return make_avx2_engine(wing, shape);
-  default:
-    return make_avx512_engine(wing, shape);
-  }
-}
-
 [[nodiscard]] Outcome invalid(const std::vector<Fault>& faults) {
   Outcome out;
   out.status = Status::invalid;

@@ -1,8 +1,23 @@
 #include "core/packs/pack_engine.hpp"
 
-// Engines that this build is without.
-
 namespace wingspread {
+
+std::unique_ptr<PackEngine> make_engine(InstructionSet set, const Wing<double>& wing,
+                                        const PackShape& shape) {
+  switch (set) {
+  case InstructionSet::neon:
+    return make_neon_engine(wing, shape);
+  case InstructionSet::avx2:
+    return make_avx2_engine(wing, shape);
+  case InstructionSet::avx512:
+    return make_avx512_engine(wing, shape);
+  case InstructionSet::scalar:
+    break;
+  }
+  return {};
+}
+
+// ---- those that this build is without
 
 #ifndef __x86_64__
 std::unique_ptr<PackEngine> make_avx2_engine(const Wing<double>&, const PackShape&) { return {}; }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/mechanics/wing.hpp"
+#include "core/packs/instruction_set.hpp"
 #include "core/run/handover.hpp"
 
 #include <cstdint>
@@ -53,7 +54,11 @@ struct PackShape {
   bool moments = false;     ///< peak moments are
 };
 
-/// An engine for wings of this structure. @pre the instruction set is there
+/// An engine for wings of this structure; none for `scalar`. @pre the processor has the set
+[[nodiscard]] std::unique_ptr<PackEngine> make_engine(InstructionSet set, const Wing<double>& wing,
+                                                      const PackShape& shape);
+
+// each from its own translation unit
 [[nodiscard]] std::unique_ptr<PackEngine> make_neon_engine(const Wing<double>& wing,
                                                            const PackShape& shape);
 [[nodiscard]] std::unique_ptr<PackEngine> make_avx2_engine(const Wing<double>& wing,
