@@ -62,8 +62,8 @@ template <class T> class ReactionBound {
 public:
   void resize(int bodies) {
     paths_.resize(bodies + 1);
-    hinge_.assign(bodies + 1, T(0)), turn_.assign(bodies + 1, T(0));
-    sum_.assign(bodies + 1, T(0));
+    A_.assign(bodies + 1, T(0)), W_.assign(bodies + 1, T(0));
+    B_.assign(bodies + 1, T(0));
   }
 
   /// Cost O(n), less than an evaluation.
@@ -78,22 +78,22 @@ public:
       const int p = tree.parent_of(i);
       const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
       for (int k = 0; k < 6; ++k) paths_[i][k] = paths_[p][k] + angle[k];
-      turn_[i] = of_turning(paths_[i], scale);
-      hinge_[i] = fused(levers[i].arm, turn_[p], hinge_[p]);
-      sum_[i] = T(0);
+      W_[i] = of_turning(paths_[i], scale);
+      A_[i] = fused(levers[i].arm, W_[p], A_[p]);
+      B_[i] = T(0);
     });
     const T weight = step.h * step.h * T(1.0 / 6); // 4/3 of 1/8
     tree.inward([&](int i) __attribute__((always_inline)) {
       const int p = tree.parent_of(i);
-      sum_[i] = fused(levers[i].moment, turn_[i], sum_[i]);
-      sum_[p] = sum_[p] + sum_[i];
-      turn_[i] = weight * fused(levers[i].mass, hinge_[i], sum_[i]);
+      B_[i] = fused(levers[i].moment, W_[i], B_[i]);
+      B_[p] = B_[p] + B_[i];
+      W_[i] = weight * fused(levers[i].mass, A_[i], B_[i]);
     });
   }
 
   /// By how much |Y_i| may exceed what it is at the step's ends, N; a quarter of it between the ends
   /// and the middle, and so on.
-  [[nodiscard]] const T& rise(int i) const { return turn_[i]; }
+  [[nodiscard]] const T& rise(int i) const { return W_[i]; }
 
 private:
   using Scale = DifferenceScale<T>;
@@ -103,17 +103,17 @@ private:
   void start_at_base(const System<T, Topology, M>& system, const Step<T>& step,
                      const Scale& scale) {
     paths_[0].fill(T(0));
-    hinge_[0] = turn_[0] = sum_[0] = T(0);
+    A_[0] = W_[0] = B_[0] = T(0);
     if constexpr (M == BaseMotion::free) {
       const int n = system.layout().freedoms();
       for (const int k : {0, 1})
-        hinge_[0] = hinge_[0] + derivative_bounds(step.coordinate(k, n), scale).fourth;
+        A_[0] = A_[0] + derivative_bounds(step.coordinate(k, n), scale).fourth;
       paths_[0] = step.coordinate(2, n);
-      turn_[0] = of_turning(paths_[0], scale);
+      W_[0] = of_turning(paths_[0], scale);
     }
     if constexpr (M == BaseMotion::prescribed) { // θ̈ is constant, and so is the origin's r̈
       paths_[0] = turn_of_base(system.wing().base, step);
-      turn_[0] = of_turning(paths_[0], scale);
+      W_[0] = of_turning(paths_[0], scale);
     }
   }
 
@@ -122,8 +122,8 @@ private:
     return fourth_of_direction(derivative_bounds(angle, scale));
   }
 
-  std::vector<Quintic<T>> paths_;     ///< θ over the step, 0 … n
-  std::vector<T> hinge_, turn_, sum_; ///< A, W (in the end the outcome), B
+  std::vector<Quintic<T>> paths_; ///< θ over the step, 0 … n
+  std::vector<T> A_, W_, B_;      ///< of (3) and (4); in the end W holds the outcome
 };
 
 } // namespace wingspread
