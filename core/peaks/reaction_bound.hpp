@@ -1,10 +1,10 @@
 /// How far a hinge force inside a step may exceed those at its ends.
 ///
-/// The force on body i at its hinge accelerates everything outward of it. With e_k = (cos θ_k, sin θ_k)
-/// and all vectors in their bodies' frames (|.| are constants of the wing),
+/// The force on body i at its hinge accelerates everything outward of it. With e_k = (cos θ_k,
+/// sin θ_k) and all vectors in their bodies' frames (|.| are constants of the wing),
 ///
-///     Y_i = Σ m_j r̈_j = μ_i r̈ of hinge i + Σ σ_k × ë_k over k = i and outward of it                 (1)
-///     r̈ of hinge i    = r̈ of the base + Σ l_c × ë_p over the hinges c from the base to i, p: parent
+///     Y_i = Σ m_j r̈_j = μ_i r̈ of hinge i + Σ σ_k × ë_k over k = i and outward of it            (1)
+///     r̈ of hinge i = r̈ of the base + Σ l_c × ë_p over the hinges c from the base to i, p: parent
 ///
 /// | symbol | meaning                                                              | unit |
 /// |--------|----------------------------------------------------------------------|------|
@@ -15,14 +15,14 @@
 /// Between the ends of an interval a function leaves its chord by h²/8 of its largest second
 /// derivative, and a chord is nowhere longer than at one of its ends. So
 ///
-///     |Y_i| ≤ larger |Y_i| at an end + h²/8 (μ_i A_i + B_i)                                        (2)
-///     A_i = A_p + |l_i| W_p        B_i = |σ_i| W_i + Σ B_j over the children                       (3)
-///     W_k ≥ |d⁴e_k/dt⁴| = |i θ⁽⁴⁾ − 4 θ̇ θ⃛ − 3 θ̈² − 6 i θ̇² θ̈ + θ̇⁴|                                 (4)
+///     |Y_i| ≤ larger |Y_i| at an end + h²/8 (μ_i A_i + B_i)                                    (2)
+///     A_i = A_p + |l_i| W_p        B_i = |σ_i| W_i + Σ B_j over the children                   (3)
+///     W_k ≥ |d⁴e_k/dt⁴| = |i θ⁽⁴⁾ − 4 θ̇ θ⃛ − 3 θ̈² − 6 i θ̇² θ̈ + θ̇⁴|                              (4)
 ///
-/// with the derivatives of θ_k bounded by the Bernstein coefficients of the step's quintics: a proof
-/// for the motion of the dense output, whose forces at the ends are the true ones. Of a swing that
-/// a step follows over less than a whole period, the quintic's second derivative leaves its chord
-/// by at least three quarters of what the swing's own does; (2) is taken 4/3 times.
+/// with the derivatives of θ_k bounded by the Bernstein coefficients of the step's quintics: a
+/// proof for the motion of the dense output, whose forces at the ends are the true ones. Of a swing
+/// that a step follows over less than a whole period, the quintic's second derivative leaves its
+/// chord by at least three quarters of what the swing's own does; (2) is taken 4/3 times.
 #pragma once
 
 #include "core/dense/derivative_bounds.hpp"
@@ -91,8 +91,8 @@ public:
     });
   }
 
-  /// By how much |Y_i| may exceed what it is at the step's ends, N; a quarter of it between the ends
-  /// and the middle, and so on.
+  /// By how much |Y_i| may exceed what it is at the step's ends, N; a quarter of it between the
+  /// ends and the middle, and so on.
   [[nodiscard]] const T& rise(int i) const { return W_[i]; }
 
 private:

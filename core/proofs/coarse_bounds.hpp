@@ -3,7 +3,7 @@
 /// At any angles, with (1) of peak_bounds.hpp. From T ≥ ½ Σ J ω² alone, by Cauchy and Schwarz,
 ///
 ///     φ̇_i² ≤ 2 T σ_i,    σ_i = 1/J_i + 1/J_p  (1/J_p = 0 on a fixed base)                      (2)
-///     |M_i| ≤ √(2E) √(κ_i + δ_i² σ_i) + τ_s                                                    (3)
+///     |M_i| ≤ g_i + √(2E) √(κ_i + δ_i² σ_i) + τ_s                                              (3)
 ///
 /// For the reaction, Gauss's principle: the true accelerations minimise Σ m r̈² + Σ J (ω̇ − L/J)²
 /// over those that the hinges allow, L the net hinge moment on each body; comparing with φ̈ = 0,
@@ -11,10 +11,11 @@
 ///
 ///     Σ m r̈² ≤ Z := Σ m γ² + Σ L²/J,    |Y_i| ≤ √(m outward of i) √Z                           (4)
 ///
-/// γ being bounded along each path with ω² ≤ 2E/J, and L by (3).
+/// γ being bounded along each path with ω² ≤ 2E/J, and L by (3). On a base that is driven all this
+/// is as seen from it; γ then stands for γ − f, f the apparent force of apparent_load.hpp.
 #pragma once
 
-#include "core/mechanics/system.hpp"
+#include "core/proofs/prospects.hpp"
 
 namespace wingspread {
 
@@ -25,11 +26,11 @@ public:
   /// (3) and (4) of every hinge, for an energy above rest. Cost O(n).
   /// @param outward_mass of body i and all that hangs on it, kg
   template <class AnySystem>
-  void bound(const AnySystem& system, const T& energy, const Numbers& outward_mass, Numbers& moment,
-             Numbers& force) {
+  void bound(const AnySystem& system, const Prospects<T>& prospects, const T& energy,
+             const Numbers& outward_mass, Numbers& moment, Numbers& force) {
     using std::sqrt;
-    bound_moments(system, energy, moment);
-    T Z = centripetal(system, energy);
+    bound_moments(system, prospects, energy, moment);
+    T Z = centripetal(system, prospects.load(), energy);
     for (int i = first_body<AnySystem>; i < net_.size(); ++i)
       Z = Z + net_(i) * net_(i) / system.wing().bodies[i].central_inertia;
     for (int i = 1; i < net_.size(); ++i) force(i) = sqrt(outward_mass(i) * Z);
@@ -38,21 +39,22 @@ public:
 private:
   /// The first that moves.
   template <class AnySystem>
-  static constexpr int first_body = AnySystem::base_motion == BaseMotion::fixed ? 1 : 0;
+  static constexpr int first_body = AnySystem::base_motion == BaseMotion::free ? 0 : 1;
 
   /// (3), and L: the most that the hinges of each body come to.
   template <class AnySystem>
-  void bound_moments(const AnySystem& system, const T& energy, Numbers& moment) {
+  void bound_moments(const AnySystem& system, const Prospects<T>& prospects, const T& energy,
+                     Numbers& moment) {
     using std::sqrt;
     const Wing<T>& wing = system.wing();
     net_.setZero(moment.size());
     for (int i = 1; i < moment.size(); ++i) {
       const int p = system.topology().parent_of(i);
-      const LinearLaw<T> law = linear_law(wing.hinges[i], true);
+      const T& damping = prospects.damping(i);
       T sigma = T(1) / wing.bodies[i].central_inertia;
       if (p >= first_body<AnySystem>) sigma = sigma + T(1) / wing.bodies[p].central_inertia;
-      moment(i) = sqrt(T(2) * energy * fused(law.damping * law.damping, sigma, law.stiffness)) +
-                  wing.hinges[i].most_friction();
+      moment(i) = sqrt(T(2) * energy * fused(damping * damping, sigma, prospects.stiffness(i))) +
+                  wing.hinges[i].most_friction() + prospects.steady(i);
       // what y* adds: the moment at rest is zero by (1), so nothing
       net_(i) = net_(i) + moment(i);
       net_(p) = net_(p) + moment(i);
@@ -60,7 +62,9 @@ private:
   }
 
   /// Σ m γ² of (4).
-  template <class AnySystem> [[nodiscard]] T centripetal(const AnySystem& system, const T& energy) {
+  template <class AnySystem>
+  [[nodiscard]] T centripetal(const AnySystem& system, const ApparentLoad<T>& load,
+                              const T& energy) {
     using std::sqrt;
     const Wing<T>& wing = system.wing();
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
@@ -68,11 +72,16 @@ private:
       return i < first_body<AnySystem> ? T(0) : T(2) * energy / wing.bodies[i].central_inertia;
     };
     T sum(0);
-    gamma_.setZero(net_.size());
+    gamma_.setZero(net_.size()), speed_.setZero(net_.size());
     for (int i = 1; i < gamma_.size(); ++i) {
       const int p = system.topology().parent_of(i);
       gamma_(i) = gamma_(p) + spin(p) * length(wing.bodies[i].arm);
-      const T gamma = gamma_(i) + spin(i) * length(wing.bodies[i].center);
+      T gamma = gamma_(i) + spin(i) * length(wing.bodies[i].center);
+      if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
+        speed_(i) = speed_(p) + sqrt(spin(p)) * length(wing.bodies[i].arm);
+        const T speed = speed_(i) + sqrt(spin(i)) * length(wing.bodies[i].center);
+        gamma = gamma + load.specific(i) + T(2) * load.spin() * speed;
+      }
       sum = fused(wing.bodies[i].mass, gamma * gamma, sum);
     }
     return sum;
@@ -80,6 +89,7 @@ private:
 
   Numbers net_;   ///< L, N·m
   Numbers gamma_; ///< γ of the hinge's point, m/s²
+  Numbers speed_; ///< of the hinge's point, as seen from a base that is driven, m/s
 };
 
 } // namespace wingspread

@@ -1,13 +1,8 @@
 /// Proof that no peak can be exceeded any more, so that a run may stop.
 ///
-/// After the last latch every hinge is a spring and a damper about its own rest, and the energy
-///
-///     E = T + Σ ½ κ_i (y_i − y*_i)²,    y* = drive/κ                                          (1)
-///
-/// never grows on a base that is fixed or free (for a free one T is taken about the common centre
-/// of mass, whose energy is constant). Friction adds at most τ_s to a moment. What E allows at any
-/// angles stands in coarse_bounds.hpp, what it allows near rest, ten times less, in
-/// sharp_bounds.hpp.
+/// Once no hinge will latch any more, energy has a bound E that it keeps to (prospects.hpp), and
+/// friction adds at most τ_s to a moment. What E allows at any angles stands in coarse_bounds.hpp;
+/// what it allows near rest, ten times less, in sharp_bounds.hpp.
 #pragma once
 
 #include "core/proofs/coarse_bounds.hpp"
@@ -22,22 +17,24 @@ public:
   Numbers moment; ///< 1 … n, N·m
   Numbers force;  ///< 1 … n, N
 
-  /// Every hinge has latched: finds all that does not depend on the energy. Cost O(n³), and none of
-  /// it for more than `most_bodies`, where the coarse bounds must do.
-  template <class AnySystem> void prepare(const AnySystem& system) {
+  /// Finds all that does not depend on the energy. Cost O(n³), and none of it for more than
+  /// `most_bodies`, where the coarse bounds must do. @param prospects prepared
+  template <class AnySystem> void prepare(const AnySystem& system, const Prospects<T>& prospects) {
     const int n = system.layout().bodies;
     moment.setZero(n + 1), force.setZero(n + 1);
     weigh(system.wing(), system.topology());
-    near_rest_ = AnySystem::base_motion == BaseMotion::fixed && n <= most_bodies;
-    if (near_rest_) sharp_.prepare(system, outward_mass_);
+    near_rest_ =
+        AnySystem::base_motion != BaseMotion::free && n <= most_bodies && prospects.rests();
+    if (near_rest_) sharp_.prepare(system, prospects, outward_mass_);
   }
 
-  /// For an energy above rest. Cost O(n). @pre prepared
-  template <class AnySystem> void bound(const AnySystem& system, const T& energy) {
+  /// For an energy that `prospects` has found. Cost O(n). @pre prepared
+  template <class AnySystem>
+  void bound(const AnySystem& system, const Prospects<T>& prospects, const T& energy) {
     if (near_rest_ && sharp_.hold(energy))
-      sharp_.bound(system.wing(), energy, outward_mass_, moment, force);
+      sharp_.bound(energy, outward_mass_, moment, force);
     else
-      coarse_.bound(system, energy, outward_mass_, moment, force);
+      coarse_.bound(system, prospects, energy, outward_mass_, moment, force);
   }
 
 private:

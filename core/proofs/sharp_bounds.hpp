@@ -1,13 +1,13 @@
 /// Bounds on what every hinge can still see near rest, from the energy and the linear model there.
 ///
-/// On a fixed base, with (1) of peak_bounds.hpp: by that hinge i stays within √(2E/κ_i) of its rest,
-/// so body k within ρ_k, the sum along its path. Turning the bodies so far changes the velocities of
-/// all masses by at most Σ ρ_k a_k |ω_k| in the norm √(Σ m v²), a_k² = Σ m (lever of a mass about
-/// the hinge of k)², and |ω_k| ≤ √W_k ‖ω‖ in the norm of the mass matrix M_0 at rest, W = its inverse
-/// in absolute rates. Hence with
+/// On a base that is fixed or driven, with E of prospects.hpp: hinge i stays within
+/// √(2E/κ_i) + g_i/κ_i of its rest, so body k within ρ_k, the sum along its path. Turning the
+/// bodies so far changes the velocities of all masses by at most Σ ρ_k a_k |ω_k| in the norm
+/// √(Σ m v²), a_k² = Σ m (lever of a mass about the hinge of k)², and |ω_k| ≤ √W_k ‖ω‖ in the norm
+/// of the mass matrix M_0 at rest, W = its inverse in absolute rates. Hence with
 ///
 ///     η = Σ ρ_k a_k √W_k:    (1 − η)² M_0 ≤ M ≤ (1 + η)² M_0                                   (5)
-///     |M_i| ≤ √(2E) √(κ_i + δ_i² (M_0⁻¹)_ii / (1 − η)²) + τ_s                                  (6)
+///     |M_i| ≤ √(2E) √(κ_i + δ_i² (M_0⁻¹)_ii / (1 − η)²) + τ_s + g_i                            (6)
 ///
 /// Let F_ik be the reaction at hinge i to a unit moment of hinge k at rest. The moments are
 /// √κ u + δ φ̇ with |u|² + ‖φ̇‖² ≤ 2E, so at rest the reactions would be within √(2E) G_i,
@@ -19,15 +19,17 @@
 ///
 ///     |Y_i| ≤ √(2E) G_i/(1 − η) + √(m outward of i) (A/(1 − η) (η + μ)/(1 − μ) + 2 Γ)          (8)
 ///
-/// to which friction adds Σ |F_ik| τ_s and, in A, Σ √(M_0⁻¹)_kk τ_s.
+/// to which friction and what keeps the balance of apparent forces, τ = τ_s + g, add Σ |F_ik| τ
+/// and, in A, Σ √(M_0⁻¹)_kk τ. Γ is with √(Σ m f²) of these forces, 2 |Ω| √(2E) of it Coriolis's:
+/// like centripetal accelerations they stand against what the hinges allow.
 ///
 /// All sums are written out: in a library's their order, and so the last bits, would depend on the
 /// instruction set, and with them the step at which a run ends.
 #pragma once
 
 #include "core/mechanics/linear_solve.hpp"
+#include "core/proofs/prospects.hpp"
 
-#include <algorithm>
 #include <vector>
 
 namespace wingspread {
@@ -37,12 +39,14 @@ template <class T> class SharpBounds {
 public:
   using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-  /// Every hinge has latched: finds all that does not depend on the energy. Cost O(n³); allocates
-  /// where the wing before had another number of bodies.
-  template <class AnySystem> void prepare(const AnySystem& system, const Numbers& outward_mass) {
+  /// Finds all that does not depend on the energy. Cost O(n³); allocates where the wing before had
+  /// another number of bodies. @pre every hinge has a rest
+  template <class AnySystem>
+  void prepare(const AnySystem& system, const Prospects<T>& prospects,
+               const Numbers& outward_mass) {
     resize(system.layout().bodies);
-    find_rest(system);
-    invert(system);
+    take(system.wing(), prospects);
+    invert(system, prospects.rest());
     bound_reactions(system.wing());
     bound_accelerations(system.wing());
     bound_turns(system.wing(), system.topology(), outward_mass);
@@ -51,21 +55,21 @@ public:
   /// Whether the energy is so small that they hold. @pre prepared
   [[nodiscard]] bool hold(const T& energy) const {
     using std::sqrt;
-    return sqrt(T(2) * energy) * eta_ < T(0.2);
+    return sqrt(T(2) * energy) * eta_ + steady_eta_ < T(0.2);
   }
 
   /// (6) and (8) of every hinge. Cost O(n). @pre they hold
-  void bound(const Wing<T>& wing, const T& energy, const Numbers& outward_mass, Numbers& moment,
-             Numbers& force) const {
+  void bound(const T& energy, const Numbers& outward_mass, Numbers& moment, Numbers& force) const {
     using std::sqrt;
-    const T size = sqrt(T(2) * energy), eta = size * eta_;
+    const T size = sqrt(T(2) * energy), eta = size * eta_ + steady_eta_;
     const T k = T(1) / (T(1) - eta), mu = eta * (T(2) + eta);
-    const T A = k * fused(size, acceleration_, k * friction_acceleration_);
-    const T rest = A * (eta + mu) / (T(1) - mu) + T(2) * size * size * k * k * centripetal_;
+    const T A = k * fused(size, acceleration_, k * steady_acceleration_);
+    const T rest = A * (eta + mu) / (T(1) - mu) + T(2) * size * size * k * k * centripetal_ +
+                   T(2) * fused(T(2) * spin_of_base_, size, push_);
     for (int i = 1; i < moment.size(); ++i) {
       const T sharp = sqrt(fused(k * k, damping_(i) * damping_(i) * inverse_(i, i), stiffness_(i)));
-      moment(i) = rounded_up(size * sharp + wing.hinges[i].most_friction());
-      force(i) = rounded_up(fused(size * k, reaction_(i), friction_reaction_(i)) +
+      moment(i) = rounded_up(size * sharp + steady_(i));
+      force(i) = rounded_up(fused(size * k, reaction_(i), steady_reaction_(i)) +
                             sqrt(outward_mass(i)) * rest);
     }
   }
@@ -80,29 +84,28 @@ private:
   }
 
   void resize(int n) {
-    for (Numbers* v : {&stiffness_, &damping_, &reaction_, &friction_reaction_, &alpha_, &lever_,
-                       &angle_, &spin_, &gamma_})
+    for (Numbers* v : {&stiffness_, &damping_, &steady_, &reaction_, &steady_reaction_, &alpha_,
+                       &lever_, &angle_, &steady_angle_, &spin_, &gamma_})
       v->setZero(n + 1);
     for (Square* m : {&inverse_, &inverse_absolute_, &F_x_, &F_y_}) m->setZero(n + 1, n + 1);
     point_.assign(n + 1, {T(0), T(0)});
     column_.resize(n);
   }
 
-  /// κ, δ, and the state at rest.
-  template <class AnySystem> void find_rest(const AnySystem& system) {
-    const Layout& at = system.layout();
-    rest_.assign(at.size(), T(0));
-    for (int i = 1; i <= at.bodies; ++i) {
-      const LinearLaw<T> law = linear_law(system.wing().hinges[i], true);
-      stiffness_(i) = law.stiffness, damping_(i) = law.damping;
-      rest_[at.angle(i)] = law.latched + law.drive / law.stiffness;
+  /// κ, δ, τ and what apparent forces do to the whole.
+  void take(const Wing<T>& wing, const Prospects<T>& prospects) {
+    for (int i = 1; i <= wing.size(); ++i) {
+      stiffness_(i) = prospects.stiffness(i), damping_(i) = prospects.damping(i);
+      steady_(i) = wing.hinges[i].most_friction() + prospects.steady(i);
+      steady_angle_(i) = prospects.steady(i) / prospects.stiffness(i);
     }
+    push_ = prospects.load().push(), spin_of_base_ = prospects.load().spin();
   }
 
   /// M_0⁻¹ and F, a unit moment of hinge k at a time.
-  template <class AnySystem> void invert(const AnySystem& system) {
+  template <class AnySystem> void invert(const AnySystem& system, const State<T>& rest) {
     const int n = system.layout().bodies;
-    linear_.factorize_unlocked(system, rest_, T(0)); // what sticks may slip later
+    linear_.factorize_unlocked(system, rest, T(0)); // what sticks may slip later
     for (int k = 1; k <= n; ++k) {
       linear_.solve(
           system, [k](int i) { return T(i == k ? 1 : 0); }, column_.data());
@@ -140,8 +143,7 @@ private:
           damped = fused(T(inverse_(k, l) * damping_(l)), F(i, l), damped);
         const Vec2<T> g = fused(damping_(k), damped, scaled(stiffness_(k), f));
         G = G + Sym2<T>{f.x * g.x, T(0.5) * (f.x * g.y + f.y * g.x), f.y * g.y};
-        friction_reaction_(i) =
-            fused(wing.hinges[k].most_friction(), length(f), friction_reaction_(i));
+        steady_reaction_(i) = fused(steady_(k), length(f), steady_reaction_(i));
       }
       const T half = T(0.5) * (G.xx - G.yy);
       reaction_(i) = sqrt(T(0.5) * (G.xx + G.yy) + sqrt(fused(half, half, G.xy * G.xy)));
@@ -152,11 +154,10 @@ private:
   void bound_accelerations(const Wing<T>& wing) {
     using std::sqrt;
     T trace(0);
-    friction_acceleration_ = T(0);
+    steady_acceleration_ = T(0);
     for (int i = 1; i <= wing.size(); ++i) {
       const T own = inverse_(i, i);
-      friction_acceleration_ =
-          fused(wing.hinges[i].most_friction(), T(sqrt(own)), friction_acceleration_);
+      steady_acceleration_ = fused(steady_(i), T(sqrt(own)), steady_acceleration_);
       trace = fused(own, stiffness_(i), trace);
       for (int k = 1; k <= wing.size(); ++k)
         trace = fused(inverse_(i, k) * damping_(k), inverse_(k, i) * damping_(i), trace);
@@ -170,14 +171,17 @@ private:
     using std::sqrt;
     find_levers(wing, tree, outward_mass);
     T squares(0);
-    eta_ = T(0);
+    eta_ = steady_eta_ = T(0);
     for (int i = 1; i <= wing.size(); ++i) {
       const BodyTerms<T>& body = wing.bodies[i];
       const int p = tree.parent_of(i);
       angle_(i) = angle_(p) + T(1) / sqrt(stiffness_(i));
+      steady_angle_(i) = steady_angle_(p) + steady_angle_(i);
       inverse_absolute_.row(i) = inverse_absolute_.row(p) + inverse_.row(i);
       for (int k = i; k != 0; k = tree.parent_of(k)) spin_(i) = spin_(i) + inverse_absolute_(i, k);
-      eta_ = fused(angle_(i), T(sqrt(lever_(i) * spin_(i))), eta_);
+      const T turns = sqrt(lever_(i) * spin_(i));
+      eta_ = fused(angle_(i), turns, eta_);
+      steady_eta_ = fused(steady_angle_(i), turns, steady_eta_);
       gamma_(i) = fused(spin_(p), length(body.arm), gamma_(p));
       const T here = fused(spin_(i), length(body.center), gamma_(i));
       squares = fused(body.mass, here * here, squares);
@@ -199,22 +203,23 @@ private:
   [[nodiscard]] Vec2<T> F(int i, int k) const { return {F_x_(i, k), F_y_(i, k)}; }
   void set_F(int i, int k, const Vec2<T>& force) { F_x_(i, k) = force.x, F_y_(i, k) = force.y; }
 
-  Numbers stiffness_, damping_;                ///< κ, δ
-  Square inverse_;                             ///< M_0⁻¹
-  Square F_x_, F_y_;                           ///< F
-  Numbers reaction_, friction_reaction_;       ///< G, and what friction adds
-  T acceleration_{}, friction_acceleration_{}; ///< A, and what friction adds
-  T eta_{}, centripetal_{};                    ///< η, Γ
+  Numbers stiffness_, damping_, steady_;     ///< κ, δ, τ
+  Square inverse_;                           ///< M_0⁻¹
+  Square F_x_, F_y_;                         ///< F
+  Numbers reaction_, steady_reaction_;       ///< G, and what τ adds
+  T acceleration_{}, steady_acceleration_{}; ///< A, and what τ adds
+  T eta_{}, steady_eta_{}, centripetal_{};   ///< η, what g adds to it, Γ
+  T push_{}, spin_of_base_{};                ///< √(Σ m f²) at rest, and |Ω|
   // scratch
   LinearSolve<T> linear_;
-  State<T> rest_, column_;
-  Numbers alpha_;              ///< of each body
-  std::vector<Vec2<T>> point_; ///< acceleration of each hinge's point
-  Numbers lever_;              ///< a_k²
-  Numbers angle_;              ///< ρ
-  Square inverse_absolute_;    ///< M_0⁻¹ with rows for absolute rates
-  Numbers spin_;               ///< W
-  Numbers gamma_;              ///< γ of each hinge's point
+  State<T> column_;
+  Numbers alpha_;                ///< of each body
+  std::vector<Vec2<T>> point_;   ///< acceleration of each hinge's point
+  Numbers lever_;                ///< a_k²
+  Numbers angle_, steady_angle_; ///< ρ for √(2E) = 1, and by g
+  Square inverse_absolute_;      ///< M_0⁻¹ with rows for absolute rates
+  Numbers spin_;                 ///< W
+  Numbers gamma_;                ///< γ of each hinge's point
 };
 
 } // namespace wingspread

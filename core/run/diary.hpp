@@ -51,7 +51,7 @@ public:
 
   /// The run has come to its end.
   void close(Status status, std::string reason, const Work& work,
-             const PeakSearch<T, AnySystem>& peaks) {
+             const PeakSearch<T, AnySystem>& peaks, bool peaks_final) {
     end_phase(work.steps);
     const Wing<T>& wing = run_.system.wing();
     Outcome& out = outcome_;
@@ -62,6 +62,7 @@ public:
     out.latches = std::move(latches_);
     if (run_.goal.peak_moment) out.peak_moment = in_scene_order(wing, peaks.moments());
     if (run_.goal.peak_force) out.peak_force = in_scene_order(wing, peaks.forces());
+    out.peaks_final = peaks_final;
     out.work = work;
     out.final = configuration_at(run_.system, run_.step.x, run_.step.t);
     out.energy = {initial_energy_, energy(), largest_drift_};

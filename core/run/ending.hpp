@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/events/events.hpp"
-#include "core/proofs/energy_above_rest.hpp"
 #include "core/proofs/peak_bounds.hpp"
+#include "core/proofs/prospects.hpp"
 #include "core/proofs/stall.hpp"
 #include "core/run/diary.hpp"
 #include "core/run/peak_search.hpp"
@@ -29,6 +29,7 @@ public:
     stalled_ = bounds_ready_ = false;
     why_stalled_.clear();
     since_last_look_ = 0;
+    latches_were_left_ = true;
   }
 
   /// Whether the run ends where it stands.
@@ -39,9 +40,12 @@ public:
     if (goal.to_t_end) return false;
     if (rests_for_ever() && (latches_left() || diary_.any_latch())) return true;
     if (!proofs_may_end()) return !latches_left() && diary_.any_latch() && !wants_peaks();
+    if (latches_left() != latches_were_left_) since_last_look_ = 0; // after the last: another proof
+    latches_were_left_ = latches_left();
     const bool look = steps_to_look() == 0;
     ++since_last_look_;
-    return look && (latches_left() ? lacks_energy() : no_peak_can_rise());
+    if (!look || (latches_left() && !lacks_energy())) return false;
+    return !wants_peaks() || no_peak_can_rise();
   }
 
   /// Of a run that has come to its end.
@@ -50,10 +54,16 @@ public:
     return rests_for_ever() || lacks_energy() ? Status::stalled : Status::timed_out;
   }
   [[nodiscard]] const std::string& why_stalled() const { return why_stalled_; }
+  /// Of a run that has come to its end: whether no peak that was asked for would be exceeded.
+  [[nodiscard]] bool peaks_are_final() {
+    if (!wants_peaks()) return false;
+    if (rests_for_ever()) return true;
+    return (latches_left() ? lacks_energy() : diary_.any_latch()) && no_peak_can_rise();
+  }
 
   /// Steps until the proofs are tried: they cost an evaluation and more.
   [[nodiscard]] long steps_to_look() const {
-    const int interval = latches_left() ? 64 : 16;
+    const int interval = latches_left() && !stalled_ ? 64 : 16;
     if (!proofs_may_end()) return std::numeric_limits<long>::max();
     return interval - 1 - since_last_look_ % interval;
   }
@@ -69,7 +79,7 @@ private:
   /// Whether the run may end, from here to the next event, by a proof that nothing more can happen.
   [[nodiscard]] bool proofs_may_end() const {
     if (run_.goal.to_t_end) return false;
-    return latches_left() ? !wants_peaks() : diary_.any_latch() && wants_peaks();
+    return latches_left() || (diary_.any_latch() && wants_peaks());
   }
 
   /// All hinges stick, under a load that stays as it is.
@@ -96,11 +106,11 @@ private:
   }
 
   [[nodiscard]] bool no_peak_can_rise() {
-    const std::optional<T> energy = energy_above_rest(run_.system, run_.step.x, run_.step.t);
+    if (!bounds_ready_) prepare_bounds();
+    const std::optional<T> energy =
+        prospects_.energy(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end));
     if (!energy) return false;
-    if (!bounds_ready_) bounds_.prepare(run_.system);
-    bounds_ready_ = true;
-    bounds_.bound(run_.system, *energy);
+    bounds_.bound(run_.system, prospects_, *energy);
     for (int i = 1; i <= run_.at.bodies; ++i) {
       if (run_.goal.peak_moment && bounds_.moment[i] > peaks_.moments()[i].value) return false;
       if (run_.goal.peak_force && bounds_.force[i] > peaks_.forces()[i].value) return false;
@@ -108,15 +118,23 @@ private:
     return true;
   }
 
+  void prepare_bounds() {
+    prospects_.prepare(run_.system);
+    bounds_.prepare(run_.system, prospects_);
+    bounds_ready_ = true;
+  }
+
   Underway<T, AnySystem>& run_;
   const Events<T, AnySystem>& events_;
   const Diary<T, AnySystem>& diary_;
   const PeakSearch<T, AnySystem>& peaks_;
+  Prospects<T> prospects_;
   PeakBounds<T> bounds_;
-  bool bounds_ready_ = false;
-  bool stalled_ = false; ///< no hinge can reach its latch any more
+  bool bounds_ready_ = false; ///< no hinge will latch any more
+  bool stalled_ = false;      ///< no hinge can reach its latch any more
   std::string why_stalled_;
-  long since_last_look_ = 0; ///< steps
+  long since_last_look_ = 0;      ///< steps
+  bool latches_were_left_ = true; ///< then
 };
 
 } // namespace wingspread

@@ -147,7 +147,8 @@ private:
     restart(0);
   }
 
-  /// The right-hand side has changed, or is new: evaluates it, at t⁺. @param let_go a hinge; 0: none
+  /// The right-hand side has changed, or is new: evaluates it, at t⁺.
+  /// @param let_go a hinge; 0: none
   void restart(int let_go) {
     Step<T>& step = run_.step;
     if (run_.system.wing().can_stick)
@@ -165,7 +166,8 @@ private:
   void go_on() {
     if (!ending_.is_reached()) return try_step(stepping_.plan());
     const Status status = ending_.status();
-    end(status, status == Status::stalled ? ending_.why_stalled() : "");
+    const bool peaks_final = ending_.peaks_are_final();
+    end(status, status == Status::stalled ? ending_.why_stalled() : "", peaks_final);
   }
 
   /// @param obstacle why no step could be planned, if so
@@ -233,8 +235,8 @@ private:
         why + ", at t = " + std::to_string(static_cast<double>(run_.step.t)) + " s");
   }
 
-  void end(Status status, const std::string& reason) {
-    diary_.close(status, reason, stepping_.work(), peaks_);
+  void end(Status status, const std::string& reason, bool peaks_final = false) {
+    diary_.close(status, reason, stepping_.work(), peaks_, peaks_final);
     ended_ = true;
   }
 

@@ -17,8 +17,8 @@ template <class T, class AnySystem> class Landing {
 public:
   Landing(Underway<T, AnySystem>& run, Events<T, AnySystem>& events) : run_(run), events_(events) {}
 
-  /// A whole step was accepted. @return whether it holds an event; then the step under way is cut to
-  /// end there
+  /// A whole step was accepted.
+  /// @return whether it holds an event; then the step under way is cut to end there
   [[nodiscard]] bool finds_event() {
     due_ = events_.first(run_.step, run_.x, run_.dxdt);
     if (!due_) return false;
@@ -28,7 +28,8 @@ public:
     return true;
   }
 
-  /// The step so cut was accepted. @return whether it must be cut anew; if not, its end is the event
+  /// The step so cut was accepted.
+  /// @return whether it must be cut anew; if not, its end is the event
   [[nodiscard]] bool misses_event() {
     if (due_->event == Event::graze) return finds_release();
     Step<T>& step = run_.step;

@@ -1,0 +1,90 @@
+/// What a base of prescribed motion does to a wing, seen from the base.
+///
+/// A base that turns at a constant rate Ω and is pushed by a, constant in inertial axes, loads
+/// every mass m with an apparent force m f,
+///
+///     f = −a + Ω² r + Coriolis's,    |f| ≤ |a| + Ω² R + 2 |Ω| |v|                              (1)
+///
+/// r from the base's origin, R the length of the way there along the tree, v as seen from the base.
+/// Coriolis's force does no work, the others have a potential:
+///
+///     V = Σ m (a·r − ½ Ω² r²)                                                                  (2)
+///
+/// Let u_i be the way of hinge i from its rest, λ_i the length of the way from it to a mass outward
+/// of it. Then V turns the hinge by at most g_i, and as a turns, seen from the base, it gains
+///
+///     g_i = Σ m λ_i (|a| + Ω² R)       V(φ) − V(rest) ≥ −Σ g_i |u_i|                           (3)
+///     s_i = Σ m λ_i                    d/dt (V(φ) − V(rest)) ≤ |a Ω| Σ s_i |u_i|               (4)
+///
+/// While the rate itself changes there are no such bounds.
+#pragma once
+
+#include "core/mechanics/energy.hpp"
+
+#include <cmath>
+
+namespace wingspread {
+
+template <class T> class ApparentLoad {
+public:
+  using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>; ///< 0 … n, as the bodies are numbered
+
+  /// Cost O(n) times the tree's depth. @return whether there are bounds
+  template <class AnySystem> bool prepare(const AnySystem& system) {
+    const int n = system.layout().bodies;
+    moment_.setZero(n + 1), lever_.setZero(n + 1), specific_.setZero(n + 1);
+    push_ = spin_ = drift_ = T(0);
+    if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
+      if (system.wing().base.angular_acceleration != T(0)) return false;
+      sum_up(system.wing(), system.topology());
+    }
+    return true;
+  }
+
+  [[nodiscard]] const T& moment(int i) const { return moment_(i); }     ///< g, N·m
+  [[nodiscard]] const T& lever(int i) const { return lever_(i); }       ///< s, kg·m
+  [[nodiscard]] const T& specific(int i) const { return specific_(i); } ///< of (1), at rest, m/s²
+  [[nodiscard]] const T& push() const { return push_; }   ///< √(Σ m f²) of a wing at rest
+  [[nodiscard]] const T& spin() const { return spin_; }   ///< |Ω|, rad/s
+  [[nodiscard]] const T& drift() const { return drift_; } ///< |a Ω|, m/s³
+
+  /// ½ Σ (m v² + J ω²) + V as seen from the base, J, and what its terms' sizes come to.
+  template <class AnySystem>
+  [[nodiscard]] static std::pair<T, T> energy(AnySystem& system, const State<T>& x, const T& t) {
+    using std::abs;
+    const TotalMotion<T> now = total_motion(system, x, t);
+    const T rate = system.work().frames[0].rate;
+    const T dragged = rate * now.angular,
+            pushed = dot(system.wing().base.acceleration, now.first_moment);
+    // ½ Ω² Σ (m r² + J) of the motion as seen from the base, and less as much in V
+    return {now.kinetic - dragged + pushed, now.kinetic + abs(dragged) + abs(pushed)};
+  }
+
+private:
+  template <class Topology> void sum_up(const Wing<T>& wing, const Topology& tree) {
+    using std::abs, std::sqrt;
+    const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
+    const T push = length(wing.base.acceleration);
+    spin_ = abs(wing.base.rate), drift_ = push * spin_;
+    T squares(0);
+    for (int k = 1; k <= wing.size(); ++k) {
+      const T &mass = wing.bodies[k].mass, own = length(wing.bodies[k].center);
+      T reach = own;
+      for (int i = k; i != 0; i = tree.parent_of(i)) reach = reach + length(wing.bodies[i].arm);
+      specific_(k) = fused(spin_ * spin_, reach, push);
+      squares = fused(mass, specific_(k) * specific_(k), squares);
+      T lambda = own;
+      for (int i = k; i != 0; i = tree.parent_of(i)) {
+        lever_(i) = fused(mass, lambda, lever_(i));
+        moment_(i) = fused(mass * lambda, specific_(k), moment_(i));
+        lambda = lambda + length(wing.bodies[i].arm);
+      }
+    }
+    push_ = sqrt(squares);
+  }
+
+  Numbers moment_, lever_, specific_;
+  T push_{}, spin_{}, drift_{};
+};
+
+} // namespace wingspread

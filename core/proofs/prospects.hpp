@@ -1,0 +1,173 @@
+/// What may still come of a wing of which no hinge will latch any more, by its energy.
+///
+/// A hinge with a restoring spring (an engaged latch is one) has its rest at y* = drive/κ, from
+/// which it stands u = y − y* off. One whose latch it cannot reach (stall.hpp) gives at most G, and
+/// goes no further than what is left takes it. So, with V of apparent_load.hpp on a base that
+/// is driven,
+///
+///     E = T + Σ ½ κ_i u_i² + Σ G_j + V − V(rest)                                               (1)
+///
+/// never grows on a base that is fixed or free (for a free one T is taken about the common centre
+/// of mass, whose energy is constant). On one that is driven T is taken as seen from it, and by (3)
+/// there,
+///
+///     T + Σ ½ κ_i (|u_i| − g_i/κ_i)² ≤ Ē = E + Σ g_i²/2κ_i                                     (2)
+///
+/// which grows by (4) there no faster than p + q √Ē, so that in a time Δ it comes at most to
+///
+///     (√(Ē + p Δ) + q Δ/2)²       p = |a Ω| Σ s_i g_i/κ_i       q = |a Ω| Σ s_i √(2/κ_i)      (3)
+///
+/// The moment of a hinge is then within g_i + √(2Ē) √(κ_i + δ_i² σ_i) + τ_s, σ_i as in
+/// coarse_bounds.hpp; for a hinge without rest κ is 0, and g the most that its spring exerts on its
+/// way.
+#pragma once
+
+#include "core/proofs/apparent_load.hpp"
+#include "core/proofs/stall.hpp"
+
+#include <optional>
+
+namespace wingspread {
+
+template <class T> class Prospects {
+public:
+  using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>; ///< 0 … n, as the bodies are numbered
+
+  /// No hinge will latch any more. Cost O(n) times the tree's depth.
+  template <class AnySystem> void prepare(const AnySystem& system) {
+    const int n = system.layout().bodies;
+    for (Numbers* v : {&stiffness_, &damping_, &steady_}) v->setZero(n + 1);
+    bounded_ = load_.prepare(system);
+    rests_ = true, offset_ = p_ = q_ = T(0);
+    rest_.assign(system.layout().size(), T(0));
+    for (int i = 1; i <= n; ++i) prepare(system, i);
+  }
+
+  /// What no energy from now on to t_end exceeds: (1), Ē of (2), or (3). None where that has no
+  /// bound: a base that turns faster and faster, or a spring that drives its hinge away from where
+  /// it could rest. Cost O(n).
+  template <class AnySystem>
+  [[nodiscard]] std::optional<T> energy(AnySystem& system, const State<T>& x, const T& t,
+                                        const T& t_end) {
+    if (!bounded_) return std::nullopt;
+    const Layout& at = system.layout();
+    T sum(0);
+    for (int i = 1; i <= at.bodies; ++i) {
+      const std::optional<T> own = energy(system, x, i);
+      if (!own) return std::nullopt;
+      sum = sum + *own;
+    }
+    sum = with_motion(system, x, t, t_end, sum);
+    for (int i = 1; i <= at.bodies; ++i)
+      if (is_open(system, i) && !find_way(system, x[at.angle(i)], sum, i)) return std::nullopt;
+    return sum;
+  }
+
+  /// Whether every hinge has a rest, off which the wing may be linearized.
+  [[nodiscard]] bool rests() const { return rests_; }
+  [[nodiscard]] const State<T>& rest() const { return rest_; }            ///< that state
+  [[nodiscard]] const T& stiffness(int i) const { return stiffness_(i); } ///< κ
+  [[nodiscard]] const T& damping(int i) const { return damping_(i); }     ///< δ
+  [[nodiscard]] const T& steady(int i) const { return steady_(i); }       ///< g
+  [[nodiscard]] const ApparentLoad<T>& load() const { return load_; }
+
+private:
+  /// Whether hinge i has a latch that it cannot reach.
+  template <class AnySystem> [[nodiscard]] static bool is_open(const AnySystem& system, int i) {
+    return system.wing().hinges[i].has_latch && !system.work().engaged[i];
+  }
+
+  template <class AnySystem> void prepare(const AnySystem& system, int i) {
+    using std::sqrt;
+    const bool open = is_open(system, i);
+    const LinearLaw<T> law = linear_law(system.wing().hinges[i], !open);
+    const bool loaded = load_.moment(i) > T(0);
+    damping_(i) = law.damping;
+    if (open || !(law.stiffness > T(0))) {
+      rests_ = false;
+      // without any spring it has no rest, and takes no part either
+      const bool limp = law.stiffness == T(0) && law.drive == T(0) && !loaded;
+      bounded_ = bounded_ && (limp || (open && !loaded));
+      return;
+    }
+    const T& g = load_.moment(i);
+    stiffness_(i) = law.stiffness, steady_(i) = g;
+    rest_[system.layout().angle(i)] = law.latched + law.drive / law.stiffness;
+    offset_ = offset_ + g * g / (T(2) * law.stiffness);
+    p_ = fused(load_.drift() * load_.lever(i), g / law.stiffness, p_);
+    q_ = fused(load_.drift() * load_.lever(i), T(sqrt(T(2) / law.stiffness)), q_);
+  }
+
+  /// What hinge i adds to (1); none where that is not known.
+  template <class AnySystem>
+  [[nodiscard]] std::optional<T> energy(const AnySystem& system, const State<T>& x, int i) const {
+    const Layout& at = system.layout();
+    const HingeTerms<T>& hinge = system.wing().hinges[i];
+    if (is_open(system, i)) {
+      const T given = detail::most_given(hinge, false, x[at.angle(i)]);
+      return is_finite(given) ? std::optional(given) : std::nullopt;
+    }
+    if (at.smoothed && hinge.has_latch && !(x[at.latch(i)] >= system.epsilon()))
+      return std::nullopt; // its latch is still coming in
+    if (!(stiffness_(i) > T(0))) return T(0);
+    const LinearLaw<T> law = linear_law(hinge, true);
+    const T u = x[at.angle(i)] - law.latched - law.drive / law.stiffness;
+    return T(0.5) * law.stiffness * u * u;
+  }
+
+  template <class AnySystem>
+  [[nodiscard]] T with_motion(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
+                              const T& springs) const {
+    using std::sqrt;
+    constexpr double lost = 64 * epsilon_of<T>; // by taking differences
+    if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
+      const auto [now, size] = ApparentLoad<T>::energy(system, x, t);
+      const auto [at_rest, size_at_rest] = ApparentLoad<T>::energy(system, rest_, t);
+      const T ahead = t_end - t, bar = springs + (now - at_rest) + T(lost) * (size + size_at_rest);
+      const T root =
+          fused(T(0.5) * q_, ahead, T(sqrt(larger(T(bar + fused(p_, ahead, offset_)), T(0)))));
+      return root * root;
+    } else {
+      const TotalMotion<T> now = total_motion(system, x, t);
+      const T own =
+          AnySystem::base_motion == BaseMotion::free ? now.central_kinetic() : now.kinetic;
+      return springs + own + T(lost) * now.kinetic;
+    }
+  }
+
+  /// How far hinge i, which cannot reach its latch, goes either way with this energy, and the most
+  /// that its spring exerts there. @return whether it goes so far only
+  template <class AnySystem>
+  [[nodiscard]] bool find_way(const AnySystem& system, const T& angle, const T& available, int i) {
+    using std::abs;
+    const HingeTerms<T>& hinge = system.wing().hinges[i];
+    const LinearLaw<T> law = linear_law(hinge, false);
+    const T y = hinge.sense * (angle - hinge.latched); // < 0 before the latch
+    const T pull = hinge.sense * law.drive - law.stiffness * y;
+    const std::optional<T> back = way(T(hinge.kinetic_friction + pull), law.stiffness, available),
+                           ahead = way(T(hinge.kinetic_friction - pull), law.stiffness, available);
+    if (!back) return false;
+    const T most = ahead ? smaller(*ahead, T(-y)) : T(-y);
+    steady_(i) = larger(T(abs(fused(law.stiffness, *back, pull))),
+                        T(abs(fused(-law.stiffness, most, pull))));
+    return true;
+  }
+
+  /// The way z that takes this energy, push z + ½ κ z²; none if there is no end to it.
+  [[nodiscard]] static std::optional<T> way(const T& push, const T& kappa, const T& available) {
+    using std::sqrt;
+    const T square = fused(push, push, T(2) * kappa * available);
+    if (!(square > T(0))) return std::nullopt;
+    const T both = push + sqrt(square);
+    if (!(both > T(0))) return std::nullopt;
+    return T(2) * available / both;
+  }
+
+  ApparentLoad<T> load_;
+  bool bounded_ = false, rests_ = false;
+  Numbers stiffness_, damping_, steady_;
+  State<T> rest_;
+  T offset_{}, p_{}, q_{}; ///< Σ g²/2κ, and (3)'s
+};
+
+} // namespace wingspread

@@ -1,0 +1,68 @@
+// Steps that make sure of a peak: what a run does where its method refuses one.
+#include "core/run/integrator.hpp"
+#include "tests/support/whole_runs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+using SeedRun = Integrator<double, Tree, BaseMotion::fixed>;
+
+struct Refused {
+  Outcome outcome;
+  int probes = 0; ///< steps that were to make sure of a peak
+};
+
+/// The seed wing, of which all steps inside others are refused, and leave what is no number.
+Refused run_refusing_probes(const Integration& how) {
+  const Scene scene = seed_scene();
+  const Goal goal{.audit = false};
+  const Observer nobody;
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  SeedRun::AnySystem system(wing, std::nullopt, work);
+  SeedRun run(system, how, goal, nobody);
+  Refused refused;
+  for (run.begin(); !run.ended();) {
+    const Place place = run.place();
+    if (&place.x1 == &place.step.x1) {
+      run.go();
+      continue;
+    }
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    place.x1.assign(place.x1.size(), none), place.dxdt1.assign(place.dxdt1.size(), none);
+    place.forces.assign(place.forces.size(), {none, none});
+    run.take_back({.tries = 0, .evaluations = 0, .error = 2, .pace = {}});
+    ++refused.probes;
+  }
+  refused.outcome = run.outcome();
+  return refused;
+}
+
+} // namespace
+
+TEST_CASE("where a method refuses the step to a peak, the dense output's word stands") {
+  for (const double rtol : {1e-4, 1e-8}) {
+    Integration how = within(rtol, 60);
+    how.method = "dopri5";
+    const Outcome usual = Deployment().run(seed_scene(), how, {.audit = false});
+    const auto [out, probes] = run_refusing_probes(how);
+    CAPTURE(rtol, probes);
+    CHECK(probes >= 5);
+    CHECK(finite(out));
+    CHECK(out.status == Status::deployed);
+    CHECK(out.t_end == usual.t_end);
+    for (int i = 0; i < 3; ++i) {
+      CAPTURE(i);
+      CHECK(relative(out.peak_moment[i].value, usual.peak_moment[i].value) <
+            1e-2 * std::sqrt(rtol));
+      CHECK(relative(out.peak_force[i].value, usual.peak_force[i].value) < 1e-2 * std::sqrt(rtol));
+    }
+  }
+}
