@@ -5,6 +5,8 @@
 #include "core/mechanics/system.hpp"
 #include "tests/support/random_scenes.hpp"
 
+#include <catch2/catch.hpp>
+
 #include <algorithm>
 #include <complex>
 #include <cstdint>
@@ -131,6 +133,42 @@ double part_taken(int hinges, double from, double to, const Values& values, cons
     for (int i = 1; i <= hinges; ++i)
       most = std::max(most, (inside[i] - std::max(first[i], last[i])) /
                                 ((to - from) * (to - from) * rise(i)));
+  }
+  return most;
+}
+
+/// Of random wings in motion.
+struct MotionSeeds {
+  int steps, scenes, motions;
+};
+
+/// Checks on random wings in motion that what a hinge bears rises no more inside a step than a
+/// bound says, 4/3 of it kept apart.
+/// @param values values(motion, s): of hinges 1 … n there
+/// @param bound bound(motion) → what has rise(i), the most that they may over the whole step
+/// @return the largest part of it that is taken
+template <BaseMotion M, class Values, class Bound>
+double most_taken_by_random_wings(const MotionSeeds& seeds, const Values& values,
+                                  const Bound& bound) {
+  double most = 0;
+  for (int k = 0; k < 60; ++k) {
+    Draws draws(seeds.steps + k);
+    RandomScene options;
+    options.bodies = 1 + k % 6, options.branching = k % 2 == 0, options.motion = M;
+    const AnyMotion<M> motion(random_scene(seeds.scenes + k, options), seeds.motions + k,
+                              draws.log_uniform(1e-3, 0.3), draws.log_uniform(0.01, 3));
+    const auto found = bound(motion);
+    const auto taken = [&](double from, double to) {
+      return part_taken(
+          motion.wing.size(), from, to, [&](double s) { return values(motion, s); },
+          [&](int i) { return found.rise(i); });
+    };
+    CAPTURE(k);
+    const double whole = taken(0, 1);
+    CHECK(whole < 0.75 + 1e-6); // without the 4/3
+    CHECK(taken(0, 0.5) < 0.75 + 1e-6);
+    CHECK(taken(0.75, 1) < 0.75 + 1e-6);
+    most = std::max(most, whole);
   }
   return most;
 }
