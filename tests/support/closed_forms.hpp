@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -218,14 +219,22 @@ inline bool may_give_up(const MethodInfo& method, MayGiveUp which) {
   return which == MayGiveUp::all || method.name != "auto";
 }
 
+/// How many methods have to come to an answer where some may give up.
+inline int least_judged(MayGiveUp which) {
+  const auto may = [&](const MethodInfo& method) { return may_give_up(method, which); };
+  return static_cast<int>(std::ranges::count_if(methods(), std::not_fn(may)));
+}
+
 /// Runs the scene with every method there is. A run that gives up must be allowed to; any other is
 /// for `judge` (outcome → CHECKs), and nothing that is told may be NaN.
 /// @param samples filled anew by every run, when given
+/// @return how many runs were judged: where all may give up, the caller demands a number
 template <class Judge>
-void with_every_method(const Scene& scene, Integration how, const Goal& goal, MayGiveUp which,
-                       const Judge& judge, std::vector<Sample>* samples = nullptr) {
+int with_every_method(const Scene& scene, Integration how, const Goal& goal, MayGiveUp which,
+                      const Judge& judge, std::vector<Sample>* samples = nullptr) {
   Observer observer;
   if (samples) observer = [samples](const Sample& sample) { samples->push_back(sample); };
+  int judged = 0;
   for (const MethodInfo& method : methods()) {
     how.method = method.name;
     if (samples) samples->clear();
@@ -240,8 +249,11 @@ void with_every_method(const Scene& scene, Integration how, const Goal& goal, Ma
       CHECK(may_give_up(method, which));
     } else if (out.status != Status::invalid) {
       judge(out);
+      ++judged;
     }
   }
+  CHECK(judged >= least_judged(which));
+  return judged;
 }
 
 /// A scene of the same motion whose hinges stand in reverse.

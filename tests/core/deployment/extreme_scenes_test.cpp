@@ -98,6 +98,7 @@ TEST_CASE("chains of unequal masses that do feel each other agree with extended 
 
 TEST_CASE("next to no inertia: the right answer or none, never NaN") {
   // light bodies under normal moments, or under moments as light as they are; subnormal ones too
+  int judged = 0;
   for (const double light : {1e-12, 1e-24, 1e-30, 1e-60, 1e-150, 1e-290, 1e-310})
     for (const double torque : {2., 2 * light}) {
       Scene scene = latching_panel();
@@ -108,10 +109,11 @@ TEST_CASE("next to no inertia: the right answer or none, never NaN") {
       for (const Goal& goal : {latches_only, Goal{}}) {
         Integration how = within(1e-9, exact.time() > 0 ? 10 * exact.time() : 1);
         how.max_steps = 5000;
-        with_every_method(scene, how, goal, MayGiveUp::all,
-                          [&](const Outcome& out) { check_latch(out, exact, 1e-6); });
+        judged += with_every_method(scene, how, goal, MayGiveUp::all,
+                                    [&](const Outcome& out) { check_latch(out, exact, 1e-6); });
       }
     }
+  CHECK(judged >= 139); // of 252
 }
 
 TEST_CASE("latches of 1e9 N·m/rad: auto is right, the others right or failed") {
@@ -125,12 +127,14 @@ TEST_CASE("latches of 1e9 N·m/rad: auto is right, the others right or failed") 
     Integration how = within(1e-8, 7, 1e-4);
     how.max_steps = 60'000;
     CAPTURE(damping);
-    with_every_method(scene, how, {}, MayGiveUp::all_but_auto, [&](const Outcome& out) {
-      CHECK(out.status == Status::deployed);
-      check_latches(out, exact, 1e-6); // the reference's own error is a tenth of it
-      for (int i = 0; i < 3; ++i)
-        CHECK(relative(out.peak_moment[i].value, exact.peak_moment[i].value) < 1e-4);
-    });
+    const int judged =
+        with_every_method(scene, how, {}, MayGiveUp::all_but_auto, [&](const Outcome& out) {
+          CHECK(out.status == Status::deployed);
+          check_latches(out, exact, 1e-6); // the reference's own error is a tenth of it
+          for (int i = 0; i < 3; ++i)
+            CHECK(relative(out.peak_moment[i].value, exact.peak_moment[i].value) < 1e-4);
+        });
+    CHECK(judged >= (damping > 1e4 ? 8 : 6));
   }
 }
 
