@@ -137,6 +137,7 @@ private:
 ReferenceOutcome cvode_run(const Scene& scene, const ReferenceOptions& options) {
   constexpr int samples_per_step = 6;
   Ode ode(scene, options.smoothing);
+  if (ode.friction().any()) throw std::invalid_argument("cvode_run: exact friction is not smooth");
   Cvode cvode(ode, options);
   RunBook<double> book(ode, options, cvode.state());
   while (cvode.time() < options.t_end) {

@@ -280,12 +280,18 @@ Vector<Scalar> DenseWing<Scalar>::solve(const Matrix<Scalar>& mass,
 
 template <class Scalar>
 WingResponse<Scalar> DenseWing<Scalar>::respond(const WingState<Scalar>& state) const {
+  return respond(state, moments(state));
+}
+
+template <class Scalar>
+WingResponse<Scalar> DenseWing<Scalar>::respond(const WingState<Scalar>& state,
+                                                const Vector<Scalar>& moments) const {
   const Motion at = motion(state);
   const std::vector<Columns2<Scalar>> jacobian = jacobians(at, state.base_angle);
   const Columns2<Scalar> bias = biases(at, state);
 
   WingResponse<Scalar> result;
-  result.moments = moments(state);
+  result.moments = moments;
   Vector<Scalar> force = applied(result.moments);
   for (int k = 0; k < size(); ++k)
     for (std::size_t j = 0; j < paths_[k].size(); ++j)

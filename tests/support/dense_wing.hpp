@@ -101,6 +101,10 @@ public:
   /// Accelerations, moments and reactions. Cost O(n³).
   [[nodiscard]] WingResponse<Scalar> respond(const WingState<Scalar>& state) const;
 
+  /// The same for hinge moments that something else decides, n, N·m.
+  [[nodiscard]] WingResponse<Scalar> respond(const WingState<Scalar>& state,
+                                             const Vector<Scalar>& moments) const;
+
   /// Energies and momenta. Cost O(n).
   [[nodiscard]] WingBalance<Scalar> balance(const WingState<Scalar>& state) const;
 

@@ -15,7 +15,9 @@ namespace {
 template <class Scalar> class Fehlberg {
 public:
   Fehlberg(WingOde<Scalar>& ode, const ReferenceOptions& options)
-      : ode_(ode), options_(options), book_(ode, options, ode.initial()), y_(ode.initial()) {}
+      : ode_(ode), options_(options), book_(ode, options, ode.initial()), y_(ode.initial()) {
+    book_.settle(time_, y_);
+  }
 
   [[nodiscard]] ReferenceOutcome run() {
     const Scalar end = options_.t_end;
@@ -79,11 +81,14 @@ private:
     return Scalar(std::clamp(factor, 0.2, 4.));
   }
 
-  /// Goes on by h, or to the first latch on the way.
+  /// Goes on by h, or to the first latch or change of contact on the way.
   void accept(Scalar h, Vector<Scalar> next, bool to_end) {
-    const int hinge = first_latch(h, next);
-    if (hinge >= 0) next = stepped(h);
-    const Scalar upper = to_end && hinge < 0 ? Scalar(options_.t_end) : Scalar(time_ + h);
+    const Scalar whole = h;
+    const int latching = first_latch(h, next), touching = first_contact(h, whole, next);
+    const int hinge = touching >= 0 ? -1 : latching;
+    const bool event = hinge >= 0 || touching >= 0;
+    if (event) next = stepped(h);
+    const Scalar upper = to_end && !event ? Scalar(options_.t_end) : Scalar(time_ + h);
     const int intervals =
         ode_.smoothed() ? 12 : 2; // a smoothed latch's kinks hide from few samples
     book_.step(time_, upper, intervals, [&](const Scalar& time) -> Vector<Scalar> {
@@ -92,8 +97,13 @@ private:
     });
     time_ = upper;
     y_ = next;
-    if (hinge < 0) return;
-    book_.latch(hinge, time_, y_);
+    if (!event) return;
+    if (touching >= 0) {
+      if (!ode_.friction().sticks(touching)) ode_.stop(touching, y_);
+      book_.settle(time_, y_);
+    } else {
+      book_.latch(hinge, time_, y_);
+    }
     if (!ode_.smoothed()) step_ = std::min<Scalar>(step_, Scalar(1e-4));
   }
 
@@ -122,11 +132,43 @@ private:
     return first;
   }
 
+  /// The hinge whose exact friction first does something else before h, −1 if none does; h then
+  /// becomes the step to that instant. One that does so and thinks better of it is seen at the
+  /// step's middle. @param whole the step that ends in `next`
+  [[nodiscard]] int first_contact(Scalar& h, const Scalar& whole,
+                                  const Vector<Scalar>& next) const {
+    if (!ode_.friction().any()) return -1;
+    int first = -1;
+    const Vector<Scalar> middle = stepped(whole / 2);
+    for (int i = 0; i < ode_.hinges(); ++i) {
+      const auto gap = [&](const Vector<Scalar>& y) { return ode_.contact_gap(i, y); };
+      Scalar past = whole;
+      if (gap(middle) >= 0)
+        past = whole / 2;
+      else if (!(gap(next) >= 0))
+        continue;
+      // one that has just begun to slide stands at zero
+      const Scalar at = gap(y_) < 0 ? crossing(past, gap) : crossing_after_start(past, gap);
+      if (!(at < h)) continue;
+      first = i;
+      h = at;
+    }
+    return first;
+  }
+
+  template <class Function>
+  [[nodiscard]] Scalar crossing_after_start(const Scalar& upper, const Function& g) const {
+    if (!(g(stepped(upper / 1024)) < 0))
+      throw std::runtime_error("Fehlberg: a hinge that was let go does not move");
+    return crossing(upper, g, upper / 1024);
+  }
+
   /// The step at which g(y) < 0 becomes ≥ 0: Illinois, each trial a real step.
   /// Ends on the side ≥ 0.
-  template <class Function> [[nodiscard]] Scalar crossing(Scalar upper, const Function& g) const {
+  template <class Function>
+  [[nodiscard]] Scalar crossing(Scalar upper, const Function& g, Scalar lower = 0) const {
     using std::abs;
-    Scalar lower = 0, below = g(y_), above = g(stepped(upper));
+    Scalar below = g(lower > 0 ? stepped(lower) : y_), above = g(stepped(upper));
     int side = 0;
     const Scalar least = 4 * std::numeric_limits<Scalar>::epsilon() * (time_ + upper);
     for (int i = 0; i < 200 && upper - lower > least && above != 0; ++i) {

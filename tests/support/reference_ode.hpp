@@ -12,6 +12,7 @@
 /// | S           | n, smoothed   | s          |
 #pragma once
 
+#include "tests/support/dry_friction.hpp"
 #include "tests/support/reference_run.hpp"
 
 #include <boost/math/tools/minima.hpp>
@@ -26,7 +27,8 @@ namespace wingspread::oracle {
 template <class Scalar> class WingOde {
 public:
   WingOde(const Scene& scene, const std::optional<double>& smoothing)
-      : wing_(scene), smoothed_(smoothing.has_value()), epsilon_(smoothing.value_or(0)),
+      : friction_(scene), wing_(DryFriction<Scalar>::removed(scene)),
+        smoothed_(smoothing.has_value()), epsilon_(smoothing.value_or(0)),
         latched_(scene.hinges.size(), false) {}
 
   [[nodiscard]] const DenseWing<Scalar>& wing() const { return wing_; }
@@ -40,6 +42,22 @@ public:
 
   /// Notes that a hinge has reached its latch; in the event form its moment acts from now on.
   void latch(int hinge) { latched_[hinge] = true; }
+
+  /// Exact friction: which hinges stick.
+  [[nodiscard]] const DryFriction<Scalar>& friction() const { return friction_; }
+  /// Something has changed for hinges with exact friction that are at rest.
+  void settle(const Vector<Scalar>& y) {
+    if (friction_.any()) friction_.settle(wing_, state(y));
+  }
+  /// Hinge i has come to rest: its rate is exactly zero.
+  void stop(int hinge, Vector<Scalar>& y) const { y(half() + hinge) = 0; }
+  /// Negative as long as hinge i goes on to slide as it does, or to stick.
+  [[nodiscard]] Scalar contact_gap(int hinge, const Vector<Scalar>& y) const {
+    if (!friction_.acts(hinge)) return Scalar(-1);
+    if (!friction_.sticks(hinge)) return Scalar(-friction_.sense(hinge) * y(half() + hinge));
+    const WingState<Scalar> now = state(y);
+    return friction_.excess(wing_, now, friction_.respond(wing_, now), hinge);
+  }
 
   [[nodiscard]] Vector<Scalar> initial() const {
     const WingState<Scalar> state = wing_.initial_state();
@@ -64,7 +82,7 @@ public:
 
   /// ẏ, with Ṡ = the smooth step of the overtravel over [0, ε].
   [[nodiscard]] Vector<Scalar> derivative(const Vector<Scalar>& y) const {
-    const WingResponse<Scalar> response = wing_.respond(state(y));
+    const WingResponse<Scalar> response = respond(y);
     Vector<Scalar> result(dimension());
     result.head(half()) = y.segment(half(), half());
     result.segment(half(), half()) << response.hinge_accelerations, response.base_acceleration,
@@ -76,7 +94,7 @@ public:
 
   /// |M| of every hinge, then |f| of every hinge: 2n, N·m and N.
   [[nodiscard]] Vector<Scalar> magnitudes(const Vector<Scalar>& y) const {
-    const WingResponse<Scalar> response = wing_.respond(state(y));
+    const WingResponse<Scalar> response = respond(y);
     Vector<Scalar> result(2 * hinges());
     result << response.moments.cwiseAbs(), response.forces.colwise().norm().transpose();
     return result;
@@ -91,6 +109,9 @@ public:
   }
 
 private:
+  [[nodiscard]] WingResponse<Scalar> respond(const Vector<Scalar>& y) const {
+    return friction_.any() ? friction_.respond(wing_, state(y)) : wing_.respond(state(y));
+  }
   [[nodiscard]] int half() const { return hinges() + 3; }
   [[nodiscard]] Scalar engagement(int hinge, const Vector<Scalar>& y) const {
     if (!wing_.has_latch(hinge)) return Scalar(0);
@@ -98,6 +119,7 @@ private:
     return smooth_step<Scalar>(y(2 * half() + hinge) / epsilon_);
   }
 
+  DryFriction<Scalar> friction_;
   DenseWing<Scalar> wing_;
   bool smoothed_;
   Scalar epsilon_;
@@ -198,6 +220,12 @@ public:
           {i, static_cast<double>(time), std::vector<double>(rates.begin(), rates.end())});
       ode_.latch(i);
     }
+    settle(time, y);
+  }
+
+  /// Settles which hinges stick, and takes the peaks just after.
+  void settle(const Scalar& time, const Vector<Scalar>& y) {
+    ode_.settle(y);
     const Vector<Scalar> magnitudes = ode_.magnitudes(y);
     for (int i = 0; i < magnitudes.size(); ++i) peaks_.offer(i, magnitudes(i), time);
   }
