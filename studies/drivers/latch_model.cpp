@@ -41,7 +41,7 @@ Figures smoothed_figures(const Scene& scene, const std::string& method, double e
   how.method = method, how.rtol = rtol, how.atol = atol;
   how.t_end = seed_t_end, how.smoothing = epsilon;
   Deployment deployment;
-  const Outcome outcome = deployment.run(scene, how, goal_of(Extent::whole));
+  const Outcome outcome = deployment.run(scene, how, goal_of(Extent::moments));
   if (outcome.status != Status::deployed) throw std::runtime_error(outcome.reason);
   return figures_of(outcome, scene.hinges.size());
 }

@@ -72,7 +72,7 @@ Figures product_figures(const Scene& scene, const std::string& method, double rt
   Integration how = integration_of(method, rtol);
   how.max_steps = reference_steps;
   Deployment deployment;
-  return figures_of(deployment.run(scene, how, goal_of(Extent::whole)), scene.hinges.size());
+  return figures_of(deployment.run(scene, how, goal_of(Extent::moments)), scene.hinges.size());
 }
 
 /// By another formulation, in absolute angles, and another integrator.
@@ -129,7 +129,7 @@ Run run_of(const std::string& method) {
 Measurement measure(const Point& point, const std::string& method, double rtol) {
   constexpr double patience = 0.005; // s
   return measure(run_of(method), std::span(&point.scene, 1), std::span(&point.reference, 1),
-                 integration_of(method, rtol), Extent::whole, patience);
+                 integration_of(method, rtol), Extent::moments, patience);
 }
 
 /// The largest relative error of all quantities; NaN where the run has none.
@@ -187,7 +187,7 @@ void measure_price(const Plan& plan, const std::filesystem::path& file) {
     for (const std::string& method : plan.methods) {
       Integration how = integration_of(method, rtol);
       how.t_end = tone.t_end;
-      const Outcome outcome = run_of(method)(tone.scene, how, goal_of(Extent::whole));
+      const Outcome outcome = run_of(method)(tone.scene, how, goal_of(Extent::moments));
       const bool ended = outcome.status == Status::deployed; // else out of steps
       const double none = std::numeric_limits<double>::quiet_NaN();
       const double price =

@@ -1,7 +1,9 @@
 // Work against precision: what every method, and SUNDIALS CVODE on the same right-hand side, costs
 // at every tolerance, and how far it then is from references that share nothing with core/.
 //
-//   build/release/studies/work_precision                 64 scenes; the references take long once
+//   build/release/studies/work_precision                 64 scenes of each case; the references
+//                                                        take long once
+//   build/release/studies/work_precision --cases rubbing only one case, the others' rows stay
 //   build/release/studies/work_precision --quick         4 scenes, 3 tolerances
 //   /usr/bin/python3 studies/plots/plot_work_precision.py results/work_precision
 
@@ -24,20 +26,28 @@ using namespace wingspread::study;
 
 namespace {
 
-constexpr double smoothing_width = 1e-3;                                 // rad
-const std::vector<std::optional<double>> latches{{}, {smoothing_width}}; // event, smoothed
-constexpr std::array extents{Extent::first_latch, Extent::whole};        // A, B
-constexpr long max_steps = 400'000; // more than any useful point of the chart takes
+/// Dispersed wings of one kind.
+struct Case {
+  const char* name;
+  const char* campaign;                 ///< whose runs they are, in studies/campaigns
+  std::optional<double> smoothing = {}; ///< ε of the smoothed latch, rad
+  bool exact_friction = false;
+};
+const std::vector<Case> all_cases{
+    {"event", "work_precision.json"},
+    {"smoothed", "work_precision.json", 1e-3},
+    {"rubbing", "work_precision_rubbing.json"},       // harness and regularized friction
+    {"near_stall", "work_precision_near_stall.json"}, // the same, of which little drive is left
+    {"sticking", "work_precision_sticking.json", {}, true}};
+constexpr std::array extents{Extent::first_latch, Extent::whole}; // A, B
+constexpr long max_steps = 100'000; // more than any useful point of the chart takes
 
-const char* name_of(const std::optional<double>& smoothing) {
-  return smoothing ? "smoothed" : "event";
-}
 const char* name_of(Extent extent) { return extent == Extent::first_latch ? "A" : "B"; }
 
 /// What the command line asks for.
 struct Options {
-  std::string campaign = "studies/campaigns/work_precision.json";
-  std::string out; ///< folder
+  std::vector<std::string> cases; ///< none: all
+  std::string out;                ///< folder
   bool quick = false;
   long scenes = 0; ///< 0: as the mode has it
   Source reference = Source::extended;
@@ -54,23 +64,25 @@ struct Plan {
   double patience = 0.05;   ///< how long a point is timed at least, s
 };
 
-Plan plan_of(const Options& options, double t_end) {
+Plan plan_of(const Options& options, const Case& of, double t_end) {
   Plan plan;
-  plan.cvode = {Source::cvode, 1e-14, 1e-15, {}, t_end};
+  plan.cvode = of.exact_friction
+                   ? ReferenceSettings{Source::regularized, 1e-10, 1e-12, of.smoothing, t_end}
+                   : ReferenceSettings{Source::cvode, 1e-14, 1e-15, of.smoothing, t_end};
   if (options.quick) {
     plan.tolerances = {1e-4, 1e-7, 1e-10};
     plan.steps = {8e-3, 2e-3, 5e-4};
-    plan.primary = {options.reference, 1e-11, 1e-12, {}, t_end};
+    plan.primary = {options.reference, 1e-11, 1e-12, of.smoothing, t_end};
     plan.patience = 0.005;
     return plan;
   }
   for (int decade = 3; decade <= 12; ++decade) plan.tolerances.push_back(std::pow(10., -decade));
   for (int halving = 0; halving < 9; ++halving) plan.steps.push_back(std::ldexp(1.6e-2, -halving));
-  const ReferenceSettings extended{Source::extended, 1e-17, 1e-18, {}, t_end};
-  const ReferenceSettings quad{Source::quad, 1e-18, 1e-19, {}, t_end};
+  const ReferenceSettings extended{Source::extended, 1e-16, 1e-17, of.smoothing, t_end};
+  const ReferenceSettings quad{Source::quad, 1e-17, 1e-18, of.smoothing, t_end};
   const bool swap = options.reference == Source::quad;
   plan.primary = swap ? quad : extended, plan.second = swap ? extended : quad;
-  plan.second_scenes = 4;
+  plan.second_scenes = options.scenes > 0 ? 0 : 2; // they take minutes each
   return plan;
 }
 
@@ -91,81 +103,70 @@ std::vector<Scene> dispersed_scenes(const Campaign& campaign, long count) {
 /// The largest disagreement of some references with the primary ones.
 struct Agreement {
   int scenes = 0, other_order = 0;
-  double time = 0, rate = 0, moment = 0;
+  double time = 0, rate = 0, moment = 0, force = 0;
 
   void add(const Disagreement& off) {
     ++scenes, other_order += !off.same_order;
     time = std::max(time, off.time), rate = std::max(rate, off.rate);
-    moment = std::max(moment, off.moment);
+    moment = std::max(moment, off.moment), force = std::max(force, off.force);
   }
   [[nodiscard]] bool within(double tolerance) const {
-    return other_order == 0 && std::max({time, rate, moment}) <= tolerance;
+    return other_order == 0 && std::max({time, rate, moment, force}) <= tolerance;
   }
 };
 
-/// Primary references by latch name, one a scene; and how well the others agree with them.
-struct References {
-  std::map<std::string, std::vector<Figures>> primary;
-  bool sound = true;
+/// What every series is measured on.
+struct Study {
+  Case of;
+  Plan plan;
+  std::vector<Scene> scenes;
+  std::vector<Figures> references = {}; ///< one a scene
+  bool sound = true;                    ///< other references agree with them
 };
 
-void print(const Agreement& off, const std::string& latch, Source source) {
-  fmt::print("  {:<9} {:<9} {:>6} {:>11} {:>10.1e} {:>10.1e} {:>10.1e}\n", latch, to_string(source),
-             off.scenes, off.other_order, off.time, off.rate, off.moment);
-}
-
-ReferenceSettings with(ReferenceSettings how, const std::optional<double>& smoothing) {
-  how.smoothing = smoothing;
-  return how;
+void print(const Agreement& off, const char* name, Source source) {
+  fmt::print("  {:<10} {:<11} {:>6} {:>11} {:>10.1e} {:>10.1e} {:>10.1e} {:>10.1e}\n", name,
+             to_string(source), off.scenes, off.other_order, off.time, off.rate, off.moment,
+             off.force);
+  std::fflush(stdout);
 }
 
 /// On stderr, on a line that does not stay.
-void show_progress(const char* latch, Source source, int scene) {
-  fmt::print(stderr, "  {} {} {}   \r", latch, to_string(source), scene);
+void show_progress(const char* name, Source source, int scene) {
+  fmt::print(stderr, "  {} {} {}   \r", name, to_string(source), scene);
 }
 
-/// Makes the primary references of one latch model, and has CVODE check them.
-void find_primary(ReferenceStore& store, const std::vector<Scene>& scenes, const Plan& plan,
-                  const std::optional<double>& smoothing, References& found) {
+/// Has the primary references of the first scenes checked by others.
+/// @param tolerance beyond which they are not sound
+void check_references(ReferenceStore& store, const ReferenceSettings& other, int scenes,
+                      double tolerance, Study& study) {
   Agreement agreement;
-  std::vector<Figures>& primary = found.primary[name_of(smoothing)];
-  for (int k = 0; k < std::ssize(scenes); ++k) {
-    show_progress(name_of(smoothing), plan.primary.source, k);
-    primary.push_back(store.get(scenes[k], k, with(plan.primary, smoothing)).figures);
-    const ReferenceRow other = store.get(scenes[k], k, with(plan.cvode, smoothing));
-    agreement.add(disagreement(other.figures, primary[k]));
+  for (int k = 0; k < std::ssize(study.scenes) && k < scenes; ++k) {
+    show_progress(study.of.name, other.source, k);
+    const ReferenceRow row = store.get(study.scenes[k], k, other);
+    agreement.add(disagreement(row.figures, study.references[k]));
   }
-  print(agreement, name_of(smoothing), Source::cvode);
-  found.sound = found.sound && agreement.within(1e-6);
+  if (agreement.scenes > 0) print(agreement, study.of.name, other.source);
+  study.sound = study.sound && agreement.within(tolerance);
 }
 
-/// Has some of them checked in another precision.
-void check_primary(ReferenceStore& store, const std::vector<Scene>& scenes, const Plan& plan,
-                   const std::optional<double>& smoothing, References& found) {
-  Agreement agreement;
-  const std::vector<Figures>& primary = found.primary[name_of(smoothing)];
-  for (int k = 0; k < std::ssize(scenes) && k < plan.second_scenes; ++k) {
-    show_progress(name_of(smoothing), plan.second.source, k);
-    const ReferenceRow other = store.get(scenes[k], k, with(plan.second, smoothing));
-    agreement.add(disagreement(other.figures, primary[k]));
-  }
-  if (agreement.scenes > 0) print(agreement, name_of(smoothing), plan.second.source);
-  found.sound = found.sound && agreement.within(1e-9);
-}
-
-References find_references(const std::filesystem::path& file, const std::vector<Scene>& scenes,
-                           const Plan& plan) {
+void find_references(const std::filesystem::path& folder, Study& study) {
   std::vector<std::string> hinges;
-  for (const Hinge& hinge : scenes.front().hinges) hinges.push_back(hinge.name);
-  ReferenceStore store(file, hinges);
-  fmt::print("References: largest relative disagreement with the primary ones ({}, rtol {:g})\n"
-             "  latch     with      scenes other order       time       rate     moment\n",
-             to_string(plan.primary.source), plan.primary.rtol);
-  References found;
-  for (const auto& smoothing : latches) find_primary(store, scenes, plan, smoothing, found);
-  for (const auto& smoothing : latches) check_primary(store, scenes, plan, smoothing, found);
+  for (const Hinge& hinge : study.scenes.front().hinges) hinges.push_back(hinge.name);
+  ReferenceStore store(folder / fmt::format("references_{}.csv", study.of.name), hinges);
+  fmt::print(
+      "\nReferences: largest relative disagreement with the primary ones ({}, rtol {:g})\n"
+      "  case       with        scenes other order       time       rate     moment      force\n",
+      to_string(study.plan.primary.source), study.plan.primary.rtol);
+  for (int k = 0; k < std::ssize(study.scenes); ++k) {
+    show_progress(study.of.name, study.plan.primary.source, k);
+    study.references.push_back(store.get(study.scenes[k], k, study.plan.primary).figures);
+  }
+  // regularized friction is its limit to its width, 1e-6 rad/s, and more where a hinge comes to rest
+  check_references(store, study.plan.cvode, static_cast<int>(study.scenes.size()),
+                   study.of.exact_friction ? 1e-3 : 1e-6, study);
+  check_references(store, study.plan.second, study.plan.second_scenes, 1e-9, study);
   store.write();
-  return found;
 }
 
 // ---- the chart
@@ -175,6 +176,7 @@ struct Series {
   std::string name;
   bool fixed_step = false;
   Run run;
+  bool smooth_only = false; ///< it knows no contacts
 };
 
 Series series_of(const MethodInfo& method) {
@@ -190,9 +192,11 @@ Series series_of(const MethodInfo& method) {
 
 Series series_of(const std::string& name, CvodePeer::Kind kind) {
   const auto peer = std::make_shared<CvodePeer>(kind);
-  return {name, false, [peer](const Scene& scene, const Integration& how, const Goal& goal) {
+  return {name, false,
+          [peer](const Scene& scene, const Integration& how, const Goal& goal) {
             return peer->run(scene, how, goal);
-          }};
+          },
+          true};
 }
 
 std::vector<Series> all_series(const std::vector<std::string>& wanted) {
@@ -212,35 +216,29 @@ std::vector<Series> all_series(const std::vector<std::string>& wanted) {
 
 /// A row of the chart's table.
 struct Point {
-  std::string method, latch;
+  std::string method, of; ///< the case
   Extent extent;
   double tolerance, step; ///< the one that varies; NaN the other
   Measurement measured;
 };
 
 constexpr const char* header =
-    "method,latch,phase,tolerance,step,scenes,scored,mismatches,failures,reason,"
-    "time_rms,time_max,rate_rms,rate_max,moment_rms,moment_max,evaluations,steps,us\n";
+    "method,case,phase,tolerance,step,scenes,scored,mismatches,failures,reason,"
+    "time_rms,time_max,rate_rms,rate_max,moment_rms,moment_max,force_rms,force_max,evaluations,"
+    "steps,us\n";
 
 std::string csv_line(const Point& point) {
   const Measurement& m = point.measured;
-  std::string line = fmt::format("{},{},{}", point.method, point.latch, name_of(point.extent));
+  std::string line = fmt::format("{},{},{}", point.method, point.of, name_of(point.extent));
   const auto add = [&](double value) { append_csv_cell(line += ',', value); };
   add(point.tolerance), add(point.step);
   line += fmt::format(",{},{},{},{}", m.scenes, m.scored, m.mismatches, m.failures);
   append_csv_cell(line += ',', m.reason);
-  for (const Errors* errors : {&m.errors.time, &m.errors.rate, &m.errors.moment})
+  for (const Errors* errors : {&m.errors.time, &m.errors.rate, &m.errors.moment, &m.errors.force})
     add(errors->rms()), add(errors->count > 0 ? errors->largest : errors->rms());
   add(m.evaluations), add(m.steps), add(m.microseconds);
   return line + '\n';
 }
-
-/// What every series is measured on.
-struct Study {
-  Plan plan;
-  std::vector<Scene> scenes;
-  References references;
-};
 
 Integration integration_of(const Study& study, bool fixed_step, double knob) {
   Integration how;
@@ -251,18 +249,16 @@ Integration integration_of(const Study& study, bool fixed_step, double knob) {
 }
 
 /// One curve: all tolerances, or all steps.
-std::vector<Point> measure_curve(const Series& series, const Study& study,
-                                 const std::optional<double>& smoothing, Extent extent) {
+std::vector<Point> measure_curve(const Series& series, const Study& study, Extent extent) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const std::string latch = name_of(smoothing);
   std::vector<Point> curve;
   for (const double knob : series.fixed_step ? study.plan.steps : study.plan.tolerances) {
     Integration how = integration_of(study, series.fixed_step, knob);
-    how.smoothing = smoothing;
-    curve.push_back({series.name, latch, extent, series.fixed_step ? none : knob,
-                     series.fixed_step ? knob : none,
-                     measure(series.run, study.scenes, study.references.primary.at(latch), how,
-                             extent, study.plan.patience)});
+    how.smoothing = study.of.smoothing;
+    curve.push_back(
+        {series.name, study.of.name, extent, series.fixed_step ? none : knob,
+         series.fixed_step ? knob : none,
+         measure(series.run, study.scenes, study.references, how, extent, study.plan.patience)});
   }
   return curve;
 }
@@ -274,10 +270,10 @@ void print(const Point& point) {
   const Measurement& m = point.measured;
   const std::string knob = std::isnan(point.step) ? fmt::format("{:.0e}", point.tolerance)
                                                   : fmt::format("{:.1e} s", point.step);
-  fmt::print("  {:<23} {:<9} {}  {:>9} {:>9} {:>9} {:>9} {:>9.0f} {:>10.1f} {:>5} {:>5}\n",
-             point.method, point.latch, name_of(point.extent), knob, shown(m.errors.time.rms()),
-             shown(m.errors.rate.rms()), shown(m.errors.moment.rms()), m.evaluations,
-             m.microseconds, m.mismatches, m.failures);
+  fmt::print("  {:<23} {:<10} {}  {:>9} {:>9} {:>9} {:>9} {:>9} {:>9.0f} {:>10.1f} {:>5} {:>5}\n",
+             point.method, point.of, name_of(point.extent), knob, shown(m.errors.time.rms()),
+             shown(m.errors.rate.rms()), shown(m.errors.moment.rms()), shown(m.errors.force.rms()),
+             m.evaluations, m.microseconds, m.mismatches, m.failures);
 }
 
 /// Three points of a curve: all of a quick study; else those of 1e-4, 1e-7 and 1e-10.
@@ -286,21 +282,27 @@ void print_some(const std::vector<Point>& curve) {
   for (const std::size_t k : all ? std::array{0, 1, 2} : std::array{1, 4, 7}) print(curve[k]);
 }
 
-/// The lines that an earlier study left of series that are not measured now.
-std::string lines_of_others(const std::filesystem::path& file, const std::vector<Series>& now) {
+/// The lines that an earlier study left of a case's series, or of cases, not measured now.
+std::string lines_of_others(const std::filesystem::path& file, const std::vector<Series>& series,
+                            const Case& of) {
   std::ifstream in(file, std::ios::binary);
   std::string line, kept;
   std::getline(in, line); // the header
-  while (std::getline(in, line))
-    if (std::ranges::find(now, line.substr(0, line.find(',')), &Series::name) == now.end())
-      kept += line + '\n';
+  if (line + '\n' != header) return {};
+  while (std::getline(in, line)) {
+    const std::size_t comma = line.find(','), next = line.find(',', comma + 1);
+    const bool measured =
+        line.substr(comma + 1, next - comma - 1) == of.name &&
+        std::ranges::find(series, line.substr(0, comma), &Series::name) != series.end();
+    if (!measured) kept += line + '\n';
+  }
   return kept;
 }
 
 void print_header(std::size_t scenes) {
   fmt::print("\nRMS relative errors over {} scenes and their hinges; work a run\n"
-             "  {:<23} latch     phase {:>7} {:>9} {:>9} {:>9} {:>9} {:>10} other fails\n",
-             scenes, "method", "rtol/step", "time", "rate", "moment", "evals", "us");
+             "  {:<23} case       phase {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} other fails\n",
+             scenes, "method", "rtol/step", "time", "rate", "moment", "force", "evals", "us");
 }
 
 /// @param others lines of the file that stay
@@ -309,31 +311,39 @@ void measure_all(const std::vector<Series>& all, const Study& study,
   print_header(study.scenes.size());
   std::string text = header + others;
   for (const Series& series : all) {
-    for (const auto& smoothing : latches)
-      for (const Extent extent : extents) {
-        const std::vector<Point> curve = measure_curve(series, study, smoothing, extent);
-        print_some(curve);
-        for (const Point& point : curve) text += csv_line(point);
-      }
+    if (series.smooth_only && study.of.exact_friction) continue;
+    for (const Extent extent : extents) {
+      const std::vector<Point> curve = measure_curve(series, study, extent);
+      print_some(curve);
+      for (const Point& point : curve) text += csv_line(point);
+    }
     write_file(file, text); // what is done is kept
     std::fflush(stdout);
   }
 }
 
-int carry_out(const Options& options) {
-  const Campaign campaign = read_campaign_file(options.campaign);
-  const std::vector<Series> series = all_series(options.methods);
+/// @return whether its references are sound
+bool study_case(const Options& options, const Case& of, const std::vector<Series>& series) {
+  const Campaign campaign = read_campaign_file(std::string("studies/campaigns/") + of.campaign);
   const long all = options.quick ? 4 : campaign.sampling.runs;
-  Study study{plan_of(options, campaign.integration.t_end),
-              dispersed_scenes(campaign, options.scenes > 0 ? options.scenes : all),
-              {}};
+  Study study{of, plan_of(options, of, campaign.integration.t_end),
+              dispersed_scenes(campaign, options.scenes > 0 ? options.scenes : all)};
   const std::filesystem::path folder = options.out, file = folder / "work_precision.csv";
   make_folder(folder);
-  study.references = find_references(folder / "references.csv", study.scenes, study.plan);
-  measure_all(series, study, file, options.methods.empty() ? "" : lines_of_others(file, series));
-  fmt::print("\n{}\n", file.string());
-  if (!study.references.sound) fmt::print(stderr, "error: the references disagree\n");
-  return study.references.sound ? 0 : 1;
+  find_references(folder, study);
+  measure_all(series, study, file, lines_of_others(file, series, of));
+  return study.sound;
+}
+
+int carry_out(const Options& options) {
+  const std::vector<Series> series = all_series(options.methods);
+  bool sound = true;
+  for (const Case& of : all_cases)
+    if (options.cases.empty() || std::ranges::count(options.cases, of.name) > 0)
+      sound = study_case(options, of, series) && sound;
+  fmt::print("\n{}\n", (std::filesystem::path(options.out) / "work_precision.csv").string());
+  if (!sound) fmt::print(stderr, "error: the references disagree\n");
+  return sound ? 0 : 1;
 }
 
 } // namespace
@@ -342,10 +352,13 @@ int main(int count, char** arguments) {
   Options options;
   CLI::App app(
       "What every integration method costs, and how far it is from independent references");
-  app.add_option("--campaign", options.campaign, "Whose runs are the scenes")
-      ->capture_default_str();
+  std::vector<std::string> cases;
+  for (const Case& of : all_cases) cases.emplace_back(of.name);
+  app.add_option("--cases", options.cases, "Only these, the others' rows stay (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(cases));
   app.add_flag("--quick", options.quick, "4 scenes, 3 tolerances, coarser references");
-  app.add_option("--scenes", options.scenes, "How many of the campaign's runs")
+  app.add_option("--scenes", options.scenes, "How many of each case")
       ->check(CLI::Range(1L, 1'000'000L));
   app.add_option("--out", options.out,
                  "Folder; results/work_precision by default, with --quick …_quick");

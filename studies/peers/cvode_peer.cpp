@@ -82,14 +82,30 @@ struct CvodePeer::Memory {
 
 namespace {
 
+/// What a hinge's peak is of.
+enum class Quantity { moment, force };
+
+/// The peaks of one quantity.
+struct Peaks {
+  Quantity of;
+  std::vector<Peak> highest;  ///< 1 … n
+  std::vector<double> before; ///< 1 … n: at the step's start
+};
+
 /// One run.
 /// @tparam Memory CvodePeer's
 template <class Topology, class Memory> class Run final : public Problem {
 public:
   Run(const Wing<double>& wing, Workspace<double>& work, Memory& memory, const Integration& how,
       const Goal& goal)
-      : system_(wing, how.smoothing, work), memory_(memory), how_(how), goal_(goal),
-        peaks_(system_.layout().bodies + 1), before_(system_.layout().bodies + 1) {}
+      : system_(wing, how.smoothing, work), memory_(memory), how_(how), goal_(goal) {
+    const std::size_t hinges = system_.layout().bodies + 1;
+    if (goal.peak_moment)
+      peaks_.push_back({Quantity::moment, std::vector<Peak>(hinges), std::vector<double>(hinges)});
+    if (goal.peak_force)
+      peaks_.push_back({Quantity::force, std::vector<Peak>(hinges), std::vector<double>(hinges)});
+    system_.want_forces(goal.peak_force);
+  }
 
   [[nodiscard]] Outcome run() {
     start();
@@ -100,7 +116,7 @@ public:
       if (flag < 0) return end(Status::failed, "CVODE's flag " + std::to_string(flag));
       ++out_.work.steps;
       load(memory_.y.get());
-      if (goal_.peak_moment && t_ > from) raise_peaks(from);
+      if (t_ > from) raise_peaks(from);
       if (flag == CV_ROOT_RETURN) engage();
     }
     return end(latches_left() == 0 ? Status::deployed : Status::timed_out, "");
@@ -167,56 +183,69 @@ private:
 
   // ---- peaks
 
-  void raise(int i, double moment, double time) {
-    if (moment > peaks_[i].value) peaks_[i] = {moment, time};
+  /// |M| of hinge i, or its |reaction|, at the state now loaded, N·m or N.
+  [[nodiscard]] double magnitude(Quantity of, int i) const {
+    if (of == Quantity::moment) return std::abs(system_.moment(x_, i));
+    const Vec2<double>& f = system_.work().forces[i];
+    return std::sqrt(dot(f, f));
   }
 
-  /// Takes the moments as they stand at t.
+  static void raise(Peak& peak, double value, double time) {
+    if (value > peak.value) peak = {value, time};
+  }
+
+  /// Takes moments and forces as they stand at t.
   void observe_peaks() {
-    for (int i = 1; i <= layout().bodies; ++i) {
-      before_[i] = std::abs(system_.moment(x_, i));
-      raise(i, before_[i], t_);
-    }
+    if (goal_.peak_force) system_(x_, dxdt_, t_);
+    for (Peaks& peaks : peaks_)
+      for (int i = 1; i <= layout().bodies; ++i) {
+        peaks.before[i] = magnitude(peaks.of, i);
+        raise(peaks.highest[i], peaks.before[i], t_);
+      }
   }
 
-  /// |M| of hinge i at a time inside the last step, by CVODE's interpolant.
-  [[nodiscard]] double moment_at(int i, double time) {
+  /// A quantity at a time inside the last step, by CVODE's interpolant.
+  [[nodiscard]] double value_at(Quantity of, int i, double time) {
     require(CVodeGetDky(cvode(), time, 0, memory_.work.get()), "CVodeGetDky");
     load(memory_.work.get());
-    return std::abs(system_.moment(x_, i));
+    if (of == Quantity::force) system_(x_, dxdt_, time);
+    return magnitude(of, i);
   }
 
-  /// Raises the peaks to what the moments reach in the step from `from` to t.
+  /// Raises the peaks to what is reached in the step from `from` to t.
   void raise_peaks(double from) {
-    const std::vector<Peak> old = peaks_;
-    const std::vector<double> start = before_;
+    const std::vector<Peaks> old = peaks_;
     observe_peaks();
-    for (int i = 1; i <= layout().bodies; ++i)
-      if (std::max(start[i], before_[i]) > 0.5 * old[i].value) look_inside(i, from, start[i]);
+    for (std::size_t k = 0; k < peaks_.size(); ++k)
+      for (int i = 1; i <= layout().bodies; ++i) {
+        const double start = old[k].before[i];
+        if (std::max(start, peaks_[k].before[i]) > 0.5 * old[k].highest[i].value)
+          look_inside(peaks_[k], i, from, start);
+      }
     load(memory_.y.get());
   }
 
-  void look_inside(int i, double from, double at_start) {
+  void look_inside(Peaks& peaks, int i, double from, double at_start) {
     constexpr int parts = 4;
     const double width = (t_ - from) / parts;
     std::array<double, parts + 1> samples{};
-    samples.front() = at_start, samples.back() = before_[i];
-    for (int k = 1; k < parts; ++k) samples[k] = moment_at(i, from + k * width);
+    samples.front() = at_start, samples.back() = peaks.before[i];
+    for (int k = 1; k < parts; ++k) samples[k] = value_at(peaks.of, i, from + k * width);
     const auto best = std::max_element(samples.begin(), samples.end()) - samples.begin();
     const auto middle = std::clamp<std::ptrdiff_t>(best, 1, parts - 1);
     const double a = samples[middle - 1], b = samples[middle], c = samples[middle + 1];
     const double bend = a - 2 * b + c;
     const bool inside = bend < 0 && std::abs(a - c) < -3 * bend;
-    if (!inside || b - (a - c) * (a - c) / (8 * bend) - bend < peaks_[i].value) return;
-    refine(i, from + static_cast<double>(middle) * width, width);
+    if (!inside || b - (a - c) * (a - c) / (8 * bend) - bend < peaks.highest[i].value) return;
+    refine(peaks, i, from + static_cast<double>(middle) * width, width);
   }
 
   /// The maximum within ± width of a time, by Brent's method on the way from there.
-  void refine(int i, double time, double width) {
+  void refine(Peaks& peaks, int i, double time, double width) {
     const auto found = boost::math::tools::brent_find_minima(
-        [&](double s) { return -moment_at(i, std::min(time + s * width, t_)); }, -1.0, 1.0,
+        [&](double s) { return -value_at(peaks.of, i, std::min(time + s * width, t_)); }, -1.0, 1.0,
         std::numeric_limits<double>::digits / 2);
-    raise(i, -found.second, time + found.first * width);
+    raise(peaks.highest[i], -found.second, time + found.first * width);
   }
 
   [[nodiscard]] Outcome end(Status status, std::string reason) {
@@ -224,9 +253,12 @@ private:
     out_.reason = std::move(reason);
     out_.t_end = t_;
     out_.work.rhs_evaluations = system_.work().evaluations;
-    if (goal_.peak_moment) out_.peak_moment.resize(layout().bodies);
-    for (int i = 1; goal_.peak_moment && i <= layout().bodies; ++i)
-      out_.peak_moment[system_.wing().hinge_of[i]] = peaks_[i];
+    for (const Peaks& peaks : peaks_) {
+      auto& told = peaks.of == Quantity::moment ? out_.peak_moment : out_.peak_force;
+      told.resize(layout().bodies);
+      for (int i = 1; i <= layout().bodies; ++i)
+        told[system_.wing().hinge_of[i]] = peaks.highest[i];
+    }
     return std::move(out_);
   }
 
@@ -236,8 +268,7 @@ private:
   const Goal& goal_;
   State<double> x_, dxdt_;
   double t_ = 0;
-  std::vector<Peak> peaks_;    ///< 1 … n
-  std::vector<double> before_; ///< 1 … n: |M| at the step's start, N·m
+  std::vector<Peaks> peaks_; ///< of what is asked for
   Outcome out_;
 };
 

@@ -24,9 +24,9 @@ public:
   CvodePeer& operator=(CvodePeer&&) noexcept;
 
   /// Integrates a deployment as Deployment::run does: of `how` it takes rtol, atol, smoothing,
-  /// t_end and max_steps; of `goal` peak_moment and first_latch_only, and goes to t_end otherwise.
-  /// It yields status, reason, latches, peak moments and the work.
-  /// @pre the scene's base is fixed
+  /// t_end and max_steps; of `goal` peak_moment, peak_force and first_latch_only, and goes to t_end
+  /// otherwise. It yields status, reason, latches, peaks and the work.
+  /// @pre the scene's base is fixed, and no hinge has exact friction
   [[nodiscard]] Outcome run(const Scene& scene, const Integration& how, const Goal& goal);
 
 private:

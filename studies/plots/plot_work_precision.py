@@ -2,7 +2,7 @@
 
     /usr/bin/python3 studies/plots/plot_work_precision.py results/work_precision
 
-To the folder: work_precision_{A,B}_{us,evaluations}.png and .svg, and envelope.csv.
+To the folder: work_precision_{A,B}_{us,evaluations}.png and .svg, the same with _friction, and envelope.csv.
 """
 
 import csv
@@ -14,17 +14,19 @@ from charts import number, plt, save, styles
 from matplotlib.ticker import LogLocator, NullFormatter
 
 PHASES = {"A": ("to the first latch", ("time", "rate")),
-          "B": ("the whole run, with peak moments", ("time", "rate", "moment"))}
+          "B": ("the whole run, with peak moments and forces", ("time", "rate", "moment", "force"))}
 COSTS = {"us": "µs of processor time a run", "evaluations": "right-hand side evaluations a run"}
-QUANTITIES = {"time": "latch times", "rate": "latch rates", "moment": "peak moments"}
-LATCHES = ("event", "smoothed")
+QUANTITIES = {"time": "latch times", "rate": "latch rates", "moment": "peak moments", "force": "peak forces"}
+CASES = {"event": "event latch", "smoothed": "smoothed latch", "rubbing": "harness, regularized friction",
+         "near_stall": "the same, near stall", "sticking": "harness, exact friction"}
+FIGURES = {"": ("event", "smoothed"), "_friction": ("rubbing", "near_stall", "sticking")}  # rows, by the name's end
 LEVELS = [10.0 ** -decade for decade in range(3, 10)]
 FLOOR = 1e-16  # below it an error of doubles means nothing
 
 
 def read_points(path):
     """The rows of work_precision.csv, with numbers as such, by method."""
-    text = ("method", "latch", "phase", "reason")
+    text = ("method", "case", "phase", "reason")
     points = {}
     with open(path, newline="") as file:
         for row in csv.DictReader(file):
@@ -34,19 +36,21 @@ def read_points(path):
     return points
 
 
-def read_disagreement(path):
-    """How far the references of two precisions are apart at most, by latch and quantity."""
+def read_disagreement(folder):
+    """How far the references of two precisions are apart at most, by case and quantity."""
     apart = {}
-    with open(path, newline="") as file:
-        for row in csv.DictReader(file):
-            if row["source"] == "cvode":
-                continue  # a check of another kind: less precise than the references
-            latch = "event" if row["latch"] == "event" else "smoothed"
-            for quantity in QUANTITIES:
-                off = number(row[f"off_{quantity}"])
-                if not math.isnan(off):
-                    key = latch, quantity
-                    apart[key] = max(apart.get(key, 0), off)
+    for case in CASES:
+        path = folder / f"references_{case}.csv"
+        if not path.exists():
+            continue
+        with open(path, newline="") as file:
+            for row in csv.DictReader(file):
+                if row["source"] in ("cvode", "regularized"):
+                    continue  # a check of another kind: less precise than the references
+                for quantity in QUANTITIES:
+                    off = number(row[f"off_{quantity}"])
+                    if not math.isnan(off):
+                        apart[case, quantity] = max(apart.get((case, quantity), 0), off)
     return apart
 
 
@@ -81,9 +85,15 @@ def lowest(values):
     return min((value for value in values if not math.isnan(value)), default=math.nan)
 
 
-def select(points, latch, phase):
-    return {method: [p for p in its if p["latch"] == latch and p["phase"] == phase]
+def select(points, case, phase):
+    return {method: [p for p in its if p["case"] == case and p["phase"] == phase]
             for method, its in points.items()}
+
+
+def measured(points):
+    """The cases that the folder has, in their order."""
+    there = {point["case"] for its in points.values() for point in its}
+    return [case for case in CASES if case in there]
 
 
 def draw_envelope(axes, chosen, error, cost):
@@ -140,15 +150,16 @@ def draw_all_bad(axes, chosen, quantity, style):
         draw_bad(axes, chosen[method], lambda point: point[f"{quantity}_rms"], style[method], row)
 
 
-def draw_figure(points, phase, cost, style, apart, folder):
+def draw_figure(points, phase, cost, cases, style, apart, path):
     title, quantities = PHASES[phase]
-    columns = len(quantities)
-    figure, grid = plt.subplots(2, columns, figsize=(5.2 * columns, 10), squeeze=False, sharey="row")
-    for latch, row in zip(LATCHES, grid):
-        chosen = select(points, latch, phase)
+    columns, rows = len(quantities), len(cases)
+    figure, grid = plt.subplots(rows, columns, figsize=(5.2 * columns, 4.6 * rows + 0.8), squeeze=False, sharey="row")
+    for case, row in zip(cases, grid):
+        chosen = select(points, case, phase)
         for quantity, axes in zip(quantities, row):
-            draw_panel(axes, chosen, quantity, cost, style, apart.get((latch, quantity), 0))
-            axes.set_title(f"{latch} latch: {QUANTITIES[quantity]}", fontsize=10)
+            draw_panel(axes, chosen, quantity, cost, style, apart.get((case, quantity), 0))
+            scenes = int(max((p["scenes"] for its in chosen.values() for p in its), default=0))
+            axes.set_title(f"{CASES[case]}, {scenes} wings: {QUANTITIES[quantity]}", fontsize=10)
             axes.set_xlabel("RMS relative error", fontsize=9)
         low, high = row[0].get_ylim()  # shared by the row
         crossed = sum(any(point["bad"] for point in its) for its in chosen.values())
@@ -156,31 +167,30 @@ def draw_figure(points, phase, cost, style, apart, folder):
         for quantity, axes in zip(quantities, row):
             draw_all_bad(axes, chosen, quantity, style)
         row[0].set_ylabel(COSTS[cost], fontsize=9)
-    scenes = int(max(p["scenes"] for its in points.values() for p in its))
-    figure.suptitle(f"{phase}: {title}; {scenes} dispersed three-panel wings\n"
+    figure.suptitle(f"{phase}: {title}; dispersed three-panel wings\n"
                     "yellow: the lower-left envelope; grey: closer than the references agree\n"
                     "a cross and a hollow mark: so many scenes failed or latched in another order",
                     fontsize=10)
     handles, labels = grid[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncol=min(5, len(labels)), fontsize=9, frameon=False)
-    figure.tight_layout(rect=(0, 0.025 + 0.02 * math.ceil(len(labels) / 5), 1, 0.985))
-    save(figure, folder / f"work_precision_{phase}_{cost}")
+    figure.tight_layout(rect=(0, (0.025 + 0.02 * math.ceil(len(labels) / 5)) * 2 / rows, 1, 0.985))
+    save(figure, path)
 
 
 def worst(point):
-    """The largest of the RMS errors of the three quantities."""
+    """The largest of the RMS errors of the four quantities."""
     return max(point[f"{quantity}_rms"] for quantity in QUANTITIES)
 
 
-def envelope_rows(points):
-    """For each error level, method by method, the µs and evaluations that it takes; phase B, event latch."""
-    chosen = select(points, "event", "B")
+def envelope_rows(points, case):
+    """For each error level, method by method, the µs and evaluations that it takes; phase B."""
+    chosen = {method: its for method, its in select(points, case, "B").items() if its}
     lines = {(m, cost): front(its, worst, cost) for m, its in chosen.items() for cost in COSTS}
     for level in LEVELS:
         at = {key: cost_at(line, level) for key, line in lines.items()}
         best = {cost: lowest(at[m, cost] for m in chosen) for cost in COSTS}
         for method in chosen:
-            yield {"error": level, "method": method, **{cost: at[method, cost] for cost in COSTS},
+            yield {"case": case, "error": level, "method": method, **{cost: at[method, cost] for cost in COSTS},
                    **{f"{cost}_over_best": at[method, cost] / best[cost] for cost in COSTS}}
 
 
@@ -197,12 +207,12 @@ def shown(value, form):
     return "–" if math.isnan(value) else format(value, form)
 
 
-def print_envelope(rows):
+def print_envelope(case, rows):
     methods = list(dict.fromkeys(row["method"] for row in rows))
     by_key = {(row["error"], row["method"]): row for row in rows}
     for cost, title in COSTS.items():
-        print(f"\n{title}, at an RMS error (the largest of time, rate and peak moment) of …; "
-              "whole run, event latch")
+        print(f"\n{title}, at an RMS error (the largest of time, rate, peak moment and force) of …; "
+              f"whole run, {CASES[case]}")
         print(f"{'method':24}" + "".join(f"{level:>9.0e}" for level in LEVELS))
         for method in methods:
             print(f"{method:24}" + "".join(f"{shown(by_key[level, method][cost], '.0f'):>9}" for level in LEVELS))
@@ -211,17 +221,37 @@ def print_envelope(rows):
             print(f"{'auto / best':24}" + "".join(f"{shown(ratio, '.2f'):>9}" for ratio in ratios))
 
 
+def print_tolerances(case, points):
+    """What `auto` and cash_karp54 do at each tolerance: the largest errors, and evaluations."""
+    by_tolerance = {method: {p["tolerance"]: p for p in select(points, case, "B").get(method, [])}
+                    for method in ("auto", "cash_karp54")}
+    print(f"\nauto and cash_karp54 at equal rtol: largest errors, evaluations; whole run, {CASES[case]}")
+    print(f"{'rtol':8}" + "".join(f"{quantity:>10}" for quantity in QUANTITIES) * 2 + "      auto cash_karp54  ratio")
+    for tolerance in sorted(by_tolerance["auto"], reverse=True):
+        both = [by_tolerance[method].get(tolerance) for method in by_tolerance]
+        if None in both:
+            continue
+        errors = "".join(f"{point[f'{quantity}_max']:10.1e}" for point in both for quantity in QUANTITIES)
+        auto, plain = (point["evaluations"] for point in both)
+        print(f"{tolerance:8.0e}{errors}{auto:10.0f}{plain:12.0f}{auto / plain:7.2f}")
+
+
 def main(folder):
     folder = pathlib.Path(folder)
     points = read_points(folder / "work_precision.csv")
-    apart = read_disagreement(folder / "references.csv")
+    apart = read_disagreement(folder)
     style = styles(points)
-    for phase in PHASES:
-        for cost in COSTS:
-            draw_figure(points, phase, cost, style, apart, folder)
-    rows = list(envelope_rows(points))
-    write_envelope(rows, folder / "envelope.csv")
-    print_envelope(rows)
+    there = measured(points)
+    for end, cases in FIGURES.items():
+        drawn = [case for case in cases if case in there]
+        for phase in PHASES if drawn else ():
+            for cost in COSTS:
+                draw_figure(points, phase, cost, drawn, style, apart, folder / f"work_precision_{phase}_{cost}{end}")
+    rows = {case: list(envelope_rows(points, case)) for case in there}
+    write_envelope([row for case in there for row in rows[case]], folder / "envelope.csv")
+    for case in there:
+        print_envelope(case, rows[case])
+        print_tolerances(case, points)
 
 
 if __name__ == "__main__":

@@ -15,19 +15,21 @@ struct Figures {
   std::vector<double> time;   ///< of latching, s
   std::vector<double> rate;   ///< the hinge's own as it latches, rad/s
   std::vector<double> moment; ///< peak, N·m; empty when not asked for
+  std::vector<double> force;  ///< peak, N; empty when not asked for
 };
 
 /// @param outcome core's Outcome, or an oracle's ReferenceOutcome
 template <class AnyOutcome>
 [[nodiscard]] Figures figures_of(const AnyOutcome& outcome, std::size_t hinges) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Figures figures{{}, std::vector(hinges, none), std::vector(hinges, none), {}};
+  Figures figures{{}, std::vector(hinges, none), std::vector(hinges, none), {}, {}};
   for (const auto& latch : outcome.latches) {
     figures.order.push_back(latch.hinge);
     figures.time[latch.hinge] = latch.time;
     figures.rate[latch.hinge] = latch.rates[latch.hinge];
   }
   for (const auto& peak : outcome.peak_moment) figures.moment.push_back(peak.value);
+  for (const auto& peak : outcome.peak_force) figures.force.push_back(peak.value);
   return figures;
 }
 
@@ -47,17 +49,20 @@ struct Errors {
 };
 
 struct FigureErrors {
-  Errors time, rate, moment;
+  Errors time, rate, moment, force;
 
-  /// Adds those of all hinges that latched in `got`, and of all peaks that it has.
+  /// Adds those of all hinges that latched in `got`, and of all peaks that both have.
   /// @pre what latched in `got` latched in `expected`
   void add(const Figures& got, const Figures& expected) {
     for (const int hinge : got.order) {
       time.add(got.time[hinge], expected.time[hinge]);
       rate.add(got.rate[hinge], expected.rate[hinge]);
     }
-    for (std::size_t hinge = 0; hinge < got.moment.size(); ++hinge)
+    for (std::size_t hinge = 0; hinge < std::min(got.moment.size(), expected.moment.size());
+         ++hinge)
       moment.add(got.moment[hinge], expected.moment[hinge]);
+    for (std::size_t hinge = 0; hinge < std::min(got.force.size(), expected.force.size()); ++hinge)
+      force.add(got.force[hinge], expected.force[hinge]);
   }
 };
 

@@ -11,8 +11,7 @@ bool agrees(const Outcome& outcome, const Figures& got, const Figures& expected,
   if (extent == Extent::first_latch)
     return got.order.size() == 1 && !expected.order.empty() && got.order[0] == expected.order[0];
   const bool deploys = std::ssize(expected.order) == latches;
-  return got.order == expected.order &&
-         outcome.status == (deploys ? Status::deployed : Status::timed_out);
+  return got.order == expected.order && (outcome.status == Status::deployed) == deploys;
 }
 
 void score(Measurement& sum, const Scene& scene, const Outcome& outcome, const Figures& expected,
@@ -61,10 +60,9 @@ double best_pass(const Run& run, std::span<const Scene> scenes, const Integratio
 
 Goal goal_of(Extent extent) {
   Goal goal{.peak_moment = false, .peak_force = false, .audit = false};
-  if (extent == Extent::whole)
-    goal.peak_moment = goal.to_t_end = true;
-  else
-    goal.first_latch_only = true;
+  goal.first_latch_only = extent == Extent::first_latch;
+  goal.peak_moment = goal.to_t_end = extent != Extent::first_latch;
+  goal.peak_force = extent == Extent::whole;
   return goal;
 }
 

@@ -17,7 +17,8 @@ using Run = std::function<Outcome(const Scene& scene, const Integration& how, co
 /// How far a run goes, and what is asked of it.
 enum class Extent {
   first_latch, ///< A: to the first latch
-  whole        ///< B: to t_end, with peak moments
+  moments,     ///< to t_end, with peak moments
+  whole        ///< B: to t_end, with peak moments and forces
 };
 [[nodiscard]] Goal goal_of(Extent extent);
 

@@ -15,7 +15,8 @@
 namespace wingspread::study {
 namespace {
 
-constexpr std::array<const char*, 3> source_names{"extended", "quad", "cvode"};
+constexpr std::array<const char*, 4> source_names{"extended", "quad", "cvode", "regularized"};
+constexpr int figures_of_hinge = 4;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns before those of the hinges.
@@ -37,6 +38,17 @@ std::string key_of(const Scene& scene, const ReferenceSettings& how) {
                         {"t_end", how.t_end}});
 }
 
+/// The scene with its exact friction smoothed over a width, rad/s.
+Scene regularized(Scene scene, double width) {
+  for (Hinge& hinge : scene.hinges) {
+    if (hinge.friction.model != FrictionModel::exact) continue;
+    hinge.friction.model = FrictionModel::regularized;
+    hinge.friction.regularization_rate = width;
+    hinge.friction.static_level.reset();
+  }
+  return scene;
+}
+
 Figures run(const Scene& scene, const ReferenceSettings& how) {
   oracle::ReferenceOptions options;
   options.rtol = how.rtol, options.atol = how.atol;
@@ -47,6 +59,9 @@ Figures run(const Scene& scene, const ReferenceSettings& how) {
       return oracle::high_precision_run<long double>(scene, options);
     case Source::quad:
       return oracle::high_precision_run<oracle::Quad>(scene, options);
+    case Source::regularized:
+      options.stiff = true;
+      return oracle::cvode_run(regularized(scene, 1e-6), options);
     case Source::cvode:
       break;
     }
@@ -75,9 +90,11 @@ ReferenceRow parse(const std::vector<std::string>& cells, std::size_t hinges) {
   row.settings.rtol = number(rtol), row.settings.atol = number(atol);
   row.settings.t_end = number(t_end), row.seconds = number(seconds);
   for (std::size_t i = 0; i < hinges; ++i) {
-    row.figures.time.push_back(number(first_figure + 3 * i));
-    row.figures.rate.push_back(number(first_figure + 3 * i + 1));
-    row.figures.moment.push_back(number(first_figure + 3 * i + 2));
+    const std::size_t first = first_figure + figures_of_hinge * i;
+    row.figures.time.push_back(number(first));
+    row.figures.rate.push_back(number(first + 1));
+    row.figures.moment.push_back(number(first + 2));
+    row.figures.force.push_back(number(first + 3));
   }
   row.figures.order = order_of(row.figures.time);
   return row;
@@ -96,7 +113,8 @@ Disagreement disagreement(const Figures& a, const Figures& b) {
   if (a.order != b.order) return {};
   FigureErrors errors;
   errors.add(a, b);
-  return {true, errors.time.largest, errors.rate.largest, errors.moment.largest};
+  return {true, errors.time.largest, errors.rate.largest, errors.moment.largest,
+          errors.force.largest};
 }
 
 ReferenceStore::ReferenceStore(std::filesystem::path file, std::vector<std::string> hinges)
@@ -107,9 +125,9 @@ ReferenceStore::ReferenceStore(std::filesystem::path file, std::vector<std::stri
 std::string ReferenceStore::header() const {
   std::string text = first_columns;
   for (const std::string& hinge : hinges_)
-    for (const char* figure : {"latch_time", "latch_rate", "peak_moment"})
+    for (const char* figure : {"latch_time", "latch_rate", "peak_moment", "peak_force"})
       append_csv_cell(text += ',', fmt::format("{}.{}", hinge, figure));
-  return text + ",order,off_time,off_rate,off_moment\n";
+  return text + ",order,off_time,off_rate,off_moment,off_force\n";
 }
 
 void ReferenceStore::read() {
@@ -155,11 +173,12 @@ void ReferenceStore::append(std::string& text, const ReferenceRow& row,
   std::string order;
   for (const int hinge : row.figures.order) order += (order.empty() ? "" : ">") + hinges_[hinge];
   for (std::size_t i = 0; i < hinges_.size(); ++i)
-    for (const auto* figure : {&row.figures.time, &row.figures.rate, &row.figures.moment})
+    for (const auto* figure :
+         {&row.figures.time, &row.figures.rate, &row.figures.moment, &row.figures.force})
       append_cell(text, (*figure)[i]);
   append_csv_cell(text += ',', order);
   const Disagreement off = primary ? disagreement(row.figures, primary->figures) : Disagreement{};
-  for (const double value : {off.time, off.rate, off.moment})
+  for (const double value : {off.time, off.rate, off.moment, off.force})
     append_cell(text, off.same_order ? value : none);
   text += '\n';
 }

@@ -14,8 +14,9 @@ namespace wingspread::study {
 
 /// Where a reference comes from: tests/support's dense formulation in absolute angles, integrated
 /// by Fehlberg's order 8 in 64 or 113 bits with real steps to every event and peak; or by CVODE
-/// (Adams) in double, with its own root finding and interpolant.
-enum class Source { extended, quad, cvode };
+/// in double, with its own root finding and interpolant: Adams, or for exact friction BDF with the
+/// friction regularized over 1e-6 rad/s, of which it is the limit.
+enum class Source { extended, quad, cvode, regularized };
 [[nodiscard]] const char* to_string(Source source);
 
 /// How a reference is made.
@@ -38,7 +39,7 @@ struct ReferenceRow {
 /// The largest relative differences between two references of one scene.
 struct Disagreement {
   bool same_order = false; ///< else there are no differences to tell
-  double time = 0, rate = 0, moment = 0;
+  double time = 0, rate = 0, moment = 0, force = 0;
 };
 [[nodiscard]] Disagreement disagreement(const Figures& a, const Figures& b);
 
