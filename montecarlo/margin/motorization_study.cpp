@@ -1,6 +1,5 @@
 #include "montecarlo/margin/motorization_study.hpp"
 
-#include "montecarlo/machine/spilled.hpp"
 #include "montecarlo/runs/run_plan.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
@@ -14,8 +13,8 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kinds = margin_kind_names.size();
-/// Of the travel at a time: each has a temporary file for every kind, where there are many draws.
-constexpr std::size_t most_places = 64;
+/// How many bytes of margins are held at a time: of so many places of the travel as that makes.
+constexpr std::size_t most_bytes = std::size_t{1} << 28;
 
 bool is_driven(const Hinge& hinge) {
   return hinge.latch || hinge.spring.torque_stowed != 0 || hinge.spring.torque_latched != 0;
@@ -38,7 +37,7 @@ public:
   /// Once, when all are there.
   [[nodiscard]] std::array<MarginSpread, kinds> finished(std::span<const double> probabilities) {
     for (std::size_t kind = 0; kind < kinds; ++kind) {
-      Spilled<double>& values = values_[kind];
+      std::vector<double>& values = values_[kind];
       MarginSpread& spread = spreads_[kind];
       if (values.empty()) spread.least = none;
       spread.share_short = static_cast<double>(short_[kind]) / static_cast<double>(values.size());
@@ -50,7 +49,7 @@ public:
   }
 
 private:
-  std::array<Spilled<double>, kinds> values_;
+  std::array<std::vector<double>, kinds> values_;
   std::array<MarginSpread, kinds> spreads_;
   std::array<long, kinds> short_{};
 };
@@ -60,6 +59,7 @@ struct HingeStudy {
   const Hinge& nominal;
   const MotorizationTerms& other;
   const MarginSpec& spec;
+  std::int64_t runs; ///< of the campaign, ≥ 1
 
   [[nodiscard]] Margins margins_at(const Hinge& hinge, double x) const {
     return margins_of(terms_at(hinge, x, other), spec);
@@ -100,8 +100,8 @@ struct HingeStudy {
     return places;
   }
 
-  /// The nominal wing's, and the draws'. What is kept of a draw is a number for each place and kind, and lies in
-  /// temporary files where there are many: not the draw's hinges.
+  /// The nominal wing's, and the draws'. What is kept of a draw is a number for each kind and for as many places as
+  /// there is room for: the draws are made again for others.
   /// @param for_each_draw hands on the run's number and the hinge that it makes, draw by draw
   template <class ForEachDraw>
   [[nodiscard]] HingeMotorization study(int hinge, std::span<const double> probabilities,
@@ -117,9 +117,11 @@ struct HingeStudy {
     });
     all.worst_spread = least.finished(probabilities);
     const std::span<TravelPoint> travel = all.travel;
-    for (std::size_t first = 0; first < travel.size(); first += most_places)
-      add_spreads(travel.subspan(first, std::min(most_places, travel.size() - first)),
-                  probabilities, for_each_draw);
+    const std::size_t at_once = std::max<std::size_t>(1, most_bytes / (kinds * sizeof(double)) /
+                                                             static_cast<std::size_t>(runs));
+    for (std::size_t first = 0; first < travel.size(); first += at_once)
+      add_spreads(travel.subspan(first, std::min(at_once, travel.size() - first)), probabilities,
+                  for_each_draw);
     return all;
   }
 
@@ -170,7 +172,8 @@ MotorizationStudy study_motorization(const Campaign& campaign, const Scene& nomi
   MotorizationStudy all;
   for (int hinge = 0; hinge < std::ssize(nominal.hinges); ++hinge) {
     if (!is_driven(nominal.hinges[hinge])) continue;
-    const HingeStudy study{nominal.hinges[hinge], spec.motorization.torques[hinge], spec};
+    const HingeStudy study{nominal.hinges[hinge], spec.motorization.torques[hinge], spec,
+                           campaign.sampling.runs};
     const auto for_each_draw = [&](const auto& take) {
       all.invalid = for_each_scene(
           campaign, [&](long run, const Scene& scene) { take(run, scene.hinges[hinge]); });

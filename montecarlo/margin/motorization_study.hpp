@@ -58,8 +58,8 @@ struct MotorizationStudy {
 
 /// @param nominal the wing without dispersion (the campaign's scene, or with other springs)
 /// @param spec    factors, springs of a hinge, and how many places of the travel
-/// Cost: the campaign's draws twice for each of the hinges (and once more for every 64 places beyond the first), no
-/// integration. Memory: what is long of it lies in temporary files (spilled.hpp).
+/// Cost: the campaign's draws twice for each of the hinges, more often where margins at all places would take more
+/// than 256 MiB; no integration. Memory: that, or 24 bytes a draw.
 [[nodiscard]] MotorizationStudy study_motorization(const Campaign& campaign, const Scene& nominal,
                                                    const MarginSpec& spec);
 
