@@ -98,7 +98,7 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
   std::vector<std::pair<int, int>> tree(scene.hinges.size());
   std::transform(scene.hinges.begin(), scene.hinges.end(), tree.begin(),
                  [](const Hinge& hinge) { return std::pair(hinge.parent, hinge.child); });
-  if (tree != kept_->tree) {
+  if (tree != kept_->tree || !has_room(kept_->wing, scene)) {
     kept_->wing = make_wing<double>(scene, outward_order(scene));
     kept_->tree = std::move(tree);
   }
@@ -127,11 +127,11 @@ Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
   const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
     while (const std::optional<long> name = next(scene)) {
       const std::vector<Fault> faults = unphysical(scene);
-      if (faults.empty()) {
+      if (faults.empty() && has_room(structure, scene)) {
         runs().set_parameters(wing, scene);
         return name;
       }
-      done(*name, invalid(faults));
+      done(*name, faults.empty() ? alone_->run(scene, how_, goal_) : invalid(faults));
     }
     return std::nullopt;
   };

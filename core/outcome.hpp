@@ -91,6 +91,8 @@ struct Outcome {
   std::vector<LatchEvent> latches; ///< in order of time
   std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
   std::vector<Peak> peak_force;    ///< N; empty when not asked for
+  /// How far each hinge turned beyond its stowed angle, rad, ≥ 0; empty when it was not watched.
+  std::vector<double> overtravel;
   /// Whether it is proven that none of these peaks would be exceeded were the run to go on. If not,
   /// `t_end` cut them: they may still rise, or there is no proof, on a base that turns faster and
   /// faster and where a hinge has neither a latch that holds it nor a spring towards a rest.

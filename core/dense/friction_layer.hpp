@@ -53,8 +53,7 @@ template <class T>
     const int r = at.rate(i);
     const T &v0 = step.x[r], &v1 = step.x1[r], &a = step.dxdt1[r], &slip = hinge.slip_rate;
     const T size0 = abs(v0), size1 = abs(v1), change = abs(v1 - v0);
-    const T at_stake =
-        T(0.1) * hinge.regularized_friction / wing.bodies[i].central_inertia * step.h;
+    const T at_stake = T(0.1) * hinge.most_regularized() / wing.bodies[i].central_inertia * step.h;
     const auto matters = at_stake > fused(rtol, larger(size0, size1), atol);
     const T from0 = sqrt(fused(v0, v0, slip * slip)), from1 = sqrt(fused(v1, v1, slip * slip));
     const auto crosses = v0 * v1 < T(0);

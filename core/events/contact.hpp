@@ -55,7 +55,7 @@ template <class T, class AnySystem>
   for (int i = 1; i <= system.layout().bodies; ++i) {
     if (!system.sticks(i)) continue;
     const T friction = system.holding_friction(x, i);
-    if (i == let_go || abs(friction) > slack * system.wing().hinges[i].static_friction)
+    if (i == let_go || abs(friction) > slack * system.static_limit(x, i))
       moves.emplace_back(i, sliding(T(-friction)));
   }
   return moves;
@@ -63,14 +63,15 @@ template <class T, class AnySystem>
 
 /// Those that were at rest and have been let go, but set out against their own friction.
 template <class T, class AnySystem>
-[[nodiscard]] Contacts running_against_friction(const AnySystem& system, const State<T>& dxdt,
+[[nodiscard]] Contacts running_against_friction(const AnySystem& system, const State<T>& x,
+                                                const State<T>& dxdt,
                                                 const std::vector<char>& resting) {
   Contacts moves;
   for (int i = 1; i <= system.layout().bodies; ++i) {
     if (!resting[i] || system.sticks(i)) continue;
     const T along = T(sliding_sense(system, i)) * dxdt[system.layout().rate(i)];
-    const T none = T(release_tolerance) * system.wing().hinges[i].static_friction /
-                   system.wing().bodies[i].central_inertia;
+    const T none =
+        T(release_tolerance) * system.static_limit(x, i) / system.wing().bodies[i].central_inertia;
     if (!(along > -none)) moves.emplace_back(i, Contact::stuck);
   }
   return moves;
@@ -100,7 +101,7 @@ void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T
     detail::Contacts moves = detail::too_weakly_held(system, x, slack, let_go);
     let_go = 0;
     if (moves.empty() || round > together) {
-      const detail::Contacts back = detail::running_against_friction(system, dxdt, resting);
+      const detail::Contacts back = detail::running_against_friction(system, x, dxdt, resting);
       moves.insert(moves.end(), back.begin(), back.end());
     }
     if (moves.empty() || round > most) return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/events/contact.hpp"
+#include "core/events/edge_crossing.hpp"
 #include "core/events/holding.hpp"
 #include "core/events/latches.hpp"
 
@@ -12,15 +13,16 @@
 namespace wingspread {
 
 /// `graze`: nothing happens, but what holds a hinge comes so near its limit that only the method can
-/// tell.
-enum class Event { latch, rest, release, graze };
+/// tell. `edge`: a real hinge comes to an angle at which its law changes.
+enum class Event { latch, rest, release, graze, edge };
 
 /// An event inside a step.
 template <class T> struct Due {
   Event event;
   int hinge;
-  T s;     ///< fraction of the step
-  T slope; ///< of a release's indicator, N·m/s
+  T s;                    ///< fraction of the step
+  T slope;                ///< of a release's indicator, N·m/s
+  Edge edge = Edge::stop; ///< of an edge
 };
 
 /// Finds the events of one run, and brings them about.
@@ -46,6 +48,11 @@ public:
     const auto offer = [&](Event event, int i, const std::optional<T>& s, const T& slope) {
       if (s && (!first || *s < first->s)) first = Due<T>{event, i, *s, slope};
     };
+    for_each_edge(system_, [&](int i, Edge edge) {
+      if (system_.sticks(i)) return;
+      const std::optional<T> s = first_crossing(system_, step, i, edge);
+      if (s && (!first || *s < first->s)) first = Due<T>{Event::edge, i, *s, T(0), edge};
+    });
     for (int i = 1; i <= system_.layout().bodies; ++i) {
       if (latches_.may_engage(i)) offer(Event::latch, i, latches_.first_engagement(step, i), T(0));
       if (sliding_sense(system_, i) != 0) offer(Event::rest, i, first_rest(system_, step, i), T(0));
@@ -62,16 +69,25 @@ public:
   /// What reaches 0 from below at the event, and its rate, at the end of a step just made.
   struct Indicator {
     T value, slope;
+    T bend = T(0); ///< the slope's rate, where that is known
   };
   [[nodiscard]] Indicator indicator(const Due<T>& due, const Step<T>& step) const {
     const int i = due.hinge;
     switch (due.event) {
     case Event::latch:
-      return {latches_.gap(step.x1, i), latches_.gap_rate(step.x1, i)};
+      return {latches_.gap(step.x1, i), latches_.gap_rate(step.x1, i),
+              latches_.gap_rate(step.dxdt1, i)};
     case Event::rest: {
       const int r = system_.layout().rate(i);
       const T against(-sliding_sense(system_, i));
       return {against * step.x1[r], against * step.dxdt1[r]};
+    }
+    case Event::edge: {
+      const T way(way_over(system_, i, due.edge));
+      const T angle = edge_angle(system_.wing(), i, due.edge);
+      const Layout& at = system_.layout();
+      return {way * (step.x1[at.angle(i)] - angle), way * step.x1[at.rate(i)],
+              way * step.dxdt1[at.rate(i)]};
     }
     case Event::release:
     case Event::graze:
@@ -90,6 +106,9 @@ public:
     const int resting = due && due->event == Event::rest ? due->hinge : 0;
     const bool engaged = latches_.engage_those_there(latching, step, latches);
     const bool rested = rest_those_there(system_, resting, step);
+    if (due && due->event == Event::edge) // exactly there: settle_edges takes it from here
+      step.x[system_.layout().angle(due->hinge)] =
+          edge_angle(system_.wing(), due->hinge, due->edge);
     return (due && due->event != Event::graze) || engaged || rested;
   }
 

@@ -117,7 +117,7 @@ private:
     }
     if constexpr (M == BaseMotion::prescribed) { // accelerations are constant
       const BaseTerms<T>& given = system.wing().base;
-      base.hinge.second = length(given.acceleration);
+      base.hinge.second = length(given.felt());
       base.path = turn_of_base(given, step);
     }
     base.turn(derivative_bounds(base.path, scale));

@@ -48,7 +48,7 @@ public:
         system(x, dxdt, step.t + s * step.h);
         return excess(system, x, i);
       };
-      const auto found = release_of(excess_at, i, system.wing().hinges[i].static_friction, step.h);
+      const auto found = release_of(excess_at, i, system.static_limit(step.x, i), step.h);
       if (found && (!first || found->s < first->s)) first = found;
     }
     system(step.x1, dxdt, step.t + step.h);
@@ -60,7 +60,7 @@ public:
   [[nodiscard]] static T excess(const AnySystem& system, const State<T>& x, int i) {
     using std::abs;
     return abs(system.holding_friction(x, i)) -
-           T(1 + 2 * release_tolerance) * system.wing().hinges[i].static_friction;
+           T(1 + 2 * release_tolerance) * system.static_limit(x, i);
   }
 
 private:

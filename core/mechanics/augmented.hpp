@@ -166,13 +166,16 @@ void factorize_all(const Wing<T>& wing, const Topology& tree, Augmented<T>& part
 }
 
 /// (10), (12), then what the base does: by (7) when it is free; when the wing moves, as its frame
-/// says; else nothing. @param tau tau(i), N·m
+/// says; else nothing. @param tau tau(i), N·m; 0: on a free base, of a wing that moves
+/// @param pull force on a free base from outside, N
 template <bool moving, BaseMotion M, class T, class Topology, class Moment>
-void load_all(const Topology& tree, Augmented<T>& parts, Moment&& tau) {
+void load_all(const Topology& tree, Augmented<T>& parts, Moment&& tau,
+              const Vec2<T>& pull = {T(0), T(0)}) {
   tree.inward([&](int i) { load<moving>(tree, parts.frames, parts.bodies, i, T(tau(i))); });
   AugmentedFrame<T>& base = parts.bodies[0];
   if constexpr (M == BaseMotion::free) {
-    load<moving>(tree, parts.frames, parts.bodies, 0, T(0));
+    load<moving>(tree, parts.frames, parts.bodies, 0, moving ? T(tau(0)) : T(0));
+    base.b = base.b - pull;
     accelerate_free_base(base);
   } else {
     base.acceleration = moving ? parts.frames[0].acceleration : Vec2<T>{T(0), T(0)};

@@ -66,33 +66,55 @@ template <class T, class Topology, BaseMotion M>
   return sum;
 }
 
-/// Velocity of the base's origin; a prescribed base is taken to start at rest.
-template <class T, class Topology, BaseMotion M>
-[[nodiscard]] Vec2<T> base_velocity(const System<T, Topology, M>& system, const State<T>& x,
-                                    const T& t) {
-  const int v = system.layout().freedoms();
-  if constexpr (M == BaseMotion::free) return {x[v], x[v + 1]};
-  if constexpr (M == BaseMotion::prescribed) return scaled(t, system.wing().base.acceleration);
-  return {T(0), T(0)};
-}
-
 /// Kinetic energy in inertial axes, J.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T kinetic_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
   const TotalMotion<T> now = total_motion(system, x, t);
-  const Vec2<T> v = base_velocity(system, x, t);
+  const Vec2<T> v = system.base_velocity(x, t);
   return now.kinetic + dot(v, now.linear) + T(0.5) * now.mass * dot(v, v);
 }
 
-/// Springs', harnesses' and engaged latches' potential, each zero at its latched angle, J. A
-/// smoothed latch counts with the weight it has.
+/// Potential of hinge i, J: spring and harness, zero at the latched angle, stop and engaged latch.
 template <class T, class Topology, BaseMotion M>
-[[nodiscard]] T potential_energy(const System<T, Topology, M>& system, const State<T>& x) {
-  const Layout& at = system.layout();
+[[nodiscard]] T hinge_potential(const System<T, Topology, M>& system, const State<T>& x, int i) {
+  const T& angle = x[system.layout().angle(i)];
+  const Wing<T>& wing = system.wing();
+  const LinearLaw<T> open = linear_law(wing.hinges[i], false);
+  if (wing.real.empty()) return potential(system.law_without_friction(i), angle);
+  const T own = potential(open, angle) + real_potential(wing.real[i], wing.hinges[i].latched, angle,
+                                                        system.work().modes[i].in_contact);
+  return own + system.latch_energy(x, i);
+}
+
+/// Of all loops, J.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] T loops_energy(const System<T, Topology, M>& system, const State<T>& x) {
   T sum(0);
+  for (const LoopTerms<T>& loop : system.wing().loops)
+    sum = sum + loop_energy(loop, system.state_of(loop, x).elastic);
+  return sum;
+}
+
+/// −Σ m g·r of all that moves, r from the base's origin; with a free base from where the axes have
+/// theirs, J. Places the system.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] T gravity_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+  const Vec2<T>& g = system.wing().base.gravity;
+  if (g.x == T(0) && g.y == T(0)) return T(0);
+  const TotalMotion<T> now = total_motion(system, x, t);
+  if constexpr (M == BaseMotion::free)
+    return -dot(g, fused(now.mass, Vec2<T>{x[0], x[1]}, now.first_moment));
+  return -dot(g, now.first_moment);
+}
+
+/// Of hinges, loops and gravity, J. A smoothed latch counts with the weight it has.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] T potential_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
+  const Layout& at = system.layout();
+  T sum = loops_energy(system, x) + gravity_energy(system, x, t);
   for (int i = 1; i <= at.bodies; ++i) {
     const T& angle = x[at.angle(i)];
-    sum = sum + potential(system.law_without_friction(i), angle);
+    sum = sum + hinge_potential(system, x, i);
     if (at.smoothed) {
       const T y = angle - system.wing().hinges[i].latched;
       sum = sum + T(0.5) * system.wing().hinges[i].stiffness * y * y *
@@ -114,11 +136,11 @@ template <class T, class Topology>
                                      const State<T>& x, const T& t) {
   const TotalMotion<T> now = total_motion(system, x, t);
   return {Vec2<T>{x[0], x[1]} + now.center(),
-          base_velocity(system, x, t) + scaled(T(1) / now.mass, now.linear), now.spin()};
+          system.base_velocity(x, t) + scaled(T(1) / now.mass, now.linear), now.spin()};
 }
 
 /// Gives a free system at time t exactly what it keeps, by moving the whole as one rigid body: the
-/// centre of mass to its straight line, the momenta to what they were; relative angles and rates
+/// centre of mass to its way of free fall, the momenta to what they are on it; relative angles and rates
 /// stay. Projection onto invariants [Hairer, Lubich & Wanner, Geometric Numerical Integration,
 /// IV.4]: its size is the step's own error, so the order is kept.
 template <class T, class Topology>
@@ -128,8 +150,9 @@ void keep_momentum(System<T, Topology, BaseMotion::free>& system, const Conserve
   const Vec2<T> center = now.center();
   const T rate = (kept.spin - now.spin()) / now.central_inertia();
   const Vec2<T> linear = scaled(T(1) / now.mass, now.linear);
-  const Vec2<T> position = fused(t, kept.velocity, kept.start) - center;
-  const Vec2<T> velocity = (kept.velocity - linear) - scaled(rate, turned(center));
+  const Vec2<T> fall = scaled(t, system.wing().base.gravity);
+  const Vec2<T> position = fused(t, fused(T(0.5), fall, kept.velocity), kept.start) - center;
+  const Vec2<T> velocity = (kept.velocity + fall - linear) - scaled(rate, turned(center));
   const int v = system.layout().freedoms();
   x[0] = position.x, x[1] = position.y;
   x[v] = velocity.x, x[v + 1] = velocity.y, x[v + 2] = x[v + 2] + rate;

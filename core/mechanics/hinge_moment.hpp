@@ -20,6 +20,8 @@
 
 #include "core/mechanics/wing.hpp"
 
+#include <optional>
+
 namespace wingspread {
 
 /// The linear part of a hinge's moment while its latch keeps its state:
@@ -32,12 +34,17 @@ template <class T> struct LinearLaw {
 };
 
 /// @param friction of a sliding hinge, N·m
+/// @param side from where on the engaged latch bears, less the latched angle: −β/2 or β/2 of its
+///             backlash, rad; none where it bears on neither side
 template <class T>
 [[nodiscard]] LinearLaw<T> linear_law(const HingeTerms<T>& hinge, bool engaged,
-                                      const T& friction = T(0)) {
-  const T k = engaged ? hinge.stiffness : T(0);
-  const T d = engaged ? hinge.damping : T(0);
-  return {hinge.latched, hinge.drive + friction, k - hinge.drive_slope, d + hinge.viscous};
+                                      const T& friction = T(0),
+                                      const std::optional<T>& side = T(0)) {
+  const bool bears = engaged && side.has_value();
+  const T k = bears ? hinge.stiffness : T(0);
+  const T d = bears ? hinge.damping : T(0);
+  return {hinge.latched, hinge.drive + friction + (bears ? k * *side : T(0)), k - hinge.drive_slope,
+          d + hinge.viscous};
 }
 
 template <class T>

@@ -23,7 +23,7 @@ template <BaseMotion M, class T>
     const BaseTerms<T>& given = wing.base;
     base.rate = fused(given.angular_acceleration, t, given.rate);
     base.angle = fused(t, fused(T(0.5) * given.angular_acceleration, t, given.rate), given.angle);
-    base.acceleration = given.acceleration;
+    base.acceleration = given.felt();
     base.angular_acceleration = given.angular_acceleration;
   }
   if constexpr (M == BaseMotion::free) {

@@ -1,11 +1,20 @@
 /// Linear solves with a wing's mass matrix M, by the recursion itself: O(n), no matrix.
 ///
-///     (M + E) q̈ = τ,    E diagonal over the hinges                                             (1)
+///     (M + E + Σ c_l v_l v_lᵀ) q̈ = τ,    E diagonal over the hinges                            (1)
 ///
-/// A hinge that sticks does not move. Whoever solves owns the storage.
+/// A hinge that sticks does not move. v_l: what loop l does at its two hinges. With A = M + E, V of
+/// the columns v_l and C = diag(c_l) [Sherman, Morrison & Woodbury]
+///
+///     q̈ = q̈_0 − Z (E2 + C VᵀZ)⁻¹ C Vᵀ q̈_0,    q̈_0 = A⁻¹τ,   Z = A⁻¹V                           (2)
+///
+/// so that a loop costs a solve more with each factorization. Whoever solves owns the storage.
 #pragma once
 
 #include "core/mechanics/system.hpp"
+
+#include <Eigen/LU>
+
+#include <vector>
 
 namespace wingspread {
 
@@ -30,7 +39,37 @@ template <class T, class Topology, BaseMotion M>
     r.damping = fused(weight, hinge.damping, r.damping);
     r.stiffness = fused(weight, hinge.stiffness, r.stiffness);
   }
+  if (!system.wing().real.empty()) {
+    const RealResistance<T> real = real_resistance(system.wing().real[i], system.work().modes[i],
+                                                   x[at.angle(i)], x[at.rate(i)]);
+    r.damping = larger(T(r.damping + real.damping), T(0));
+    r.stiffness = larger(T(r.stiffness + real.stiffness), T(0));
+  }
   return r;
+}
+
+/// A loop in the linear model: its stiffness and damping, and v of (1).
+template <class T> struct LoopResistance {
+  int first, second; ///< bodies
+  T on_first, on_second;
+  T damping, stiffness;
+
+  /// vᵀ of numbers of the hinges.
+  template <class Of> [[nodiscard]] T along(Of&& of) const {
+    return fused(on_first, T(of(first)), on_second * T(of(second)));
+  }
+};
+
+template <class T, class Topology, BaseMotion M>
+void loop_resistances(const System<T, Topology, M>& system, const State<T>& x,
+                      std::vector<LoopResistance<T>>& loops) {
+  loops.clear();
+  for (const LoopTerms<T>& loop : system.wing().loops) {
+    const LoopState<T> state = system.state_of(loop, x);
+    const T share = taut_share(loop, state.elastic);
+    loops.push_back({loop.first, loop.second, on_first(loop, state.gear), on_second(loop),
+                     share * loop.damping, share * loop.stiffness});
+  }
 }
 
 template <class T> class LinearSolve {
@@ -43,18 +82,73 @@ public:
     factorize_with(system, x, t, [&](int i) {
       return HingeConstraint<T>{added(i), system.sticks(i)};
     });
+    loops_.clear();
+  }
+
+  /// Adds the loops to the last factorization, with c = weight(loop). Cost a solve each.
+  template <class Topology, BaseMotion M, class Weight>
+  void add_loops(const System<T, Topology, M>& system, const std::vector<LoopResistance<T>>& loops,
+                 Weight&& weight) {
+    const int count = static_cast<int>(loops.size()), size = system.layout().freedoms();
+    columns_.resize(count);
+    weights_.resize(count);
+    for (int l = 0; l < count; ++l) {
+      const LoopResistance<T>& loop = loops[l];
+      weights_[l] = weight(loop);
+      columns_[l].resize(size);
+      solve_without_loops(
+          system,
+          [&](int i) {
+            return i == loop.first ? loop.on_first : i == loop.second ? loop.on_second : T(0);
+          },
+          columns_[l].data());
+    }
+    loops_ = loops;
+    if (count == 0) return;
+    Square small = Square::Identity(count, count);
+    for (int l = 0; l < count; ++l)
+      for (int m = 0; m < count; ++m)
+        small(l, m) += weights_[l] * along<M>(loops[l], columns_[m].data());
+    small_.compute(small);
+    right_.resize(count);
   }
 
   /// Factorizes M at (x, t) as if no hinge stuck: for what is to hold once any of them slips.
   template <class Topology, BaseMotion M>
   void factorize_unlocked(const System<T, Topology, M>& system, const State<T>& x, const T& t) {
     factorize_with(system, x, t, [](int) { return HingeConstraint<T>{}; });
+    loops_.clear();
   }
 
   /// Solves (1) with the last factorization: τ(i) of the hinges, none on a free base.
   /// @param qdd freedoms() numbers: those of a free base first
   template <class Topology, BaseMotion M, class Moment>
   void solve(const System<T, Topology, M>& system, Moment&& tau, T* qdd) {
+    solve_without_loops(system, tau, qdd);
+    if (loops_.empty()) return;
+    for (std::size_t l = 0; l < loops_.size(); ++l)
+      right_(static_cast<int>(l)) = weights_[l] * along<M>(loops_[l], qdd);
+    right_ = small_.solve(right_).eval();
+    for (std::size_t l = 0; l < loops_.size(); ++l)
+      for (std::size_t k = 0; k < columns_[l].size(); ++k)
+        qdd[k] = fused(T(-right_(static_cast<int>(l))), columns_[l][k], qdd[k]);
+  }
+
+  /// Where the bodies were at the last factorization, 0 … n.
+  [[nodiscard]] const std::vector<BodyFrame<T>>& frames() const { return parts_.frames; }
+
+private:
+  using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+  using Column = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+  /// vᵀq̈.
+  template <BaseMotion M>
+  [[nodiscard]] static T along(const LoopResistance<T>& loop, const T* qdd) {
+    return loop.along([&](int i) { return qdd[base_freedoms<M> + i - 1]; });
+  }
+
+  template <class Topology, BaseMotion M, class Moment>
+  void solve_without_loops(const System<T, Topology, M>& system, Moment&& tau, T* qdd) {
     load_all<false, M>(system.topology(), parts_, tau);
     if constexpr (M == BaseMotion::free) {
       const AugmentedFrame<T>& base = parts_.bodies[0];
@@ -67,10 +161,6 @@ public:
     });
   }
 
-  /// Where the bodies were at the last factorization, 0 … n.
-  [[nodiscard]] const std::vector<BodyFrame<T>>& frames() const { return parts_.frames; }
-
-private:
   /// @param constraint constraint(i) of hinge i
   template <class Topology, BaseMotion M, class Constraint>
   void factorize_with(const System<T, Topology, M>& system, const State<T>& x, const T& t,
@@ -83,6 +173,11 @@ private:
   }
 
   Augmented<T> parts_;
+  std::vector<LoopResistance<T>> loops_; ///< of the last factorization
+  std::vector<T> weights_;               ///< c
+  std::vector<State<T>> columns_;        ///< Z
+  Eigen::PartialPivLU<Square> small_;    ///< E2 + C VᵀZ
+  Column right_;
 };
 
 } // namespace wingspread

@@ -1,6 +1,8 @@
 /// The right-hand side of a wing's equations of motion.
 #pragma once
 
+#include "core/mechanics/air_loads.hpp"
+#include "core/mechanics/edges.hpp"
 #include "core/mechanics/kinematics.hpp"
 #include "core/mechanics/workspace.hpp"
 
@@ -25,6 +27,11 @@ public:
     work_.laws.resize(n + 1);
     work_.nonlinear.resize(n + 1);
     work_.held.resize(n);
+    work_.modes.assign(wing_.real.size(), {T(0), T(0), T(0)});
+    work_.above.assign(wing_.real.size(), {});
+    work_.air_moments.assign(wing_.plates.size(), T(0));
+    work_.air_forces.assign(wing_.plates.size(), {T(0), T(0)});
+    work_.velocities.assign(wing_.plates.size(), {T(0), T(0)});
     reset();
   }
 
@@ -36,6 +43,20 @@ public:
     work_.stuck = 0;
     work_.evaluations = 0;
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
+  }
+
+  /// A run begins at x: which side of its edges every real hinge is on.
+  void find_sides(const State<T>& x) {
+    for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i) {
+      for (int e = 0; e < edges_of_hinge; ++e)
+        work_.above[i][e] = x[layout_.angle(i)] > edge_angle(wing_, i, static_cast<Edge>(e));
+      update_law(i);
+    }
+  }
+  /// Records that hinge i has passed an edge, upwards or downwards.
+  void pass(int i, Edge edge, bool upwards) {
+    work_.above[i][static_cast<int>(edge)] = upwards;
+    update_law(i);
   }
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
@@ -66,6 +87,10 @@ public:
   /// Records that hinge i has passed its latched angle; an event latch acts from now on.
   void engage(int i) {
     work_.engaged[i] = true;
+    if (wing_.is_real() && !wing_.real.empty()) { // in the middle of its backlash
+      work_.above[i][static_cast<int>(Edge::backlash_low)] = true;
+      work_.above[i][static_cast<int>(Edge::backlash_high)] = false;
+    }
     update_law(i);
   }
 
@@ -76,10 +101,22 @@ public:
     update_law(i);
   }
   [[nodiscard]] bool sticks(int i) const { return work_.contact[i] == Contact::stuck; }
+  /// Whether hinge i has an event latch, and it has engaged.
+  [[nodiscard]] bool latch_acts(int i) const {
+    return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
+  }
 
   /// The hinge's law as its latch now stands, without friction: what has a potential.
   [[nodiscard]] LinearLaw<T> law_without_friction(int i) const {
-    return linear_law(wing_.hinges[i], latch_acts(i));
+    return linear_law(wing_.hinges[i], latch_acts(i), T(0), backlash_side(i));
+  }
+
+  /// What an engaged latch of a real hinge has stored, by its backlash's side, J.
+  [[nodiscard]] T latch_energy(const State<T>& x, int i) const {
+    const std::optional<T> side = backlash_side(i);
+    if (!latch_acts(i) || !side) return T(0);
+    const T y = x[layout_.angle(i)] - wing_.hinges[i].latched - *side;
+    return T(0.5) * wing_.hinges[i].stiffness * y * y;
   }
 
   /// Kinematics alone: places every body in the workspace's frames.
@@ -101,8 +138,30 @@ public:
   /// What the moment of hinge i is without the friction that holds it, N·m.
   [[nodiscard]] T sliding_moment(const State<T>& x, int i) const {
     const T linear = linear_moment(work_.laws[i], x[layout_.angle(i)], x[layout_.rate(i)]);
-    return wing_.has_regularized_friction || layout_.smoothed ? linear + nonlinear_moment(x, i)
-                                                              : linear;
+    return wing_.is_nonlinear() || layout_.smoothed
+               ? linear + (nonlinear_moment(x, i) + loops_moment(x, i))
+               : linear;
+  }
+
+  /// The most that exact friction can hold at hinge i at this angle, N·m.
+  [[nodiscard]] T static_limit(const State<T>& x, int i) const {
+    const T& limit = wing_.hinges[i].static_friction;
+    if (wing_.real.empty() || wing_.real[i].regularized) return limit;
+    return limit + measured_friction(wing_.real[i], x[layout_.angle(i)]);
+  }
+
+  /// Velocity of the base's origin; a prescribed base is taken to start at rest.
+  [[nodiscard]] Vec2<T> base_velocity(const State<T>& x, const T& t) const {
+    const int v = layout_.freedoms();
+    if constexpr (M == BaseMotion::free) return {x[v], x[v + 1]};
+    if constexpr (M == BaseMotion::prescribed) return scaled(t, wing_.base.acceleration);
+    return {T(0), T(0)};
+  }
+
+  /// Where a loop stands at x.
+  [[nodiscard]] LoopState<T> state_of(const LoopTerms<T>& loop, const State<T>& x) const {
+    return loop_state(loop, x[layout_.angle(loop.first)], x[layout_.rate(loop.first)],
+                      x[layout_.angle(loop.second)], x[layout_.rate(loop.second)]);
   }
 
   /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
@@ -131,16 +190,34 @@ private:
   static constexpr int first_coordinate = base_freedoms<M>; ///< φ_1 in q
   [[nodiscard]] int freedoms() const { return first_coordinate + topology().bodies(); }
 
-  [[nodiscard]] bool latch_acts(int i) const {
-    return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
-  }
-
   void update_law(int i) {
     const Contact contact = work_.contact[i];
     const T friction = contact == Contact::forward    ? -wing_.hinges[i].kinetic_friction
                        : contact == Contact::backward ? wing_.hinges[i].kinetic_friction
                                                       : T(0);
-    work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction);
+    if constexpr (is_one_number<T>)
+      if (!wing_.real.empty()) update_mode(i, contact);
+    work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction, backlash_side(i));
+  }
+
+  void update_mode(int i, Contact contact) {
+    const RealHingeTerms<T>& real = wing_.real[i];
+    const auto above = [&](Edge edge) { return work_.above[i][static_cast<int>(edge)] != 0; };
+    const bool acts = !real.has_window || (above(Edge::window_low) && !above(Edge::window_high));
+    work_.modes[i] = {T(touches_stop(wing_, i, above(Edge::stop)) ? 1 : 0), T(acts ? 1 : 0),
+                      contact == Contact::stuck ? T(0) : T(static_cast<int>(contact))};
+  }
+
+  /// β/2 towards the side on which an engaged latch bears, from the latched angle; 0 without
+  /// backlash. None while it bears on neither.
+  [[nodiscard]] std::optional<T> backlash_side(int i) const {
+    if (wing_.real.empty() || !latch_acts(i)) return T(0);
+    const T& half = wing_.real[i].half_backlash;
+    if (!wing_.real[i].has_backlash) return T(0);
+    const auto& above = work_.above[i];
+    if (above[static_cast<int>(Edge::backlash_high)] != 0) return half;
+    if (above[static_cast<int>(Edge::backlash_low)] == 0) return T(-half);
+    return std::nullopt;
   }
 
   /// The right-hand side with hinges locked by friction; leaves what holds them in the workspace.
@@ -148,40 +225,69 @@ private:
     Augmented<T>& parts = work_.held;
     place_base<M>(wing_, layout_, parts.frames[0], x, t);
     place_bodies<M>(wing_, topology(), parts.frames, x);
-    apply_moments(parts.frames, x);
+    apply_moments(parts.frames, x, t);
     factorize_all<M>(wing_, topology(), parts, [&](int i) {
       return HingeConstraint<T>{T(0), sticks(i)};
     });
-    load_all<true, M>(topology(), parts, [&](int i) { return parts.frames[i].moment; });
+    load_all<true, M>(
+        topology(), parts, [&](int i) { return parts.frames[i].moment; },
+        wing_.plates.empty() ? Vec2<T>{T(0), T(0)} : work_.air_forces[0]);
     if constexpr (M == BaseMotion::free) copy_base(parts.bodies[0], dxdt);
     topology().outward([&](int i) {
       dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology(), parts.frames, parts.bodies, i);
       const T& parents = parts.bodies[topology().parent_of(i)].angular_acceleration;
       work_.holding[i] = axis_moment(parts.bodies[i], parents);
+      if (!wing_.plates.empty()) work_.holding[i] = work_.holding[i] - work_.air_moments[i];
       if (wants_forces_) work_.forces[i] = augmented_force(parts.bodies[i], parents);
     });
+    if (wants_forces_) take_air_from_forces();
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
   }
 
   template <class Frames>
-  [[gnu::always_inline]] void apply_moments(Frames& frames, const State<T>& x) {
+  [[gnu::always_inline]] void apply_moments(Frames& frames, const State<T>& x, const T& t) {
     const T* const angles = x.data() + first_coordinate;
     const T* const rates = angles + freedoms();
     const LinearLaw<T>* const laws = work_.laws.data();
     topology().outward([&](int i) __attribute__((always_inline)) {
       frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
     });
-    if (!wing_.has_regularized_friction && !layout_.smoothed) return;
-    find_nonlinear_moments(x);
-    topology().outward([&](int i) __attribute__((always_inline)) {
-      frames[i].moment = frames[i].moment + work_.nonlinear[i];
-    });
+    if (wing_.is_nonlinear() || layout_.smoothed) {
+      find_nonlinear_moments(x);
+      topology().outward([&](int i) __attribute__((always_inline)) {
+        frames[i].moment = frames[i].moment + work_.nonlinear[i];
+      });
+    }
+    if (!wing_.plates.empty()) {
+      find_air_loads(wing_, topology(), frames.data(), base_velocity(x, t), work_);
+      for (int i = M == BaseMotion::free ? 0 : 1; i <= layout_.bodies; ++i)
+        frames[i].moment = frames[i].moment + work_.air_moments[i];
+    }
   }
 
-  /// What friction and smoothed latches add, apart from the frames so that these stay in registers.
+  /// What is not linear, apart from the frames so that these stay in registers.
   [[gnu::noinline]] void find_nonlinear_moments(const State<T>& x) {
     for (int i = 1; i <= layout_.bodies; ++i) work_.nonlinear[i] = nonlinear_moment(x, i);
+    for (const LoopTerms<T>& loop : wing_.loops) {
+      const LoopState<T> state = state_of(loop, x);
+      const T torque = loop_torque(loop, state);
+      T &a = work_.nonlinear[loop.first], &b = work_.nonlinear[loop.second];
+      a = fused(on_first(loop, state.gear), torque, a);
+      b = fused(on_second(loop), torque, b);
+    }
+  }
+
+  /// What the loops do at hinge i, N·m.
+  [[nodiscard]] T loops_moment(const State<T>& x, int i) const {
+    T sum(0);
+    for (const LoopTerms<T>& loop : wing_.loops) {
+      if (loop.first != i && loop.second != i) continue;
+      const LoopState<T> state = state_of(loop, x);
+      sum = fused(loop.first == i ? on_first(loop, state.gear) : on_second(loop),
+                  loop_torque(loop, state), sum);
+    }
+    return sum;
   }
 
   [[nodiscard]] T nonlinear_moment(const State<T>& x, int i) const {
@@ -191,6 +297,8 @@ private:
     if (layout_.smoothed && wing_.hinges[i].has_latch)
       m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)],
                                     epsilon_);
+    if (!wing_.real.empty())
+      m = m + real_moment(wing_.real[i], work_.modes[i], x[layout_.angle(i)], rate);
     return m;
   }
 
@@ -209,7 +317,7 @@ private:
                                        const T& t) {
     place_base<M>(wing_, layout_, frames[0], x, t);
     place_bodies<M>(wing_, topology(), frames, x);
-    apply_moments(frames, x);
+    apply_moments(frames, x, t);
     topology().inward([&](int i)
                           __attribute__((always_inline)) { gather(wing_, topology(), frames, i); });
     accelerate_base(frames, dxdt);
@@ -223,6 +331,14 @@ private:
       topology().outward([&](int i) __attribute__((always_inline)) {
         work_.forces[i] = hinge_force(frames[i]);
       });
+    if (forces && wants_forces_) take_air_from_forces();
+  }
+
+  /// The hinges need not push what the air does.
+  void take_air_from_forces() {
+    if (wing_.plates.empty()) return;
+    for (int i = 1; i <= layout_.bodies; ++i)
+      work_.forces[i] = work_.forces[i] - work_.air_forces[i];
   }
 
   template <class Frames>
@@ -230,6 +346,7 @@ private:
     if constexpr (M == BaseMotion::free) {
       BodyFrame<T>& base = frames[0];
       gather(wing_, topology(), frames, 0);
+      if (!wing_.plates.empty()) base.bias = base.bias - work_.air_forces[0];
       accelerate_free_base(base);
       copy_base(base, dxdt);
     }
@@ -239,7 +356,8 @@ private:
   template <class Frame>
   [[gnu::always_inline]] void copy_base(const Frame& base, State<T>& dxdt) const {
     const int v = layout_.freedoms();
-    dxdt[v] = base.acceleration.x, dxdt[v + 1] = base.acceleration.y;
+    dxdt[v] = base.acceleration.x + wing_.base.gravity.x;
+    dxdt[v + 1] = base.acceleration.y + wing_.base.gravity.y;
     dxdt[v + 2] = base.angular_acceleration;
   }
 

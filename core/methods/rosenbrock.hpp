@@ -100,13 +100,21 @@ public:
       added_[i] = eta * (hinge.damping + spring_[i]);
     }
     linear_.factorize(system, from.x, from.t, [&](int i) { return added_[i]; });
+    if (system.wing().loops.empty()) return;
+    loop_resistances(system, from.x, loops_);
+    linear_.add_loops(system, loops_, [&](const LoopResistance<T>& loop) {
+      return eta * fused(eta, loop.stiffness, loop.damping);
+    });
   }
 
   /// R ← (1 − ηJ)⁻¹ R. Cost about half an evaluation.
   template <class System> void solve(System& system, State<T>& R) {
     const Layout& at = system.layout();
     linear_.solve(
-        system, [&](int i) { return fused(added_[i], R[at.rate(i)], spring_[i] * R[at.angle(i)]); },
+        system,
+        [&](int i) {
+          return fused(added_[i], R[at.rate(i)], spring_[i] * R[at.angle(i)]) + of_loops(at, R, i);
+        },
         solved_.data());
     const int v = at.freedoms();
     for (int k = 0; k < v; ++k) {
@@ -116,9 +124,24 @@ public:
   }
 
 private:
+  /// What the loops add to E R_v + hγ K R_q at hinge i.
+  [[nodiscard]] T of_loops(const Layout& at, const State<T>& R, int i) const {
+    T sum(0);
+    for (const LoopResistance<T>& loop : loops_) {
+      if (loop.first != i && loop.second != i) continue;
+      const T rate = loop.along([&](int k) { return R[at.rate(k)]; });
+      const T angle = loop.along([&](int k) { return R[at.angle(k)]; });
+      const T pull =
+          eta_ * fused(fused(eta_, loop.stiffness, loop.damping), rate, loop.stiffness * angle);
+      sum = fused(loop.first == i ? loop.on_first : loop.on_second, pull, sum);
+    }
+    return sum;
+  }
+
   LinearSolve<T> linear_;
   T eta_ = T(0);
   State<T> added_, spring_, solved_;
+  std::vector<LoopResistance<T>> loops_;
 };
 
 template <class T> struct RosenbrockW {

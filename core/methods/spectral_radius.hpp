@@ -22,6 +22,7 @@ public:
   [[nodiscard]] double estimate(AnySystem& system, const State<T>& x, const T& t) {
     const int size = system.layout().freedoms();
     linear_.factorize(system, x, t, [](int) { return T(0); });
+    loop_resistances(system, x, loops_);
     q_.assign(size, T(0)), next_.assign(size, T(0)), v_.resize(size);
     for (int k = 0; k < size; ++k) v_[k] = T(k % 2 == 0 ? 1 : -1) / T(k + 1);
     const double first = growth(system, x, 0);
@@ -57,11 +58,23 @@ private:
         [&](int i) {
           const auto hinge = resistance(system, x, i);
           const int k = at.angle(i);
-          return -fused(hinge.stiffness, q_[k], hinge.damping * v_[k]);
+          return -fused(hinge.stiffness, q_[k], hinge.damping * v_[k]) - of_loops(at, i);
         },
         next_.data());
     std::swap(q_, v_);
     std::swap(v_, next_);
+  }
+
+  /// What the loops add to Kq + Dv at hinge i.
+  [[nodiscard]] T of_loops(const Layout& at, int i) const {
+    T sum(0);
+    for (const LoopResistance<T>& loop : loops_) {
+      if (loop.first != i && loop.second != i) continue;
+      const T pull = fused(loop.stiffness, loop.along([&](int k) { return q_[at.angle(k)]; }),
+                           loop.damping * loop.along([&](int k) { return v_[at.angle(k)]; }));
+      sum = fused(loop.first == i ? loop.on_first : loop.on_second, pull, sum);
+    }
+    return sum;
   }
 
   [[nodiscard]] double norm(double weight) const {
@@ -73,6 +86,7 @@ private:
   }
 
   LinearSolve<T> linear_;
+  std::vector<LoopResistance<T>> loops_;
   State<T> q_, v_, next_;
 };
 

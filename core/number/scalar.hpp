@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #if defined(__FMA__) || defined(__aarch64__)
 #define WINGSPREAD_HAS_FMA // this translation unit's instruction set multiplies and adds at once
@@ -45,6 +47,10 @@ template <class T> [[nodiscard, gnu::always_inline]] inline T larger(const T& a,
 template <class T> [[nodiscard, gnu::always_inline]] inline T smaller(const T& a, const T& b) {
   return select(b < a, b, a);
 }
+
+/// Whether T is one number, whose comparisons are true or false; a pack's are masks.
+template <class T>
+inline constexpr bool is_one_number = std::is_same_v<decltype(std::declval<T>() < T(0)), bool>;
 
 template <class T>
 inline constexpr double epsilon_of = static_cast<double>(std::numeric_limits<T>::epsilon());

@@ -35,8 +35,9 @@ concept A = is_a<std::remove_const_t<S>, Struct>;
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<BaseTerms> auto& s) {
-  auto& [motion, acceleration, angular_acceleration, angle, rate, position, velocity] = s;
-  return std::tie(motion, acceleration, angular_acceleration, angle, rate, position, velocity);
+  auto& [motion, acceleration, gravity, angular_acceleration, angle, rate, position, velocity] = s;
+  return std::tie(motion, acceleration, gravity, angular_acceleration, angle, rate, position,
+                  velocity);
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<BodyTerms> auto& s) {
@@ -46,16 +47,51 @@ concept A = is_a<std::remove_const_t<S>, Struct>;
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<HingeTerms> auto& s) {
   auto& [stowed, latched, sense, drive, drive_slope, viscous, regularized_friction, slip_rate,
-         kinetic_friction, static_friction, has_latch, stiffness, damping] = s;
+         kinetic_friction, static_friction, more_regularized, more_exact, has_latch, stiffness,
+         damping] = s;
   return std::tie(stowed, latched, sense, drive, drive_slope, viscous, regularized_friction,
-                  slip_rate, kinetic_friction, static_friction, has_latch, stiffness, damping);
+                  slip_rate, kinetic_friction, static_friction, more_regularized, more_exact,
+                  has_latch, stiffness, damping);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<DamperTerms> auto& s) {
+  auto& [law, strength, exponent, rate, near_zero] = s;
+  return std::tie(law, strength, exponent, rate, near_zero);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<RealHingeTerms> auto& s) {
+  auto& [spring, harness, friction, spring_weight, harness_weight, friction_weight, slip_rate,
+         regularized, most_friction, has_damper, has_window, has_stop, has_backlash, damper,
+         window_low, window_high, sense, stop_stiffness, stop_dissipation, contact_angle,
+         half_backlash] = s;
+  return std::tie(spring, harness, friction, spring_weight, harness_weight, friction_weight,
+                  slip_rate, regularized, most_friction, has_damper, has_window, has_stop,
+                  has_backlash, damper, window_low, window_high, sense, stop_stiffness,
+                  stop_dissipation, contact_angle, half_backlash);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<HingeMode> auto& s) {
+  auto& [in_contact, damper_acts, sliding] = s;
+  return std::tie(in_contact, damper_acts, sliding);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<LoopTerms> auto& s) {
+  auto& [first, second, table, ratio, stiffness, damping, slack_beyond, stowed_a, stowed_b, sense_a,
+         sense_b] = s;
+  return std::tie(first, second, table, ratio, stiffness, damping, slack_beyond, stowed_a, stowed_b,
+                  sense_a, sense_b);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<PlateTerms> auto& s) {
+  auto& [from, along, normal, strength] = s;
+  return std::tie(from, along, normal, strength);
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<Wing> auto& s) {
-  auto& [base, tree, hinge_of, bodies, hinges, initial_rates, has_regularized_friction, can_stick] =
-      s;
+  auto& [base, tree, hinge_of, bodies, hinges, initial_rates, has_regularized_friction, can_stick,
+         real, loops, plates] = s;
   return std::tie(base, tree, hinge_of, bodies, hinges, initial_rates, has_regularized_friction,
-                  can_stick);
+                  can_stick, real, loops, plates);
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<Lever> auto& s) {
@@ -125,6 +161,9 @@ inline void set_lane(int /*lane*/, bool& to, bool from) { to = to || from; }
 /// All lanes have the structure's own.
 inline void set_lane(int /*lane*/, BaseMotion& /*to*/, BaseMotion /*from*/) {}
 inline void set_lane(int /*lane*/, Tree& /*to*/, const Tree& /*from*/) {}
+inline void set_lane(int /*lane*/, DamperLaw& to, DamperLaw from) { to = from; }
+inline void set_lane(int /*lane*/, int& to, int from) { to = from; }
+inline void set_lane(int /*lane*/, const Curve*& to, const Curve* from) { to = from; }
 inline void set_lane(int /*lane*/, std::vector<int>& /*to*/, const std::vector<int>& /*from*/) {}
 template <class Packs, class Numbers>
 [[gnu::always_inline]] inline void set_lane(int lane, std::vector<Packs>& to,

@@ -11,8 +11,10 @@
 #include "core/packs/pack_engine.hpp"
 #include "core/packs/structure.hpp"
 #include "core/peaks/moment_peaks.hpp"
+#include "core/peaks/overtravel.hpp"
 #include "core/peaks/reaction_bound.hpp"
 
+#include <array>
 #include <optional>
 
 namespace wingspread {
@@ -29,8 +31,10 @@ public:
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
       x->assign(at_.size(), none);
-    for (std::vector<P>* v : {&waits_, &moments_, &forces_, &force_before_, &force_after_})
+    for (std::vector<P>* v :
+         {&waits_, &moments_, &forces_, &force_before_, &force_after_, &overtravel_, &slides_})
       v->assign(at_.bodies + 1, none);
+    for (std::vector<P>& ways : ways_) ways.assign(wing_.real.size(), none);
     rtol_ = atol_ = tolerance_of_dense_ = P(1.0);
     step_.t = step_.h = error_size_ = busy_ = t_end_ = none;
     begun_ = look_ = evaluations_before_ = none;
@@ -56,7 +60,10 @@ public:
     set_lane(lane, step_.x, run.step.x), set_lane(lane, step_.dxdt, run.step.dxdt);
     set_lane(lane, pace_, run.pace);
     set_lane(lane, work_.laws, run.work.laws);
+    if (!wing_.real.empty()) take_modes(lane, run.work);
     for (int i = 1; i <= at_.bodies; ++i) {
+      overtravel_[i].v[lane] = run.overtravel[i];
+      slides_[i].v[lane] = static_cast<double>(run.work.contact[i]);
       waits_[i].v[lane] = run.work.engaged[i] ? 0 : 1;
       moments_[i].v[lane] = run.moments ? run.moments[i].value : 0;
       forces_[i].v[lane] = run.forces ? run.forces[i].value : 0;
@@ -78,6 +85,7 @@ public:
       place.step.t = step_.t.v[lane], place.step.h = step_.h.v[lane];
       get_lane(lane, step_.x, place.step.x), get_lane(lane, step_.dxdt, place.step.dxdt);
       if (shape_.forces) get_lane(lane, force_before_, place.force_before);
+      get_lane(lane, overtravel_, place.overtravel);
     }
     get_lane(lane, step_.x1, place.x1), get_lane(lane, step_.dxdt1, place.dxdt1);
     if (shape_.forces) get_lane(lane, work_.forces, place.forces);
@@ -119,6 +127,14 @@ private:
       body.mass = body.inertia = body.central_inertia = 1, body.minus_inverse = -1;
     }
     for (HingeTerms<double>& hinge : harmless.hinges) hinge = {}, hinge.sense = hinge.slip_rate = 1;
+    for (RealHingeTerms<double>& real : harmless.real) {
+      real = {}, real.sense = real.slip_rate = 1;
+      real.damper.rate = 1;
+    }
+    for (PlateTerms<double>& plate : harmless.plates) plate = {};
+    wing_.real.resize(structure.real.size());
+    wing_.loops.resize(structure.loops.size());
+    wing_.plates.resize(structure.plates.size());
     wing_.base.motion = structure.base.motion;
     wing_.tree = structure.tree;
     wing_.bodies.resize(structure.bodies.size());
@@ -126,6 +142,13 @@ private:
     wing_.initial_rates.resize(structure.initial_rates.size());
     for (int lane = 0; lane < W; ++lane) set_lane(lane, wing_, harmless);
     return wing_;
+  }
+
+  /// The modes of the run's real hinges, and the edges at which they change.
+  void take_modes(int lane, const Workspace<double>& work) {
+    set_lane(lane, work_.modes, work.modes);
+    for (int i = 1; i <= at_.bodies; ++i)
+      for (int e = 0; e < edges_of_hinge; ++e) ways_[e][i].v[lane] = work.above[i][e] != 0 ? -1 : 1;
   }
 
   struct Judgement {
@@ -176,6 +199,10 @@ private:
     if (shape_.forces)
       for (int i = 1; i <= at_.bodies; ++i)
         force_before_[i] = select(accepted, force_after_[i], force_before_[i]);
+    for (int i = 1; i <= at_.bodies; ++i)
+      overtravel_[i] = select(
+          accepted, larger(overtravel_[i], beyond_stowed(wing_.hinges[i], step_.x[at_.angle(i)])),
+          overtravel_[i]);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
     keep_pace(accepted, these);
     step_.h = select(these, judgement.next, step_.h);
@@ -202,6 +229,9 @@ private:
       const HingeTerms<P>& hinge = wing_.hinges[i];
       look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
       if (hinge.has_latch) look = look || (waits_[i] > P(0.0) && may_engage(i));
+      look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
+      if (!wing_.real.empty()) look = look || may_pass_edge(i);
+      if (wing_.can_stick) look = look || may_come_to_rest(i);
       if (shape_.moments) {
         const MomentOverStep<P, AnySystem> moment(system_, step_, i);
         look = look || !(moment.most() <= moments_[i]);
@@ -210,7 +240,8 @@ private:
       const Vec2<P>& force = work_.forces[i];
       force_after_[i] = sqrt(dot(force, force));
     }
-    return shape_.forces ? look || a_force_may_rise() : look;
+    if (!shape_.forces) return look;
+    return wing_.plates.empty() ? look || a_force_may_rise() : !Mask{};
   }
 
   [[nodiscard]] Mask a_force_may_rise() {
@@ -230,6 +261,36 @@ private:
     return any;
   }
 
+  [[nodiscard]] Mask may_pass_edge(int i) const {
+    Mask any{};
+    const Quintic<P> angle = step_.coordinate(at_.angle(i), at_.freedoms());
+    for (int e = 0; e < edges_of_hinge; ++e) {
+      const Edge edge = static_cast<Edge>(e);
+      if (!has_edge(wing_, i, edge, wing_.hinges[i].has_latch)) continue;
+      const P there = edge_angle(wing_, i, edge);
+      const bool of_latch = edge == Edge::backlash_low || edge == Edge::backlash_high;
+      for (const P& c : angle) {
+        const Mask stays = ways_[e][i] * (c - there) < P(0.0);
+        any = any || (of_latch ? !stays && !(waits_[i] > P(0.0)) : !stays);
+      }
+    }
+    return any;
+  }
+
+  /// A hinge that slides against exact friction may turn back.
+  [[nodiscard]] Mask may_come_to_rest(int i) const {
+    Mask any{};
+    for (const P& c : derivative(step_.coordinate(at_.angle(i), at_.freedoms()), step_.h))
+      any = any || !(slides_[i] * c > P(0.0));
+    const P first = slides_[i] * step_.x[at_.rate(i)], last = slides_[i] * step_.x1[at_.rate(i)];
+    any = any || !(first > P(0.0)) || !(last > P(0.0));
+    // first_rest takes another way where the angle's rounding would drown the rate
+    const P angle = larger(abs(step_.x[at_.angle(i)]), abs(step_.x1[at_.angle(i)]));
+    const P moved = step_.h * larger(abs(first), abs(last));
+    any = any || P(64 * epsilon_of<double>) * angle > P(1e-6) * moved;
+    return any && !(slides_[i] == P(0.0));
+  }
+
   PackShape shape_;
   Wing<P> wing_;
   Workspace<P> work_;
@@ -240,6 +301,9 @@ private:
   State<P> error_;
   P rtol_, atol_, tolerance_of_dense_, error_size_, t_end_;
   std::vector<P> waits_, moments_, forces_, force_before_, force_after_;
+  std::vector<P> overtravel_;
+  std::vector<P> slides_; ///< sense in which a hinge slides against exact friction; 0: it does not
+  std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1 to be passed upwards, −1 downwards
   std::vector<Lever<P>> levers_;
   std::vector<Lever<double>> levers_of_wing_; ///< scratch
   ReactionBound<P> bound_;

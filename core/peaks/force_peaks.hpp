@@ -45,7 +45,7 @@ public:
   /// The last evaluation was at the step's end. What lies inside the step is left in doubt.
   void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
     bound_.over_step(system, levers_, step);
-    bool promising = false;
+    bool promising = !system.wing().plates.empty(); // the bound knows nothing of the air
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       const T end = magnitude(system, static_cast<int>(i));
       inner_[i] = {before_[i], T(0), T(0), T(0), end};
@@ -54,7 +54,7 @@ public:
     }
     if (!promising) return;
     sample(system, step, 2, x, dxdt);
-    promising = false;
+    promising = !system.wing().plates.empty();
     for (std::size_t i = 1; i < peaks.size(); ++i)
       for (const std::size_t end : {0, 4})
         promising = promising || may_rise(i, inner_[i][end], inner_[i][2], T(1) / T(4));

@@ -16,15 +16,16 @@ namespace wingspread {
 template <class T, class AnySystem> class MomentOverStep {
 public:
   MomentOverStep(const AnySystem& system, const Step<T>& step, int i)
-      : hinge_(system.wing().hinges[i]), step_(step), latch_state_(system.layout().latch(i)),
-        epsilon_(system.epsilon()), smoothed_(system.layout().smoothed && hinge_.has_latch) {
+      : system_(system), hinge_(system.wing().hinges[i]), step_(step), i_(i),
+        latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
+        smoothed_(system.layout().smoothed && hinge_.has_latch) {
     const Layout& at = system.layout();
     const LinearLaw<T>& law = system.work().laws[i];
-    const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
-    rate_ = derivative(angle, step.h);
-    for (int k = 0; k < 6; ++k) linear_[k] = linear_moment(law, angle[k], rate_[k]);
+    angle_ = step.coordinate(at.angle(i), at.freedoms());
+    rate_ = derivative(angle_, step.h);
+    for (int k = 0; k < 6; ++k) linear_[k] = linear_moment(law, angle_[k], rate_[k]);
     for (int k = 0; smoothed_ && k < 6; ++k)
-      latch_[k] = fused(hinge_.stiffness, angle[k] - hinge_.latched, hinge_.damping * rate_[k]);
+      latch_[k] = fused(hinge_.stiffness, angle_[k] - hinge_.latched, hinge_.damping * rate_[k]);
   }
 
   /// No |moment| in the step is larger, by the hulls of the polynomials; friction opposes the rate,
@@ -37,8 +38,23 @@ public:
     }
     low = low - select(fastest > T(0), hinge_.regularized_friction, T(0));
     high = high + select(slowest < T(0), hinge_.regularized_friction, T(0));
+    if (system_.wing().is_real()) {
+      const Interval<T> real = range_of_real();
+      low = low + real.low, high = high + real.high;
+    }
     const T linear = larger(high, T(-low));
     return smoothed_ ? linear + bound(latch_) : linear;
+  }
+
+  /// Of the real hinge and the loops, by the hulls of angle and rate.
+  [[nodiscard]] Interval<T> range_of_real() const {
+    const Wing<T>& wing = system_.wing();
+    Interval<T> range{T(0), T(0)};
+    if (!wing.real.empty())
+      range = real_range(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_));
+    for (const LoopTerms<T>& loop : wing.loops)
+      if (loop.first == i_ || loop.second == i_) range = range + range_of(loop);
+    return range;
   }
 
   /// d²/dt² at s, by differences.
@@ -53,16 +69,77 @@ public:
     if (hinge_.regularized_friction > T(0))
       m = m + regularized_friction_moment(hinge_, value(rate_, s));
     if (smoothed_) m = m - smooth_step(step_.cubic(latch_state_, s) / epsilon_) * value(latch_, s);
+    if (!system_.wing().is_real()) return m;
+    if (!system_.wing().real.empty())
+      m = m + real_moment(system_.wing().real[i_], system_.work().modes[i_], value(angle_, s),
+                          value(rate_, s));
+    for (const LoopTerms<T>& loop : system_.wing().loops)
+      if (loop.first == i_ || loop.second == i_) m = m + of_loop(loop, s);
     return m;
   }
 
 private:
+  [[nodiscard]] Quintic<T> angle_of(int i) const {
+    return step_.coordinate(system_.layout().angle(i), system_.layout().freedoms());
+  }
+
+  [[nodiscard]] T of_loop(const LoopTerms<T>& loop, const T& s) const {
+    const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
+    const LoopState<T> state = loop_state(loop, value(a, s), value(derivative(a, step_.h), s),
+                                          value(b, s), value(derivative(b, step_.h), s));
+    return (loop.first == i_ ? on_first(loop, state.gear) : on_second(loop)) *
+           loop_torque(loop, state);
+  }
+
+  /// What a loop may do over the step: K e and D ė as polynomials, about the table's slope at the
+  /// step's start; what its bend adds is at most half the largest second derivative times the square
+  /// of the way.
+  [[nodiscard]] Interval<T> range_of(const LoopTerms<T>& loop) const {
+    using std::abs;
+    const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
+    const Quintic<T> va = derivative(a, step_.h), vb = derivative(b, step_.h);
+    const LoopState<T> start = loop_state(loop, a[0], va[0], b[0], vb[0]);
+    const T on_a = loop.sense_a * start.gear;
+    Quintic<T> elastic, viscous;
+    for (int k = 0; k < 6; ++k) {
+      elastic[k] =
+          fused(loop.stiffness, on_a * (a[k] - a[0]) - loop.sense_b * (b[k] - b[0]), start.elastic);
+      viscous[k] = loop.damping * (on_a * va[k] - loop.sense_b * vb[k]);
+    }
+    Interval<T> carried = hull(elastic), damped = hull(viscous);
+    T gear = abs(start.gear);
+    if (loop.table) {
+      const Interval<T> way = hull(a), speed = hull(va);
+      const T longest = way.high - way.low, fastest = larger(T(abs(speed.low)), T(abs(speed.high)));
+      const T bend(loop.table->sharpest_bend()), turns = bend * longest;
+      const T off = loop.stiffness * T(0.5) * turns * longest;
+      carried = {carried.low - off, carried.high + off};
+      damped = {damped.low - loop.damping * turns * fastest,
+                damped.high + loop.damping * turns * fastest};
+      gear = gear + turns;
+    }
+    damped.include(T(0)); // half of it where slack
+    const T low = carried_by_strands(loop, carried.low) + damped.low;
+    const T high = carried_by_strands(loop, carried.high) + damped.high;
+    if (loop.second == i_) return scaled(loop.sense_b, Interval<T>{low, high});
+    const T most = gear * larger(T(abs(low)), T(abs(high)));
+    return {-most, most};
+  }
+
+  [[nodiscard]] static Interval<T> hull(const Quintic<T>& p) {
+    Interval<T> range{p[0], p[0]};
+    for (int k = 1; k < 6; ++k) range.include(p[k]);
+    return range;
+  }
+
+  const AnySystem& system_;
   const HingeTerms<T>& hinge_;
   const Step<T>& step_;
+  int i_;
   int latch_state_;
   T epsilon_;
   bool smoothed_;
-  Quintic<T> rate_, linear_, latch_;
+  Quintic<T> angle_, rate_, linear_, latch_;
 };
 
 /// Raises `peak` to the largest |moment| over the step as the dense output has it. Most steps are
@@ -92,10 +169,25 @@ template <class T, class AnySystem>
   const Layout& at = system.layout();
   const LinearLaw<T>& law = system.work().laws[i];
   const T& rate = x[at.rate(i)];
-  const T damping = system.wing().hinges[i].regularized_friction > T(0)
-                        ? law.damping + regularized_friction_damping(system.wing().hinges[i], rate)
-                        : law.damping;
-  return -fused(law.stiffness, rate, damping * dxdt[at.rate(i)]);
+  T stiffness = law.stiffness, damping = law.damping;
+  if (system.wing().hinges[i].regularized_friction > T(0))
+    damping = damping + regularized_friction_damping(system.wing().hinges[i], rate);
+  if (!system.wing().real.empty()) {
+    const RealResistance<T> real =
+        real_resistance(system.wing().real[i], system.work().modes[i], x[at.angle(i)], rate);
+    stiffness = stiffness + real.stiffness, damping = damping + real.damping;
+  }
+  T change = -fused(stiffness, rate, damping * dxdt[at.rate(i)]);
+  for (const LoopTerms<T>& loop : system.wing().loops) {
+    if (loop.first != i && loop.second != i) continue; // its gear's change is neglected
+    const LoopState<T> state = system.state_of(loop, x);
+    const T a = loop.sense_a * state.gear, b = loop.sense_b;
+    const T e1 = a * x[at.rate(loop.first)] - b * x[at.rate(loop.second)];
+    const T e2 = a * dxdt[at.rate(loop.first)] - b * dxdt[at.rate(loop.second)];
+    const T torque = taut_share(loop, state.elastic) * fused(loop.stiffness, e1, loop.damping * e2);
+    change = fused(loop.first == i ? on_first(loop, state.gear) : on_second(loop), torque, change);
+  }
+  return change;
 }
 
 /// A maximum of |moment| inside a step, known by the dense output alone.
@@ -155,7 +247,7 @@ template <class T, class AnySystem, class Load>
                                                  const Step<T>& step, int i,
                                                  HeldLoadBound<T>& bound, Load&& load) {
   const T most = MomentOverStep<T, AnySystem>(system, step, i).most();
-  if (!(most + system.wing().hinges[i].static_friction > peak.value)) return std::nullopt;
+  if (!(most + system.static_limit(step.x, i) > peak.value)) return std::nullopt;
   bound.over_step(system, step);
   const T first = load(T(0)), last = load(T(1));
   const Sampled<T> found =

@@ -1,7 +1,7 @@
 /// What a base of prescribed motion does to a wing, seen from the base.
 ///
-/// A base that turns at a constant rate Ω and is pushed by a, constant in inertial axes, loads
-/// every mass m with an apparent force m f,
+/// A base that turns at a constant rate Ω and is pushed by a, constant in inertial axes (gravity is
+/// a push the other way), loads every mass m with an apparent force m f,
 ///
 ///     f = −a + Ω² r + Coriolis's,    |f| ≤ |a| + Ω² R + 2 |Ω| |v|                              (1)
 ///
@@ -54,8 +54,7 @@ public:
     using std::abs;
     const TotalMotion<T> now = total_motion(system, x, t);
     const T rate = system.work().frames[0].rate;
-    const T dragged = rate * now.angular,
-            pushed = dot(system.wing().base.acceleration, now.first_moment);
+    const T dragged = rate * now.angular, pushed = dot(system.wing().base.felt(), now.first_moment);
     // ½ Ω² Σ (m r² + J) of the motion as seen from the base, and less as much in V
     return {now.kinetic - dragged + pushed, now.kinetic + abs(dragged) + abs(pushed)};
   }
@@ -64,7 +63,7 @@ private:
   template <class Topology> void sum_up(const Wing<T>& wing, const Topology& tree) {
     using std::abs, std::sqrt;
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
-    const T push = length(wing.base.acceleration);
+    const T push = length(wing.base.felt());
     spin_ = abs(wing.base.rate), drift_ = push * spin_;
     T squares(0);
     for (int k = 1; k <= wing.size(); ++k) {

@@ -47,17 +47,40 @@ private:
                      Numbers& moment) {
     using std::sqrt;
     const Wing<T>& wing = system.wing();
-    net_.setZero(moment.size());
+    net_.setZero(moment.size()), rate_.setZero(moment.size());
     for (int i = 1; i < moment.size(); ++i) {
       const int p = system.topology().parent_of(i);
       const T& damping = prospects.damping(i);
       T sigma = T(1) / wing.bodies[i].central_inertia;
       if (p >= first_body<AnySystem>) sigma = sigma + T(1) / wing.bodies[p].central_inertia;
+      rate_(i) = sqrt(T(2) * energy * sigma);
       moment(i) = sqrt(T(2) * energy * fused(damping * damping, sigma, prospects.stiffness(i))) +
                   wing.hinges[i].most_friction() + prospects.steady(i);
       // what y* adds: the moment at rest is zero by (1), so nothing
+    }
+    if (wing.is_real()) add_real(wing, energy, moment);
+    for (int i = 1; i < moment.size(); ++i) {
+      const int p = system.topology().parent_of(i);
       net_(i) = net_(i) + moment(i);
       net_(p) = net_(p) + moment(i);
+    }
+  }
+
+  /// What dampers and loops may add at the largest rates; the energy of a loop bounds what it
+  /// carries, with a slack strand too: (K e)² ≤ 2 K E.
+  void add_real(const Wing<T>& wing, const T& energy, Numbers& moment) const {
+    using std::abs, std::sqrt;
+    for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
+      if (wing.real[i].has_damper)
+        moment(i) = moment(i) + most_of_damper(wing.real[i].damper, T(rate_(i)));
+    for (const LoopTerms<T>& loop : wing.loops) {
+      T gear = abs(loop.ratio);
+      if (loop.table)
+        gear = larger(abs(T(loop.table->steepest_rise())), abs(T(loop.table->steepest_fall())));
+      const T torque = sqrt(T(2) * loop.stiffness * energy) +
+                       loop.damping * fused(gear, T(rate_(loop.first)), T(rate_(loop.second)));
+      moment(loop.first) = moment(loop.first) + gear * torque;
+      moment(loop.second) = moment(loop.second) + torque;
     }
   }
 
@@ -88,6 +111,7 @@ private:
   }
 
   Numbers net_;   ///< L, N·m
+  Numbers rate_;  ///< no rate of the hinge is larger, rad/s
   Numbers gamma_; ///< γ of the hinge's point, m/s²
   Numbers speed_; ///< of the hinge's point, as seen from a base that is driven, m/s
 };

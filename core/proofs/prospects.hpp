@@ -20,6 +20,11 @@
 /// The moment of a hinge is then within g_i + √(2Ē) √(κ_i + δ_i² σ_i) + τ_s, σ_i as in
 /// coarse_bounds.hpp; for a hinge without rest κ is 0, and g the most that its spring exerts on its
 /// way.
+///
+/// A real hinge with an engaged latch has a potential P whose second derivative lies between κ and
+/// κ⁺, by the steepest slopes of its curves. With its rest at P' = 0, ½ κ u² is P(y) − P(y*) at
+/// least, and its moment κ⁺ |u| at most: for (2) it has the stiffness κ⁺²/κ. A loop adds its own
+/// energy, never negative. Backlash, and a stop within reach, are beyond this proof.
 #pragma once
 
 #include "core/proofs/apparent_load.hpp"
@@ -36,9 +41,10 @@ public:
   /// No hinge will latch any more. Cost O(n) times the tree's depth.
   template <class AnySystem> void prepare(const AnySystem& system) {
     const int n = system.layout().bodies;
-    for (Numbers* v : {&stiffness_, &damping_, &steady_}) v->setZero(n + 1);
-    bounded_ = load_.prepare(system);
-    rests_ = true, offset_ = p_ = q_ = T(0);
+    for (Numbers* v : {&stiffness_, &damping_, &steady_, &least_stiffness_, &at_rest_})
+      v->setZero(n + 1);
+    bounded_ = load_.prepare(system) && system.wing().plates.empty();
+    rests_ = system.wing().loops.empty(), offset_ = p_ = q_ = T(0);
     rest_.assign(system.layout().size(), T(0));
     for (int i = 1; i <= n; ++i) prepare(system, i);
   }
@@ -57,7 +63,8 @@ public:
       if (!own) return std::nullopt;
       sum = sum + *own;
     }
-    sum = with_motion(system, x, t, t_end, sum);
+    sum = with_motion(system, x, t, t_end, T(sum + loops_energy(system, x)));
+    if (may_touch_stop(system, sum)) return std::nullopt;
     for (int i = 1; i <= at.bodies; ++i)
       if (is_open(system, i) && !find_way(system, x[at.angle(i)], sum, i)) return std::nullopt;
     return sum;
@@ -83,6 +90,7 @@ private:
     const LinearLaw<T> law = linear_law(system.wing().hinges[i], !open);
     const bool loaded = load_.moment(i) > T(0);
     damping_(i) = law.damping;
+    if (!system.wing().real.empty()) return prepare_real(system, i, law, open);
     if (open || !(law.stiffness > T(0))) {
       rests_ = false;
       // without any spring it has no rest, and takes no part either
@@ -90,12 +98,57 @@ private:
       bounded_ = bounded_ && (limp || (open && !loaded));
       return;
     }
-    const T& g = load_.moment(i);
-    stiffness_(i) = law.stiffness, steady_(i) = g;
+    stiffness_(i) = law.stiffness;
     rest_[system.layout().angle(i)] = law.latched + law.drive / law.stiffness;
-    offset_ = offset_ + g * g / (T(2) * law.stiffness);
-    p_ = fused(load_.drift() * load_.lever(i), g / law.stiffness, p_);
-    q_ = fused(load_.drift() * load_.lever(i), T(sqrt(T(2) / law.stiffness)), q_);
+    add_load(i, law.stiffness);
+  }
+
+  /// What the load does to hinge i. @param kappa its stiffness
+  void add_load(int i, const T& kappa) {
+    using std::sqrt;
+    const T& g = load_.moment(i);
+    steady_(i) = g, least_stiffness_(i) = kappa;
+    offset_ = offset_ + g * g / (T(2) * kappa);
+    p_ = fused(load_.drift() * load_.lever(i), g / kappa, p_);
+    q_ = fused(load_.drift() * load_.lever(i), T(sqrt(T(2) / kappa)), q_);
+  }
+
+  template <class AnySystem>
+  void prepare_real(const AnySystem& system, int i, const LinearLaw<T>& law, bool open) {
+    const RealHingeTerms<T>& real = system.wing().real[i];
+    const Interval<T> slopes = stiffness_of_curves(real);
+    const T least = law.stiffness + slopes.low, most = law.stiffness + slopes.high;
+    rests_ = false; // as far as linear models are concerned
+    if (open || real.has_backlash || !(least > T(0))) {
+      bounded_ = false;
+      return;
+    }
+    stiffness_(i) = most * (most / least);
+    const int k = system.layout().angle(i);
+    rest_[k] = law.latched;
+    for (int pass = 0; pass < 100; ++pass) { // Newton's way, never longer than to where P' = 0
+      const T moment = linear_moment(law, rest_[k], T(0)) + curves_moment(real, rest_[k]);
+      const T next = rest_[k] + moment / most;
+      if (next == rest_[k]) break;
+      rest_[k] = next;
+    }
+    at_rest_(i) = hinge_potential(system, rest_, i);
+    add_load(i, least);
+  }
+
+  /// Whether this energy takes a hinge to its stop, or one is there.
+  template <class AnySystem>
+  [[nodiscard]] bool may_touch_stop(const AnySystem& system, const T& available) const {
+    using std::abs, std::sqrt;
+    for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
+      const RealHingeTerms<T>& real = system.wing().real[i];
+      if (!real.has_stop) continue;
+      const T& kappa = least_stiffness_(i);
+      const T furthest = load_.moment(i) / kappa + sqrt(T(2) * available / kappa);
+      const T way = abs(rest_[system.layout().angle(i)] - real.contact_angle);
+      if (system.work().modes[i].in_contact != T(0) || !(furthest < way)) return true;
+    }
+    return false;
   }
 
   /// What hinge i adds to (1); none where that is not known.
@@ -110,6 +163,11 @@ private:
     if (at.smoothed && hinge.has_latch && !(x[at.latch(i)] >= system.epsilon()))
       return std::nullopt; // its latch is still coming in
     if (!(stiffness_(i) > T(0))) return T(0);
+    if (!system.wing().real.empty()) {
+      using std::abs;
+      const T P = hinge_potential(system, x, i);
+      return (P - at_rest_(i)) + T(256 * epsilon_of<T>) * (abs(P) + abs(at_rest_(i)));
+    }
     const LinearLaw<T> law = linear_law(hinge, true);
     const T u = x[at.angle(i)] - law.latched - law.drive / law.stiffness;
     return T(0.5) * law.stiffness * u * u;
@@ -166,6 +224,8 @@ private:
   ApparentLoad<T> load_;
   bool bounded_ = false, rests_ = false;
   Numbers stiffness_, damping_, steady_;
+  Numbers least_stiffness_; ///< κ
+  Numbers at_rest_;         ///< P(y*) of a real hinge
   State<T> rest_;
   T offset_{}, p_{}, q_{}; ///< Σ g²/2κ, and (3)'s
 };

@@ -62,7 +62,8 @@ template <class T, class Topology, BaseMotion M>
                                               const T& t) {
   if constexpr (M == BaseMotion::prescribed) return std::nullopt;
   const Layout& at = system.layout();
-  if (at.smoothed) return std::nullopt;
+  if (at.smoothed || system.wing().is_real()) return std::nullopt;
+  if (M == BaseMotion::free && !system.wing().plates.empty()) return std::nullopt; // wind
   using std::abs;
   const TotalMotion<T> now = total_motion(system, x, t);
   T budget = M == BaseMotion::free ? now.central_kinetic() : now.kinetic;
@@ -92,10 +93,11 @@ template <class T, class Topology, BaseMotion M>
 /// base, and on one that is driven without rotation, or rotates about a point at rest at a constant
 /// rate.
 template <class T> [[nodiscard]] bool loads_are_constant(const Wing<T>& wing) {
+  if (!wing.plates.empty() && wing.base.motion != BaseMotion::fixed) return false; // wind
   if (wing.base.motion != BaseMotion::prescribed) return true;
   const BaseTerms<T>& base = wing.base;
   if (base.angular_acceleration != T(0)) return false;
-  const bool pushed = base.acceleration.x != T(0) || base.acceleration.y != T(0);
+  const bool pushed = base.felt().x != T(0) || base.felt().y != T(0);
   return base.rate == T(0) || !pushed;
 }
 

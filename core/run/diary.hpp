@@ -62,6 +62,9 @@ public:
     out.latches = std::move(latches_);
     if (run_.goal.peak_moment) out.peak_moment = in_scene_order(wing, peaks.moments());
     if (run_.goal.peak_force) out.peak_force = in_scene_order(wing, peaks.forces());
+    out.overtravel.resize(wing.size());
+    for (int i = 1; i <= wing.size(); ++i)
+      out.overtravel[wing.hinge_of[i]] = static_cast<double>(peaks.overtravel()[i]);
     out.peaks_final = peaks_final;
     out.work = work;
     out.final = configuration_at(run_.system, run_.step.x, run_.step.t);

@@ -35,6 +35,7 @@ struct Handover {
   const PeakOf<double>* moments; ///< 1 … n: so far; none: not asked for
   const PeakOf<double>* forces;  ///< the same
   const double* force_before;    ///< 1 … n: at the step's start, where forces are asked for
+  const double* overtravel;      ///< 1 … n: so far, rad
   double t_end;                  ///< s; a step from which the next may reach it is the run's
   long tries;                    ///< that may be made before one is the run's
   long evaluations;              ///< so far
@@ -45,6 +46,7 @@ struct Handover {
 struct Place {
   Step<double>& step;                ///< t, h, x and dxdt, if the run was carried
   std::vector<double>& force_before; ///< 1 … n: at its start, where forces are asked for
+  std::vector<double>& overtravel;   ///< 1 … n: up to its start, rad
   State<double>&x1, &dxdt1;          ///< the end of the step made last
   std::vector<Vec2<double>>& forces; ///< 1 … n: there, where they are asked for
 };

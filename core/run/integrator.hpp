@@ -58,7 +58,7 @@ public:
 
   /// Whether an engine for this method can carry the run on from here.
   [[nodiscard]] bool can_be_carried(Method method) const {
-    return stepping_.method() == method && !run_.system.wing().can_stick;
+    return stepping_.method() == method && run_.system.work().stuck == 0;
   }
 
   /// @pre can_be_carried by the engine
@@ -72,6 +72,7 @@ public:
             .moments = goal.peak_moment ? peaks_.moments().data() : nullptr,
             .forces = goal.peak_force ? peaks_.forces().data() : nullptr,
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
+            .overtravel = peaks_.overtravel().data(),
             .t_end = run_.how.t_end,
             .tries = tries_to_look(),
             .evaluations = run_.system.work().evaluations,
@@ -79,8 +80,8 @@ public:
   }
 
   [[nodiscard]] Place place() {
-    return {run_.step, peaks_.force_before(), *asked_.x1, *asked_.dxdt1,
-            run_.system.made_elsewhere().forces};
+    return {run_.step,  peaks_.force_before(), peaks_.overtravel(),
+            *asked_.x1, *asked_.dxdt1,         run_.system.made_elsewhere().forces};
   }
 
   /// The run was carried so far; what the engine brings back lies in `place()`.
@@ -138,6 +139,7 @@ private:
     system.reset();
     system.want_forces(run_.goal.peak_force);
     system.start(run_.step.x);
+    system.find_sides(run_.step.x);
     if constexpr (M == BaseMotion::free) kept_ = conserved(system, run_.step.x, run_.step.t);
     events_.start();
     diary_.start();
@@ -150,16 +152,22 @@ private:
   /// The right-hand side has changed, or is new: evaluates it, at t⁺.
   /// @param let_go a hinge; 0: none
   void restart(int let_go) {
+    evaluate_anew(let_go);
+    if (settle_edges(run_.system, run_.step.x, run_.step.dxdt)) evaluate_anew(0);
     Step<T>& step = run_.step;
-    if (run_.system.wing().can_stick)
-      sort_contacts(run_.system, step.x, step.dxdt, step.t, let_go);
-    else
-      run_.system(step.x, step.dxdt, step.t);
     peaks_.include_start();
     events_.begin_step(step.x);
     diary_.notify();
     stepping_.restart(diary_.any_latch());
     diary_.begin_phase(stepping_.method(), stepping_.steps());
+  }
+
+  void evaluate_anew(int let_go) {
+    Step<T>& step = run_.step;
+    if (run_.system.wing().can_stick)
+      sort_contacts(run_.system, step.x, step.dxdt, step.t, let_go);
+    else
+      run_.system(step.x, step.dxdt, step.t);
   }
 
   /// Ends the run, or asks for the next step.
@@ -191,7 +199,8 @@ private:
 
   /// A step accepted: looks for its peaks, some of them made sure of by steps of the method inside.
   void accept() {
-    if constexpr (M == BaseMotion::free) restore_momentum();
+    if constexpr (M == BaseMotion::free)
+      if (run_.system.wing().plates.empty()) restore_momentum(); // the air takes some
     make_sure(peaks_.first_doubt());
   }
 

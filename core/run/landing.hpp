@@ -35,7 +35,7 @@ public:
     Step<T>& step = run_.step;
     const auto at = events_.indicator(*due_, step);
     const T late = at.value / at.slope, size = larger(late, T(-late));
-    if (!(at.slope > T(0) && size < T(1e-2) * step.h && corrections_ < 3)) return false;
+    if (!(at.slope > T(0) && is_near(at, size) && corrections_ < 4)) return false;
     if (size > T(1e-7) * step.h) {
       ++corrections_;
       cut(step.h - late);
@@ -73,6 +73,17 @@ private:
     longest_ = run_.step.h;
     cut(due_->s * longest_);
     return true;
+  }
+
+  /// Whether Newton's way to the event can be trusted: it is short, or the slope stays what it is on
+  /// it. In a stiff motion accelerations are known so poorly that the interpolant's instant may be
+  /// off by much of a long step.
+  [[nodiscard]] bool is_near(const typename Events<T, AnySystem>::Indicator& at,
+                             const T& size) const {
+    using std::abs;
+    if (size < T(1e-2) * run_.step.h) return true;
+    return size < T(0.5) * run_.step.h && size * abs(at.bend) < T(0.1) * at.slope &&
+           at.bend != T(0);
   }
 
   void cut(const T& h) {

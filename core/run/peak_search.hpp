@@ -3,6 +3,7 @@
 
 #include "core/peaks/force_peaks.hpp"
 #include "core/peaks/moment_peaks.hpp"
+#include "core/peaks/overtravel.hpp"
 #include "core/run/underway.hpp"
 
 #include <optional>
@@ -21,9 +22,14 @@ public:
   /// Forces where the step starts, 1 … n, N; only where they are asked for.
   [[nodiscard]] std::vector<T>& force_before() { return forces_.before(); }
 
+  /// Furthest beyond the stowed angle, 1 … n, rad.
+  [[nodiscard]] std::vector<T>& overtravel() { return overtravel_; }
+  [[nodiscard]] const std::vector<T>& overtravel() const { return overtravel_; }
+
   /// A run begins.
   void start() {
     moments_.assign(run_.at.bodies + 1, {});
+    overtravel_.assign(run_.at.bodies + 1, T(0));
     if (run_.goal.peak_force) forces_.start(run_.system);
   }
 
@@ -42,6 +48,8 @@ public:
     made_sure_ = false;
     hinge_ = 0;
     doubt_.reset(), held_at_.reset();
+    for (int i = 1; i <= run_.at.bodies; ++i)
+      raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
     if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
     return next_doubt();
   }
@@ -94,6 +102,7 @@ private:
 
   Underway<T, AnySystem>& run_;
   std::vector<PeakOf<T>> moments_; ///< 1 … n
+  std::vector<T> overtravel_;      ///< 1 … n
   ForcePeaks<T, AnySystem> forces_;
   int hinge_ = 0;                          ///< whose moment is looked at
   std::optional<DoubtfulMoment<T>> doubt_; ///< of it; none while forces are in doubt

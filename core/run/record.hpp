@@ -20,7 +20,7 @@ namespace wingspread {
 
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] double total_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
-  return static_cast<double>(T(kinetic_energy(system, x, t) + potential_energy(system, x)));
+  return static_cast<double>(T(kinetic_energy(system, x, t) + potential_energy(system, x, t)));
 }
 
 /// A sample of the trajectory; the last evaluation was at (x, t) if any hinge sticks.
@@ -37,7 +37,7 @@ template <class T, class Topology, BaseMotion M>
     sample.moments[hinge] = static_cast<double>(system.moment(x, i));
   }
   sample.kinetic = static_cast<double>(kinetic_energy(system, x, t));
-  sample.potential = static_cast<double>(potential_energy(system, x));
+  sample.potential = static_cast<double>(potential_energy(system, x, t));
   return sample;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 namespace wingspread {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 /// Whose fields are looked at: "hinges.root", "base".
 struct Owner {
   const char* kind;
-  const std::string& name; ///< may be empty
+  std::string_view name; ///< may be empty
 };
 
 /// Collects faults; formats names and values only when it finds one.
@@ -21,15 +22,15 @@ public:
     std::ostringstream found;
     found.precision(17);
     found << value;
-    faults.push_back({owner.kind + (owner.name.empty() ? "" : "." + owner.name) + "." + field,
-                      found.str(), std::isfinite(value) ? expected : "a finite number"});
+    faults.push_back(
+        {owner.kind + (owner.name.empty() ? "" : "." + std::string(owner.name)) + "." + field,
+         found.str(), std::isfinite(value) ? expected : "a finite number"});
   }
   std::vector<Fault> faults;
 };
 
 void inspect(const Base& base, Inspector& check) {
-  static const std::string nameless;
-  const Owner owner{"base", nameless};
+  const Owner owner{"base", ""};
   if (base.motion == BaseMotion::fixed) return;
   check.require(true, base.angle, owner, "angle", "");
   check.require(true, base.rate, owner, "rate", "");
@@ -57,6 +58,44 @@ void inspect(const Friction& friction, const Owner& owner, Inspector& check) {
   if (friction.static_level)
     check.require(*friction.static_level >= friction.coulomb, *friction.static_level, owner,
                   "friction.static", ">= friction.coulomb");
+  check.require(friction.scale >= 0, friction.scale, owner, "friction.scale", ">= 0");
+}
+
+void inspect(const Damper& damper, const Owner& owner, Inspector& check) {
+  const auto not_negative = [&](double value, const char* field) {
+    check.require(value >= 0, value, owner, field, ">= 0");
+  };
+  const auto rate = [&](double value, const char* field) { // its powers must not vanish
+    check.require(value >= 1e-150, value, owner, field, value > 0 ? ">= 1e-150" : "> 0");
+  };
+  if (damper.law == DamperLaw::eddy_current) {
+    not_negative(damper.peak_torque, "damper.peak_torque");
+    rate(damper.peak_rate, "damper.peak_rate");
+  } else {
+    not_negative(damper.coefficient, "damper.coefficient");
+  }
+  if (damper.law == DamperLaw::power) {
+    check.require(damper.exponent > 0, damper.exponent, owner, "damper.exponent", "> 0");
+    rate(damper.regularization_rate, "damper.regularization_rate");
+  }
+  if (damper.window) {
+    const auto [from, to] = *damper.window;
+    check.require(true, from, owner, "damper.window.0", "");
+    check.require(from != to, to, owner, "damper.window.1", "different from damper.window.0");
+  }
+  not_negative(damper.scale, "damper.scale");
+}
+
+void inspect(const Stop& stop, const Owner& owner, Inspector& check) {
+  check.require(stop.stiffness >= 0, stop.stiffness, owner, "stop.stiffness", ">= 0");
+  check.require(stop.dissipation >= 0, stop.dissipation, owner, "stop.dissipation", ">= 0");
+  check.require(stop.gap >= 0, stop.gap, owner, "stop.gap", ">= 0");
+}
+
+void inspect(const Latch& latch, const Owner& owner, Inspector& check) {
+  check.require(latch.stiffness >= 0, latch.stiffness, owner, "latch.stiffness", ">= 0");
+  check.require(latch.damping >= 0, latch.damping, owner, "latch.damping", ">= 0");
+  check.require(latch.backlash >= 0, latch.backlash, owner, "latch.backlash", ">= 0");
 }
 
 void inspect(const Hinge& hinge, Inspector& check) {
@@ -71,13 +110,49 @@ void inspect(const Hinge& hinge, Inspector& check) {
   check.require(true, hinge.initial_rate, owner, "initial_rate", "");
   check.require(true, hinge.spring.torque_stowed, owner, "spring.torque_stowed", "");
   check.require(true, hinge.spring.torque_latched, owner, "spring.torque_latched", "");
+  check.require(true, hinge.spring.scale, owner, "spring.scale", "");
+  check.require(true, hinge.spring.offset, owner, "spring.offset", "");
   check.require(true, hinge.harness.torque_stowed, owner, "harness.torque_stowed", "");
   check.require(true, hinge.harness.torque_latched, owner, "harness.torque_latched", "");
+  check.require(true, hinge.harness.scale, owner, "harness.scale", "");
+  check.require(true, hinge.harness.offset, owner, "harness.offset", "");
   inspect(hinge.friction, owner, check);
-  if (!hinge.latch) return;
-  check.require(hinge.latch->stiffness >= 0, hinge.latch->stiffness, owner, "latch.stiffness",
+  if (hinge.damper) inspect(*hinge.damper, owner, check);
+  if (hinge.stop) inspect(*hinge.stop, owner, check);
+  if (hinge.latch) inspect(*hinge.latch, owner, check);
+}
+
+void inspect(const Body& body, Inspector& check) {
+  const Owner owner{"bodies", body.name};
+  check.require(body.mass > 0, body.mass, owner, "mass", "> 0");
+  check.require(body.inertia > 0, body.inertia, owner, "inertia", "> 0");
+  if (!body.plate) return;
+  const Plate& plate = *body.plate;
+  check.require(true, plate.from.x(), owner, "plate.from.0", "");
+  check.require(true, plate.from.y(), owner, "plate.from.1", "");
+  check.require(true, plate.to.x(), owner, "plate.to.0", "");
+  check.require(true, plate.to.y(), owner, "plate.to.1", "");
+  check.require(plate.from.x() != plate.to.x() || plate.from.y() != plate.to.y(), plate.to.x(),
+                owner, "plate.to", "another point than plate.from");
+  check.require(plate.width >= 0, plate.width, owner, "plate.width", ">= 0");
+  check.require(plate.drag_coefficient >= 0, plate.drag_coefficient, owner,
+                "plate.drag_coefficient", ">= 0");
+}
+
+void inspect(const Synchronisation& loop, Inspector& check) {
+  const Owner owner{"synchronisations", loop.name};
+  check.require(loop.table || loop.ratio != 0, loop.ratio, owner, "ratio", "a number, not 0");
+  check.require(loop.stiffness >= 0, loop.stiffness, owner, "stiffness", ">= 0");
+  check.require(loop.damping >= 0, loop.damping, owner, "damping", ">= 0");
+  if (loop.preload) check.require(*loop.preload > 0, *loop.preload, owner, "preload", "> 0");
+}
+
+void inspect(const Environment& environment, Inspector& check) {
+  const Owner owner{"environment", ""};
+  check.require(true, environment.gravity.x(), owner, "gravity.0", "");
+  check.require(true, environment.gravity.y(), owner, "gravity.1", "");
+  check.require(environment.air_density >= 0, environment.air_density, owner, "air_density",
                 ">= 0");
-  check.require(hinge.latch->damping >= 0, hinge.latch->damping, owner, "latch.damping", ">= 0");
 }
 
 } // namespace
@@ -85,12 +160,10 @@ void inspect(const Hinge& hinge, Inspector& check) {
 std::vector<Fault> unphysical(const Scene& scene) {
   Inspector check;
   inspect(scene.base, check);
-  for (const Body& body : scene.bodies) {
-    const Owner owner{"bodies", body.name};
-    check.require(body.mass > 0, body.mass, owner, "mass", "> 0");
-    check.require(body.inertia > 0, body.inertia, owner, "inertia", "> 0");
-  }
+  for (const Body& body : scene.bodies) inspect(body, check);
   for (const Hinge& hinge : scene.hinges) inspect(hinge, check);
+  for (const Synchronisation& loop : scene.synchronisations) inspect(loop, check);
+  inspect(scene.environment, check);
   return std::move(check.faults);
 }
 

@@ -4,25 +4,69 @@
 /// its centre of mass. A hinge's angle is that of its child relative to its parent.
 #pragma once
 
+#include "core/scene/curve.hpp"
+
 #include <Eigen/Core>
 
+#include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace wingspread {
 
+/// A flat plate in the air, seen edge on: it resists motion along its normal (ground tests).
+struct Plate {
+  Eigen::Vector2d from{0, 0}, to{0, 0}; ///< its edges, body's frame, m
+  double width = 0;                     ///< along the hinge lines, m, ≥ 0
+  double drag_coefficient = 0; ///< C, 1, ≥ 0: pressure ½ ρ C v² on the normal velocity v
+};
+
 /// A rigid body. Its frame sits in its centre of mass.
 struct Body {
   std::string name;
   double mass = 0;    ///< kg, > 0
   double inertia = 0; ///< about the centre of mass, kg·m², > 0
+  std::optional<Plate> plate{};
 };
 
-/// A moment that is linear in the hinge's travel x = (φ − stowed)/(latched − stowed), N·m.
-struct LinearTorque {
-  double torque_stowed = 0;  ///< at x = 0
-  double torque_latched = 0; ///< at x = 1
+/// Torque against hinge angle as it was measured, one way or both.
+class TorqueTable {
+public:
+  /// @pre angle strictly monotone, at least two; torque (deploying, stowing) as many; all finite
+  TorqueTable(std::vector<double> angle, std::vector<double> torque, Interpolation interpolation);
+  TorqueTable(std::vector<double> angle, std::vector<double> deploying, std::vector<double> stowing,
+              Interpolation interpolation);
+
+  /// As given, for those who write it down again.
+  [[nodiscard]] const std::vector<double>& angle() const { return angle_; } ///< rad
+  /// N·m: the torque, or what the hinge still delivers while it deploys.
+  [[nodiscard]] const std::vector<double>& deploying() const { return deploying_; }
+  /// N·m: what it takes to stow it again; empty where the table is of one curve.
+  [[nodiscard]] const std::vector<double>& stowing() const { return stowing_; }
+  [[nodiscard]] bool both_ways() const { return !stowing_.empty(); }
+  [[nodiscard]] Interpolation interpolation() const { return interpolation_; }
+
+  /// ½ (stowing + deploying), or the torque, against hinge angle.
+  [[nodiscard]] const Curve& drive() const { return drive_; }
+  /// ½ (stowing − deploying): a level of Coulomb friction; without pieces where there is none.
+  [[nodiscard]] const Curve& friction() const { return friction_; }
+
+private:
+  std::vector<double> angle_, deploying_, stowing_;
+  Interpolation interpolation_ = Interpolation::monotone;
+  Curve drive_, friction_;
+};
+
+/// A torque over the hinge's way, of a spring or a harness, N·m: scale · law + offset. The law is
+/// linear in the travel x = (φ − stowed)/(latched − stowed), or a table of hinge angles.
+struct HingeTorque {
+  double torque_stowed = 0;                   ///< at x = 0
+  double torque_latched = 0;                  ///< at x = 1
+  std::shared_ptr<const TorqueTable> table{}; ///< in place of these two, if there is one
+  double scale = 1;
+  double offset = 0; ///< N·m
 };
 
 enum class FrictionModel { regularized, exact };
@@ -34,12 +78,37 @@ struct Friction {
   double regularization_rate = 1e-3;  ///< ω_s, rad/s, > 0; used by the regularized model
   std::optional<double> static_level; ///< τ_s ≥ τ_c, N·m; used by the exact model
   FrictionModel model = FrictionModel::regularized;
+  double scale = 1; ///< of all that it does, what a torque test both ways adds included, ≥ 0
+};
+
+enum class DamperLaw { viscous, power, eddy_current };
+
+/// A damper: its moment opposes the rate of its hinge.
+struct Damper {
+  DamperLaw law = DamperLaw::viscous;
+  double coefficient = 0;            ///< viscous: N·m·s/rad; power law: N·m·(s/rad)^p; ≥ 0
+  double exponent = 1;               ///< p of the power law, > 0
+  double regularization_rate = 1e-6; ///< of the power law, linear below it, rad/s, > 0
+  double peak_torque = 0;            ///< T_p of the eddy currents, N·m, ≥ 0
+  double peak_rate = 1;              ///< ω_p, at which they brake most, rad/s, > 0
+  /// Hinge angles between which it acts, in any order; everywhere without, rad.
+  std::optional<std::array<double, 2>> window;
+  double scale = 1; ///< ≥ 0
+};
+
+/// What keeps a hinge from turning beyond its stowed angle: a contact [Hunt & Crossley 1975].
+/// With the penetration δ = −travel − gap > 0 it pushes by k δ (1 + c δ̇), and never pulls.
+struct Stop {
+  double stiffness = 0;   ///< k, N·m/rad, ≥ 0
+  double dissipation = 0; ///< c, s/rad, ≥ 0
+  double gap = 0;         ///< rad, ≥ 0
 };
 
 /// A latch: once engaged, a spring and a damper about the latched angle, for ever.
 struct Latch {
   double stiffness = 0; ///< k, N·m/rad, ≥ 0
   double damping = 0;   ///< d, N·m·s/rad, ≥ 0
+  double backlash = 0;  ///< β, rad, ≥ 0: no moment within ±β/2 of the latched angle
 };
 
 inline constexpr int base_index = -1; ///< `Hinge::parent` of a hinge on the base
@@ -54,10 +123,34 @@ struct Hinge {
   double stowed = 0;                  ///< angle at the start, rad
   double latched = 0;                 ///< angle at which the latch engages, rad
   double initial_rate = 0;            ///< rad/s
-  LinearTorque spring;                ///< positive deploys
-  LinearTorque harness;               ///< positive resists
+  HingeTorque spring;                 ///< positive deploys
+  HingeTorque harness;                ///< positive resists
   Friction friction;
+  std::optional<Damper> damper;
+  std::optional<Stop> stop;   ///< a hinge without one turns through its stowed angle unhindered
   std::optional<Latch> latch; ///< a hinge without one never latches
+};
+
+/// A closed cable loop that keeps the travel of one hinge to a function of another's: with
+/// x = sense (φ − stowed) and e = g(x of the first) − x of the second it pulls the second by
+/// τ = K e + D ė, and the first by −g' τ. A strand of a preloaded loop goes slack at K |e| = 2 M_p,
+/// from where on τ = ½ K e + M_p sign e, with half the damping.
+struct Synchronisation {
+  std::string name;
+  int first = 0, second = 0; ///< indices into Scene::hinges
+  double ratio = 1;          ///< g(x) = ratio·x
+  /// g by a table, straight beyond its ends, in place of the ratio.
+  std::shared_ptr<const Curve> table;
+  std::vector<double> travel, travel_of_second; ///< the table as given, rad
+  double stiffness = 0;                         ///< K, N·m/rad, ≥ 0
+  double damping = 0;                           ///< D, N·m·s/rad, ≥ 0
+  std::optional<double> preload; ///< M_p, strand tension times radius, N·m, > 0; none: never slack
+};
+
+/// What surrounds the wing.
+struct Environment {
+  Eigen::Vector2d gravity{0, 0}; ///< inertial axes, m/s²
+  double air_density = 0;        ///< ρ, kg/m³, ≥ 0; the air is at rest
 };
 
 enum class BaseMotion { fixed, prescribed, free };
@@ -85,6 +178,8 @@ struct Scene {
   Base base;
   std::vector<Body> bodies;
   std::vector<Hinge> hinges;
+  std::vector<Synchronisation> synchronisations;
+  Environment environment;
 };
 
 /// A parameter whose value physics forbids.

@@ -1,0 +1,58 @@
+/// Where real hinges pass the angles at which their laws change: the contact of a stop, the window
+/// of a damper, the two sides of a latch's backlash.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/system.hpp"
+
+#include <optional>
+
+namespace wingspread {
+
+/// visit(i, edge) for every edge that a hinge of the system has now.
+template <class AnySystem, class Visit> void for_each_edge(const AnySystem& system, Visit&& visit) {
+  const auto& wing = system.wing();
+  for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
+    for (int e = 0; e < edges_of_hinge; ++e) {
+      const Edge edge = static_cast<Edge>(e);
+      if (has_edge(wing, i, edge, system.latch_acts(i))) visit(i, edge);
+    }
+}
+
+/// 1 while hinge i has yet to pass the edge upwards, −1 while downwards.
+template <class AnySystem> [[nodiscard]] int way_over(const AnySystem& system, int i, Edge edge) {
+  return system.work().above[i][static_cast<int>(edge)] != 0 ? -1 : 1;
+}
+
+/// The first s in [0, 1] at which hinge i comes to the edge from its side of it; none if it does
+/// not. A step that starts at the edge itself has just come from it.
+template <class T, class AnySystem>
+[[nodiscard]] std::optional<T> first_crossing(const AnySystem& system, const Step<T>& step, int i,
+                                              Edge edge) {
+  const Layout& at = system.layout();
+  const T angle = edge_angle(system.wing(), i, edge), way(way_over(system, i, edge));
+  Quintic<T> past = step.coordinate(at.angle(i), at.freedoms());
+  for (T& c : past) c = way * (c - angle);
+  if (step.x[at.angle(i)] == angle) past = without_root_at_start(past);
+  return first_nonnegative(past);
+}
+
+/// The side of every hinge that stands at an edge follows from where it is about to go: by its rate
+/// or, at rest, its acceleration. @return whether any side has changed
+template <class T, class AnySystem>
+bool settle_edges(AnySystem& system, const State<T>& x, const State<T>& dxdt) {
+  const Layout& at = system.layout();
+  bool changed = false;
+  for_each_edge(system, [&](int i, Edge edge) {
+    if (x[at.angle(i)] != edge_angle(system.wing(), i, edge)) return;
+    const T& rate = x[at.rate(i)];
+    const T& going = rate != T(0) ? rate : dxdt[at.rate(i)];
+    const int way = way_over(system, i, edge);
+    if (!(T(way) * going > T(0))) return;
+    system.pass(i, edge, way > 0);
+    changed = true;
+  });
+  return changed;
+}
+
+} // namespace wingspread

@@ -1,0 +1,118 @@
+/// A curve's value, slope and integral for any number: one, or a pack of them.
+#pragma once
+
+#include "core/number/pack.hpp"
+#include "core/scene/curve.hpp"
+
+#include <array>
+
+namespace wingspread {
+
+/// Of a piece: c of Curve::Piece, where it begins, and the integral up to there.
+template <class T> struct PieceAt {
+  T u; ///< x less the knot of its powers
+  std::array<T, 4> c;
+  T integral;
+};
+
+namespace detail {
+
+/// From the piece at x and the knot of its powers.
+template <class T>
+[[nodiscard]] PieceAt<T> piece_at(const Curve::Piece& piece, double knot, const T& x) {
+  return {
+      x - T(knot), {T(piece.c[0]), T(piece.c[1]), T(piece.c[2]), T(piece.c[3])}, T(piece.integral)};
+}
+
+/// The number of knots at or before x: that of its piece. NaN: 0.
+template <class T> [[nodiscard]] std::size_t piece_number(const Curve& curve, const T& x) {
+  const std::vector<double>& knots = curve.knots();
+  std::size_t k = 0;
+  while (k < knots.size() && x >= T(knots[k])) ++k;
+  return k;
+}
+
+[[nodiscard]] inline double knot_of(const Curve& curve, std::size_t piece) {
+  return curve.knots()[piece > 0 ? piece - 1 : 0];
+}
+
+} // namespace detail
+
+/// The piece at x.
+template <class T> [[nodiscard]] PieceAt<T> piece_at(const Curve& curve, const T& x) {
+  const std::size_t k = detail::piece_number(curve, x);
+  return detail::piece_at(curve.pieces()[k], detail::knot_of(curve, k), x);
+}
+
+/// A lane at a time.
+template <int W>
+[[nodiscard]] inline PieceAt<Pack<W>> piece_at(const Curve& curve, const Pack<W>& x) {
+  PieceAt<Pack<W>> found;
+  Pack<W> knot(0.0);
+  found.integral = Pack<W>(0.0);
+  found.c.fill(Pack<W>(0.0));
+  for (int lane = 0; lane < W; ++lane) {
+    const double at = x.v[lane];
+    const std::size_t k = detail::piece_number(curve, at);
+    const Curve::Piece& piece = curve.pieces()[k];
+    knot.v[lane] = detail::knot_of(curve, k);
+    for (int power = 0; power < 4; ++power) found.c[power].v[lane] = piece.c[power];
+    found.integral.v[lane] = piece.integral;
+  }
+  found.u = x - knot;
+  return found;
+}
+
+template <class T> [[nodiscard]] T value(const PieceAt<T>& p) {
+  return fused(p.u, fused(p.u, fused(p.u, p.c[3], p.c[2]), p.c[1]), p.c[0]);
+}
+template <class T> [[nodiscard]] T slope(const PieceAt<T>& p) {
+  return fused(p.u, fused(p.u, T(3) * p.c[3], T(2) * p.c[2]), p.c[1]);
+}
+
+template <class T> [[nodiscard]] T value(const Curve& curve, const T& x) {
+  return value(piece_at(curve, x));
+}
+template <class T> [[nodiscard]] T slope(const Curve& curve, const T& x) {
+  return slope(piece_at(curve, x));
+}
+
+/// ∫ of the curve from its first knot to x.
+template <class T> [[nodiscard]] T integral(const Curve& curve, const T& x) {
+  const PieceAt<T> p = piece_at(curve, x);
+  const T mean =
+      fused(p.u, fused(p.u, fused(p.u, T(0.25) * p.c[3], p.c[2] / T(3)), T(0.5) * p.c[1]), p.c[0]);
+  return fused(p.u, mean, p.integral);
+}
+
+/// A range of values.
+template <class T> struct Interval {
+  T low, high;
+
+  friend Interval operator+(const Interval& a, const Interval& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  void include(const T& x) { low = smaller(low, x), high = larger(high, x); }
+};
+
+/// By a factor of either sign.
+template <class T> [[nodiscard]] Interval<T> scaled(const T& by, const Interval<T>& range) {
+  const T a = by * range.low, b = by * range.high;
+  return {smaller(a, b), larger(a, b)};
+}
+
+/// Over a range of x: the extremes lie at knots, or are no more than the overshoot beyond.
+template <class T> [[nodiscard]] Interval<T> range_of(const Curve& curve, const Interval<T>& x) {
+  const T first = value(curve, x.low), last = value(curve, x.high);
+  Interval<T> range{smaller(first, last), larger(first, last)};
+  for (std::size_t k = 0; k < curve.knots().size(); ++k) {
+    const T knot(curve.knots()[k]), there(curve.pieces()[k + 1].c[0]);
+    const auto inside = x.low < knot && knot < x.high;
+    range.low = select(inside, smaller(range.low, there), range.low);
+    range.high = select(inside, larger(range.high, there), range.high);
+  }
+  const T over(curve.overshoot());
+  return {range.low - over, range.high + over};
+}
+
+} // namespace wingspread

@@ -1,0 +1,110 @@
+/// Dampers: moments that oppose a hinge's rate v.
+///
+///     viscous        −c v
+///     power law      −A |v|^p sign v,  linear below the regularization rate w: −A w^{p−1} v
+///     eddy current   −2 T_p r/(1 + r²),  r = v/ω_p: most at the peak rate, and less beyond it
+#pragma once
+
+#include "core/laws/curve_value.hpp"
+#include "core/number/pack.hpp"
+#include "core/scene/scene.hpp"
+
+#include <cmath>
+
+namespace wingspread {
+
+template <class T> struct DamperTerms {
+  DamperLaw law;
+  T strength;  ///< c, A or 2 T_p, times the scale
+  T exponent;  ///< p
+  T rate;      ///< w or ω_p, rad/s
+  T near_zero; ///< A w^{p−1}, times the scale, N·m·s/rad
+};
+
+namespace detail {
+template <class T> [[nodiscard]] T power(const T& base, const T& exponent) {
+  using std::pow;
+  return pow(base, exponent);
+}
+/// A lane at a time: the bits that each has alone.
+template <int W> [[nodiscard]] inline Pack<W> power(const Pack<W>& base, const Pack<W>& exponent) {
+  Pack<W> result;
+  for (int lane = 0; lane < W; ++lane) result.v[lane] = std::pow(base.v[lane], exponent.v[lane]);
+  return result;
+}
+} // namespace detail
+
+template <class T> [[nodiscard]] DamperTerms<T> damper_terms(const Damper& damper) {
+  const T scale(damper.scale), p(damper.exponent);
+  switch (damper.law) {
+  case DamperLaw::viscous:
+    return {damper.law, scale * T(damper.coefficient), T(1), T(1), T(0)};
+  case DamperLaw::power: {
+    const T A = scale * T(damper.coefficient), w(damper.regularization_rate);
+    return {damper.law, A, p, w, A * detail::power(w, T(p - T(1)))};
+  }
+  case DamperLaw::eddy_current:
+    break;
+  }
+  return {damper.law, scale * T(2 * damper.peak_torque), T(1), T(damper.peak_rate), T(0)};
+}
+
+/// Its moment at the rate v, N·m.
+template <class T> [[nodiscard]] T damper_moment(const DamperTerms<T>& damper, const T& v) {
+  using std::abs;
+  switch (damper.law) {
+  case DamperLaw::viscous:
+    return -damper.strength * v;
+  case DamperLaw::power: {
+    const T size = abs(v);
+    const T beyond = damper.strength * detail::power(larger(size, damper.rate), damper.exponent);
+    const T torque = select(size < damper.rate, T(damper.near_zero * size), beyond);
+    return select(v > T(0), T(-torque), torque);
+  }
+  case DamperLaw::eddy_current:
+    break;
+  }
+  const T r = v / damper.rate;
+  return -damper.strength * r / fused(r, r, T(1));
+}
+
+/// −d/dv of it: the damping that it is for small changes, N·m·s/rad.
+template <class T> [[nodiscard]] T damper_damping(const DamperTerms<T>& damper, const T& v) {
+  using std::abs;
+  switch (damper.law) {
+  case DamperLaw::viscous:
+    return damper.strength;
+  case DamperLaw::power: {
+    const T size = larger(T(abs(v)), damper.rate);
+    const T beyond =
+        damper.strength * damper.exponent * detail::power(size, T(damper.exponent - T(1)));
+    return select(T(abs(v)) < damper.rate, damper.near_zero, beyond);
+  }
+  case DamperLaw::eddy_current:
+    break;
+  }
+  const T r = v / damper.rate, q = fused(r, r, T(1));
+  return damper.strength / damper.rate * (T(2) - q) / (q * q);
+}
+
+/// Over a range of rates.
+template <class T>
+[[nodiscard]] Interval<T> damper_range(const DamperTerms<T>& damper, const Interval<T>& v) {
+  const T first = damper_moment(damper, v.low), last = damper_moment(damper, v.high);
+  Interval<T> range{smaller(first, last), larger(first, last)};
+  if (damper.law != DamperLaw::eddy_current) return range;
+  const T half = T(0.5) * damper.strength; // at the peak rate
+  const auto braking = v.low < damper.rate && damper.rate < v.high;
+  const auto driven_back = v.low < -damper.rate && -damper.rate < v.high;
+  range.low = select(braking, T(-half), range.low);
+  range.high = select(driven_back, half, range.high);
+  return range;
+}
+
+/// No |moment| is larger for rates up to `most`.
+template <class T> [[nodiscard]] T most_of_damper(const DamperTerms<T>& damper, const T& most) {
+  const Interval<T> range = damper_range(damper, Interval<T>{T(-most), most});
+  return larger(range.high, T(-range.low));
+}
+
+} // namespace wingspread

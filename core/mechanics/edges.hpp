@@ -1,0 +1,41 @@
+/// Angles at which a real hinge's law changes: a run keeps on which side of them it is.
+#pragma once
+
+#include "core/mechanics/wing.hpp"
+#include "core/mechanics/workspace.hpp"
+
+namespace wingspread {
+
+/// Where hinge i has this edge, rad. @pre wing.real is not empty
+template <class T> [[nodiscard]] T edge_angle(const Wing<T>& wing, int i, Edge edge) {
+  const RealHingeTerms<T>& real = wing.real[i];
+  switch (edge) {
+  case Edge::stop:
+    return real.contact_angle;
+  case Edge::window_low:
+    return real.window_low;
+  case Edge::window_high:
+    return real.window_high;
+  case Edge::backlash_low:
+    return wing.hinges[i].latched - real.half_backlash;
+  case Edge::backlash_high:
+    break;
+  }
+  return wing.hinges[i].latched + real.half_backlash;
+}
+
+/// Whether the hinge has that edge now. @param bears whether its latch has engaged
+template <class T>
+[[nodiscard]] bool has_edge(const Wing<T>& wing, int i, Edge edge, bool engaged) {
+  const RealHingeTerms<T>& real = wing.real[i];
+  if (edge == Edge::stop) return real.has_stop;
+  if (edge == Edge::window_low || edge == Edge::window_high) return real.has_window;
+  return engaged && real.has_backlash;
+}
+
+/// Whether the stop is in contact, by the side of its edge.
+template <class T> [[nodiscard]] bool touches_stop(const Wing<T>& wing, int i, bool above) {
+  return wing.real[i].has_stop && above != (wing.real[i].sense > T(0));
+}
+
+} // namespace wingspread

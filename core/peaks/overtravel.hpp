@@ -1,0 +1,44 @@
+/// How far hinges turn beyond their stowed angle, away from where they latch.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/system.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace wingspread {
+
+/// −travel of hinge i at an angle, rad: > 0 beyond the stowed angle.
+template <class T> [[nodiscard]] T beyond_stowed(const HingeTerms<T>& hinge, const T& angle) {
+  return hinge.sense * (hinge.stowed - angle);
+}
+
+/// Whether hinge i may turn back inside the step, further beyond its stowed angle than `most`; if
+/// not, it is furthest at one of the step's ends, or not as far.
+template <class T>
+[[nodiscard]] auto may_turn_back(const Wing<T>& wing, const Layout& at, const Step<T>& step, int i,
+                                 const T& most) {
+  const HingeTerms<T>& hinge = wing.hinges[i];
+  const T before = hinge.sense * step.x[at.rate(i)], after = hinge.sense * step.x1[at.rate(i)];
+  T furthest = most;
+  for (const T& c : step.coordinate(at.angle(i), at.freedoms()))
+    furthest = larger(furthest, beyond_stowed(hinge, c));
+  return before < T(0) && after >= T(0) && furthest > most;
+}
+
+/// Raises `most` to the largest overtravel of hinge i over the step.
+template <class T>
+void raise_overtravel(T& most, const Wing<T>& wing, const Layout& at, const Step<T>& step, int i) {
+  const HingeTerms<T>& hinge = wing.hinges[i];
+  if (may_turn_back(wing, at, step, i, most)) {
+    const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
+    Quintic<T> rate = derivative(angle, step.h);
+    for (T& c : rate) c = hinge.sense * c;
+    if (const std::optional<T> s = first_nonnegative(rate))
+      most = larger(most, beyond_stowed(hinge, value(angle, *s)));
+  }
+  most = larger(most, beyond_stowed(hinge, step.x1[at.angle(i)]));
+}
+
+} // namespace wingspread

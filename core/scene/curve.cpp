@@ -1,0 +1,148 @@
+#include "core/scene/curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wingspread {
+namespace {
+
+bool same_sign(double a, double b) { return (a > 0 && b > 0) || (a < 0 && b < 0); }
+
+/// The slope at an end, from its own piece and the next: by three points, but not against the data.
+double end_slope(double h0, double h1, double d0, double d1) {
+  const double slope = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
+  if (!same_sign(slope, d0)) return 0;
+  if (!same_sign(d0, d1) && std::abs(slope) > 3 * std::abs(d0)) return 3 * d0;
+  return slope;
+}
+
+/// PCHIP's slopes at knots h apart with the chords' slopes d.
+std::vector<double> monotone_slopes(const std::vector<double>& h, const std::vector<double>& d) {
+  const std::size_t pieces = d.size();
+  if (pieces == 1) return {d[0], d[0]};
+  std::vector<double> slopes(pieces + 1);
+  slopes.front() = end_slope(h[0], h[1], d[0], d[1]);
+  slopes.back() = end_slope(h[pieces - 1], h[pieces - 2], d[pieces - 1], d[pieces - 2]);
+  for (std::size_t k = 1; k < pieces; ++k) {
+    if (!same_sign(d[k - 1], d[k])) continue; // an extreme of the table: level there
+    if (d[k - 1] == d[k]) {
+      slopes[k] = d[k]; // a line stays that line, to the last bit
+      continue;
+    }
+    const double before = 2 * h[k] + h[k - 1], after = h[k] + 2 * h[k - 1];
+    slopes[k] = (before + after) / (before / d[k - 1] + after / d[k]);
+  }
+  return slopes;
+}
+
+/// Least and largest slope of a cubic over 0 … h.
+void widen_by_slopes(const Curve::Piece& piece, double h, double& least, double& largest) {
+  const auto slope = [&](double u) {
+    return piece.c[1] + u * (2 * piece.c[2] + 3 * u * piece.c[3]);
+  };
+  const auto take = [&](double u) {
+    least = std::min(least, slope(u));
+    largest = std::max(largest, slope(u));
+  };
+  take(0), take(h);
+  const double vertex = -piece.c[2] / (3 * piece.c[3]);
+  if (piece.c[3] != 0 && vertex > 0 && vertex < h) take(vertex);
+}
+
+/// By how much a cubic over 0 … h may leave, inside any interval of it, the range of that interval's
+/// ends: half of what it goes forth and back.
+double overshoot_of(const Curve::Piece& piece, double h) {
+  const auto& c = piece.c;
+  const auto value = [&](double u) { return c[0] + u * (c[1] + u * (c[2] + u * c[3])); };
+  std::array<double, 4> at{0, h, h, h}; // where it may turn
+  int count = 1;
+  const auto turn = [&](double u) {
+    if (u > 0 && u < h) at[count++] = u;
+  };
+  // the roots of c1 + 2 c2 u + 3 c3 u², without loss of digits
+  const double root = std::sqrt(std::max(c[2] * c[2] - 3 * c[1] * c[3], 0.0));
+  const double q = -(c[2] + std::copysign(root, c[2]));
+  if (c[3] != 0) turn(q / (3 * c[3]));
+  if (q != 0) turn(c[1] / q);
+  at[count] = h;
+  std::sort(at.begin(), at.begin() + count);
+  double way = 0;
+  for (int k = 0; k < count; ++k) way += std::abs(value(at[k + 1]) - value(at[k]));
+  return std::max((way - std::abs(value(h) - value(0))) / 2, 0.0);
+}
+
+} // namespace
+
+Curve::Curve(std::vector<double> x, std::vector<double> y, Interpolation interpolation,
+             Beyond beyond) {
+  if (x.front() > x.back()) std::reverse(x.begin(), x.end()), std::reverse(y.begin(), y.end());
+  const std::size_t pieces = x.size() - 1;
+  std::vector<double> h(pieces), d(pieces);
+  for (std::size_t k = 0; k < pieces; ++k) h[k] = x[k + 1] - x[k], d[k] = (y[k + 1] - y[k]) / h[k];
+  std::vector<double> slopes;
+  if (interpolation == Interpolation::monotone) slopes = monotone_slopes(h, d);
+  pieces_.resize(pieces + 2);
+  for (std::size_t k = 0; k < pieces; ++k) {
+    Piece& piece = pieces_[k + 1];
+    piece.from = x[k];
+    piece.c = {y[k], d[k], 0, 0};
+    if (slopes.empty()) continue;
+    const double a = slopes[k], b = slopes[k + 1];
+    piece.c = {y[k], a, ((d[k] - a) + (2 * d[k] - a - b)) / h[k],
+               ((a - d[k]) + (b - d[k])) / (h[k] * h[k])};
+  }
+  pieces_.back().from = x.back();
+  pieces_.back().c = {y.back(), slopes.empty() ? d.back() : slopes.back(), 0, 0};
+  knots_ = std::move(x);
+  add_ends(beyond);
+  integrate();
+  find_slopes();
+}
+
+Curve Curve::sum(double a, const Curve& f, double b, const Curve& g) {
+  Curve total = f;
+  for (std::size_t k = 0; k < f.pieces_.size(); ++k)
+    for (int power = 0; power < 4; ++power)
+      total.pieces_[k].c[power] = a * f.pieces_[k].c[power] + b * g.pieces_[k].c[power];
+  total.integrate();
+  total.find_slopes();
+  return total;
+}
+
+/// The pieces before the first knot, in powers about that, and after the last.
+void Curve::add_ends(Beyond beyond) {
+  pieces_.front() = {-std::numeric_limits<double>::infinity(), pieces_[1].c, 0};
+  for (Piece* end : {&pieces_.front(), &pieces_.back()}) {
+    end->c[2] = end->c[3] = 0;
+    if (beyond == Beyond::constant) end->c[1] = 0;
+  }
+}
+
+void Curve::integrate() {
+  double sum = 0;
+  for (std::size_t k = 1; k < pieces_.size(); ++k) {
+    Piece& piece = pieces_[k];
+    piece.integral = sum;
+    if (k + 1 == pieces_.size()) break;
+    const double u = knots_[k] - knots_[k - 1];
+    const auto& c = piece.c;
+    sum += u * (c[0] + u * (c[1] / 2 + u * (c[2] / 3 + u * (c[3] / 4))));
+  }
+}
+
+void Curve::find_slopes() {
+  steepest_fall_ = std::min(pieces_.front().c[1], pieces_.back().c[1]);
+  steepest_rise_ = std::max(pieces_.front().c[1], pieces_.back().c[1]);
+  sharpest_bend_ = overshoot_ = 0;
+  for (std::size_t k = 1; k + 1 < pieces_.size(); ++k) {
+    const double h = knots_[k] - knots_[k - 1];
+    const auto& c = pieces_[k].c;
+    widen_by_slopes(pieces_[k], h, steepest_fall_, steepest_rise_);
+    overshoot_ = std::max(overshoot_, overshoot_of(pieces_[k], h));
+    sharpest_bend_ =
+        std::max({sharpest_bend_, 2 * std::abs(c[2]), std::abs(2 * c[2] + 6 * h * c[3])});
+  }
+}
+
+} // namespace wingspread

@@ -1,0 +1,68 @@
+/// A function given by a table: between knots a monotone cubic or linear, constant beyond the ends.
+///
+/// | symbol  | meaning                                                                       |
+/// |---------|-------------------------------------------------------------------------------|
+/// | x_k, y_k| knots, x ascending                                                            |
+/// | p_k     | the cubic from x_k to x_{k+1}, in powers of x − x_k                           |
+/// | I_k     | ∫ of the function from x_0 to x_k                                             |
+///
+/// Monotone: the slopes are PCHIP's [F. N. Fritsch & J. Butland, A method for constructing local
+/// monotone piecewise cubic interpolants, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304; at the ends
+/// the three-point formula, limited so that the curve keeps the data's shape]: where the table
+/// rises the curve rises, it has no more extremes than the table, and all of them at knots; through
+/// a line it is that line.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace wingspread {
+
+enum class Interpolation { monotone, linear };
+
+/// Beyond the ends of a table.
+enum class Beyond { constant, straight };
+
+class Curve {
+public:
+  /// A polynomial piece: c[0] + c[1] u + c[2] u² + c[3] u³, u = x − x_k, and ∫ up to x_k.
+  struct Piece {
+    double from = 0;
+    std::array<double, 4> c{};
+    double integral = 0;
+  };
+
+  Curve() = default;
+  /// @pre x strictly monotone, at least two knots, all finite. Descending ones are turned round.
+  Curve(std::vector<double> x, std::vector<double> y, Interpolation interpolation,
+        Beyond beyond = Beyond::constant);
+
+  /// a·f + b·g of two curves with the same knots.
+  [[nodiscard]] static Curve sum(double a, const Curve& f, double b, const Curve& g);
+
+  /// Pieces by ascending x: one before the first knot, one between each pair, one after the last.
+  /// The piece at x is the last one that begins at or before x; the first begins at −∞, and its
+  /// polynomial is in powers of x − x_0.
+  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  /// x_0 … x_n, ascending: where a piece begins, and the extremes can lie.
+  [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
+  /// Largest and least dy/dx anywhere.
+  [[nodiscard]] double steepest_rise() const { return steepest_rise_; }
+  [[nodiscard]] double steepest_fall() const { return steepest_fall_; }
+  /// Largest |d²y/dx²| inside a piece.
+  [[nodiscard]] double sharpest_bend() const { return sharpest_bend_; }
+  /// By how much the curve may leave, within a piece, the values at an interval's ends: 0 but for
+  /// rounding, and for sums.
+  [[nodiscard]] double overshoot() const { return overshoot_; }
+
+private:
+  void add_ends(Beyond beyond);
+  void integrate();
+  void find_slopes();
+
+  std::vector<double> knots_;
+  std::vector<Piece> pieces_;
+  double steepest_rise_ = 0, steepest_fall_ = 0, sharpest_bend_ = 0, overshoot_ = 0;
+};
+
+} // namespace wingspread
