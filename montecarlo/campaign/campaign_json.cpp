@@ -1,9 +1,9 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 
-#include "montecarlo/campaign/scene_json.hpp"
 #include "montecarlo/campaign/wanted_correlations.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
 
 #include <fmt/format.h>
 
@@ -129,7 +129,8 @@ public:
     read_dependence();
     read_guarantees();
     if (const auto at = object_.find("margin")) campaign_.margin = read_margin(*at, scene_);
-    (void)object_.find(stamp_key); // known, and of no account
+    // Overtravel is recorded, asked for or not. But one that was run, and is stamped, stays what it was.
+    if (!object_.find(stamp_key)) campaign_.outputs.insert(OutputFamily::overtravel);
     object_.refuse_others();
     if (!problems_.empty()) throw SpecError(std::move(problems_));
     campaign_.resolved = write_campaign(campaign_, std::move(resolved_dispersions_));

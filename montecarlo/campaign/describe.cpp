@@ -1,7 +1,6 @@
 #include "montecarlo/campaign/describe.hpp"
 
 #include "montecarlo/campaign/distribution_json.hpp"
-#include "montecarlo/campaign/scene_json.hpp"
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
 #include "montecarlo/statistics/wilks.hpp"
@@ -14,54 +13,9 @@
 namespace wingspread {
 namespace {
 
-std::string describe_vector(const Eigen::Vector2d& vector) {
-  return fmt::format("({}, {})", vector.x(), vector.y());
-}
-
-std::string describe_base(const Base& base) {
-  std::string text(base_motion_names[static_cast<std::size_t>(base.motion)]);
-  if (base.motion == BaseMotion::fixed) return text;
-  if (base.motion == BaseMotion::free)
-    text +=
-        fmt::format(", mass {} kg, inertia {} kg·m², position {} m, velocity {} m/s", base.mass,
-                    base.inertia, describe_vector(base.position), describe_vector(base.velocity));
-  else
-    text += fmt::format(", acceleration {} m/s², angular acceleration {} rad/s²",
-                        describe_vector(base.acceleration), base.angular_acceleration);
-  return text + fmt::format(", angle {} rad, rate {} rad/s", base.angle, base.rate);
-}
-
-/// Nothing for a torque that is zero throughout.
-std::string describe_torque(const char* name, const LinearTorque& torque) {
-  if (torque.torque_stowed == 0 && torque.torque_latched == 0) return "";
-  return fmt::format("; {} {} to {} N·m", name, torque.torque_stowed, torque.torque_latched);
-}
-
-/// Nothing for a hinge without friction.
-std::string describe_friction(const Friction& friction) {
-  const bool exact = friction.model == FrictionModel::exact;
-  const double static_level = friction.static_level.value_or(friction.coulomb);
-  if (friction.coulomb == 0 && friction.viscous == 0 && static_level == 0) return "";
-  const std::string model =
-      exact ? fmt::format("exact, static {} N·m", static_level)
-            : fmt::format("regularized at {} rad/s", friction.regularization_rate);
-  return fmt::format("; friction {} N·m, {} N·m·s/rad, {}", friction.coulomb, friction.viscous,
-                     model);
-}
-
-std::string describe_latch(const std::optional<Latch>& latch) {
-  if (!latch) return "; no latch";
-  return fmt::format("; latch {} N·m/rad, {} N·m·s/rad", latch->stiffness, latch->damping);
-}
-
-std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
-  const std::string parent = hinge.parent == base_index ? "base" : scene.bodies[hinge.parent].name;
-  std::string text = fmt::format("{}: {} to {}, {} to {} rad", hinge.name, parent,
-                                 scene.bodies[hinge.child].name, hinge.stowed, hinge.latched);
-  if (hinge.initial_rate != 0) text += fmt::format(", from {} rad/s", hinge.initial_rate);
-  return text + describe_torque("spring", hinge.spring) +
-         describe_torque("harness", hinge.harness) + describe_friction(hinge.friction) +
-         describe_latch(hinge.latch);
+/// "2 N·m"; of what has no dimension, the number alone.
+std::string with_unit(double value, std::string_view unit) {
+  return fmt::format("{}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 std::string describe_argument(double value) { return fmt::format("{}", value); }
@@ -92,8 +46,8 @@ std::string describe_distribution(const Distribution& distribution) {
 std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
   std::vector<std::string> targets;
   for (const SceneParameter& target : dispersion.targets)
-    targets.push_back(fmt::format("{} (nominal {} {})", path_of(scene, target), target.in(scene),
-                                  unit_of(target)));
+    targets.push_back(fmt::format("{} (nominal {})", path_of(scene, target),
+                                  with_unit(target.in(scene), unit_of(target))));
   return fmt::format(
       "{}: {}, {} {}", dispersion.name, describe_distribution(dispersion.distribution),
       apply_names[static_cast<std::size_t>(dispersion.apply)], fmt::join(targets, ", "));
@@ -191,19 +145,6 @@ std::string describe_guarantees(const Campaign& campaign) {
 }
 
 } // namespace
-
-std::string describe(const Scene& scene) {
-  std::string text =
-      fmt::format("scene {}\n  base: {}\n  {}\n", scene.name, describe_base(scene.base),
-                  counted(std::ssize(scene.bodies), "body", "bodies"));
-  for (const Body& body : scene.bodies)
-    text +=
-        fmt::format("    {}: mass {} kg, inertia {} kg·m²\n", body.name, body.mass, body.inertia);
-  text += fmt::format("  {}\n", counted(std::ssize(scene.hinges), "hinge", "hinges"));
-  for (const Hinge& hinge : scene.hinges)
-    text += fmt::format("    {}\n", describe_hinge(scene, hinge));
-  return text;
-}
 
 std::string describe(const Campaign& campaign) {
   std::string text = "campaign\n" + describe(campaign.scene) +

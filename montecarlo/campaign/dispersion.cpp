@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace wingspread {
@@ -65,6 +66,22 @@ std::vector<Dispersion> read_targets(JsonObject& object, const Scene* scene,
   return {std::move(dispersion)};
 }
 
+/// The unit of the draws that are set or added: that of all targets. Empty where they have none in common; paths that
+/// lead nowhere are noted when the targets are read.
+std::string_view unit_of_draws(const Json& spec, const Scene* scene) {
+  if (!scene || !spec.is_object() || spec.value("apply", Json()) == "scale") return "";
+  std::set<std::string_view> units;
+  const auto take = [&](const Json& path) {
+    if (!path.is_string()) return;
+    for (const ParameterMatch& match : resolve(*scene, path.get<std::string>()).matches)
+      units.insert(unit_of(match.parameter));
+  };
+  if (spec.contains("each")) take(spec["each"]);
+  if (spec.contains("to") && spec["to"].is_array())
+    for (const Json& path : spec["to"]) take(path);
+  return units.size() == 1 ? *units.begin() : "";
+}
+
 std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene,
                                         const std::filesystem::path& directory, Json& resolved) {
   Dispersion dispersion;
@@ -73,7 +90,7 @@ std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene
                   "a string, not empty, without commas, quotes and control characters",
                   is_column_name);
   if (const auto law = object.require("distribution", "a distribution: an object with its type")) {
-    dispersion.distribution = read_distribution(*law, directory);
+    dispersion.distribution = read_distribution(*law, directory, unit_of_draws(at.value(), scene));
     resolved["distribution"] = write_distribution(dispersion.distribution);
   }
   object.required_choice("apply", dispersion.apply, apply_names);

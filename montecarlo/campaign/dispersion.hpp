@@ -2,8 +2,8 @@
 #pragma once
 
 #include "distributions/distribution.hpp"
-#include "montecarlo/campaign/scene_parameter.hpp"
 #include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/scene_file/scene_parameter.hpp"
 
 #include <array>
 #include <filesystem>

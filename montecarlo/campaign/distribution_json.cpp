@@ -41,11 +41,30 @@ std::string expected_of(const std::vector<double>&, Range range) {
   return range == Range::finite ? "an array of numbers" : "an array of numbers, ≥ 0";
 }
 
-template <class L> void read_parameters(JsonObject& object, L& law) {
-  for (const auto& parameter : L::parameters()) {
-    auto& value = law.*parameter.member;
-    object.required(parameter.name, value, expected_of(value, parameter.range));
-  }
+/// The parameters that have the unit of what is drawn.
+constexpr std::array<std::string_view, 8> in_drawn_unit{"mean",  "std",   "lower",  "mode",
+                                                        "upper", "scale", "values", "value"};
+
+bool has_string(const Json& value) {
+  if (!value.is_array()) return value.is_string();
+  return std::ranges::any_of(value, [](const Json& each) { return each.is_string(); });
+}
+
+/// Where strings stand for numbers of the drawn unit, they are read as such.
+template <class T>
+void read_parameter(JsonObject& object, std::string_view name, T& value, Range range,
+                    std::string_view unit) {
+  const auto at = object.find(name);
+  if (at && !unit.empty() && has_string(at->value()) &&
+      std::ranges::find(in_drawn_unit, name) != in_drawn_unit.end())
+    at->read(value, Dimension{unit});
+  else
+    object.required(name, value, expected_of(value, range));
+}
+
+template <class L> void read_parameters(JsonObject& object, L& law, std::string_view unit) {
+  for (const auto& parameter : L::parameters())
+    read_parameter(object, parameter.name, law.*parameter.member, parameter.range, unit);
 }
 
 double parse_cell(const CsvReader& reader, const std::string& cell, const std::string& column) {
@@ -93,9 +112,10 @@ void read_file(const JsonCursor& at, const std::string& name, const std::string&
   }
 }
 
-void read_empirical(JsonObject& object, Empirical& law, const std::filesystem::path& directory) {
+void read_empirical(JsonObject& object, Empirical& law, const std::filesystem::path& directory,
+                    std::string_view unit) {
   const bool from_file = object.find("file") || object.find("column");
-  if (!from_file) return read_parameters(object, law);
+  if (!from_file) return read_parameters(object, law, unit);
   if (object.find("values")) object.at().refuse("both values and a file", "either of them");
   std::string name, column;
   const bool named = object.required("file", name, "a string, the name of a CSV file");
@@ -103,11 +123,13 @@ void read_empirical(JsonObject& object, Empirical& law, const std::filesystem::p
   if (named && picked) read_file(object.at(), name, column, directory, law.values);
 }
 
-void read_truncation(const JsonCursor& at, std::optional<Truncation>& truncate) {
+void read_truncation(const JsonCursor& at, std::optional<Truncation>& truncate,
+                     std::string_view unit) {
   JsonObject object(at, "an object with lower and upper");
   truncate.emplace();
-  object.optional("lower", truncate->lower, "a number");
-  object.optional("upper", truncate->upper, "a number");
+  for (const auto& [name, limit] :
+       {std::pair{"lower", &truncate->lower}, std::pair{"upper", &truncate->upper}})
+    if (object.find(name)) read_parameter(object, name, *limit, Range::finite, unit);
   if (object.is_object() && !object.find("lower") && !object.find("upper"))
     at.refuse("neither lower nor upper", "at least one of them");
   object.refuse_others();
@@ -115,7 +137,8 @@ void read_truncation(const JsonCursor& at, std::optional<Truncation>& truncate) 
 
 } // namespace
 
-Distribution read_distribution(const JsonCursor& at, const std::filesystem::path& directory) {
+Distribution read_distribution(const JsonCursor& at, const std::filesystem::path& directory,
+                               std::string_view unit) {
   const std::size_t before = at.problems().size();
   Distribution distribution;
   JsonObject object(at, "a distribution: an object with its type");
@@ -125,13 +148,13 @@ Distribution read_distribution(const JsonCursor& at, const std::filesystem::path
   std::visit(
       [&]<class L>(L& law) {
         if constexpr (std::is_same_v<L, Empirical>)
-          read_empirical(object, law, directory);
+          read_empirical(object, law, directory, unit);
         else
-          read_parameters(object, law);
+          read_parameters(object, law, unit);
       },
       distribution.law);
   if (const auto truncate = object.find("truncate"))
-    read_truncation(*truncate, distribution.truncate);
+    read_truncation(*truncate, distribution.truncate, unit);
   object.refuse_others();
   if (at.problems().size() == before)
     for (const DistributionFault& fault : faults(distribution))

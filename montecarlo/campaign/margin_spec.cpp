@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <set>
 #include <utility>
 
@@ -126,13 +127,24 @@ Json write_motorization(const MotorizationSpec& spec, const Scene& scene) {
   return {{"ecss", ecss}, {"nasa", nasa}, {"torques", torques}, {"points", spec.points}};
 }
 
+/// Those of a spring's numbers that it has.
+std::vector<SceneParameter> of_spring(const Scene& scene, int hinge,
+                                      std::initializer_list<std::string_view> fields) {
+  std::vector<SceneParameter> parameters;
+  for (const std::string_view field : fields)
+    for (const ParameterMatch& match :
+         resolve(scene, fmt::format("hinges.{}.spring.{}", scene.hinges[hinge].name, field))
+             .matches)
+      parameters.push_back(match.parameter);
+  return parameters;
+}
+
 void refuse_unusable(const JsonCursor& at, const MarginSpec& margin, const Scene& scene) {
   const auto of_hinge = [](const SceneParameter& parameter) {
     return parameter.owner == SceneParameter::Owner::hinge;
   };
   const auto is_spring = [&](const SceneParameter& parameter) {
-    const auto torques = spring_torques(scene, parameter.index);
-    return of_hinge(parameter) && std::ranges::find(torques, parameter) != torques.end();
+    return of_hinge(parameter) && sizes_spring({&parameter, 1}, scene, parameter.index);
   };
   if (margin.mode == MarginMode::each && !std::ranges::all_of(margin.scaled, of_hinge))
     at.refuse("\"each\" with a parameter that is not a hinge's", "parameters of hinges", "/mode");
@@ -144,11 +156,15 @@ void refuse_unusable(const JsonCursor& at, const MarginSpec& margin, const Scene
 } // namespace
 
 std::vector<SceneParameter> spring_torques(const Scene& scene, int hinge) {
-  std::vector<SceneParameter> torques;
-  for (const char* path : {"hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"})
-    for (const ParameterMatch& match : resolve(scene, path).matches)
-      if (match.parameter.index == hinge) torques.push_back(match.parameter);
-  return torques;
+  if (scene.hinges[hinge].spring.table) return of_spring(scene, hinge, {"scale"});
+  return of_spring(scene, hinge, {"torque_stowed", "torque_latched"});
+}
+
+bool sizes_spring(std::span<const SceneParameter> scaled, const Scene& scene, int hinge) {
+  const auto all = of_spring(scene, hinge, {"torque_stowed", "torque_latched", "scale"});
+  return std::ranges::any_of(scaled, [&](const SceneParameter& parameter) {
+    return std::ranges::find(all, parameter) != all.end();
+  });
 }
 
 MarginSpec read_margin(const JsonCursor& at, const Scene* scene) {

@@ -11,10 +11,11 @@
 #pragma once
 
 #include "montecarlo/campaign/motorization_factors.hpp"
-#include "montecarlo/campaign/scene_parameter.hpp"
 #include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/scene_file/scene_parameter.hpp"
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -59,7 +60,10 @@ struct MarginSpec {
 
 [[nodiscard]] Json write_margin(const MarginSpec& margin, const Scene& scene);
 
-/// The torques of a hinge's spring, stowed and latched.
+/// What a hinge's spring is scaled by: its torques, stowed and latched, or the scale of its table.
 [[nodiscard]] std::vector<SceneParameter> spring_torques(const Scene& scene, int hinge);
+/// Whether one of the parameters is among these, or the scale of a spring without a table.
+[[nodiscard]] bool sizes_spring(std::span<const SceneParameter> scaled, const Scene& scene,
+                                int hinge);
 
 } // namespace wingspread

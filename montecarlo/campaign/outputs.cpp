@@ -27,6 +27,11 @@ double peak_of(int hinge, const std::vector<Peak>& peaks, Status status) {
   return peaks.empty() || status == Status::failed ? undefined : peaks[hinge].value;
 }
 
+double overtravel_of(int hinge, const Outcome& outcome) {
+  const bool known = !outcome.overtravel.empty() && outcome.status != Status::failed;
+  return known ? outcome.overtravel[hinge] : undefined;
+}
+
 double number_of(const OutputColumn& column, const Outcome& outcome) {
   const auto at_latch = [&](int hinge, auto value) {
     const LatchEvent* latch = latch_of(hinge, outcome);
@@ -44,6 +49,8 @@ double number_of(const OutputColumn& column, const Outcome& outcome) {
     return peak_of(column.hinge, outcome.peak_moment, outcome.status);
   case Quantity::peak_force:
     return peak_of(column.hinge, outcome.peak_force, outcome.status);
+  case Quantity::overtravel:
+    return overtravel_of(column.hinge, outcome);
   case Quantity::deployment_time:
     return outcome.status == Status::deployed ? outcome.latches.back().time : undefined;
   }
@@ -60,7 +67,7 @@ std::optional<Status> status_named(std::string_view name) {
 
 Outputs default_outputs() {
   return {OutputFamily::latch_time, OutputFamily::latch_rate, OutputFamily::peak_moment,
-          OutputFamily::peak_force};
+          OutputFamily::peak_force, OutputFamily::overtravel};
 }
 
 Outputs all_outputs() {
@@ -99,6 +106,7 @@ std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outp
     }
     add(OutputFamily::peak_moment, "peak_moment", Quantity::peak_moment);
     add(OutputFamily::peak_force, "peak_force", Quantity::peak_force);
+    add(OutputFamily::overtravel, "overtravel", Quantity::overtravel);
     if (outputs.contains(OutputFamily::rate_at)) add_rates_at(scene, i, columns);
   }
   columns.push_back({"deployment_time", Quantity::deployment_time, -1, -1});

@@ -21,9 +21,9 @@ inline constexpr std::array statuses{Status::deployed, Status::stalled, Status::
 /// The status of that name, as it is written.
 [[nodiscard]] std::optional<Status> status_named(std::string_view name);
 
-enum class OutputFamily { latch_time, latch_rate, peak_moment, peak_force, rate_at };
-inline constexpr std::array<std::string_view, 5> output_family_names{
-    "latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at"};
+enum class OutputFamily { latch_time, latch_rate, peak_moment, peak_force, rate_at, overtravel };
+inline constexpr std::array<std::string_view, 6> output_family_names{
+    "latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at", "overtravel"};
 using Outputs = std::set<OutputFamily>;
 
 /// All but `rate_at`, whose number grows with the square of the hinges'.
@@ -45,6 +45,7 @@ struct OutputColumn {
     peak_moment,
     peak_force,
     rate_at,
+    overtravel,
     deployment_time
   } quantity;
   int hinge = -1; ///< index into Scene::hinges; none for the deployment time
@@ -65,7 +66,7 @@ struct OutputColumn {
 
 /// The number in the column; NaN when it did not happen.
 ///
-/// A latch that happened counts in whatever became of the run afterwards. A peak needs a run whose
+/// A latch that happened counts in whatever became of the run afterwards. A peak, and overtravel, need a run whose
 /// end is known: not one that failed, where a larger one may have been to come. Of a run that timed
 /// out it is the peak up to t_end. `deployment_time` exists only when all hinges with a latch have
 /// latched.

@@ -80,8 +80,23 @@ Summary summarize(const StoredCampaign& stored, const Results& results, const St
   summary.requirements = judge_all(campaign.requirements, results, looks);
   if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
   summary.until = goals_of(campaign, results, summary.requirements);
+  summary.overtravels = overtravels(campaign.scene, results);
   summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
   return summary;
+}
+
+/// Another tool's rows may do without overtravel, unless their campaign asks for it.
+void match_overtravel(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
+  const auto named = document.find("outputs");
+  if (named != document.end() && std::ranges::find(*named, "overtravel") != named->end()) return;
+  std::string header;
+  if (std::filesystem::exists(runs)) {
+    InputFile in(runs);
+    std::getline(in, header);
+  }
+  if (header.find(".overtravel") != std::string::npos) return;
+  campaign.outputs.erase(OutputFamily::overtravel);
+  campaign.resolved["outputs"] = write_outputs(campaign.outputs);
 }
 
 StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be_foreign) {
@@ -89,6 +104,7 @@ StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be
   StoredCampaign stored{folder, read_campaign_file(path), {}};
   const Json document = parse_json_file(path);
   if (may_be_foreign && !document.contains(stamp_key)) {
+    match_overtravel(document, folder / runs_file, stored.campaign);
     stored.stamp = stamp_of(stored.campaign, {});
     stored.foreign = true;
     return stored;

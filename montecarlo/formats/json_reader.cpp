@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -39,6 +40,17 @@ bool read_integer(const JsonCursor& at, Integer& out, std::string_view expected)
   if (!number) return at.refuse(expected);
   out = *number;
   return true;
+}
+
+/// Reads all elements of an array, or leaves `out` as it was.
+template <class Expected>
+bool read_each(const JsonCursor& at, std::vector<double>& out, const Expected& expected) {
+  std::vector<double> numbers(at.value().size());
+  bool all = true;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    all = at.element(i).read(numbers[i], expected) && all;
+  if (all) out = std::move(numbers);
+  return all;
 }
 
 } // namespace
@@ -132,23 +144,30 @@ bool JsonCursor::read(std::string& out, std::string_view expected) const {
   return true;
 }
 
-bool JsonCursor::read(Eigen::Vector2d& out, std::string_view expected) const {
-  if (!value_->is_array() || value_->size() != 2) return refuse(expected);
-  Eigen::Vector2d read_so_far{0, 0};
-  const bool x = element(0).read(read_so_far.x(), "a number");
-  const bool y = element(1).read(read_so_far.y(), "a number");
-  if (x && y) out = read_so_far;
-  return x && y;
+bool JsonCursor::read(std::vector<double>& out, std::string_view expected) const {
+  return value_->is_array() ? read_each(*this, out, std::string_view("a number"))
+                            : refuse(expected);
 }
 
-bool JsonCursor::read(std::vector<double>& out, std::string_view expected) const {
-  if (!value_->is_array()) return refuse(expected);
-  std::vector<double> numbers(value_->size());
-  bool all = true;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    all = element(i).read(numbers[i], "a number") && all;
-  if (all) out = std::move(numbers);
-  return all;
+bool JsonCursor::read(double& out, const Dimension& dimension) const {
+  if (!value_->is_string()) return read(out, expected_number(dimension));
+  const auto value = in_unit(value_->get_ref<const std::string&>(), dimension.unit);
+  if (!value) return refuse(expected_quantity(dimension));
+  out = *value;
+  return true;
+}
+
+bool JsonCursor::read(Eigen::Vector2d& out, const Dimension& dimension) const {
+  if (!value_->is_array() || value_->size() != 2) return refuse(expected_numbers(dimension, 2));
+  std::vector<double> both;
+  if (!read_each(*this, both, dimension)) return false;
+  out = {both[0], both[1]};
+  return true;
+}
+
+bool JsonCursor::read(std::vector<double>& out, const Dimension& dimension) const {
+  return value_->is_array() ? read_each(*this, out, dimension)
+                            : refuse(expected_numbers(dimension));
 }
 
 std::optional<std::size_t> JsonCursor::choice(std::span<const std::string_view> words) const {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "montecarlo/formats/json_parse.hpp"
+#include "montecarlo/formats/quantity.hpp"
 #include "montecarlo/formats/spec_error.hpp"
 
 #include <Eigen/Core>
@@ -66,8 +67,12 @@ public:
   bool read(std::int64_t& out, std::string_view expected) const;
   bool read(std::uint64_t& out, std::string_view expected) const;
   bool read(std::string& out, std::string_view expected) const;
-  bool read(Eigen::Vector2d& out, std::string_view expected) const;
   bool read(std::vector<double>& out, std::string_view expected) const;
+
+  /// The same for numbers that have a dimension: a string with a unit of it will do too.
+  bool read(double& out, const Dimension& dimension) const;
+  bool read(Eigen::Vector2d& out, const Dimension& dimension) const;
+  bool read(std::vector<double>& out, const Dimension& dimension) const;
 
   /// The index of the word that stands here; a problem and nothing when it is none of them.
   [[nodiscard]] std::optional<std::size_t> choice(std::span<const std::string_view> words) const;
@@ -110,6 +115,15 @@ public:
     const auto at = find(key);
     return at ? read(*at, out, expected, holds) : true;
   }
+  /// Of numbers that have a dimension, SI or strings with their units.
+  template <class T> bool required(std::string_view key, T& out, const Dimension& dimension) {
+    const auto at = require(key, expected(out, dimension));
+    return at ? at->read(out, dimension) : !is_object();
+  }
+  template <class T> bool optional(std::string_view key, T& out, const Dimension& dimension) {
+    const auto at = find(key);
+    return at ? at->read(out, dimension) : true;
+  }
   /// Of words that stand in the order of the enumeration's values.
   template <class Enum>
   bool required_choice(std::string_view key, Enum& out, std::span<const std::string_view> words) {
@@ -136,6 +150,15 @@ private:
     if (holds && !holds(value)) return at.refuse(expected);
     out = std::move(value);
     return true;
+  }
+  static std::string expected(double, const Dimension& dimension) {
+    return expected_number(dimension);
+  }
+  static std::string expected(const Eigen::Vector2d&, const Dimension& dimension) {
+    return expected_numbers(dimension, 2);
+  }
+  static std::string expected(const std::vector<double>&, const Dimension& dimension) {
+    return expected_numbers(dimension);
   }
   template <class Enum>
   static bool choose(const JsonCursor& at, Enum& out, std::span<const std::string_view> words) {

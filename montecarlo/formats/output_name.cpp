@@ -12,7 +12,8 @@ struct Quantity {
 };
 
 constexpr std::array per_hinge{Quantity{"latch_time", "s"}, Quantity{"latch_rate", "rad/s"},
-                               Quantity{"peak_moment", "N·m"}, Quantity{"peak_force", "N"}};
+                               Quantity{"peak_moment", "N·m"}, Quantity{"peak_force", "N"},
+                               Quantity{"overtravel", "rad"}};
 constexpr std::string_view rate_at = ".rate_at.";
 
 } // namespace

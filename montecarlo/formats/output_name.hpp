@@ -10,7 +10,7 @@ struct OutputName {
   std::string hinge;    ///< empty for an output of the whole wing
   std::string quantity; ///< "latch_time"; the whole name when it is none of those known
   std::string other;    ///< the hinge that latches, of a `rate_at`; else empty
-  const char* unit;     ///< "s", "rad/s", "N·m", "N"; "" when unknown
+  const char* unit;     ///< "s", "rad/s", "N·m", "N", "rad"; "" when unknown
 };
 
 /// Takes a name apart. A hinge's own name may hold dots.

@@ -47,12 +47,8 @@ std::vector<MarginCase> cases_of(const MarginSpec& spec, const Scene& scene) {
   if (spec.nominal) cases.push_back({"nominal", {}});
   if (!spec.one_spring_out) return cases;
   for (int hinge = 0; hinge < std::ssize(scene.hinges); ++hinge) {
-    const std::vector<SceneParameter> torques = spring_torques(scene, hinge);
-    const auto is_sized = [&](const SceneParameter& torque) {
-      return std::ranges::find(spec.scaled, torque) != spec.scaled.end();
-    };
-    if (std::ranges::any_of(torques, is_sized))
-      cases.push_back({scene.hinges[hinge].name + " spring out", torques});
+    if (sizes_spring(spec.scaled, scene, hinge))
+      cases.push_back({scene.hinges[hinge].name + " spring out", spring_torques(scene, hinge)});
   }
   return cases;
 }

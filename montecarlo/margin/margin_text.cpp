@@ -168,9 +168,10 @@ private:
         fmt::format("\n{:<60}{:>12}{:>14}\n", "NEW SPRINGS", "present", "recommended");
     for (const SceneParameter& parameter : search_.scaled) {
       const double value = parameter.in(report_.campaign.scene);
-      text += fmt::format("  {:<58}{:>12.5g}{:>14.5g} {}\n",
+      const std::string_view unit = unit_of(parameter);
+      text += fmt::format("  {:<58}{:>12.5g}{:>14.5g}{}{}\n",
                           shortened(path_of(report_.campaign.scene, parameter), 57), value,
-                          value * *search_.recommended, unit_of(parameter));
+                          value * *search_.recommended, unit.empty() ? "" : " ", unit);
     }
     return text;
   }

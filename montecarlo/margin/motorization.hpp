@@ -1,5 +1,6 @@
 /// Static motorization margins of a hinge: by how much its spring's torque exceeds what resists,
-/// with the standards' factors on every term. Kinetic energy and viscous terms are not counted.
+/// with the standards' factors on every term. Kinetic energy, dampers and other terms of rates are not counted,
+/// nor what loops, stops, gravity and air do. A torque test both ways has its friction among the friction.
 /// Symbols and factors: motorization_factors.hpp.
 ///
 ///   ECSS:              T_min = m (f_I I + f_S S + f_HM HM + f_FR FR + f_HY HY + f_HA HA + f_HD HD)
@@ -10,7 +11,7 @@
 ///
 /// Every term is linear in the travel x but where a torque changes its sense, and (1) and (2) are
 /// quotients of them: between such places they are monotone, so the worst is at one of them or at
-/// an end, and is found exactly.
+/// an end, and is found exactly. A table's margins are looked at in eight parts of each of its pieces.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -38,12 +39,14 @@ inline constexpr std::string_view nasa_standard = "NASA-STD-5017B (6 December 20
 /// The hinge's terms at x of its travel, 0 stowed … 1 latched, on top of `other` that the scene
 /// does not know. A torque that changes its sense changes its side: a spring that pulls back is S.
 /// A harness that helps is not counted on. FR is the level that holds at rest: `static` of the
-/// exact friction, else `coulomb`.
+/// exact friction, else `coulomb`, and what a torque test both ways adds.
 [[nodiscard]] MotorizationTerms terms_at(const Hinge& hinge, double x,
                                          const MotorizationTerms& other = {});
 
-/// Where the margins may have their least: both ends of the travel, and where spring or harness
-/// changes its sense; ascending.
+/// Both ends of the travel, and where spring or harness changes its sense; ascending.
 [[nodiscard]] std::vector<double> turning_points(const Hinge& hinge);
+
+/// Where the margins may have their least: the turning points, and places along every table; ascending.
+[[nodiscard]] std::vector<double> places_of_least(const Hinge& hinge);
 
 } // namespace wingspread

@@ -17,7 +17,9 @@ constexpr std::size_t kinds = margin_kind_names.size();
 constexpr std::size_t most_bytes = std::size_t{1} << 28;
 
 bool is_driven(const Hinge& hinge) {
-  return hinge.latch || hinge.spring.torque_stowed != 0 || hinge.spring.torque_latched != 0;
+  const HingeTorque& spring = hinge.spring;
+  return hinge.latch || spring.table || spring.torque_stowed != 0 || spring.torque_latched != 0 ||
+         spring.offset != 0;
 }
 
 /// Margins of every draw, kind by kind, as they come.
@@ -69,7 +71,7 @@ struct HingeStudy {
   [[nodiscard]] Margins worst(const Hinge& hinge, Margins& at) const {
     Margins least;
     least.fill(std::numeric_limits<double>::infinity());
-    for (const double x : turning_points(hinge)) {
+    for (const double x : places_of_least(hinge)) {
       const Margins margins = margins_at(hinge, x);
       for (std::size_t kind = 0; kind < kinds; ++kind)
         if (margins[kind] < least[kind]) {

@@ -1,5 +1,6 @@
 #include "montecarlo/rare/limit_state.hpp"
 
+#include "core/scene/torque.hpp"
 #include "montecarlo/formats/nearest.hpp"
 #include "montecarlo/formats/spec_error.hpp"
 
@@ -39,9 +40,8 @@ double bent(double share) {
 
 /// By how much the hinge's drive exceeds its static friction where it is stowed, N·m.
 double release(const Hinge& hinge) {
-  const Friction& friction = hinge.friction;
-  return hinge.spring.torque_stowed - hinge.harness.torque_stowed -
-         friction.static_level.value_or(friction.coulomb);
+  return torque_at(hinge.spring, hinge, 0) - torque_at(hinge.harness, hinge, 0) -
+         static_level_at(hinge, 0);
 }
 
 bool can_stick_stowed(const Hinge& hinge) {

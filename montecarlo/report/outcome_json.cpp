@@ -1,4 +1,5 @@
 #include "montecarlo/report/outcome_report.hpp"
+#include "montecarlo/summary/overtravel.hpp"
 
 #include <cmath>
 
@@ -46,6 +47,18 @@ Json peaks_json(const Scene& scene, const std::vector<Peak>& peaks, Status statu
   return json;
 }
 
+Json overtravel_json(const Scene& scene, const Outcome& outcome) {
+  if (outcome.overtravel.empty() || outcome.status == Status::failed) return nullptr;
+  return by_hinge(scene, outcome.overtravel);
+}
+
+Json warnings_json(const Scene& scene, const Outcome& outcome) {
+  Json json = Json::array();
+  for (const Overtravel& overtravel : overtravels(scene, outcome))
+    json.push_back(warning(overtravel));
+  return json;
+}
+
 Json final_json(const Scene& scene, const Configuration& final) {
   return {{"angles", by_hinge(scene, final.angles)},
           {"rates", by_hinge(scene, final.rates)},
@@ -75,6 +88,8 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
           {"latches", latches_json(scene, outcome)},
           {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},
           {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
+          {"overtravel", overtravel_json(scene, outcome)},
+          {"warnings", warnings_json(scene, outcome)},
           {"final", if_ran(final_json(scene, outcome.final))},
           {"energy", if_ran(energy_json(outcome.energy))},
           {"work",

@@ -9,13 +9,14 @@
 namespace wingspread {
 
 /// Strict JSON: what did not happen is null, as is what was not asked for. Latches stand in order
-/// of time. Beside the keys of the contract: `reason`, `method` (those of the phases) and `phases`.
+/// of time. Beside the keys of the contract: `reason`, `method` (those of the phases), `phases` and
+/// `warnings`.
 /// Of an invalid run nothing but its status and reason is there; of a failed one no peak is known.
 /// @param scene whose run it was
 [[nodiscard]] Json outcome_json(const Scene& scene, const Outcome& outcome);
 
 /// In words and tables: how it ended, the latches in order of time, the hinges' peaks and final
-/// state, energy and work.
+/// state, what is to be warned of, energy and work.
 [[nodiscard]] std::string outcome_text(const Scene& scene, const Outcome& outcome);
 
 } // namespace wingspread

@@ -1,5 +1,6 @@
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/report/outcome_report.hpp"
+#include "montecarlo/summary/overtravel.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -57,13 +58,24 @@ std::string peaks(const Scene& scene, const Outcome& outcome) {
   return text;
 }
 
-std::string final_state(const Scene& scene, const Configuration& final) {
-  std::string text = fmt::format("\n{:<24}{:>14}{:>16}\n", "END", "angle, rad", "rate, rad/s");
+std::string final_state(const Scene& scene, const Outcome& outcome) {
+  const Configuration& final = outcome.final;
+  const bool watched = !outcome.overtravel.empty();
+  std::string text = fmt::format("\n{:<24}{:>14}{:>16}{}\n", "END", "angle, rad", "rate, rad/s",
+                                 watched ? "   overtravel, rad" : "");
   for (std::size_t i = 0; i < scene.hinges.size(); ++i)
-    text += fmt::format("  {:<22}{:>14.6g}{:>16.6g}\n", scene.hinges[i].name, final.angles[i],
-                        final.rates[i]);
+    text +=
+        fmt::format("  {:<22}{:>14.6g}{:>16.6g}{}\n", scene.hinges[i].name, final.angles[i],
+                    final.rates[i], watched ? fmt::format("{:>18.6g}", outcome.overtravel[i]) : "");
   if (scene.base.motion != BaseMotion::fixed)
     text += fmt::format("  {:<22}{:>14.6g}{:>16.6g}\n", "base", final.base_angle, final.base_rate);
+  return text;
+}
+
+std::string warnings(const Scene& scene, const Outcome& outcome) {
+  const std::vector<Overtravel> found = overtravels(scene, outcome);
+  std::string text = found.empty() ? "" : "\nWARNING\n";
+  for (const Overtravel& overtravel : found) text += fmt::format("  {}\n", warning(overtravel));
   return text;
 }
 
@@ -81,7 +93,7 @@ std::string effort(const Outcome& outcome) {
 std::string outcome_text(const Scene& scene, const Outcome& outcome) {
   if (outcome.status == Status::invalid) return ending(scene, outcome);
   return ending(scene, outcome) + latches(scene, outcome) + peaks(scene, outcome) +
-         final_state(scene, outcome.final) + effort(outcome);
+         final_state(scene, outcome) + warnings(scene, outcome) + effort(outcome);
 }
 
 } // namespace wingspread

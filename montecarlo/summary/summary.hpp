@@ -11,6 +11,7 @@
 #include "montecarlo/statistics/histogram.hpp"
 #include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"
+#include "montecarlo/summary/overtravel.hpp"
 #include "montecarlo/summary/replication.hpp"
 #include "montecarlo/summary/stopping.hpp"
 #include "montecarlo/summary/verdict.hpp"
@@ -88,10 +89,11 @@ struct Summary {
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
   // What the campaign asks for beyond its statistics; write_statistics (results_folder.hpp) adds it.
   std::vector<Verdict> requirements{};
-  std::vector<GoalFound> until{}; ///< what decides when it stops
-  bool stopped = false;           ///< they did, before all runs were made
-  long looks = 1;                 ///< at growing data: each bound's α is shared among them
-  std::vector<long> looked_at{};  ///< numbers of runs before the campaign was extended: looks too
+  std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
+  std::vector<GoalFound> until{};        ///< what decides when it stops
+  bool stopped = false;                  ///< they did, before all runs were made
+  long looks = 1;                        ///< at growing data: each bound's α is shared among them
+  std::vector<long> looked_at{}; ///< numbers of runs before the campaign was extended: looks too
 };
 
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes a run for

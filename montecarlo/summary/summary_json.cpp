@@ -208,6 +208,13 @@ Json requirements_json(const Summary& summary) {
   return json;
 }
 
+Json warnings_json(const Summary& summary) {
+  Json json = Json::array();
+  for (const Overtravel& overtravel : summary.overtravels)
+    json.push_back(warning(overtravel, summary.runs));
+  return json;
+}
+
 /// When the campaign stops, and how far it has come.
 Json until_json(const Summary& summary) {
   Json goals = Json::array();
@@ -257,6 +264,7 @@ Json summary_json(const Summary& summary, const Json& about) {
   json["requirements"] = requirements_json(summary);
   if (summary.requirements.size() > 1)
     json["joint_confidence"] = joint_confidence(summary.requirements);
+  if (!summary.overtravels.empty()) json["warnings"] = warnings_json(summary);
   if (!summary.until.empty()) json["until"] = until_json(summary);
   if (!summary.looked_at.empty()) json["extended"] = extended_json(summary);
   json["definitions"] = definitions(summary);

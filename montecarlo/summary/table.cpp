@@ -192,6 +192,13 @@ std::string requirements(const Summary& summary, std::string_view folder) {
   return text;
 }
 
+std::string warnings(const Summary& summary) {
+  std::string text = summary.overtravels.empty() ? "" : "\nWARNING\n";
+  for (const Overtravel& overtravel : summary.overtravels)
+    text += "  " + shortened(warning(overtravel, summary.runs), table_width - 2) + '\n';
+  return text;
+}
+
 std::string stopping(const Summary& summary) {
   if (summary.until.empty()) return "";
   std::string text =
@@ -240,7 +247,7 @@ std::string bar(long eighths) {
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
   return shortened(title, table_width) + '\n' + outcomes(summary) + reasons(summary) +
          latch_orders(summary) + outputs(summary) + tolerance(summary) +
-         requirements(summary, folder) + stopping(summary) + files(folder);
+         requirements(summary, folder) + stopping(summary) + warnings(summary) + files(folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

@@ -10,7 +10,8 @@ namespace wingspread {
 
 /// Outcomes with their shares and bounds, why runs did not deploy, latch orders, and the mean,
 /// standard deviation and quantiles of every output, hinge by hinge; then what the campaign asks
-/// for: tolerance limits, requirements with the runs that break them, goals to stop at.
+/// for: tolerance limits, requirements with the runs that break them, goals to stop at. Hinges that turn
+/// through their neighbours are warned of.
 /// @param title its first line: what was run, how often, from which seed.
 /// @param folder where the files are; empty when there are none.
 [[nodiscard]] std::string summary_table(const Summary& summary, std::string_view title,

@@ -14,9 +14,9 @@ namespace wingspread {
 /// One parameter of a scene, and of every copy of it.
 /// Cheap to copy and to follow: no search, no string.
 struct SceneParameter {
-  enum class Owner { base, body, hinge };
+  enum class Owner { base, body, hinge, synchronisation, environment };
   Owner owner = Owner::base;
-  int index = 0; ///< of the body or hinge
+  int index = 0; ///< of the body, hinge or synchronisation
   int field = 0; ///< of its kind of owner
 
   [[nodiscard]] double& in(Scene& scene) const;
@@ -27,7 +27,7 @@ struct SceneParameter {
 /// A parameter that a path names.
 struct ParameterMatch {
   SceneParameter parameter;
-  std::string name; ///< of its body or hinge; empty for the base
+  std::string name; ///< of its body, hinge or synchronisation; else empty
 };
 
 /// What a path names, or why it names nothing.
@@ -36,7 +36,7 @@ struct ParameterMatches {
   std::string expected;                ///< what would do; empty when there are matches
 };
 
-/// Follows a path. A name given as `*` stands for every body or hinge that has the parameter: a
+/// Follows a path. A name given as `*` stands for every one of them that has the parameter: a
 /// hinge without a latch, say, has no latch.stiffness.
 [[nodiscard]] ParameterMatches resolve(const Scene& scene, std::string_view path);
 
@@ -50,7 +50,7 @@ struct ParameterMatches {
 [[nodiscard]] std::string path_of(const Scene& scene, const SceneParameter& parameter);
 [[nodiscard]] std::vector<std::string> paths_of(const Scene& scene,
                                                 std::span<const SceneParameter> parameters);
-/// Its unit, e.g. "kg".
+/// Its unit, e.g. "kg"; empty of what has no dimension.
 [[nodiscard]] std::string_view unit_of(const SceneParameter& parameter);
 
 /// The paths of all parameters that the scene has.

@@ -16,7 +16,7 @@ struct HingeEnds {
   std::optional<std::string> child;
 };
 
-/// Notes a problem for each name of a body or hinge that is empty, used twice, `base` for a body,
+/// Notes a problem for each name of a body, hinge or synchronisation that is empty, used twice, `base` for a body,
 /// or holds a character with a meaning of its own: names stand in parameter paths ("." and "*"), in
 /// column headers ("," and quotes), in latch orders (">") and in JSON pointers ("/").
 /// @param at the scene

@@ -9,9 +9,8 @@
 
 namespace wingspread {
 
-/// The words for each enumeration, in the order of its values.
+/// The words for the base's motions, in the order of their values.
 inline constexpr std::array<std::string_view, 3> base_motion_names{"fixed", "prescribed", "free"};
-inline constexpr std::array<std::string_view, 2> friction_model_names{"regularized", "exact"};
 
 /// Reads a scene that stands somewhere in a document. Its problems go to the cursor's list; when
 /// that grew, the scene that is returned is of no use.
@@ -22,7 +21,8 @@ inline constexpr std::array<std::string_view, 2> friction_model_names{"regulariz
 /// @throws SpecError with all that is wrong
 [[nodiscard]] Scene read_scene(const Json& document, const std::string& file = "");
 
-/// The scene in full, all defaults explicit. Reads back to the same scene, to the last bit.
+/// The scene in full, all defaults explicit, but for what real hinges have more: that is there where it is used.
+/// Reads back to the same scene, to the last bit.
 [[nodiscard]] Json write_scene(const Scene& scene);
 
 } // namespace wingspread

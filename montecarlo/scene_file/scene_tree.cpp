@@ -1,4 +1,4 @@
-#include "montecarlo/campaign/scene_tree.hpp"
+#include "montecarlo/scene_file/scene_tree.hpp"
 
 #include "montecarlo/formats/nearest.hpp"
 #include "montecarlo/formats/printable.hpp"
@@ -20,7 +20,7 @@ bool is_plain(std::string_view name) {
          !has_control_characters(name);
 }
 
-/// @param list "bodies" or "hinges"
+/// @param list "bodies", "hinges" or "synchronisations"
 template <class Named>
 void check_names_of(const JsonCursor& at, const char* list, const std::vector<Named>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -128,6 +128,7 @@ void refuse_cycle(const JsonCursor& at, const Scene& scene) {
 void check_names(const JsonCursor& at, const Scene& scene) {
   check_names_of(at, "bodies", scene.bodies);
   check_names_of(at, "hinges", scene.hinges);
+  check_names_of(at, "synchronisations", scene.synchronisations);
 }
 
 void link_hinges(const JsonCursor& at, const std::vector<HingeEnds>& ends, Scene& scene) {

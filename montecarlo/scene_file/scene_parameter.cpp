@@ -1,4 +1,4 @@
-#include "montecarlo/campaign/scene_parameter.hpp"
+#include "montecarlo/scene_file/scene_parameter.hpp"
 
 #include "montecarlo/formats/nearest.hpp"
 
@@ -12,7 +12,7 @@
 namespace wingspread {
 namespace {
 
-/// A number within a base, body or hinge.
+/// A number within a base, body, hinge, synchronisation or the surroundings.
 template <class Owner> struct Field {
   template <class Get>
   constexpr Field(std::string_view field_path, std::string_view field_unit, Get get,
@@ -33,6 +33,18 @@ template <class Owner> struct Field {
 bool is_free(const Base& base) { return base.motion == BaseMotion::free; }
 bool is_prescribed(const Base& base) { return base.motion == BaseMotion::prescribed; }
 bool is_moving(const Base& base) { return base.motion != BaseMotion::fixed; }
+bool has_plate(const Body& body) { return body.plate.has_value(); }
+bool has_spring_line(const Hinge& hinge) { return !hinge.spring.table; }
+bool has_harness_line(const Hinge& hinge) { return !hinge.harness.table; }
+bool has_damper(const Hinge& hinge) { return hinge.damper.has_value(); }
+bool has_law(const Hinge& hinge, DamperLaw law) { return hinge.damper && hinge.damper->law == law; }
+bool has_eddy_current(const Hinge& hinge) { return has_law(hinge, DamperLaw::eddy_current); }
+bool has_power_law(const Hinge& hinge) { return has_law(hinge, DamperLaw::power); }
+bool has_coefficient(const Hinge& hinge) { return hinge.damper && !has_eddy_current(hinge); }
+bool has_window(const Hinge& hinge) { return hinge.damper && hinge.damper->window; }
+bool has_stop(const Hinge& hinge) { return hinge.stop.has_value(); }
+bool has_ratio(const Synchronisation& loop) { return !loop.table; }
+bool has_preload(const Synchronisation& loop) { return loop.preload.has_value(); }
 bool has_latch(const Hinge& hinge) { return hinge.latch.has_value(); }
 bool has_static(const Hinge& hinge) { return hinge.friction.static_level.has_value(); }
 bool is_regularized(const Hinge& hinge) {
@@ -42,6 +54,19 @@ bool is_regularized(const Hinge& hinge) {
 constexpr std::string_view needs_free = "a base whose motion is \"free\"";
 constexpr std::string_view needs_prescribed = "a base whose motion is \"prescribed\"";
 constexpr std::string_view needs_motion = "a base that is not fixed";
+constexpr std::string_view needs_plate = "a body that has a plate";
+constexpr std::string_view needs_spring_line =
+    "a hinge whose spring has no table (scale and offset disperse one)";
+constexpr std::string_view needs_harness_line =
+    "a hinge whose harness has no table (scale and offset disperse one)";
+constexpr std::string_view needs_damper = "a hinge that has a damper";
+constexpr std::string_view needs_coefficient = "a hinge with a viscous or a power-law damper";
+constexpr std::string_view needs_power_law = "a hinge with a power-law damper";
+constexpr std::string_view needs_eddy_current = "a hinge with an eddy-current damper";
+constexpr std::string_view needs_window = "a hinge whose damper has a window";
+constexpr std::string_view needs_stop = "a hinge that has a stop";
+constexpr std::string_view needs_ratio = "a synchronisation whose ratio is a number";
+constexpr std::string_view needs_preload = "a synchronisation that has a preload";
 constexpr std::string_view needs_latch = "a hinge that has a latch";
 constexpr std::string_view needs_regularized = "a hinge with the regularized friction model";
 constexpr std::string_view needs_static = "a hinge whose friction has a static level";
@@ -62,7 +87,9 @@ constexpr std::array base_fields{
 
 constexpr std::array body_fields{
     Field<Body>{"mass", "kg", [](auto& b) -> auto& { return b.mass; }},
-    Field<Body>{"inertia", "kg·m²", [](auto& b) -> auto& { return b.inertia; }}};
+    Field<Body>{"inertia", "kg·m²", [](auto& b) -> auto& { return b.inertia; }},
+    Field<Body>{"plate.width", "m", [](auto& b) -> auto& { return b.plate->width; }, has_plate, needs_plate},
+    Field<Body>{"plate.drag_coefficient", "", [](auto& b) -> auto& { return b.plate->drag_coefficient; }, has_plate, needs_plate}};
 
 constexpr std::array hinge_fields{
     Field<Hinge>{"parent_point.0", "m", [](auto& h) -> auto& { return h.parent_point[0]; }},
@@ -72,21 +99,49 @@ constexpr std::array hinge_fields{
     Field<Hinge>{"angle.stowed", "rad", [](auto& h) -> auto& { return h.stowed; }},
     Field<Hinge>{"angle.latched", "rad", [](auto& h) -> auto& { return h.latched; }},
     Field<Hinge>{"initial_rate", "rad/s", [](auto& h) -> auto& { return h.initial_rate; }},
-    Field<Hinge>{"spring.torque_stowed", "N·m", [](auto& h) -> auto& { return h.spring.torque_stowed; }},
-    Field<Hinge>{"spring.torque_latched", "N·m", [](auto& h) -> auto& { return h.spring.torque_latched; }},
-    Field<Hinge>{"harness.torque_stowed", "N·m", [](auto& h) -> auto& { return h.harness.torque_stowed; }},
-    Field<Hinge>{"harness.torque_latched", "N·m", [](auto& h) -> auto& { return h.harness.torque_latched; }},
+    Field<Hinge>{"spring.torque_stowed", "N·m", [](auto& h) -> auto& { return h.spring.torque_stowed; }, has_spring_line, needs_spring_line},
+    Field<Hinge>{"spring.torque_latched", "N·m", [](auto& h) -> auto& { return h.spring.torque_latched; }, has_spring_line, needs_spring_line},
+    Field<Hinge>{"spring.scale", "", [](auto& h) -> auto& { return h.spring.scale; }},
+    Field<Hinge>{"spring.offset", "N·m", [](auto& h) -> auto& { return h.spring.offset; }},
+    Field<Hinge>{"harness.torque_stowed", "N·m", [](auto& h) -> auto& { return h.harness.torque_stowed; }, has_harness_line, needs_harness_line},
+    Field<Hinge>{"harness.torque_latched", "N·m", [](auto& h) -> auto& { return h.harness.torque_latched; }, has_harness_line, needs_harness_line},
+    Field<Hinge>{"harness.scale", "", [](auto& h) -> auto& { return h.harness.scale; }},
+    Field<Hinge>{"harness.offset", "N·m", [](auto& h) -> auto& { return h.harness.offset; }},
     Field<Hinge>{"friction.coulomb", "N·m", [](auto& h) -> auto& { return h.friction.coulomb; }},
     Field<Hinge>{"friction.viscous", "N·m·s/rad", [](auto& h) -> auto& { return h.friction.viscous; }},
     Field<Hinge>{"friction.regularization_rate", "rad/s", [](auto& h) -> auto& { return h.friction.regularization_rate; }, is_regularized, needs_regularized},
     Field<Hinge>{"friction.static", "N·m", [](auto& h) -> auto& { return *h.friction.static_level; }, has_static, needs_static},
+    Field<Hinge>{"friction.scale", "", [](auto& h) -> auto& { return h.friction.scale; }},
+    Field<Hinge>{"damper.coefficient", "N·m·(s/rad)^p", [](auto& h) -> auto& { return h.damper->coefficient; }, has_coefficient, needs_coefficient},
+    Field<Hinge>{"damper.exponent", "", [](auto& h) -> auto& { return h.damper->exponent; }, has_power_law, needs_power_law},
+    Field<Hinge>{"damper.regularization_rate", "rad/s", [](auto& h) -> auto& { return h.damper->regularization_rate; }, has_power_law, needs_power_law},
+    Field<Hinge>{"damper.peak_torque", "N·m", [](auto& h) -> auto& { return h.damper->peak_torque; }, has_eddy_current, needs_eddy_current},
+    Field<Hinge>{"damper.peak_rate", "rad/s", [](auto& h) -> auto& { return h.damper->peak_rate; }, has_eddy_current, needs_eddy_current},
+    Field<Hinge>{"damper.window.0", "rad", [](auto& h) -> auto& { return (*h.damper->window)[0]; }, has_window, needs_window},
+    Field<Hinge>{"damper.window.1", "rad", [](auto& h) -> auto& { return (*h.damper->window)[1]; }, has_window, needs_window},
+    Field<Hinge>{"damper.scale", "", [](auto& h) -> auto& { return h.damper->scale; }, has_damper, needs_damper},
+    Field<Hinge>{"stop.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.stop->stiffness; }, has_stop, needs_stop},
+    Field<Hinge>{"stop.dissipation", "s/rad", [](auto& h) -> auto& { return h.stop->dissipation; }, has_stop, needs_stop},
+    Field<Hinge>{"stop.gap", "rad", [](auto& h) -> auto& { return h.stop->gap; }, has_stop, needs_stop},
     Field<Hinge>{"latch.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.latch->stiffness; }, has_latch, needs_latch},
-    Field<Hinge>{"latch.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.latch->damping; }, has_latch, needs_latch}};
+    Field<Hinge>{"latch.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.latch->damping; }, has_latch, needs_latch},
+    Field<Hinge>{"latch.backlash", "rad", [](auto& h) -> auto& { return h.latch->backlash; }, has_latch, needs_latch}};
+
+constexpr std::array synchronisation_fields{
+    Field<Synchronisation>{"ratio", "", [](auto& s) -> auto& { return s.ratio; }, has_ratio, needs_ratio},
+    Field<Synchronisation>{"stiffness", "N·m/rad", [](auto& s) -> auto& { return s.stiffness; }},
+    Field<Synchronisation>{"damping", "N·m·s/rad", [](auto& s) -> auto& { return s.damping; }},
+    Field<Synchronisation>{"preload", "N·m", [](auto& s) -> auto& { return *s.preload; }, has_preload, needs_preload}};
+
+constexpr std::array environment_fields{
+    Field<Environment>{"gravity.0", "m/s²", [](auto& e) -> auto& { return e.gravity[0]; }},
+    Field<Environment>{"gravity.1", "m/s²", [](auto& e) -> auto& { return e.gravity[1]; }},
+    Field<Environment>{"air_density", "kg/m³", [](auto& e) -> auto& { return e.air_density; }}};
 // clang-format on
 
 using Owner = SceneParameter::Owner;
 
-/// Calls `use(owner, its fields)` with the base, body or hinge that a parameter belongs to.
+/// Calls `use(owner, its fields)` with what a parameter belongs to.
 template <class SceneType, class Use>
 decltype(auto) with_owner(const SceneParameter& parameter, SceneType& scene, Use use) {
   switch (parameter.owner) {
@@ -94,16 +149,27 @@ decltype(auto) with_owner(const SceneParameter& parameter, SceneType& scene, Use
     return use(scene.bodies[parameter.index], body_fields);
   case Owner::hinge:
     return use(scene.hinges[parameter.index], hinge_fields);
+  case Owner::synchronisation:
+    return use(scene.synchronisations[parameter.index], synchronisation_fields);
+  case Owner::environment:
+    return use(scene.environment, environment_fields);
   case Owner::base:
     break;
   }
   return use(scene.base, base_fields);
 }
 
+/// The word that paths begin with, by kind of owner.
+constexpr std::array<std::string_view, 5> lists{"base", "bodies", "hinges", "synchronisations",
+                                                "environment"};
+
 /// A path cut at its first dots: bodies.NAME.field, or base.field.
 struct Path {
   std::string_view list, name, field;
 };
+
+/// Of which there is but one.
+bool is_nameless(std::string_view list) { return list == "base" || list == "environment"; }
 
 Path split(std::string_view path) {
   const auto cut = [&path] {
@@ -113,7 +179,7 @@ Path split(std::string_view path) {
     return first;
   };
   const std::string_view list = cut();
-  const std::string_view name = list == "base" ? "" : cut();
+  const std::string_view name = is_nameless(list) ? "" : cut();
   return {list, name, path};
 }
 
@@ -177,6 +243,12 @@ ParameterMatches resolve(const Scene& scene, std::string_view path) {
     match<Body>(Owner::body, scene.bodies, body_fields, parts, found);
   else if (parts.list == "hinges")
     match<Hinge>(Owner::hinge, scene.hinges, hinge_fields, parts, found);
+  else if (parts.list == "synchronisations")
+    match<Synchronisation>(Owner::synchronisation, scene.synchronisations, synchronisation_fields,
+                           parts, found);
+  else if (parts.list == "environment")
+    match<Environment>(Owner::environment, {&scene.environment, 1}, environment_fields, parts,
+                       found);
   if (!found.matches.empty())
     found.expected.clear();
   else if (found.expected.empty())
@@ -208,12 +280,11 @@ std::vector<SceneParameter> read_paths(const JsonCursor& at, const Scene* scene)
 std::string path_of(const Scene& scene, const SceneParameter& parameter) {
   return with_owner(parameter, scene, [&](const auto& owner, const auto& fields) {
     const std::string_view field = fields[parameter.field].path;
-    if constexpr (requires { owner.name; }) {
-      const bool of_body = parameter.owner == Owner::body;
-      return fmt::format("{}.{}.{}", of_body ? "bodies" : "hinges", owner.name, field);
-    } else {
-      return fmt::format("base.{}", field);
-    }
+    const std::string_view list = lists[static_cast<std::size_t>(parameter.owner)];
+    if constexpr (requires { owner.name; })
+      return fmt::format("{}.{}.{}", list, owner.name, field);
+    else
+      return fmt::format("{}.{}", list, field);
   });
 }
 
@@ -229,6 +300,10 @@ std::string_view unit_of(const SceneParameter& parameter) {
     return body_fields[parameter.field].unit;
   case Owner::hinge:
     return hinge_fields[parameter.field].unit;
+  case Owner::synchronisation:
+    return synchronisation_fields[parameter.field].unit;
+  case Owner::environment:
+    return environment_fields[parameter.field].unit;
   case Owner::base:
     break;
   }
@@ -242,6 +317,9 @@ std::vector<std::string> parameter_paths(const Scene& scene) {
     list_paths("bodies." + body.name + ".", body, body_fields, paths);
   for (const Hinge& hinge : scene.hinges)
     list_paths("hinges." + hinge.name + ".", hinge, hinge_fields, paths);
+  for (const Synchronisation& loop : scene.synchronisations)
+    list_paths("synchronisations." + loop.name + ".", loop, synchronisation_fields, paths);
+  list_paths("environment.", scene.environment, environment_fields, paths);
   return paths;
 }
 
