@@ -18,6 +18,7 @@ distributions
 core/number
 core/scene
 core/outcome
+core/laws
 core/mechanics
 core/dense
 core/methods
@@ -30,6 +31,7 @@ core/deployment
 montecarlo/formats
 montecarlo/machine
 montecarlo/statistics
+montecarlo/scene_file
 montecarlo/campaign
 montecarlo/runs
 montecarlo/summary

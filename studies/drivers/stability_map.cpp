@@ -62,13 +62,13 @@ struct Motion {
 
 /// Kinetic energy and what latches and springs store above rest, J: it can only fall.
 double energy_above(LinearWing& wing, const State<double>& x, double at_rest) {
-  return kinetic_energy(wing.system(), x, 0.0) + potential_energy(wing.system(), x) - at_rest;
+  return kinetic_energy(wing.system(), x, 0.0) + potential_energy(wing.system(), x, 0.0) - at_rest;
 }
 
 /// Whether the motion has less energy at its end, over a tenth of the steps, than at its start.
 bool stays_bounded(LinearWing& wing, const FixedStepMethod& method, const Motion& motion,
                    double h) {
-  const double at_rest = potential_energy(wing.system(), wing.rest());
+  const double at_rest = potential_energy(wing.system(), wing.rest(), 0.0);
   const long steps = std::max(motion.fewest_steps, static_cast<long>(motion.duration / h));
   const Step step = method.start();
   State<double> x = motion.x;

@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 UNITS = {"latch_time": "s", "deployment_time": "s", "latch_rate": "rad/s", "rate_at": "rad/s",
-         "peak_moment": "N·m", "peak_force": "N"}
+         "peak_moment": "N·m", "peak_force": "N", "overtravel": "rad"}
 
 
 def unit(output):

@@ -13,7 +13,7 @@ from charts import distinct, plt, read_rows, save
 
 WINDOW, PASS, FAIL, LIMIT = "#dcecd8", "#2f6db0", "#b03030", "0.25"
 UNITS = {"latch_time": "s", "deployment_time": "s", "latch_rate": "rad/s", "rate_at": "rad/s",
-         "peak_moment": "N·m", "peak_force": "N"}
+         "peak_moment": "N·m", "peak_force": "N", "overtravel": "rad"}
 
 
 def unit(output):

@@ -2,8 +2,8 @@
 /// text, and run: at most 50 steps of it, which end in a status and not in an exception.
 #include "core/deployment.hpp"
 #include "montecarlo/campaign/describe.hpp"
-#include "montecarlo/campaign/scene_json.hpp"
 #include "montecarlo/formats/json_parse.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace wingspread;

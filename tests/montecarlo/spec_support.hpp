@@ -34,7 +34,35 @@ inline Json small_scene() {
         "angle": { "stowed": -3, "latched": 0 } } ] })");
 }
 
-/// A campaign with that scene and two dispersions.
+/// The same wing with all that real hinges can have.
+inline Json real_scene() {
+  Json scene = small_scene();
+  Json& root = scene["hinges"][0];
+  root["spring"] = parse_json(R"({
+    "measured": { "angle": [1.5, 0.8, 0], "deploying": [1.9, 1.5, 1.2], "stowing": [2.1, 1.9, 1.5] },
+    "interpolation": "linear", "scale": 1.1, "offset": -0.05 })");
+  root["harness"] = parse_json(
+      R"({ "table": { "angle": [1.6, 1, 0.2, -0.1], "torque": [0.1, 0.3, 0.2, 0.2] }, "scale": 0.9 })");
+  root["friction"]["scale"] = 1.5;
+  root["damper"] = parse_json(R"({ "law": "power", "coefficient": 3, "exponent": 0.45,
+    "regularization_rate": 1e-5, "window": [1, 0.25], "scale": 0.7 })");
+  root["stop"] = parse_json(R"({ "stiffness": 500, "dissipation": 0.2, "gap": 0.01 })");
+  root["latch"]["backlash"] = 0.002;
+  Json& mid = scene["hinges"][1];
+  mid["spring"] = parse_json(R"({ "torque_stowed": 1, "torque_latched": 0.5, "offset": 0.125 })");
+  mid["damper"] = parse_json(R"({ "law": "eddy_current", "peak_torque": 2, "peak_rate": 4 })");
+  scene["bodies"][0]["plate"] = parse_json(
+      R"({ "from": [-0.5, 0.01], "to": [0.5, 0.01], "width": 2, "drag_coefficient": 1.9 })");
+  scene["synchronisations"] = parse_json(R"([
+    { "name": "loop", "between": ["root", "mid"], "ratio": 2, "stiffness": 300, "damping": 0.5,
+      "preload": 8 },
+    { "name": "cam", "between": ["mid", "root"], "stiffness": 100,
+      "ratio": { "table": { "travel": [0, 1, 3], "travel_of_second": [0, 0.6, 1.5] } } } ])");
+  scene["environment"] = parse_json(R"({ "gravity": [0.1, -9.81], "air_density": 1.2 })");
+  return scene;
+}
+
+/// A campaign with the small scene and two dispersions.
 inline Json small_campaign() {
   Json campaign{{"scene", small_scene()}};
   campaign["dispersions"] = parse_json(R"([

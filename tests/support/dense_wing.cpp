@@ -11,23 +11,6 @@ namespace {
 
 constexpr int base_coordinates = 3; ///< x_0, y_0, θ_0 come before the bodies' angles
 
-/// Rotates a body-fixed vector by an angle.
-template <class Scalar>
-Vector2<Scalar> rotated(const Vector2<Scalar>& vector, const Scalar& angle) {
-  using std::cos;
-  using std::sin;
-  const Scalar c = cos(angle), s = sin(angle);
-  return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y()};
-}
-
-/// e3 × a: the derivative of a rotated vector by its angle.
-template <class Scalar> Vector2<Scalar> turned(const Vector2<Scalar>& a) { return {-a.y(), a.x()}; }
-
-/// The third component of a × b.
-template <class Scalar> Scalar cross(const Vector2<Scalar>& a, const Vector2<Scalar>& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 } // namespace
 
 template <class Scalar>
@@ -36,6 +19,8 @@ typename DenseWing<Scalar>::Link DenseWing<Scalar>::make_link(const Scene& scene
   const Body& body = scene.bodies[h.child];
   if (h.friction.model == FrictionModel::exact)
     throw std::invalid_argument("DenseWing: exact friction is not smooth");
+  if (h.harness.table && h.harness.table->both_ways())
+    throw std::invalid_argument("DenseWing: only springs are measured both ways");
   Link link{};
   link.hinge = hinge;
   link.mass = body.mass;
@@ -46,16 +31,16 @@ typename DenseWing<Scalar>::Link DenseWing<Scalar>::make_link(const Scene& scene
   link.latched = h.latched;
   link.initial_rate = h.initial_rate;
   link.sense = h.latched > h.stowed ? 1 : -1;
-  link.spring_stowed = h.spring.torque_stowed;
-  link.spring_latched = h.spring.torque_latched;
-  link.harness_stowed = h.harness.torque_stowed;
-  link.harness_latched = h.harness.torque_latched;
+  link.spring = {h, h.spring};
+  link.harness = {h, h.harness};
   link.coulomb = h.friction.coulomb;
   link.viscous = h.friction.viscous;
+  link.friction_scale = h.friction.scale;
   link.regularization_rate = h.friction.regularization_rate;
-  link.has_latch = h.latch.has_value();
-  link.stiffness = h.latch ? h.latch->stiffness : 0;
-  link.damping = h.latch ? h.latch->damping : 0;
+  link.damper = h.damper;
+  link.stop = h.stop;
+  link.latch = h.latch;
+  link.plate = body.plate;
   return link;
 }
 
@@ -83,8 +68,10 @@ template <class Scalar> void DenseWing<Scalar>::number_outward(const Scene& scen
 template <class Scalar>
 DenseWing<Scalar>::DenseWing(const Scene& scene)
     : base_motion_(scene.base.motion), base_mass_(scene.base.mass),
-      base_inertia_(scene.base.inertia) {
+      base_inertia_(scene.base.inertia), gravity_(scene.environment.gravity.cast<Scalar>()),
+      air_density_(scene.environment.air_density) {
   number_outward(scene);
+  for (const Synchronisation& loop : scene.synchronisations) loops_.emplace_back(loop);
   const Base& base = scene.base;
   prescribed_.setZero();
   if (base.motion == BaseMotion::prescribed)
@@ -127,42 +114,86 @@ template <class Scalar> Scalar DenseWing<Scalar>::sense(int hinge) const {
   return link_of(hinge).sense;
 }
 
-template <class Scalar> bool DenseWing<Scalar>::has_latch(int hinge) const {
-  return link_of(hinge).has_latch;
+template <class Scalar> Scalar DenseWing<Scalar>::travel(int hinge, const Scalar& angle) const {
+  const Link& link = link_of(hinge);
+  return link.sense * (angle - link.stowed);
 }
 
+template <class Scalar> bool DenseWing<Scalar>::has_latch(int hinge) const {
+  return link_of(hinge).latch.has_value();
+}
+
+template <class Scalar>
+Scalar DenseWing<Scalar>::friction(const Link& link, const Scalar& angle,
+                                   const Scalar& rate) const {
+  using std::sqrt;
+  const Scalar w = link.regularization_rate, level = link.coulomb + link.spring.level(angle);
+  return -link.friction_scale * (level * rate / sqrt(rate * rate + w * w) + link.viscous * rate);
+}
+
+/// All but what loops add.
 template <class Scalar>
 Scalar DenseWing<Scalar>::moment(const Link& link, const WingState<Scalar>& state) const {
-  using std::sqrt;
   const Scalar& angle = state.angles(link.hinge);
   const Scalar& rate = state.rates(link.hinge);
-  const Scalar x = (angle - link.stowed) / (link.latched - link.stowed);
-  const Scalar spring = link.spring_stowed + (link.spring_latched - link.spring_stowed) * x;
-  const Scalar harness = link.harness_stowed + (link.harness_latched - link.harness_stowed) * x;
-  const Scalar w = link.regularization_rate;
-  const Scalar friction = -link.coulomb * rate / sqrt(rate * rate + w * w) - link.viscous * rate;
-  const Scalar latch = -link.stiffness * (angle - link.latched) - link.damping * rate;
-  return link.sense * (spring - harness) + friction + state.engagement(link.hinge) * latch;
+  const Scalar& engaged = state.engagement(link.hinge);
+  Scalar sum = link.sense * (link.spring.torque(angle) - link.harness.torque(angle)) +
+               friction(link, angle, rate);
+  if (link.damper) sum += damper_moment(*link.damper, angle, rate);
+  if (link.latch) sum += engaged * latch_moment(*link.latch, Scalar(angle - link.latched), rate);
+  if (link.stop)
+    sum +=
+        link.sense * stop_moment(*link.stop, travel(link.hinge, angle), Scalar(link.sense * rate));
+  return sum;
 }
 
-/// |travel| ∫ (spring − harness) dx from x to 1, and the engaged latch's ½ k (φ − φ_latched)².
+/// s ∫ (spring − harness) dφ from φ to φ_latched, and what latch and stop have stored.
 template <class Scalar>
 Scalar DenseWing<Scalar>::potential(const Link& link, const WingState<Scalar>& state) const {
-  const Scalar travel = link.latched - link.stowed;
-  const Scalar x = (state.angles(link.hinge) - link.stowed) / travel;
-  const Scalar net_stowed = link.spring_stowed - link.harness_stowed;
-  const Scalar net_latched = link.spring_latched - link.harness_latched;
-  const Scalar left = net_stowed * (1 - x) + (net_latched - net_stowed) * (1 - x * x) / 2;
-  const Scalar beyond = state.angles(link.hinge) - link.latched;
-  return link.sense * travel * left +
-         state.engagement(link.hinge) * link.stiffness * beyond * beyond / 2;
+  const Scalar& angle = state.angles(link.hinge);
+  Scalar sum = link.sense * (link.spring.integral(angle, link.latched) -
+                             link.harness.integral(angle, link.latched));
+  if (link.latch)
+    sum += state.engagement(link.hinge) * latch_energy(*link.latch, Scalar(angle - link.latched));
+  if (link.stop) sum += stop_energy(*link.stop, travel(link.hinge, angle));
+  return sum;
+}
+
+template <class Scalar>
+Scalar DenseWing<Scalar>::out_of_step(const Loop<Scalar>& loop,
+                                      const WingState<Scalar>& state) const {
+  return loop.out_of_step(travel(loop.first, state.angles(loop.first)),
+                          travel(loop.second, state.angles(loop.second)));
+}
+
+/// Adds what a loop pulls: τ along the second travel, −g' τ along the first.
+template <class Scalar>
+void DenseWing<Scalar>::pull(const Loop<Scalar>& loop, const WingState<Scalar>& state,
+                             Vector<Scalar>& moments) const {
+  const int a = loop.first, b = loop.second;
+  const Scalar slope = loop.slope(travel(a, state.angles(a)));
+  const Scalar rate = slope * sense(a) * state.rates(a) - sense(b) * state.rates(b);
+  const Scalar tau = loop.pull(out_of_step(loop, state), rate);
+  moments(a) -= sense(a) * slope * tau;
+  moments(b) += sense(b) * tau;
 }
 
 template <class Scalar>
 Vector<Scalar> DenseWing<Scalar>::moments(const WingState<Scalar>& state) const {
   Vector<Scalar> result(size());
   for (const Link& link : links_) result(link.hinge) = moment(link, state);
+  for (const Loop<Scalar>& loop : loops_) pull(loop, state, result);
   return result;
+}
+
+/// Gravity, and the air on a plate.
+template <class Scalar> Load<Scalar> DenseWing<Scalar>::load(int k, const Motion& at) const {
+  Load<Scalar> load{gravity_ * links_[k].mass, Scalar(0)};
+  if (!links_[k].plate) return load;
+  const Vector2<Scalar> velocity = at.velocity.col(k);
+  const Load<Scalar> air =
+      air_on_plate<Scalar>(*links_[k].plate, air_density_, at.angles(k), velocity, at.rates(k));
+  return {load.force + air.force, air.moment};
 }
 
 /// (1) and its derivative.
@@ -251,7 +282,7 @@ DenseWing<Scalar>::mass_matrix(const std::vector<Columns2<Scalar>>& jacobians) c
   return mass;
 }
 
-/// Q of (4): a hinge's moment turns its child one way and its parent the other.
+/// The moments' part of (6): each turns its child one way and its parent the other.
 template <class Scalar>
 Vector<Scalar> DenseWing<Scalar>::applied(const Vector<Scalar>& moments) const {
   Vector<Scalar> force = Vector<Scalar>::Zero(base_coordinates + size());
@@ -293,22 +324,28 @@ WingResponse<Scalar> DenseWing<Scalar>::respond(const WingState<Scalar>& state,
   WingResponse<Scalar> result;
   result.moments = moments;
   Vector<Scalar> force = applied(result.moments);
-  for (int k = 0; k < size(); ++k)
+  if (base_motion_ == BaseMotion::free) force.template head<2>() += gravity_ * base_mass_;
+  std::vector<Load<Scalar>> loads;
+  for (int k = 0; k < size(); ++k) {
+    loads.push_back(load(k, at));
+    const Vector2<Scalar> net = loads[k].force - bias.col(k) * links_[k].mass;
     for (std::size_t j = 0; j < paths_[k].size(); ++j)
-      force(paths_[k][j]) -= links_[k].mass * jacobian[k].col(j).dot(bias.col(k));
+      force(paths_[k][j]) += jacobian[k].col(j).dot(net);
+    force(base_coordinates + k) += loads[k].moment;
+  }
   const Vector<Scalar> accelerations = solve(mass_matrix(jacobian), force);
 
   result.base_acceleration = accelerations.template head<2>();
   result.base_angular_acceleration = accelerations(2);
   result.hinge_accelerations.resize(size());
-  Columns2<Scalar> inertial(2, size()); // m r̈, then summed inward: (5)
+  Columns2<Scalar> inertial(2, size()); // m r̈ − F, then summed inward: (5)
   for (int k = 0; k < size(); ++k) {
     result.hinge_accelerations(links_[k].hinge) =
         accelerations(base_coordinates + k) - accelerations(base_coordinates + links_[k].parent);
     Vector2<Scalar> acceleration = bias.col(k);
     for (std::size_t j = 0; j < paths_[k].size(); ++j)
       acceleration += jacobian[k].col(j) * accelerations(paths_[k][j]);
-    inertial.col(k) = acceleration * links_[k].mass;
+    inertial.col(k) = acceleration * links_[k].mass - loads[k].force;
   }
   result.forces.resize(2, size());
   for (int k = size() - 1; k >= 0; --k) {
@@ -325,6 +362,7 @@ WingBalance<Scalar> DenseWing<Scalar>::balance(const WingState<Scalar>& state) c
   const auto add = [&](const Scalar& mass, const Scalar& inertia, const Vector2<Scalar>& position,
                        const Vector2<Scalar>& velocity, const Scalar& rate) {
     sum.kinetic += (mass * velocity.squaredNorm() + inertia * rate * rate) / 2;
+    sum.potential -= mass * gravity_.dot(position);
     sum.linear_momentum += velocity * mass;
     sum.angular_momentum += mass * cross(position, velocity) + inertia * rate;
   };
@@ -334,6 +372,7 @@ WingBalance<Scalar> DenseWing<Scalar>::balance(const WingState<Scalar>& state) c
     add(links_[k].mass, links_[k].inertia, at.positions.col(k), at.velocity.col(k), at.rates(k));
     sum.potential += potential(links_[k], state);
   }
+  for (const Loop<Scalar>& loop : loops_) sum.potential += loop.energy(out_of_step(loop, state));
   return sum;
 }
 

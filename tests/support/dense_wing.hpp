@@ -1,6 +1,7 @@
 /// An independent oracle of the mechanics: the wing as one dense system in absolute angles.
 ///
-/// It shares nothing with the recursion but the parameters. The generalized
+/// It shares nothing with the recursion but the parameters; real hinges have their laws from
+/// hinge_laws.hpp. The generalized
 /// coordinates are q = (x_0, y_0, θ_0, θ_1 … θ_n): the base's origin and the absolute angle of the
 /// base and of every body. Then
 ///
@@ -8,7 +9,8 @@
 ///     r̈_j  = J_j q̈ + b_j,   J_j = ∂r_j/∂q,  b_j = J̇_j q̇              (2)
 ///     M    = Σ m_j J_jᵀ J_j + diag(J)                                 (3)
 ///     M q̈  = Q − Σ m_j J_jᵀ b_j                                       (4)
-///     f_i  = Σ m_j r̈_j over the bodies outward of hinge i             (5)
+///     f_i  = Σ (m_j r̈_j − F_j) over the bodies outward of hinge i     (5)
+///     Q    = ±hinge moments + Σ (J_jᵀ F_j + L_j on θ_j)               (6)
 ///
 /// | symbol | meaning                                           | shape   | unit   |
 /// |--------|---------------------------------------------------|---------|--------|
@@ -16,11 +18,15 @@
 /// | J_j    | Jacobian of body j's centre of mass               | 2×(n+3) | m, 1   |
 /// | b_j    | its acceleration at q̈ = 0                         | 2       | m/s²   |
 /// | M      | mass matrix                                       | (n+3)²  | kg …   |
-/// | Q      | ±hinge moments                                    | n + 3   | N·m    |
+/// | Q      | generalized forces                                | n + 3   | N, N·m |
+/// | F_j    | gravity and air on body j, inertial axes          | 2       | N      |
+/// | L_j    | moment of the air about its centre of mass        | 1       | N·m    |
 /// | f_i    | force of hinge i on its child, inertial axes      | 2       | N      |
 #pragma once
 
 #include "core/scene/scene.hpp"
+#include "tests/support/body_loads.hpp"
+#include "tests/support/hinge_laws.hpp"
 
 #include <Eigen/Core>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -34,7 +40,6 @@ namespace wingspread::oracle {
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 template <class Scalar> using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-template <class Scalar> using Vector2 = Eigen::Matrix<Scalar, 2, 1>;
 template <class Scalar> using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 template <class Scalar> using Columns2 = Eigen::Matrix<Scalar, 2, Eigen::Dynamic>;
 
@@ -68,8 +73,8 @@ template <class Scalar> struct WingResponse {
 
 /// Energies and momenta of the bodies, and of the base when it is free.
 template <class Scalar> struct WingBalance {
-  Scalar kinetic;                  ///< J
-  Scalar potential;                ///< springs and harnesses left, latches stored, J
+  Scalar kinetic;   ///< J
+  Scalar potential; ///< springs and harnesses left, latches, stops and loops stored, heights, J
   Vector2<Scalar> linear_momentum; ///< kg·m/s
   Scalar angular_momentum;         ///< about the inertial origin, kg·m²/s
 };
@@ -114,6 +119,9 @@ public:
   /// sign(φ_latched − φ_stowed) of hinge `hinge`.
   [[nodiscard]] Scalar sense(int hinge) const;
 
+  /// s (φ − φ_stowed) of hinge `hinge`, rad.
+  [[nodiscard]] Scalar travel(int hinge, const Scalar& angle) const;
+
   [[nodiscard]] bool has_latch(int hinge) const;
 
 private:
@@ -124,9 +132,12 @@ private:
     Scalar mass, inertia;
     Vector2<Scalar> parent_point, child_point;
     Scalar stowed, latched, initial_rate, sense;
-    Scalar spring_stowed, spring_latched, harness_stowed, harness_latched;
-    Scalar coulomb, viscous, regularization_rate, stiffness, damping;
-    bool has_latch;
+    TorqueLaw<Scalar> spring, harness;
+    Scalar coulomb, viscous, friction_scale, regularization_rate;
+    std::optional<Damper> damper;
+    std::optional<Stop> stop;
+    std::optional<Latch> latch;
+    std::optional<Plate> plate;
   };
 
   /// Absolute motion of the links, in outward order.
@@ -139,7 +150,12 @@ private:
   void number_outward(const Scene& scene);
   [[nodiscard]] const Link& link_of(int hinge) const { return links_[link_of_hinge_[hinge]]; }
   [[nodiscard]] Scalar moment(const Link& link, const WingState<Scalar>& state) const;
+  [[nodiscard]] Scalar friction(const Link& link, const Scalar& angle, const Scalar& rate) const;
   [[nodiscard]] Scalar potential(const Link& link, const WingState<Scalar>& state) const;
+  [[nodiscard]] Scalar out_of_step(const Loop<Scalar>& loop, const WingState<Scalar>& state) const;
+  void pull(const Loop<Scalar>& loop, const WingState<Scalar>& state,
+            Vector<Scalar>& moments) const;
+  [[nodiscard]] Load<Scalar> load(int k, const Motion& at) const;
   [[nodiscard]] Motion motion(const WingState<Scalar>& state) const;
   [[nodiscard]] std::vector<Columns2<Scalar>> jacobians(const Motion& at,
                                                         const Scalar& base_angle) const;
@@ -150,9 +166,12 @@ private:
 
   BaseMotion base_motion_;
   Scalar base_mass_, base_inertia_;
+  Vector2<Scalar> gravity_;
+  Scalar air_density_;
   Eigen::Matrix<Scalar, 3, 1> prescribed_; ///< (r̈_0, ω̇_0) of a base that is not free
   WingState<Scalar> initial_;
   std::vector<Link> links_;
+  std::vector<Loop<Scalar>> loops_;
   std::vector<int> link_of_hinge_;
   std::vector<std::vector<int>>
       paths_; ///< coordinates that move link k: 0, 1, 2, ancestors, itself

@@ -76,7 +76,7 @@ Hinge random_hinge(const RandomScene& options, Draws& draws) {
 }
 
 /// A panel hinge of the seed scene: the latch latched at 0.
-Hinge panel_hinge(std::string name, int parent, int child, double stowed, LinearTorque spring) {
+Hinge panel_hinge(std::string name, int parent, int child, double stowed, HingeTorque spring) {
   Hinge hinge;
   hinge.name = std::move(name);
   hinge.parent = parent;

@@ -92,11 +92,13 @@ public:
     return result;
   }
 
-  /// |M| of every hinge, then |f| of every hinge: 2n, N·m and N.
+  /// |M| of every hinge, then |f|, then how far it is beyond its stowed angle: 3n, N·m, N, rad.
   [[nodiscard]] Vector<Scalar> magnitudes(const Vector<Scalar>& y) const {
     const WingResponse<Scalar> response = respond(y);
-    Vector<Scalar> result(2 * hinges());
-    result << response.moments.cwiseAbs(), response.forces.colwise().norm().transpose();
+    const int n = hinges();
+    Vector<Scalar> result(3 * n);
+    result.head(2 * n) << response.moments.cwiseAbs(), response.forces.colwise().norm().transpose();
+    for (int i = 0; i < n; ++i) result(2 * n + i) = std::max<Scalar>(-wing_.travel(i, y(i)), 0);
     return result;
   }
 
@@ -193,7 +195,7 @@ private:
 template <class Scalar> class RunBook {
 public:
   RunBook(WingOde<Scalar>& ode, const ReferenceOptions& options, const Vector<Scalar>& y)
-      : ode_(ode), coincidence_(options.coincidence), peaks_(2 * ode.hinges()),
+      : ode_(ode), coincidence_(options.coincidence), peaks_(3 * ode.hinges()),
         start_(ode.wing().balance(ode.state(y))) {}
 
   /// After an accepted step [lower, upper] that ended in y; `at` gives the state inside it.
@@ -234,6 +236,7 @@ public:
   [[nodiscard]] ReferenceOutcome close(const Vector<Scalar>& y) {
     outcome_.peak_moment = peaks_.peaks(0, ode_.hinges());
     outcome_.peak_force = peaks_.peaks(ode_.hinges(), ode_.hinges());
+    outcome_.overtravel = peaks_.peaks(2 * ode_.hinges(), ode_.hinges());
     outcome_.final = ode_.state(y).template cast<double>();
     outcome_.initial_balance = in_double(start_);
     outcome_.final_balance = in_double(ode_.wing().balance(ode_.state(y)));

@@ -2,6 +2,10 @@
 /// dense_wing.hpp integrated by SUNDIALS CVODE (multistep, its own root finding), or by
 /// Fehlberg's order-8 Runge–Kutta formula in extended or quadruple precision (events and peaks
 /// located by real steps, never on an interpolant).
+///
+/// The laws of real hinges have kinks and jumps (hinge_laws.hpp); the step control meets them as
+/// any other error, and shrinks the steps there until they are met. A jump wants a tolerance that
+/// steps of the precision's own size can keep: 1e-14 rather than 1e-16 in long double.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -41,6 +45,7 @@ struct ReferenceOutcome {
   std::vector<ReferenceLatch> latches;    ///< in order of time
   std::vector<ReferencePeak> peak_moment; ///< of |M|, N·m
   std::vector<ReferencePeak> peak_force;  ///< of |f|, N
+  std::vector<ReferencePeak> overtravel;  ///< beyond the stowed angle, ≥ 0, rad
   WingState<double> final;
   WingBalance<double> initial_balance, final_balance;
   double energy_drift = 0;   ///< largest |E(t) − E(0)| up to the first latch, J

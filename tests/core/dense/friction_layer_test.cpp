@@ -22,7 +22,7 @@ namespace {
 Scene rubbing_wing(int unit, double least_damping = 0.7) {
   Draws draws(5000 + unit);
   Scene scene = seed_scene();
-  const LinearTorque harness[] = {{0.1, 0.05}, {0.08, 0.04}, {0.04, 0.02}};
+  const HingeTorque harness[] = {{0.1, 0.05}, {0.08, 0.04}, {0.04, 0.02}};
   for (int i = 0; i < 3; ++i) {
     Hinge& hinge = scene.hinges[i];
     const double spring = draws.uniform(0.9, 1.1);

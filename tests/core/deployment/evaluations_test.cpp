@@ -13,7 +13,7 @@ namespace {
 /// The seed wing with harness and regularized friction: studies/scenes/three_panel_flight.json.
 Scene flight_wing() {
   Scene scene = seed_scene();
-  const LinearTorque harness[] = {{0.1, 0.05}, {0.08, 0.04}, {0.04, 0.02}};
+  const HingeTorque harness[] = {{0.1, 0.05}, {0.08, 0.04}, {0.04, 0.02}};
   const double friction[] = {0.02, 0.02, 0.01};
   for (int i = 0; i < 3; ++i) {
     scene.hinges[i].harness = harness[i];

@@ -57,7 +57,7 @@ Scene two_seed_panels(double root, double tip) {
     scene.bodies[i].mass *= factor[i], scene.bodies[i].inertia *= factor[i];
     scene.hinges[i].latch.reset();
   }
-  for (LinearTorque* torque : {&scene.hinges[1].spring})
+  for (HingeTorque* torque : {&scene.hinges[1].spring})
     torque->torque_stowed *= std::min(root, tip), torque->torque_latched *= std::min(root, tip);
   return scene;
 }

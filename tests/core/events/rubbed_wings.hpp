@@ -30,7 +30,7 @@ inline Scene rubbed_seed(double root, double mid, double tip) {
 /// acceleration does not tear them loose; its latch does.
 inline Scene held_until_the_root_latches() {
   Scene scene = rubbed_seed(0.3, 4, 1.5);
-  const LinearTorque springs[] = {{5, 5}, {0.2, 0.2}, {0.1, 0.1}};
+  const HingeTorque springs[] = {{5, 5}, {0.2, 0.2}, {0.1, 0.1}};
   for (int i = 0; i < 3; ++i) scene.hinges[i].spring = springs[i];
   scene.hinges[1].stowed = scene.hinges[2].stowed = 0.4;
   return scene;

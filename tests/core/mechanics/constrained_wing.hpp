@@ -63,7 +63,9 @@ Motions<T> under_moments(Scene scene, const WingState<double>& state,
     const double drive = hinge.latched > hinge.stowed ? moments[i] : -moments[i];
     hinge.spring = {drive, drive};
     hinge.harness = {}, hinge.friction = {}, hinge.latch.reset();
+    hinge.damper.reset(), hinge.stop.reset();
   }
+  scene.synchronisations.clear(); // their moments are told; gravity and air stay
   WingState<T> open = state.cast<T>();
   open.engagement.setZero();
   const WingResponse<T> response = DenseWing<T>(scene).respond(open);
@@ -128,6 +130,7 @@ template <BaseMotion M> struct Posed {
       x[at.angle(i)] = state.angles[wing.hinge_of[i]];
       x[at.rate(i)] = state.rates[wing.hinge_of[i]];
     }
+    system.find_sides(x);
   }
 
 private:

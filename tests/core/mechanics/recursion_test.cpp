@@ -1,97 +1,21 @@
 // The recursion against an independent dense formulation (absolute angles, Jacobians, LDLᵀ).
 #include "core/mechanics/recursion.hpp"
-#include "core/mechanics/system.hpp"
-#include "tests/support/dense_wing.hpp"
+#include "tests/core/mechanics/evaluated_wing.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 
 using namespace wingspread;
-using oracle::Quad;
+using namespace wingspread::oracle;
 
 namespace {
-
-/// Relative hinge accelerations and hinge forces of the recursion, in Scene order, and the base's.
-template <class T> struct Evaluated {
-  std::vector<T> hinge;
-  std::vector<Vec2<T>> force;
-  Vec2<T> base;
-  T base_spin;
-};
-
-template <class T, BaseMotion M>
-Evaluated<T> evaluate(const Wing<T>& wing, const oracle::WingState<double>& state) {
-  Workspace<T> work;
-  System<T, Tree, M> system(wing, std::nullopt, work);
-  const Layout& at = system.layout();
-  State<T> x, dxdt;
-  system.start(x);
-  dxdt = x;
-  if (M == BaseMotion::free) {
-    const int v = at.freedoms();
-    x[0] = T(state.base_position.x()), x[1] = T(state.base_position.y()),
-    x[2] = T(state.base_angle);
-    x[v] = T(state.base_velocity.x()), x[v + 1] = T(state.base_velocity.y()),
-    x[v + 2] = T(state.base_rate);
-  }
-  for (int i = 1; i <= at.bodies; ++i) {
-    const int hinge = wing.hinge_of[i];
-    x[at.angle(i)] = T(state.angles[hinge]);
-    x[at.rate(i)] = T(state.rates[hinge]);
-    if (state.engagement[hinge] > 0) system.engage(i);
-  }
-  system.want_forces(true);
-  system(x, dxdt, T(0));
-  Evaluated<T> out{std::vector<T>(at.bodies), std::vector<Vec2<T>>(at.bodies), {}, T(0)};
-  for (int i = 1; i <= at.bodies; ++i) {
-    out.hinge[wing.hinge_of[i]] = dxdt[at.rate(i)];
-    out.force[wing.hinge_of[i]] = work.forces[i];
-  }
-  out.base = work.frames[0].acceleration;
-  out.base_spin = work.frames[0].angular_acceleration;
-  return out;
-}
-
-template <class T>
-Evaluated<T> evaluate(const Scene& scene, const oracle::WingState<double>& state) {
-  Scene posed = scene; // a prescribed base stands at t = 0 where the state has it
-  if (scene.base.motion == BaseMotion::prescribed)
-    posed.base.angle = state.base_angle, posed.base.rate = state.base_rate;
-  Wing<T> wing = make_wing<T>(posed, outward_order(posed));
-  set_parameters(wing, posed);
-  switch (scene.base.motion) {
-  case BaseMotion::prescribed:
-    return evaluate<T, BaseMotion::prescribed>(wing, state);
-  case BaseMotion::free:
-    return evaluate<T, BaseMotion::free>(wing, state);
-  case BaseMotion::fixed:
-    break;
-  }
-  return evaluate<T, BaseMotion::fixed>(wing, state);
-}
 
 /// Largest deviation of accelerations and of forces, each relative to the largest of its kind.
 template <class T, class Reference>
 std::pair<double, double> deviation(const Evaluated<T>& got,
-                                    const oracle::WingResponse<Reference>& expected) {
-  double acceleration = 0, largest = 0, force = 0, largest_force = 0;
-  const auto note = [](double& worst, double& scale, double value, double reference) {
-    REQUIRE(std::isfinite(value)); // std::max would pass over a NaN
-    worst = std::max(worst, std::abs(value - reference));
-    scale = std::max(scale, std::abs(reference));
-  };
-  for (int i = 0; i < static_cast<int>(got.hinge.size()); ++i) {
-    note(acceleration, largest, double(got.hinge[i]), double(expected.hinge_accelerations[i]));
-    note(force, largest_force, double(got.force[i].x), double(expected.forces(0, i)));
-    note(force, largest_force, double(got.force[i].y), double(expected.forces(1, i)));
-  }
-  note(acceleration, largest, double(got.base_spin), double(expected.base_angular_acceleration));
-  double base = 0, largest_base = largest;
-  note(base, largest_base, double(got.base.x), double(expected.base_acceleration.x()));
-  note(base, largest_base, double(got.base.y), double(expected.base_acceleration.y()));
-  acceleration = std::max(acceleration, base / largest_base * largest);
-  return {acceleration / largest, force / largest_force};
+                                    const WingResponse<Reference>& expected) {
+  return {acceleration_deviation(got, expected), force_deviation(got, expected)};
 }
 
 } // namespace

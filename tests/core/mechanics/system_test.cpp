@@ -3,6 +3,7 @@
 #include "core/mechanics/linear_solve.hpp"
 #include "core/mechanics/system.hpp"
 #include "tests/core/mechanics/constrained_wing.hpp"
+#include "tests/support/real_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -19,8 +20,8 @@ template <BaseMotion M> struct Sticking {
   Constraints constraints;
   Posed<M> at;
 
-  Sticking(std::uint64_t seed, int n)
-      : options(made(n)), scene(random_scene(seed, options)),
+  Sticking(std::uint64_t seed, int n, bool real)
+      : options(made(n)), scene(drawn(seed, options, real)),
         state(random_state(seed + 1000, scene)), constraints(random_constraints(seed + 2000, n)),
         at(scene, state) {
     constraints.locked[at.wing.hinge_of[1]] = true;
@@ -29,6 +30,12 @@ template <BaseMotion M> struct Sticking {
   }
 
 private:
+  static Scene drawn(std::uint64_t seed, const RandomScene& options, bool real) {
+    RealFeatures features;
+    features.gravity = M != BaseMotion::fixed; // which it would make one that is driven
+    const Scene scene = random_scene(seed, options);
+    return real ? with_real_hinges(scene, seed + 3000, features) : scene;
+  }
   static RandomScene made(int n) {
     RandomScene options = of(n, true);
     options.motion = M, options.friction = false;
@@ -37,8 +44,8 @@ private:
 };
 
 /// The right-hand side with hinges that stick.
-template <BaseMotion M> void check_right_hand_side(std::uint64_t seed, int n) {
-  Sticking<M> wing(seed, n);
+template <BaseMotion M> void check_right_hand_side(std::uint64_t seed, int n, bool real) {
+  Sticking<M> wing(seed, n, real);
   auto& system = wing.at.system;
   const State<double>& x = wing.at.x;
   const Layout& layout = system.layout();
@@ -68,8 +75,8 @@ template <BaseMotion M> void check_right_hand_side(std::uint64_t seed, int n) {
 }
 
 /// (M + E) q̈ = τ: a wing at rest, on a base that nothing drives.
-template <BaseMotion M> void check_linear_solve(std::uint64_t seed, int n) {
-  Sticking<M> wing(seed, n);
+template <BaseMotion M> void check_linear_solve(std::uint64_t seed, int n, bool real) {
+  Sticking<M> wing(seed, n, real);
   auto& system = wing.at.system;
   const std::vector<int>& hinge_of = wing.at.wing.hinge_of;
   std::vector<double> qdd(system.layout().freedoms());
@@ -81,6 +88,7 @@ template <BaseMotion M> void check_linear_solve(std::uint64_t seed, int n) {
 
   Scene still = wing.scene;
   still.base.acceleration = {0, 0}, still.base.angular_acceleration = 0;
+  still.environment = {};
   wing.state.rates.setZero();
   wing.state.base_rate = 0, wing.state.base_velocity.setZero();
   const auto expected = dense<long double>(still, wing.state, wing.constraints);
@@ -92,19 +100,20 @@ template <BaseMotion M> void check_linear_solve(std::uint64_t seed, int n) {
     CHECK(deviation(Eigen::Vector3d(qdd[0], qdd[1], qdd[2]), expected.base) < 1e-12);
 }
 
-template <BaseMotion M> void check_system(std::uint64_t seed, int n) {
-  CAPTURE(static_cast<int>(M));
-  check_right_hand_side<M>(seed, n);
-  check_linear_solve<M>(seed, n);
+template <BaseMotion M> void check_system(std::uint64_t seed, int n, bool real) {
+  CAPTURE(static_cast<int>(M), real);
+  check_right_hand_side<M>(seed, n, real);
+  check_linear_solve<M>(seed, n, real);
 }
 
 } // namespace
 
 TEST_CASE("a system with hinges that stick, and its linear solves, agree with the dense solve") {
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    const int n = 1 + static_cast<int>(seed);
-    check_system<BaseMotion::fixed>(seed, n);
-    check_system<BaseMotion::prescribed>(seed + 100, n);
-    check_system<BaseMotion::free>(seed + 200, n);
-  }
+  for (const bool real : {false, true})
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      const int n = 1 + static_cast<int>(seed);
+      check_system<BaseMotion::fixed>(seed, n, real);
+      check_system<BaseMotion::prescribed>(seed + 100, n, real);
+      check_system<BaseMotion::free>(seed + 200, n, real);
+    }
 }

@@ -54,7 +54,7 @@ TEST_CASE("every number that is set in a lane comes back from it, whatever the o
 }
 
 TEST_CASE("what is no number of a lane is the structure's, or holds where any lane has it") {
-  Wing<double> wing;
+  Wing<double> wing{};
   wing.bodies.resize(2), wing.hinges.resize(2), wing.initial_rates = {0, 3};
   wing.hinges[1].static_friction = 5, wing.hinges[1].has_latch = true, wing.can_stick = true;
   Wing<P> packs;

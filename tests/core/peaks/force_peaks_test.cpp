@@ -17,7 +17,7 @@ namespace {
 /// swing's period, where both ends of the step are below 0.55 of it.
 Scene swinging_wing() {
   Scene scene = seed_scene();
-  const LinearTorque springs[] = {{1.99048, 1.39333}, {1.49485, 0.498283}, {0.72635, 0.0968466}};
+  const HingeTorque springs[] = {{1.99048, 1.39333}, {1.49485, 0.498283}, {0.72635, 0.0968466}};
   const Latch latches[] = {{11475.5, 11.7765}, {10182.2, 3.97612}, {10278, 4.55992}};
   for (int i = 0; i < 3; ++i)
     scene.hinges[i].spring = springs[i], scene.hinges[i].latch = latches[i];

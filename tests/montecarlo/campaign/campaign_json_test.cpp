@@ -1,5 +1,5 @@
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -30,7 +30,7 @@ TEST_CASE("What a campaign leaves out has its default", "[campaign_json]") {
             R"("sampling":{"design":"random","runs":1000,"seed":1,"replicates":1},)" +
             R"("integration":{"method":"auto","rtol":1e-08,"atol":1e-10,"latch":"event",)" +
             R"("t_end":60.0,"max_steps":1000000},)" +
-            R"("outputs":["latch_time","latch_rate","peak_moment","peak_force"],)" +
+            R"("outputs":["latch_time","latch_rate","peak_moment","peak_force","overtravel"],)" +
             R"("statistics":{"quantiles":[0.01,0.5,0.99],"confidence":0.95,"bins":"auto"}})");
 }
 
@@ -47,7 +47,16 @@ TEST_CASE("A campaign as resolved reads back to itself", "[campaign_json]") {
   CHECK(std::ranges::equal(second.dispersions, first.dispersions, same));
   CHECK(second.sampling.runs == 7);
   CHECK(second.integration.smoothing == 0.1);
-  CHECK(second.outputs == Outputs{OutputFamily::rate_at});
+  CHECK(second.outputs == Outputs{OutputFamily::rate_at, OutputFamily::overtravel});
+}
+
+TEST_CASE("Overtravel is recorded, asked for or not, but not of what was run before",
+          "[campaign_json]") {
+  Json document = test::small_campaign();
+  document["outputs"] = Json::array();
+  CHECK(read(document).outputs == Outputs{OutputFamily::overtravel});
+  document["wingspread"] = {{"version", "0.1.0"}, {"seed", 1}, {"hash", "0"}};
+  CHECK(read(document).outputs.empty());
 }
 
 TEST_CASE("A results folder's stamp is known and of no account", "[campaign_json]") {
@@ -115,7 +124,7 @@ TEST_CASE("Each fault of a campaign is told", "[campaign_json]") {
         "file that holds it"},
        {"/dispersions/0/to/1", "\"hinges.root.spring.torque\"",
         "/dispersions/0/to/1: found string \"hinges.root.spring.torque\", expected the path of a "
-        "parameter (did you mean \"hinges.root.spring.torque_stowed\"?)"},
+        "parameter (did you mean \"hinges.root.spring.scale\"?)"},
        {"/sampling", R"({"runs": -5})", "/sampling/runs: found -5, expected an integer, ≥ 1"},
        {"/output", "[]",
         "/output: found the unknown key \"output\", expected \"scene\", \"dispersions\", "

@@ -1,5 +1,5 @@
 #include "montecarlo/campaign/campaign.hpp"
-#include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>

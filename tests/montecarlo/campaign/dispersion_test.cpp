@@ -1,5 +1,6 @@
 #include "montecarlo/campaign/dispersion.hpp"
-#include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/campaign/distribution_json.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -69,6 +70,47 @@ TEST_CASE("The resolved list is not expanded, and its laws are in full", "[dispe
         R"([{"name":"m","distribution":{"type":"constant","value":1.0},"apply":"set",)"
         R"("each":"bodies.*.mass"},{"name":"r","distribution":{"type":"constant","value":1.0},)"
         R"("apply":"add","to":["hinges.root.initial_rate"]}])");
+}
+
+TEST_CASE("Numbers of a law that sets or adds may have the unit of their target", "[dispersion]") {
+  const auto law_of = [](const char* json) {
+    const auto [dispersions, problems] = read(Json::array({parse_json(json)}));
+    CHECK(problems.empty());
+    CHECK(dispersions.resolved[0]["distribution"] ==
+          write_distribution(dispersions.list[0].distribution)); // SI
+    return dispersions.list[0].distribution;
+  };
+  const auto angle = law_of(
+      R"({"name": "a", "apply": "set", "to": ["hinges.root.angle.stowed"], "distribution":
+          {"type": "normal", "mean": "90 deg", "std": "5 mrad", "truncate": {"lower": "45 deg", "upper": 2}}})");
+  CHECK(std::get<Normal>(angle.law).mean == 1.5707963267948966);
+  CHECK(std::get<Normal>(angle.law).std == 0.005);
+  CHECK(angle.truncate->lower == 0.7853981633974483);
+  CHECK(angle.truncate->upper == 2);
+  const auto mass = law_of(R"({"name": "m", "apply": "add", "each": "bodies.*.mass", "distribution":
+          {"type": "discrete", "values": ["10 lb", 3], "weights": [1, 1]}})");
+  CHECK(std::get<Discrete>(mass.law).values == std::vector<double>{4.5359237, 3});
+}
+
+TEST_CASE("Numbers without a dimension, or with several, have no unit", "[dispersion]") {
+  struct Case {
+    const char *json, *message;
+  };
+  const auto [json, message] = GENERATE(values<Case>(
+      {{R"({"name": "m", "apply": "scale", "each": "bodies.*.mass",
+            "distribution": {"type": "constant", "value": "2 kg"}})",
+        "/0/distribution/value: found string \"2 kg\", expected a number"},
+       {R"({"name": "m", "apply": "set", "to": ["bodies.inner.mass", "bodies.inner.inertia"],
+            "distribution": {"type": "constant", "value": "2 kg"}})",
+        "/0/distribution/value: found string \"2 kg\", expected a number"},
+       {R"({"name": "m", "apply": "set", "each": "bodies.*.mass",
+            "distribution": {"type": "gamma", "shape": "2 kg", "scale": "3 kg"}})",
+        "/0/distribution/shape: found string \"2 kg\", expected a number, > 0"},
+       {R"({"name": "m", "apply": "set", "each": "bodies.*.mass",
+            "distribution": {"type": "constant", "value": "2 m"}})",
+        "/0/distribution/value: found string \"2 m\", expected a number, kg, or a string of a "
+        "number and its unit: \"kg\", \"g\" or \"lb\""}}));
+  CHECK(problems({parse_json(json)}) == message);
 }
 
 TEST_CASE("Each fault of a dispersion is told", "[dispersion]") {

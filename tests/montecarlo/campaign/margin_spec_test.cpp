@@ -1,6 +1,6 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/campaign/describe.hpp"
-#include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -89,7 +89,7 @@ TEST_CASE("Each fault of a margin is told", "[margin]") {
         "/margin/scale: found an array of 0, expected an array of at least one parameter's path"},
        {"/scale/1", "\"hinges.root.spring.torque\"",
         "/margin/scale/1: found string \"hinges.root.spring.torque\", expected the path of a "
-        "parameter (did you mean \"hinges.root.spring.torque_stowed\"?)"},
+        "parameter (did you mean \"hinges.root.spring.scale\"?)"},
        {"/scale/1", "\"hinges.mid.spring.torque_stowed\"",
         "/margin/scale/1: found hinges.mid.spring.torque_stowed a second time, expected each "
         "parameter once"},
@@ -143,4 +143,22 @@ TEST_CASE("What does not go with the sized parameters is refused", "[margin]") {
         "of hinges\n"
         "/margin/cases: found \"one_spring_out\" with no spring's torque in \"scale\", expected a "
         "spring that can be lost");
+}
+
+TEST_CASE("A spring by a table is scaled as a whole", "[margin]") {
+  const Scene scene = read_scene(test::real_scene()); // root's is measured, mid's is linear
+  const auto paths = [&](int hinge) { return paths_of(scene, spring_torques(scene, hinge)); };
+  CHECK(paths(0) == std::vector<std::string>{"hinges.root.spring.scale"});
+  CHECK(paths(1) == std::vector<std::string>{"hinges.mid.spring.torque_stowed",
+                                             "hinges.mid.spring.torque_latched"});
+  const auto sizes = [&](const char* path, int hinge) {
+    const SceneParameter parameter = resolve(scene, path).matches.at(0).parameter;
+    return sizes_spring({&parameter, 1}, scene, hinge);
+  };
+  CHECK(sizes("hinges.root.spring.scale", 0));
+  CHECK(sizes("hinges.mid.spring.scale", 1));
+  CHECK(sizes("hinges.mid.spring.torque_latched", 1));
+  CHECK_FALSE(sizes("hinges.mid.spring.scale", 0));
+  CHECK_FALSE(sizes("hinges.root.spring.offset", 0));
+  CHECK_FALSE(sizes("synchronisations.loop.stiffness", 0));
 }

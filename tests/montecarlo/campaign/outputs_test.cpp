@@ -30,6 +30,7 @@ Outcome some_outcome() {
   outcome.latches = {{1, 2.0, {-0.5, 0.25}}, {0, 3.0, {-1.5, 0.125}}};
   outcome.peak_moment = {{10, 3}, {20, 2}};
   outcome.peak_force = {{30, 3}, {40, 2}};
+  outcome.overtravel = {0.5, 0};
   return outcome;
 }
 
@@ -57,7 +58,7 @@ void check_same(const std::vector<double>& found, const std::vector<double>& exp
 
 TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_settings]") {
   CHECK(write_outputs(default_outputs()).dump() ==
-        R"(["latch_time","latch_rate","peak_moment","peak_force"])");
+        R"(["latch_time","latch_rate","peak_moment","peak_force","overtravel"])");
   const auto [outputs, problems] =
       read(R"(["rate_at", "latch_time"])", default_outputs(), read_outputs);
   CHECK(problems.empty());
@@ -66,7 +67,8 @@ TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_setting
   const auto [json, message] = GENERATE(values<Case>(
       {{"\"latch_time\"", "found string \"latch_time\", expected an array of output families"},
        {R"(["latch_times"])", "/0: found string \"latch_times\", expected \"latch_time\", "
-                              "\"latch_rate\", \"peak_moment\", \"peak_force\" or \"rate_at\""},
+                              "\"latch_rate\", \"peak_moment\", \"peak_force\", \"rate_at\" or "
+                              "\"overtravel\""},
        {R"(["rate_at", "rate_at"])",
         "/1: found string \"rate_at\" a second time, expected each family once"}}));
   CHECK(read(json, default_outputs(), read_outputs).problems == message);
@@ -75,11 +77,11 @@ TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_setting
 TEST_CASE("the columns stand hinge by hinge, then the deployment time") {
   const Scene scene = read_scene_file(three_panel_file());
   CHECK(column_names(scene, default_outputs()) ==
-        std::vector<std::string>{"root.latch_time", "root.latch_rate", "root.peak_moment",
-                                 "root.peak_force", "mid.latch_time", "mid.latch_rate",
-                                 "mid.peak_moment", "mid.peak_force", "tip.latch_time",
-                                 "tip.latch_rate", "tip.peak_moment", "tip.peak_force",
-                                 "deployment_time"});
+        std::vector<std::string>{
+            "root.latch_time", "root.latch_rate", "root.peak_moment", "root.peak_force",
+            "root.overtravel", "mid.latch_time", "mid.latch_rate", "mid.peak_moment",
+            "mid.peak_force", "mid.overtravel", "tip.latch_time", "tip.latch_rate",
+            "tip.peak_moment", "tip.peak_force", "tip.overtravel", "deployment_time"});
   CHECK(column_names(scene, {OutputFamily::rate_at}) ==
         std::vector<std::string>{"root.rate_at.mid", "root.rate_at.tip", "mid.rate_at.root",
                                  "mid.rate_at.tip", "tip.rate_at.root", "tip.rate_at.mid",
@@ -91,8 +93,9 @@ TEST_CASE("a hinge without a latch has no latch time, but a rate when others lat
   const Scene scene = campaign_of(small_campaign()).scene; // mid has no latch
   CHECK(column_names(scene, all_outputs()) ==
         std::vector<std::string>{"root.latch_time", "root.latch_rate", "root.peak_moment",
-                                 "root.peak_force", "mid.peak_moment", "mid.peak_force",
-                                 "mid.rate_at.root", "deployment_time"});
+                                 "root.peak_force", "root.overtravel", "mid.peak_moment",
+                                 "mid.peak_force", "mid.overtravel", "mid.rate_at.root",
+                                 "deployment_time"});
 }
 
 TEST_CASE("a run goes no further than the outputs need") {
@@ -108,29 +111,30 @@ TEST_CASE("a run goes no further than the outputs need") {
 
 TEST_CASE("outputs are taken from the outcome, and missing where they did not happen") {
   Outcome outcome = some_outcome();
-  // root: latch time, latch rate, peak moment, peak force, rate at mid; mid likewise; the last
-  // latch
-  check_same(outputs_of(outcome), {3, -1.5, 10, 30, -0.5, 2, 0.25, 20, 40, 0.125, 3});
+  // root: latch time, latch rate, peak moment, peak force, overtravel, rate at mid; mid likewise;
+  // the last latch
+  check_same(outputs_of(outcome), {3, -1.5, 10, 30, 0.5, -0.5, 2, 0.25, 20, 40, 0, 0.125, 3});
 
   SECTION("stalled or timed out: peaks up to the end, and no deployment time") {
     outcome.status = GENERATE(Status::stalled, Status::timed_out);
     outcome.latches.pop_back();
-    check_same(outputs_of(outcome), {none, none, 10, 30, -0.5, 2, 0.25, 20, 40, none, none});
+    check_same(outputs_of(outcome),
+               {none, none, 10, 30, 0.5, -0.5, 2, 0.25, 20, 40, 0, none, none});
   }
   SECTION("failed: what latched did, but a larger peak might have come") {
     outcome.status = Status::failed;
     outcome.latches.pop_back();
     check_same(outputs_of(outcome),
-               {none, none, none, none, -0.5, 2, 0.25, none, none, none, none});
+               {none, none, none, none, none, -0.5, 2, 0.25, none, none, none, none, none});
   }
   SECTION("a number that is not finite is none") {
     outcome.peak_force[0].value = std::numeric_limits<double>::infinity();
-    check_same(outputs_of(outcome), {3, -1.5, 10, none, -0.5, 2, 0.25, 20, 40, 0.125, 3});
+    check_same(outputs_of(outcome), {3, -1.5, 10, none, 0.5, -0.5, 2, 0.25, 20, 40, 0, 0.125, 3});
   }
   SECTION("invalid: nothing") {
     outcome = {};
     outcome.status = Status::invalid;
-    check_same(outputs_of(outcome), std::vector<double>(11, none));
+    check_same(outputs_of(outcome), std::vector<double>(13, none));
   }
 }
 

@@ -17,10 +17,11 @@ template <class T> struct Read {
 };
 
 /// Reads the value of {"x/y": …} into `value`.
-template <class T> Read<T> read(const char* json, T value) {
+template <class T, class Expected = std::string_view>
+Read<T> read(const char* json, T value, Expected expected = "what I want") {
   Read<T> result{false, value, ""};
   result.problems = test::problems_of(parse_json(json), [&](const JsonCursor& at) {
-    result.done = at.read(result.value, "what I want");
+    result.done = at.read(result.value, expected);
   });
   return result;
 }
@@ -64,6 +65,19 @@ TEST_CASE("Numbers are read, and nothing else as a number", "[json_reader]") {
   CHECK_FALSE(JsonCursor(infinite, "", problems).read(value, "a number"));
 }
 
+TEST_CASE("A number with a dimension may be a string with its unit", "[json_reader]") {
+  constexpr Dimension angle{"rad", "> 0"};
+  CHECK(read("\"180 deg\"", 0., angle).value == 3.141592653589793);
+  CHECK(read("3", 0., angle).value == 3);
+  const auto [done, value, problems] = read("\"3 m\"", 7., angle);
+  CHECK_FALSE(done);
+  CHECK(value == 7);
+  CHECK(problems ==
+        "found string \"3 m\", expected a number, rad, > 0, or a string of a number and "
+        "its unit: \"rad\", \"deg\" or \"mrad\"");
+  CHECK(read("true", 7., angle).problems == "found true, expected a number, rad, > 0");
+}
+
 TEST_CASE("Integers are read however JSON writes them", "[json_reader]") {
   CHECK(read("10000", std::int64_t{0}).value == 10000);
   CHECK(read("1e4", std::int64_t{0}).value == 10000);
@@ -78,11 +92,20 @@ TEST_CASE("Integers are read however JSON writes them", "[json_reader]") {
 }
 
 TEST_CASE("Arrays name the element that is wrong", "[json_reader]") {
-  CHECK(read("[1, 2]", Eigen::Vector2d(0, 0)).value == Eigen::Vector2d(1, 2));
-  CHECK(read("[1]", Eigen::Vector2d(0, 0)).problems == "found an array of 1, expected what I want");
-  CHECK(read("3", Eigen::Vector2d(0, 0)).problems == "found 3, expected what I want");
-  CHECK(read("[null, \"x\"]", Eigen::Vector2d(0, 0)).problems ==
-        "/0: found null, expected a number\n/1: found string \"x\", expected a number");
+  constexpr Dimension metres{"m"};
+  const Eigen::Vector2d zero(0, 0);
+  CHECK(read("[1, \"20 mm\"]", zero, metres).value == Eigen::Vector2d(1, 0.02));
+  CHECK(read("[1]", zero, metres).problems ==
+        "found an array of 1, expected an array of 2 numbers, m");
+  CHECK(read("3", zero, metres).problems == "found 3, expected an array of 2 numbers, m");
+  CHECK(read("[null, \"x\"]", zero, metres).problems ==
+        "/0: found null, expected a number, m\n"
+        "/1: found string \"x\", expected a number, m, or a string of a number and its unit: "
+        "\"m\", \"mm\", \"cm\", \"in\" or \"ft\"");
+  CHECK(read("[1, \"2 mm\"]", std::vector<double>{}, metres).value ==
+        std::vector<double>{1, 0.002});
+  CHECK(read("7", std::vector<double>{}, metres).problems ==
+        "found 7, expected an array of numbers, m");
   CHECK(read("[1, 2.5, 3]", std::vector<double>{}).value == std::vector<double>{1, 2.5, 3});
   CHECK(read("{}", std::vector<double>{}).problems == "found an object, expected what I want");
   CHECK(read("[1, {}]", std::vector<double>{}).problems ==

@@ -18,6 +18,7 @@ TEST_CASE("output names say hinge, quantity and unit") {
   check("left.root.latch_rate", "left.root", "latch_rate", "", "rad/s");
   check("root.peak_moment", "root", "peak_moment", "", "N·m");
   check("root.peak_force", "root", "peak_force", "", "N");
+  check("root.overtravel", "root", "overtravel", "", "rad");
   check("root.rate_at.tip", "root", "rate_at", "tip", "rad/s");
   check("deployment_time", "", "deployment_time", "", "s");
   check("peak_moment", "", "peak_moment", "", "");

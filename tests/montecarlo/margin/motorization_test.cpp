@@ -1,3 +1,4 @@
+#include "core/scene/torque.hpp"
 #include "montecarlo/margin/motorization.hpp"
 
 #include <catch2/catch.hpp>
@@ -12,7 +13,7 @@ using namespace wingspread;
 namespace {
 
 /// A hinge with these torques at its ends.
-Hinge hinge_with(const LinearTorque& spring, const LinearTorque& harness, double coulomb) {
+Hinge hinge_with(const HingeTorque& spring, const HingeTorque& harness, double coulomb) {
   Hinge hinge;
   hinge.stowed = 1.5;
   hinge.spring = spring;
@@ -159,5 +160,58 @@ TEST_CASE("no place of the travel is worse than the turning points", "[motorizat
       CHECK(e >= ecss - 1e-12);
       CHECK(n >= nasa - 1e-12);
     }
+  }
+}
+
+TEST_CASE("scale and offset are in a hinge's terms", "[motorization]") {
+  Hinge hinge = hinge_with({2, 1}, {0.1, 0.3}, 0.02);
+  hinge.spring.scale = 0.5, hinge.spring.offset = -0.75;
+  hinge.harness.scale = 2, hinge.friction.scale = 3;
+  const MotorizationTerms latched = terms_at(hinge, 1);
+  CHECK((latched.available == 0 && latched.spring == 0.25));
+  CHECK(latched.harness == 0.6);
+  CHECK(latched.friction == 3 * 0.02);
+  const std::vector<double> points = turning_points(hinge); // 1 - 0.5 x - 0.75 = 0
+  REQUIRE(points.size() == 3);
+  CHECK(points[1] == 0.5);
+}
+
+TEST_CASE("a torque test both ways has half its hysteresis in the friction", "[motorization]") {
+  Hinge hinge = hinge_with({0, 0}, {0, 0}, 0.02);
+  hinge.stowed = 1.5, hinge.latched = 0;
+  hinge.spring.table =
+      std::make_shared<const TorqueTable>(std::vector{1.5, 0.5, 0.0}, std::vector{1.0, 0.6, -0.2},
+                                          std::vector{1.2, 1.0, 0.6}, Interpolation::linear);
+  hinge.friction.scale = 2;
+  const MotorizationTerms terms = terms_at(hinge, 2.0 / 3);
+  CHECK(terms.available == Approx(0.8).epsilon(1e-15)); // the mean of the curves at 0.5 rad
+  CHECK(terms.friction == Approx(2 * (0.02 + 0.2)).epsilon(1e-15));
+  CHECK(terms_at(hinge, 1).available == Approx(0.2).epsilon(1e-15));
+}
+
+TEST_CASE("margins of a table are least at its places", "[motorization]") {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> torque(-0.5, 2), gap(0.1, 0.3);
+  const Interpolation interpolation = GENERATE(Interpolation::linear, Interpolation::monotone);
+  for (int trial = 0; trial < 50; ++trial) {
+    Hinge hinge = hinge_with({0, 0}, {0.1, 0.2}, 0.05);
+    hinge.stowed = 0.2, hinge.latched = 1.7;
+    std::vector<double> angle, deploying, stowing;
+    for (int k = 0; k < 7; ++k) {
+      angle.push_back(0.1 + 0.3 * k);
+      deploying.push_back(torque(random));
+      stowing.push_back(deploying.back() + gap(random));
+    }
+    hinge.spring.table =
+        std::make_shared<const TorqueTable>(angle, deploying, stowing, interpolation);
+    const auto margin = [&](double x) { return ecss_margin(terms_at(hinge, x), {}); };
+    double least = 1e300, looked = 1e300;
+    for (const double x : places_of_least(hinge)) least = std::min(least, margin(x));
+    for (int k = 0; k <= 3000; ++k) looked = std::min(looked, margin(k / 3000.0));
+    // Linear pieces have their least at an end; a cubic's lies at a knot, or hardly below 1/8 of a piece beside it.
+    const double slack = interpolation == Interpolation::linear ? 1e-12 : 2e-2;
+    CHECK(looked >= least - slack);
+    for (const double x : turning_points(hinge)) // the ends, and where the spring changes its sense
+      CHECK((x == 0 || x == 1 || std::abs(torque_at(hinge.spring, hinge, x)) < 1e-12));
   }
 }

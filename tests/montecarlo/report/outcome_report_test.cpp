@@ -49,8 +49,8 @@ TEST_CASE("the seed scene's outcome as JSON") {
   const Outcome outcome = simulate(scene, 10);
   const Json json = parse_json(json_text(outcome_json(scene, outcome)));
   CHECK(keys(json) == std::vector<std::string>{"status", "reason", "method", "phases", "t_end",
-                                               "latches", "peak_moment", "peak_force", "final",
-                                               "energy", "work"});
+                                               "latches", "peak_moment", "peak_force", "overtravel",
+                                               "warnings", "final", "energy", "work"});
   CHECK(json["status"] == "deployed");
   CHECK(json["reason"].is_null());
   CHECK(json["t_end"] == 10);
@@ -78,6 +78,23 @@ TEST_CASE("the seed scene's outcome as JSON") {
   CHECK(json["work"]["steps"] == outcome.work.steps);
 }
 
+TEST_CASE("overtravel stands by hinge, and in the table, and is warned of without a stop") {
+  Scene scene = read_scene_file(three_panel_file());
+  Outcome outcome = simulate(scene, 1);
+  outcome.overtravel = {0, 0.5, 0.25};
+  scene.hinges[2].stop = Stop{100, 0, 0};
+  const std::string text = "mid turns up to 28.6 deg beyond its stowed angle; it has no stop";
+  CHECK(outcome_json(scene, outcome)["warnings"] == Json::array({text}));
+  CHECK_THAT(outcome_text(scene, outcome), Catch::Contains("\nWARNING\n  " + text + "\n\nEnergy"));
+  scene.hinges[1].stop = Stop{};
+  CHECK(outcome_json(scene, outcome)["warnings"] == Json::array());
+  CHECK(outcome_text(scene, outcome).find("WARNING") == std::string::npos);
+  CHECK(outcome_json(scene, outcome)["overtravel"].dump() ==
+        R"({"root":0.0,"mid":0.5,"tip":0.25})");
+  CHECK_THAT(outcome_text(scene, outcome),
+             Catch::Contains("rate, rad/s   overtravel, rad\n") && Catch::Contains("0.5\n  tip"));
+}
+
 TEST_CASE("what did not happen, or is not known, is null") {
   Scene scene = read_scene_file(three_panel_file());
   SECTION("timed out: no latch yet, peaks so far") {
@@ -98,16 +115,18 @@ TEST_CASE("what did not happen, or is not known, is null") {
     CHECK(json["status"] == "invalid");
     CHECK(json["reason"].get<std::string>().starts_with("bodies.panel_1.mass is -1"));
     CHECK(json["latches"] == Json::array());
-    for (const char* key :
-         {"method", "phases", "t_end", "peak_moment", "peak_force", "final", "energy"})
+    for (const char* key : {"method", "phases", "t_end", "peak_moment", "peak_force", "overtravel",
+                            "final", "energy"})
       CHECK(json[key].is_null());
   }
   SECTION("failed") {
     Outcome outcome = simulate(scene, 1);
     outcome.status = Status::failed;
+    outcome.overtravel = {0, 0, 1};
     outcome.final.rates[1] = std::numeric_limits<double>::infinity();
     const Json json = outcome_json(scene, outcome);
     CHECK(json["peak_moment"].is_null());
+    CHECK(json["overtravel"].is_null());
     CHECK(json["final"]["rates"]["mid"].is_null());
   }
 }

@@ -1,5 +1,5 @@
-#include "montecarlo/campaign/scene_json.hpp"
-#include "montecarlo/campaign/scene_parameter.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
+#include "montecarlo/scene_file/scene_parameter.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -56,6 +56,77 @@ TEST_CASE("A path leads to its parameter", "[parameter]") {
   CHECK(unit_of(found.matches[0].parameter) == unit);
 }
 
+TEST_CASE("A path leads to every parameter of a real hinge", "[parameter]") {
+  struct Case {
+    const char* path;
+    double value;
+    const char* unit;
+  };
+  const Scene scene = read_scene(test::real_scene());
+  const auto [path, value, unit] =
+      GENERATE(values<Case>({{"hinges.root.spring.scale", 1.1, ""},
+                             {"hinges.root.spring.offset", -0.05, "N·m"},
+                             {"hinges.root.harness.scale", 0.9, ""},
+                             {"hinges.mid.harness.offset", 0, "N·m"},
+                             {"hinges.root.friction.scale", 1.5, ""},
+                             {"hinges.root.damper.coefficient", 3, "N·m·(s/rad)^p"},
+                             {"hinges.root.damper.exponent", 0.45, ""},
+                             {"hinges.root.damper.regularization_rate", 1e-5, "rad/s"},
+                             {"hinges.mid.damper.peak_torque", 2, "N·m"},
+                             {"hinges.mid.damper.peak_rate", 4, "rad/s"},
+                             {"hinges.root.damper.window.0", 1, "rad"},
+                             {"hinges.root.damper.window.1", 0.25, "rad"},
+                             {"hinges.root.damper.scale", 0.7, ""},
+                             {"hinges.root.stop.stiffness", 500, "N·m/rad"},
+                             {"hinges.root.stop.dissipation", 0.2, "s/rad"},
+                             {"hinges.root.stop.gap", 0.01, "rad"},
+                             {"hinges.root.latch.backlash", 0.002, "rad"},
+                             {"synchronisations.loop.ratio", 2, ""},
+                             {"synchronisations.loop.stiffness", 300, "N·m/rad"},
+                             {"synchronisations.cam.damping", 0, "N·m·s/rad"},
+                             {"synchronisations.loop.preload", 8, "N·m"},
+                             {"environment.gravity.0", 0.1, "m/s²"},
+                             {"environment.gravity.1", -9.81, "m/s²"},
+                             {"environment.air_density", 1.2, "kg/m³"},
+                             {"bodies.inner.plate.width", 2, "m"},
+                             {"bodies.inner.plate.drag_coefficient", 1.9, ""}}));
+  CAPTURE(path);
+  const ParameterMatches found = resolve(scene, path);
+  REQUIRE(found.matches.size() == 1);
+  CHECK(found.matches[0].parameter.in(scene) == value);
+  CHECK(path_of(scene, found.matches[0].parameter) == path);
+  CHECK(unit_of(found.matches[0].parameter) == unit);
+}
+
+TEST_CASE("A real hinge has no parameters but its own", "[parameter]") {
+  struct Case {
+    const char *path, *expected;
+  };
+  const Scene scene = read_scene(test::real_scene());
+  const auto [path, expected] = GENERATE(values<Case>(
+      {{"hinges.root.spring.torque_stowed",
+        "a hinge whose spring has no table (scale and offset disperse one)"},
+       {"hinges.root.harness.torque_latched",
+        "a hinge whose harness has no table (scale and offset disperse one)"},
+       {"hinges.mid.damper.coefficient", "a hinge with a viscous or a power-law damper"},
+       {"hinges.mid.damper.exponent", "a hinge with a power-law damper"},
+       {"hinges.root.damper.peak_torque", "a hinge with an eddy-current damper"},
+       {"hinges.mid.damper.window.1", "a hinge whose damper has a window"},
+       {"hinges.mid.stop.gap", "a hinge that has a stop"},
+       {"hinges.mid.latch.backlash", "a hinge that has a latch"},
+       {"bodies.outer.plate.width", "a body that has a plate"},
+       {"synchronisations.cam.ratio", "a synchronisation whose ratio is a number"},
+       {"synchronisations.cam.preload", "a synchronisation that has a preload"},
+       {"synchronisations.lop.stiffness",
+        "the path of a parameter (did you mean \"synchronisations.loop.stiffness\"?)"},
+       {"environment.gravity",
+        "the path of a parameter (did you mean \"environment.gravity.0\"?)"}}));
+  CAPTURE(path);
+  const ParameterMatches found = resolve(scene, path);
+  CHECK(found.matches.empty());
+  CHECK(found.expected == expected);
+}
+
 TEST_CASE("A path into the base leads to what its motion has", "[parameter]") {
   struct Case {
     const char *base, *path;
@@ -85,8 +156,8 @@ TEST_CASE("A path into the base leads to what its motion has", "[parameter]") {
 }
 
 TEST_CASE("Every parameter of a scene has a place of its own", "[parameter]") {
-  Json document =
-      test::spoil(test::small_scene(), {"/base", GENERATE(free_base, prescribed_base), ""});
+  Json document = test::spoil(GENERATE(true, false) ? test::real_scene() : test::small_scene(),
+                              {"/base", GENERATE(free_base, prescribed_base), ""});
   document =
       test::spoil(document, {"/hinges/1/friction", R"({"model": "exact", "static": 1})", ""});
   Scene scene = read_scene(document);

@@ -1,5 +1,5 @@
-#include "montecarlo/campaign/scene_json.hpp"
-#include "montecarlo/campaign/scene_tree.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
+#include "montecarlo/scene_file/scene_tree.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "montecarlo/campaign/scene_json.hpp"
+#include "montecarlo/scene_file/scene_json.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -101,9 +101,8 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
         "/hinges/0/child: found string \"inner\", expected a body's name\n"
         "/hinges/1/parent: found string \"inner\", expected \"base\" or a body's name"},
        {"/hinge", "1",
-        "/hinge: found the unknown key \"hinge\", expected \"name\", \"base\", \"bodies\" or "
-        "\"hinges\" "
-        "(did you mean \"hinges\"?)"},
+        "/hinge: found the unknown key \"hinge\", expected \"name\", \"base\", \"bodies\", "
+        "\"hinges\", \"synchronisations\" or \"environment\" (did you mean \"hinges\"?)"},
        {"/base", "", "/base: found nothing, expected an object with the base's motion"},
        {"/base", "\"fixed\"",
         "/base: found string \"fixed\", expected an object with the base's motion"},
@@ -124,15 +123,16 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
        {"/bodies", "", "/bodies: found nothing, expected an array of at least one body"},
        {"/bodies", "[]", "/bodies: found an array of 0, expected an array of at least one body"},
        {"/hinges", "{}", "/hinges: found an object, expected an array of at least one hinge"},
-       {"/bodies/0/mass", "\"10 kg\"",
-        "/bodies/0/mass: found string \"10 kg\", expected a number, kg, > 0"},
+       {"/bodies/0/mass", "\"10\"",
+        "/bodies/0/mass: found string \"10\", expected a number, kg, > 0, or a string of a number "
+        "and its unit: \"kg\", \"g\" or \"lb\""},
        {"/bodies/0/mass", "0", "/bodies/0/mass: found 0, expected > 0"},
        {"/bodies/0/inertia", "", "/bodies/0/inertia: found nothing, expected a number, kg·m², > 0"},
        {"/bodies/0/lenght", "1",
-        "/bodies/0/lenght: found the unknown key \"lenght\", expected \"name\", \"mass\" or "
-        "\"inertia\""},
+        "/bodies/0/lenght: found the unknown key \"lenght\", expected \"name\", "
+        "\"mass\", \"inertia\" or \"plate\""},
        {"/hinges/0/child_point", "[1, null]",
-        "/hinges/0/child_point/1: found null, expected a number"},
+        "/hinges/0/child_point/1: found null, expected a number, m"},
        {"/hinges/1/parent_point", "",
         "/hinges/1/parent_point: found nothing, expected an array of 2 numbers, m"},
        {"/hinges/0/angle", "",
@@ -144,13 +144,14 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
        {"/hinges/0/initial_rate", "true",
         "/hinges/0/initial_rate: found true, expected a number, rad/s"},
        {"/hinges/0/spring", "2",
-        "/hinges/0/spring: found 2, expected an object with torque_stowed and torque_latched"},
+        "/hinges/0/spring: found 2, expected an object with torque_stowed and torque_latched, a "
+        "table, or a torque test"},
        {"/hinges/0/spring/torque_latched", "",
         "/hinges/0/spring/torque_latched: found nothing, expected a number, N·m"},
        {"/hinges/0/harness/torque_stow", "1",
         "/hinges/0/harness/torque_stow: found the unknown key \"torque_stow\", expected "
-        "\"torque_stowed\" or "
-        "\"torque_latched\" (did you mean \"torque_stowed\"?)"},
+        "\"torque_stowed\", \"torque_latched\", \"table\", \"interpolation\", \"scale\" or "
+        "\"offset\" (did you mean \"torque_stowed\"?)"},
        {"/hinges/0/friction", "0.1",
         "/hinges/0/friction: found 0.1, expected an object with the friction's parameters"},
        {"/hinges/0/friction/coulomb", "-0.1",
@@ -223,4 +224,82 @@ TEST_CASE("A written scene states every default", "[scene_json]") {
   CHECK(write_scene(read_scene(free))["base"].dump() ==
         R"({"motion":"free","mass":1.0,"inertia":2.0,"position":[0.0,0.0],"velocity":[0.0,0.0],)"
         R"("angle":0.0,"rate":0.0})");
+}
+
+TEST_CASE("Plates and surroundings are read, and written where there are any", "[scene_json]") {
+  const Scene scene = read_scene(test::real_scene());
+  REQUIRE(scene.bodies[0].plate);
+  CHECK(scene.bodies[0].plate->from == Eigen::Vector2d(-0.5, 0.01));
+  CHECK(scene.bodies[0].plate->to == Eigen::Vector2d(0.5, 0.01));
+  CHECK(scene.bodies[0].plate->width == 2);
+  CHECK(scene.bodies[0].plate->drag_coefficient == 1.9);
+  CHECK_FALSE(scene.bodies[1].plate);
+  CHECK(scene.environment.gravity == Eigen::Vector2d(0.1, -9.81));
+  CHECK(scene.environment.air_density == 1.2);
+  const Json written = write_scene(scene);
+  CHECK(written["bodies"][0]["plate"].dump() ==
+        R"({"from":[-0.5,0.01],"to":[0.5,0.01],"width":2.0,"drag_coefficient":1.9})");
+  CHECK(written["environment"].dump() == R"({"gravity":[0.1,-9.81],"air_density":1.2})");
+  CHECK_FALSE(write_scene(read_scene(test::small_scene())).contains("environment"));
+}
+
+TEST_CASE("A scene of real hinges that is written reads back to itself", "[scene_json]") {
+  const Json written = write_scene(read_scene(test::real_scene()));
+  CHECK(write_scene(read_scene(written)) == written);
+  const Json before = test::real_scene();
+  for (const char* key : {"bodies", "synchronisations", "environment"})
+    for (const Json& value : before[key].flatten()) // every number and word, to the last bit
+      CHECK(written[key].dump().find(value.dump()) != std::string::npos);
+}
+
+TEST_CASE("Numbers of bodies, base and surroundings may have their units", "[scene_json]") {
+  Json document = test::real_scene();
+  document["bodies"][0]["mass"] = "10 lb";
+  document["bodies"][0]["inertia"] = "1e6 kg*mm^2";
+  document["bodies"][0]["plate"]["width"] = "6 ft";
+  document["environment"] = {{"gravity", {0, "-1 g"}}, {"air_density", "1200 g/m^3"}};
+  document["base"] = parse_json(R"({"motion": "free", "mass": "1 kg", "inertia": "2 kg*m^2",
+    "position": ["1 in", 0], "velocity": [0, "1 mm/s"], "angle": "90 deg", "rate": "60 rpm"})");
+  const Scene scene = read_scene(document);
+  CHECK(scene.bodies[0].mass == 4.5359237);
+  CHECK(scene.bodies[0].inertia == 1);
+  CHECK(scene.bodies[0].plate->width == 1.8288);
+  CHECK(scene.environment.gravity.y() == -9.80665);
+  CHECK(scene.environment.air_density == 1.2);
+  CHECK(scene.base.position.x() == 0.0254);
+  CHECK(scene.base.velocity.y() == 0.001);
+  CHECK(scene.base.angle == 1.5707963267948966);
+  CHECK(scene.base.rate == 6.283185307179586);
+  CHECK(write_scene(scene)["bodies"][0]["mass"] == 4.5359237); // SI in what is written
+}
+
+TEST_CASE("Each fault of plates and surroundings is told", "[scene_json]") {
+  const test::Spoiled change = GENERATE(values<test::Spoiled>(
+      {{"/environment", "3",
+        "/environment: found 3, expected an object with gravity and air_density"},
+       {"/environment/gravity", "9.81",
+        "/environment/gravity: found 9.81, expected an array of 2 numbers, m/s²"},
+       {"/environment/gravity/0", "\"1 m\"",
+        "/environment/gravity/0: found string \"1 m\", expected a number, m/s², or a string of a "
+        "number and its unit: \"m/s^2\", \"g\", \"in/s^2\" or \"ft/s^2\""},
+       {"/environment/air_density", "-1", "/environment/air_density: found -1, expected >= 0"},
+       {"/environment/air", "1",
+        "/environment/air: found the unknown key \"air\", expected \"gravity\" or "
+        "\"air_density\""},
+       {"/bodies/0/plate", "2",
+        "/bodies/0/plate: found 2, expected an object with the plate's edges, width and "
+        "drag_coefficient"},
+       {"/bodies/0/plate/from", "",
+        "/bodies/0/plate/from: found nothing, expected an array of 2 numbers, m"},
+       {"/bodies/0/plate/to", "[-0.5, 0.01]",
+        "/bodies/0/plate/to: found an array of 2, expected another point than plate.from"},
+       {"/bodies/0/plate/width", "-1", "/bodies/0/plate/width: found -1, expected >= 0"},
+       {"/bodies/0/plate/drag_coefficient", "-1",
+        "/bodies/0/plate/drag_coefficient: found -1, expected >= 0"},
+       {"/bodies/0/plate/drag", "1",
+        "/bodies/0/plate/drag: found the unknown key \"drag\", expected \"from\", \"to\", "
+        "\"width\" or \"drag_coefficient\""}}));
+  CAPTURE(change.pointer, change.value);
+  CHECK(test::message_of([&] { return read_scene(test::spoil(test::real_scene(), change)); }) ==
+        change.message);
 }

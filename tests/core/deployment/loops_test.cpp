@@ -1,0 +1,140 @@
+// Synchronisation loops: whole runs against the rigid limit and closed forms.
+#include "tests/core/deployment/real_runs.hpp"
+
+#include <array>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+using std::numbers::pi;
+
+namespace {
+
+/// Damped so that what rings after the start is over long before the latch.
+EqualPanels compliant(const RigidPanels& rigid, double stiffness) {
+  return {rigid.panels, rigid.mass, rigid.length, stiffness, 0.5 * std::sqrt(stiffness)};
+}
+
+Outcome run_panels(const RigidPanels& rigid, double stiffness, double rtol) {
+  const Integration how = within(rtol, 40);
+  const Outcome out = Deployment().run(compliant(rigid, stiffness).scene(), how, {});
+  CAPTURE(stiffness, to_string(out.status), out.reason);
+  REQUIRE(out.latches.size() == 1);
+  return out;
+}
+
+/// Two discs on one axis, a loop of ratio 1 between their hinges: e = x_1 − x_2 swings by itself,
+/// J ë = −τ(e), 1/J = 4/J_1 + 1/J_2.
+Scene looped_discs(const Synchronisation& loop, double rate) {
+  Scene scene = coaxial_discs(2, 0.5);
+  scene.hinges[0].initial_rate = rate;
+  scene.synchronisations = {loop};
+  return scene;
+}
+constexpr double discs_inertia = 1 / (4 / 2. + 1 / 0.5);
+
+Synchronisation cable(double stiffness) {
+  Synchronisation loop;
+  loop.name = "cable", loop.first = 0, loop.second = 1, loop.stiffness = stiffness;
+  return loop;
+}
+
+/// After a period of e it is 0 again, and so is its rate what it was; the sum 2 J_1 φ_1 … drifts.
+void check_period(const Scene& scene, double period, double rate) {
+  const Outcome out = run_everywhere(scene, 1e-11, period, true);
+  const auto &x = out.final.angles, &v = out.final.rates;
+  CHECK(std::abs(x[0] - x[1]) < 1e-8);
+  CHECK(std::abs(v[0] - v[1] - rate) < 1e-7);
+}
+
+} // namespace
+
+TEST_CASE("the loop of equal panels tends to the rigid one as it stiffens, as 1/K") {
+  for (const RigidPanels& rigid : {RigidPanels{2, 5.5, 1.1}, RigidPanels{3, 10, 2}}) {
+    const Arrival exact = rigid.latch();
+    std::array<double, 3> time{}, rate{};
+    for (int k = 0; k < 3; ++k) {
+      const Outcome out = run_panels(rigid, std::pow(10, 4 + k), 1e-11);
+      time[k] = out.latches[0].time, rate[k] = out.latches[0].rates[0];
+    }
+    for (int k = 0; k < 2; ++k) {
+      const double times = (time[k] - exact.time) / (time[k + 1] - exact.time);
+      const double rates = (rate[k] - exact.rate) / (rate[k + 1] - exact.rate);
+      CAPTURE(rigid.panels, k, times, rates);
+      CHECK(times == Approx(10).epsilon(0.1));
+      CHECK(rates == Approx(10).epsilon(0.1));
+    }
+    // what is left when the 1/K of the last two is taken out: K^(−3/2), here 1e-9 of what is not
+    CAPTURE(rigid.panels, time[2], rate[2]);
+    CHECK(relative((10 * time[2] - time[1]) / 9, exact.time) < 1e-7);
+    CHECK(relative((10 * rate[2] - rate[1]) / 9, exact.rate) < 1e-7);
+  }
+}
+
+TEST_CASE("the figures of MODEL.md for equal panels") {
+  const auto check = [](const RigidPanels& rigid, double time, double rate) {
+    const Outcome out = run_panels(rigid, 1e7, 1e-9);
+    CHECK(std::abs(out.latches[0].time - time) < 2e-6);     // half a last digit, and 7/K
+    CHECK(std::abs(out.latches[0].rates[0] - rate) < 6e-7); // 5/K
+  };
+  check({3, 10, 2}, 25.783141, 0.2604871);
+  check({2, 5.5, 1.1}, 7.579898, 0.6239366);
+}
+
+TEST_CASE("stiff loops do not cost a hundred times what soft ones do") {
+  const RigidPanels rigid{3, 10, 2};
+  const long soft = run_panels(rigid, 1e2, 1e-8).work.rhs_evaluations;
+  for (const double stiffness : {1e4, 1e6, 1e8}) {
+    const long stiff = run_panels(rigid, stiffness, 1e-8).work.rhs_evaluations;
+    CAPTURE(stiffness, soft, stiff);
+    CHECK(stiff < 30 * soft);
+  }
+}
+
+TEST_CASE("equal panels in packs are equal panels alone") {
+  for (const double stiffness : {1e2, 1e4})
+    run_everywhere(compliant({3, 10, 2}, stiffness).scene(), 1e-8, 40);
+}
+
+TEST_CASE("a taut loop is a harmonic oscillator") {
+  for (const double K : {10., 1e4}) {
+    const double period = 2 * pi * std::sqrt(discs_inertia / K);
+    check_period(looped_discs(cable(K), 1), period, 1);
+    check_period(looped_discs(cable(K), -1), 5 * period, -1);
+  }
+}
+
+TEST_CASE("a loop whose strand goes slack pulls with half its stiffness from there") {
+  const double K = 100, v = 1;
+  const double w = std::sqrt(K / discs_inertia), slack_w = w / std::sqrt(2);
+  for (const double reach : {0.2, 0.7, 1.5}) { // 2 M_p/K, of the taut amplitude v/w
+    const double edge = reach * v / w;
+    Synchronisation loop = cable(K);
+    loop.preload = K * edge / 2;
+    double quarter = pi / (2 * w);
+    if (reach < 1) { // to the edge taut; beyond it about −edge with ½ K
+      const double left = std::sqrt(v * v - w * w * edge * edge);
+      quarter = std::asin(reach) / w + std::atan2(left, slack_w * 2 * edge) / slack_w;
+    }
+    CAPTURE(reach);
+    check_period(looped_discs(loop, v), 4 * quarter, v);
+    check_period(looped_discs(loop, -v), 12 * quarter, -v);
+  }
+}
+
+TEST_CASE("loops by tables, damped and slack, agree with the reference") {
+  Scene scene = coaxial_discs(2, 0.5);
+  scene.hinges[0].spring.torque_stowed = 1, scene.hinges[0].spring.torque_latched = 0.5;
+  scene.hinges[0].latch = Latch{1e3, 10};
+  Synchronisation loop = cable(50);
+  loop.damping = 0.3, loop.preload = 0.2;
+  tabulate(loop, {0, 0.3, 0.7, 1}, {0, 0.5, 0.8, 2});
+  scene.synchronisations = {loop};
+  const ReferenceOutcome exact = real_reference(scene, 4);
+  const Outcome out = run_everywhere(scene, 1e-11, 4, true);
+  check_latches(out, exact, 1e-8);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(relative(out.peak_moment[i].value, exact.peak_moment[i].value) < 1e-6);
+    CHECK(std::abs(out.final.angles[i] - exact.final.angles(i)) < 1e-8);
+    CHECK(std::abs(out.final.rates[i] - exact.final.rates(i)) < 1e-7);
+  }
+}

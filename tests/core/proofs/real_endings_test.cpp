@@ -1,0 +1,111 @@
+// Runs with real hinges end early only where nothing is lost by it.
+#include "tests/core/deployment/real_runs.hpp"
+
+#include <algorithm>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// A heavy free base at the origin, and on its right a panel with a plate from 0 to 1.5 m, which the
+/// wind from below turns from 0 to its latch at 1 rad.
+Scene weather_vane(double coulomb) {
+  Scene scene = free_panel();
+  scene.base.motion = BaseMotion::free;
+  scene.base.mass = 1e8, scene.base.inertia = 1e8;
+  scene.hinges[0].latch = Latch{};
+  scene.environment.air_density = 1.2;
+  scene.bodies[0].plate = Plate{{-0.5, 0}, {1, 0}, 2, 1.5};
+  if (coulomb > 0) rub(scene.hinges[0], coulomb);
+  return scene;
+}
+
+/// What an early end must not have missed.
+void check_nothing_lost(const Scene& scene, double further) {
+  const Integration how = within(1e-8, 60);
+  const Outcome early = Deployment().run(scene, how, {});
+  if (early.status == Status::failed) return;
+  Integration on = how;
+  on.t_end = std::min(60., early.t_end + further);
+  const Outcome late = Deployment().run(scene, on, to_the_end);
+  CAPTURE(to_string(early.status), early.reason, early.t_end, early.peaks_final);
+  REQUIRE(late.status != Status::failed);
+  CHECK(late.latches.size() == early.latches.size());
+  if (!early.peaks_final) return;
+  for (std::size_t i = 0; i < late.peak_moment.size(); ++i) {
+    CAPTURE(i);
+    CHECK(late.peak_moment[i].value <= early.peak_moment[i].value * (1 + 1e-6));
+    CHECK(late.peak_force[i].value <= early.peak_force[i].value * (1 + 1e-6));
+  }
+}
+
+/// Random wings that have a chance to deploy: strong springs, ways of π at most.
+Scene eager(std::uint64_t seed) {
+  RandomScene options;
+  options.bodies = 1 + static_cast<int>(seed % 4);
+  options.mass_lower = 1, options.mass_upper = 20;
+  options.motion = static_cast<BaseMotion>(seed % 3);
+  options.harness = false;
+  Scene scene = random_scene(seed, options);
+  scene.base.angular_acceleration = 0;
+  for (Hinge& hinge : scene.hinges)
+    hinge.spring.torque_stowed *= 5, hinge.spring.torque_latched *= 5,
+        hinge.friction.viscous += 0.5, hinge.latch->damping += 50;
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("the wind of its own flight opens a wing that has no energy of its own") {
+  Scene scene = weather_vane(0);
+  scene.base.velocity = {0, -3};
+  scene.hinges[0].latch = Latch{1e3, 10};
+  const Outcome out = run_everywhere(scene, 1e-11, 10);
+  CAPTURE(to_string(out.status), out.reason);
+  REQUIRE(out.status == Status::deployed);
+  compare(out, real_reference(scene, out.t_end), 1e-8, 1e-6);
+}
+
+TEST_CASE("a falling wing whose hinges stick is blown open once it falls fast enough") {
+  // F = ½ ρ C b v² on 1.5 m, 0.75 m from the hinge: it breaks loose where B v² = τ, v = g t
+  Scene scene = weather_vane(2);
+  scene.environment.gravity = {0, -10};
+  const double B = 0.5 * 1.2 * 1.5 * 2 * 1.5 * 0.75;
+  const double loose = std::sqrt(2 / B) / 10;
+  const Outcome out = run_everywhere(scene, 1e-11, 10);
+  CAPTURE(to_string(out.status), out.reason, loose);
+  REQUIRE(out.status == Status::deployed);
+  CHECK(out.latches[0].time > loose);
+  const Outcome before = run(scene, 1e-11, 0.999 * loose);
+  CHECK(before.final.angles[0] == 0);
+  const Outcome after = run(scene, 1e-11, 1.05 * loose);
+  CHECK(after.final.angles[0] > 0);
+}
+
+TEST_CASE("with real hinges, an early end misses no latch and no peak") {
+  int final = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    const Scene scene = with_real_hinges(eager(seed), seed);
+    check_nothing_lost(scene, 10);
+    final += Deployment().run(scene, within(1e-8, 60), {}).peaks_final ? 1 : 0;
+  }
+  WARN(final << " of 40 ended by proof");
+}
+
+TEST_CASE("with each feature of real hinges, an early end misses no latch and no peak") {
+  const RealFeatures none{false, false, false, false, false, false,
+                          false, false, false, false, false};
+  bool RealFeatures::*const each[] = {&RealFeatures::tables,   &RealFeatures::measured,
+                                      &RealFeatures::dampers,  &RealFeatures::stops,
+                                      &RealFeatures::backlash, &RealFeatures::loops,
+                                      &RealFeatures::gravity,  &RealFeatures::air};
+  for (int feature = 0; feature < 8; ++feature)
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      RealFeatures features = none;
+      features.*each[feature] = true;
+      CAPTURE(feature, seed);
+      check_nothing_lost(with_real_hinges(eager(seed), seed, features), 10);
+    }
+}
