@@ -55,20 +55,14 @@ void widen_by_slopes(const Curve::Piece& piece, double h, double& least, double&
 double overshoot_of(const Curve::Piece& piece, double h) {
   const auto& c = piece.c;
   const auto value = [&](double u) { return c[0] + u * (c[1] + u * (c[2] + u * c[3])); };
-  std::array<double, 4> at{0, h, h, h}; // where it may turn
-  int count = 1;
-  const auto turn = [&](double u) {
-    if (u > 0 && u < h) at[count++] = u;
-  };
-  // the roots of c1 + 2 c2 u + 3 c3 u², without loss of digits
+  // the roots of c1 + 2 c2 u + 3 c3 u², without loss of digits: there it may turn
   const double root = std::sqrt(std::max(c[2] * c[2] - 3 * c[1] * c[3], 0.0));
   const double q = -(c[2] + std::copysign(root, c[2]));
-  if (c[3] != 0) turn(q / (3 * c[3]));
-  if (q != 0) turn(c[1] / q);
-  at[count] = h;
-  std::sort(at.begin(), at.begin() + count);
-  double way = 0;
-  for (int k = 0; k < count; ++k) way += std::abs(value(at[k + 1]) - value(at[k]));
+  const double one = c[3] != 0 ? q / (3 * c[3]) : 0, other = q != 0 ? c[1] / q : 0;
+  const double first = std::clamp(std::min(one, other), 0.0, h);
+  const double second = std::clamp(std::max(one, other), 0.0, h);
+  const double way = std::abs(value(first) - value(0)) + std::abs(value(second) - value(first)) +
+                     std::abs(value(h) - value(second));
   return std::max((way - std::abs(value(h) - value(0))) / 2, 0.0);
 }
 
