@@ -86,25 +86,25 @@ template <class T> [[nodiscard]] T integral(const Curve& curve, const T& x) {
 }
 
 /// A range of values.
-template <class T> struct Interval {
+template <class T> struct Range {
   T low, high;
 
-  friend Interval operator+(const Interval& a, const Interval& b) {
+  friend Range operator+(const Range& a, const Range& b) {
     return {a.low + b.low, a.high + b.high};
   }
   void include(const T& x) { low = smaller(low, x), high = larger(high, x); }
 };
 
 /// By a factor of either sign.
-template <class T> [[nodiscard]] Interval<T> scaled(const T& by, const Interval<T>& range) {
+template <class T> [[nodiscard]] Range<T> scaled(const T& by, const Range<T>& range) {
   const T a = by * range.low, b = by * range.high;
   return {smaller(a, b), larger(a, b)};
 }
 
 /// Over a range of x: the extremes lie at knots, or are no more than the overshoot beyond.
-template <class T> [[nodiscard]] Interval<T> range_of(const Curve& curve, const Interval<T>& x) {
+template <class T> [[nodiscard]] Range<T> range_of(const Curve& curve, const Range<T>& x) {
   const T first = value(curve, x.low), last = value(curve, x.high);
-  Interval<T> range{smaller(first, last), larger(first, last)};
+  Range<T> range{smaller(first, last), larger(first, last)};
   for (std::size_t k = 0; k < curve.knots().size(); ++k) {
     const T knot(curve.knots()[k]), there(curve.pieces()[k + 1].c[0]);
     const auto inside = x.low < knot && knot < x.high;
