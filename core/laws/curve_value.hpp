@@ -86,25 +86,26 @@ template <class T> [[nodiscard]] T integral(const Curve& curve, const T& x) {
 }
 
 /// A range of values.
-template <class T> struct Range {
+template <class T> struct ValueRange {
   T low, high;
 
-  friend Range operator+(const Range& a, const Range& b) {
+  friend ValueRange operator+(const ValueRange& a, const ValueRange& b) {
     return {a.low + b.low, a.high + b.high};
   }
   void include(const T& x) { low = smaller(low, x), high = larger(high, x); }
 };
 
 /// By a factor of either sign.
-template <class T> [[nodiscard]] Range<T> scaled(const T& by, const Range<T>& range) {
+template <class T> [[nodiscard]] ValueRange<T> scaled(const T& by, const ValueRange<T>& range) {
   const T a = by * range.low, b = by * range.high;
   return {smaller(a, b), larger(a, b)};
 }
 
 /// Over a range of x: the extremes lie at knots, or are no more than the overshoot beyond.
-template <class T> [[nodiscard]] Range<T> range_of(const Curve& curve, const Range<T>& x) {
+template <class T>
+[[nodiscard]] ValueRange<T> range_of(const Curve& curve, const ValueRange<T>& x) {
   const T first = value(curve, x.low), last = value(curve, x.high);
-  Range<T> range{smaller(first, last), larger(first, last)};
+  ValueRange<T> range{smaller(first, last), larger(first, last)};
   for (std::size_t k = 0; k < curve.knots().size(); ++k) {
     const T knot(curve.knots()[k]), there(curve.pieces()[k + 1].c[0]);
     const auto inside = x.low < knot && knot < x.high;

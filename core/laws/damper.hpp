@@ -89,9 +89,9 @@ template <class T> [[nodiscard]] T damper_damping(const DamperTerms<T>& damper, 
 
 /// Over a range of rates.
 template <class T>
-[[nodiscard]] Range<T> damper_range(const DamperTerms<T>& damper, const Range<T>& v) {
+[[nodiscard]] ValueRange<T> damper_range(const DamperTerms<T>& damper, const ValueRange<T>& v) {
   const T first = damper_moment(damper, v.low), last = damper_moment(damper, v.high);
-  Range<T> range{smaller(first, last), larger(first, last)};
+  ValueRange<T> range{smaller(first, last), larger(first, last)};
   if (damper.law != DamperLaw::eddy_current) return range;
   const T half = T(0.5) * damper.strength; // at the peak rate
   const auto braking = v.low < damper.rate && damper.rate < v.high;
@@ -103,7 +103,7 @@ template <class T>
 
 /// No |moment| is larger for rates up to `most`.
 template <class T> [[nodiscard]] T most_of_damper(const DamperTerms<T>& damper, const T& most) {
-  const Range<T> range = damper_range(damper, Range<T>{T(-most), most});
+  const ValueRange<T> range = damper_range(damper, ValueRange<T>{T(-most), most});
   return larger(range.high, T(-range.low));
 }
 

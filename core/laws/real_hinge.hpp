@@ -180,22 +180,22 @@ template <class T>
 
 /// Its moment over ranges of angle and rate.
 template <class T>
-[[nodiscard]] Range<T> real_range(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
-                                  const Range<T>& angle, const Range<T>& rate) {
-  Range<T> range{T(0), T(0)};
+[[nodiscard]] ValueRange<T> real_range(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
+                                       const ValueRange<T>& angle, const ValueRange<T>& rate) {
+  ValueRange<T> range{T(0), T(0)};
   if (hinge.spring) range = range + scaled(hinge.spring_weight, range_of(*hinge.spring, angle));
   if (hinge.harness) range = range + scaled(hinge.harness_weight, range_of(*hinge.harness, angle));
   if (hinge.friction) {
     const T most = scaled(hinge.friction_weight, range_of(*hinge.friction, angle)).high;
     const T first = -sense_of_friction(hinge, mode, rate.low);
     const T last = -sense_of_friction(hinge, mode, rate.high);
-    Range<T> sides{smaller(first, last), larger(first, last)};
+    ValueRange<T> sides{smaller(first, last), larger(first, last)};
     sides.include(T(0));
     range = range + scaled(larger(most, T(0)), sides);
   }
   if (hinge.has_damper) range = range + scaled(mode.damper_acts, damper_range(hinge.damper, rate));
   if (hinge.has_stop) {
-    Range<T> push{T(0), T(0)};
+    ValueRange<T> push{T(0), T(0)};
     for (const T& a : {angle.low, angle.high})
       for (const T& v : {rate.low, rate.high}) push.include(stop_moment(hinge, a, v));
     range = range + scaled(mode.in_contact, push);
@@ -204,12 +204,12 @@ template <class T>
 }
 
 /// Between what their stiffness −∂M/∂φ lies, at any angle.
-template <class T> [[nodiscard]] Range<T> stiffness_of_curves(const RealHingeTerms<T>& hinge) {
-  Range<T> range{T(0), T(0)};
+template <class T> [[nodiscard]] ValueRange<T> stiffness_of_curves(const RealHingeTerms<T>& hinge) {
+  ValueRange<T> range{T(0), T(0)};
   const auto add = [&range](const Curve* curve, const T& weight) {
     if (curve)
-      range = range +
-              scaled(T(-weight), Range<T>{T(curve->steepest_fall()), T(curve->steepest_rise())});
+      range = range + scaled(T(-weight),
+                             ValueRange<T>{T(curve->steepest_fall()), T(curve->steepest_rise())});
   };
   add(hinge.spring, hinge.spring_weight), add(hinge.harness, hinge.harness_weight);
   return range;

@@ -39,7 +39,7 @@ public:
     low = low - select(fastest > T(0), hinge_.regularized_friction, T(0));
     high = high + select(slowest < T(0), hinge_.regularized_friction, T(0));
     if (system_.wing().is_real()) {
-      const Range<T> real = range_of_real();
+      const ValueRange<T> real = range_of_real();
       low = low + real.low, high = high + real.high;
     }
     const T linear = larger(high, T(-low));
@@ -47,9 +47,9 @@ public:
   }
 
   /// Of the real hinge and the loops, by the hulls of angle and rate.
-  [[nodiscard]] Range<T> range_of_real() const {
+  [[nodiscard]] ValueRange<T> range_of_real() const {
     const Wing<T>& wing = system_.wing();
-    Range<T> range{T(0), T(0)};
+    ValueRange<T> range{T(0), T(0)};
     if (!wing.real.empty())
       range = real_range(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_));
     for (const LoopTerms<T>& loop : wing.loops)
@@ -94,7 +94,7 @@ private:
   /// What a loop may do over the step: K e and D ė as polynomials, about the table's slope at the
   /// step's start; what its bend adds is at most half the largest second derivative times the square
   /// of the way.
-  [[nodiscard]] Range<T> range_of(const LoopTerms<T>& loop) const {
+  [[nodiscard]] ValueRange<T> range_of(const LoopTerms<T>& loop) const {
     using std::abs;
     const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
     const Quintic<T> va = derivative(a, step_.h), vb = derivative(b, step_.h);
@@ -106,10 +106,10 @@ private:
           fused(loop.stiffness, on_a * (a[k] - a[0]) - loop.sense_b * (b[k] - b[0]), start.elastic);
       viscous[k] = loop.damping * (on_a * va[k] - loop.sense_b * vb[k]);
     }
-    Range<T> carried = hull(elastic), damped = hull(viscous);
+    ValueRange<T> carried = hull(elastic), damped = hull(viscous);
     T gear = abs(start.gear);
     if (loop.table) {
-      const Range<T> way = hull(a), speed = hull(va);
+      const ValueRange<T> way = hull(a), speed = hull(va);
       const T longest = way.high - way.low, fastest = larger(T(abs(speed.low)), T(abs(speed.high)));
       const T bend(loop.table->sharpest_bend()), turns = bend * longest;
       const T off = loop.stiffness * T(0.5) * turns * longest;
@@ -121,13 +121,13 @@ private:
     damped.include(T(0)); // half of it where slack
     const T low = carried_by_strands(loop, carried.low) + damped.low;
     const T high = carried_by_strands(loop, carried.high) + damped.high;
-    if (loop.second == i_) return scaled(loop.sense_b, Range<T>{low, high});
+    if (loop.second == i_) return scaled(loop.sense_b, ValueRange<T>{low, high});
     const T most = gear * larger(T(abs(low)), T(abs(high)));
     return {-most, most};
   }
 
-  [[nodiscard]] static Range<T> hull(const Quintic<T>& p) {
-    Range<T> range{p[0], p[0]};
+  [[nodiscard]] static ValueRange<T> hull(const Quintic<T>& p) {
+    ValueRange<T> range{p[0], p[0]};
     for (int k = 1; k < 6; ++k) range.include(p[k]);
     return range;
   }

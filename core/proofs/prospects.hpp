@@ -116,7 +116,7 @@ private:
   template <class AnySystem>
   void prepare_real(const AnySystem& system, int i, const LinearLaw<T>& law, bool open) {
     const RealHingeTerms<T>& real = system.wing().real[i];
-    const Range<T> slopes = stiffness_of_curves(real);
+    const ValueRange<T> slopes = stiffness_of_curves(real);
     const T least = law.stiffness + slopes.low, most = law.stiffness + slopes.high;
     rests_ = false; // as far as linear models are concerned
     if (open || real.has_backlash || !(least > T(0))) {

@@ -16,7 +16,7 @@ TEST_CASE("a curve's range over an interval holds its values there, sums of curv
     const TorqueTable table(x, out, back, Interpolation::monotone);
     const double a = draws.uniform(-0.5, x.back()), b = a + draws.uniform(0, 2);
     for (const Curve* curve : {&table.drive(), &table.friction()}) {
-      const Range<double> range = range_of(*curve, Range<double>{a, b});
+      const ValueRange<double> range = range_of(*curve, ValueRange<double>{a, b});
       CAPTURE(seed, curve == &table.drive(), range.low, range.high);
       for (int k = 0; k <= 400; ++k) {
         const double y = value(*curve, a + (b - a) * k / 400);
