@@ -126,8 +126,8 @@ struct Hinge {
   HingeTorque spring;                 ///< positive deploys
   HingeTorque harness;                ///< positive resists
   Friction friction;
-  std::optional<Damper> damper;
-  std::optional<Stop> stop;   ///< a hinge without one turns through its stowed angle unhindered
+  std::optional<Damper> damper{};
+  std::optional<Stop> stop{}; ///< a hinge without one turns through its stowed angle unhindered
   std::optional<Latch> latch; ///< a hinge without one never latches
 };
 
@@ -178,8 +178,8 @@ struct Scene {
   Base base;
   std::vector<Body> bodies;
   std::vector<Hinge> hinges;
-  std::vector<Synchronisation> synchronisations;
-  Environment environment;
+  std::vector<Synchronisation> synchronisations{};
+  Environment environment{};
 };
 
 /// A parameter whose value physics forbids.
