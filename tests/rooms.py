@@ -32,6 +32,7 @@ montecarlo/formats
 montecarlo/machine
 montecarlo/statistics
 montecarlo/scene_file
+montecarlo/motorization
 montecarlo/campaign
 montecarlo/runs
 montecarlo/summary

@@ -97,6 +97,13 @@ Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& direc
   return {};
 }
 
+/// By itself: with the springs of a hinge.
+Json motorization_by_itself(const MotorizationSpec& motorization, const Scene& scene) {
+  Json json = write_motorization(motorization, scene);
+  json["springs_per_hinge"] = motorization.springs_per_hinge;
+  return json;
+}
+
 Json write_campaign(const Campaign& campaign, Json dispersions) {
   Json json{{"scene", write_scene(campaign.scene)},
             {"dispersions", std::move(dispersions)},
@@ -111,7 +118,12 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
   if (!campaign.requirements.empty())
     json["requirements"] = write_requirements(campaign.requirements);
   if (!campaign.until.empty()) json["until"] = write_stopping_rule(campaign.until);
-  if (campaign.margin) json["margin"] = write_margin(*campaign.margin, campaign.scene);
+  const MotorizationSpec& motorization = campaign.motorization;
+  if (campaign.margin)
+    json["margin"] = write_margin(*campaign.margin, motorization, campaign.scene);
+  else if (const Json given = motorization_by_itself(motorization, campaign.scene);
+           given != motorization_by_itself(default_motorization(campaign.scene), campaign.scene))
+    json["motorization"] = given;
   return json;
 }
 
@@ -128,7 +140,7 @@ public:
     read_settings();
     read_dependence();
     read_guarantees();
-    if (const auto at = object_.find("margin")) campaign_.margin = read_margin(*at, scene_);
+    read_margins();
     // Overtravel is recorded, asked for or not. But one that was run, and is stamped, stays what it was.
     if (!object_.find(stamp_key)) campaign_.outputs.insert(OutputFamily::overtravel);
     object_.refuse_others();
@@ -185,6 +197,19 @@ private:
     if (!campaign_.statistics.tolerance_limits.empty())
       refuse_dependent_draws(object_.at().member("statistics").member("tolerance"),
                              "tolerance limits", design);
+  }
+
+  /// Static margins are judged by what the campaign says, or what its margin does.
+  void read_margins() {
+    campaign_.motorization = default_motorization(campaign_.scene);
+    const auto own = object_.find("motorization");
+    if (own) read_motorization(*own, scene_, campaign_.motorization);
+    const auto margin = object_.find("margin");
+    if (!margin) return;
+    if (own && margin->value().is_object() && margin->value().contains("motorization"))
+      margin->member("motorization")
+          .refuse_repeated("\"motorization\"", "it once: here, or in the campaign");
+    campaign_.margin = read_margin(*margin, scene_, campaign_.motorization);
   }
 
   std::filesystem::path directory_;

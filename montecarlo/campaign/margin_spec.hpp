@@ -1,17 +1,13 @@
-/// What the `margin` of a campaign asks for: which springs to size, in what range of strength, and
-/// with which factors their static margins are judged.
+/// What the `margin` of a campaign asks for: which springs to size, and in what range of strength.
 ///
 ///     "margin": { "scale": ["hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"],
 ///                 "range": [0.5, 2], "mode": "joint", "points": 13, "tolerance": 0.01,
 ///                 "cases": ["nominal", "one_spring_out"], "springs_per_hinge": 2,
-///                 "motorization": { "ecss": { "basis": "theoretical", "friction": 3 },
-///                                   "nasa": { "basis": "analysis", "variable": 3 },
-///                                   "torques": { "root": { "hysteresis": 0.02 } },
-///                                   "points": 21 } }
+///                 "motorization": { … } }                         as in motorization_spec.hpp
 #pragma once
 
-#include "montecarlo/campaign/motorization_factors.hpp"
 #include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/motorization/motorization_spec.hpp"
 #include "montecarlo/scene_file/scene_parameter.hpp"
 
 #include <array>
@@ -25,40 +21,24 @@ namespace wingspread {
 enum class MarginMode { joint, each };
 inline constexpr std::array<std::string_view, 2> margin_mode_names{"joint", "each"};
 
-enum class EcssBasis { theoretical, measured };
-inline constexpr std::array<std::string_view, 2> ecss_basis_names{"theoretical", "measured"};
-
-enum class NasaBasis { analysis, development_test, acceptance };
-inline constexpr std::array<std::string_view, 3> nasa_basis_names{"analysis", "development_test",
-                                                                  "acceptance"};
-
-/// How static margins are judged.
-struct MotorizationSpec {
-  EcssBasis ecss_basis = EcssBasis::theoretical;
-  NasaBasis nasa_basis = NasaBasis::analysis;
-  EcssFactors ecss; ///< the basis's, or what was put in their place
-  NasaFactors nasa;
-  std::vector<MotorizationTerms> torques; ///< that the scene does not know, N·m; one a hinge
-  std::int64_t points = 21;               ///< of the travel, from end to end, ≥ 2
-};
-
 struct MarginSpec {
   std::vector<SceneParameter> scaled; ///< each once, in the order given; at least one
   double lower = 0, upper = 0;        ///< of the scale: 0 < lower < upper
   MarginMode mode = MarginMode::joint;
-  std::int64_t points = 13;           ///< scales looked at first, from end to end, ≥ 2
-  double edge_tolerance = 0.01;       ///< how closely an edge is located, relative, in (0, 1)
-  bool nominal = true;                ///< the case of the wing as it is
-  bool one_spring_out = false;        ///< the cases with a spring lost, each hinge in turn
-  std::int64_t springs_per_hinge = 2; ///< equal ones that make up a hinge's torque, ≥ 2
-  MotorizationSpec motorization;
+  std::int64_t points = 13;     ///< scales looked at first, from end to end, ≥ 2
+  double edge_tolerance = 0.01; ///< how closely an edge is located, relative, in (0, 1)
+  bool nominal = true;          ///< the case of the wing as it is
+  bool one_spring_out = false;  ///< the cases with a spring lost, each hinge in turn
 };
 
 /// Reads it and notes what is wrong.
 /// @param scene null when it has problems of its own: then paths and hinges are not looked up
-[[nodiscard]] MarginSpec read_margin(const JsonCursor& at, const Scene* scene);
+/// @param motorization what it says of the static margins, with the springs of a hinge
+[[nodiscard]] MarginSpec read_margin(const JsonCursor& at, const Scene* scene,
+                                     MotorizationSpec& motorization);
 
-[[nodiscard]] Json write_margin(const MarginSpec& margin, const Scene& scene);
+[[nodiscard]] Json write_margin(const MarginSpec& margin, const MotorizationSpec& motorization,
+                                const Scene& scene);
 
 /// What a hinge's spring is scaled by: its torques, stowed and latched, or the scale of its table.
 [[nodiscard]] std::vector<SceneParameter> spring_torques(const Scene& scene, int hinge);

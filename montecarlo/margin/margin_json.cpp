@@ -157,6 +157,12 @@ Json definitions() {
                "enough"},
       {"nasa_one_spring_out",
        "the same with one of a hinge's equal springs lost and all factors 1"},
+      {"gevs",
+       "T / (FS_known sum T_known + FS_variable sum T_variable) - 1; >= 0 is enough; aiaa: the "
+       "same with factors of its own"},
+      {"drive",
+       "\"root+mid\": hinges that loops keep together, judged as one: torques times how far "
+       "each turns for the first"},
       {"null", "margin: nothing resists"}};
 }
 

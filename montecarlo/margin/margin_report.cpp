@@ -5,14 +5,13 @@
 namespace wingspread {
 
 MarginReport margin_report(const Campaign& campaign, const MarginResult& result) {
-  const MarginSpec& spec = *campaign.margin;
-  MarginReport report{campaign, result, {{1, study_motorization(campaign, campaign.scene, spec)}}};
+  MarginReport report{campaign, result, {{1, study_motorization(campaign, campaign.scene)}}};
   const MarginSearch* search = recommending(campaign, result);
   if (search && *search->recommended != 1) {
     const double scale = *search->recommended;
     report.motorization.push_back(
         {scale, study_motorization(scaled(campaign, search->scaled, scale),
-                                   scaled(campaign.scene, search->scaled, scale), spec)});
+                                   scaled(campaign.scene, search->scaled, scale))});
   }
   return report;
 }

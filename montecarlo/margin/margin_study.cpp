@@ -77,7 +77,7 @@ public:
 
   [[nodiscard]] ScaleLook at(const std::vector<SceneParameter>& parameters, double scale) {
     const Campaign sized = scaled(campaign_, parameters, scale);
-    const double springs = static_cast<double>(campaign_.margin->springs_per_hinge);
+    const double springs = static_cast<double>(campaign_.motorization.springs_per_hinge);
     ScaleLook look;
     for (const MarginCase& each : result_.cases)
       look.push_back(each.weakened.empty()

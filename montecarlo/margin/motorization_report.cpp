@@ -34,10 +34,14 @@ Json draws_of_run(const Campaign& campaign, const RunPlan& plan, long run) {
   return json;
 }
 
-/// A hinge's least margins over its travel, kind by kind.
-Json hinge_json(const Campaign& campaign, const RunPlan& plan, const HingeMotorization& each) {
-  const Hinge& hinge = campaign.scene.hinges[each.hinge];
-  Json json{{"hinge", hinge.name}};
+const Hinge& leader_of(const DriveMotorization& each, const Campaign& campaign) {
+  return campaign.scene.hinges[each.drive.hinges.front()];
+}
+
+/// A drive's least margins over its travel, kind by kind.
+Json drive_json(const Campaign& campaign, const RunPlan& plan, const DriveMotorization& each) {
+  const Hinge& hinge = leader_of(each, campaign);
+  Json json{{"hinge", name_of(each.drive, campaign.scene)}};
   for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
     Json entry{{"nominal", json_number(each.worst[kind])},
                {"angle", hinge.stowed + (hinge.latched - hinge.stowed) * each.worst_at[kind]}};
@@ -62,7 +66,8 @@ constexpr std::array terms{Term{"available", &MotorizationTerms::available},
                            Term{"harness", &MotorizationTerms::harness},
                            Term{"adhesion", &MotorizationTerms::adhesion},
                            Term{"acceleration", &MotorizationTerms::acceleration},
-                           Term{"delivered", &MotorizationTerms::delivered}};
+                           Term{"delivered", &MotorizationTerms::delivered},
+                           Term{"damping", &MotorizationTerms::damping}};
 
 std::string motorization_header(const Campaign& campaign) {
   std::string header = "scale,hinge,travel,angle";
@@ -94,20 +99,18 @@ std::string margin_text(double margin) {
   return std::isinf(margin) ? "∞" : fmt::format("{:+.2f}", margin);
 }
 
-constexpr std::array kind_texts{"ECSS", "NASA", "NASA, one spring out"};
-
 /// A line for each hinge and kind: the least over the travel.
 std::string motorization_lines(const Campaign& campaign, const ScaledMotorization& at) {
   std::string text;
-  for (const HingeMotorization& each : at.study.hinges)
+  for (const DriveMotorization& each : at.study.drives)
     for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
-      const Hinge& hinge = campaign.scene.hinges[each.hinge];
+      const Hinge& hinge = leader_of(each, campaign);
       const MarginSpread& spread = each.worst_spread[kind];
       const double angle = hinge.stowed + (hinge.latched - hinge.stowed) * each.worst_at[kind];
       text += fmt::format("  {:<8}{:<16}{:<22}{:>9}{:>9.3f}{:>10}{:>10}{:>8}\n",
                           kind == 0 ? fmt::format("{}", at.scale) : "",
-                          kind == 0 ? shortened(hinge.name, 15) : "", kind_texts[kind],
-                          margin_text(each.worst[kind]), angle,
+                          kind == 0 ? shortened(name_of(each.drive, campaign.scene), 15) : "",
+                          margin_kind_texts[kind], margin_text(each.worst[kind]), angle,
                           margin_text(spread.quantiles.empty() ? NAN : spread.quantiles.front()),
                           margin_text(spread.least), spread.worst_run);
     }
@@ -118,18 +121,22 @@ std::string motorization_lines(const Campaign& campaign, const ScaledMotorizatio
 
 Json motorization_json(const Campaign& campaign, const std::vector<ScaledMotorization>& scales) {
   const RunPlan plan(campaign);
-  Json json{{"standards", {{"ecss", ecss_standard}, {"nasa", nasa_standard}}}};
-  json["factors"] = write_margin(*campaign.margin, campaign.scene)["motorization"];
-  json["springs_per_hinge"] = campaign.margin->springs_per_hinge;
+  Json json{{"standards",
+             {{"ecss", ecss_standard},
+              {"nasa", nasa_standard},
+              {"gevs", gevs_standard},
+              {"aiaa", aiaa_standard}}}};
+  json["factors"] = write_motorization(campaign.motorization, campaign.scene);
+  json["springs_per_hinge"] = campaign.motorization.springs_per_hinge;
   json["at"] = Json::array();
   for (const auto& [scale, study] : scales) {
-    Json hinges = Json::array();
-    for (const HingeMotorization& each : study.hinges)
-      hinges.push_back(hinge_json(campaign, plan, each));
+    Json drives = Json::array();
+    for (const DriveMotorization& each : study.drives)
+      drives.push_back(drive_json(campaign, plan, each));
     json["at"].push_back({{"scale", scale},
                           {"draws", study.draws},
                           {"invalid", study.invalid},
-                          {"least_over_travel", hinges}});
+                          {"least_over_travel", drives}});
   }
   return json;
 }
@@ -138,10 +145,10 @@ std::string motorization_csv(const Campaign& campaign,
                              const std::vector<ScaledMotorization>& scales) {
   std::string csv = motorization_header(campaign);
   for (const auto& [scale, study] : scales)
-    for (const HingeMotorization& each : study.hinges)
+    for (const DriveMotorization& each : study.drives)
       for (const TravelPoint& point : each.travel) {
         append_csv_cell(csv, scale);
-        append_csv_cells(csv, campaign.scene.hinges[each.hinge].name);
+        append_csv_cells(csv, name_of(each.drive, campaign.scene));
         append_point(csv, point);
       }
   return csv;
@@ -149,13 +156,15 @@ std::string motorization_csv(const Campaign& campaign,
 
 std::string motorization_text(const Campaign& campaign,
                               const std::vector<ScaledMotorization>& scales) {
-  const MotorizationSpec& spec = campaign.margin->motorization;
+  const MotorizationSpec& spec = campaign.motorization;
   const auto& quantiles = campaign.statistics.quantiles;
   std::string text =
       fmt::format("\nSTATIC MOTORIZATION MARGINS, least over the travel; 0 or more is enough\n"
-                  "{}: {}; {}: {}\n",
+                  "{}: {} · {}: {}\n{}: {} · {}: {}\n",
                   ecss_standard, ecss_basis_names[static_cast<std::size_t>(spec.ecss_basis)],
-                  nasa_standard, nasa_basis_names[static_cast<std::size_t>(spec.nasa_basis)]);
+                  nasa_standard, nasa_basis_names[static_cast<std::size_t>(spec.nasa_basis)],
+                  gevs_standard, margin_phase_names[static_cast<std::size_t>(spec.gevs_phase)],
+                  aiaa_standard, margin_phase_names[static_cast<std::size_t>(spec.aiaa_phase)]);
   const std::string quantile =
       quantiles.empty() ? "–" : fmt::format("{:g} %", 100 * quantiles.front());
   text += fmt::format("{:<10}{:<16}{:<22}{:>9}{:>9}{:>10}{:>10}{:>8}\n", "SCALE", "hinge", "by",

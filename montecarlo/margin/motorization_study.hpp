@@ -1,10 +1,9 @@
-/// The static motorization margins of all driven hinges at every angle of the travel: of the
-/// nominal wing and of the draws of a campaign. Formulas: motorization.hpp.
+/// The static motorization margins of all that drives the wing, at every angle of the travel: of the
+/// nominal wing and of the draws of a campaign. Formulas: motorization.hpp; hinges and loops: drive.hpp.
 #pragma once
 
 #include "montecarlo/campaign/campaign.hpp"
-#include "montecarlo/campaign/margin_spec.hpp"
-#include "montecarlo/margin/motorization.hpp"
+#include "montecarlo/motorization/drive.hpp"
 
 #include <array>
 #include <string>
@@ -12,16 +11,6 @@
 #include <vector>
 
 namespace wingspread {
-
-/// A margin by ECSS, by NASA, and by NASA with one of the hinge's springs lost.
-enum class MarginKind { ecss, nasa, nasa_one_spring_out };
-inline constexpr std::array<std::string_view, 3> margin_kind_names{"ecss", "nasa",
-                                                                   "nasa_one_spring_out"};
-/// One of each kind, in their order. ≥ 0 is enough; +∞ where nothing resists.
-using Margins = std::array<double, margin_kind_names.size()>;
-
-/// The margins of a hinge's terms.
-[[nodiscard]] Margins margins_of(const MotorizationTerms& terms, const MarginSpec& spec);
 
 /// A margin over the draws.
 struct MarginSpread {
@@ -33,15 +22,16 @@ struct MarginSpread {
 
 /// A place of the travel.
 struct TravelPoint {
-  double x = 0;              ///< 0 stowed … 1 latched
+  double x = 0;              ///< 0 stowed … 1 latched, of the leading hinge
   double angle = 0;          ///< nominal, rad
   MotorizationTerms nominal; ///< N·m
   Margins margins{};         ///< of the nominal wing
   std::array<MarginSpread, margin_kind_names.size()> spread;
 };
 
-struct HingeMotorization {
-  int hinge = 0; ///< index into Scene::hinges
+/// Of a hinge, or of hinges that loops keep together.
+struct DriveMotorization {
+  Drive drive;
   /// Evenly over the travel, and the nominal turning points: ascending in x.
   std::vector<TravelPoint> travel;
   std::array<double, margin_kind_names.size()> worst_at{}; ///< x of the nominal wing's least
@@ -51,16 +41,14 @@ struct HingeMotorization {
 };
 
 struct MotorizationStudy {
-  std::vector<HingeMotorization> hinges; ///< those with a spring or a latch, in the scene's order
+  std::vector<DriveMotorization> drives; ///< in the scene's order
   long draws = 0;                        ///< that are physical
   long invalid = 0;                      ///< and that are not: left out, for they have no margins
 };
 
 /// @param nominal the wing without dispersion (the campaign's scene, or with other springs)
-/// @param spec    factors, springs of a hinge, and how many places of the travel
-/// Cost: the campaign's draws twice for each of the hinges, more often where margins at all places would take more
+/// Cost: the campaign's draws twice for each of the drives, more often where margins at all places would take more
 /// than 256 MiB; no integration. Memory: that, or 24 bytes a draw.
-[[nodiscard]] MotorizationStudy study_motorization(const Campaign& campaign, const Scene& nominal,
-                                                   const MarginSpec& spec);
+[[nodiscard]] MotorizationStudy study_motorization(const Campaign& campaign, const Scene& nominal);
 
 } // namespace wingspread

@@ -34,7 +34,7 @@ TEST_CASE("A margin is read with its defaults, and written in full", "[margin]")
   CHECK(path_of(campaign.scene, margin.scaled[2]) == "hinges.root.spring.torque_latched");
   CHECK((margin.lower == 0.5 && margin.upper == 2));
   CHECK((margin.mode == MarginMode::joint && margin.points == 13 && margin.edge_tolerance == 0.01));
-  CHECK((margin.nominal && !margin.one_spring_out && margin.springs_per_hinge == 2));
+  CHECK((margin.nominal && !margin.one_spring_out && campaign.motorization.springs_per_hinge == 2));
   CHECK(campaign.resolved["margin"] == parse_json(R"({
     "scale": ["hinges.root.spring.torque_stowed", "hinges.mid.spring.torque_stowed",
               "hinges.root.spring.torque_latched"],
@@ -45,11 +45,14 @@ TEST_CASE("A margin is read with its defaults, and written in full", "[margin]")
                 "friction": 3.0, "hysteresis": 3.0, "harness": 3.0, "adhesion": 3.0,
                 "motorization": 2.0, "acceleration": 1.25, "available": 0.8 },
       "nasa": { "basis": "analysis", "fixed": 1.5, "variable": 3.0 },
+      "gevs": { "phase": "critical_design", "known": 1.5, "variable": 3.0 },
+      "aiaa": { "phase": "critical_design", "known": 1.5, "variable": 3.0 },
       "torques": {
         "root": { "inertia": 0.0, "motor": 0.0, "hysteresis": 0.0, "adhesion": 0.0,
                   "acceleration": 0.0, "delivered": 0.0 },
         "mid": { "inertia": 0.0, "motor": 0.0, "hysteresis": 0.0, "adhesion": 0.0,
                  "acceleration": 0.0, "delivered": 0.0 } },
+      "rates": { "root": 0.0, "mid": 0.0 },
       "points": 21 } })"));
   CHECK(read_campaign(campaign.resolved.dump(), "").resolved == campaign.resolved);
   CHECK_THAT(describe(campaign),
@@ -69,11 +72,18 @@ TEST_CASE("What a margin sets otherwise is read too", "[margin]") {
     "springs_per_hinge": 4,
     "motorization": { "ecss": { "friction": 2, "basis": "measured" }, "points": 5,
                       "nasa": { "basis": "development_test", "variable": 2.2 },
-                      "torques": { "mid": { "hysteresis": 0.25 } } } })"));
+                      "gevs": { "variable": 2.5, "phase": "test" },
+                      "aiaa": { "phase": "preliminary_design", "known": 1.25 },
+                      "torques": { "mid": { "hysteresis": "250 N*mm" } },
+                      "rates": { "mid": "180 deg/s" } } })"));
   const Campaign campaign = read(json);
   const MarginSpec& margin = *campaign.margin;
   CHECK((margin.mode == MarginMode::each && !margin.nominal && margin.one_spring_out));
-  const MotorizationSpec& factors = margin.motorization;
+  const MotorizationSpec& factors = campaign.motorization;
+  CHECK(factors.springs_per_hinge == 4);
+  CHECK((factors.gevs.known == 1.5 && factors.gevs.variable == 2.5));
+  CHECK((factors.aiaa.known == 1.25 && factors.aiaa.variable == 4));
+  CHECK((factors.rates[0] == 0 && factors.rates[1] == Approx(3.14159265358979)));
   CHECK((factors.ecss.friction == 2 && factors.ecss.harness == 1.5 && factors.ecss.motor == 1.2));
   CHECK((factors.nasa.fixed == 1.35 && factors.nasa.variable == 2.2));
   CHECK((factors.torques[0].hysteresis == 0 && factors.torques[1].hysteresis == 0.25));
@@ -127,6 +137,13 @@ TEST_CASE("Each fault of a margin is told", "[margin]") {
         "\"inertia\", \"motor\", \"hysteresis\", \"adhesion\", \"acceleration\" or \"delivered\""},
        {"/motorization", R"({"torques": {"mid": {"adhesion": -1}}})",
         "/margin/motorization/torques/mid/adhesion: found -1, expected a number, N·m, ≥ 0"},
+       {"/motorization", R"({"gevs": {"phase": "late"}})",
+        "/margin/motorization/gevs/phase: found string \"late\", expected \"preliminary_design\", "
+        "\"critical_design\" or \"test\""},
+       {"/motorization", R"({"aiaa": {"known": -1}})",
+        "/margin/motorization/aiaa/known: found -1, expected a factor: a number, > 0"},
+       {"/motorization", R"({"rates": {"mid": -1}})",
+        "/margin/motorization/rates/mid: found -1, expected a number, rad/s, ≥ 0"},
        {"/motorization", R"({"points": 1})",
         "/margin/motorization/points: found 1, expected an integer from 2 to 1000"}}));
   CAPTURE(change.pointer, change.value);
@@ -161,4 +178,26 @@ TEST_CASE("A spring by a table is scaled as a whole", "[margin]") {
   CHECK_FALSE(sizes("hinges.mid.spring.scale", 0));
   CHECK_FALSE(sizes("hinges.root.spring.offset", 0));
   CHECK_FALSE(sizes("synchronisations.loop.stiffness", 0));
+}
+
+TEST_CASE("How static margins are judged may stand in the campaign itself, once", "[margin]") {
+  Json json = test::small_campaign();
+  json["motorization"] = parse_json(R"({ "nasa": { "variable": 2.5 }, "springs_per_hinge": 3 })");
+  const Campaign campaign = read_campaign(json.dump(), "");
+  CHECK(
+      (campaign.motorization.nasa.variable == 2.5 && campaign.motorization.springs_per_hinge == 3));
+  CHECK(campaign.resolved["motorization"]["nasa"]["variable"] == 2.5);
+  CHECK(campaign.resolved["motorization"]["springs_per_hinge"] == 3);
+  CHECK(read_campaign(campaign.resolved.dump(), "").resolved == campaign.resolved);
+  json["motorization"] = parse_json(R"({ "nasa": { "variable": 3 } })"); // the standard's
+  CHECK_FALSE(read_campaign(json.dump(), "").resolved.contains("motorization"));
+  json["motorization"]["nasa"]["variable"] = 2.5;
+  json["margin"] = small_margin(); // goes by it
+  const Json resolved = read_campaign(json.dump(), "").resolved;
+  CHECK(resolved["margin"]["motorization"]["nasa"]["variable"] == 2.5);
+  CHECK_FALSE(resolved.contains("motorization"));
+  json["margin"]["motorization"] = Json::object();
+  CHECK(test::message_of([&] { return read_campaign(json.dump(), ""); }) ==
+        "/margin/motorization: found \"motorization\" a second time, expected it once: here, or in "
+        "the campaign");
 }

@@ -23,9 +23,9 @@ Campaign harnessed(int runs) {
 
 TEST_CASE("nominal margins at every angle are those of the formulas", "[motorization]") {
   const Campaign campaign = harnessed(20);
-  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
-  REQUIRE(study.hinges.size() == 1);
-  const HingeMotorization& root = study.hinges.front();
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene);
+  REQUIRE(study.drives.size() == 1);
+  const DriveMotorization& root = study.drives.front();
   REQUIRE(root.travel.size() == 5);
   for (const TravelPoint& point : root.travel) {
     const double spring = 2 - 1.8 * point.x, harness = 0.05 + 0.05 * point.x;
@@ -33,15 +33,16 @@ TEST_CASE("nominal margins at every angle are those of the formulas", "[motoriza
     CHECK(point.margins[0] == Approx(0.8 * spring / (2 * (3 * 0.8 + 3 * harness)) - 1));
     CHECK(point.margins[1] == Approx(spring / (3 * (0.8 + harness)) - 1));
     CHECK(point.margins[2] == Approx(0.5 * spring / (0.8 + harness) - 1));
+    CHECK(point.margins[3] == Approx(spring / (3 * (0.8 + harness)) - 1)); // critical design
+    CHECK(point.margins[4] == point.margins[3]);
   }
-  CHECK(root.worst_at == Margins{1, 1, 1});
+  CHECK(root.worst_at == Margins{1, 1, 1, 1, 1});
   CHECK(root.worst == root.travel.back().margins);
 }
 
 TEST_CASE("dispersed margins are those of the draws, with the worst of them", "[motorization]") {
   const Campaign campaign = harnessed(200);
-  const HingeMotorization root =
-      study_motorization(campaign, campaign.scene, *campaign.margin).hinges.front();
+  const DriveMotorization root = study_motorization(campaign, campaign.scene).drives.front();
   const RunPlan plan(campaign);
   std::vector<std::pair<double, long>> margins; // NASA, half-way
   std::vector<double> draws(3);
@@ -65,7 +66,7 @@ TEST_CASE("draws that are unphysical have no margins, and are counted", "[motori
   Json json = one_panel_margin(200);
   json["dispersions"][2]["distribution"] = {{"type", "normal"}, {"mean", 1}, {"std", 1}};
   const Campaign campaign = campaign_of(json);
-  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene);
   CHECK(study.invalid > 10);
   CHECK(study.draws + study.invalid == 200);
 }
@@ -75,9 +76,9 @@ TEST_CASE("a hinge without spring and latch drives nothing, and has no margin", 
   json["margin"] =
       parse_json(R"({ "scale": ["hinges.root.spring.torque_stowed"], "range": [0.5, 2] })");
   const Campaign campaign = campaign_of(json);
-  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
-  REQUIRE(study.hinges.size() == 1);
-  CHECK(study.hinges[0].hinge == 0);
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene);
+  REQUIRE(study.drives.size() == 1);
+  CHECK(study.drives[0].drive.hinges == std::vector{0});
 }
 
 // More places than are worked out at a time: the margins of each are still those of its own x.
@@ -87,8 +88,8 @@ TEST_CASE("margins at many places are each place's own", "[motorization]") {
   json["statistics"] = {{"quantiles", {0.3}}};
   json["margin"]["motorization"] = {{"points", 150}};
   const Campaign campaign = campaign_of(json);
-  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
-  const HingeMotorization& root = study.hinges.front();
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene);
+  const DriveMotorization& root = study.drives.front();
   REQUIRE(root.travel.size() == 150);
   const RunPlan plan(campaign);
   std::vector<double> draws(3);

@@ -1,5 +1,6 @@
 #include "core/scene/torque.hpp"
-#include "montecarlo/margin/motorization.hpp"
+#include "montecarlo/motorization/hinge_terms.hpp"
+#include "montecarlo/motorization/motorization.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -24,92 +25,6 @@ Hinge hinge_with(const HingeTorque& spring, const HingeTorque& harness, double c
 
 } // namespace
 
-// S .05, FR .10, HY .02, HA .03, HD .01, TD .02 N·m: worked by hand from the standard's formula.
-TEST_CASE("ECSS: the least torque, and the spring that it takes", "[motorization]") {
-  MotorizationTerms terms;
-  terms.spring = .05, terms.friction = .10, terms.hysteresis = .02, terms.harness = .03;
-  terms.adhesion = .01, terms.acceleration = .02;
-  CHECK(ecss_required(terms, {}) == Approx(1.105).epsilon(1e-14));
-  CHECK(ecss_required(terms, ecss_measured()) == Approx(.655).epsilon(1e-14));
-  for (const auto& [factors, spring] :
-       {std::pair{EcssFactors{}, 1.38125}, std::pair{ecss_measured(), .81875}}) {
-    terms.available = spring; // just enough
-    CHECK(ecss_margin(terms, factors) == Approx(0).margin(1e-14));
-    terms.available = 2 * spring;
-    CHECK(ecss_margin(terms, factors) == Approx(1).epsilon(1e-14));
-  }
-}
-
-TEST_CASE("ECSS: every term counts with its own factor", "[motorization]") {
-  const auto alone = [](double MotorizationTerms::*term, const EcssFactors& factors) {
-    MotorizationTerms terms;
-    terms.*term = 1;
-    return ecss_required(terms, factors);
-  };
-  using Terms = MotorizationTerms;
-  struct Case {
-    double Terms::*term;
-    double theoretical, measured;
-  };
-  for (const auto& [term, theoretical, measured] :
-       {Case{&Terms::inertia, 2.2, 2.2}, Case{&Terms::spring, 2.4, 2.4},
-        Case{&Terms::motor, 3, 2.4}, Case{&Terms::friction, 6, 3}, Case{&Terms::hysteresis, 6, 3},
-        Case{&Terms::harness, 6, 3}, Case{&Terms::adhesion, 6, 6},
-        Case{&Terms::acceleration, 1.25, 1.25}, Case{&Terms::delivered, 1, 1}}) {
-    CHECK(alone(term, {}) == Approx(theoretical).epsilon(1e-14));
-    CHECK(alone(term, ecss_measured()) == Approx(measured).epsilon(1e-14));
-  }
-}
-
-// T 1, T_f .10, T_v .15, T_a .08 N·m.
-TEST_CASE("NASA: static and dynamic margins", "[motorization]") {
-  MotorizationTerms terms;
-  terms.available = 1, terms.inertia = .10, terms.friction = .15, terms.acceleration = .08;
-  CHECK(nasa_static_margin(terms, {}) == Approx(.666667).margin(5e-7));
-  CHECK(nasa_dynamic_margin(terms, {}) == Approx(.428571).margin(5e-7));
-  CHECK(nasa_static_margin(terms, nasa_development_test()) ==
-        Approx(1 / (1.35 * .10 + 2.5 * .15) - 1).epsilon(1e-14));
-  CHECK(nasa_dynamic_margin(terms, nasa_acceptance()) ==
-        Approx(1 / (1.25 * .10 + 2 * .15 + 1.1 * .08) - 1).epsilon(1e-14));
-  CHECK(nasa_dynamic_margin(terms, nasa_one_spring_out()) == Approx(1 / .33 - 1).epsilon(1e-14));
-}
-
-TEST_CASE("NASA: every term counts with the factor of its class, and with no other",
-          "[motorization]") {
-  using Terms = MotorizationTerms;
-  const NasaFactors told_apart{2, 5, 11}; // fixed, variable, acceleration
-  struct Case {
-    double Terms::*term;
-    double static_factor, dynamic_factor;
-  };
-  for (const auto& [term, static_factor, dynamic_factor] :
-       {Case{&Terms::inertia, 2, 2}, Case{&Terms::spring, 2, 2}, Case{&Terms::delivered, 2, 2},
-        Case{&Terms::motor, 5, 5}, Case{&Terms::friction, 5, 5}, Case{&Terms::hysteresis, 5, 5},
-        Case{&Terms::harness, 5, 5}, Case{&Terms::adhesion, 5, 5},
-        Case{&Terms::acceleration, 0, 11}}) {
-    Terms terms;
-    terms.available = 1000;
-    terms.adhesion = 1; // so that something resists
-    terms.*term += 1;
-    CHECK(nasa_static_margin(terms, told_apart) ==
-          Approx(1000 / (5 + static_factor) - 1).epsilon(1e-14));
-    CHECK(nasa_dynamic_margin(terms, told_apart) ==
-          Approx(1000 / (5 + dynamic_factor) - 1).epsilon(1e-14));
-  }
-  const auto factors = [](const NasaFactors& f) {
-    return std::array{f.fixed, f.variable, f.acceleration};
-  };
-  CHECK(factors({}) == std::array{1.5, 3.0, 1.25});
-  CHECK(factors(nasa_development_test()) == std::array{1.35, 2.5, 1.15});
-  CHECK(factors(nasa_acceptance()) == std::array{1.25, 2.0, 1.1});
-  CHECK(factors(nasa_one_spring_out()) == std::array{1.0, 1.0, 1.0});
-}
-
-TEST_CASE("the standards are named with their editions", "[motorization]") {
-  CHECK(ecss_standard == "ECSS-E-ST-33-01C (6 March 2009)");
-  CHECK(nasa_standard == "NASA-STD-5017B (6 December 2022)");
-}
-
 TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motorization]") {
   Hinge hinge = hinge_with({2, -1}, {-0.1, 0.3}, 0.02);
   const MotorizationTerms stowed = terms_at(hinge, 0), latched = terms_at(hinge, 1);
@@ -124,20 +39,12 @@ TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motoriza
   CHECK(terms_at(hinge, 0).friction == 0.05);
   MotorizationTerms other;
   other.adhesion = 0.5, other.hysteresis = 0.25;
-  CHECK(terms_at(hinge, 1, other).adhesion == 0.5);
-  CHECK(terms_at(hinge, 1, other).hysteresis == 0.25);
+  CHECK(terms_at(hinge, 1, {other}).adhesion == 0.5);
+  CHECK(terms_at(hinge, 1, {other}).hysteresis == 0.25);
   const std::vector<double> points = turning_points(hinge);
   REQUIRE(points.size() == 4);
   CHECK(points[1] == Approx(0.25));
   CHECK(points[2] == Approx(2.0 / 3));
-}
-
-TEST_CASE("margins without resistance, and without any torque", "[motorization]") {
-  MotorizationTerms terms;
-  CHECK(ecss_margin(terms, {}) == -1);
-  terms.available = 1;
-  CHECK(ecss_margin(terms, {}) == std::numeric_limits<double>::infinity());
-  CHECK(nasa_static_margin(terms, {}) == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("no place of the travel is worse than the turning points", "[motorization]") {
@@ -214,4 +121,49 @@ TEST_CASE("margins of a table are least at its places", "[motorization]") {
     for (const double x : turning_points(hinge)) // the ends, and where the spring changes its sense
       CHECK((x == 0 || x == 1 || std::abs(torque_at(hinge.spring, hinge, x)) < 1e-12));
   }
+}
+
+TEST_CASE("dampers are counted at a stated rate, within their windows, and not at rest",
+          "[motorization]") {
+  Hinge hinge = hinge_with({2, 1}, {0, 0}, 0.02);
+  hinge.stowed = 1.5, hinge.latched = 0;
+  hinge.friction.viscous = 0.5, hinge.friction.scale = 2;
+  hinge.damper = Damper{.law = DamperLaw::viscous, .coefficient = 3, .window = {}, .scale = 1.5};
+  CHECK(terms_at(hinge, 0.5).damping == 0);
+  CHECK(terms_at(hinge, 0.5).friction == 0.04);
+  CHECK(terms_at(hinge, 0.5, {{}, 0.1}).damping ==
+        Approx(1.5 * 3 * 0.1 + 2 * 0.5 * 0.1).epsilon(1e-14));
+  hinge.friction.viscous = 0;
+  hinge.damper->law = DamperLaw::eddy_current;
+  hinge.damper->peak_torque = 0.4, hinge.damper->peak_rate = 0.2;
+  CHECK(terms_at(hinge, 0.5, {{}, 0.2}).damping == Approx(1.5 * 0.4).epsilon(1e-14)); // at its peak
+  hinge.damper->window = {0.6, 0.9}; // from 0.4 to 0.6 of the travel
+  CHECK(terms_at(hinge, 0.5, {{}, 0.2}).damping == Approx(0.6).epsilon(1e-14));
+  CHECK(terms_at(hinge, 0.3, {{}, 0.2}).damping == 0);
+  CHECK(terms_at(hinge, 0.7, {{}, 0.2}).damping == 0);
+  // The least of the travel is at the window's far edge: 1.4 N·m there, 0.64 against it, and 1 against 0.04 beyond.
+  double least = 1e300, at = 0;
+  for (const double x : places_of_least(hinge))
+    if (const double margin = nasa_static_margin(terms_at(hinge, x, {{}, 0.2}), {}); margin < least)
+      least = margin, at = x;
+  CHECK(at == Approx(0.6).epsilon(1e-12));
+  CHECK(least == Approx(1.4 / (3 * 0.64) - 1).epsilon(1e-12));
+}
+
+// Drive = ½ (stowing + deploying), friction = ½ (stowing − deploying), worked by hand at 1.0 rad, between the knots.
+TEST_CASE("the margin of a torque test both ways is its mean over half its difference",
+          "[motorization]") {
+  Hinge hinge = hinge_with({0, 0}, {0, 0}, 0);
+  hinge.stowed = 1.5, hinge.latched = 0;
+  hinge.spring.table =
+      std::make_shared<const TorqueTable>(std::vector{1.5, 0.5, 0.0}, std::vector{2.0, 1.6, 1.0},
+                                          std::vector{2.4, 2.0, 1.8}, Interpolation::linear);
+  const MotorizationTerms between = terms_at(hinge, 1 / 3.0);
+  CHECK(between.available == Approx(2.0).epsilon(1e-14));
+  CHECK(between.friction == Approx(0.2).epsilon(1e-14));
+  CHECK(phase_margin(between, {1.5, 2}) == Approx(2.0 / 0.4 - 1).epsilon(1e-13));
+  double least = 1e300; // latched: ½ (1.8 + 1.0) over 2 · ½ (1.8 − 1.0)
+  for (const double x : places_of_least(hinge))
+    least = std::min(least, phase_margin(terms_at(hinge, x), {1.5, 2}));
+  CHECK(least == Approx(1.4 / 0.8 - 1).epsilon(1e-13));
 }
