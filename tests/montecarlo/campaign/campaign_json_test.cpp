@@ -129,7 +129,8 @@ TEST_CASE("Each fault of a campaign is told", "[campaign_json]") {
        {"/output", "[]",
         "/output: found the unknown key \"output\", expected \"scene\", \"dispersions\", "
         "\"sampling\", \"integration\", \"outputs\", \"statistics\", \"correlations\", "
-        "\"requirements\", \"until\", \"margin\" or \"wingspread\" (did you mean \"outputs\"?)"}}));
+        "\"requirements\", \"until\", \"motorization\", \"margin\" or \"wingspread\" (did you mean "
+        "\"outputs\"?)"}}));
   CAPTURE(change.pointer, change.value);
   CHECK(problems(change) == change.message);
 }
