@@ -108,6 +108,10 @@ TEST_CASE("a wing that creeps runs out of time") {
   CHECK(at(0.2) > 0);
   CHECK(at(50) < 0);
   CHECK(at(50) > -1); // it is under way
+  Outcome late = Deployment().run(campaign.scene, campaign.integration, limit_state.goal());
+  late.t_end = 4 - 0.25 * (4 - late.t_end); // a quarter of the time that the nominal wing has left
+  late.energy.final *= 10;
+  CHECK(limit_state.of(campaign.scene, late) == Approx(0.25));
 }
 
 TEST_CASE("a wing that its spring barely breaks loose is near to staying stowed") {

@@ -186,6 +186,7 @@ TEST_CASE("outputs that do not vary, or are not there, have no indices") {
   CHECK(missing.rows == 10);
   CHECK(missing.incomplete == 10);
   CHECK(std::isnan(missing.effects[1].total.value));
+  CHECK(missing.effects[1].inert); // it is missing whatever the dispersion
 }
 
 TEST_CASE("the same seed gives the same intervals, another one others") {
