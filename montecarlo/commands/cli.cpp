@@ -83,7 +83,17 @@ int carry_out(const Action& action) {
   }
 }
 
-Understood understand(int argc, const char* const* argv) {
+std::span<const Command> all_commands() {
+  static constexpr Command all[] = {
+      {"run", add_run},        {"simulate", add_simulate}, {"replay", add_replay},
+      {"check", add_check},    {"sample", add_sample},     {"analyze", add_analyze},
+      {"merge", add_merge},    {"size", add_size},         {"sensitivity", add_sensitivity},
+      {"rare", add_rare},      {"margin", add_margin},     {"methods", add_methods},
+      {"version", add_version}};
+  return all;
+}
+
+Understood understand(int argc, const char* const* argv, std::span<const Command> commands) {
   CLI::App app(
       "Wingspread: how far the deployment of a spacecraft's solar wing may stray from the "
       "drawing.\nA Monte Carlo campaign over what varies in it, one run at a time or many.",
@@ -91,19 +101,7 @@ Understood understand(int argc, const char* const* argv) {
   app.footer(footer);
   app.set_version_flag("--version", version_text());
   Action action;
-  add_run(app, action);
-  add_simulate(app, action);
-  add_replay(app, action);
-  add_check(app, action);
-  add_sample(app, action);
-  add_analyze(app, action);
-  add_merge(app, action);
-  add_size(app, action);
-  add_sensitivity(app, action);
-  add_rare(app, action);
-  add_margin(app, action);
-  add_methods(app, action);
-  add_version(app, action);
+  for (const Command& command : commands) command.add(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) { // --help, --version

@@ -3,7 +3,19 @@
 
 #include "montecarlo/commands/commands.hpp"
 
+#include <span>
+#include <string_view>
+
 namespace wingspread {
+
+/// A command, and what adds it to a command line.
+struct Command {
+  std::string_view name;
+  void (*add)(CLI::App& app, Action& action);
+};
+
+/// All that there are, as --help lists them.
+[[nodiscard]] std::span<const Command> all_commands();
 
 /// What the arguments come to: something to do, or the exit status when all is said already.
 struct Understood {
@@ -12,7 +24,9 @@ struct Understood {
 };
 
 /// Understands the arguments and does nothing yet, but to answer --help, or to refuse.
-[[nodiscard]] Understood understand(int argc, const char* const* argv);
+/// @param commands those that there are
+[[nodiscard]] Understood understand(int argc, const char* const* argv,
+                                    std::span<const Command> commands = all_commands());
 
 /// Does it; what keeps it from being done is an error and its exit status.
 [[nodiscard]] int carry_out(const Action& action);

@@ -54,7 +54,19 @@ constexpr std::array values{"0",
                             R"({"type":"normal","mean":1,"std":0.1})",
                             R"({"type":"discrete","values":[1,2],"weights":[1,0]})",
                             R"({"type":"beta","alpha":1e-3,"beta":1e3,"lower":0,"upper":1})",
-                            R"({"lower":0.9,"upper":1.1})"};
+                            R"({"lower":0.9,"upper":1.1})",
+                            "\"1 deg\"",
+                            "\"-2 in*lbf\"",
+                            "\"1e400 N*m/rad\"",
+                            "\"power\"",
+                            "\"eddy_current\"",
+                            "\"monotone\"",
+                            "\"hinges.*.damper.scale\"",
+                            "\"synchronisations.*.stiffness\"",
+                            R"({"table":{"angle":[2,1,0],"torque":[1,"3 N*mm",-1]}})",
+                            R"({"angle":[2,1,0],"deploying":[1,1,1],"stowing":[2,2,1]})",
+                            R"({"table":{"travel":[0,1,4],"travel_of_second":[0,2,3]}})",
+                            R"({"stiffness":1e9,"dissipation":1,"gap":0})"};
 
 std::size_t below(Random& random, std::size_t count) { return random() % count; }
 

@@ -116,3 +116,19 @@ TEST_CASE("margins at many places are each place's own", "[motorization]") {
   CHECK(root.worst_spread[1].quantiles.at(0) == Approx(worst[29]).epsilon(1e-12));
   CHECK(root.worst_spread[1].least == Approx(worst[0]).epsilon(1e-12));
 }
+
+TEST_CASE("a margin of nothing is enough: those below it are short", "[motorization]") {
+  Json json = one_panel_margin(20);
+  Json& hinge = json["scene"]["hinges"][0];
+  hinge["spring"] = {{"torque_stowed", 3}, {"torque_latched", 3}};
+  hinge["friction"] = {{"model", "exact"}, {"coulomb", 1}, {"static", 1}};
+  Json dispersion = json["dispersions"][2]; // the mass has no part in it
+  json["dispersions"] = Json::array({dispersion});
+  const Campaign campaign = campaign_of(json);
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
+  const HingeMotorization& root = study.hinges.front();
+  CHECK(root.worst[1] == 0); // by NASA: 3/(3 · 1) − 1
+  CHECK(root.worst_spread[1].least == 0);
+  CHECK(root.worst_spread[1].share_short == 0);
+  CHECK(root.worst_spread[0].share_short == 1); // by ECSS it takes six times the friction
+}

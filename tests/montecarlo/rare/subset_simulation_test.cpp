@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 using namespace wingspread;
 
@@ -26,6 +27,14 @@ LimitStateFunction limit_state(const PointFunction& g) {
 PointFunction linear(double beta) {
   return [beta](const NormalPoint& z) {
     return beta - std::accumulate(z.begin(), z.end(), 0.0) / std::sqrt(double(z.size()));
+  };
+}
+
+/// The points of the first level have these, in their order; all others are far away, so that no move is taken.
+LimitStateFunction never_nearer(std::vector<double> first) {
+  return [first, begins = true](std::span<const NormalPoint> points) mutable {
+    if (!std::exchange(begins, false)) return std::vector<double>(points.size(), 1e9);
+    return first;
   };
 }
 
@@ -182,6 +191,31 @@ TEST_CASE("a limit state that tells points apart no more is found out") {
   CHECK(plain.stuck); // but counting has found it
   CHECK(plain.reached);
   CHECK(plain.probability == Approx(tail(2)).epsilon(0.35)); // 114 points: 3.5 of their errors
+}
+
+TEST_CASE("chains that do not move are worth a point each: their correlation is that of copies") {
+  std::vector<double> ranks(100);
+  std::iota(ranks.begin(), ranks.end(), 1.0);
+  const SubsetEstimate found =
+      subset_simulation(never_nearer(ranks), 2, {.samples = 100, .smallest = 0.01, .seed = 1});
+  REQUIRE(found.levels.size() == 2);
+  CHECK(found.levels[0].threshold == 10);
+  CHECK(found.levels[1].taken == 0);
+  CHECK(found.levels[1].threshold == 1); // the ten copies of the best
+  CHECK(found.levels[1].share == Approx(0.1));
+  // r(k) = 1: γ = 2 Σ (1 − k/10) = 9, and so (3) has the hundred points as ten
+  CHECK(found.levels[1].correlation == Approx(9).epsilon(1e-12));
+  CHECK(found.levels[1].variation == Approx(std::sqrt(0.9 / (0.1 * 10))).epsilon(1e-12));
+}
+
+TEST_CASE("where half the points are alike, chains start all over them") {
+  std::vector<double> g(100, 2.0);
+  std::fill_n(g.begin(), 50, 1.0);      // at the threshold
+  std::fill_n(g.begin() + 45, 5, -1.0); // a tenth of those: in the event
+  const SubsetEstimate found = subset_simulation(never_nearer(g), 2, {.samples = 100, .seed = 1});
+  CHECK(found.reached);
+  CHECK(found.inside.size() == 10);
+  CHECK(found.probability == Approx(0.05).epsilon(1e-12));
 }
 
 TEST_CASE("what is not a number is in the event") {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <utility>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -41,5 +42,19 @@ TEST_CASE("every design draws by the dispersions' names, not by their places") {
       std::rotate(there.begin(), there.end() - 1, there.end()); // the spring has come last
       CHECK(here == there);
     }
+  }
+}
+
+// 1 − 1e-20 is 1 in any double: what is drawn so far out is known by its upper tail alone.
+TEST_CASE("a point that is given by both of its tails is drawn by the smaller one") {
+  Json json = quick_campaign(1);
+  json["dispersions"].erase(1);
+  const Campaign campaign = campaign_of(json);
+  const double z = 9.262340089798408; // Φ(−z) = 1e-20
+  std::vector<double> draw(1);
+  for (const auto& [tails, score] : {std::pair{Tails{1e-20, 1}, -z}, {Tails{1, 1e-20}, z}}) {
+    const RunPlan plan(campaign, [&](long, std::span<Tails> u) { u[0] = tails; });
+    plan.draw(0, draw);
+    CHECK(draw[0] == Approx(1 + 0.05 * score).epsilon(1e-12));
   }
 }

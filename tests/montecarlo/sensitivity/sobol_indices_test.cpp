@@ -1,5 +1,6 @@
 #include "distributions/design.hpp"
 #include "montecarlo/sensitivity/sobol_indices.hpp"
+#include "montecarlo/statistics/jackknife.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -92,6 +93,27 @@ TEST_CASE("bounds from a design's replicates cover, and see what the design gain
     CHECK(count <= 0.97 * designs);
   }
   CHECK(width < 0.8 * bootstrap_width); // 0.69, with Student's factor of seven degrees
+}
+
+TEST_CASE("bounds from replicates are the jackknife's of the indices without each, by themselves") {
+  const auto values = outputs(ishigami, 3, 32, DesignKind::sobol, 5, 4);
+  const auto found = sobol_indices(values, 3, {.confidence = 0.9, .replicates = 4});
+  std::vector<double> first_without, total_without;
+  for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+    std::vector<double> rest;
+    for (std::size_t at = 0; at < values.size(); ++at)
+      if (at / 5 % 4 != left_out) rest.push_back(values[at]); // five points a row
+    const SobolEffect effect = sobol_indices(rest, 3, {.replicates = 1}).effects[0];
+    first_without.push_back(effect.first.value);
+    total_without.push_back(effect.total.value);
+  }
+  const SobolEffect& effect = found.effects[0];
+  const Bounds first_bounds = jackknife_bounds(effect.first.value, first_without, 0.9),
+               total_bounds = jackknife_bounds(effect.total.value, total_without, 0.9);
+  CHECK(*effect.first.bounds.lower == Approx(*first_bounds.lower).epsilon(1e-12));
+  CHECK(*effect.first.bounds.upper == Approx(*first_bounds.upper).epsilon(1e-12));
+  CHECK(*effect.total.bounds.lower == Approx(*total_bounds.lower).epsilon(1e-12));
+  CHECK(*effect.total.bounds.upper == Approx(*total_bounds.upper).epsilon(1e-12));
 }
 
 TEST_CASE("one replicate has no bounds, nor have more replicates than rows") {
