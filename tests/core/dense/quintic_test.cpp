@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
+
 using namespace wingspread;
 
 namespace {
@@ -78,5 +80,44 @@ TEST_CASE("a crossing that comes back inside the step is not missed") {
     REQUIRE(s.has_value());
     CHECK(*s == Approx(0.37 - std::sqrt(e)).margin(1e-14 / std::sqrt(e)));
     CHECK_FALSE(first_nonnegative(hump(-e)).has_value());
+  }
+}
+
+namespace {
+
+/// Bernstein coefficients of c[0] + c[1] s + … + c[5] s⁵: b_k = Σ_j (k over j)/(5 over j) c_j.
+Quintic<double> from_powers(const std::array<double, 6>& c) {
+  const auto over = [](int n, int k) {
+    double product = 1;
+    for (int i = 1; i <= k; ++i) product = product * (n - k + i) / i;
+    return product;
+  };
+  Quintic<double> p{};
+  for (int k = 0; k < 6; ++k)
+    for (int j = 0; j <= k; ++j) p[k] += over(k, j) / over(5, j) * c[j];
+  return p;
+}
+
+} // namespace
+
+TEST_CASE("of three crossings it is the first that is found") {
+  // (s − 0.2)(s − 0.5)(s − 0.8)
+  const Quintic<double> three = from_powers({-0.08, 0.66, -1.5, 1, 0, 0});
+  REQUIRE(value(three, 0.5) == Approx(0).margin(1e-15));
+  REQUIRE(first_nonnegative(three).has_value());
+  CHECK(*first_nonnegative(three) == Approx(0.2).epsilon(1e-13));
+  Quintic<double> back = three; // from above
+  for (double& c : back) c = -c;
+  CHECK(first_nonnegative(back) == 0.0);
+}
+
+TEST_CASE("a root at the start does not count, be it simple or double") {
+  const Quintic<double> simple = from_powers({0, -0.3, 1, 0, 0, 0}); // s (s − 0.3)
+  const Quintic<double> twice = from_powers({0, 0, -0.3, 1, 0, 0});  // s² (s − 0.3)
+  for (const Quintic<double>& p : {simple, twice}) {
+    CHECK(first_nonnegative(p) == 0.0);
+    const auto s = first_nonnegative(without_root_at_start(p));
+    REQUIRE(s.has_value());
+    CHECK(*s == Approx(0.3).epsilon(1e-13));
   }
 }

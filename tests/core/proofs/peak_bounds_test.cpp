@@ -235,3 +235,88 @@ TEST_CASE("no state with the energy breaks the bounds on peaks: hinges without l
     }
   }
 }
+
+// ---- the formulas, by hand
+
+namespace {
+
+/// A panel of 10 kg and 0.5 kg·m² on a fixed base, its centre of mass 0.5 m from the hinge and in no line with the
+/// axes; its spring is at rest where it latches.
+Scene slanted_panel(double coulomb) {
+  Scene scene = oracle::latching_panel();
+  scene.hinges[0].spring = {2, 0}, scene.hinges[0].child_point = {-0.3, -0.4};
+  scene.hinges[0].latch = Latch{1e4, 300};
+  scene.hinges[0].friction.coulomb = coulomb;
+  return scene;
+}
+
+/// Two panels in a line, l from hinge to hinge.
+Scene two_in_line(double l, double c1, double c2) {
+  Scene scene = oracle::latching_panel();
+  scene.bodies = {{"inner", 10, 0.5}, {"outer", 4, 0.2}};
+  Hinge& root = scene.hinges[0];
+  root.spring = {0, 0}, root.child_point = {-c1, 0}, root.latch = Latch{1e4, 10};
+  Hinge mid = root;
+  mid.name = "mid", mid.parent = 0, mid.child = 1;
+  mid.parent_point = {l - c1, 0}, mid.child_point = {-c2, 0}, mid.latch = Latch{6e3, 20};
+  scene.hinges.push_back(mid);
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("the sharp bounds of one panel are (5) to (8)") {
+  for (const double tau : {0.0, 2.0}) {
+    Latched<> wing(slanted_panel(tau));
+    const double m = 10, c = 0.5, I = 0.5 + m * c * c, kappa = wing.prospects.stiffness(1),
+                 delta = wing.prospects.damping(1);
+    CHECK(kappa == Approx(1e4 + 2 / (0.5 * 3.14159265358979324)));
+    CHECK(delta == 300);
+    const double eta = 0.1, size = eta * std::sqrt(kappa * I / m) / c; // √(2E)
+    wing.bounds.bound(wing.system, wing.prospects, 0.5 * size * size);
+    const double k = 1 / (1 - eta), mu = 2 * eta + eta * eta, F = m * c / I;
+    CHECK(wing.bounds.moment[1] ==
+          Approx(size * std::sqrt(kappa + k * k * delta * delta / I) + tau).epsilon(1e-8));
+    const double A =
+        k * (size * std::sqrt((kappa + delta * delta / I) / I) + k * tau / std::sqrt(I));
+    const double turning = std::sqrt(m) * c * size * size * k * k / I; // Γ
+    const double reaction = size * k * F * std::sqrt(kappa + delta * delta / I) + F * tau;
+    CHECK(
+        wing.bounds.force[1] ==
+        Approx(reaction + std::sqrt(m) * (A * (eta + mu) / (1 - mu) + 2 * turning)).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("the sharp bounds hold up to where (5) says") {
+  const double l = 1.5, c1 = 0.7, c2 = 0.4;
+  Latched<> wing(two_in_line(l, c1, c2));
+  // in absolute rates; ρ_1 = 1/√κ_1, ρ_2 = ρ_1 + 1/√κ_2
+  const double m11 = 0.5 + 10 * c1 * c1 + 4 * l * l, m12 = 4 * l * c2, m22 = 0.2 + 4 * c2 * c2;
+  const double det = m11 * m22 - m12 * m12, rho1 = 1 / std::sqrt(1e4),
+               rho2 = rho1 + 1 / std::sqrt(6e3);
+  const double a1 = std::sqrt(10 * c1 * c1 + 4 * l * l), a2 = 2 * c2;
+  const double eta = rho1 * a1 * std::sqrt(m22 / det) + rho2 * a2 * std::sqrt(m11 / det);
+  const double last = 0.5 * 0.2 * 0.2 / (eta * eta);
+  SharpBounds<double> sharp;
+  SharpBounds<double>::Numbers outward(3);
+  outward << 14, 14, 4;
+  sharp.prepare(wing.system, wing.prospects, outward);
+  CHECK(sharp.hold(last * (1 - 1e-9)));
+  CHECK_FALSE(sharp.hold(last * (1 + 1e-9)));
+}
+
+TEST_CASE("the coarse bounds are (2) to (4)") {
+  const double l = 1.5, c1 = 0.7, c2 = 0.4, J1 = 0.5, J2 = 0.2;
+  Latched<> wing(two_in_line(l, c1, c2));
+  const double E = 100; // far beyond what the sharp ones are for
+  wing.bounds.bound(wing.system, wing.prospects, E);
+  const double M1 = std::sqrt(2 * E * (1e4 + 10 * 10 / J1));
+  const double M2 = std::sqrt(2 * E * (6e3 + 20 * 20 * (1 / J1 + 1 / J2)));
+  CHECK(wing.bounds.moment[1] == Approx(M1));
+  CHECK(wing.bounds.moment[2] == Approx(M2));
+  const double w1 = 2 * E / J1, w2 = 2 * E / J2; // bounds of ω²
+  const double g1 = w1 * c1, g2 = w1 * l + w2 * c2;
+  const double Z = 10 * g1 * g1 + 4 * g2 * g2 + (M1 + M2) * (M1 + M2) / J1 + M2 * M2 / J2;
+  CHECK(wing.bounds.force[1] == Approx(std::sqrt(14 * Z)));
+  CHECK(wing.bounds.force[2] == Approx(std::sqrt(4 * Z)));
+}

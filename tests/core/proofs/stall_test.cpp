@@ -1,5 +1,6 @@
 // Wings that never deploy: what is proven of them, and of which nothing is.
 #include "core/deployment.hpp"
+#include "core/proofs/stall.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
 
 #include <catch2/catch.hpp>
@@ -95,4 +96,28 @@ TEST_CASE("a wing that lacks a little energy is stalled before it stops") {
   CHECK(out.status == Status::stalled);
   CHECK_THAT(out.reason, Catch::Contains("energy: no hinge can reach its latch"));
   CHECK(out.final.rates[0] > 0.01); // it still moves: none will latch any more, not: none will move
+}
+
+TEST_CASE("a spring gives what it has as far as its rest, also beyond the latched angle") {
+  // φ from −1; the spring is at rest at 0.5, beyond the latched angle 0
+  Scene scene = latching_panel();
+  Hinge& hinge = scene.hinges[0];
+  hinge.stowed = -1, hinge.latched = 0;
+  pull_towards(hinge, 0.5, 0.8);
+  for (const double coulomb : {0.0, 0.1}) {
+    rub(hinge, coulomb);
+    for (const bool latch : {false, true}) {
+      hinge.latch = latch ? std::optional(Latch{1e4, 100}) : std::nullopt;
+      Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+      set_parameters(wing, scene);
+      CAPTURE(coulomb, latch);
+      // to where the spring has come down to friction; with a latch, which pulls back from 0 on, the same
+      // to 0, and what is left of the push there against 1e4
+      const double end = 0.5 - coulomb / 0.8, push = 0.8 * 0.5 - coulomb;
+      const double beyond = latch ? 0.5 * push * push / (0.8 + 1e4) : 0.5 * 0.8 * end * end;
+      const double before = 0.5 * 0.8 * (1.5 * 1.5 - 0.5 * 0.5) - coulomb;
+      CHECK(detail::most_given(wing.hinges[1], false, -1.0) ==
+            Approx(before + beyond).epsilon(1e-12));
+    }
+  }
 }
