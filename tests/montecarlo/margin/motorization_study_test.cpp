@@ -125,8 +125,8 @@ TEST_CASE("a margin of nothing is enough: those below it are short", "[motorizat
   Json dispersion = json["dispersions"][2]; // the mass has no part in it
   json["dispersions"] = Json::array({dispersion});
   const Campaign campaign = campaign_of(json);
-  const MotorizationStudy study = study_motorization(campaign, campaign.scene, *campaign.margin);
-  const HingeMotorization& root = study.hinges.front();
+  const MotorizationStudy study = study_motorization(campaign, campaign.scene);
+  const DriveMotorization& root = study.drives.front();
   CHECK(root.worst[1] == 0); // by NASA: 3/(3 · 1) − 1
   CHECK(root.worst_spread[1].least == 0);
   CHECK(root.worst_spread[1].share_short == 0);
