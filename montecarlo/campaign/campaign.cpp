@@ -1,5 +1,6 @@
 #include "montecarlo/campaign/campaign.hpp"
 
+#include "core/laws/curve_value.hpp"
 #include "distributions/random_stream.hpp"
 
 #include <fmt/format.h>
@@ -8,24 +9,6 @@
 #include <iterator>
 
 namespace wingspread {
-namespace {
-
-void apply_draw(Apply how, double draw, double& target) {
-  switch (how) {
-  case Apply::set:
-    target = draw;
-    break;
-  case Apply::scale:
-    target *= draw;
-    break;
-  case Apply::add:
-    target += draw;
-    break;
-  }
-}
-
-} // namespace
-
 long count_looks(const Campaign& campaign) {
   if (campaign.until.empty()) return 1 + std::ssize(campaign.sampling.extended_from);
   return count_looks(campaign.until, campaign.sampling.runs);
@@ -41,13 +24,16 @@ void apply(const Campaign& campaign, std::span<const double> draws, const Scene&
            Scene& run_scene) {
   assert(draws.size() == campaign.dispersions.size());
   for (const Dispersion& dispersion : campaign.dispersions)
-    for (const SceneParameter& target : dispersion.targets)
-      target.in(run_scene) = target.in(nominal);
-  for (std::size_t i = 0; i < draws.size(); ++i) {
-    const Dispersion& dispersion = campaign.dispersions[i];
-    for (const SceneParameter& target : dispersion.targets)
-      apply_draw(dispersion.apply, draws[i], target.in(run_scene));
-  }
+    for_each_effect(dispersion, [&](Apply, const auto& targets, const Curve*) {
+      for (const SceneParameter& target : targets) target.in(run_scene) = target.in(nominal);
+    });
+  for (std::size_t i = 0; i < draws.size(); ++i)
+    for_each_effect(campaign.dispersions[i],
+                    [&](Apply how, const auto& targets, const Curve* table) {
+                      const double effect = table ? value(*table, draws[i]) : draws[i];
+                      for (const SceneParameter& target : targets)
+                        apply_to(target.in(run_scene), how, effect);
+                    });
 }
 
 } // namespace wingspread

@@ -4,6 +4,7 @@
 #include "core/scene/scene.hpp"
 #include "distributions/copula.hpp"
 #include "montecarlo/campaign/campaign_settings.hpp"
+#include "montecarlo/campaign/cases.hpp"
 #include "montecarlo/campaign/dispersion.hpp"
 #include "montecarlo/campaign/margin_spec.hpp"
 #include "montecarlo/campaign/outputs.hpp"
@@ -24,6 +25,8 @@ inline constexpr const char* stamp_key = "wingspread";
 struct Campaign {
   Scene scene; ///< nominal
   std::vector<Dispersion> dispersions;
+  std::vector<CaseSpec> cases; ///< none: the nominal wing alone
+  std::string of_case;         ///< of which case of another campaign this one is; may be empty
   std::vector<RankCorrelation>
       wanted_correlations; ///< between dispersions; their matrix is possible
   Sampling sampling;

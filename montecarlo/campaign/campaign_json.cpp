@@ -1,5 +1,6 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 
+#include "montecarlo/campaign/distribution_json.hpp"
 #include "montecarlo/campaign/wanted_correlations.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json_reader.hpp"
@@ -118,6 +119,8 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
   if (!campaign.requirements.empty())
     json["requirements"] = write_requirements(campaign.requirements);
   if (!campaign.until.empty()) json["until"] = write_stopping_rule(campaign.until);
+  if (!campaign.cases.empty()) json["cases"] = write_cases(campaign.cases);
+  if (!campaign.of_case.empty()) json["case"] = campaign.of_case;
   const MotorizationSpec& motorization = campaign.motorization;
   if (campaign.margin)
     json["margin"] = write_margin(*campaign.margin, motorization, campaign.scene);
@@ -159,12 +162,22 @@ private:
     if (const auto at = object_.require("scene", expected_scene))
       campaign_.scene = read_scene_member(*at, directory_);
     if (problems_.empty()) scene_ = &campaign_.scene;
-    if (const auto at = object_.find("dispersions")) {
-      Dispersions varied = read_dispersions(*at, scene_, directory_);
-      campaign_.dispersions = std::move(varied.list);
-      resolved_dispersions_ = std::move(varied.resolved);
-    }
+    Dispersions varied;
+    varied.resolved = Json::array();
+    if (const auto at = object_.find("dispersions"))
+      varied = read_dispersions(*at, scene_, directory_);
     named_ = problems_.empty();
+    read_its_cases(varied);
+    campaign_.dispersions = std::move(varied.list);
+    resolved_dispersions_ = std::move(varied.resolved);
+  }
+
+  void read_its_cases(const Dispersions& varied) {
+    if (const auto at = object_.find("cases"))
+      campaign_.cases = read_cases(*at, scene_, named_ ? &varied : nullptr, directory_);
+    if (const auto at = object_.find("case"); at && !campaign_.cases.empty())
+      at->refuse("no case of another campaign beside \"cases\"");
+    object_.optional("case", campaign_.of_case, "a string, the name of a case", is_case_name);
   }
 
   void read_settings() {
@@ -263,6 +276,42 @@ void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
   sampling.seed = seed.value_or(sampling.seed);
   std::erase_if(sampling.extended_from, [&](std::int64_t seen) { return seen >= sampling.runs; });
   campaign.resolved["sampling"] = write_sampling(campaign.sampling);
+}
+
+namespace {
+
+/// What was resolved of a campaign and then changed, read again.
+Campaign read_again(const Campaign& campaign, const Json& changed) {
+  Campaign read = read_document(changed, {}, "");
+  read.outputs = campaign.outputs; // overtravel is not to be added once more
+  read.resolved["outputs"] = write_outputs(read.outputs);
+  return read;
+}
+
+} // namespace
+
+Campaign with_scene(const Campaign& campaign, const Scene& scene) {
+  Json json = campaign.resolved;
+  json["scene"] = write_scene(scene);
+  return read_again(campaign, json);
+}
+
+Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec) {
+  Json json = campaign.resolved;
+  json.erase("cases");
+  json["case"] = spec.name;
+  json["scene"] = write_scene(scene_of_case(campaign.scene, spec));
+  for (const auto& [name, distribution] : spec.distributions)
+    for (Json& dispersion : json["dispersions"])
+      if (dispersion["name"] == name) dispersion["distribution"] = write_distribution(distribution);
+  return read_again(campaign, json);
+}
+
+std::vector<Campaign> campaigns_of(const Campaign& campaign) {
+  if (campaign.cases.empty()) return {campaign};
+  std::vector<Campaign> campaigns;
+  for (const CaseSpec& spec : campaign.cases) campaigns.push_back(campaign_of_case(campaign, spec));
+  return campaigns;
 }
 
 void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from) {

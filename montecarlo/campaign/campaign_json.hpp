@@ -32,6 +32,17 @@ namespace wingspread {
 void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
                        std::optional<std::uint64_t> seed);
 
+/// The campaign with another nominal scene of the same structure; all else, `resolved` too, follows.
+/// @throws SpecError with what does not fit it: a case that would be unphysical
+[[nodiscard]] Campaign with_scene(const Campaign& campaign, const Scene& scene);
+
+/// The campaign of one of its cases alone, ready to be run: its scene is the case's, it has no cases, and `of_case` is
+/// the case's name. Of the same seed it has the same draws, but for laws that the case replaces.
+[[nodiscard]] Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec);
+
+/// One for each case, in their order; the campaign itself where it has none.
+[[nodiscard]] std::vector<Campaign> campaigns_of(const Campaign& campaign);
+
 /// Says at which numbers of runs its results were looked at before it was extended; `resolved`
 /// follows. @pre each less than the next, and than the number of runs
 void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from);

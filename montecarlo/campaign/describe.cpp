@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <bit>
+#include <span>
 
 namespace wingspread {
 namespace {
@@ -43,14 +44,65 @@ std::string describe_distribution(const Distribution& distribution) {
   return text;
 }
 
-std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
+std::string describe_targets(const Scene& scene, std::span<const SceneParameter> parameters) {
   std::vector<std::string> targets;
-  for (const SceneParameter& target : dispersion.targets)
+  for (const SceneParameter& target : parameters)
     targets.push_back(fmt::format("{} (nominal {})", path_of(scene, target),
                                   with_unit(target.in(scene), unit_of(target))));
-  return fmt::format(
-      "{}: {}, {} {}", dispersion.name, describe_distribution(dispersion.distribution),
-      apply_names[static_cast<std::size_t>(dispersion.apply)], fmt::join(targets, ", "));
+  return fmt::format("{}", fmt::join(targets, ", "));
+}
+
+/// "1.2 to 0.9 over -60 to 70".
+std::string describe_table(const Curve& table) {
+  const auto value_at = [&](std::size_t knot) { return table.pieces()[knot + 1].c[0]; };
+  const std::vector<double>& draws = table.knots();
+  return fmt::format("{} to {} over {} to {}", value_at(0), value_at(draws.size() - 1),
+                     draws.front(), draws.back());
+}
+
+/// A line, and one more for each thing that a `through` drives.
+std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
+  std::string text =
+      fmt::format("{}: {}", dispersion.name, describe_distribution(dispersion.distribution));
+  for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve* table) {
+    const std::string_view verb = apply_names[static_cast<std::size_t>(how)];
+    text += table ? fmt::format("\n    {} by {}: {}", verb, describe_table(*table),
+                                describe_targets(scene, targets))
+                  : fmt::format(", {} {}", verb, describe_targets(scene, targets));
+  });
+  return text;
+}
+
+/// Which parameters more than one draw changes, and in what order.
+std::string describe_shared(const Campaign& campaign) {
+  std::string text;
+  for (const auto& [paths, draws] : shared_targets(campaign.dispersions, campaign.scene))
+    text += fmt::format("  {}: one after the other, {}\n", fmt::join(paths, ", "),
+                        fmt::join(draws, ", then "));
+  return text.empty() ? "" : "changed by more than one draw\n" + text;
+}
+
+std::string describe_case(const Campaign& campaign, const CaseSpec& spec) {
+  std::vector<std::string> changes;
+  for (const auto& [how, target, value] : spec.changes) {
+    const std::string_view unit = unit_of(target);
+    changes.push_back(fmt::format(
+        "{} {} {} (nominal {})", apply_names[static_cast<std::size_t>(how)],
+        path_of(campaign.scene, target), with_unit(value, how == Apply::scale ? "" : unit),
+        with_unit(target.in(campaign.scene), unit)));
+  }
+  for (const auto& [dispersion, distribution] : spec.distributions)
+    changes.push_back(fmt::format("{}: {}", dispersion, describe_distribution(distribution)));
+  if (changes.empty()) changes.emplace_back("as it is");
+  return fmt::format("{}: {}", spec.name, fmt::join(changes, ", "));
+}
+
+std::string describe_cases(const Campaign& campaign) {
+  if (campaign.cases.empty()) return "";
+  std::string text = counted(std::ssize(campaign.cases), "case", "cases") + "\n";
+  for (const CaseSpec& spec : campaign.cases)
+    text += fmt::format("  {}\n", describe_case(campaign, spec));
+  return text;
 }
 
 /// What a design that stratifies makes of the numbers; nothing for independent draws.
@@ -151,6 +203,7 @@ std::string describe(const Campaign& campaign) {
                      counted(std::ssize(campaign.dispersions), "dispersion", "dispersions") + "\n";
   for (const Dispersion& dispersion : campaign.dispersions)
     text += fmt::format("  {}\n", describe_dispersion(campaign.scene, dispersion));
+  text += describe_shared(campaign) + describe_cases(campaign);
   if (!campaign.wanted_correlations.empty())
     text += counted(std::ssize(campaign.wanted_correlations), "correlation", "correlations") + "\n";
   for (const RankCorrelation& correlation : campaign.wanted_correlations)

@@ -1,5 +1,6 @@
 #include "montecarlo/commands/command_options.hpp"
 
+#include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/number_text.hpp"
 
 #include <CLI/CLI.hpp>
@@ -79,6 +80,50 @@ void add_crew_options(CLI::App& command, CrewOptions& options) {
 
 Crew crew_of(const CrewOptions& options) {
   return {options.threads, instruction_set(options.isa, options.lanes)};
+}
+
+void add_set_option(CLI::App& command, std::vector<std::string>& changes) {
+  command
+      .add_option("--set", changes,
+                  "Change the nominal scene, e.g. hinges.root.spring.scale=0.9 or "
+                  "\"bodies.*.mass=22 lb\"; several times if wanted")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+Scene changed_scene(Scene scene, const std::vector<std::string>& changes) {
+  std::vector<Problem> problems;
+  std::vector<CaseChange> read;
+  for (const std::string& change : changes) {
+    const std::size_t equals = std::min(change.find('='), change.size());
+    const std::string path = change.substr(0, equals);
+    const std::string text = change.substr(std::min(equals + 1, change.size()));
+    const auto number = parse_number<double>(text);
+    const Json value = number ? Json(*number) : Json(text);
+    std::vector<Problem> its;
+    if (equals == change.size())
+      its.push_back({"", "", fmt::format("\"{}\"", change), "PATH=VALUE"});
+    else
+      read_change(JsonCursor(value, "", its), path, Apply::set, scene, read);
+    for (Problem& problem : its)
+      problems.push_back({"", "--set " + path, problem.found, problem.expected});
+  }
+  if (problems.empty()) make_changes(read, scene);
+  for (const Fault& fault : unphysical(scene))
+    problems.push_back(
+        {"", "--set", fmt::format("{} of {}", fault.path, fault.found), fault.expected});
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  return scene;
+}
+
+void change_scene(Campaign& campaign, const std::vector<std::string>& changes) {
+  if (changes.empty()) return;
+  campaign = with_scene(campaign, changed_scene(campaign.scene, changes));
+}
+
+void add_case_option(CLI::App& command, std::string& name) {
+  command.add_option("--case", name, "The case that is meant, of a campaign that has cases")
+      ->type_name("NAME");
 }
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {

@@ -1,6 +1,7 @@
 /// Options that several commands have, and settings that are given as options.
 #pragma once
 
+#include "montecarlo/campaign/campaign.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 #include "montecarlo/runs/evaluator.hpp"
 
@@ -8,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -41,5 +43,16 @@ void add_crew_options(CLI::App& command, CrewOptions& options);
 [[nodiscard]] Crew crew_of(const CrewOptions& options);
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling);
+
+/// `--set PATH=VALUE`, as often as wanted: the nominal scene changed before anything else.
+void add_set_option(CLI::App& command, std::vector<std::string>& changes);
+/// @throws SpecError with all that is wrong with them
+[[nodiscard]] Scene changed_scene(Scene scene, const std::vector<std::string>& changes);
+/// Its resolved JSON and its cases follow.
+/// @throws as above, and when a case cannot be had any more
+void change_scene(Campaign& campaign, const std::vector<std::string>& changes);
+
+/// `--case NAME`, where one campaign is wanted.
+void add_case_option(CLI::App& command, std::string& name);
 
 } // namespace wingspread

@@ -15,17 +15,6 @@
 namespace wingspread {
 namespace {
 
-/// Not there, or without a file in its place.
-bool is_new(const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder)) return true;
-  if (!std::filesystem::is_directory(folder)) return false;
-  const auto is_nothing = [](const std::filesystem::directory_entry& entry) {
-    const std::string name = entry.path().filename().string();
-    return name.ends_with(part_suffix) || name == lock_file;
-  };
-  return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_nothing);
-}
-
 /// Why these runs cannot be added to those that are there; nothing when they can.
 std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaign& ours,
                                       const Stamp& stamp) {
@@ -42,8 +31,32 @@ std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaig
   return std::nullopt;
 }
 
-/// Refuses to mix the rows of two campaigns, seeds, shards or versions.
-/// @param ours with the looks of what is there, as far as it has them
+/// The looks that were taken when these rows had been made and more runs are added to them.
+std::vector<std::int64_t> looks_before(const Sampling& there, std::int64_t rows) {
+  std::vector<std::int64_t> looks = there.extended_from;
+  if (rows > 0 && (looks.empty() || rows > looks.back())) looks.push_back(rows);
+  return looks;
+}
+
+/// A shard cannot tell what all runs up to a checkpoint come to.
+void refuse_stopping_shard(const Campaign& campaign, const std::optional<Shard>& shard) {
+  if (shard && !campaign.until.empty())
+    throw SpecError({{"", "", describe(shard) + " of a campaign that may stop early",
+                      "all runs: only they tell when to stop"}});
+}
+
+} // namespace
+
+bool is_new_folder(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) return true;
+  if (!std::filesystem::is_directory(folder)) return false;
+  const auto is_nothing = [](const std::filesystem::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.ends_with(part_suffix) || name == lock_file;
+  };
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_nothing);
+}
+
 void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, const Stamp& stamp) {
   std::vector<Problem> problems;
   const auto compare = [&](const char* key, const std::string& found, const std::string& expected) {
@@ -65,24 +78,8 @@ void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, co
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
-/// The looks that were taken when these rows had been made and more runs are added to them.
-std::vector<std::int64_t> looks_before(const Sampling& there, std::int64_t rows) {
-  std::vector<std::int64_t> looks = there.extended_from;
-  if (rows > 0 && (looks.empty() || rows > looks.back())) looks.push_back(rows);
-  return looks;
-}
-
-/// A shard cannot tell what all runs up to a checkpoint come to.
-void refuse_stopping_shard(const Campaign& campaign, const std::optional<Shard>& shard) {
-  if (shard && !campaign.until.empty())
-    throw SpecError({{"", "", describe(shard) + " of a campaign that may stop early",
-                      "all runs: only they tell when to stop"}});
-}
-
-} // namespace
-
 void refuse_used_folder(const std::filesystem::path& folder, const char* expected) {
-  if (is_new(folder)) return;
+  if (is_new_folder(folder)) return;
   const bool is_folder = std::filesystem::is_directory(folder);
   throw SpecError(
       {{folder.string(), "", is_folder ? "a folder with files in it" : "a file", expected}});
@@ -96,10 +93,10 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
   constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
   if (!resume)
     refuse_used_folder(stored_.folder, expected);
-  else if (!is_new(stored_.folder))
+  else if (!is_new_folder(stored_.folder))
     (void)read_stored_campaign(stored_.folder); // before anything is made in what is no such folder
   lock_.emplace(stored_.folder);
-  const bool fresh = is_new(stored_.folder);
+  const bool fresh = is_new_folder(stored_.folder);
   if (!resume) refuse_used_folder(stored_.folder, expected);
   if (!fresh) {
     go_on(plan);

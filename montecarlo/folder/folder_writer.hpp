@@ -50,6 +50,14 @@ private:
   std::optional<FolderLock> lock_;
 };
 
+/// Whether it is not there, or has nothing in it but what a crash left before its first file.
+[[nodiscard]] bool is_new_folder(const std::filesystem::path& folder);
+
+/// Refuses to mix the rows of two campaigns, seeds, shards or versions; the number of runs may grow where it can.
+/// @param ours with the looks of what is there, as far as it has them
+/// @throws SpecError with each that differs
+void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, const Stamp& stamp);
+
 /// @throws SpecError unless there is no such folder, or nothing in it but what a crash left before
 ///   its first file
 void refuse_used_folder(const std::filesystem::path& folder, const char* expected);

@@ -1,5 +1,6 @@
 #include "montecarlo/folder/merge.hpp"
 
+#include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/formats/files.hpp"
 
@@ -163,12 +164,18 @@ void refuse_other_folder(const std::filesystem::path& out, const std::string& te
     refuse_used_folder(out, "a new or an empty folder for the merged results");
 }
 
-} // namespace
-
-Summary merge_folders(const std::vector<std::filesystem::path>& folders,
-                      const std::filesystem::path& out) {
+/// What is to be merged, when nothing speaks against it.
+struct Merging {
   StoredCampaign whole;
   std::vector<Part> parts;
+  std::string campaign; ///< campaign.json's text
+};
+
+/// @throws SpecError with all that keeps the folders from being merged
+Merging check_parts(const std::vector<std::filesystem::path>& folders,
+                    const std::filesystem::path& out) {
+  Merging merging;
+  auto& [whole, parts, text] = merging;
   for (const auto& folder : folders) {
     StoredCampaign stored = read_stored_campaign(folder);
     parts.push_back({folder, stored.stamp, stored.runs()});
@@ -178,18 +185,60 @@ Summary merge_folders(const std::vector<std::filesystem::path>& folders,
   refuse_stopping(whole);
   whole.folder = out;
   whole.stamp.shard.reset();
-  const std::string text = campaign_text(whole.campaign, whole.stamp);
+  text = campaign_text(whole.campaign, whole.stamp);
   refuse_other_folder(out, text);
   std::vector<Problem> problems;
   for (Part& part : parts) find_present(part, whole);
   find_doubles(parts, problems);
   find_missing(parts, whole.campaign.sampling.runs, problems);
   if (!problems.empty()) throw SpecError(std::move(problems));
+  return merging;
+}
+
+/// The folders of one case.
+std::vector<std::filesystem::path> of_case(const std::vector<std::filesystem::path>& folders,
+                                           const CaseSpec& spec) {
+  std::vector<std::filesystem::path> its;
+  for (const auto& folder : folders) its.push_back(folder / spec.name);
+  return its;
+}
+
+} // namespace
+
+Summary merge_folders(const std::vector<std::filesystem::path>& folders,
+                      const std::filesystem::path& out) {
+  auto [whole, parts, text] = check_parts(folders, out);
   const FolderLock lock(out);
   refuse_other_folder(out, text);
   write_file(out / campaign_file, text);
   write_in_order(std::move(parts), whole);
   return write_statistics(whole, read_stored_results(whole).results, whole.campaign.statistics);
+}
+
+std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& folders,
+                                     const std::filesystem::path& out) {
+  std::vector<Part> parts;
+  for (const auto& folder : folders)
+    parts.push_back({folder, read_stored_campaign(folder).stamp, {}});
+  refuse_strangers(parts);
+  StoredCampaign whole = read_stored_campaign(folders.front());
+  const std::vector<CaseSpec> made = made_cases(whole);
+  whole.folder = out;
+  whole.stamp.shard.reset();
+  const std::string text = campaign_text(whole.campaign, whole.stamp);
+  refuse_other_folder(out, text);
+  for (const CaseSpec& spec : made)
+    (void)check_parts(of_case(folders, spec), out / spec.name); // all before anything is written
+  const FolderLock lock(out);
+  refuse_other_folder(out, text);
+  write_file(out / campaign_file, text);
+  std::vector<CaseSummary> cases;
+  for (const CaseSpec& spec : made) {
+    Summary summary = merge_folders(of_case(folders, spec), out / spec.name);
+    cases.push_back(case_summary(read_stored_campaign(out / spec.name), std::move(summary)));
+  }
+  write_cases_file(whole, cases, out);
+  return cases;
 }
 
 } // namespace wingspread

@@ -1,6 +1,7 @@
 /// Shards put together again.
 #pragma once
 
+#include "montecarlo/summary/comparison.hpp"
 #include "montecarlo/summary/summary.hpp"
 
 #include <filesystem>
@@ -14,5 +15,9 @@ namespace wingspread {
 /// @throws SpecError with all that keeps them from being merged, and nothing written
 Summary merge_folders(const std::vector<std::filesystem::path>& folders,
                       const std::filesystem::path& out);
+
+/// The same for folders of a campaign with cases: those of each case into one, and cases.json.
+std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& folders,
+                                     const std::filesystem::path& out);
 
 } // namespace wingspread

@@ -26,6 +26,24 @@ std::string shortened(std::string_view text, std::size_t width) {
   return std::string(text.substr(0, end - 1)) + "…";
 }
 
+std::string in_column(std::string_view text, std::size_t width) {
+  const std::size_t length = count_characters(text);
+  return std::string(text) +
+         (length < width ? std::string(width - length, ' ') : '\n' + std::string(width, ' '));
+}
+
+std::string right_aligned(std::string_view text, std::size_t width) {
+  const std::size_t length = count_characters(text);
+  return std::string(length < width ? width - length : 1, ' ') + std::string(text);
+}
+
+std::string in_digits(double value) {
+  if (std::isnan(value)) return "–";
+  std::string text = fmt::format("{:#.5g}", value);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
 std::string paragraph(std::string_view text) {
   constexpr std::size_t width = table_width;
   std::string lines;

@@ -15,6 +15,15 @@ inline constexpr int table_width = 100;
 /// The first `width` characters, the last of them "…" when there are more.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
 
+/// The text, filled up with blanks to the width; a text that leaves no blank before the next column is not cut off, but
+/// ends its line, and the next one begins with the column.
+[[nodiscard]] std::string in_column(std::string_view text, std::size_t width);
+/// The text at the end of a column, with a blank before it at least.
+[[nodiscard]] std::string right_aligned(std::string_view text, std::size_t width);
+
+/// Five significant digits, trailing zeros among them, so that columns line up; "–" of NaN.
+[[nodiscard]] std::string in_digits(double value);
+
 /// Lines indented by two and within `table_width`, broken at blanks.
 [[nodiscard]] std::string paragraph(std::string_view text);
 

@@ -183,6 +183,23 @@ Path split(std::string_view path) {
   return {list, name, path};
 }
 
+/// Whether the name is what the pattern says, in which each `*` stands for any characters, or none.
+bool is_like(std::string_view name, std::string_view pattern) {
+  std::size_t n = 0, p = 0, star = pattern.size(), after_star = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++, after_star = n;
+    } else if (p < pattern.size() && pattern[p] == name[n]) {
+      ++n, ++p;
+    } else if (star < pattern.size()) { // the last star takes one more
+      p = star + 1, n = ++after_star;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
 /// Adds what `path` matches among owners of one kind; notes why when it is nothing but could be.
 template <class Named, std::size_t n>
 void match(Owner kind, std::span<const Named> owners, const std::array<Field<Named>, n>& fields,
@@ -193,7 +210,7 @@ void match(Owner kind, std::span<const Named> owners, const std::array<Field<Nam
   for (std::size_t i = 0; i < owners.size(); ++i) {
     std::string name;
     if constexpr (requires { owners[i].name; }) name = owners[i].name;
-    if (path.name != "*" && path.name != name) continue;
+    if (!is_like(name, path.name)) continue;
     if (field->in(owners[i]))
       found.matches.push_back(
           {{kind, static_cast<int>(i), static_cast<int>(field - fields.begin())}, name});
@@ -209,13 +226,14 @@ void list_paths(const std::string& prefix, const Named& owner,
     if (field.in(owner)) paths.push_back(prefix + std::string(field.path));
 }
 
-/// All paths that could have been meant: with `*` for the names, when the path has one.
+/// All paths that could have been meant: with the path's pattern for the names that are like it.
 std::vector<std::string> candidates(const Scene& scene, const Path& path) {
   std::vector<std::string> paths = parameter_paths(scene);
-  if (path.name != "*") return paths;
+  if (path.name.find('*') == std::string_view::npos) return paths;
   for (std::string& candidate : paths) {
     const auto [list, name, field] = split(candidate);
-    if (!name.empty()) candidate = fmt::format("{}.*.{}", list, field);
+    if (!name.empty() && is_like(name, path.name))
+      candidate = fmt::format("{}.{}.{}", list, path.name, field);
   }
   return paths;
 }

@@ -36,8 +36,9 @@ struct ParameterMatches {
   std::string expected;                ///< what would do; empty when there are matches
 };
 
-/// Follows a path. A name given as `*` stands for every one of them that has the parameter: a
-/// hinge without a latch, say, has no latch.stiffness.
+/// Follows a path. In its name each `*` stands for any characters, or none: `*` is every one of them,
+/// `panel_*` those whose names begin so. Only those match that have the parameter: a hinge without a
+/// latch, say, has no latch.stiffness.
 [[nodiscard]] ParameterMatches resolve(const Scene& scene, std::string_view path);
 
 /// Reads a path; a problem when it names nothing.

@@ -128,8 +128,9 @@ TEST_CASE("Each fault of a campaign is told", "[campaign_json]") {
        {"/sampling", R"({"runs": -5})", "/sampling/runs: found -5, expected an integer, ≥ 1"},
        {"/output", "[]",
         "/output: found the unknown key \"output\", expected \"scene\", \"dispersions\", "
-        "\"sampling\", \"integration\", \"outputs\", \"statistics\", \"correlations\", "
-        "\"requirements\", \"until\", \"motorization\", \"margin\" or \"wingspread\" (did you mean "
+        "\"cases\", \"case\", \"sampling\", \"integration\", \"outputs\", \"statistics\", "
+        "\"correlations\", \"requirements\", \"until\", \"motorization\", \"margin\" or "
+        "\"wingspread\" (did you mean "
         "\"outputs\"?)"}}));
   CAPTURE(change.pointer, change.value);
   CHECK(problems(change) == change.message);

@@ -40,3 +40,30 @@ TEST_CASE("A run leaves nothing to the next, and touches only its targets", "[ca
   apply(campaign, std::vector<double>{1, 10, 8}, campaign.scene, scene);
   CHECK(scene.bodies[0].inertia == 99);
 }
+
+TEST_CASE("A draw drives parameters by way of its tables", "[campaign]") {
+  Json document = small_campaign();
+  document["dispersions"].push_back(parse_json(R"({ "name": "temperature",
+    "distribution": { "type": "constant", "value": 20 },
+    "through": [ { "to": ["hinges.*.spring.scale"], "apply": "scale",
+                   "table": { "at": [-100, 20, 60], "value": [3, 1, 0.8] } },
+                 { "to": ["hinges.root.friction.coulomb"], "apply": "add",
+                   "table": { "at": [-100, 60], "value": [0.3, 0.1] } },
+                 { "to": ["hinges.mid.initial_rate"], "apply": "set",
+                   "table": { "at": [0, 1, 2, 3], "value": [0, 0.5, 0.5, 2] } } ] })"));
+  const Campaign campaign = campaign_of(document);
+  Scene scene = campaign.scene;
+  const auto with = [&](double draw) {
+    apply(campaign, std::vector<double>{1, 10, 8, draw}, campaign.scene, scene);
+    return std::vector{scene.hinges[0].spring.scale, scene.hinges[1].spring.scale,
+                       scene.hinges[0].friction.coulomb, scene.hinges[1].initial_rate};
+  };
+  CHECK(with(-100) == std::vector<double>{3, 3, 0.1 + 0.3, 0});
+  CHECK(with(-300) == with(-100)); // constant beyond the ends
+  CHECK(with(60) == std::vector<double>{0.8, 0.8, 0.1 + 0.1, 2});
+  CHECK(with(1e300) == with(60));
+  CHECK(with(20)[0] == 1);
+  CHECK(with(1.5)[3] == 0.5); // monotone: level between equal values
+  // PCHIP's slopes there: 0.75 at 0 by three points, 0 at 1 beside the level; Hermite's cubic at one half
+  CHECK(with(0.5)[3] == Approx(0.25 + 0.75 / 8).epsilon(1e-15));
+}

@@ -92,3 +92,34 @@ TEST_CASE("What a campaign asks for is described with what its runs can show", "
   CHECK_THAT(describe(read_campaign(document.dump(), "")),
              Catch::EndsWith("until the interval's width is: deployed 0.01\n"));
 }
+
+TEST_CASE("Causes, cases and draws that act on one parameter are described", "[describe]") {
+  Json document = test::small_campaign();
+  document["dispersions"] = parse_json(R"([
+    { "name": "temperature", "distribution": { "type": "normal", "mean": 20, "std": 5 },
+      "through": [ { "to": ["hinges.*.spring.scale"], "apply": "scale",
+                     "table": { "at": [-100, 20, 60], "value": [3, 1, 0.8] } } ] },
+    { "name": "spring", "distribution": { "type": "normal", "mean": 1, "std": 0.05 },
+      "apply": "scale", "each": "hinges.*t.spring.scale" } ])");
+  document["cases"] = parse_json(R"([
+    { "name": "cold", "distributions": { "temperature": { "type": "constant", "value": -60 } } },
+    { "name": "ambient" },
+    { "name": "old", "scale": { "bodies.*.mass": 1.5 }, "add": { "hinges.mid.spring.offset": "1 N*mm" } } ])");
+  const std::string text = describe(read_campaign(document.dump(), ""));
+  const auto from = text.find("2 dispersions");
+  CHECK(
+      text.substr(from, text.find("sampling") - from) ==
+      "2 dispersions\n"
+      "  temperature: normal (mean 20, std 5)\n"
+      "    scale by 3 to 0.8 over -100 to 60: hinges.root.spring.scale (nominal 1), "
+      "hinges.mid.spring.scale (nominal 1)\n"
+      "  spring.root: normal (mean 1, std 0.05), scale hinges.root.spring.scale (nominal 1)\n"
+      "changed by more than one draw\n"
+      "  hinges.root.spring.scale: one after the other, temperature scales, then spring.root "
+      "scales\n"
+      "3 cases\n"
+      "  cold: temperature: constant (value -60)\n"
+      "  ambient: as it is\n"
+      "  old: scale bodies.inner.mass 1.5 (nominal 10 kg), scale bodies.outer.mass 1.5 (nominal 8 "
+      "kg), add hinges.mid.spring.offset 0.001 N·m (nominal 0 N·m)\n");
+}

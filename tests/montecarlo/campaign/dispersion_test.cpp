@@ -62,6 +62,107 @@ TEST_CASE("`each` is a draw of its own per match, named after it", "[dispersion]
   CHECK(path_of(scene, dispersions.list[1].targets[0]) == "bodies.outer.mass");
 }
 
+TEST_CASE("An `each` of several paths has one draw for what they match of one thing",
+          "[dispersion]") {
+  const Scene scene = read_scene(test::small_scene());
+  const auto [dispersions, problems] = read(Json::array({dispersion(
+      "lot",
+      R"("apply": "scale", "each": ["hinges.*.spring.scale", "hinges.r*t.latch.stiffness"])")}));
+  CHECK(problems.empty());
+  REQUIRE(dispersions.list.size() == 2);
+  CHECK(dispersions.list[0].name == "lot.root");
+  CHECK(paths_of(scene, dispersions.list[0].targets) ==
+        std::vector<std::string>{"hinges.root.spring.scale", "hinges.root.latch.stiffness"});
+  CHECK(dispersions.list[1].name == "lot.mid");
+  CHECK(paths_of(scene, dispersions.list[1].targets) ==
+        std::vector<std::string>{"hinges.mid.spring.scale"});
+}
+
+namespace {
+
+constexpr const char* temperature = R"({ "name": "temperature",
+  "distribution": { "type": "normal", "mean": 20, "std": 5 },
+  "through": [ { "to": ["hinges.*.spring.scale"], "apply": "scale",
+                 "table": { "at": [-100, 20, 60], "value": [3, 1, 0.8] } },
+               { "to": ["hinges.root.friction.coulomb"], "apply": "add",
+                 "table": { "at": [-100, 60], "value": ["300 N*mm", 0] } } ] })";
+
+} // namespace
+
+TEST_CASE("`through` is one draw for several effects, each by a table of its own", "[dispersion]") {
+  const Scene scene = read_scene(test::small_scene());
+  const auto [dispersions, problems] = read(Json::array({parse_json(temperature)}));
+  CHECK(problems.empty());
+  REQUIRE(dispersions.list.size() == 1);
+  const Dispersion& draw = dispersions.list[0];
+  CHECK(draw.name == "temperature");
+  CHECK(draw.targets.empty());
+  REQUIRE(draw.through.size() == 2);
+  CHECK(draw.through[0].apply == Apply::scale);
+  CHECK(paths_of(scene, draw.through[0].targets) ==
+        std::vector<std::string>{"hinges.root.spring.scale", "hinges.mid.spring.scale"});
+  CHECK(draw.through[0].table.knots() == std::vector<double>{-100, 20, 60});
+  CHECK(draw.through[1].apply == Apply::add);
+  CHECK(draw.through[1].table.pieces()[1].c[0] == 0.3); // SI
+  const Json& resolved = dispersions.resolved[0]["through"];
+  CHECK(resolved[1]["table"].dump() == R"({"at":[-100.0,60.0],"value":[0.3,0.0]})");
+  CHECK(read(dispersions.resolved).dispersions.resolved == dispersions.resolved);
+}
+
+TEST_CASE("Each fault of a `through` is told", "[dispersion]") {
+  struct Case {
+    const char *pointer, *value, *message;
+  };
+  const auto [pointer, value, message] = GENERATE(values<Case>(
+      {{"/through", "3",
+        "/0/through: found 3, expected an array of what the draw drives, at least one"},
+       {"/through/0", "3",
+        "/0/through/0: found 3, expected what the draw drives: an object with to, apply and table"},
+       {"/through/0/to/0", "\"hinges.*.sprng.scale\"",
+        "/0/through/0/to/0: found string \"hinges.*.sprng.scale\", expected the path of a "
+        "parameter "
+        "(did you mean \"hinges.*.spring.scale\"?)"},
+       {"/through/0/table", "[1]",
+        "/0/through/0/table: found an array of 1, expected a table: an object with at and value"},
+       {"/through/0/table/at", "[20]",
+        "/0/through/0/table/at: found an array of 1, expected an array of 2 to 1000 numbers, "
+        "ascending"},
+       {"/through/0/table/at/2", "20",
+        "/0/through/0/table/at/2: found 20, expected more than 20, the one before"},
+       {"/through/0/table/value", "[1, 2]",
+        "/0/through/0/table/value: found an array of 2, expected as many numbers as there are "
+        "draws: "
+        "3"},
+       {"/through/0/table/value", "[1, 2, \"3 N\"]",
+        "/0/through/0/table/value/2: found string \"3 N\", expected a number"},
+       {"/through/1/table/value", "[1, \"3 N\"]",
+        "/0/through/1/table/value/1: found string \"3 N\", expected a number, N·m, or a string of "
+        "a "
+        "number and its unit: \"N*m\", \"N*mm\", \"in*lbf\", \"in*ozf\" or \"ft*lbf\""},
+       {"/through/0/table/at", "[0, 4e-320, 1]",
+        "/0/through/0/table: found a curve too steep for numbers, expected draws further apart, or "
+        "smaller values"}}));
+  CAPTURE(pointer, value);
+  CHECK(problems({test::spoil(parse_json(temperature), {pointer, value, ""})}) == message);
+}
+
+TEST_CASE("Parameters that several draws change are told, with the order", "[dispersion]") {
+  const Scene scene = read_scene(test::small_scene());
+  const auto [dispersions, problems] = read(
+      Json::array({parse_json(temperature),
+                   dispersion("s", R"("apply": "scale", "each": "hinges.*.spring.scale")"),
+                   dispersion("m", R"("apply": "set", "to": ["hinges.root.spring.torque_stowed"])"),
+                   dispersion("f", R"("apply": "add", "to": ["hinges.root.friction.coulomb"])")}));
+  CHECK(problems.empty());
+  const auto shared = shared_targets(dispersions.list, scene);
+  REQUIRE(shared.size() == 3);
+  CHECK(shared[0].paths == std::vector<std::string>{"hinges.root.spring.scale"});
+  CHECK(shared[0].draws == std::vector<std::string>{"temperature scales", "s.root scales"});
+  CHECK(shared[1].draws == std::vector<std::string>{"temperature scales", "s.mid scales"});
+  CHECK(shared[2].paths == std::vector<std::string>{"hinges.root.friction.coulomb"});
+  CHECK(shared[2].draws == std::vector<std::string>{"temperature adds", "f adds"});
+}
+
 TEST_CASE("The resolved list is not expanded, and its laws are in full", "[dispersion]") {
   const Json list =
       Json::array({dispersion("m", R"("apply": "set", "each": "bodies.*.mass")"),
@@ -128,10 +229,9 @@ TEST_CASE("Each fault of a dispersion is told", "[dispersion]") {
             "too": ["bodies.inner.mass"]})",
         "/0/distribution/std: found 0, expected > 0\n"
         "/0/apply: found string \"mul\", expected \"set\", \"scale\" or \"add\"\n"
-        "/0: found neither \"to\" nor \"each\", expected one of them\n"
-        "/0/too: found the unknown key \"too\", expected \"name\", \"distribution\", \"apply\", "
-        "\"to\" or "
-        "\"each\" (did you mean \"to\"?)"}}));
+        "/0: found neither \"to\" nor \"each\" nor \"through\", expected one of them\n"
+        "/0/too: found the unknown key \"too\", expected \"name\", \"distribution\", \"to\", "
+        "\"each\", \"through\" or \"apply\" (did you mean \"to\"?)"}}));
   CHECK(problems({parse_json(json)}) == message);
 }
 
@@ -153,8 +253,25 @@ TEST_CASE("Each fault of a dispersion's targets is told", "[dispersion]") {
                                          "\"bodies.inner.mass\"?)"},
        {R"("to": ["bodies.inner.mass", "bodies.*.mass"])",
         "/0/to/1: found bodies.inner.mass a second time, expected each parameter once"},
-       {R"("each": ["bodies.*.mass"])",
-        "/0/each: found an array of 1, expected a string, the path of a parameter"},
+       {R"("to": ["bodies.inner.mass"], "each": "bodies.*.mass", "through": [{}])",
+        "/0/apply: found string \"scale\", expected no apply beside a \"through\": each of its "
+        "tables "
+        "has its own\n"
+        "/0/through/0/to: found nothing, expected an array of at least one parameter's path\n"
+        "/0/through/0/apply: found nothing, expected \"set\", \"scale\" or \"add\"\n"
+        "/0/through/0/table: found nothing, expected a table: an object with at and value\n"
+        "/0: found both \"to\" and \"each\" and \"through\", expected one of them"},
+       {R"("each": [])",
+        "/0/each: found an array of 0, expected a path, or an array of at least one"},
+       {R"("each": ["bodies.*.mass", "hinges.root.spring.scale", "hinges.*.spring.scale"])",
+        "/0/each/1: found string \"hinges.root.spring.scale\" beside parameters of another kind of "
+        "thing, expected parameters of bodies alone, of hinges or of synchronisations: they share "
+        "one draw for each\n"
+        "/0/each/2: found string \"hinges.*.spring.scale\" beside parameters of another kind of "
+        "thing, expected parameters of bodies alone, of hinges or of synchronisations: they share "
+        "one draw for each"},
+       {R"("each": ["bodies.*.mass", "bodies.in*.mass"])",
+        "/0/each/1: found bodies.inner.mass a second time, expected each parameter once"},
        {R"("each": "base.mass")",
         "/0/each: found string \"base.mass\", expected a base whose motion is \"free\""}}));
   CHECK(problems({dispersion("m", R"("apply": "scale", )" + std::string(targets))}) == message);
@@ -236,6 +353,15 @@ TEST_CASE("A draw is not lost to a later one that sets its target", "[dispersion
                : "/1/apply: found \"set\" of bodies.inner.mass, which \"a\" has written before, "
                  "expected "
                  "nothing before a \"set\", which would undo it"));
+}
+
+TEST_CASE("Nor is one to a later table that sets its target", "[dispersion]") {
+  Json draw = parse_json(temperature);
+  draw["through"][0]["apply"] = "set";
+  CHECK(
+      problems({dispersion("s", R"("apply": "scale", "to": ["hinges.mid.spring.scale"])"), draw}) ==
+      "/1/through: found \"set\" of hinges.mid.spring.scale, which \"s\" has written before, "
+      "expected nothing before a \"set\", which would undo it");
 }
 
 TEST_CASE("The list of dispersions is an array", "[dispersion]") {

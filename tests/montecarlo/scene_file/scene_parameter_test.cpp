@@ -191,7 +191,14 @@ TEST_CASE("A star stands for every name that has the parameter", "[parameter]") 
   const Case given = GENERATE(values<Case>({{"bodies.*.mass", {"inner", "outer"}},
                                             {"hinges.*.spring.torque_stowed", {"root", "mid"}},
                                             {"hinges.*.latch.damping", {"root"}},
-                                            {"hinges.*.friction.static", {"mid"}}}));
+                                            {"hinges.*.friction.static", {"mid"}},
+                                            {"hinges.r*.spring.scale", {"root"}},
+                                            {"hinges.*o*t.spring.scale", {"root"}},
+                                            {"hinges.mid*.spring.scale", {"mid"}},
+                                            {"hinges.**.spring.scale", {"root", "mid"}},
+                                            {"bodies.*n*r.mass", {"inner"}},
+                                            {"bodies.*nner*r.mass", {}},
+                                            {"bodies.o.mass", {}}}));
   std::vector<std::string> names;
   for (const ParameterMatch& match : resolve(scene, given.path).matches)
     names.push_back(match.name);
@@ -212,8 +219,10 @@ TEST_CASE("A path that leads nowhere tells what was probably meant", "[parameter
         "the path of a parameter (did you mean \"hinges.root.spring.torque_latched\"?)"},
        {"hinges.root.child_point",
         "the path of a parameter (did you mean \"hinges.root.child_point.0\"?)"},
-       {"hinges.r*.initial_rate",
+       {"hinges.ot*.initial_rate",
         "the path of a parameter (did you mean \"hinges.root.initial_rate\"?)"},
+       {"hinges.r*.initial_rat",
+        "the path of a parameter (did you mean \"hinges.r*.initial_rate\"?)"},
        {"hinges.mid.latch.damping", "a hinge that has a latch"},
        {"hinges.mid.friction.static", "a hinge whose friction has a static level"},
        {"hinges.root.friction.regularization_rate", "a hinge with the regularized friction model"},
