@@ -1,6 +1,7 @@
 #include "montecarlo/campaign/campaign.hpp"
 
 #include "core/laws/curve_value.hpp"
+#include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
 
 #include <fmt/format.h>
@@ -34,6 +35,18 @@ void apply(const Campaign& campaign, std::span<const double> draws, const Scene&
                       for (const SceneParameter& target : targets)
                         apply_to(target.in(run_scene), how, effect);
                     });
+}
+
+Scene nominal_scene(const Campaign& campaign) {
+  Scene scene = campaign.scene;
+  for (const Dispersion& dispersion : campaign.dispersions) {
+    if (dispersion.through.empty()) continue;
+    const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
+    for (const Driven& driven : dispersion.through)
+      for (const SceneParameter& target : driven.targets)
+        apply_to(target.in(scene), driven.apply, value(driven.table, median));
+  }
+  return scene;
 }
 
 } // namespace wingspread

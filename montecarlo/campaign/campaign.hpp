@@ -50,6 +50,10 @@ struct Campaign {
 /// less its key "wingspread". Stable across platforms and runs of the program.
 [[nodiscard]] std::string campaign_hash(const Json& resolved);
 
+/// The wing with nothing dispersed: its scene, with every draw that drives others by tables (`through`) at its median,
+/// which is what a temperature is where nobody asks for another.
+[[nodiscard]] Scene nominal_scene(const Campaign& campaign);
+
 /// Makes a scene the one of a run: puts back what the campaign varies to its nominal value, then
 /// applies the draws. Allocates nothing.
 /// @param draws     one per dispersion, in their order

@@ -2,7 +2,7 @@
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/commands/results_display.hpp"
-#include "montecarlo/folder/results_folder.hpp"
+#include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
@@ -22,7 +22,7 @@ constexpr long most_samples = 10'000'000, most_repeats = 1000;
 
 struct RareCommandOptions {
   std::filesystem::path campaign;
-  std::string output;
+  std::string output, of_case;
   std::optional<double> above, below;
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
@@ -69,7 +69,7 @@ void warn_if_doubtful(const RareResult& result) {
 int rare(const RareCommandOptions& given) {
   RareOptions options = given.rare;
   options.event = event_of(given);
-  Campaign campaign = read_campaign_file(given.campaign);
+  Campaign campaign = chosen_case(read_campaign_file(given.campaign), given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
   StatisticsSpec spec = campaign.statistics;
   Json settings = Json::object();
@@ -117,6 +117,7 @@ void add_rare(CLI::App& app, Action& action) {
       ->check(CLI::Range(1L, most_repeats).description(""))
       ->type_name("R");
   add_seed_option(*command, options->seed);
+  add_case_option(*command, options->of_case);
   command->add_option("--confidence", options->confidence, "Of the bounds, e.g. 0.99");
   add_crew_options(*command, options->crew);
   command->add_flag("--json", options->json, "Print JSON in place of text");

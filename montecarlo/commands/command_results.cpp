@@ -2,13 +2,18 @@
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/commands/results_display.hpp"
+#include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/merge.hpp"
+#include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/number_text.hpp"
 #include "montecarlo/machine/folder_lock.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace wingspread {
 namespace {
@@ -20,7 +25,7 @@ struct MergeOptions {
 };
 
 struct AnalyzeOptions {
-  std::filesystem::path folder;
+  std::filesystem::path folder, out;
   std::vector<double> quantiles;
   std::optional<double> confidence;
   std::string bins;
@@ -28,7 +33,22 @@ struct AnalyzeOptions {
   Display display;
 };
 
+/// What there is to show of all cases. @return the worst exit status
+int show_all(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
+             const Display& display) {
+  int worst = exit_code::done;
+  for (const CaseSummary& each : cases)
+    worst = std::max(worst,
+                     judge_results(read_stored_campaign(whole.folder / each.name), each.summary));
+  show_cases(whole, cases, display);
+  return worst;
+}
+
 int merge(const MergeOptions& options) {
+  if (is_cases_folder(options.folders.front())) {
+    const std::vector<CaseSummary> cases = merge_cases(options.folders, options.out);
+    return show_all(read_stored_campaign(options.out), cases, options.display);
+  }
   const Summary summary = merge_folders(options.folders, options.out);
   return show_results(read_stored_campaign(options.out), summary, options.display);
 }
@@ -39,20 +59,57 @@ Json bins_given(const std::string& text) {
   return number ? Json(*number) : Json(text);
 }
 
-int analyze(const AnalyzeOptions& options) {
-  (void)read_any_campaign(options.folder); // there is one to be locked
-  const FolderLock lock(options.folder);
-  StoredCampaign stored = read_any_campaign(options.folder);
+/// The statistics of a folder again. @param to the folder for them
+Summary summarize_again(const StoredCampaign& stored, const AnalyzeOptions& options,
+                        const std::filesystem::path& to) {
   StatisticsSpec spec = stored.campaign.statistics;
   Json given = Json::object();
   if (!options.quantiles.empty()) given["quantiles"] = options.quantiles;
   if (options.confidence) given["confidence"] = *options.confidence;
   if (!options.bins.empty()) given["bins"] = bins_given(options.bins);
   override_settings(given, [&](const JsonCursor& at) { read_statistics(at, spec); });
+  const Results results = read_stored_results(stored).results;
+  StoredCampaign there = stored;
+  there.folder = to;
+  make_folder(to);
+  return write_statistics(there, results, spec);
+}
+
+/// The folder's campaign, held to the requirements that were given.
+StoredCampaign held_to(StoredCampaign stored, const AnalyzeOptions& options) {
   if (!options.requirements.empty())
     stored.campaign.requirements = read_requirements_file(options.requirements, stored.campaign);
-  const Summary summary = write_statistics(stored, read_stored_results(stored).results, spec);
-  return show_results(stored, summary, options.display);
+  return stored;
+}
+
+int analyze_cases(const AnalyzeOptions& options, const std::filesystem::path& to) {
+  StoredCampaign whole = read_stored_campaign(options.folder);
+  std::vector<CaseSummary> cases;
+  for (const CaseSpec& spec : made_cases(whole)) {
+    const FolderLock lock(whole.folder / spec.name);
+    const StoredCampaign stored = held_to(read_stored_campaign(whole.folder / spec.name), options);
+    cases.push_back(case_summary(stored, summarize_again(stored, options, to / spec.name)));
+  }
+  write_cases_file(whole, cases, to);
+  return show_all(whole, cases, options.display);
+}
+
+int analyze(const AnalyzeOptions& options) {
+  (void)read_any_campaign(options.folder); // there is one to be locked
+  const bool elsewhere = !options.out.empty();
+  if (elsewhere) refuse_used_folder(options.out, "a new or an empty folder");
+  const FolderLock lock(options.folder);
+  std::optional<FolderLock> other;
+  if (elsewhere) other.emplace(options.out);
+  const std::filesystem::path& to = elsewhere ? options.out : options.folder;
+  if (is_cases_folder(options.folder)) return analyze_cases(options, to);
+  const StoredCampaign stored = held_to(read_any_campaign(options.folder), options);
+  const Summary summary = summarize_again(stored, options, to);
+  if (!elsewhere || wants_table(options.display))
+    return show_results(stored, summary, options.display);
+  for (const char* file : {summary_file, histograms_json_file, histograms_csv_file})
+    fmt::print("{}\n", (to / file).string());
+  return judge_results(stored, summary);
 }
 
 } // namespace
@@ -84,16 +141,23 @@ void add_analyze(CLI::App& app, Action& action) {
   command->add_option("--bins", options->bins, "Of the histograms: a number, or auto");
   command->add_option("--requirements", options->requirements,
                       "In place of the campaign's: a JSON file, an array of requirements");
+  command->add_option("--out", options->out,
+                      "Write the statistics into this folder, new or empty: those in the results "
+                      "folder stay");
   add_display_options(*command, options->display);
-  command->footer(std::string("Rewrites summary.json, histograms.json and histograms.csv.\n") +
-                  display_help +
-                  R"(Exit code 1 says that a requirement is not shown to be met.
+  command->footer(
+      std::string(
+          "Rewrites summary.json, histograms.json and histograms.csv; with --out it writes them\n"
+          "there. Of a campaign with cases it does so for each, and cases.json.\n") +
+      display_help +
+      R"(Exit code 1 says that a requirement is not shown to be met.
 
 For the runs of another tool, put a campaign.json beside its runs.csv, with as many runs in its
 "sampling"; the columns run, status, latch_order, the draws and the outputs may stand in any order.
 
 Example:
-  wingspread analyze results/first --quantiles 0.001,0.5,0.999 --histograms)");
+  wingspread analyze results/first --quantiles 0.001,0.5,0.999 --histograms
+  wingspread analyze results/first --requirements late.json --out results/late)");
   command->callback([options, &action] { action = [options] { return analyze(*options); }; });
 }
 

@@ -2,6 +2,7 @@
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/commands/results_display.hpp"
+#include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
@@ -30,7 +31,7 @@ struct RunOptions {
   CrewOptions crew;
   bool resume = false;
   std::string shard;
-  std::vector<std::string> until;
+  std::vector<std::string> until, set, cases;
   Display display;
 };
 
@@ -137,13 +138,11 @@ std::string refuse_until(const std::string& text) {
                      text);
 }
 
-/// The statistics of what there is, which can be made later as well. @return the exit status
-int conclude(const FolderWriter& folder, const RunOptions& options, const std::string& kept) {
+/// The statistics of what there is, which can be made later as well.
+Summary write_summary(const FolderWriter& folder, int threads, const std::string& kept) {
   const StoredCampaign& stored = folder.stored();
   try {
-    const Summary summary = write_statistics(stored, folder.results(), stored.campaign.statistics,
-                                             options.crew.threads);
-    return show_results(stored, summary, options.display);
+    return write_statistics(stored, folder.results(), stored.campaign.statistics, threads);
   } catch (const MachineError& error) {
     throw MachineError(
         fmt::format("{}\n{}, without their statistics: `wingspread analyze {}` makes "
@@ -152,26 +151,66 @@ int conclude(const FolderWriter& folder, const RunOptions& options, const std::s
   }
 }
 
-int run(const RunOptions& options) {
-  const Crew crew = crew_of(options.crew);
-  Campaign campaign = read_campaign_file(options.campaign);
-  override_sampling(campaign, options.sampling.runs, options.sampling.seed);
-  override_until(campaign, options.until);
+/// Makes a campaign's runs into a folder, and shows what they come to.
+/// @param show takes the results and returns the exit status
+template <class Show>
+int run_into(const Campaign& campaign, const std::filesystem::path& out, const RunOptions& options,
+             const Show& show) {
   const RunPlan plan(campaign);
-  FolderWriter folder(options.out, plan, parse_shard(options.shard), options.resume);
+  FolderWriter folder(out, plan, parse_shard(options.shard), options.resume);
   std::string interruption; // outlives the interrupt that says it
   Interrupt interrupt;
-  const bool interrupted = make_remaining(folder, plan, crew, interrupt);
-  const std::string kept =
-      fmt::format("{} of {} runs are kept", folder.count(), folder.stored().runs().size());
+  const bool interrupted = make_remaining(folder, plan, crew_of(options.crew), interrupt);
+  const std::string of_case = campaign.of_case.empty() ? "" : " of case " + campaign.of_case;
+  const std::string kept = fmt::format("{} of {} runs{} are kept", folder.count(),
+                                       folder.stored().runs().size(), of_case);
   interruption = fmt::format("interrupted: {}; the same command with --resume goes on\n", kept);
   interrupt.end_at_once(interruption.c_str());
   if (!interrupt.is_urgent()) {
-    const int code = conclude(folder, options, kept);
+    const int code = show(folder.stored(), write_summary(folder, options.crew.threads, kept));
     if (!interrupted) return code;
   }
   fmt::print(stderr, "{}", interruption);
   return exit_code::interrupted;
+}
+
+/// Each case into a folder of its own, one after the other.
+int run_cases(const Campaign& campaign, const RunOptions& options) {
+  const std::vector<CaseSpec> chosen = chosen_cases(campaign, options.cases);
+  const CasesFolder folder(options.out, campaign, parse_shard(options.shard), options.resume);
+  std::filesystem::remove(options.out / cases_file); // it will be of other runs
+  std::vector<CaseSummary> made;
+  int worst = exit_code::done;
+  for (const CaseSpec& spec : chosen) {
+    const auto show = [&](const StoredCampaign& stored, Summary&& summary) {
+      if (options.display.histograms) show_table(stored, summary, options.display);
+      const int code = judge_results(stored, summary);
+      made.push_back(case_summary(stored, std::move(summary)));
+      return code;
+    };
+    const int code =
+        run_into(campaign_of_case(campaign, spec), options.out / spec.name, options, show);
+    if (code == exit_code::interrupted) return code;
+    worst = std::max(worst, code);
+  }
+  const std::vector<CaseSummary> all = complete_cases(folder.stored(), std::move(made));
+  write_cases_file(folder.stored(), all, options.out);
+  show_cases(folder.stored(), all, options.display);
+  return worst;
+}
+
+int run(const RunOptions& options) {
+  (void)crew_of(options.crew); // refused before anything is read
+  Campaign campaign = read_campaign_file(options.campaign);
+  change_scene(campaign, options.set);
+  override_sampling(campaign, options.sampling.runs, options.sampling.seed);
+  override_until(campaign, options.until);
+  if (!campaign.cases.empty()) return run_cases(campaign, options);
+  (void)chosen_cases(campaign, options.cases); // there are none
+  return run_into(campaign, options.out, options,
+                  [&](const StoredCampaign& stored, const Summary& summary) {
+                    return show_results(stored, summary, options.display);
+                  });
 }
 
 } // namespace
@@ -194,11 +233,20 @@ void add_run(CLI::App& app, Action& action) {
       ->type_name("GOAL")
       ->allow_extra_args(false)
       ->check(refuse_until);
+  add_set_option(*command, options->set);
+  command
+      ->add_option("--case", options->cases,
+                   "Of a campaign with cases only this one; several times if wanted")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   add_display_options(*command, options->display);
   command->footer(
       std::string("Progress goes to standard error, if that is a terminal.\n") + display_help +
       R"(The results do not depend on threads, lanes, instruction sets, shards and interruptions.
 Exit code 1 says that a requirement of the campaign is not shown to be met.
+
+Of a campaign with cases the folder gets a results folder for each of them, all made with the same
+draws, and cases.json with the cases side by side; the exit code is the worst of theirs.
 
 --until names an interval and how wide it may be, from its lower to its upper bound, at the
 campaign's confidence; several have to be reached together:

@@ -1,6 +1,7 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
+#include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/runs/run_plan.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 struct SampleOptions {
   std::filesystem::path campaign, out;
+  std::string of_case;
   SamplingOptions sampling;
 };
 
@@ -40,6 +42,7 @@ void write_draws(const RunPlan& plan, const std::function<void(std::string_view)
 
 int sample(const SampleOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
+  if (!options.of_case.empty()) campaign = chosen_case(campaign, options.of_case);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   const RunPlan plan(campaign);
   if (options.out.empty()) {
@@ -59,6 +62,7 @@ void add_sample(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("sample", "The draws of a campaign alone, as CSV");
   command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
   add_sampling_options(*command, options->sampling);
+  add_case_option(*command, options->of_case);
   command->add_option("--out", options->out, "Write to this file, not to standard output");
   command->footer(R"(They are the draws that `run` applies, to the last bit.
 

@@ -2,6 +2,7 @@
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/commands/results_display.hpp"
+#include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
@@ -22,6 +23,7 @@ namespace {
 
 struct SensitivityOptions {
   std::filesystem::path from, out;
+  std::string of_case;
   std::optional<long> samples;
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
@@ -123,7 +125,8 @@ bool make_runs_of(const RunPlan& plan, RunRange remaining, const Crew& crew,
 
 int sobol_new(const SensitivityOptions& options) {
   const Crew crew = crew_of(options.crew);
-  SaltelliDesign design{read_campaign_file(options.from), options.samples.value_or(1000)};
+  SaltelliDesign design{chosen_case(read_campaign_file(options.from), options.of_case),
+                        options.samples.value_or(1000)};
   override_sampling(design.campaign, std::nullopt, options.seed);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
@@ -151,9 +154,12 @@ int sobol_new(const SensitivityOptions& options) {
   return sobol(design, folder ? folder->results() : own, options, options.out);
 }
 
-int sensitivity(const SensitivityOptions& options) {
-  if (!std::filesystem::is_directory(options.from)) return sobol_new(options);
-  return is_design_folder(options.from) ? sobol_again(options) : rank(options);
+int sensitivity(const SensitivityOptions& given) {
+  if (!std::filesystem::is_directory(given.from)) return sobol_new(given);
+  if (is_design_folder(given.from)) return sobol_again(given);
+  SensitivityOptions options = given;
+  options.from = folder_of_case(given.from, given.of_case);
+  return rank(options);
 }
 
 } // namespace
@@ -170,6 +176,7 @@ void add_sensitivity(CLI::App& app, Action& action) {
       ->check(CLI::Range(2L, long{most_runs}).description(""))
       ->type_name("N");
   add_seed_option(*command, options->seed);
+  add_case_option(*command, options->of_case);
   command->add_option("--confidence", options->confidence, "Of all bounds, e.g. 0.99");
   command->add_option("--resamples", options->resamples, "Of the bootstrap; 1000 if left out")
       ->check(CLI::Range(20L, 1'000'000L).description(""))

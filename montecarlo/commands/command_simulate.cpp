@@ -1,6 +1,7 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
+#include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/folder/replay.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/number_text.hpp"
@@ -21,6 +22,8 @@ constexpr std::string_view smoothed_prefix = "smoothed:";
 
 struct SimulateOptions {
   std::filesystem::path scene, out;
+  std::vector<std::string> set;
+  std::string of_case;
   bool json = false;
   std::optional<std::string> method, latch;
   std::optional<double> step, rtol, atol, t_end;
@@ -28,6 +31,7 @@ struct SimulateOptions {
 
 struct ReplayOptions {
   std::filesystem::path folder, out;
+  std::string of_case;
   long run = 0;
   bool json = false;
 };
@@ -38,11 +42,15 @@ struct Task {
   Integration integration;
 };
 
-Task read_task(const std::filesystem::path& path) {
-  std::variant<Scene, Campaign> file = read_file(path);
-  if (Campaign* campaign = std::get_if<Campaign>(&file))
-    return {std::move(campaign->scene), std::move(campaign->integration)};
-  return {std::get<Scene>(std::move(file)), {}};
+Task read_task(const SimulateOptions& options) {
+  std::variant<Scene, Campaign> file = read_file(options.scene);
+  if (Campaign* campaign = std::get_if<Campaign>(&file)) {
+    change_scene(*campaign, options.set);
+    if (!options.of_case.empty()) *campaign = chosen_case(*campaign, options.of_case);
+    return {nominal_scene(*campaign), std::move(campaign->integration)};
+  }
+  if (!options.of_case.empty()) (void)chosen_case(Campaign(), options.of_case);
+  return {changed_scene(std::get<Scene>(std::move(file)), options.set), {}};
 }
 
 /// The ε of "smoothed:EPS"; nothing when it is not that.
@@ -90,7 +98,7 @@ int status_code(const Outcome& outcome) {
 }
 
 int simulate(const SimulateOptions& options) {
-  Task task = read_task(options.scene);
+  Task task = read_task(options);
   apply_options(options, task.integration);
   Goal goal;
   goal.to_t_end = true;
@@ -103,7 +111,8 @@ int simulate(const SimulateOptions& options) {
 }
 
 int replay(const ReplayOptions& options) {
-  const StoredCampaign stored = read_stored_campaign(options.folder);
+  const StoredCampaign stored =
+      read_stored_campaign(folder_of_case(options.folder, options.of_case));
   const ReplayRequest request(stored, options.run);
   const Scene& scene = stored.campaign.scene;
   const Replayed replayed = write_trajectory(
@@ -123,6 +132,8 @@ void add_simulate(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("simulate", "Integrate one deployment to its t_end");
   command->add_option("scene", options->scene, "A scene, or a campaign for its nominal scene")
       ->required();
+  add_set_option(*command, options->set);
+  add_case_option(*command, options->of_case);
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->add_option("--out", options->out, "Write the trajectory to this CSV file");
   command->add_option("--method", options->method, "See wingspread methods");
@@ -151,6 +162,7 @@ void add_replay(CLI::App& app, Action& action) {
       ->required()
       ->check(CLI::Range(0L, std::numeric_limits<long>::max()).description(""))
       ->type_name("K");
+  add_case_option(*command, options->of_case);
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->add_option("--out", options->out, "Write the trajectory to this CSV file");
   command->footer(

@@ -17,9 +17,10 @@ namespace {
 
 std::string title(const StoredCampaign& stored, const Summary& summary) {
   const Campaign& campaign = stored.campaign;
-  std::string text = fmt::format("{} · {} runs · {}, seed {}", campaign.scene.name, summary.runs,
-                                 design_names[static_cast<std::size_t>(campaign.sampling.design)],
-                                 campaign.sampling.seed);
+  const std::string of_case = campaign.of_case.empty() ? "" : " · " + campaign.of_case;
+  std::string text = fmt::format(
+      "{}{} · {} runs · {}, seed {}", campaign.scene.name, of_case, summary.runs,
+      design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed);
   if (summary.replicates > 0) text += ", " + counted(summary.replicates, "replicate", "replicates");
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
   if (!summary.looked_at.empty())
@@ -38,12 +39,12 @@ void print_histograms(const Summary& summary) {
 }
 
 /// Says which requirements are not met. @return whether all are
-bool report_requirements(const Summary& summary) {
+bool report_requirements(const Summary& summary, const std::string& of_case) {
   bool met = true;
   for (const Verdict& verdict : summary.requirements) {
     if (verdict.decision == Decision::pass) continue;
     met = false;
-    fmt::print(stderr, "not met: {}: {}: {}\n", to_string(verdict.requirement),
+    fmt::print(stderr, "not met: {}{}: {}: {}\n", of_case, to_string(verdict.requirement),
                to_string(verdict.decision), evidence(verdict));
   }
   const auto is_open = [](const Verdict& verdict) { return !is_decided(verdict); };
@@ -71,21 +72,58 @@ int report_failed(long failed, long runs, std::string_view consequence) {
   return exit_code::failed_runs;
 }
 
-int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display) {
-  if (display.table || display.histograms || is_terminal(stdout)) {
-    fmt::print("{}", summary_table(summary, title(stored, summary), stored.folder.string()));
-    if (display.histograms) print_histograms(summary);
-  } else {
-    for (const char* file :
-         {campaign_file, runs_file, summary_file, histograms_json_file, histograms_csv_file})
-      fmt::print("{}\n", (stored.folder / file).string());
-  }
-  const bool met = stored.stamp.shard || report_requirements(summary);
+bool wants_table(const Display& display) {
+  return display.table || display.histograms || is_terminal(stdout);
+}
+
+namespace {
+
+void print_files(const std::filesystem::path& folder) {
+  for (const char* file :
+       {campaign_file, runs_file, summary_file, histograms_json_file, histograms_csv_file})
+    fmt::print("{}\n", (folder / file).string());
+}
+
+} // namespace
+
+void show_table(const StoredCampaign& stored, const Summary& summary, const Display& display) {
+  fmt::print("{}", summary_table(summary, title(stored, summary), stored.folder.string()));
+  if (display.histograms) print_histograms(summary);
+}
+
+int judge_results(const StoredCampaign& stored, const Summary& summary) {
+  const std::string& name = stored.campaign.of_case;
+  const bool met =
+      stored.stamp.shard || report_requirements(summary, name.empty() ? "" : name + ": ");
   const auto failed = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
   const int code =
       report_failed(failed->count, summary.runs,
                     fmt::format("; {} has their reasons", (stored.folder / summary_file).string()));
   return code != exit_code::done || met ? code : exit_code::not_met;
+}
+
+void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
+                const Display& display) {
+  const Campaign& campaign = whole.campaign;
+  if (wants_table(display)) {
+    const std::string title = fmt::format(
+        "{} · {} · {}, seed {}{}", campaign.scene.name, counted(std::ssize(cases), "case", "cases"),
+        design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed,
+        whole.stamp.shard ? " · " + describe(whole.stamp.shard) : "");
+    fmt::print("{}", cases_table(cases, title, whole.folder.string()));
+    return;
+  }
+  fmt::print("{}\n{}\n", (whole.folder / campaign_file).string(),
+             (whole.folder / cases_file).string());
+  for (const CaseSummary& each : cases) print_files(whole.folder / each.name);
+}
+
+int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display) {
+  if (wants_table(display))
+    show_table(stored, summary, display);
+  else
+    print_files(stored.folder);
+  return judge_results(stored, summary);
 }
 
 } // namespace wingspread

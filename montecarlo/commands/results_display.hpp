@@ -1,7 +1,7 @@
 /// Results shown on standard output: as a table on a terminal, else as the paths of their files.
 #pragma once
 
-#include "montecarlo/folder/results_folder.hpp"
+#include "montecarlo/folder/cases_folder.hpp"
 
 #include <string_view>
 
@@ -28,9 +28,23 @@ inline constexpr const char* display_help =
 /// @return the exit status
 int report_failed(long failed, long runs, std::string_view consequence = "");
 
-/// Shows the results, and says on standard error when runs failed and requirements are not met.
+/// Whether it is the table, and not the paths of files.
+[[nodiscard]] bool wants_table(const Display& display);
+
+/// The table of the results on standard output, and the histograms below it where they are wanted.
+void show_table(const StoredCampaign& stored, const Summary& summary, const Display& display);
+
+/// Says on standard error when runs failed and requirements are not met.
 /// @return the exit status: that runs failed numerically comes before a requirement that is not
 ///   met, and a shard alone is not held to those
+int judge_results(const StoredCampaign& stored, const Summary& summary);
+
+/// The cases of a campaign side by side, or the paths of their files.
+/// @param whole the folder that has all of them
+void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
+                const Display& display);
+
+/// Shows the results, the table or the paths of their files, and says what judge_results says. @return its exit status
 int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display);
 
 } // namespace wingspread

@@ -1,0 +1,231 @@
+#include "montecarlo/folder/cases_folder.hpp"
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// A quick campaign with a temperature and three cases: a cold one that gives way, the wing as it is, and a heavy one.
+Json campaign_with_cases(int runs) {
+  Json campaign = quick_campaign(runs);
+  campaign["dispersions"].push_back(parse_json(R"({
+    "name": "temperature", "distribution": { "type": "normal", "mean": 20, "std": 5 },
+    "through": [ { "to": ["hinges.*.friction.viscous"], "apply": "add",
+                   "table": { "at": [-100, 20], "value": [0.8, 0] } } ] })"));
+  campaign["cases"] = parse_json(R"([
+    { "name": "cold", "distributions": { "temperature": { "type": "normal", "mean": -60, "std": 5 } } },
+    { "name": "ambient" },
+    { "name": "heavy", "scale": { "bodies.*.inertia": 1.5 } } ])");
+  campaign["requirements"] = parse_json(R"([
+    { "name": "T-1", "output": "deployment_time", "max": 9, "probability": 0.8, "confidence": 0.9 },
+    { "output": "deployed", "probability": 0.8, "confidence": 0.9 } ])");
+  return campaign;
+}
+
+/// The bytes of every file of the folder and of those in it, less the timings.
+std::map<std::string, std::string> all_contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename() != timing_file)
+      files[entry.path().lexically_relative(folder)] = read_text(entry.path()).value_or("");
+  return files;
+}
+
+struct Cases {
+  Folder folder{};
+  std::string file, out = folder.path() / "r";
+  explicit Cases(int runs) : file(folder.write("c.json", campaign_with_cases(runs).dump())) {}
+
+  [[nodiscard]] Finished program(std::vector<std::string> arguments) const {
+    return run_program(folder, arguments);
+  }
+};
+
+} // namespace
+
+TEST_CASE("run makes a results folder for each case, and holds them side by side", "[cases]") {
+  const Cases cases(40);
+  const auto [code, text, error] = cases.program({"run", cases.file, "--out", cases.out});
+  CHECK(code == 1); // the worst
+  CHECK(lines_of(text).front() == cases.out + "/campaign.json");
+  CHECK(lines_of(text)[1] == cases.out + "/cases.json");
+  CHECK(lines_of(text)[3] == cases.out + "/cold/runs.csv");
+  CHECK(error == "not met: cold: T-1: deployment_time ≤ 9 s, 80 % at 90 %: fail: 20 of 40 runs "
+                 "break it, and 4 may\n");
+
+  const Json side_by_side = parse_json_file(cases.folder.path() / "r" / cases_file);
+  const Json& late = side_by_side["requirements"][0];
+  CHECK(late["name"] == "T-1");
+  CHECK(late["worst"] == "cold");
+  CHECK(late["verdict"] == "fail");
+  CHECK(late["cases"]["ambient"]["verdict"] == "pass");
+  CHECK(side_by_side["requirements"][1]["verdict"] == "pass");
+  CHECK(side_by_side["joint_confidence"] == Approx(1 - 6 * 0.1).epsilon(1e-12));
+  for (const char* name : {"cold", "ambient", "heavy"}) {
+    const Json summary = parse_json_file(std::filesystem::path(cases.out) / name / summary_file);
+    CHECK(side_by_side["cases"][name]["runs"] == 40);
+    CHECK(side_by_side["cases"][name]["status"] == summary["status"]);
+    CHECK(side_by_side["outputs"]["root.latch_time"][name] ==
+          summary["outputs"]["root.latch_time"]);
+  }
+}
+
+TEST_CASE("Each case has the same draws, and is a campaign that can be run by itself", "[cases]") {
+  const Cases cases(12);
+  CHECK(cases.program({"run", cases.file, "--out", cases.out}).code == 1);
+  const auto rows = [&](const std::string& name) {
+    const StoredCampaign stored = read_stored_campaign(std::filesystem::path(cases.out) / name);
+    return read_stored_results(stored).results;
+  };
+  const Results ambient = rows("ambient"), heavy = rows("heavy"), cold = rows("cold");
+  for (std::size_t k = 0; k < 12; ++k) {
+    CHECK(heavy.row(k).draws == ambient.row(k).draws);
+    CHECK(cold.row(k).draws[0] == ambient.row(k).draws[0]);
+    CHECK(cold.draws[4].values[k] == Approx(ambient.draws[4].values[k] - 80).epsilon(1e-14));
+    CHECK(heavy.row(k).outputs != ambient.row(k).outputs);
+  }
+  const std::string alone = cases.folder.path() / "alone";
+  (void)cases.program({"run", cases.out + "/heavy/campaign.json", "--out", alone});
+  CHECK(contents(alone) == contents(cases.out + "/heavy"));
+}
+
+TEST_CASE("Cases can be made one by one, stopped, shared out and extended, to the same bytes",
+          "[cases]") {
+  const Cases cases(24);
+  (void)cases.program({"run", cases.file, "--out", cases.out, "--threads", "2"});
+  const auto whole = all_contents(cases.out);
+  CHECK(whole.size() == 2 + 3 * 5);
+
+  const std::string parts = cases.folder.path() / "parts";
+  (void)cases.program({"run", cases.file, "--out", parts, "--case", "heavy", "--case", "cold"});
+  CHECK(!std::filesystem::exists(parts + "/ambient"));
+  CHECK(parse_json_file(parts + "/cases.json")["cases"].size() == 2);
+  std::filesystem::resize_file(parts + "/cold/runs.csv", 3000); // as a crash leaves it
+  (void)cases.program({"run", cases.file, "--out", parts, "--resume"});
+  CHECK(all_contents(parts) == whole);
+
+  const std::string a = cases.folder.path() / "a", b = cases.folder.path() / "b";
+  const std::string merged = cases.folder.path() / "merged";
+  CHECK(cases.program({"run", cases.file, "--out", a, "--shard", "1/2"}).code == 0);
+  const auto early = cases.program({"merge", a, "--out", merged});
+  CHECK(early.code == 2);
+  CHECK(early.error == "error: found no folder with runs 12 to 23, expected folders with all of "
+                       "the campaign's 24 runs\n");
+  CHECK(!std::filesystem::exists(merged));
+  CHECK(cases.program({"run", cases.file, "--out", b, "--shard", "2/2"}).code == 0);
+  CHECK(cases.program({"merge", b, a, "--out", merged}).code == 1);
+  CHECK(all_contents(merged) == whole);
+}
+
+TEST_CASE("A folder of cases is one whole: another campaign, and a second writer, are refused",
+          "[cases]") {
+  const Cases cases(6);
+  (void)cases.program({"run", cases.file, "--out", cases.out});
+  const auto before = all_contents(cases.out);
+  const auto other = cases.program(
+      {"run", cases.file, "--out", cases.out, "--resume", "--set", "bodies.panel_1.inertia=0.6"});
+  CHECK(other.code == 2);
+  CHECK_THAT(other.error,
+             Catch::StartsWith("error: " + cases.out + "/campaign.json: /wingspread/hash: found "));
+  const FolderLock lock(cases.out);
+  const auto second = cases.program({"run", cases.file, "--out", cases.out, "--resume"});
+  CHECK(second.code == 4);
+  CHECK_THAT(second.error, Catch::Contains("expected a folder that no other process writes to"));
+  auto after = all_contents(cases.out);
+  after.erase(".lock");
+  CHECK(after == before);
+}
+
+TEST_CASE("What is about one campaign asks for the case that is meant", "[cases]") {
+  const Cases cases(6);
+  (void)cases.program({"run", cases.file, "--out", cases.out});
+  const std::string missing = "error: --case: found nothing, expected one of the campaign's cases: "
+                              "\"cold\", \"ambient\" or \"heavy\"\n";
+  CHECK(cases.program({"replay", cases.out, "--run", "3"}).error == missing);
+  CHECK(cases.program({"sensitivity", cases.out}).error == missing);
+  CHECK(cases.program({"sensitivity", cases.file, "--samples", "2"}).error == missing);
+  CHECK(cases.program({"rare", cases.file}).error == missing);
+  const auto unknown = cases.program({"run", cases.file, "--out", cases.out, "--case", "cod"});
+  CHECK(unknown.code == 2);
+  CHECK(unknown.error == "error: --case: found \"cod\", expected \"cold\", \"ambient\" or "
+                         "\"heavy\" (did you mean \"cold\"?)\n");
+  const std::string plain = cases.folder.write("plain.json", quick_campaign(4).dump());
+  CHECK(cases.program({"rare", plain, "--case", "cold"}).error ==
+        "error: --case: found \"cold\", expected no case: the campaign has none\n");
+
+  const auto named = cases.program({"replay", cases.out, "--run", "3", "--case", "heavy"});
+  CHECK(named.code == 0);
+  CHECK(named.out == cases.program({"replay", cases.out + "/heavy", "--run", "3"}).out);
+  CHECK(cases.program({"sensitivity", cases.out, "--case", "heavy"}).code == 0);
+  const auto draws = cases.program({"sample", cases.file, "--runs", "3", "--case", "ambient"});
+  CHECK(draws.out == cases.program({"sample", cases.file, "--runs", "3"}).out);
+  CHECK(draws.out != cases.program({"sample", cases.file, "--runs", "3", "--case", "cold"}).out);
+}
+
+TEST_CASE("analyze goes through all cases, and writes elsewhere where it is told to", "[cases]") {
+  const Cases cases(24);
+  (void)cases.program({"run", cases.file, "--out", cases.out});
+  const auto before = all_contents(cases.out);
+  CHECK(cases.program({"analyze", cases.out}).code == 1);
+  CHECK(all_contents(cases.out) == before);
+  const std::string other = cases.folder.write(
+      "late.json",
+      R"([{"output": "deployment_time", "max": 60, "probability": 0.8, "confidence": 0.9}])");
+  const std::string late = cases.folder.path() / "late";
+  CHECK(cases.program({"analyze", cases.out, "--requirements", other, "--out", late}).code == 0);
+  CHECK(all_contents(cases.out) == before); // the first verdicts stay
+  const Json side_by_side = parse_json_file(late + "/cases.json");
+  REQUIRE(side_by_side["requirements"].size() == 1);
+  CHECK(side_by_side["requirements"][0]["verdict"] == "pass");
+  CHECK(parse_json_file(late + "/heavy/summary.json")["requirements"][0]["max"] == 60);
+}
+
+TEST_CASE("--set changes the nominal scene, and is part of the campaign", "[cases]") {
+  const Folder folder;
+  const std::string file = folder.write("c.json", quick_campaign(4).dump());
+  const std::string out = folder.path() / "r";
+  const auto made =
+      run_program(folder, {"run", file, "--out", out, "--set", "hinges.*.spring.scale=1.1", "--set",
+                           "bodies.panel_1.inertia=12 lb*ft^2"});
+  CHECK(made.code == 0);
+  const Json scene = parse_json_file(out + "/campaign.json")["scene"];
+  CHECK(scene["hinges"][2]["spring"]["scale"] == 1.1);
+  CHECK(scene["bodies"][0]["inertia"] == Approx(12 * 0.45359237 * 0.3048 * 0.3048).epsilon(1e-15));
+  CHECK(run_program(folder, {"replay", out, "--run", "2"}).code == 0);
+  const auto resumed = run_program(folder, {"run", file, "--out", out, "--resume"});
+  CHECK(resumed.code == 2);
+  CHECK_THAT(resumed.error, Catch::Contains("/wingspread/hash: found "));
+
+  const std::string panel = three_panel_file();
+  const auto simulated = run_program(
+      folder, {"simulate", panel, "--t-end", "1", "--set", "hinges.mid.initial_rate=-10 deg/s"});
+  CHECK(simulated.code == 0);
+  CHECK(simulated.out != run_program(folder, {"simulate", panel, "--t-end", "1"}).out);
+  CHECK_THAT(run_program(folder, {"check", panel, "--set", "bodies.panel_2.mass=11"}).out,
+             Catch::Contains("panel_2: mass 11 kg"));
+}
+
+TEST_CASE("Each fault of --set is told", "[cases]") {
+  const Folder folder;
+  const std::string file = folder.write("c.json", quick_campaign(4).dump());
+  const auto [code, out, error] =
+      run_program(folder, {"check", file, "--set", "hinges.*.sprng.scale=1.1", "--set",
+                           "bodies.panel_1.inertia", "--set", "bodies.panel_1.inertia=1 kg",
+                           "--set", "bodies.*.inertia=1", "--set", "bodies.panel_2.inertia=2"});
+  CHECK(code == 2);
+  CHECK(
+      error ==
+      "error: --set hinges.*.sprng.scale: found the path \"hinges.*.sprng.scale\", expected the "
+      "path "
+      "of a parameter (did you mean \"hinges.*.spring.scale\"?)\n"
+      "error: --set bodies.panel_1.inertia: found \"bodies.panel_1.inertia\", expected PATH=VALUE\n"
+      "error: --set bodies.panel_1.inertia: found string \"1 kg\", expected a number, kg·m², or a "
+      "string of a number and its unit: \"kg*m^2\", \"kg*mm^2\", \"lb*in^2\" or \"slug*ft^2\"\n"
+      "error: --set bodies.panel_2.inertia: found bodies.panel_2.inertia a second time, expected "
+      "each parameter once\n");
+  CHECK(run_program(folder, {"check", file, "--set", "bodies.panel_1.inertia=-1"}).error ==
+        "error: --set: found bodies.panel_1.inertia of -1, expected > 0\n");
+}
