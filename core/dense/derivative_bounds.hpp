@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/dense/step.hpp"
-#include "core/mechanics/wing.hpp"
+#include "core/mechanics/drive.hpp"
 
 namespace wingspread {
 
@@ -49,13 +49,37 @@ template <class T>
          fused(T(4) * angle.first, angle.third, fused(T(6) * square, angle.second, slow));
 }
 
-/// How far a base of prescribed motion turns over a step.
+/// How far a base of prescribed motion turns over a step: exactly.
+/// @param piece of the step, of a base with a table
 template <class T>
-[[nodiscard]] Quintic<T> turn_of_base(const BaseTerms<T>& base, const Step<T>& step) {
+[[nodiscard]] Quintic<T> turn_of_base(const BaseTerms<T>& base, const DrivenPiece<T>& piece,
+                                      const Step<T>& step) {
+  if (base.table) {
+    const T u = step.t - piece.from, rate = piece.rate + cubic_integral(piece.turning, u);
+    const std::array<T, 4> c = shifted(piece.turning, u);
+    const T turned = fused(step.h, rate, cubic_double_integral(c, step.h));
+    return hermite<T>(step.h, {T(0), rate, c[0]},
+                      {turned, rate + cubic_integral(c, step.h), cubic_at(c, step.h)});
+  }
   const T& second = base.angular_acceleration;
   const T first = fused(second, step.t, base.rate), last = fused(second, step.h, first);
   const T turned = step.h * fused(T(0.5) * step.h, second, first);
   return hermite<T>(step.h, {T(0), first, second}, {turned, last, second});
+}
+
+/// No acceleration that a wing on it feels, no first and no second derivative of that is larger in
+/// the step: a base of prescribed motion.
+template <class T>
+[[nodiscard]] CubicBounds<T> push_of_base(const BaseTerms<T>& base, const DrivenPiece<T>& piece,
+                                          const Step<T>& step) {
+  using std::sqrt;
+  const auto length = [](const T& x, const T& y) { return T(sqrt(fused(x, x, y * y))); };
+  if (!base.table) return {length(base.felt().x, base.felt().y), T(0), T(0)};
+  std::array<T, 4> x = shifted(piece.x, T(step.t - piece.from));
+  std::array<T, 4> y = shifted(piece.y, T(step.t - piece.from));
+  x[0] = x[0] - base.gravity.x, y[0] = y[0] - base.gravity.y;
+  const CubicBounds<T> a = cubic_bounds(x, step.h), b = cubic_bounds(y, step.h);
+  return {length(a.value, b.value), length(a.first, b.first), length(a.second, b.second)};
 }
 
 } // namespace wingspread

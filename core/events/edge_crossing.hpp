@@ -25,7 +25,8 @@ template <class AnySystem> [[nodiscard]] int way_over(const AnySystem& system, i
 }
 
 /// The first s in [0, 1] at which hinge i comes to the edge from its side of it; none if it does
-/// not. A step that starts at the edge itself has just come from it.
+/// not. A step that starts at the edge itself has just come from it, or rests there: it sets out by
+/// its rate, its acceleration, or what changes that, or stays.
 template <class T, class AnySystem>
 [[nodiscard]] std::optional<T> first_crossing(const AnySystem& system, const Step<T>& step, int i,
                                               Edge edge) {
@@ -33,8 +34,11 @@ template <class T, class AnySystem>
   const T angle = edge_angle(system.wing(), i, edge), way(way_over(system, i, edge));
   Quintic<T> past = step.coordinate(at.angle(i), at.freedoms());
   for (T& c : past) c = way * (c - angle);
-  if (step.x[at.angle(i)] == angle) past = without_root_at_start(past);
-  return first_nonnegative(past);
+  if (step.x[at.angle(i)] != angle) return first_nonnegative(past);
+  past = without_root_at_start(past);
+  using std::abs;
+  if (!(abs(past[0]) > T(1e-8) * bound(past))) past = divided_by_s(past);
+  return bound(past) > T(0) ? first_nonnegative(past) : std::nullopt;
 }
 
 /// The side of every hinge that stands at an edge follows from where it is about to go: by its rate

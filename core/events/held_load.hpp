@@ -115,10 +115,11 @@ private:
       }
       base.path = step.coordinate(2, n);
     }
-    if constexpr (M == BaseMotion::prescribed) { // accelerations are constant
+    if constexpr (M == BaseMotion::prescribed) {
       const BaseTerms<T>& given = system.wing().base;
-      base.hinge.second = length(given.felt());
-      base.path = turn_of_base(given, step);
+      const CubicBounds<T> push = push_of_base(given, system.work().driven, step);
+      base.hinge = {push.value, push.first, push.second};
+      base.path = turn_of_base(given, system.work().driven, step);
     }
     base.turn(derivative_bounds(base.path, scale));
   }

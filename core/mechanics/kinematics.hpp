@@ -1,6 +1,7 @@
 /// Where a wing's bodies are and how they move, from its state. No forces.
 #pragma once
 
+#include "core/mechanics/drive.hpp"
 #include "core/mechanics/layout.hpp"
 #include "core/mechanics/recursion.hpp"
 
@@ -10,9 +11,11 @@ namespace wingspread {
 template <BaseMotion M> inline constexpr int base_freedoms = M == BaseMotion::free ? 3 : 0;
 
 /// Angle, rate, rotation of the base at (x, t), and its accelerations where they are given.
+/// @param piece at t, of a base with a table
 template <BaseMotion M, class T>
 [[gnu::always_inline]] inline void place_base(const Wing<T>& wing, const Layout& at,
-                                              BodyFrame<T>& base, const State<T>& x, const T& t) {
+                                              const DrivenPiece<T>& piece, BodyFrame<T>& base,
+                                              const State<T>& x, const T& t) {
   if constexpr (M == BaseMotion::fixed) {
     base.angle = base.rate = base.minus_rate_squared = base.angular_acceleration = T(0);
     base.acceleration = {T(0), T(0)};
@@ -20,11 +23,11 @@ template <BaseMotion M, class T>
     return;
   }
   if constexpr (M == BaseMotion::prescribed) {
-    const BaseTerms<T>& given = wing.base;
-    base.rate = fused(given.angular_acceleration, t, given.rate);
-    base.angle = fused(t, fused(T(0.5) * given.angular_acceleration, t, given.rate), given.angle);
-    base.acceleration = given.felt();
-    base.angular_acceleration = given.angular_acceleration;
+    const Drive<T> drive = drive_at(wing.base, piece, t);
+    base.rate = drive.rate;
+    base.angle = drive.angle;
+    base.acceleration = drive.felt;
+    base.angular_acceleration = drive.angular_acceleration;
   }
   if constexpr (M == BaseMotion::free) {
     base.angle = x[2];

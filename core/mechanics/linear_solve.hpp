@@ -167,7 +167,7 @@ private:
                       Constraint&& constraint) {
     if (static_cast<int>(parts_.frames.size()) != system.layout().bodies + 1)
       parts_.resize(system.layout().bodies);
-    place_base<M>(system.wing(), system.layout(), parts_.frames[0], x, t);
+    place_base<M>(system.wing(), system.layout(), system.work().driven, parts_.frames[0], x, t);
     place_bodies<M>(system.wing(), system.topology(), parts_.frames, x);
     factorize_all<M>(system.wing(), system.topology(), parts_, constraint);
   }

@@ -43,7 +43,20 @@ public:
     work_.stuck = 0;
     work_.evaluations = 0;
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
+    if constexpr (is_one_number<T>)
+      if (has_table())
+        work_.driven = driven_piece(wing_.base, number_of_piece(*wing_.base.table, T(0)));
   }
+
+  /// The next knot of the base's table, where a step has to end, s; `never` where there is none.
+  [[nodiscard]] T next_knot() const { return has_table() ? work_.driven.until : T(never); }
+  /// The run stands at t. @return whether the motion of the base goes on by another piece
+  bool enter_piece(const T& t) {
+    return has_table() && wingspread::enter_piece(wing_.base, t, work_.driven);
+  }
+  /// Of a base of prescribed motion.
+  [[nodiscard]] Drive<T> drive(const T& t) const { return drive_at(wing_.base, work_.driven, t); }
+  [[nodiscard]] bool drive_is_steady() const { return is_steady(wing_.base, work_.driven); }
 
   /// A run begins at x: which side of its edges every real hinge is on.
   void find_sides(const State<T>& x) {
@@ -121,7 +134,7 @@ public:
 
   /// Kinematics alone: places every body in the workspace's frames.
   void place_all(const State<T>& x, const T& t) {
-    place_base<M>(wing_, layout_, work_.frames[0], x, t);
+    place_base<M>(wing_, layout_, work_.driven, work_.frames[0], x, t);
     place_bodies<M>(wing_, topology(), work_.frames, x);
   }
 
@@ -154,7 +167,8 @@ public:
   [[nodiscard]] Vec2<T> base_velocity(const State<T>& x, const T& t) const {
     const int v = layout_.freedoms();
     if constexpr (M == BaseMotion::free) return {x[v], x[v + 1]};
-    if constexpr (M == BaseMotion::prescribed) return scaled(t, wing_.base.acceleration);
+    if constexpr (M == BaseMotion::prescribed)
+      return wing_.base.table ? velocity(work_.driven, t) : scaled(t, wing_.base.acceleration);
     return {T(0), T(0)};
   }
 
@@ -188,6 +202,10 @@ private:
   }
 
   static constexpr int first_coordinate = base_freedoms<M>; ///< φ_1 in q
+  [[nodiscard]] bool has_table() const {
+    if constexpr (M == BaseMotion::prescribed) return wing_.base.table != nullptr;
+    return false;
+  }
   [[nodiscard]] int freedoms() const { return first_coordinate + topology().bodies(); }
 
   void update_law(int i) {
@@ -223,7 +241,7 @@ private:
   /// The right-hand side with hinges locked by friction; leaves what holds them in the workspace.
   [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
     Augmented<T>& parts = work_.held;
-    place_base<M>(wing_, layout_, parts.frames[0], x, t);
+    place_base<M>(wing_, layout_, work_.driven, parts.frames[0], x, t);
     place_bodies<M>(wing_, topology(), parts.frames, x);
     apply_moments(parts.frames, x, t);
     factorize_all<M>(wing_, topology(), parts, [&](int i) {
@@ -315,7 +333,7 @@ private:
   template <bool forces, class Frames>
   [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
                                        const T& t) {
-    place_base<M>(wing_, layout_, frames[0], x, t);
+    place_base<M>(wing_, layout_, work_.driven, frames[0], x, t);
     place_bodies<M>(wing_, topology(), frames, x);
     apply_moments(frames, x, t);
     topology().inward([&](int i)

@@ -62,8 +62,10 @@ template <class T> struct BaseTerms {
   T angular_acceleration; ///< prescribed, rad/s²
   T angle, rate;          ///< at the start, rad, rad/s
   Vec2<T> position, velocity;
+  const BaseTable* table; ///< prescribed, in place of what it gives; null: none
+  T table_scale;
 
-  /// The acceleration that the wing feels, m/s².
+  /// The acceleration that the wing feels where it is constant, m/s².
   [[nodiscard]] Vec2<T> felt() const { return acceleration - gravity; }
 };
 
@@ -97,6 +99,11 @@ namespace detail {
   const bool weighs = scene.environment.gravity != Eigen::Vector2d::Zero();
   return scene.base.motion == BaseMotion::fixed && weighs ? BaseMotion::prescribed
                                                           : scene.base.motion;
+}
+
+/// None where the base is not driven.
+[[nodiscard]] inline const BaseTable* table_of_base(const Scene& scene) {
+  return scene.base.motion == BaseMotion::prescribed ? scene.base.table.get() : nullptr;
 }
 
 template <class T> [[nodiscard]] Vec2<T> vec2(const Eigen::Vector2d& v) {
@@ -154,6 +161,7 @@ template <class T>
   std::vector<int> number(n), parents(n + 1, -1);
   Wing<T> wing;
   wing.base.motion = detail::motion_of_base(scene);
+  wing.base.table = detail::table_of_base(scene);
   wing.hinge_of.assign(n + 1, -1);
   for (int i = 1; i <= n; ++i) {
     const Hinge& hinge = scene.hinges[order[i - 1]];
@@ -206,6 +214,7 @@ template <class T> [[nodiscard]] bool has_room(const Wing<T>& wing, const Scene&
     return wing.hinge_of[terms.first] == loop.first && wing.hinge_of[terms.second] == loop.second;
   };
   return wing.base.motion == detail::motion_of_base(scene) &&
+         (wing.base.table != nullptr) == (detail::table_of_base(scene) != nullptr) &&
          (!wing.real.empty() || std::none_of(scene.hinges.begin(), scene.hinges.end(), is_real)) &&
          (!wing.plates.empty() ||
           std::none_of(scene.bodies.begin(), scene.bodies.end(), detail::has_plate)) &&
@@ -224,7 +233,9 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
                T(0),
                T(0),
                vec2<T>(base.position),
-               vec2<T>(base.velocity)};
+               vec2<T>(base.velocity),
+               detail::table_of_base(scene),
+               T(base.table_scale)};
   if (base.motion != BaseMotion::fixed) {
     wing.base.acceleration = vec2<T>(base.acceleration);
     wing.base.angular_acceleration = T(base.angular_acceleration);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/mechanics/augmented.hpp"
+#include "core/mechanics/drive.hpp"
 #include "core/mechanics/hinge_moment.hpp"
 
 #include <array>
@@ -33,6 +34,8 @@ template <class T> struct Workspace {
   // of real hinges; empty where there are none
   std::vector<HingeMode<T>> modes;                     ///< 1 … n
   std::vector<std::array<char, edges_of_hinge>> above; ///< 1 … n: has passed the edge upwards
+  // of a base that is driven by a table
+  DrivenPiece<T> driven{}; ///< where the run is in it
   // of plates in the air; empty where there are none
   std::vector<T> air_moments;      ///< 1 … n: what the air does, as moments at the hinges, N·m
   std::vector<Vec2<T>> air_forces; ///< 0 … n: the air's force on body i and all outward of it, N

@@ -48,11 +48,17 @@ template <class T>
 /// A time in which a base of prescribed motion turns by about 0.1 rad, s, at most `longest`: while
 /// hinges stick nothing need change in the state, and the load on them is to be sampled.
 template <class T>
-[[nodiscard]] T time_of_base(const BaseTerms<T>& base, const T& t, const T& longest) {
+[[nodiscard]] T time_of_base(const BaseTerms<T>& base, const DrivenPiece<T>& piece, const T& t,
+                             const T& longest) {
   using std::abs, std::sqrt;
   constexpr double turn = 0.1; // rad
-  const T rate = abs(base.rate + base.angular_acceleration * t);
-  const T spin = larger(rate, T(sqrt(T(turn) * abs(base.angular_acceleration))));
+  T rate = abs(base.rate + base.angular_acceleration * t);
+  T acceleration = abs(base.angular_acceleration);
+  if (base.table) {
+    rate = abs(turning(piece, t).rate);
+    acceleration = cubic_bounds(shifted(piece.turning, T(t - piece.from)), longest).value;
+  }
+  const T spin = larger(rate, T(sqrt(T(turn) * acceleration)));
   return spin > T(0) ? smaller(longest, T(T(turn) / spin)) : longest;
 }
 

@@ -13,6 +13,7 @@
 #include "core/peaks/reaction_bound.hpp"
 #include "core/run/handover.hpp"
 
+#include <array>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -35,9 +36,15 @@ concept A = is_a<std::remove_const_t<S>, Struct>;
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<BaseTerms> auto& s) {
-  auto& [motion, acceleration, gravity, angular_acceleration, angle, rate, position, velocity] = s;
+  auto& [motion, acceleration, gravity, angular_acceleration, angle, rate, position, velocity,
+         table, table_scale] = s;
   return std::tie(motion, acceleration, gravity, angular_acceleration, angle, rate, position,
-                  velocity);
+                  velocity, table, table_scale);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<DrivenPiece> auto& s) {
+  auto& [number, from, until, x, y, turning, velocity, rate, angle] = s;
+  return std::tie(number, from, until, x, y, turning, velocity, rate, angle);
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<BodyTerms> auto& s) {
@@ -164,6 +171,12 @@ inline void set_lane(int /*lane*/, Tree& /*to*/, const Tree& /*from*/) {}
 inline void set_lane(int /*lane*/, DamperLaw& to, DamperLaw from) { to = from; }
 inline void set_lane(int /*lane*/, int& to, int from) { to = from; }
 inline void set_lane(int /*lane*/, const Curve*& to, const Curve* from) { to = from; }
+inline void set_lane(int /*lane*/, const BaseTable*& to, const BaseTable* from) { to = from; }
+template <int W, std::size_t N>
+[[gnu::always_inline]] inline void set_lane(int lane, std::array<Pack<W>, N>& to,
+                                            const std::array<double, N>& from) {
+  for (std::size_t k = 0; k < N; ++k) to[k].v[lane] = from[k];
+}
 inline void set_lane(int /*lane*/, std::vector<int>& /*to*/, const std::vector<int>& /*from*/) {}
 template <class Packs, class Numbers>
 [[gnu::always_inline]] inline void set_lane(int lane, std::vector<Packs>& to,

@@ -61,6 +61,7 @@ public:
     set_lane(lane, pace_, run.pace);
     set_lane(lane, work_.laws, run.work.laws);
     if (!wing_.real.empty()) take_modes(lane, run.work);
+    if (wing_.base.table) set_lane(lane, work_.driven, run.work.driven);
     for (int i = 1; i <= at_.bodies; ++i) {
       overtravel_[i].v[lane] = run.overtravel[i];
       slides_[i].v[lane] = static_cast<double>(run.work.contact[i]);

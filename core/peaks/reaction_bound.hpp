@@ -111,8 +111,10 @@ private:
       paths_[0] = step.coordinate(2, n);
       W_[0] = of_turning(paths_[0], scale);
     }
-    if constexpr (M == BaseMotion::prescribed) { // θ̈ is constant, and so is the origin's r̈
-      paths_[0] = turn_of_base(system.wing().base, step);
+    if constexpr (M == BaseMotion::prescribed) { // without a table the origin's r̈ is constant
+      const BaseTerms<T>& base = system.wing().base;
+      if (base.table) A_[0] = push_of_base(base, system.work().driven, step).second;
+      paths_[0] = turn_of_base(base, system.work().driven, step);
       W_[0] = of_turning(paths_[0], scale);
     }
   }

@@ -16,7 +16,8 @@
 ///     g_i = Σ m λ_i (|a| + Ω² R)       V(φ) − V(rest) ≥ −Σ g_i |u_i|                           (3)
 ///     s_i = Σ m λ_i                    d/dt (V(φ) − V(rest)) ≤ |a Ω| Σ s_i |u_i|               (4)
 ///
-/// While the rate itself changes there are no such bounds.
+/// While the rate itself changes, or a, there are no such bounds: where the base is driven by a
+/// table, until its last knot.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -35,8 +36,8 @@ public:
     moment_.setZero(n + 1), lever_.setZero(n + 1), specific_.setZero(n + 1);
     push_ = spin_ = drift_ = T(0);
     if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
-      if (system.wing().base.angular_acceleration != T(0)) return false;
-      sum_up(system.wing(), system.topology());
+      if (!system.drive_is_steady()) return false;
+      sum_up(system, system.topology());
     }
     return true;
   }
@@ -54,17 +55,20 @@ public:
     using std::abs;
     const TotalMotion<T> now = total_motion(system, x, t);
     const T rate = system.work().frames[0].rate;
-    const T dragged = rate * now.angular, pushed = dot(system.wing().base.felt(), now.first_moment);
+    const T dragged = rate * now.angular, pushed = dot(system.drive(t).felt, now.first_moment);
     // ½ Ω² Σ (m r² + J) of the motion as seen from the base, and less as much in V
     return {now.kinetic - dragged + pushed, now.kinetic + abs(dragged) + abs(pushed)};
   }
 
 private:
-  template <class Topology> void sum_up(const Wing<T>& wing, const Topology& tree) {
+  template <class AnySystem, class Topology>
+  void sum_up(const AnySystem& system, const Topology& tree) {
     using std::abs, std::sqrt;
+    const Wing<T>& wing = system.wing();
+    const Drive<T> drive = system.drive(system.work().driven.from); // as at any other time
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
-    const T push = length(wing.base.felt());
-    spin_ = abs(wing.base.rate), drift_ = push * spin_;
+    const T push = length(drive.felt);
+    spin_ = abs(drive.rate), drift_ = push * spin_;
     T squares(0);
     for (int k = 1; k <= wing.size(); ++k) {
       const T &mass = wing.bodies[k].mass, own = length(wing.bodies[k].center);

@@ -92,12 +92,14 @@ template <class T, class Topology, BaseMotion M>
 /// Whether a wing that does not move in itself is loaded the same for ever: on a fixed or free
 /// base, and on one that is driven without rotation, or rotates about a point at rest at a constant
 /// rate.
-template <class T> [[nodiscard]] bool loads_are_constant(const Wing<T>& wing) {
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] bool loads_are_constant(const System<T, Topology, M>& system) {
+  const Wing<T>& wing = system.wing();
   if (!wing.plates.empty() && wing.base.motion != BaseMotion::fixed) return false; // wind
   if (wing.base.motion != BaseMotion::prescribed) return true;
-  const BaseTerms<T>& base = wing.base;
-  if (base.angular_acceleration != T(0)) return false;
-  const bool pushed = base.felt().x != T(0) || base.felt().y != T(0);
+  if (!system.drive_is_steady()) return false;
+  const Drive<T> base = system.drive(system.work().driven.from); // as at any other time
+  const bool pushed = base.felt.x != T(0) || base.felt.y != T(0);
   return base.rate == T(0) || !pushed;
 }
 

@@ -84,8 +84,7 @@ private:
 
   /// All hinges stick, under a load that stays as it is.
   [[nodiscard]] bool rests_for_ever() {
-    if (run_.system.work().stuck < run_.at.bodies || !loads_are_constant(run_.system.wing()))
-      return false;
+    if (run_.system.work().stuck < run_.at.bodies || !loads_are_constant(run_.system)) return false;
     stall("every hinge sticks, and the load on them stays as it is");
     return true;
   }
@@ -106,6 +105,7 @@ private:
   }
 
   [[nodiscard]] bool no_peak_can_rise() {
+    if (run_.system.next_knot() < T(never)) return false; // the base will be driven otherwise
     if (!bounds_ready_) prepare_bounds();
     const std::optional<T> energy =
         prospects_.energy(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end));

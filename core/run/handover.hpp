@@ -36,9 +36,9 @@ struct Handover {
   const PeakOf<double>* forces;  ///< the same
   const double* force_before;    ///< 1 … n: at the step's start, where forces are asked for
   const double* overtravel;      ///< 1 … n: so far, rad
-  double t_end;                  ///< s; a step from which the next may reach it is the run's
-  long tries;                    ///< that may be made before one is the run's
-  long evaluations;              ///< so far
+  double t_end; ///< where a step has to end, s; one from which the next may reach it is the run's
+  long tries;   ///< that may be made before one is the run's
+  long evaluations; ///< so far
   Pace<double> pace;
 };
 

@@ -73,7 +73,7 @@ public:
             .forces = goal.peak_force ? peaks_.forces().data() : nullptr,
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
             .overtravel = peaks_.overtravel().data(),
-            .t_end = run_.how.t_end,
+            .t_end = static_cast<double>(stepping_.end_of_stretch()),
             .tries = tries_to_look(),
             .evaluations = run_.system.work().evaluations,
             .pace = stepping_.pace()};
@@ -152,14 +152,17 @@ private:
   /// The right-hand side has changed, or is new: evaluates it, at t⁺.
   /// @param let_go a hinge; 0: none
   void restart(int let_go) {
-    evaluate_anew(let_go);
-    if (settle_edges(run_.system, run_.step.x, run_.step.dxdt)) evaluate_anew(0);
-    Step<T>& step = run_.step;
-    peaks_.include_start();
-    events_.begin_step(step.x);
+    begin_anew(let_go);
     diary_.notify();
     stepping_.restart(diary_.any_latch());
     diary_.begin_phase(stepping_.method(), stepping_.steps());
+  }
+
+  void begin_anew(int let_go) {
+    evaluate_anew(let_go);
+    if (settle_edges(run_.system, run_.step.x, run_.step.dxdt)) evaluate_anew(0);
+    peaks_.include_start();
+    events_.begin_step(run_.step.x);
   }
 
   void evaluate_anew(int let_go) {
@@ -222,14 +225,23 @@ private:
       events_.begin_step(step.x);
     }
     diary_.notify();
-    if (landing_.happens(diary_.latches()))
+    const bool at_knot = run_.system.enter_piece(step.t);
+    if (landing_.happens(diary_.latches())) {
       restart(landing_.let_go());
-    else if (stepping_.changes_method())
-      diary_.begin_phase(stepping_.method(), stepping_.steps());
+    } else {
+      if (stepping_.changes_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
+      if (at_knot) pass_knot();
+    }
     if (angles_are_known(run_.at, step.x))
       go_on();
     else
       fail("a hinge has turned past 1e8 rad");
+  }
+
+  /// The base goes on by another piece of its table.
+  void pass_knot() {
+    begin_anew(0);
+    stepping_.pass_knot();
   }
 
   void restore_momentum() {

@@ -39,6 +39,10 @@ public:
     h_ = T(-1);
   }
 
+  /// The base's motion goes on by another piece of its table: the method begins anew, with steps as
+  /// they were.
+  void pass_knot() { begin_with_method(); }
+
   [[nodiscard]] Method method() const { return choice_.active(); }
   [[nodiscard]] long steps() const { return steps_; } ///< accepted
   [[nodiscard]] Work work() const { return {steps_, rejected_, run_.system.work().evaluations}; }
@@ -57,7 +61,7 @@ public:
     if (h_ < T(0)) choose_first_step();
     if (tried_ >= run_.how.max_steps)
       return "the limit of " + std::to_string(run_.how.max_steps) + " steps was reached";
-    const T rest = T(run_.how.t_end) - run_.step.t, wanted = wanted_step(rest);
+    const T rest = end_of_stretch() - run_.step.t, wanted = wanted_step(rest);
     last_ = wanted >= rest * T(1 - 1e-12);
     run_.step.h = last_ ? rest : wanted;
     if (!(run_.step.h > T(4 * epsilon_of<T>) * run_.step.t))
@@ -65,7 +69,11 @@ public:
     return std::nullopt;
   }
 
-  /// Whether the step planned ends at t_end.
+  /// Where a step has to end at the latest: at t_end, or at a knot of the base's table, s.
+  [[nodiscard]] T end_of_stretch() const {
+    return smaller(T(run_.how.t_end), run_.system.next_knot());
+  }
+  /// Whether the step planned ends there.
   [[nodiscard]] bool is_last() const { return last_; }
 
   /// Makes a step of h from where the run stands.
@@ -107,7 +115,7 @@ public:
     Step<T>& step = run_.step;
     steppers_.with(method(),
                    [&](auto& stepper) { stepper.accepted(verdict_, static_cast<double>(step.h)); });
-    const T end(run_.how.t_end);
+    const T end = end_of_stretch();
     step.t = last_ && !at_event ? end : T(step.t + step.h);
     if (end - step.t <= T(8 * epsilon_of<T>) * step.t) step.t = end;
     std::swap(step.x, step.x1);
@@ -171,7 +179,7 @@ private:
 
   void choose_first_step() {
     const Step<T>& step = run_.step;
-    const T rest = T(run_.how.t_end) - step.t;
+    const T rest = end_of_stretch() - step.t;
     h_ = steppers_.with(method(), [&](auto& stepper) {
       using Stepper = std::decay_t<decltype(stepper)>;
       if (Stepper::fixed_step) return T(2 * run_.how.step); // it takes two at a time
@@ -180,10 +188,11 @@ private:
     });
   }
 
-  /// @param rest to t_end
+  /// @param rest to the end of the stretch
   [[nodiscard]] T wanted_step(const T& rest) const {
     if (AnySystem::base_motion == BaseMotion::prescribed && run_.system.work().stuck > 0)
-      return smaller(h_, time_of_base(run_.system.wing().base, run_.step.t, rest));
+      return smaller(
+          h_, time_of_base(run_.system.wing().base, run_.system.work().driven, run_.step.t, rest));
     return h_;
   }
 
@@ -235,7 +244,7 @@ private:
   Steppers<T> steppers_;
   Verdict verdict_{0, 1};  ///< on the step last tried
   T h_ = T(0);             ///< of the next step, s; negative: to be chosen
-  bool last_ = false;      ///< the step planned ends at t_end
+  bool last_ = false;      ///< the step planned ends at the end of its stretch
   bool any_latch_ = false; ///< has engaged
   long tried_ = 0, steps_ = 0, rejected_ = 0;
 };

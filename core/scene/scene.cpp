@@ -38,6 +38,7 @@ void inspect(const Base& base, Inspector& check) {
     check.require(true, base.acceleration.x(), owner, "acceleration.0", "");
     check.require(true, base.acceleration.y(), owner, "acceleration.1", "");
     check.require(true, base.angular_acceleration, owner, "angular_acceleration", "");
+    check.require(true, base.table_scale, owner, "table.scale", "");
     return;
   }
   check.require(base.mass > 0, base.mass, owner, "mass", "> 0");

@@ -4,6 +4,7 @@
 /// its centre of mass. A hinge's angle is that of its child relative to its parent.
 #pragma once
 
+#include "core/scene/base_table.hpp"
 #include "core/scene/curve.hpp"
 
 #include <Eigen/Core>
@@ -158,9 +159,11 @@ enum class BaseMotion { fixed, prescribed, free };
 /// The body that carries the wings. Fields that its motion does not name are ignored.
 struct Base {
   BaseMotion motion = BaseMotion::fixed;
-  // prescribed: constant accelerations
+  // prescribed: constant accelerations, and over time what a table gives in their place
   Eigen::Vector2d acceleration{0, 0}; ///< of the origin, inertial axes, m/s²
   double angular_acceleration = 0;    ///< rad/s²
+  std::shared_ptr<const BaseTable> table{};
+  double table_scale = 1; ///< of all that the table gives
   // prescribed and free: initial state
   double angle = 0; ///< rad
   double rate = 0;  ///< rad/s

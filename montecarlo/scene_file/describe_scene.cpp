@@ -1,8 +1,7 @@
 #include "montecarlo/scene_file/describe_scene.hpp"
 
 #include "montecarlo/formats/text_layout.hpp"
-#include "montecarlo/scene_file/hinge_json.hpp"
-#include "montecarlo/scene_file/scene_json.hpp"
+#include "montecarlo/scene_file/base_json.hpp"
 #include "montecarlo/scene_file/torque_json.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +13,34 @@ std::string describe_vector(const Eigen::Vector2d& vector) {
   return fmt::format("({}, {})", vector.x(), vector.y());
 }
 
+/// ", times 1.2, plus 0.1 N·m": nothing where it changes nothing.
+std::string describe_change(double scale, double offset = 0) {
+  return (scale == 1 ? "" : fmt::format(", times {}", scale)) +
+         (offset == 0 ? "" : fmt::format(", plus {} N·m", offset));
+}
+
+/// ", acceleration and rate by a table of 5 times from 0 to 10 s, linear, times 1.2": what is constant
+/// comes before.
+std::string describe_prescribed(const Base& base) {
+  const BaseTable* table = base.table.get();
+  std::string text;
+  if (!table || !table->gives_acceleration())
+    text += fmt::format(", acceleration {} m/s²", describe_vector(base.acceleration));
+  if (!table || !table->gives_turning())
+    text += fmt::format(", angular acceleration {} rad/s²", base.angular_acceleration);
+  if (!table) return text;
+  const std::string turning = table->gives_rate()      ? "rate"
+                              : table->gives_turning() ? "angular acceleration"
+                                                       : "";
+  const char* both = table->gives_acceleration() && table->gives_turning() ? " and " : "";
+  const std::vector<double>& time = table->columns().time;
+  return text + fmt::format(", {}{}{} by a table of {} times from {} to {} s, {}{}",
+                            table->gives_acceleration() ? "acceleration" : "", both, turning,
+                            time.size(), time.front(), time.back(),
+                            interpolation_names[static_cast<std::size_t>(table->interpolation())],
+                            describe_change(base.table_scale));
+}
+
 std::string describe_base(const Base& base) {
   std::string text(base_motion_names[static_cast<std::size_t>(base.motion)]);
   if (base.motion == BaseMotion::fixed) return text;
@@ -22,15 +49,10 @@ std::string describe_base(const Base& base) {
         fmt::format(", mass {} kg, inertia {} kg·m², position {} m, velocity {} m/s", base.mass,
                     base.inertia, describe_vector(base.position), describe_vector(base.velocity));
   else
-    text += fmt::format(", acceleration {} m/s², angular acceleration {} rad/s²",
-                        describe_vector(base.acceleration), base.angular_acceleration);
-  return text + fmt::format(", angle {} rad, rate {} rad/s", base.angle, base.rate);
-}
-
-/// ", times 1.2, plus 0.1 N·m": nothing where it changes nothing.
-std::string describe_change(double scale, double offset = 0) {
-  return (scale == 1 ? "" : fmt::format(", times {}", scale)) +
-         (offset == 0 ? "" : fmt::format(", plus {} N·m", offset));
+    text += describe_prescribed(base);
+  text += fmt::format(", angle {} rad", base.angle);
+  if (base.motion == BaseMotion::prescribed && base.table && base.table->gives_rate()) return text;
+  return text + fmt::format(", rate {} rad/s", base.rate);
 }
 
 std::string describe_table(const TorqueTable& table) {

@@ -1,6 +1,7 @@
 #include "montecarlo/scene_file/scene_json.hpp"
 
 #include "montecarlo/formats/printable.hpp"
+#include "montecarlo/scene_file/base_json.hpp"
 #include "montecarlo/scene_file/hinge_json.hpp"
 #include "montecarlo/scene_file/synchronisation_json.hpp"
 
@@ -12,26 +13,6 @@ namespace wingspread {
 namespace {
 
 using Array = std::vector<JsonCursor>;
-
-void read_base(const JsonCursor& at, Base& base) {
-  JsonObject object(at, "an object with the base's motion");
-  if (!object.required_choice("motion", base.motion, base_motion_names)) return;
-  if (base.motion == BaseMotion::free) {
-    object.required("mass", base.mass, Dimension{"kg", "> 0"});
-    object.required("inertia", base.inertia, Dimension{"kg·m²", "> 0"});
-    object.optional("position", base.position, Dimension{"m"});
-    object.optional("velocity", base.velocity, Dimension{"m/s"});
-  }
-  if (base.motion == BaseMotion::prescribed) {
-    object.optional("acceleration", base.acceleration, Dimension{"m/s²"});
-    object.optional("angular_acceleration", base.angular_acceleration, Dimension{"rad/s²"});
-  }
-  if (base.motion != BaseMotion::fixed) {
-    object.optional("angle", base.angle, Dimension{"rad"});
-    object.optional("rate", base.rate, Dimension{"rad/s"});
-  }
-  object.refuse_others();
-}
 
 void read_plate(const JsonCursor& at, std::optional<Plate>& plate) {
   JsonObject object(at, "an object with the plate's edges, width and drag_coefficient");
@@ -95,23 +76,6 @@ void refuse_unphysical(const JsonCursor& at, Scene scene) {
     const bool stated = at.value().contains(place); // else it is a default
     at.refuse(stated ? describe_value(at.value()[place]) : fault.found, fault.expected, below);
   }
-}
-
-Json write_base(const Base& base) {
-  Json json{{"motion", base_motion_names[static_cast<std::size_t>(base.motion)]}};
-  if (base.motion == BaseMotion::fixed) return json;
-  if (base.motion == BaseMotion::free) {
-    json["mass"] = base.mass;
-    json["inertia"] = base.inertia;
-    json["position"] = write_vector(base.position);
-    json["velocity"] = write_vector(base.velocity);
-  } else {
-    json["acceleration"] = write_vector(base.acceleration);
-    json["angular_acceleration"] = base.angular_acceleration;
-  }
-  json["angle"] = base.angle;
-  json["rate"] = base.rate;
-  return json;
 }
 
 Json write_body(const Body& body) {

@@ -4,13 +4,9 @@
 #include "core/scene/scene.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 
-#include <array>
-#include <string_view>
+#include <string>
 
 namespace wingspread {
-
-/// The words for the base's motions, in the order of their values.
-inline constexpr std::array<std::string_view, 3> base_motion_names{"fixed", "prescribed", "free"};
 
 /// Reads a scene that stands somewhere in a document. Its problems go to the cursor's list; when
 /// that grew, the scene that is returned is of no use.

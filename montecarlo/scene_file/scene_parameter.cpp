@@ -33,6 +33,16 @@ template <class Owner> struct Field {
 bool is_free(const Base& base) { return base.motion == BaseMotion::free; }
 bool is_prescribed(const Base& base) { return base.motion == BaseMotion::prescribed; }
 bool is_moving(const Base& base) { return base.motion != BaseMotion::fixed; }
+bool has_table(const Base& base) { return is_prescribed(base) && base.table; }
+bool has_acceleration(const Base& base) {
+  return is_prescribed(base) && !(base.table && base.table->gives_acceleration());
+}
+bool has_angular_acceleration(const Base& base) {
+  return is_prescribed(base) && !(base.table && base.table->gives_turning());
+}
+bool has_rate(const Base& base) {
+  return is_moving(base) && !(has_table(base) && base.table->gives_rate());
+}
 bool has_plate(const Body& body) { return body.plate.has_value(); }
 bool has_spring_line(const Hinge& hinge) { return !hinge.spring.table; }
 bool has_harness_line(const Hinge& hinge) { return !hinge.harness.table; }
@@ -52,8 +62,11 @@ bool is_regularized(const Hinge& hinge) {
 }
 
 constexpr std::string_view needs_free = "a base whose motion is \"free\"";
-constexpr std::string_view needs_prescribed = "a base whose motion is \"prescribed\"";
+constexpr std::string_view needs_acceleration =
+    "a base whose motion is \"prescribed\", with no table of it (table.scale disperses one)";
+constexpr std::string_view needs_table = "a base whose motion is prescribed by a table";
 constexpr std::string_view needs_motion = "a base that is not fixed";
+constexpr std::string_view needs_rate = "a base that is not fixed, with no table of its rate";
 constexpr std::string_view needs_plate = "a body that has a plate";
 constexpr std::string_view needs_spring_line =
     "a hinge whose spring has no table (scale and offset disperse one)";
@@ -79,11 +92,12 @@ constexpr std::array base_fields{
     Field<Base>{"position.1", "m", [](auto& b) -> auto& { return b.position[1]; }, is_free, needs_free},
     Field<Base>{"velocity.0", "m/s", [](auto& b) -> auto& { return b.velocity[0]; }, is_free, needs_free},
     Field<Base>{"velocity.1", "m/s", [](auto& b) -> auto& { return b.velocity[1]; }, is_free, needs_free},
-    Field<Base>{"acceleration.0", "m/s²", [](auto& b) -> auto& { return b.acceleration[0]; }, is_prescribed, needs_prescribed},
-    Field<Base>{"acceleration.1", "m/s²", [](auto& b) -> auto& { return b.acceleration[1]; }, is_prescribed, needs_prescribed},
-    Field<Base>{"angular_acceleration", "rad/s²", [](auto& b) -> auto& { return b.angular_acceleration; }, is_prescribed, needs_prescribed},
+    Field<Base>{"acceleration.0", "m/s²", [](auto& b) -> auto& { return b.acceleration[0]; }, has_acceleration, needs_acceleration},
+    Field<Base>{"acceleration.1", "m/s²", [](auto& b) -> auto& { return b.acceleration[1]; }, has_acceleration, needs_acceleration},
+    Field<Base>{"angular_acceleration", "rad/s²", [](auto& b) -> auto& { return b.angular_acceleration; }, has_angular_acceleration, needs_acceleration},
+    Field<Base>{"table.scale", "", [](auto& b) -> auto& { return b.table_scale; }, has_table, needs_table},
     Field<Base>{"angle", "rad", [](auto& b) -> auto& { return b.angle; }, is_moving, needs_motion},
-    Field<Base>{"rate", "rad/s", [](auto& b) -> auto& { return b.rate; }, is_moving, needs_motion}};
+    Field<Base>{"rate", "rad/s", [](auto& b) -> auto& { return b.rate; }, has_rate, needs_rate}};
 
 constexpr std::array body_fields{
     Field<Body>{"mass", "kg", [](auto& b) -> auto& { return b.mass; }},

@@ -66,7 +66,9 @@ constexpr std::array values{"0",
                             R"({"table":{"angle":[2,1,0],"torque":[1,"3 N*mm",-1]}})",
                             R"({"angle":[2,1,0],"deploying":[1,1,1],"stowing":[2,2,1]})",
                             R"({"table":{"travel":[0,1,4],"travel_of_second":[0,2,3]}})",
-                            R"({"stiffness":1e9,"dissipation":1,"gap":0})"};
+                            R"({"stiffness":1e9,"dissipation":1,"gap":0})",
+                            R"({"time":[0,1,3],"rate":[0,0.1,0]})",
+                            R"({"time":[-1,0.5],"acceleration":[[0,1],[1,0]]})"};
 
 std::size_t below(Random& random, std::size_t count) { return random() % count; }
 

@@ -108,7 +108,8 @@ private:
   /// S is of the order of ε, so its absolute tolerance is too.
   void set_tolerances() {
     Vector<double> absolute = Vector<double>::Constant(ode_.dimension(), options_.atol);
-    if (options_.smoothing) absolute.tail(ode_.hinges()) *= *options_.smoothing;
+    if (options_.smoothing)
+      absolute.segment(2 * ode_.hinges() + 6, ode_.hinges()) *= *options_.smoothing;
     assign(absolute, work_.get());
     require(CVodeSVtolerances(memory_.get(), options_.rtol, work_.get()), "CVodeSVtolerances");
   }

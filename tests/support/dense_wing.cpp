@@ -69,15 +69,10 @@ template <class Scalar>
 DenseWing<Scalar>::DenseWing(const Scene& scene)
     : base_motion_(scene.base.motion), base_mass_(scene.base.mass),
       base_inertia_(scene.base.inertia), gravity_(scene.environment.gravity.cast<Scalar>()),
-      air_density_(scene.environment.air_density) {
+      air_density_(scene.environment.air_density), driven_(scene.base) {
   number_outward(scene);
   for (const Synchronisation& loop : scene.synchronisations) loops_.emplace_back(loop);
   const Base& base = scene.base;
-  prescribed_.setZero();
-  if (base.motion == BaseMotion::prescribed)
-    prescribed_ << Scalar(base.acceleration.x()), Scalar(base.acceleration.y()),
-        Scalar(base.angular_acceleration);
-
   for (int k = 0; k < size(); ++k) {
     const int parent = links_[k].parent;
     paths_.push_back(parent < 0 ? std::vector<int>{0, 1, 2} : paths_[parent]);
@@ -93,7 +88,8 @@ DenseWing<Scalar>::DenseWing(const Scene& scene)
   }
   if (base.motion != BaseMotion::fixed) {
     initial_.base_angle = base.angle;
-    initial_.base_rate = base.rate;
+    initial_.base_rate =
+        base.motion == BaseMotion::prescribed ? driven_.initial_rate() : Scalar(base.rate);
   }
   if (base.motion == BaseMotion::free) {
     initial_.base_position = base.position.cast<Scalar>();
@@ -294,17 +290,23 @@ Vector<Scalar> DenseWing<Scalar>::applied(const Vector<Scalar>& moments) const {
   return force;
 }
 
+template <class Scalar>
+Eigen::Matrix<Scalar, 3, 1> DenseWing<Scalar>::prescribed(const Scalar& time) const {
+  if (base_motion_ != BaseMotion::prescribed) return Eigen::Matrix<Scalar, 3, 1>::Zero();
+  return driven_.accelerations(time);
+}
+
 /// q̈ from (4); what the base prescribes is moved to the right-hand side.
 template <class Scalar>
-Vector<Scalar> DenseWing<Scalar>::solve(const Matrix<Scalar>& mass,
-                                        const Vector<Scalar>& force) const {
+Vector<Scalar> DenseWing<Scalar>::solve(const Matrix<Scalar>& mass, const Vector<Scalar>& force,
+                                        const Scalar& time) const {
   using Lower = Eigen::LDLT<Matrix<Scalar>, Eigen::Lower>;
   if (base_motion_ == BaseMotion::free) return Lower(mass).solve(force);
   const int n = size();
   Vector<Scalar> result(base_coordinates + n);
-  result.template head<base_coordinates>() = prescribed_;
-  const Vector<Scalar> rest =
-      force.tail(n) - mass.bottomLeftCorner(n, base_coordinates) * prescribed_;
+  const Eigen::Matrix<Scalar, 3, 1> base = prescribed(time);
+  result.template head<base_coordinates>() = base;
+  const Vector<Scalar> rest = force.tail(n) - mass.bottomLeftCorner(n, base_coordinates) * base;
   result.tail(n) = Lower(mass.bottomRightCorner(n, n)).solve(rest);
   return result;
 }
@@ -333,7 +335,7 @@ WingResponse<Scalar> DenseWing<Scalar>::respond(const WingState<Scalar>& state,
       force(paths_[k][j]) += jacobian[k].col(j).dot(net);
     force(base_coordinates + k) += loads[k].moment;
   }
-  const Vector<Scalar> accelerations = solve(mass_matrix(jacobian), force);
+  const Vector<Scalar> accelerations = solve(mass_matrix(jacobian), force, state.time);
 
   result.base_acceleration = accelerations.template head<2>();
   result.base_angular_acceleration = accelerations(2);

@@ -52,13 +52,14 @@ template <class Scalar> struct WingState {
   Vector2<Scalar> base_velocity = Vector2<Scalar>::Zero(); ///< m/s
   Scalar base_angle{0};                                    ///< θ_0, rad
   Scalar base_rate{0};                                     ///< rad/s
+  Scalar time{0}; ///< s; matters to a base that is driven by a table
 
   /// The same state in another number.
   template <class Other> [[nodiscard]] WingState<Other> cast() const {
     return {angles.template cast<Other>(),        rates.template cast<Other>(),
             engagement.template cast<Other>(),    base_position.template cast<Other>(),
             base_velocity.template cast<Other>(), static_cast<Other>(base_angle),
-            static_cast<Other>(base_rate)};
+            static_cast<Other>(base_rate),        static_cast<Other>(time)};
   }
 };
 
@@ -162,13 +163,16 @@ private:
   [[nodiscard]] Columns2<Scalar> biases(const Motion& at, const WingState<Scalar>& state) const;
   [[nodiscard]] Matrix<Scalar> mass_matrix(const std::vector<Columns2<Scalar>>& jacobians) const;
   [[nodiscard]] Vector<Scalar> applied(const Vector<Scalar>& moments) const;
-  [[nodiscard]] Vector<Scalar> solve(const Matrix<Scalar>& mass, const Vector<Scalar>& force) const;
+  /// (r̈_0, ω̇_0) of a base that is not free.
+  [[nodiscard]] Eigen::Matrix<Scalar, 3, 1> prescribed(const Scalar& time) const;
+  [[nodiscard]] Vector<Scalar> solve(const Matrix<Scalar>& mass, const Vector<Scalar>& force,
+                                     const Scalar& time) const;
 
   BaseMotion base_motion_;
   Scalar base_mass_, base_inertia_;
   Vector2<Scalar> gravity_;
   Scalar air_density_;
-  Eigen::Matrix<Scalar, 3, 1> prescribed_; ///< (r̈_0, ω̇_0) of a base that is not free
+  DrivenBase<Scalar> driven_;
   WingState<Scalar> initial_;
   std::vector<Link> links_;
   std::vector<Loop<Scalar>> loops_;

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace wingspread::oracle {
@@ -114,6 +115,44 @@ private:
 
   std::vector<Scalar> x_, y_, left_, right_; ///< slopes at both ends of each piece
   Scalar before_{0}, after_{0};              ///< slopes beyond the ends
+};
+
+/// The accelerations of a base that is driven, at a time: by its table, else constant.
+template <class Scalar> class DrivenBase {
+public:
+  explicit DrivenBase(const Base& base)
+      : x_(base.acceleration.x()), y_(base.acceleration.y()), turning_(base.angular_acceleration),
+        rate_(base.rate), scale_(base.table_scale) {
+    if (!base.table) return;
+    const BaseTable::Columns& columns = base.table->columns();
+    const auto curve = [&](std::vector<double> values) {
+      return Table<Scalar>(columns.time, std::move(values), base.table->interpolation(),
+                           Beyond::constant);
+    };
+    if (!columns.acceleration.empty()) {
+      std::vector<double> x, y;
+      for (const auto& a : columns.acceleration) x.push_back(a.x()), y.push_back(a.y());
+      x_table_ = curve(x), y_table_ = curve(y);
+    }
+    if (!columns.angular_acceleration.empty()) turning_table_ = curve(columns.angular_acceleration);
+    if (!columns.rate.empty()) rate_table_ = curve(columns.rate);
+  }
+
+  [[nodiscard]] Scalar initial_rate() const {
+    return rate_table_ ? Scalar(scale_ * rate_table_->value(Scalar(0))) : rate_;
+  }
+  /// (r̈_0, ω̇_0)
+  [[nodiscard]] Eigen::Matrix<Scalar, 3, 1> accelerations(const Scalar& time) const {
+    return {x_table_ ? Scalar(scale_ * x_table_->value(time)) : x_,
+            y_table_ ? Scalar(scale_ * y_table_->value(time)) : y_,
+            rate_table_      ? Scalar(scale_ * rate_table_->slope(time))
+            : turning_table_ ? Scalar(scale_ * turning_table_->value(time))
+                             : turning_};
+  }
+
+private:
+  Scalar x_, y_, turning_, rate_, scale_;
+  std::optional<Table<Scalar>> x_table_, y_table_, turning_table_, rate_table_;
 };
 
 /// A spring or a harness: scale · law + offset.

@@ -122,3 +122,21 @@ TEST_CASE("reference runs of equal panels tend to those that a rigid loop keeps 
     before = off;
   }
 }
+
+TEST_CASE("a reference run on a base that a table drives turns a hinge back by its integral") {
+  Scene scene = free_panel(0, 0);
+  scene.hinges[0].latch = Latch{};
+  scene.base.motion = BaseMotion::prescribed;
+  const auto drive = [&](BaseTable::Columns columns) {
+    scene.base.table = std::make_shared<const BaseTable>(std::move(columns), Interpolation::linear);
+  };
+  drive({{0, 5}, {}, {0, -15}, {}}); // α = −3 t: φ = t³/2
+  check(extended(scene, 2), {std::cbrt(2.), 1.5 * std::cbrt(4.)});
+  drive({{0, 0.5, 5}, {}, {}, {0, -1, -1}}); // Ω = −2 t, then −1 rad/s
+  check(extended(scene, 2), {1.25, 1});
+  scene.base.table_scale = 2;
+  check(extended(scene, 2), {0.75, 2});
+  const ReferenceOutcome by_cvode = cvode_run(scene, {.t_end = 2});
+  REQUIRE(by_cvode.latches.size() == 1);
+  CHECK(by_cvode.latches[0].time == Approx(0.75).epsilon(1e-9));
+}

@@ -173,6 +173,29 @@ Scene with_real_hinges(Scene scene, std::uint64_t seed, const RealFeatures& feat
   return scene;
 }
 
+Scene driven_by_table(Scene scene, std::uint64_t seed, double t_end) {
+  Draws draws(seed + 5000);
+  const int count = 2 + draws.below(7);
+  BaseTable::Columns columns;
+  double at = t_end * draws.uniform(-0.2, 0.3);
+  for (int k = 0; k < count; ++k, at += 2 * t_end / count * draws.uniform(0.1, 1))
+    columns.time.push_back(at);
+  const auto column = [&](double largest) { return torques(count, -largest, largest, draws); };
+  const bool turns = draws.chance(0.7);
+  if (!turns || draws.chance(0.6))
+    for (int k = 0; k < count; ++k) columns.acceleration.push_back(draws.vector(3));
+  if (turns) (draws.chance(0.5) ? columns.rate : columns.angular_acceleration) = column(1.5);
+  Base base;
+  base.motion = BaseMotion::prescribed;
+  base.acceleration = draws.vector(1), base.angular_acceleration = draws.uniform(-0.3, 0.3);
+  base.angle = draws.uniform(-3, 3), base.rate = draws.uniform(-0.5, 0.5);
+  base.table_scale = draws.chance(0.5) ? draws.uniform(0.5, 1.5) : 1;
+  const Interpolation how = draws.chance(0.5) ? Interpolation::monotone : Interpolation::linear;
+  base.table = std::make_shared<const BaseTable>(std::move(columns), how);
+  scene.base = base;
+  return scene;
+}
+
 namespace {
 
 /// A uniform panel's hinge: from its parent's outer end to its own inner one.

@@ -37,6 +37,11 @@ torque_table(std::vector<double> angle, std::vector<double> deploying, std::vect
 void tabulate(Synchronisation& loop, std::vector<double> travel,
               std::vector<double> travel_of_second);
 
+/// The scene on a base that a random table of time drives, of either interpolation, by rates or by
+/// accelerations, from some time before or after 0 to some before or after t_end; what it does not
+/// give is constant.
+[[nodiscard]] Scene driven_by_table(Scene scene, std::uint64_t seed, double t_end);
+
 /// N equal uniform panels, hinges at their ends, folded flat: the root turns from 0 to π/2, each
 /// other from 0 to ±π, kept to twice the root's travel by loops of this stiffness (the root with
 /// the second, each with the next), under torques 0.1 (π − x) and 0.05 (3π/2 − x). Only the root

@@ -1,7 +1,8 @@
 /// What both reference integrators of reference_run.hpp share: the dense wing as an ordinary
 /// differential equation, the hunt for peaks inside a step, and the book of a run.
 ///
-/// The flat state y, for n hinges (2n + 6, and n more when the latch is smoothed):
+/// The flat state y, for n hinges (2n + 6, n more when the latch is smoothed, one more when the base
+/// is driven by a table of time):
 ///
 /// | part        | entries       | unit       |
 /// |-------------|---------------|------------|
@@ -10,6 +11,7 @@
 /// | φ̇           | n             | rad/s      |
 /// | ẋ_0, ω_0    | 3             | m/s, rad/s |
 /// | S           | n, smoothed   | s          |
+/// | t           | 1, base by a table | s     |
 #pragma once
 
 #include "tests/support/dry_friction.hpp"
@@ -28,13 +30,15 @@ template <class Scalar> class WingOde {
 public:
   WingOde(const Scene& scene, const std::optional<double>& smoothing)
       : friction_(scene), wing_(DryFriction<Scalar>::removed(scene)),
-        smoothed_(smoothing.has_value()), epsilon_(smoothing.value_or(0)),
-        latched_(scene.hinges.size(), false) {}
+        smoothed_(smoothing.has_value()), timed_(scene.base.table != nullptr),
+        epsilon_(smoothing.value_or(0)), latched_(scene.hinges.size(), false) {}
 
   [[nodiscard]] const DenseWing<Scalar>& wing() const { return wing_; }
   [[nodiscard]] bool smoothed() const { return smoothed_; }
   [[nodiscard]] int hinges() const { return wing_.size(); }
-  [[nodiscard]] int dimension() const { return (smoothed_ ? 3 : 2) * hinges() + 6; }
+  [[nodiscard]] int dimension() const {
+    return (smoothed_ ? 3 : 2) * hinges() + 6 + (timed_ ? 1 : 0);
+  }
   [[nodiscard]] bool latched(int hinge) const { return latched_[hinge]; }
   [[nodiscard]] bool awaits_latch(int hinge) const {
     return wing_.has_latch(hinge) && !latched_[hinge];
@@ -75,7 +79,8 @@ public:
                             y.template segment<2>(n),
                             y.template segment<2>(half() + n),
                             y(n + 2),
-                            y(half() + n + 2)};
+                            y(half() + n + 2),
+                            timed_ ? y(dimension() - 1) : Scalar(0)};
     for (int i = 0; i < n; ++i) state.engagement(i) = engagement(i, y);
     return state;
   }
@@ -84,6 +89,7 @@ public:
   [[nodiscard]] Vector<Scalar> derivative(const Vector<Scalar>& y) const {
     const WingResponse<Scalar> response = respond(y);
     Vector<Scalar> result(dimension());
+    if (timed_) result(dimension() - 1) = 1;
     result.head(half()) = y.segment(half(), half());
     result.segment(half(), half()) << response.hinge_accelerations, response.base_acceleration,
         response.base_angular_acceleration;
@@ -123,7 +129,7 @@ private:
 
   DryFriction<Scalar> friction_;
   DenseWing<Scalar> wing_;
-  bool smoothed_;
+  bool smoothed_, timed_;
   Scalar epsilon_;
   std::vector<bool> latched_;
 };

@@ -227,8 +227,10 @@ TEST_CASE("A path that leads nowhere tells what was probably meant", "[parameter
        {"hinges.mid.friction.static", "a hinge whose friction has a static level"},
        {"hinges.root.friction.regularization_rate", "a hinge with the regularized friction model"},
        {"base.mass", "a base whose motion is \"free\""},
-       {"base.acceleration.0", "a base whose motion is \"prescribed\""},
-       {"base.rate", "a base that is not fixed"},
+       {"base.acceleration.0",
+        "a base whose motion is \"prescribed\", with no table of it (table.scale disperses one)"},
+       {"base.angle", "a base that is not fixed"},
+       {"base.rate", "a base that is not fixed, with no table of its rate"},
        {"", "the path of a parameter"},
        {"wings", "the path of a parameter"}}));
   CAPTURE(path);

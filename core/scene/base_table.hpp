@@ -1,0 +1,70 @@
+/// How a base is driven, by a table of time.
+///
+/// | symbol | meaning                                                                     | unit   |
+/// |--------|-----------------------------------------------------------------------------|--------|
+/// | t_k    | knots, ascending                                                            | s      |
+/// | a      | acceleration of the base's origin, inertial axes                            | m/s²   |
+/// | α, Ω   | angular acceleration; rate                                                  | rad/s² |
+///
+/// Each column is a curve [curve.hpp] between its knots, and constant beyond its ends. A table gives
+/// α, or Ω, whose slope then is α, or neither. Velocity, rate and angle are the exact integrals of
+/// the curves from t = 0 on: a piece of the table keeps the values that they have where it begins.
+#pragma once
+
+#include "core/scene/curve.hpp"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace wingspread {
+
+class BaseTable {
+public:
+  struct Columns {
+    std::vector<double> time;                  ///< s
+    std::vector<Eigen::Vector2d> acceleration; ///< m/s²; empty: not given, as the next ones
+    std::vector<double> angular_acceleration;  ///< rad/s²
+    std::vector<double> rate;                  ///< rad/s; at most one of this and the last
+  };
+
+  /// Of all times from one knot to the next. Polynomials in powers of t − from; without a's or α's
+  /// column they are zero.
+  struct Piece {
+    double from = 0;
+    std::array<double, 4> x{}, y{};  ///< of a, m/s²
+    std::array<double, 4> turning{}; ///< of α, rad/s²
+    Eigen::Vector2d velocity{0, 0};  ///< ∫ a from 0 to `from`, m/s
+    double rate = 0;                 ///< Ω, or ∫ α from 0 to `from`, rad/s
+    double angle = 0;                ///< its integral from 0, rad
+  };
+
+  /// @pre time strictly ascending, at least two; each column empty or as many; all finite
+  BaseTable(Columns columns, Interpolation interpolation);
+
+  /// As given, for those who write it down again.
+  [[nodiscard]] const Columns& columns() const { return columns_; }
+  [[nodiscard]] Interpolation interpolation() const { return interpolation_; }
+  [[nodiscard]] bool gives_acceleration() const { return !columns_.acceleration.empty(); }
+  [[nodiscard]] bool gives_rate() const { return !columns_.rate.empty(); }
+  /// Whether it gives α, by itself or as the slope of the rate.
+  [[nodiscard]] bool gives_turning() const {
+    return gives_rate() || !columns_.angular_acceleration.empty();
+  }
+
+  /// Before the first knot, between each two, after the last. The first piece's powers are about the
+  /// first knot.
+  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+
+private:
+  void push(const Curve& x, const Curve& y);
+  void turn(const Curve& curve);
+  void turn_by_rate(const Curve& curve);
+
+  Columns columns_;
+  Interpolation interpolation_;
+  std::vector<Piece> pieces_;
+};
+
+} // namespace wingspread
