@@ -3,6 +3,9 @@
 /// runs one way from end to end where these differ by more than eight times that (its slope is that
 /// of the chord give or take (b − a) of its second derivative, of which rise is an eighth).
 ///
+/// Where it may have kinks and jumps too, it is above its larger end by no more than
+/// bend·(b − a)² + lean·(b − a) + jump, and nothing is said of its way from end to end.
+///
 /// Intervals are halved until that settles them: nothing is missed between samples.
 #pragma once
 
@@ -16,6 +19,19 @@
 #include <optional>
 
 namespace wingspread {
+
+/// How far a function may be above the larger of its ends on a part of the step.
+template <class T> struct Bulge {
+  T bend;           ///< times the part's square
+  T lean{}, jump{}; ///< times the part; on any part
+
+  [[nodiscard]] T over(const T& part) const { return fused(part, fused(part, bend, lean), jump); }
+  [[nodiscard]] bool is_smooth() const { return lean == T(0) && jump == T(0); }
+  Bulge& operator+=(const Bulge& other) {
+    bend = bend + other.bend, lean = lean + other.lean, jump = jump + other.jump;
+    return *this;
+  }
+};
 
 /// A function's value at a fraction of the step.
 template <class T> struct Sampled { T s, value; };
@@ -40,10 +56,10 @@ private:
 };
 
 /// The most that the function may be inside above its larger end.
-template <class T> [[nodiscard]] T rise_inside(const Stretch<T>& at, const T& rise) {
+template <class T> [[nodiscard]] T rise_inside(const Stretch<T>& at, const Bulge<T>& bulge) {
   using std::abs;
-  const T width = at.b.s - at.a.s, most = rise * width * width;
-  return abs(at.b.value - at.a.value) > T(8) * most ? T(0) : most;
+  const T most = bulge.over(T(at.b.s - at.a.s));
+  return bulge.is_smooth() && abs(at.b.value - at.a.value) > T(8) * most ? T(0) : most;
 }
 
 template <class T, class Function>
@@ -61,7 +77,8 @@ template <class T, class Function>
 /// @param crest raised to the largest sample made on the way
 template <class T, class Function>
 [[nodiscard]] std::optional<T> first_positive(const Function& f, const T& first, const T& last,
-                                              const T& rise, const T& close, Sampled<T>& crest) {
+                                              const Bulge<T>& rise, const T& close,
+                                              Sampled<T>& crest) {
   if (first > T(0)) return T(0);
   detail::OpenStretches<T> open;
   open.push({{T(0), first}, {T(1), last}});
@@ -84,8 +101,8 @@ template <class T, class Function>
 
 /// Where f is largest, to `close`, if that is more than `floor`; else one of the samples.
 template <class T, class Function>
-[[nodiscard]] Sampled<T> largest_of(const Function& f, const T& first, const T& last, const T& rise,
-                                    const T& floor, const T& close) {
+[[nodiscard]] Sampled<T> largest_of(const Function& f, const T& first, const T& last,
+                                    const Bulge<T>& rise, const T& floor, const T& close) {
   Sampled<T> best = last > first ? Sampled<T>{T(1), last} : Sampled<T>{T(0), first};
   detail::OpenStretches<T> open;
   open.push({{T(0), first}, {T(1), last}});

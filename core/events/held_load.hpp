@@ -17,10 +17,19 @@
 ///                   + Σ ( |d²L_c/dt²| + |l_c| (Ÿ_c + 2 |ė_i| Ẏ_c + |ë_i| Y_c) )                    (2)
 ///
 /// and L leaves its chord over an interval of h by h²/8 of that; taken 4/3 times, as forces are.
+///
+/// The air does its part of L, and what it takes off counts as what it adds. On a plate of strength B
+/// the normal velocity v = n·ṙ has, at its points, |v| ≤ V, |v̇| ≤ r⁽²⁾ + |ė| V, … and the force
+/// ∓B ∫ |v| v along n
+///
+///     |F| ≤ B V²    |Ḟ| ≤ B (2 V |v̇| + |ė| V²)    |F̈| ≤ B (2 V |v̈| + 2 |v̇|² + 4 |ė| V |v̇| + |ë| V²)    (3)
+///
+/// And the friction that holds a hinge bears, beside L, what the loops on it do (loop_bulge.hpp).
 #pragma once
 
 #include "core/dense/derivative_bounds.hpp"
 #include "core/dense/step.hpp"
+#include "core/events/loop_bulge.hpp"
 #include "core/mechanics/system.hpp"
 
 #include <vector>
@@ -51,6 +60,9 @@ public:
       own.force = added(own.force, mass, mass_center);
       own.moment = fused(wing.bodies[i].central_inertia, own.angle_fourth,
                          mass * center * own.turned_with(mass_center));
+      if (wing.plates.empty()) return;
+      own.speed = fused(arm, parent.rate, parent.speed);
+      if (wing.plates[i].strength > T(0)) add_air(wing.plates[i], own);
     });
     tree.inward([&](int i) {
       const Bounds& own = bodies_[i];
@@ -60,11 +72,18 @@ public:
                       fused(length(wing.bodies[i].arm), parent.turned_with(own.force), own.moment);
     });
     weight_ = step.h * step.h * T(1.0 / 6);
+    add_loops(system, step);
   }
 
   /// By how much |L_i| may exceed what it is at the step's ends, N·m; times (b − a)² between s = a
   /// and b.
   [[nodiscard]] T rise(int i) const { return weight_ * bodies_[i].moment; }
+
+  /// By how much the friction that holds hinge i may.
+  [[nodiscard]] Bulge<T> friction(int i) const {
+    Bulge<T> bulge{rise(i)};
+    return loops_.empty() ? bulge : bulge += loops_[i];
+  }
 
 private:
   /// Of a vector's second, third and fourth derivative; of a force: itself and its first two.
@@ -80,6 +99,7 @@ private:
     Derivatives hinge;     ///< of the hinge's point
     Derivatives force;     ///< Y
     T moment = T(0);       ///< |d²L/dt²|
+    T speed = T(0);        ///< of the hinge's point; only where there is air
 
     void turn(const DerivativeBounds<T>& angle) {
       const T square = angle.first * angle.first;
@@ -103,6 +123,36 @@ private:
             fused(by, b.fourth, a.fourth)};
   }
 
+  /// (3), and its moment about the hinge: along n it has the same lever at all times.
+  static void add_air(const PlateTerms<T>& plate, Bounds& own) {
+    const T reach = larger(length(plate.from), length(plate.from + plate.along));
+    const Derivatives point = added(own.hinge, reach, own.direction);
+    const T V = fused(reach, own.rate, own.speed);
+    const T v1 = fused(own.rate, V, point.second);
+    const T v2 = fused(own.direction.second, V, fused(T(2) * own.rate, point.second, point.third));
+    const T square = V * V, change = T(2) * V * v1, bend = T(2) * fused(V, v2, v1 * v1);
+    const Derivatives force{
+        square, fused(own.rate, square, change),
+        fused(own.direction.second, square, fused(T(2) * own.rate, change, bend))};
+    own.force = added(own.force, plate.strength, force);
+    own.moment = fused(plate.strength * reach, bend, own.moment);
+  }
+
+  template <class Topology, BaseMotion M>
+  void add_loops(const System<T, Topology, M>& system, const Step<T>& step) {
+    const std::vector<LoopTerms<T>>& loops = system.wing().loops;
+    if (loops.empty()) return;
+    const Layout& at = system.layout();
+    loops_.assign(at.bodies + 1, Bulge<T>{T(0)});
+    for (const LoopTerms<T>& loop : loops) {
+      if (!system.sticks(loop.first) && !system.sticks(loop.second)) continue;
+      const LoopBulges<T> bulges =
+          loop_bulges(loop, step.coordinate(at.angle(loop.first), at.freedoms()),
+                      step.coordinate(at.angle(loop.second), at.freedoms()), step.h);
+      loops_[loop.first] += bulges.first, loops_[loop.second] += bulges.second;
+    }
+  }
+
   template <class Topology, BaseMotion M>
   void start_at_base(const System<T, Topology, M>& system, const Step<T>& step,
                      const DifferenceScale<T>& scale) {
@@ -112,19 +162,24 @@ private:
       for (const int k : {0, 1}) {
         const DerivativeBounds<T> b = derivative_bounds(step.coordinate(k, n), scale);
         base.hinge = added(base.hinge, T(1), {b.second, b.third, b.fourth});
+        base.speed = base.speed + b.first;
       }
+      base.hinge.second = base.hinge.second + length(system.wing().base.gravity);
       base.path = step.coordinate(2, n);
     }
     if constexpr (M == BaseMotion::prescribed) {
       const BaseTerms<T>& given = system.wing().base;
       const CubicBounds<T> push = push_of_base(given, system.work().driven, step);
       base.hinge = {push.value, push.first, push.second};
+      base.speed = fused(push.value + length(given.gravity), step.h,
+                         length(system.base_velocity(step.x, step.t)));
       base.path = turn_of_base(given, system.work().driven, step);
     }
     base.turn(derivative_bounds(base.path, scale));
   }
 
-  std::vector<Bounds> bodies_; ///< 0 … n
+  std::vector<Bounds> bodies_;  ///< 0 … n
+  std::vector<Bulge<T>> loops_; ///< 1 … n: of the loops; empty where there are none
   T weight_ = T(0);
 };
 

@@ -42,7 +42,7 @@ public:
     if (!comes_near(system, step)) return std::nullopt;
     std::optional<Release<T>> first;
     for (int i = 1; i <= system.layout().bodies; ++i) {
-      if (!system.sticks(i) || !(larger(before_[i], after_[i]) + bound_.rise(i) > T(0))) continue;
+      if (!system.sticks(i) || !may_exceed(i)) continue;
       const auto excess_at = [&](const T& s) {
         step.interpolate(system.layout(), s, x);
         system(x, dxdt, step.t + s * step.h);
@@ -73,9 +73,13 @@ private:
     for (int i = 1; i <= system.layout().bodies; ++i) {
       if (!system.sticks(i)) continue;
       after_[i] = excess(system, step.x1, i);
-      near = near || larger(before_[i], after_[i]) + bound_.rise(i) > T(0);
+      near = near || may_exceed(i);
     }
     return near;
+  }
+
+  [[nodiscard]] bool may_exceed(int i) const {
+    return larger(before_[i], after_[i]) + bound_.friction(i).over(T(1)) > T(0);
   }
 
   template <class Function>
@@ -83,8 +87,8 @@ private:
                                                      const T& limit, const T& h) const {
     constexpr double grazes = 1e-3, width = 1e-3;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
-    const auto s =
-        first_positive(excess_at, before_[i], after_[i], bound_.rise(i), T(1e-10) * limit, crest);
+    const auto s = first_positive(excess_at, before_[i], after_[i], bound_.friction(i),
+                                  T(1e-10) * limit, crest);
     if (s) {
       const T slope = (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * h);
       return Release<T>{i, *s, slope};

@@ -251,7 +251,7 @@ template <class T, class AnySystem, class Load>
   bound.over_step(system, step);
   const T first = load(T(0)), last = load(T(1));
   const Sampled<T> found =
-      largest_of(load, first, last, bound.rise(i), peak.value, T(1e-10) * peak.value);
+      largest_of(load, first, last, Bulge<T>{bound.rise(i)}, peak.value, T(1e-10) * peak.value);
   peak.raise(first, step.t);
   peak.raise(last, step.t + step.h);
   if (!(found.value > peak.value)) return std::nullopt;

@@ -20,9 +20,9 @@ public:
   explicit DryFriction(const Scene& scene) {
     for (const Hinge& hinge : scene.hinges) {
       const bool exact = hinge.friction.model == FrictionModel::exact;
-      const double kinetic = exact ? hinge.friction.coulomb : 0;
-      kinetic_.push_back(kinetic);
-      static_.push_back(exact ? hinge.friction.static_level.value_or(kinetic) : 0);
+      const double scale = exact ? hinge.friction.scale : 0, coulomb = hinge.friction.coulomb;
+      kinetic_.push_back(scale * coulomb);
+      static_.push_back(scale * hinge.friction.static_level.value_or(coulomb));
       any_ = any_ || static_.back() > 0;
     }
     contact_.assign(kinetic_.size(), 0);

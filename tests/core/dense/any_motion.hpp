@@ -3,6 +3,7 @@
 
 #include "core/dense/step.hpp"
 #include "core/mechanics/system.hpp"
+#include "tests/support/body_loads.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -19,11 +20,13 @@ using Point = std::complex<long double>;
 
 /// Any motion of a wing over a step, by the quintics through random jets at its ends.
 template <BaseMotion M> struct AnyMotion {
-  AnyMotion(const Scene& scene, std::uint64_t seed, double h, double swing)
-      : wing(make_wing<double>(scene, outward_order(scene))), system(with_numbers(scene)) {
+  AnyMotion(const Scene& drawn, std::uint64_t seed, double h, double swing)
+      : scene(drawn), wing(make_wing<double>(scene, outward_order(scene))),
+        system(with_numbers(scene)) {
     oracle::Draws draws(seed);
     const Layout& at = system.layout();
     step.t = draws.uniform(0, 3), step.h = h;
+    system.enter_piece(step.t);
     for (State<double>* x : {&step.x, &step.dxdt, &step.x1, &step.dxdt1}) x->assign(at.size(), 0);
     for (int k = 0; k < at.freedoms(); ++k) {
       const int r = k + at.freedoms();
@@ -55,7 +58,16 @@ template <BaseMotion M> struct AnyMotion {
     std::vector<long double> angle(wing.size() + 1, 0);
     if (M == BaseMotion::free)
       hinge[0] = {coordinate(0, s), coordinate(1, s)}, angle[0] = coordinate(2, s);
-    if (M == BaseMotion::prescribed) {
+    if (M == BaseMotion::prescribed && base.table) {
+      const DrivenPiece<double>& piece = system.work().driven; // beyond its knots too
+      const long double u = t - piece.from;
+      const auto twice = [&](const std::array<double, 4>& c) {
+        return u * u * (c[0] / 2.0L + u * (c[1] / 6.0L + u * (c[2] / 12.0L + u * c[3] / 20.0L)));
+      };
+      angle[0] = piece.angle + u * piece.rate + twice(piece.turning);
+      hinge[0] =
+          Point(piece.velocity.x * u + twice(piece.x), piece.velocity.y * u + twice(piece.y));
+    } else if (M == BaseMotion::prescribed) {
       angle[0] = base.angle + t * (base.rate + base.angular_acceleration * t / 2);
       hinge[0] = Point(base.acceleration.x, base.acceleration.y) * (t * t / 2);
     }
@@ -86,11 +98,19 @@ template <BaseMotion M> struct AnyMotion {
     return result;
   }
 
-  /// The moment of hinge i on all that is outward of it, at s, by differences of positions.
+  /// |moment| of hinge i on all that is outward of it, at s, by differences of positions.
   [[nodiscard]] std::vector<double> loads(double s) const {
+    std::vector<double> result = moments(s);
+    for (double& moment : result) moment = std::abs(moment);
+    return result;
+  }
+
+  /// With its sign, less what gravity and the air do of it.
+  [[nodiscard]] std::vector<double> moments(double s) const {
     const long double d = 1e-4L, wide = d * step.h;
     const Place before = place(s - d), at = place(s), after = place(s + d);
     std::vector<double> result(wing.size() + 1);
+    const Point gravity(wing.base.gravity.x, wing.base.gravity.y);
     for (int i = 1; i <= wing.size(); ++i) {
       long double sum = 0;
       for (int j = i; j <= wing.size(); ++j) {
@@ -99,24 +119,39 @@ template <BaseMotion M> struct AnyMotion {
         if (k != i) continue;
         const BodyTerms<double>& body = wing.bodies[j];
         const Point a = (before.center[j] - 2.0L * at.center[j] + after.center[j]) / (wide * wide);
-        sum += static_cast<long double>(body.mass) *
-               std::imag(std::conj(at.center[j] - at.hinge[i]) * a);
+        const Point lever = at.center[j] - at.hinge[i];
+        sum += static_cast<long double>(body.mass) * std::imag(std::conj(lever) * (a - gravity));
         sum += static_cast<long double>(body.central_inertia) *
                (before.angle[j] - 2.0L * at.angle[j] + after.angle[j]) / (wide * wide);
+        const Load<double> air = of_air(j, before, at, after, 2 * wide);
+        sum -= std::imag(std::conj(lever) * Point(air.force.x(), air.force.y())) + air.moment;
       }
-      result[i] = static_cast<double>(std::abs(sum));
+      result[i] = static_cast<double>(sum);
     }
     return result;
   }
 
+  Scene scene;
   Wing<double> wing;
   Workspace<double> work;
   System<double, Tree, M> system;
   Step<double> step;
 
 private:
-  System<double, Tree, M> with_numbers(const Scene& scene) {
-    set_parameters(wing, scene);
+  /// On body j, by the oracle's law.
+  [[nodiscard]] Load<double> of_air(int j, const Place& before, const Place& at, const Place& after,
+                                    long double apart) const {
+    const Body& body = scene.bodies[scene.hinges[wing.hinge_of[j]].child];
+    if (!body.plate) return {Vector2<double>::Zero(), 0};
+    const Point v = (after.center[j] - before.center[j]) / apart;
+    return air_on_plate<double>(*body.plate, scene.environment.air_density,
+                                static_cast<double>(at.angle[j]),
+                                {static_cast<double>(v.real()), static_cast<double>(v.imag())},
+                                static_cast<double>((after.angle[j] - before.angle[j]) / apart));
+  }
+
+  System<double, Tree, M> with_numbers(const Scene& drawn) {
+    set_parameters(wing, drawn);
     return {wing, std::nullopt, work};
   }
 };

@@ -1,6 +1,7 @@
 // The bound on what a locked hinge bears inside a step, against loads found from positions alone.
 #include "core/events/held_load.hpp"
 #include "tests/core/dense/any_motion.hpp"
+#include "tests/support/real_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -12,17 +13,84 @@ using namespace wingspread;
 
 namespace {
 
+using oracle::AnyMotion;
+
+template <BaseMotion M> HeldLoadBound<double> bound_of(const AnyMotion<M>& motion) {
+  HeldLoadBound<double> bound;
+  bound.over_step(motion.system, motion.step);
+  return bound;
+}
+
 template <BaseMotion M> void check_random_wings() {
   const double most = oracle::most_taken_by_random_wings<M>(
-      {900, 1700, 140},
-      [](const oracle::AnyMotion<M>& motion, double s) { return motion.loads(s); },
-      [](const oracle::AnyMotion<M>& motion) {
-        HeldLoadBound<double> bound;
-        bound.over_step(motion.system, motion.step);
-        return bound;
-      });
+      {900, 1700, 140}, [](const AnyMotion<M>& motion, double s) { return motion.loads(s); },
+      bound_of<M>);
   CHECK(most > 0.05); // it is not twenty times too large everywhere
 }
+
+/// What the loops do at every hinge at s, by the oracle's law, N·m.
+template <BaseMotion M> std::vector<double> by_loops(const AnyMotion<M>& motion, double s) {
+  State<double> x(motion.system.layout().size());
+  motion.step.interpolate(motion.system.layout(), s, x);
+  const Layout& at = motion.system.layout();
+  std::vector<double> result(motion.wing.size() + 1);
+  std::vector<int> body(motion.scene.hinges.size());
+  for (int i = 1; i <= motion.wing.size(); ++i) body[motion.wing.hinge_of[i]] = i;
+  for (const Synchronisation& given : motion.scene.synchronisations) {
+    const oracle::Loop<double> loop(given);
+    const int a = body[given.first], b = body[given.second];
+    const HingeTerms<double>&first = motion.wing.hinges[a], &second = motion.wing.hinges[b];
+    const double way = first.sense * (x[at.angle(a)] - first.stowed), slope = loop.slope(way);
+    const double e = loop.out_of_step(way, second.sense * (x[at.angle(b)] - second.stowed));
+    const double rate = slope * first.sense * x[at.rate(a)] - second.sense * x[at.rate(b)];
+    const double tau = loop.pull(e, rate);
+    result[a] -= first.sense * slope * tau;
+    result[b] += second.sense * tau;
+  }
+  return result;
+}
+
+/// The largest part of what the friction that holds a hinge may rise by that it does in [from, to].
+template <BaseMotion M>
+double part_of_friction(const AnyMotion<M>& motion, const HeldLoadBound<double>& bound, double from,
+                        double to) {
+  const auto friction = [&](double s, int i) {
+    return std::abs(motion.moments(s)[i] - by_loops(motion, s)[i]);
+  };
+  double most = 0;
+  for (int i = 1; i <= motion.wing.size(); ++i) {
+    const double ends = std::max(friction(from, i), friction(to, i));
+    for (int k = 1; k < 24; ++k)
+      most = std::max(most, (friction(from + (to - from) * k / 24, i) - ends) /
+                                bound.friction(i).over(to - from));
+  }
+  return most;
+}
+
+/// Random wings with these features, all hinges stuck as far as the bound is concerned.
+template <BaseMotion M> double most_of_friction(const oracle::RealFeatures& features, bool driven) {
+  double most = 0;
+  for (int k = 0; k < 60; ++k) {
+    oracle::Draws draws(2900 + k);
+    oracle::RandomScene options;
+    options.bodies = 2 + k % 5, options.branching = k % 2 == 0, options.motion = M;
+    Scene scene = with_real_hinges(random_scene(3700 + k, options), 4700 + k, features);
+    if (driven) scene.base = oracle::driven_by_table(scene, 5700 + k, 3).base;
+    AnyMotion<M> motion(scene, 6700 + k, draws.log_uniform(1e-3, 0.3), draws.log_uniform(0.01, 3));
+    for (int i = 1; i <= motion.wing.size(); ++i) motion.system.touch(i, Contact::stuck);
+    const HeldLoadBound<double> bound = bound_of(motion);
+    CAPTURE(k);
+    for (const auto& [from, to] : {std::pair(0., 1.), {0., 0.5}, {0.75, 1.}, {0.4, 0.41}}) {
+      const double taken = part_of_friction(motion, bound, from, to);
+      CHECK(taken < 0.75 + 1e-5); // without the 4/3, and what is lean is half
+      if (to - from == 1) most = std::max(most, taken);
+    }
+  }
+  return most;
+}
+
+constexpr oracle::RealFeatures nothing{false, false, false, false, false, false,
+                                       false, false, false, false, false};
 
 } // namespace
 
@@ -90,4 +158,26 @@ TEST_CASE("a panel that turns against its arm takes what the bound leaves it") {
   const double part = part_in_middle(motion, 2);
   CHECK(part < 0.75 + 1e-6);
   CHECK(part > 0.7);
+}
+
+TEST_CASE("the bound on what holds a hinge knows bases that are driven by tables") {
+  CHECK(most_of_friction<BaseMotion::prescribed>(nothing, true) > 0.05);
+}
+
+TEST_CASE("the bound on what holds a hinge knows its loops: taut, slack and by tables") {
+  oracle::RealFeatures features = nothing;
+  features.loops = true;
+  CHECK(most_of_friction<BaseMotion::fixed>(features, false) > 0.05);
+  features.preloads = true;
+  CHECK(most_of_friction<BaseMotion::fixed>(features, false) > 0.05);
+  features.tables = true;
+  CHECK(most_of_friction<BaseMotion::free>(features, false) > 0.05);
+}
+
+TEST_CASE("the bound on what holds a hinge knows gravity and the air") {
+  oracle::RealFeatures features = nothing;
+  features.gravity = features.air = true;
+  CHECK(most_of_friction<BaseMotion::prescribed>(features, false) > 0.02);
+  CHECK(most_of_friction<BaseMotion::free>(features, false) > 0.02);
+  CHECK(most_of_friction<BaseMotion::prescribed>(features, true) > 0.02);
 }
