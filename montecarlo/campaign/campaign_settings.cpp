@@ -60,7 +60,7 @@ void read_latch_form(const JsonCursor& at, std::optional<double>& smoothing) {
   if (at.value() == "event") return smoothing.reset();
   if (!at.value().is_object()) return void(at.refuse(expected));
   JsonObject object(at, expected);
-  object.required("smoothed", smoothing.emplace(), "a number, rad, > 0", is_positive);
+  object.required("smoothed", smoothing.emplace(), Dimension{"rad", "> 0"}, is_positive);
   object.refuse_others();
 }
 
@@ -140,11 +140,11 @@ void read_integration(const JsonCursor& at, Integration& integration) {
   if (step && known && !has_fixed_step(integration.method))
     refuse_step(*step, integration.method);
   else
-    object.optional("step", integration.step, "a number, s, > 0", is_positive);
+    object.optional("step", integration.step, Dimension{"s", "> 0"}, is_positive);
   object.optional("rtol", integration.rtol, "a number, > 0 and < 1", is_proper_share);
   object.optional("atol", integration.atol, "a number, > 0", is_positive);
   if (const auto latch = object.find("latch")) read_latch_form(*latch, integration.smoothing);
-  object.optional("t_end", integration.t_end, "a number, s, > 0", is_positive);
+  object.optional("t_end", integration.t_end, Dimension{"s", "> 0"}, is_positive);
   std::int64_t max_steps = integration.max_steps;
   object.optional("max_steps", max_steps, "an integer, ≥ 1", is_at_least_1);
   integration.max_steps = static_cast<long>(max_steps);

@@ -30,11 +30,18 @@ void refuse_unknown_output(const JsonCursor& at, const std::string& output,
   at.refuse("an output of the campaign, or \"deployed\"" + did_you_mean(output, known));
 }
 
+/// A plain number is in the output's unit; a string names its own.
+bool read_limit(const JsonCursor& at, const std::string& output, double& limit) {
+  const std::string unit = parse_output_name(output).unit;
+  return at.value().is_string() && !unit.empty() ? at.read(limit, Dimension{unit})
+                                                 : at.read(limit, "a number, in the output's unit");
+}
+
 void read_limits(JsonObject& object, Requirement& requirement) {
   const auto read = [&](const char* key, std::optional<double>& limit) {
     const auto at = object.find(key);
     double value = 0;
-    if (at && at->read(value, "a number, in the output's unit")) limit = value;
+    if (at && read_limit(*at, requirement.output, value)) limit = value;
     return at.has_value();
   };
   const bool has_max = read("max", requirement.max), has_min = read("min", requirement.min);

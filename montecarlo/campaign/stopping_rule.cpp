@@ -33,7 +33,12 @@ void read_width(JsonObject& object, WidthGoal& goal) {
     object.at().refuse(absolute ? "both width and relative_width"
                                 : "neither width nor relative_width",
                        "one of them");
-  object.optional("width", goal.width, "a number, in the output's unit, > 0", is_positive);
+  const auto width = object.find("width");
+  const std::string unit = parse_output_name(goal.output).unit;
+  if (width && width->value().is_string() && !unit.empty())
+    object.optional("width", goal.width, Dimension{unit, "> 0"}, is_positive);
+  else
+    object.optional("width", goal.width, "a number, in the output's unit, > 0", is_positive);
   object.optional("relative_width", goal.width, "a number, > 0", is_positive);
 }
 

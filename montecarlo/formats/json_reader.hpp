@@ -124,6 +124,17 @@ public:
     const auto at = find(key);
     return at ? at->read(out, dimension) : true;
   }
+  /// The same for numbers that not all will do: `holds` is what the dimension's condition says.
+  bool required(std::string_view key, double& out, const Dimension& dimension,
+                Holds<double> holds) {
+    const auto at = require(key, expected_number(dimension));
+    return at ? read(*at, out, dimension, holds) : !is_object();
+  }
+  bool optional(std::string_view key, double& out, const Dimension& dimension,
+                Holds<double> holds) {
+    const auto at = find(key);
+    return at ? read(*at, out, dimension, holds) : true;
+  }
   /// Of words that stand in the order of the enumeration's values.
   template <class Enum>
   bool required_choice(std::string_view key, Enum& out, std::span<const std::string_view> words) {
@@ -149,6 +160,14 @@ private:
     if (!at.read(value, expected)) return false;
     if (holds && !holds(value)) return at.refuse(expected);
     out = std::move(value);
+    return true;
+  }
+  static bool read(const JsonCursor& at, double& out, const Dimension& dimension,
+                   Holds<double> holds) {
+    double value = 0;
+    if (!at.read(value, dimension)) return false;
+    if (!holds(value)) return at.refuse(expected_number(dimension));
+    out = value;
     return true;
   }
   static std::string expected(double, const Dimension& dimension) {

@@ -88,9 +88,24 @@ TEST_CASE("A step is read with the method that takes it", "[campaign_settings]")
       {{R"({"method": "runge_kutta4", "step": 0})", "/step: found 0, expected a number, s, > 0"},
        {R"({"method": "runge_kutta4", "step": -1e-3})",
         "/step: found -0.001, expected a number, s, > 0"},
-       {R"({"method": "runge_kutta4", "step": "1 ms"})",
-        "/step: found string \"1 ms\", expected a number, s, > 0"}}));
+       {R"({"method": "runge_kutta4", "step": "0 ms"})",
+        "/step: found string \"0 ms\", expected a number, s, > 0"},
+       {R"({"method": "runge_kutta4", "step": "1 m"})",
+        "/step: found string \"1 m\", expected a number, s, > 0, or a string of a number and its "
+        "unit: \"s\", \"ms\" or \"min\""}}));
   CHECK(read(json, Integration{}, read_integration).problems == message);
+}
+
+TEST_CASE("Times and angles of the integration may have their units", "[campaign_settings]") {
+  const auto [integration, problems] =
+      read(R"({"t_end": "2 min", "step": "0.5 ms", "method": "runge_kutta4",
+               "latch": {"smoothed": "0.1 mrad"}})",
+           Integration{}, read_integration);
+  CHECK(problems.empty());
+  CHECK(integration.t_end == 120);
+  CHECK(integration.step == 0.0005);
+  CHECK(integration.smoothing == 0.0001);
+  CHECK(write_integration(integration)["t_end"] == 120); // SI in what is written
 }
 
 TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
@@ -100,6 +115,13 @@ TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
        {R"({"rtol": 1})", "/rtol: found 1, expected a number, > 0 and < 1"},
        {R"({"atol": -1e-9})", "/atol: found -1e-09, expected a number, > 0"},
        {R"({"t_end": 0})", "/t_end: found 0, expected a number, s, > 0"},
+       {R"({"t_end": "-1 min"})", "/t_end: found string \"-1 min\", expected a number, s, > 0"},
+       {R"({"t_end": "2 deg"})", "/t_end: found string \"2 deg\", expected a number, s, > 0, or a "
+                                 "string of a number and its "
+                                 "unit: \"s\", \"ms\" or \"min\""},
+       {R"({"latch": {"smoothed": "1 s"}})", "/latch/smoothed: found string \"1 s\", expected a "
+                                             "number, rad, > 0, or a string of a number "
+                                             "and its unit: \"rad\", \"deg\" or \"mrad\""},
        {R"({"step": 1e-3})",
         "/step: found 0.001, expected no step with the method \"auto\" (only used by a method with "
         "a fixed step: runge_kutta4)"},

@@ -42,6 +42,16 @@ TEST_CASE("Requirements are read, written in full and said in words", "[requirem
   CHECK(write_requirements(read(deployed)) == deployed);
 }
 
+TEST_CASE("A limit may have its unit", "[requirement]") {
+  const Json given = parse_json(R"([
+    { "output": "root.peak_moment", "max": "4 kN*m", "probability": 0.99, "confidence": 0.9 },
+    { "output": "deployment_time", "min": "0.5 min", "probability": 0.99, "confidence": 0.9 }])");
+  const std::vector<Requirement> requirements = read(given);
+  CHECK(requirements[0].max == 4000);
+  CHECK(requirements[1].min == 30);
+  CHECK(write_requirements(requirements)[0]["max"] == 4000);
+}
+
 TEST_CASE("Each fault of a requirement is told", "[requirement]") {
   const test::Spoiled change = GENERATE(values<test::Spoiled>(
       {{"", "{}", "found an object, expected an array of requirements"},
@@ -62,7 +72,9 @@ TEST_CASE("Each fault of a requirement is told", "[requirement]") {
         "/0: found both max and min, expected one of them (for both, two "
         "requirements)"},
        {"/0/max", "\"400\"",
-        "/0/max: found string \"400\", expected a number, in the output's unit"},
+        "/0/max: found string \"400\", expected a number, N·m, or a string of a number and its "
+        "unit: \"N*m\", \"N*mm\", \"in*lbf\", \"in*ozf\" or \"ft*lbf\""},
+       {"/0/max", "[400]", "/0/max: found an array of 1, expected a number, in the output's unit"},
        {"/0/probability", "1", "/0/probability: found 1, expected a number, > 0 and < 1"},
        {"/0/probability", "", "/0/probability: found nothing, expected a number, > 0 and < 1"},
        {"/1/confidence", "90", "/1/confidence: found 90, expected a number, > 0 and < 1"},

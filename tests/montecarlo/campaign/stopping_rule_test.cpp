@@ -48,6 +48,7 @@ TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
   const Json good = parse_json(R"([{ "output": "root.latch_time", "quantile": 0.9, "width": 0.5 },
                      { "output": "stalled", "width": 0.01 }])");
   CHECK(problems_of_rule(good).empty());
+  CHECK(problems_of_rule(spoil(good, {"/0/width", "\"5 ms\"", ""})).empty());
   const Spoiled change = GENERATE(values<Spoiled>(
       {{"", "3",
         "found 3, expected an array of widths to be reached and requirements to be decided"},
@@ -64,6 +65,10 @@ TEST_CASE("Each fault of a width to stop at is told", "[stopping]") {
         "/0/quantile: found 1, expected a number, > 0 and < 1: the quantile that is meant"},
        {"/1/quantile", "0.5", "/1/quantile: found 0.5, expected no quantile of a share of runs"},
        {"/0/width", "0", "/0/width: found 0, expected a number, in the output's unit, > 0"},
+       {"/0/width", "\"0 ms\"", "/0/width: found string \"0 ms\", expected a number, s, > 0"},
+       {"/0/width", "\"1 deg\"",
+        "/0/width: found string \"1 deg\", expected a number, s, > 0, or a string of a number and "
+        "its unit: \"s\", \"ms\" or \"min\""},
        {"/0/width", "", "/0: found neither width nor relative_width, expected one of them"},
        {"/0/relative_width", "1", "/0: found both width and relative_width, expected one of them"},
        {"/1/widht", "1",
