@@ -136,7 +136,9 @@ TEST_CASE("a reference run on a base that a table drives turns a hinge back by i
   check(extended(scene, 2), {1.25, 1});
   scene.base.table_scale = 2;
   check(extended(scene, 2), {0.75, 2});
-  const ReferenceOutcome by_cvode = cvode_run(scene, {.t_end = 2});
+  ReferenceOptions options;
+  options.t_end = 2;
+  const ReferenceOutcome by_cvode = cvode_run(scene, options);
   REQUIRE(by_cvode.latches.size() == 1);
   CHECK(by_cvode.latches[0].time == Approx(0.75).epsilon(1e-9));
 }
