@@ -106,7 +106,8 @@ TEST_CASE("a fluid damper deploys a wing in minutes, for what so simple a motion
       CAPTURE(rtol, exact, out.work.steps, out.work.rhs_evaluations, methods_used(out));
       REQUIRE(out.latches.size() == 1);
       CHECK(relative(out.latches[0].time, exact) < 1e-8);
-      CHECK(out.work.rhs_evaluations < 10'000); // explicit steps would be a million
+      // 2,748 to 3,212 in 113 to 136 steps at 1e-8, 4,983 to 5,415 at 1e-10; explicit ones a million
+      CHECK(out.work.rhs_evaluations < (rtol > 1e-9 ? 4000 : 7000));
     }
   }
 }

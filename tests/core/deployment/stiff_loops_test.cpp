@@ -88,12 +88,16 @@ TEST_CASE("a strand that goes slack costs no accuracy: default tolerances agains
   }
   CAPTURE(kinks, slack.time, slack.rate, slack.moment, slack.force, slack.angle, taut.time,
           taut.rate, taut.moment, taut.force, taut.angle);
+  // 167 kinks: times 6e-10, rates 2.8e-8, peaks 1.3e-7, angles 3.2e-8 rad; taut 1e-12, 3e-10, 9e-9,
+  // 1e-9. What README promises holds without an event: step control meets a kink as any other error.
   CHECK(kinks > 100);
-  CHECK(slack.time < 1e-6);
-  CHECK(slack.rate < 1e-6);
-  CHECK(slack.moment < 1e-5);
-  CHECK(slack.force < 1e-5);
-  CHECK(slack.angle < 1e-6);
+  CHECK(slack.time < 1e-7);
+  CHECK(slack.rate < 1e-7);
+  CHECK(slack.moment < 1e-6);
+  CHECK(slack.force < 1e-6);
+  CHECK(slack.angle < 2e-7);
+  CHECK(taut.rate < 1e-8);
+  CHECK(taut.moment < 1e-7);
 }
 
 TEST_CASE("150 random wings with loops as stiff as cables agree with the dense formulation") {
