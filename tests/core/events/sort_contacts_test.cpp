@@ -50,3 +50,41 @@ TEST_CASE("the contacts of a long chain at rest are those that friction allows")
   CHECK(slide > 300);
   CHECK(stick > 300);
 }
+
+// At the instant at which a load reaches τ_s = τ_c the hinge has no acceleration yet. Held again, it would not be
+// asked for a second time.
+TEST_CASE("a hinge that is due to be let go is let go though nothing moves it yet") {
+  for (const double sense : {1.0, -1.0}) {
+    Scene scene = latching_panel();
+    Hinge& hinge = scene.hinges[0];
+    hinge.spring = {sense * 2, sense * 2};
+    rub(hinge, 2);
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    State<double> x, dxdt(system.layout().size());
+    system.start(x);
+    sort_contacts(system, x, dxdt, 0.0, 0);
+    CHECK(system.sticks(1)); // at its limit, it is held
+    sort_contacts(system, x, dxdt, 0.0, 1);
+    CHECK_FALSE(system.sticks(1));
+    CHECK(sliding_sense(system, 1) == (sense > 0 ? -1 : 1)); // the latch is below
+    CHECK(std::abs(dxdt[1]) < 1e-15);
+  }
+}
+
+TEST_CASE("a hinge that is let go and would run against its friction is held again, for good") {
+  Scene scene = latching_panel();
+  scene.hinges[0].spring = {1, 1};
+  rub(scene.hinges[0], 2);
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+  State<double> x, dxdt(system.layout().size());
+  system.start(x);
+  sort_contacts(system, x, dxdt, 0.0, 1);
+  CHECK(system.sticks(1));
+  CHECK(work.evaluations == 3); // held, let go, held
+}
