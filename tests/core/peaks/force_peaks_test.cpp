@@ -1,5 +1,6 @@
 // Peak forces of whole runs against the dense oracle in extended precision.
 #include "core/deployment.hpp"
+#include "core/peaks/force_peaks.hpp"
 #include "tests/support/closed_forms.hpp"
 #include "tests/support/reference_run.hpp"
 
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -71,4 +73,42 @@ TEST_CASE("peak forces of loosely integrated wings are as good as their moments"
       worst = std::max(worst, std::abs(loose.peak_force[i].value / exact.peak_force[i].value - 1));
   }
   CHECK(worst < 2e-3); // twice the tolerance; a missed peak is off by 2 to 12 %
+}
+
+TEST_CASE("a peak force inside a step has its own time") {
+  // φ = 2 cos t: |f|² = (m c)² (16 sin⁴ t + 4 cos² t), at most (m c · 4)² at π/2
+  for (const char* method : {"auto", "dopri5", "dop853", "bulirsch_stoer"}) {
+    Integration how = within(1e-8, 3);
+    how.method = method;
+    const Outcome out = Deployment().run(unit_oscillator(2), how, to_the_end);
+    CAPTURE(method);
+    CHECK(out.peak_force[0].value == Approx(20).epsilon(1e-7));
+    CHECK(out.peak_force[0].time == Approx(1.57079632679).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("a crest of the force between the places where it is sampled is not passed over") {
+  // the same swing over a step of 0.8 s, with its crest at a part of it; the largest force so far is lower by 1e-4
+  const Scene scene = unit_oscillator(2);
+  for (const double part : {0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875}) {
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    system.want_forces(true);
+    const double h = 0.8, from = 0.5 * std::numbers::pi - part * h;
+    const auto state = [](double t) { return State<double>{2 * std::cos(t), -2 * std::sin(t)}; };
+    Step<double> step{from, h, state(from), State<double>(2), state(from + h), State<double>(2)};
+    ForcePeaks<double, decltype(system)> forces;
+    forces.start(system);
+    system(step.x, step.dxdt, from);
+    forces.sample(system, from);
+    forces.peaks[1].value = 20 * (1 - 1e-4);
+    system(step.x1, step.dxdt1, from + h);
+    State<double> x(2), dxdt(2);
+    forces.over_step(system, step, x, dxdt);
+    CAPTURE(part);
+    REQUIRE(forces.doubtful().has_value());
+    CHECK(*forces.doubtful() == Approx(part).margin(1e-3));
+  }
 }

@@ -1,5 +1,6 @@
 // The largest moment of a hinge.
 #include "core/deployment.hpp"
+#include "core/peaks/moment_peaks.hpp"
 #include "tests/support/whole_runs.hpp"
 
 #include <catch2/catch.hpp>
@@ -22,4 +23,29 @@ TEST_CASE("a peak at the very instant of the engagement is not missed") {
                         CHECK(relative(out.peak_moment[0].value, peak) < 10 * rtol);
                         CHECK(out.peak_moment[0].time == out.latches[0].time);
                       });
+}
+
+TEST_CASE("no moment of a hinge that turns back in a step is beyond its hull, friction with it") {
+  for (const double sense : {1.0, -1.0}) {
+    Scene scene = latching_panel();
+    Hinge& hinge = scene.hinges[0];
+    hinge.spring = {sense * 10, sense * 10};
+    hinge.friction.coulomb = 0.5; // in a layer of 1e-3 rad/s
+    Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+    set_parameters(wing, scene);
+    Workspace<double> work;
+    const System<double, Tree, BaseMotion::fixed> system(wing, std::nullopt, work);
+    for (const double rate : {-1.0, 1.0}) { // turns to minus that in 0.1 s
+      Step<double> step;
+      step.t = 0, step.h = 0.1;
+      step.x = {0.5, rate}, step.x1 = {0.5, -rate};
+      step.dxdt = {rate, -20 * rate}, step.dxdt1 = {-rate, -20 * rate};
+      const MomentOverStep moment(system, step, 1);
+      double most = 0;
+      for (int k = 0; k <= 16; ++k) most = std::max(most, std::abs(moment(k / 16.0)));
+      CHECK(most == Approx(10.5).epsilon(1e-5)); // where friction has the spring's sense
+      CHECK(most <= moment.most());
+      CHECK(moment.most() == Approx(10.5).epsilon(1e-12));
+    }
+  }
 }

@@ -135,6 +135,16 @@ TEST_CASE("an unterminated last row is told, and read only when asked for") {
   CHECK(dropped.unterminated);
 }
 
+TEST_CASE("a quote that is open from an earlier line on hides rows: no last row to be dropped") {
+  const std::string text = good_header + "0,deployed,1,2,\"root,\n1,deployed,1,2,root,\n";
+  for (const UnterminatedRow last : {UnterminatedRow::read, UnterminatedRow::drop})
+    CHECK_THROWS_WITH(
+        read(text, {{"k"}, {"t"}}, last),
+        "runs.csv: line 2: found a quote that is never closed, expected a closing quote");
+  const std::string cut = good_header + "0,deployed,1,2,\"ro"; // within the last line
+  CHECK(read(cut, {{"k"}, {"t"}}, UnterminatedRow::drop).complete_bytes == good_header.size());
+}
+
 TEST_CASE("runs.csv: faults in the header") {
   CHECK_THROWS_WITH(read_small(""), "runs.csv: line 1: found an empty file, expected a header");
   CHECK_THROWS_WITH(
