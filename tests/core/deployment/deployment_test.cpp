@@ -65,6 +65,17 @@ TEST_CASE("what cannot be run says so") {
   }
 }
 
+TEST_CASE("a free base without mass or inertia is refused by name") {
+  for (const auto& [mass, inertia] : {std::pair(0., 350.), {800., 0.}}) {
+    Scene scene = two_wing_free_spacecraft();
+    scene.base.mass = mass, scene.base.inertia = inertia;
+    const Outcome out = Deployment().run(scene, {}, {});
+    CHECK(out.status == Status::invalid);
+    CHECK_THAT(out.reason, Catch::Contains(mass > 0 ? "base.inertia is " : "base.mass is ") &&
+                               Catch::Contains("expected > 0"));
+  }
+}
+
 TEST_CASE("a body without mass or inertia is refused by name") {
   for (const auto& [mass, inertia] : {std::pair(0., 0.5), {10., 0.}, {-0., 0.5}}) {
     Scene scene = seed_scene();

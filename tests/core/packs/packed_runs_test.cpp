@@ -48,6 +48,17 @@ TEST_CASE("a run in a lane has the bits of the run alone: the seed wing") {
       }
 }
 
+TEST_CASE("a run whose energy is audited has the bits of the run alone, its drift with them") {
+  const Goal audited{.peak_moment = false, .peak_force = false, .audit = true};
+  const std::vector<Scene> scenes = units(oracle::seed_scene(), 19);
+  REQUIRE(Deployment().run(scenes[0], {}, audited).energy.drift_before_first_latch > 0);
+  for (const double rtol : {1e-3, 1e-6, 1e-9}) {
+    Integration how;
+    how.rtol = rtol, how.atol = 1e-2 * rtol;
+    require_equal_bits(scenes, how, audited);
+  }
+}
+
 TEST_CASE("a run in a lane has the bits of the run alone: random wings on every base") {
   for (int k = 0; k < 24; ++k) {
     oracle::RandomScene options;

@@ -33,6 +33,7 @@ inline std::string bits_of(const Outcome& outcome) {
     for (const double x : *v) add(x);
   add(outcome.final.base_angle), add(outcome.final.base_rate);
   add(outcome.t_end), add(outcome.energy.final);
+  add(outcome.energy.drift_before_first_latch);
   add(static_cast<double>(outcome.work.steps)), add(static_cast<double>(outcome.work.rejected));
   add(static_cast<double>(outcome.work.rhs_evaluations));
   return all;

@@ -44,6 +44,21 @@ TEST_CASE("a hinge that still moves, or may, is not stalled") {
     REQUIRE(out.latches.size() >= 1);
     CHECK(out.latches[0].hinge == 0);
   }
+  SECTION("a base that turns, and is pushed, brings its load to bear from another side") {
+    Scene scene = carried_panel(0.4, 0.5); // at rest it bears at most 0.6 N·m, and at first nothing
+    Hinge& hinge = scene.hinges[0];
+    const Eigen::Vector2d arm = -hinge.child_point;
+    const double turned = hinge.stowed + std::atan2(arm.y(), arm.x());
+    const double push = 0.6 / (scene.bodies[0].mass * arm.norm());
+    scene.base.acceleration = push * Eigen::Vector2d(std::cos(turned), std::sin(turned));
+    scene.base.rate = 0.2;
+    const Outcome out = Deployment().run(scene, within(1e-9, 10), {});
+    CAPTURE(out.reason);
+    CHECK(out.status != Status::stalled);
+    CHECK(out.final.rates[0] != 0); // from asin(0.5/0.6)/0.2 s on, 4.9 s
+    scene.base.rate = 0;
+    CHECK(Deployment().run(scene, within(1e-9, 10), {}).status == Status::stalled);
+  }
   SECTION("regularized friction creeps where exact friction sticks") {
     Scene scene = rubbed_seed(2.5, 2, 1);
     scene.hinges[0].friction.model = FrictionModel::regularized;

@@ -74,3 +74,17 @@ TEST_CASE("a design that somebody changed is refused") {
   std::ofstream(path / design_file) << R"({ "samples": 6 })";
   CHECK_THROWS_WITH(read_design(path), Catch::Contains("campaign"));
 }
+
+TEST_CASE("rows of a design with a gap between them are refused") {
+  const Folder folder;
+  const auto path = folder.path() / "design";
+  const SaltelliDesign design = design_of(quick_campaign(10));
+  make(path, design, false);
+  const RunPlan plan = saltelli_plan(design.campaign, design.rows);
+  std::string text = *read_text(path / design_runs_file);
+  const std::size_t fifth = text.find("\n4,") + 1; // after the header: run 4
+  text.erase(fifth, text.find('\n', fifth) + 1 - fifth);
+  std::ofstream(path / design_runs_file) << text;
+  CHECK_THROWS_WITH(read_design_runs(path, plan),
+                    Catch::EndsWith("found run 5, expected run 4, the next one"));
+}
