@@ -51,14 +51,17 @@ std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs
 /// @param scene null when it or its outputs are wrong themselves: then no output is missed
 class GuaranteeReader {
 public:
-  GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design)
-      : known_(scene), design_(design) {
+  /// @param t_end of the runs; none: limits on times are not compared with it
+  GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design,
+                  std::optional<double> t_end)
+      : known_(scene), design_(design), t_end_(t_end) {
     if (!known_) return;
     names_ = output_names(*scene, outputs);
     all_names_ = output_names(*scene, all_outputs());
   }
   void read(const JsonCursor& at, std::vector<Requirement>& requirements) const {
     read_requirements(at, known_ ? &names_ : nullptr, all_names_, requirements);
+    if (t_end_) refuse_late_limits(at, requirements, *t_end_);
     if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
   }
   /// @param requirements the campaign's; null when they are wrong themselves
@@ -74,11 +77,12 @@ public:
 private:
   bool known_;
   DesignKind design_;
+  std::optional<double> t_end_;
   std::vector<std::string> names_, all_names_;
 };
 
 GuaranteeReader guarantee_reader(const Campaign& campaign) {
-  return {&campaign.scene, campaign.outputs, campaign.sampling.design};
+  return {&campaign.scene, campaign.outputs, campaign.sampling.design, campaign.integration.t_end};
 }
 
 /// A scene that stands in the campaign, or in the file that is named there.
@@ -135,7 +139,8 @@ class CampaignReader {
 public:
   CampaignReader(const Json& document, std::filesystem::path directory, const std::string& file)
       : directory_(std::move(directory)),
-        object_(JsonCursor(document, file, problems_), "a campaign: an object") {}
+        object_(JsonCursor(document, file, problems_), "a campaign: an object"),
+        was_run_(document.is_object() && document.contains(stamp_key)) {}
 
   /// @throws SpecError with all that is wrong
   [[nodiscard]] Campaign read() {
@@ -144,8 +149,8 @@ public:
     read_dependence();
     read_guarantees();
     read_margins();
-    // Overtravel is recorded, asked for or not. But one that was run, and is stamped, stays what it was.
-    if (!object_.find(stamp_key)) campaign_.outputs.insert(OutputFamily::overtravel);
+    (void)object_.find(stamp_key);
+    if (!was_run_) add_recorded();
     object_.refuse_others();
     if (!problems_.empty()) throw SpecError(std::move(problems_));
     campaign_.resolved = write_campaign(campaign_, std::move(resolved_dispersions_));
@@ -156,6 +161,12 @@ private:
   template <class Part>
   void read_part(const char* key, void (*reader)(const JsonCursor&, Part&), Part& part) {
     if (const auto at = object_.find(key)) reader(*at, part);
+  }
+
+  /// What is recorded, asked for or not. One that was run stays what it was, with its columns.
+  void add_recorded() {
+    campaign_.outputs.insert(OutputFamily::overtravel);
+    match_peaks_final(campaign_.outputs);
   }
 
   void read_scene_and_dispersions() {
@@ -182,8 +193,10 @@ private:
 
   void read_settings() {
     read_part("sampling", read_sampling, campaign_.sampling);
+    std::size_t before = problems_.size();
     read_part("integration", read_integration, campaign_.integration);
-    const std::size_t before = problems_.size();
+    if (!was_run_ && problems_.size() == before) t_end_ = campaign_.integration.t_end;
+    before = problems_.size();
     read_part("outputs", read_outputs, campaign_.outputs);
     outputs_known_ = scene_ && problems_.size() == before;
     read_part("statistics", read_statistics, campaign_.statistics);
@@ -199,7 +212,8 @@ private:
 
   void read_guarantees() {
     const DesignKind design = campaign_.sampling.design;
-    const GuaranteeReader guarantees(outputs_known_ ? scene_ : nullptr, campaign_.outputs, design);
+    const GuaranteeReader guarantees(outputs_known_ ? scene_ : nullptr, campaign_.outputs, design,
+                                     t_end_);
     const std::size_t before = problems_.size();
     if (const auto at = object_.find("requirements")) guarantees.read(*at, campaign_.requirements);
     const bool sound = problems_.size() == before;
@@ -228,11 +242,13 @@ private:
   std::filesystem::path directory_;
   std::vector<Problem> problems_;
   JsonObject object_;
+  bool was_run_; ///< it is stamped: the campaign of results that there are
   Campaign campaign_;
   Json resolved_dispersions_ = Json::array();
   const Scene* scene_ = nullptr; ///< null when it has problems of its own
   bool named_ = false;           ///< the dispersions have none either
   bool outputs_known_ = false;
+  std::optional<double> t_end_; ///< that requirements have to keep to
 };
 
 Campaign read_document(const Json& document, const std::filesystem::path& directory,

@@ -162,7 +162,8 @@ std::string describe_statistics(const StatisticsSpec& statistics) {
 std::string describe_requirement(const Campaign& campaign, const Requirement& requirement) {
   const long runs = campaign.sampling.runs;
   const double p = requirement.probability;
-  const double c = at_each_of(requirement.confidence, count_looks(campaign));
+  const double c =
+      at_each_of(confidence_alone(campaign.requirements, requirement), count_looks(campaign));
   const std::string text = to_string(requirement);
   if (const auto allowed = allowed_failures(runs, p, c))
     return fmt::format("{}: {} of {} may break it", text, *allowed, counted(runs, "run", "runs"));

@@ -17,8 +17,8 @@
 namespace wingspread {
 namespace {
 
-constexpr std::array<std::string_view, 5> columns_of_runs{"run", "status", "latch_order", "reason",
-                                                          "deployed"};
+constexpr std::array<std::string_view, 6> columns_of_runs{"run",         "status", "peaks_final",
+                                                          "latch_order", "reason", "deployed"};
 
 constexpr std::size_t most_dispersions = 10'000;
 

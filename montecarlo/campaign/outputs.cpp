@@ -1,5 +1,6 @@
 #include "montecarlo/campaign/outputs.hpp"
 
+#include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <algorithm>
@@ -68,6 +69,22 @@ std::optional<Status> status_named(std::string_view name) {
 Outputs default_outputs() {
   return {OutputFamily::latch_time, OutputFamily::latch_rate, OutputFamily::peak_moment,
           OutputFamily::peak_force, OutputFamily::overtravel};
+}
+
+bool has_peaks(const Outputs& outputs) {
+  return outputs.contains(OutputFamily::peak_moment) || outputs.contains(OutputFamily::peak_force);
+}
+
+bool is_peak(std::string_view output) {
+  const std::string quantity = parse_output_name(output).quantity;
+  return quantity == "peak_moment" || quantity == "peak_force";
+}
+
+void match_peaks_final(Outputs& outputs) {
+  if (has_peaks(outputs))
+    outputs.insert(OutputFamily::peaks_final);
+  else
+    outputs.erase(OutputFamily::peaks_final);
 }
 
 Outputs all_outputs() {

@@ -21,13 +21,32 @@ inline constexpr std::array statuses{Status::deployed, Status::stalled, Status::
 /// The status of that name, as it is written.
 [[nodiscard]] std::optional<Status> status_named(std::string_view name);
 
-enum class OutputFamily { latch_time, latch_rate, peak_moment, peak_force, rate_at, overtravel };
-inline constexpr std::array<std::string_view, 6> output_family_names{
-    "latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at", "overtravel"};
+/// `peaks_final` is no number, but whether those of the peaks are proven: a column of its own (results.hpp).
+enum class OutputFamily {
+  latch_time,
+  latch_rate,
+  peak_moment,
+  peak_force,
+  rate_at,
+  overtravel,
+  peaks_final
+};
+inline constexpr std::array<std::string_view, 7> output_family_names{
+    "latch_time", "latch_rate", "peak_moment", "peak_force",
+    "rate_at",    "overtravel", "peaks_final"};
 using Outputs = std::set<OutputFamily>;
 
 /// All but `rate_at`, whose number grows with the square of the hinges'.
 [[nodiscard]] Outputs default_outputs();
+
+/// Whether a family is of peaks, which t_end may cut.
+[[nodiscard]] bool has_peaks(const Outputs& outputs);
+
+/// Whether an output is a peak: of those t_end may cut, and then nothing is known of the largest value.
+[[nodiscard]] bool is_peak(std::string_view output);
+
+/// Adds `peaks_final` where there are peaks, and takes it away where there are none: asked for or not.
+void match_peaks_final(Outputs& outputs);
 
 /// Every family there is.
 [[nodiscard]] Outputs all_outputs();

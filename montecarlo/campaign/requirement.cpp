@@ -3,6 +3,7 @@
 #include "montecarlo/formats/nearest.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/formats/printable.hpp"
+#include "montecarlo/statistics/bonferroni.hpp"
 
 #include <fmt/format.h>
 
@@ -55,6 +56,31 @@ void read_limits(JsonObject& object, Requirement& requirement) {
   }
 }
 
+void read_absolute(JsonObject& object, Requirement& requirement) {
+  const auto at = object.find("abs");
+  if (!at) return;
+  if (!at->value().is_boolean())
+    at->refuse("true or false");
+  else if (requirement.output == deployed_output)
+    at->refuse("an output with a limit: a run has deployed or has not");
+  else
+    requirement.absolute = at->value().get<bool>();
+}
+
+/// Notes each member of a group whose confidence is not that of the first: it is that of all of them together.
+void check_groups(const JsonCursor& at, std::span<const Requirement> requirements) {
+  for (std::size_t i = 0; i < requirements.size(); ++i) {
+    const Requirement& own = requirements[i];
+    const auto first = std::ranges::find(requirements, own.group, &Requirement::group);
+    if (own.group.empty() || own.confidence == first->confidence || own.confidence == 0) continue;
+    at.element(i).refuse(fmt::format("{}", own.confidence),
+                         fmt::format("{}, as of the others of the group \"{}\": it is that of all "
+                                     "of them together",
+                                     first->confidence, own.group),
+                         "/confidence");
+  }
+}
+
 Requirement read_requirement(const JsonCursor& at, const std::vector<std::string>* outputs,
                              std::span<const std::string> all_outputs) {
   Requirement requirement;
@@ -66,6 +92,9 @@ Requirement read_requirement(const JsonCursor& at, const std::vector<std::string
   if (named && outputs && object.is_object())
     refuse_unknown_output(at.member("output"), requirement.output, *outputs, all_outputs);
   read_limits(object, requirement);
+  read_absolute(object, requirement);
+  object.optional("group", requirement.group, "a string, not empty, without control characters",
+                  is_name);
   object.required("probability", requirement.probability, "a number, > 0 and < 1", is_proper_share);
   object.required("confidence", requirement.confidence, "a number, > 0 and < 1", is_proper_share);
   object.refuse_others();
@@ -73,6 +102,12 @@ Requirement read_requirement(const JsonCursor& at, const std::vector<std::string
 }
 
 } // namespace
+
+double confidence_alone(std::span<const Requirement> all, const Requirement& requirement) {
+  if (requirement.group.empty()) return requirement.confidence;
+  return at_each_of(requirement.confidence,
+                    std::ranges::count(all, requirement.group, &Requirement::group));
+}
 
 const std::string& name_of(const Requirement& requirement) {
   return requirement.name.empty() ? requirement.output : requirement.name;
@@ -85,6 +120,24 @@ void read_requirements(const JsonCursor& at, const std::vector<std::string>* out
   requirements.clear();
   for (const JsonCursor& element : at.elements())
     requirements.push_back(read_requirement(element, outputs, all_outputs));
+  check_groups(at, requirements);
+}
+
+void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,
+                        double t_end) {
+  for (std::size_t i = 0; i < requirements.size(); ++i) {
+    const Requirement& own = requirements[i];
+    const std::optional<double> limit = own.max ? own.max : own.min;
+    const std::string quantity = parse_output_name(own.output).quantity;
+    const bool is_time = quantity == "latch_time" || quantity == "deployment_time";
+    if (!is_time || !limit || *limit <= t_end) continue;
+    at.element(i).refuse(fmt::format("{} s", *limit),
+                         fmt::format("at most t_end, {} s: a run ends there, and what has not "
+                                     "latched by then breaks the requirement (a later limit wants "
+                                     "a later t_end)",
+                                     t_end),
+                         own.max ? "/max" : "/min");
+  }
 }
 
 Json write_requirements(std::span<const Requirement> requirements) {
@@ -95,8 +148,10 @@ Json write_requirements(std::span<const Requirement> requirements) {
     json["output"] = requirement.output;
     if (requirement.max) json["max"] = *requirement.max;
     if (requirement.min) json["min"] = *requirement.min;
+    if (requirement.absolute) json["abs"] = true;
     json["probability"] = requirement.probability;
     json["confidence"] = requirement.confidence;
+    if (!requirement.group.empty()) json["group"] = requirement.group;
     list.push_back(std::move(json));
   }
   return list;
@@ -104,13 +159,14 @@ Json write_requirements(std::span<const Requirement> requirements) {
 
 std::string to_string(const Requirement& requirement) {
   std::string text = requirement.name.empty() ? "" : requirement.name + ": ";
-  text += requirement.output;
+  text += requirement.absolute ? '|' + requirement.output + '|' : requirement.output;
   const std::string unit = parse_output_name(requirement.output).unit;
   const std::string after = unit.empty() ? "" : ' ' + unit;
   if (requirement.max) text += fmt::format(" ≤ {}{}", *requirement.max, after);
   if (requirement.min) text += fmt::format(" ≥ {}{}", *requirement.min, after);
-  return text + fmt::format(", {:.10g} % at {:.10g} %", 100 * requirement.probability,
-                            100 * requirement.confidence);
+  text += fmt::format(", {:.10g} % at {:.10g} %", 100 * requirement.probability,
+                      100 * requirement.confidence);
+  return requirement.group.empty() ? text : text + " in group " + requirement.group;
 }
 
 } // namespace wingspread

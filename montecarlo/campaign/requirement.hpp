@@ -19,7 +19,14 @@ struct Requirement {
   std::string output;                     ///< a column of the results, or "deployed"
   std::optional<double> max, min;         ///< one of them; none of "deployed"
   double probability = 0, confidence = 0; ///< each in (0, 1); the confidence is one-sided
+  bool absolute = false;                  ///< "abs": the limit is on the output's magnitude
+  std::string group{}; ///< those of one group hold together at their confidence; empty: alone
 };
+
+/// What each requirement is to be shown at by itself, for its group to hold together at the confidence that all of it
+/// states: 1 − (1 − c)/m of m members (Bonferroni). Its own confidence outside of groups.
+[[nodiscard]] double confidence_alone(std::span<const Requirement> all,
+                                      const Requirement& requirement);
 
 /// By what a stopping rule knows it: its name or, of one without, its output.
 [[nodiscard]] const std::string& name_of(const Requirement& requirement);
@@ -31,6 +38,10 @@ struct Requirement {
 void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
                        std::span<const std::string> all_outputs,
                        std::vector<Requirement>& requirements);
+
+/// Notes each limit on a time that lies beyond the end of every run.
+void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,
+                        double t_end);
 
 [[nodiscard]] Json write_requirements(std::span<const Requirement> requirements);
 

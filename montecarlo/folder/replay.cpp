@@ -74,6 +74,10 @@ std::vector<std::string> differences(const ResultNames& names, const ResultRow& 
   compare_text("status", to_string(recorded.status), to_string(computed.status));
   compare(names.draws, recorded.draws, computed.draws);
   compare(names.outputs, recorded.outputs, computed.outputs);
+  const auto final_text = [](const ResultRow& row) {
+    return std::string(to_string(row.peaks_final.value_or(PeaksFinal::unknown)));
+  };
+  compare_text("peaks_final", final_text(recorded), final_text(computed));
   compare_text("latch_order", recorded.latch_order, computed.latch_order);
   compare_text("reason", recorded.reason, computed.reason);
   return lines;

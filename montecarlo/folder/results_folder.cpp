@@ -7,6 +7,7 @@
 #include "montecarlo/runs/row_reader.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
 #include "montecarlo/summary/summary_json.hpp"
+#include "montecarlo/summary/warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -81,21 +82,25 @@ Summary summarize(const StoredCampaign& stored, const Results& results, const St
   if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
   summary.until = goals_of(campaign, results, summary.requirements);
   summary.overtravels = overtravels(campaign.scene, results);
+  if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
   summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
   return summary;
 }
 
-/// Another tool's rows may do without overtravel, unless their campaign asks for it.
-void match_overtravel(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
-  const auto named = document.find("outputs");
-  if (named != document.end() && std::ranges::find(*named, "overtravel") != named->end()) return;
+/// Another tool's rows may do without what is recorded here, asked for or not, unless their campaign asks for it.
+void match_recorded(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
   std::string header;
   if (std::filesystem::exists(runs)) {
     InputFile in(runs);
     std::getline(in, header);
   }
-  if (header.find(".overtravel") != std::string::npos) return;
-  campaign.outputs.erase(OutputFamily::overtravel);
+  const auto named = document.find("outputs");
+  const auto match = [&](OutputFamily family, std::string_view name) {
+    const bool asked = named != document.end() && std::ranges::find(*named, name) != named->end();
+    if (!asked && header.find(name) == std::string::npos) campaign.outputs.erase(family);
+  };
+  match(OutputFamily::overtravel, "overtravel");
+  match(OutputFamily::peaks_final, peaks_final_column);
   campaign.resolved["outputs"] = write_outputs(campaign.outputs);
 }
 
@@ -104,7 +109,7 @@ StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be
   StoredCampaign stored{folder, read_campaign_file(path), {}};
   const Json document = parse_json_file(path);
   if (may_be_foreign && !document.contains(stamp_key)) {
-    match_overtravel(document, folder / runs_file, stored.campaign);
+    match_recorded(document, folder / runs_file, stored.campaign);
     stored.stamp = stamp_of(stored.campaign, {});
     stored.foreign = true;
     return stored;

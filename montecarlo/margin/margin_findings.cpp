@@ -36,7 +36,8 @@ MarginEdge edge(const MarginSearch& search, double passing, const std::optional<
 std::vector<double> confidences_of(const Campaign& campaign, const MarginResult& result) {
   std::vector<double> confidences;
   for (const MarginCondition& condition : conditions_of(campaign, result))
-    confidences.push_back(campaign.requirements[condition.requirement].confidence);
+    confidences.push_back(
+        confidence_alone(campaign.requirements, campaign.requirements[condition.requirement]));
   return confidences;
 }
 

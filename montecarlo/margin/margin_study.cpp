@@ -21,7 +21,8 @@ void refuse_unsuitable(const Campaign& campaign) {
     problems.push_back(
         {"", "/requirements", "none", "at least one: it is they that make a window"});
   for (const Requirement& requirement : campaign.requirements) {
-    const auto least = runs_to_show(requirement.probability, requirement.confidence, 0);
+    const auto least = runs_to_show(requirement.probability,
+                                    confidence_alone(campaign.requirements, requirement), 0);
     if (!least || campaign.sampling.runs < *least)
       problems.push_back({"", "/sampling/runs", std::to_string(campaign.sampling.runs),
                           fmt::format("at least {}: fewer cannot show \"{}\"",
@@ -39,6 +40,7 @@ Outputs outputs_for(const std::vector<Requirement>& requirements) {
     if (family != output_family_names.end())
       outputs.insert(static_cast<OutputFamily>(family - output_family_names.begin()));
   }
+  match_peaks_final(outputs);
   return outputs;
 }
 

@@ -52,10 +52,17 @@ Json overtravel_json(const Scene& scene, const Outcome& outcome) {
   return by_hinge(scene, outcome.overtravel);
 }
 
+/// Nothing where no peak is known.
+Json peaks_final_json(const Outcome& outcome) {
+  const bool none = outcome.peak_moment.empty() && outcome.peak_force.empty();
+  return none || outcome.status == Status::failed ? Json(nullptr) : Json(outcome.peaks_final);
+}
+
 Json warnings_json(const Scene& scene, const Outcome& outcome) {
   Json json = Json::array();
   for (const Overtravel& overtravel : overtravels(scene, outcome))
     json.push_back(warning(overtravel));
+  if (has_cut_peaks(outcome)) json.push_back(cut_peaks_warning);
   return json;
 }
 
@@ -77,6 +84,12 @@ Json energy_json(const EnergyAudit& energy) {
 
 } // namespace
 
+bool has_cut_peaks(const Outcome& outcome) {
+  const bool ran = outcome.status != Status::invalid && outcome.status != Status::failed;
+  const bool peaks = !outcome.peak_moment.empty() || !outcome.peak_force.empty();
+  return ran && peaks && !outcome.peaks_final;
+}
+
 Json outcome_json(const Scene& scene, const Outcome& outcome) {
   const bool ran = outcome.status != Status::invalid;
   const auto if_ran = [ran](const Json& json) { return ran ? json : Json(nullptr); };
@@ -88,6 +101,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
           {"latches", latches_json(scene, outcome)},
           {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},
           {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
+          {"peaks_final", peaks_final_json(outcome)},
           {"overtravel", overtravel_json(scene, outcome)},
           {"warnings", warnings_json(scene, outcome)},
           {"final", if_ran(final_json(scene, outcome.final))},

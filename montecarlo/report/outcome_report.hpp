@@ -8,9 +8,14 @@
 
 namespace wingspread {
 
+/// Whether there are peaks, and t_end cut them.
+[[nodiscard]] bool has_cut_peaks(const Outcome& outcome);
+inline constexpr const char* cut_peaks_warning =
+    "t_end cut the peaks: it is not proven that none would be exceeded after it";
+
 /// Strict JSON: what did not happen is null, as is what was not asked for. Latches stand in order
-/// of time. Beside the keys of the contract: `reason`, `method` (those of the phases), `phases` and
-/// `warnings`.
+/// of time. Beside the keys of the contract: `reason`, `method` (those of the phases), `phases`,
+/// `peaks_final` and `warnings`.
 /// Of an invalid run nothing but its status and reason is there; of a failed one no peak is known.
 /// @param scene whose run it was
 [[nodiscard]] Json outcome_json(const Scene& scene, const Outcome& outcome);

@@ -74,9 +74,10 @@ std::string final_state(const Scene& scene, const Outcome& outcome) {
 
 std::string warnings(const Scene& scene, const Outcome& outcome) {
   const std::vector<Overtravel> found = overtravels(scene, outcome);
-  std::string text = found.empty() ? "" : "\nWARNING\n";
+  const bool cut = has_cut_peaks(outcome);
+  std::string text = found.empty() && !cut ? "" : "\nWARNING\n";
   for (const Overtravel& overtravel : found) text += fmt::format("  {}\n", warning(overtravel));
-  return text;
+  return cut ? text + fmt::format("  {}\n", cut_peaks_warning) : text;
 }
 
 std::string effort(const Outcome& outcome) {

@@ -1,8 +1,9 @@
 /// The results table of a campaign: one row per run, and its file runs.csv.
 ///
 /// Columns of runs.csv, in the order in which they are written: `run` (counted from 0, the number
-/// that `replay --run` takes), `status`, the draws by name, the outputs by name, `latch_order` and
-/// `reason` (why a run is not `deployed`; empty otherwise). They are read in any order.
+/// that `replay --run` takes), `status`, the draws by name, the outputs by name, `peaks_final` where
+/// peaks are among them, `latch_order` and `reason` (why a run is not `deployed`; empty otherwise).
+/// They are read in any order.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -13,18 +14,28 @@
 
 #include <cstddef>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace wingspread {
 
+inline constexpr std::string_view peaks_final_column = "peaks_final";
+
 /// The names of the columns that depend on the campaign.
 struct ResultNames {
   std::vector<std::string> draws;
   std::vector<std::string> outputs; ///< numbers, `deployment_time` among them; not `latch_order`
+  bool peaks_final = false;         ///< whether there is that column
   bool operator==(const ResultNames&) const = default;
 };
+
+/// Whether it is proven that none of a run's peaks would be exceeded were it to go on; `no` when t_end cut them.
+/// Not known of a run that failed or was invalid.
+enum class PeaksFinal : signed char { unknown, no, yes };
+/// "true", "false" or, where nothing is known, an empty cell.
+[[nodiscard]] std::string_view to_string(PeaksFinal final);
 
 /// One run. A number that is not finite did not happen: an empty cell in the file.
 struct ResultRow {
@@ -34,6 +45,7 @@ struct ResultRow {
   std::vector<double> outputs; ///< in the order of ResultNames::outputs
   std::string latch_order;     ///< "root>mid>tip"; empty when no hinge latched
   std::string reason;
+  std::optional<PeaksFinal> peaks_final{}; ///< none where there is no such column
 };
 
 /// A named column of numbers; NaN where the quantity did not happen.
@@ -49,8 +61,10 @@ struct Results {
   Spilled<Status> status;
   std::vector<Column> draws;
   std::vector<Column> outputs;
+  Spilled<PeaksFinal> peaks_final; ///< as long as the others; unknown where it was not recorded
   DictionaryColumn latch_order;
   TextColumn reason;
+  bool has_peaks_final = false; ///< whether it was recorded
 
   Results() = default;
   /// An empty table with these columns.

@@ -33,6 +33,13 @@ Status parse_status(const CsvReader& reader, const std::string& cell) {
                      fmt::format("one of {}", fmt::join(allowed, ", ")));
 }
 
+PeaksFinal parse_final(const CsvReader& reader, const std::string& cell) {
+  for (const PeaksFinal known : {PeaksFinal::unknown, PeaksFinal::no, PeaksFinal::yes})
+    if (cell == to_string(known)) return known;
+  throw reader.error(std::string(peaks_final_column), fmt::format("'{}'", cell),
+                     "true, false, or nothing");
+}
+
 double parse_value(const CsvReader& reader, const std::string& cell, const std::string& column) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto value = parse_csv_number(cell);
@@ -81,7 +88,8 @@ void RowReader::find_places() {
     if (found == header.end()) throw csv_.error(name, "no such column", "it in the header");
     return static_cast<std::size_t>(found - header.begin());
   };
-  places_ = {find("run"), find("status"), find("latch_order"), {}, {}, {}, header.size()};
+  places_ = {find("run"), find("status"), find("latch_order"), {}, {}, {}, {}, header.size()};
+  if (names_.peaks_final) places_.peaks_final = find(std::string(peaks_final_column));
   if (std::ranges::find(header, "reason") != header.end()) places_.reason = find("reason");
   std::ranges::transform(names_.draws, std::back_inserter(places_.draws), find);
   std::ranges::transform(names_.outputs, std::back_inserter(places_.outputs), find);
@@ -108,6 +116,7 @@ void RowReader::parse(const std::vector<std::string>& cells) {
   };
   numbers(row_.draws, names_.draws, places_.draws);
   numbers(row_.outputs, names_.outputs, places_.outputs);
+  if (places_.peaks_final) row_.peaks_final = parse_final(csv_, cells[*places_.peaks_final]);
   row_.latch_order = cells[places_.latch_order];
   row_.reason = places_.reason ? cells[*places_.reason] : "";
   least_run_ = row_.run + 1;

@@ -39,7 +39,7 @@ private:
   /// Where each column of the table stands in the file's rows.
   struct Places {
     std::size_t run, status, latch_order;
-    std::optional<std::size_t> reason;
+    std::optional<std::size_t> reason, peaks_final;
     std::vector<std::size_t> draws, outputs;
     std::size_t count;
   };

@@ -11,6 +11,7 @@ ResultNames result_names(const Campaign& campaign, const std::vector<OutputColum
   ResultNames names;
   std::ranges::transform(campaign.dispersions, std::back_inserter(names.draws), &Dispersion::name);
   std::ranges::transform(columns, std::back_inserter(names.outputs), &OutputColumn::name);
+  names.peaks_final = campaign.outputs.contains(OutputFamily::peaks_final);
   return names;
 }
 
@@ -33,6 +34,7 @@ RunPlan::RunPlan(const Campaign& campaign, UnitPoints points, Measure measure)
     : RunPlan(campaign, std::move(points)) {
   columns_.clear();
   names_.outputs = {measure.name};
+  names_.peaks_final = false;
   goal_ = measure.goal;
   measure_ = std::move(measure);
 }

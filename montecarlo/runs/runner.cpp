@@ -6,6 +6,16 @@
 
 namespace wingspread {
 
+namespace {
+
+PeaksFinal finality_of(const Outcome& outcome) {
+  if (outcome.status == Status::invalid || outcome.status == Status::failed)
+    return PeaksFinal::unknown;
+  return outcome.peaks_final ? PeaksFinal::yes : PeaksFinal::no;
+}
+
+} // namespace
+
 Runner::Runner(const RunPlan& plan) : plan_(&plan), scene_(plan.campaign().scene) {}
 
 ResultRow Runner::run(long k) { return make(k, plan_->goal(), {}).row; }
@@ -66,6 +76,7 @@ ResultRow Runner::row_of(long k, std::vector<double>&& draws, Outcome& outcome) 
   std::ranges::transform(row.draws, row.draws.begin(), finite_or_none);
   row.status = outcome.status;
   row.reason = outcome.reason;
+  if (plan_->names().peaks_final) row.peaks_final = finality_of(outcome);
   row.latch_order = latch_order(plan_->campaign().scene, outcome);
   return row;
 }

@@ -16,6 +16,7 @@
 #include "montecarlo/summary/stopping.hpp"
 #include "montecarlo/summary/verdict.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,6 +77,11 @@ struct DrawCorrelation {
   Correlation value;
 };
 
+/// Of how many runs the peaks are proven, were cut by t_end, and are not known (it failed, or was invalid).
+struct PeaksCount {
+  long proven = 0, cut = 0, unknown = 0;
+};
+
 struct Summary {
   long runs = 0;
   double confidence = 0; ///< of all bounds, two-sided
@@ -90,6 +96,7 @@ struct Summary {
   // What the campaign asks for beyond its statistics; write_statistics (results_folder.hpp) adds it.
   std::vector<Verdict> requirements{};
   std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
+  std::optional<PeaksCount> peaks{};     ///< none where it was not recorded
   std::vector<GoalFound> until{};        ///< what decides when it stops
   bool stopped = false;                  ///< they did, before all runs were made
   long looks = 1;                        ///< at growing data: each bound's α is shared among them

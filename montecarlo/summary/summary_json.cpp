@@ -6,6 +6,7 @@
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
 #include "montecarlo/summary/verdict_json.hpp"
+#include "montecarlo/summary/warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -63,6 +64,12 @@ Json definitions(const Summary& summary) {
   if (summary.requirements.size() > 1)
     json["joint_confidence"] =
         "at least this for all that pass together: 1 - the sum of (1 - c) over all requirements";
+  if (summary.peaks)
+    json["peaks_final"] = "runs whose peaks are proven (true) or were cut by t_end (false): a cut "
+                          "peak breaks every requirement on it";
+  if (!judge_groups(summary.requirements).empty())
+    json["groups"] = "m requirements of a group are judged at 1 - (1 - c)/m each, so that all of "
+                     "them together hold at c";
   if (!summary.looked_at.empty())
     json["extended"] =
         "runs were added to draws whose results had been looked at: look k takes its "
@@ -196,6 +203,8 @@ Json verdict_json(const Summary& summary, const Verdict& verdict) {
   json["runs"] = verdict.runs;
   json.update(evidence_json(verdict));
   if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
+  if (!verdict.requirement.group.empty()) json["confidence_alone"] = verdict.confidence_alone;
+  if (verdict.cut > 0) json["failures"]["peaks_cut"] = verdict.cut;
   if (summary.looks > 1) json["confidence_at_each_look"] = verdict.confidence;
   add_broken(json, verdict);
   return json;
@@ -208,10 +217,14 @@ Json requirements_json(const Summary& summary) {
   return json;
 }
 
-Json warnings_json(const Summary& summary) {
+Json groups_json(std::span<const GroupVerdict> groups) {
   Json json = Json::array();
-  for (const Overtravel& overtravel : summary.overtravels)
-    json.push_back(warning(overtravel, summary.runs));
+  for (const GroupVerdict& group : groups)
+    json.push_back({{"group", group.name},
+                    {"confidence", group.confidence},
+                    {"requirements", group.members},
+                    {"passed", group.passed},
+                    {"verdict", to_string(group.decision)}});
   return json;
 }
 
@@ -257,6 +270,10 @@ Json summary_json(const Summary& summary, const Json& about) {
   json["status"] = statuses_json(summary);
   add_reasons(json, summary);
   add_latch_orders(json, summary);
+  if (summary.peaks)
+    json["peaks_final"] = {{"true", summary.peaks->proven},
+                           {"false", summary.peaks->cut},
+                           {"missing", summary.peaks->unknown}};
   json["outputs"] = Json::object();
   for (const OutputSummary& output : summary.outputs)
     json["outputs"][output.name] = output_json(summary, output);
@@ -264,7 +281,9 @@ Json summary_json(const Summary& summary, const Json& about) {
   json["requirements"] = requirements_json(summary);
   if (summary.requirements.size() > 1)
     json["joint_confidence"] = joint_confidence(summary.requirements);
-  if (!summary.overtravels.empty()) json["warnings"] = warnings_json(summary);
+  if (const auto groups = judge_groups(summary.requirements); !groups.empty())
+    json["groups"] = groups_json(groups);
+  if (const auto lines = warnings(summary); !lines.empty()) json["warnings"] = lines;
   if (!summary.until.empty()) json["until"] = until_json(summary);
   if (!summary.looked_at.empty()) json["extended"] = extended_json(summary);
   json["definitions"] = definitions(summary);

@@ -2,6 +2,7 @@
 
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/formats/text_layout.hpp"
+#include "montecarlo/summary/warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -168,6 +169,16 @@ std::string broken_runs(const Verdict& verdict, std::string_view folder) {
   return text + (verdict.broken.size() > most ? ", …\n" : "\n");
 }
 
+/// Which requirements hold together at the confidence that they share.
+std::string groups(const Summary& summary) {
+  std::string text;
+  for (const auto& [name, confidence, members, passed, decision] :
+       judge_groups(summary.requirements))
+    text += fmt::format("  group {}: {}: {} of {} pass, all together at {:.10g} %\n", name,
+                        to_string(decision), passed, members, 100 * confidence);
+  return text;
+}
+
 std::string requirements(const Summary& summary, std::string_view folder) {
   if (summary.requirements.empty()) return "";
   std::string text = fmt::format("\n{:<46}{:<10}{:>8}{:>8}{:>13}{:>13}\n", "REQUIREMENT", "verdict",
@@ -184,6 +195,7 @@ std::string requirements(const Summary& summary, std::string_view folder) {
       text += "    " + shortened(evidence(verdict), table_width - 4) + '\n';
     text += broken_runs(verdict, folder);
   }
+  text += groups(summary);
   const auto passes = [](const Verdict& verdict) { return verdict.decision == Decision::pass; };
   if (std::ranges::count_if(summary.requirements, passes) > 1)
     text +=
@@ -192,10 +204,10 @@ std::string requirements(const Summary& summary, std::string_view folder) {
   return text;
 }
 
-std::string warnings(const Summary& summary) {
-  std::string text = summary.overtravels.empty() ? "" : "\nWARNING\n";
-  for (const Overtravel& overtravel : summary.overtravels)
-    text += "  " + shortened(warning(overtravel, summary.runs), table_width - 2) + '\n';
+std::string warning_lines(const Summary& summary) {
+  const std::vector<std::string> lines = warnings(summary);
+  std::string text = lines.empty() ? "" : "\nWARNING\n";
+  for (const std::string& line : lines) text += "  " + line + '\n';
   return text;
 }
 
@@ -247,7 +259,7 @@ std::string bar(long eighths) {
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
   return shortened(title, table_width) + '\n' + outcomes(summary) + reasons(summary) +
          latch_orders(summary) + outputs(summary) + tolerance(summary) +
-         requirements(summary, folder) + stopping(summary) + warnings(summary) + files(folder);
+         requirements(summary, folder) + stopping(summary) + warning_lines(summary) + files(folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

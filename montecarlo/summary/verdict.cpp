@@ -39,23 +39,43 @@ const Column* column_of(const Results& results, const Requirement& requirement) 
   return found == results.outputs.end() ? nullptr : &*found;
 }
 
-/// The value, where the run deployed and has one; else infinite.
-double value_or_infinite(const Results& results, std::size_t row, double value) {
-  return results.status[row] == Status::deployed && !std::isnan(value) ? value : infinity;
+/// What is asked of an output's values before they are compared.
+struct Reading {
+  bool absolute = false;
+  bool is_peak = false; ///< one that t_end cut says nothing
+};
+
+Reading reading_of(const Column* column, bool absolute) {
+  return {absolute, column && is_peak(column->name)};
+}
+
+bool is_cut(const Results& results, std::size_t row, const Reading& how) {
+  return how.is_peak && results.peaks_final[row] == PeaksFinal::no;
+}
+
+/// The value, where the run deployed and has one that counts; else infinite.
+double value_or_infinite(const Results& results, std::size_t row, double value,
+                         const Reading& how) {
+  if (results.status[row] != Status::deployed || std::isnan(value) || is_cut(results, row, how))
+    return infinity;
+  return how.absolute ? std::abs(value) : value;
 }
 
 /// The numbers of the runs that break it, the worst first; those that are equally bad by their number.
-Spilled<long> breaking(const Requirement& requirement, const Results& results,
-                       const Column* column) {
+Spilled<long> breaking(const Requirement& requirement, const Results& results, const Column* column,
+                       long& cut) {
   const double sign = sign_of(requirement), limit = limit_of(requirement);
+  const Reading how = reading_of(column, requirement.absolute);
   Spilled<long> broken; // first those that are worse than any number, as they come: by their number
   std::vector<Badness> beyond;
   for (std::size_t row = 0; row < results.size(); ++row) {
-    const double value = value_or_infinite(results, row, column ? sign * column->values[row] : 0);
-    if (value == infinity)
+    const double value = value_or_infinite(results, row, column ? column->values[row] : 0, how);
+    if (value == infinity) {
       broken.push_back(results.runs[row]);
-    else if (value > limit)
-      beyond.push_back({results.runs[row], value});
+      cut += results.status[row] == Status::deployed && is_cut(results, row, how) ? 1 : 0;
+    } else if (sign * value > limit) {
+      beyond.push_back({results.runs[row], sign * value});
+    }
   }
   results.release();
   std::ranges::sort(beyond, [](const Badness& a, const Badness& b) {
@@ -69,6 +89,16 @@ Decision decide(const Verdict& verdict) {
   if (verdict.allowed)
     return std::ssize(verdict.broken) <= *verdict.allowed ? Decision::pass : Decision::fail;
   return verdict.disproved ? Decision::fail : Decision::undecided;
+}
+
+/// The ends of the values, where the limit lies on the other side of zero from all of them.
+std::optional<std::array<double, 2>> beyond_zero(const RankedOutput& output,
+                                                 const Requirement& requirement) {
+  const auto numbers = output.numbers();
+  const double limit = requirement.max ? *requirement.max : requirement.min.value_or(0);
+  if (numbers.empty()) return std::nullopt;
+  const bool apart = (limit > 0 && numbers.back() < 0) || (limit < 0 && numbers.front() > 0);
+  return apart ? std::optional(std::array{numbers.front(), numbers.back()}) : std::nullopt;
 }
 
 /// Fills in what is said of the output's own values.
@@ -86,16 +116,19 @@ void add_values(const RankedOutput& output, Verdict& verdict) {
   if (verdict.allowed) verdict.guaranteed = value_at(*verdict.allowed);
   if (verdict.guaranteed)
     verdict.margin = limit_of(requirement) - sign_of(requirement) * *verdict.guaranteed;
+  verdict.beyond_zero = beyond_zero(output, requirement);
 }
 
-/// @param ranks the output's; null for "deployed"
+/// @param ranks      the output's; null for "deployed"
+/// @param confidence to be shown at by itself, were there one look
 Verdict judge_one(const Requirement& requirement, const Results& results, const Column* column,
-                  const RankedOutput* ranks, long looks) {
+                  const RankedOutput* ranks, double confidence, long looks) {
   Verdict verdict;
   verdict.requirement = requirement;
   verdict.runs = static_cast<long>(results.size());
-  verdict.confidence = at_each_of(requirement.confidence, looks);
-  verdict.broken = breaking(requirement, results, column);
+  verdict.confidence_alone = confidence;
+  verdict.confidence = at_each_of(confidence, looks);
+  verdict.broken = breaking(requirement, results, column, verdict.cut);
   const double p = requirement.probability, c = verdict.confidence;
   const long n = verdict.runs, broken = std::ssize(verdict.broken);
   verdict.allowed = allowed_failures(n, p, c);
@@ -125,12 +158,14 @@ std::string_view to_string(Decision decision) {
   return "undecided";
 }
 
-RankedOutput::RankedOutput(const Results& results, const Column& output) {
+RankedOutput::RankedOutput(const Results& results, const Column& output, bool absolute) {
   const std::size_t runs = results.size();
+  const Reading how = reading_of(&output, absolute);
   values_.reserve(runs);
-  for (std::size_t row = 0; row < runs; ++row)
-    if (const double value = output.values[row]; value_or_infinite(results, row, value) != infinity)
-      values_.push_back(value);
+  for (std::size_t row = 0; row < runs; ++row) {
+    const double value = value_or_infinite(results, row, output.values[row], how);
+    if (value != infinity) values_.push_back(value);
+  }
   results.release();
   std::ranges::sort(values_);
   worse_ = runs - values_.size();
@@ -149,12 +184,15 @@ std::vector<Verdict> judge_all(std::span<const Requirement> requirements, const 
   std::vector<bool> judged(requirements.size(), false);
   for (std::size_t first = 0; first < requirements.size(); ++first) {
     if (judged[first]) continue;
-    const Column* column = column_of(results, requirements[first]);
+    const Requirement& like = requirements[first];
+    const Column* column = column_of(results, like);
     std::optional<RankedOutput> ranks;
-    if (column) ranks.emplace(results, *column);
+    if (column) ranks.emplace(results, *column, like.absolute);
     for (std::size_t k = first; k < requirements.size(); ++k) {
-      if (requirements[k].output != requirements[first].output) continue;
-      verdicts[k] = judge_one(requirements[k], results, column, ranks ? &*ranks : nullptr, looks);
+      const Requirement& own = requirements[k];
+      if (own.output != like.output || own.absolute != like.absolute) continue;
+      verdicts[k] = judge_one(own, results, column, ranks ? &*ranks : nullptr,
+                              confidence_alone(requirements, own), looks);
       judged[k] = true;
     }
   }
@@ -167,15 +205,36 @@ bool is_decided(const Verdict& verdict) {
 
 double joint_confidence(std::span<const Verdict> verdicts) {
   std::vector<double> confidences;
-  for (const Verdict& verdict : verdicts) confidences.push_back(verdict.requirement.confidence);
+  for (const Verdict& verdict : verdicts) confidences.push_back(verdict.confidence_alone);
   return joint_confidence(confidences);
+}
+
+std::vector<GroupVerdict> judge_groups(std::span<const Verdict> verdicts) {
+  std::vector<GroupVerdict> groups;
+  for (const Verdict& verdict : verdicts) {
+    const auto& [name, confidence] =
+        std::pair(verdict.requirement.group, verdict.requirement.confidence);
+    if (name.empty()) continue;
+    auto group = std::ranges::find(groups, name, &GroupVerdict::name);
+    if (group == groups.end())
+      group = groups.insert(group, {name, confidence, 0, 0, Decision::pass});
+    ++group->members;
+    group->passed += verdict.decision == Decision::pass ? 1 : 0;
+    if (verdict.decision == Decision::fail) group->decision = Decision::fail;
+    if (verdict.decision == Decision::undecided && group->decision == Decision::pass)
+      group->decision = Decision::undecided;
+  }
+  return groups;
 }
 
 std::string evidence(const Verdict& verdict) {
   const long broken = std::ssize(verdict.broken);
-  const std::string found =
+  std::string found =
       fmt::format("{} of {} {} {} it", broken, verdict.runs, verdict.runs == 1 ? "run" : "runs",
                   broken == 1 ? "breaks" : "break");
+  if (verdict.cut > 0)
+    found += fmt::format(" ({} of them because t_end cut {})", verdict.cut,
+                         verdict.cut == 1 ? "its peaks" : "their peaks");
   if (verdict.allowed) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;
     return fmt::format("{}, and {} may{}", found, *verdict.allowed,

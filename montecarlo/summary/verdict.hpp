@@ -3,7 +3,7 @@
 /// A run breaks a requirement when it did not deploy, when the output did not happen in it, or when
 /// its value is beyond the limit. So a run that stalled, timed out, failed or whose draw was
 /// unphysical ranks above every finite value of a `max` and below every one of a `min`: leaving it
-/// out would flatter the result.
+/// out would flatter the result. A peak that t_end cut is as bad, whatever it had come to: it may still rise.
 ///
 /// Symbols as in wilks.hpp: n runs, k of them break the requirement P ≥ p at confidence c.
 #pragma once
@@ -13,6 +13,7 @@
 #include "montecarlo/runs/results.hpp"
 #include "montecarlo/statistics/wilks.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -29,14 +30,19 @@ enum class Decision {
 struct Verdict {
   Requirement requirement;
   Decision decision = Decision::undecided;
-  long runs = 0;         ///< n
-  double confidence = 0; ///< what has to be shown at: c, or more when there were several looks
+  long runs = 0;               ///< n
+  double confidence_alone = 0; ///< c, or more where a group shares it
+  double confidence =
+      0; ///< what has to be shown at: the same, or more when there were several looks
   std::optional<long> allowed;    ///< most runs that may break it; nothing when n decides nothing
   Spilled<long> broken;           ///< numbers of the runs that do, the worst first
   std::optional<long> least_runs; ///< that could show it, if none broke it
   bool disproved = false;         ///< P < p is shown, at the same confidence
-  double share = 0;               ///< of the runs that keep to it; NaN without runs
-  double guaranteed_share = 0;    ///< the one-sided Clopper–Pearson bound of P
+  long cut = 0;                   ///< of those that break it, deployed runs whose peak t_end cut
+  /// The least and the largest value there is, where the limit lies on the other side of zero from all of them.
+  std::optional<std::array<double, 2>> beyond_zero{};
+  double share = 0;            ///< of the runs that keep to it; NaN without runs
+  double guaranteed_share = 0; ///< the one-sided Clopper–Pearson bound of P
   /// Of the output, counting runs that break it as worse than any number; nothing where the value
   /// would be one of those, and of "deployed".
   std::optional<double> observed;   ///< the p quantile, from the side of the limit
@@ -51,7 +57,13 @@ struct Verdict {
 class RankedOutput {
 public:
   /// Cost O(n log n), and 8 bytes a run; 16 for one that is worse than any number.
-  RankedOutput(const Results& results, const Column& output);
+  /// @param absolute of magnitudes
+  RankedOutput(const Results& results, const Column& output, bool absolute = false);
+
+  /// Those that are numbers, smallest first.
+  [[nodiscard]] std::span<const double> numbers() const {
+    return std::span(values_).subspan(worse_, values_.size() - 2 * worse_);
+  }
 
   /// Smallest first, with +∞ for what is worse than any number.
   [[nodiscard]] std::span<const double> worst_above() const {
@@ -71,7 +83,7 @@ private:
 /// @pre the draws of the runs are independent; the results have the output
 [[nodiscard]] Verdict judge(const Requirement& requirement, const Results& results, long looks = 1);
 
-/// Of each of the requirements. Every output is sorted once, however many there are on it.
+/// Of each of the requirements; those of a group share a confidence. Every output is sorted once, however many there are on it.
 [[nodiscard]] std::vector<Verdict> judge_all(std::span<const Requirement> requirements,
                                              const Results& results, long looks = 1);
 
@@ -81,6 +93,16 @@ private:
 /// At least the confidence with which whatever passes holds together, each verdict holding for itself:
 /// every requirement had its chance of a false pass, those too that did not take it.
 [[nodiscard]] double joint_confidence(std::span<const Verdict> verdicts);
+
+/// The requirements of a group, and whether they hold together.
+struct GroupVerdict {
+  std::string name;
+  double confidence = 0; ///< of all of them together
+  long members = 0, passed = 0;
+  Decision decision = Decision::undecided; ///< pass: all do; fail: one fails
+};
+/// In order of their first mention.
+[[nodiscard]] std::vector<GroupVerdict> judge_groups(std::span<const Verdict> verdicts);
 
 /// Why it came out so: "25 of 10000 runs break it, and 19 may".
 [[nodiscard]] std::string evidence(const Verdict& verdict);

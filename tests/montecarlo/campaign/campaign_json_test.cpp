@@ -25,13 +25,14 @@ bool same(const Dispersion& a, const Dispersion& b) {
 TEST_CASE("What a campaign leaves out has its default", "[campaign_json]") {
   const Campaign campaign = read({{"scene", test::small_scene()}});
   CHECK(campaign.dispersions.empty());
-  CHECK(campaign.resolved.dump() ==
-        R"({"scene":)" + write_scene(campaign.scene).dump() + R"(,"dispersions":[],)" +
-            R"("sampling":{"design":"random","runs":1000,"seed":1,"replicates":1},)" +
-            R"("integration":{"method":"auto","rtol":1e-08,"atol":1e-10,"latch":"event",)" +
-            R"("t_end":60.0,"max_steps":1000000},)" +
-            R"("outputs":["latch_time","latch_rate","peak_moment","peak_force","overtravel"],)" +
-            R"("statistics":{"quantiles":[0.01,0.5,0.99],"confidence":0.95,"bins":"auto"}})");
+  CHECK(
+      campaign.resolved.dump() ==
+      R"({"scene":)" + write_scene(campaign.scene).dump() + R"(,"dispersions":[],)" +
+          R"("sampling":{"design":"random","runs":1000,"seed":1,"replicates":1},)" +
+          R"("integration":{"method":"auto","rtol":1e-08,"atol":1e-10,"latch":"event",)" +
+          R"("t_end":60.0,"max_steps":1000000},)" +
+          R"("outputs":["latch_time","latch_rate","peak_moment","peak_force","overtravel","peaks_final"],)" +
+          R"("statistics":{"quantiles":[0.01,0.5,0.99],"confidence":0.95,"bins":"auto"}})");
 }
 
 TEST_CASE("A campaign as resolved reads back to itself", "[campaign_json]") {

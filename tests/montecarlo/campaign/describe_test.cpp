@@ -29,7 +29,7 @@ TEST_CASE("A campaign is described with what varies and how it is run", "[descri
         "sampling: random, 1000 runs, seed 1\n"
         "integration: method auto, rtol 1e-08, atol 1e-10, latch event, up to 60 s and 1000000 "
         "steps\n"
-        "outputs: latch_time, latch_rate, peak_moment, peak_force, overtravel\n"
+        "outputs: latch_time, latch_rate, peak_moment, peak_force, overtravel, peaks_final\n"
         "statistics: quantiles 0.01 0.5 0.99, confidence 0.95, bins auto\n");
 }
 

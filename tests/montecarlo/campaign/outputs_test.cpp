@@ -67,8 +67,8 @@ TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_setting
   const auto [json, message] = GENERATE(values<Case>(
       {{"\"latch_time\"", "found string \"latch_time\", expected an array of output families"},
        {R"(["latch_times"])", "/0: found string \"latch_times\", expected \"latch_time\", "
-                              "\"latch_rate\", \"peak_moment\", \"peak_force\", \"rate_at\" or "
-                              "\"overtravel\""},
+                              "\"latch_rate\", \"peak_moment\", \"peak_force\", \"rate_at\", "
+                              "\"overtravel\" or \"peaks_final\""},
        {R"(["rate_at", "rate_at"])",
         "/1: found string \"rate_at\" a second time, expected each family once"}}));
   CHECK(read(json, default_outputs(), read_outputs).problems == message);

@@ -82,7 +82,10 @@ TEST_CASE("Each fault of a requirement is told", "[requirement]") {
         "/1/name: found string \"\", expected a string, not empty, without control characters"},
        {"/1/minimum", "1",
         "/1/minimum: found the unknown key \"minimum\", expected \"name\", \"output\", \"max\", "
-        "\"min\", \"probability\" or \"confidence\""}}));
+        "\"min\", \"abs\", \"group\", \"probability\" or \"confidence\""},
+       {"/1/abs", "1", "/1/abs: found 1, expected true or false"},
+       {"/0/group", "\"\"",
+        "/0/group: found string \"\", expected a string, not empty, without control characters"}}));
   CAPTURE(change.pointer, change.value);
   std::vector<Requirement> requirements;
   CHECK(test::problems_of(test::spoil(two(), change), [&](const JsonCursor& at) {
@@ -95,4 +98,49 @@ TEST_CASE("Without a scene no output is missed", "[requirement]") {
   CHECK(test::problems_of(two(), [&](const JsonCursor& at) {
           read_requirements(at, nullptr, {}, requirements);
         }).empty());
+}
+
+TEST_CASE("A limit may be on the magnitude, and requirements may share a confidence",
+          "[requirement]") {
+  Json document = two();
+  document[1] = parse_json(R"({ "output": "root.latch_rate", "max": 1.5, "abs": true,
+                                "probability": 0.99, "confidence": 0.9, "group": "A" })");
+  document[0]["group"] = "A";
+  document.push_back(
+      parse_json(R"({ "output": "deployed", "probability": 0.99, "confidence": 0.95 })"));
+  const std::vector<Requirement> requirements = read(document);
+  CHECK((requirements[1].absolute && requirements[1].group == "A"));
+  CHECK(write_requirements(requirements) == document);
+  CHECK(to_string(requirements[1]) == "|root.latch_rate| ≤ 1.5 rad/s, 99 % at 90 % in group A");
+  CHECK(confidence_alone(requirements, requirements[0]) ==
+        Approx(0.95).epsilon(1e-15));                             // 1 − 0.1/2
+  CHECK(confidence_alone(requirements, requirements[2]) == 0.95); // alone
+}
+
+TEST_CASE("A group has one confidence, and deployment no magnitude", "[requirement]") {
+  Json document = two();
+  document[0]["group"] = document[1]["group"] = "loads";
+  document.push_back(parse_json(
+      R"({ "output": "deployed", "abs": true, "probability": 0.99, "confidence": 0.95 })"));
+  std::vector<Requirement> requirements;
+  CHECK(test::problems_of(document,
+                          [&](const JsonCursor& at) {
+                            read_requirements(at, &outputs, all_outputs, requirements);
+                          }) ==
+        "/2/abs: found true, expected an output with a limit: a run has deployed or has not\n"
+        "/1/confidence: found 0.95, expected 0.9, as of the others of the group \"loads\": it is "
+        "that of all of them together");
+}
+
+TEST_CASE("A limit on a time beyond the end of every run is refused", "[requirement]") {
+  Json document = two();
+  document[0]["output"] = "deployment_time";
+  const double t_end = GENERATE(399.5, 400.); // s
+  const std::vector<Requirement> requirements = read(document);
+  CHECK(test::problems_of(
+            document, [&](const JsonCursor& at) { refuse_late_limits(at, requirements, t_end); }) ==
+        (t_end == 400 ? ""
+                      : "/0/max: found 400 s, expected at most t_end, 399.5 s: a run ends there, "
+                        "and what has not latched by then breaks the requirement (a later limit "
+                        "wants a later t_end)"));
 }

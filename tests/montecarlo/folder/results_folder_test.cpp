@@ -1,3 +1,4 @@
+#include "montecarlo/folder/replay.hpp"
 #include "montecarlo/folder/results_folder.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/summary/summary_json.hpp"
@@ -114,7 +115,7 @@ TEST_CASE("requirements are judged from the folder, and those of a file in their
   const auto path = folder.path() / "r";
   Json json = quick_campaign(300);
   json["requirements"] = parse_json(R"([
-    { "output": "root.latch_time", "max": 100, "probability": 0.99, "confidence": 0.9 } ])");
+    { "output": "root.latch_time", "max": 20, "probability": 0.99, "confidence": 0.9 } ])");
   (void)run_into(path, campaign_of(json));
   const Json judged = parse_json_file(path / summary_file)["requirements"];
   REQUIRE(judged.size() == 1);
@@ -173,4 +174,43 @@ TEST_CASE("tolerance limits are of the runs in the folder") {
   const Json output = parse_json_file(path / summary_file)["outputs"]["root.latch_time"];
   CHECK(output["tolerance"][0]["lower"] == output["min"]); // order 1 of 100 runs
   CHECK(output["tolerance"][0]["upper"] == output["max"]);
+}
+
+TEST_CASE("a folder from before peaks were told to be final opens as it is") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  Json json = quick_campaign(20);
+  json["outputs"] = {"peak_moment"};
+  json["integration"]["t_end"] = 7; // some still ring then: their peaks are not proven
+  json["requirements"] = parse_json(R"([
+    { "output": "root.peak_moment", "max": 1e6, "probability": 0.8, "confidence": 0.9 } ])");
+  Campaign campaign = campaign_of(json);
+  (void)run_into(path, campaign);
+  const Json now = parse_json_file(path / summary_file);
+  long cut = 0, open = 0, all_cut = 0;
+  const Results rows = read_stored_results(read_stored_campaign(path)).results;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool deployed = rows.status[i] == Status::deployed;
+    all_cut += rows.peaks_final[i] == PeaksFinal::no ? 1 : 0;
+    cut += deployed && rows.peaks_final[i] == PeaksFinal::no ? 1 : 0;
+    open += deployed ? 0 : 1;
+  }
+  REQUIRE(cut > 0);
+  CHECK(now["peaks_final"]["false"] == all_cut);
+  CHECK(now["requirements"][0]["failures"] ==
+        Json{{"seen", cut + open}, {"allowed", 1}, {"peaks_cut", cut}});
+  campaign.outputs.erase(OutputFamily::peaks_final); // as they were
+  campaign.resolved["outputs"] = write_outputs(campaign.outputs);
+  const auto old = folder.path() / "old";
+  (void)run_into(old, campaign);
+  const std::string header = read_text(old / runs_file).value().substr(0, 200);
+  CHECK(header.find("peaks_final") == std::string::npos);
+  const StoredCampaign stored = read_stored_campaign(old);
+  CHECK_FALSE(stored.campaign.outputs.contains(OutputFamily::peaks_final));
+  const Summary summary =
+      write_statistics(stored, read_stored_results(stored).results, stored.campaign.statistics);
+  CHECK_FALSE(summary.peaks);
+  CHECK(std::ssize(summary.requirements[0].broken) == open);
+  CHECK(ReplayRequest(stored, 3).replay({}).differences.empty());
+  CHECK(ReplayRequest(read_stored_campaign(path), 3).replay({}).differences.empty());
 }

@@ -49,8 +49,9 @@ TEST_CASE("the seed scene's outcome as JSON") {
   const Outcome outcome = simulate(scene, 10);
   const Json json = parse_json(json_text(outcome_json(scene, outcome)));
   CHECK(keys(json) == std::vector<std::string>{"status", "reason", "method", "phases", "t_end",
-                                               "latches", "peak_moment", "peak_force", "overtravel",
-                                               "warnings", "final", "energy", "work"});
+                                               "latches", "peak_moment", "peak_force",
+                                               "peaks_final", "overtravel", "warnings", "final",
+                                               "energy", "work"});
   CHECK(json["status"] == "deployed");
   CHECK(json["reason"].is_null());
   CHECK(json["t_end"] == 10);
@@ -81,6 +82,7 @@ TEST_CASE("the seed scene's outcome as JSON") {
 TEST_CASE("overtravel stands by hinge, and in the table, and is warned of without a stop") {
   Scene scene = read_scene_file(three_panel_file());
   Outcome outcome = simulate(scene, 1);
+  outcome.peaks_final = true;
   outcome.overtravel = {0, 0.5, 0.25};
   scene.hinges[2].stop = Stop{100, 0, 0};
   const std::string text = "mid turns up to 28.6 deg beyond its stowed angle; it has no stop";
@@ -102,6 +104,12 @@ TEST_CASE("what did not happen, or is not known, is null") {
     CHECK(json["status"] == "timed_out");
     CHECK(json["latches"] == Json::array());
     CHECK(json["peak_moment"]["root"]["value"] == 2.0);
+    CHECK(json["peaks_final"] == false);
+    const std::string warning =
+        "t_end cut the peaks: it is not proven that none would be exceeded after it";
+    CHECK(json["warnings"] == Json::array({warning}));
+    CHECK_THAT(outcome_text(scene, simulate(scene, 1)),
+               Catch::Contains("\nWARNING\n  " + warning + "\n"));
   }
   SECTION("stalled: with its reason, and peaks up to the end") {
     const Json json = outcome_json(scene, stalled(simulate(scene, 1)));
@@ -115,8 +123,8 @@ TEST_CASE("what did not happen, or is not known, is null") {
     CHECK(json["status"] == "invalid");
     CHECK(json["reason"].get<std::string>().starts_with("bodies.panel_1.mass is -1"));
     CHECK(json["latches"] == Json::array());
-    for (const char* key : {"method", "phases", "t_end", "peak_moment", "peak_force", "overtravel",
-                            "final", "energy"})
+    for (const char* key : {"method", "phases", "t_end", "peak_moment", "peak_force", "peaks_final",
+                            "overtravel", "final", "energy"})
       CHECK(json[key].is_null());
   }
   SECTION("failed") {
@@ -127,6 +135,8 @@ TEST_CASE("what did not happen, or is not known, is null") {
     const Json json = outcome_json(scene, outcome);
     CHECK(json["peak_moment"].is_null());
     CHECK(json["overtravel"].is_null());
+    CHECK(json["peaks_final"].is_null());
+    CHECK(json["warnings"].dump().find("t_end") == std::string::npos);
     CHECK(json["final"]["rates"]["mid"].is_null());
   }
 }

@@ -191,3 +191,29 @@ TEST_CASE("runs.csv: run numbers are whole and increase") {
   CHECK_THROWS_WITH(read_runs("4", "4"), "runs.csv: line 3, column 'run': found '4" + must +
                                              "5 (runs count from 0, in order)");
 }
+
+TEST_CASE("whether peaks are proven is a column of its own, where it is recorded") {
+  const ResultNames columns{{"k"}, {"t"}, true};
+  Results results(columns);
+  results.append({0, Status::deployed, {1}, {2}, "root", "", PeaksFinal::yes});
+  results.append({1, Status::timed_out, {1}, {none}, "", "why", PeaksFinal::no});
+  results.append({2, Status::failed, {1}, {none}, "", "why", PeaksFinal::unknown});
+  const std::string text = write(results, columns);
+  CHECK(text == "run,status,k,t,peaks_final,latch_order,reason\n0,deployed,1,2,true,root,\n"
+                "1,timed_out,1,,false,,why\n2,failed,1,,,,why\n");
+  const Results again = read(text, columns).results;
+  check_same(results, again, 3);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(again.peaks_final[i] == results.peaks_final[i]);
+  CHECK(write(again, columns) == text);
+  SpecError error({});
+  try {
+    (void)read("run,status,k,t,peaks_final,latch_order\n0,deployed,1,2,yes,root\n", columns);
+  } catch (const SpecError& caught) {
+    error = caught;
+  }
+  CHECK_THAT(
+      error.what(),
+      Catch::Contains("column 'peaks_final': found 'yes', expected true, false, or nothing"));
+  CHECK_THROWS_AS(read("run,status,k,t,latch_order\n", columns), SpecError);
+  CHECK_THROWS_AS(read(text, {{"k"}, {"t"}}), SpecError); // not its column
+}

@@ -268,3 +268,93 @@ TEST_CASE("tolerance limits and verdicts of two looks are those of half the risk
   CHECK(judge(at_most(1000, .95, .95), results, 2).allowed == 7);
   CHECK(judge(at_most(1000, .95, .95), results).allowed == 8);
 }
+
+// The k-th run turns at −k or +k: magnitudes 1 … 1000, of which 5 may break 99 % at 90 % (scipy 1.10.1).
+TEST_CASE("a limit on the magnitude does not ask for the sense of rotation") {
+  Results results(ResultNames{{}, {"x"}});
+  for (long run = 0; run < 1000; ++run)
+    results.append(
+        {run, Status::deployed, {}, {(run % 2 == 0 ? -1. : 1.) * double(run + 1)}, "", ""});
+  Requirement both = at_most(995, .99, .9);
+  both.absolute = true;
+  const Verdict verdict = judge(both, results);
+  CHECK(verdict.broken == std::vector<long>{999, 998, 997, 996, 995});
+  CHECK(
+      (verdict.decision == Decision::pass && verdict.observed == 990 && verdict.guaranteed == 995));
+  CHECK(judge(at_most(995, .99, .9), results).broken == std::vector<long>{999, 997, 995});
+  Requirement least = at_least(3, .99, .9);
+  least.absolute = true;
+  CHECK(judge(least, results).broken == std::vector<long>{0, 1}); // −1, 2
+  // The same output with and without the magnitude, side by side.
+  const std::vector<Verdict> together =
+      judge_all(std::vector{at_most(995, .99, .9), both}, results);
+  CHECK((together[0].broken.size() == 3 && together[1].broken.size() == 5));
+}
+
+// scipy 1.10.1, stats.binom.cdf: of 1000, 40 may break .95/.95 and 38 may break .95/.975.
+TEST_CASE("requirements of a group hold together at the confidence they share") {
+  const Results results = counting(1000);
+  std::vector<Requirement> pair{at_most(1000, .95, .95), at_most(1000, .95, .95),
+                                at_most(1000, .95, .95)};
+  pair[0].group = pair[1].group = "A";
+  const std::vector<Verdict> verdicts = judge_all(pair, results);
+  for (const std::size_t k : {0U, 1U}) {
+    CHECK(verdicts[k].confidence == Approx(.975).epsilon(1e-15));
+    CHECK(verdicts[k].allowed == allowed_failures(1000, .95, 1 - .05 / 2));
+  }
+  CHECK((verdicts[2].confidence == .95 && *verdicts[2].allowed > *verdicts[0].allowed));
+  CHECK(joint_confidence(verdicts) ==
+        Approx(.9).epsilon(1e-14)); // .95 for the group, .95 for the other
+  CHECK(judge_all(pair, results, 2)[0].confidence == Approx(1 - .05 / 4).epsilon(1e-15));
+  pair[1].max = 500;
+  const auto groups = judge_groups(judge_all(pair, results));
+  REQUIRE(groups.size() == 1);
+  CHECK((groups[0].name == "A" && groups[0].members == 2 && groups[0].passed == 1));
+  CHECK((groups[0].confidence == .95 && groups[0].decision == Decision::fail));
+  CHECK(judge_groups(verdicts)[0].decision == Decision::pass);
+}
+
+TEST_CASE("a peak that t_end cut breaks every requirement on it, whatever it had come to") {
+  Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
+  for (long run = 0; run < 1000; ++run) {
+    const auto value = static_cast<double>(run + 1);
+    results.append({run,
+                    Status::deployed,
+                    {},
+                    {value, value},
+                    "",
+                    "",
+                    run < 3 ? PeaksFinal::no : PeaksFinal::yes});
+  }
+  Requirement peak{"", "root.peak_moment", 1001, {}, .99, .9};
+  const Verdict verdict = judge(peak, results);
+  CHECK(verdict.broken == std::vector<long>{0, 1, 2});
+  CHECK(verdict.cut == 3);
+  CHECK(evidence(verdict) ==
+        "3 of 1000 runs break it (3 of them because t_end cut their peaks), and "
+        "5 may");
+  peak.max.reset();
+  peak.min = 0;
+  CHECK(judge(peak, results).broken.size() == 3);
+  peak.output = "root.latch_time"; // that one stands, wherever the run ends
+  CHECK((judge(peak, results).broken.empty() && judge(peak, results).cut == 0));
+  const RankedOutput ranks(results, results.outputs[0]);
+  CHECK((ranks.numbers().size() == 997 && std::isinf(ranks.worst_above().back())));
+}
+
+TEST_CASE("a limit on the other side of zero from every value is found") {
+  Results results(ResultNames{{}, {"x"}});
+  for (const double value : {-1.5, -1.25, none, -0.5})
+    results.append({static_cast<long>(results.size()), Status::deployed, {}, {value}, "", ""});
+  const auto found = judge(at_most(1.5, .5, .5), results).beyond_zero;
+  REQUIRE(found);
+  CHECK((found->front() == -1.5 && found->back() == -0.5));
+  CHECK_FALSE(judge(at_most(0, .5, .5), results).beyond_zero);
+  CHECK_FALSE(judge(at_least(-2, .5, .5), results).beyond_zero);
+  Requirement magnitude = at_most(1.5, .5, .5);
+  magnitude.absolute = true;
+  CHECK_FALSE(judge(magnitude, results).beyond_zero);
+  results.append({4, Status::deployed, {}, {0.1}, "", ""});
+  CHECK_FALSE(judge(at_most(1.5, .5, .5), results).beyond_zero); // not every value
+  CHECK_FALSE(judge(at_most(1.5, .5, .5), Results(ResultNames{{}, {"x"}})).beyond_zero);
+}
