@@ -34,6 +34,7 @@ montecarlo/statistics
 montecarlo/scene_file
 montecarlo/motorization
 montecarlo/campaign
+montecarlo/notices
 montecarlo/runs
 montecarlo/summary
 montecarlo/folder

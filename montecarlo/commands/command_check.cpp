@@ -2,6 +2,8 @@
 #include "montecarlo/campaign/describe.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
+#include "montecarlo/notices/examine.hpp"
+#include "montecarlo/notices/placement.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <variant>
+#include <vector>
 
 namespace wingspread {
 namespace {
@@ -16,6 +19,7 @@ namespace {
 struct CheckOptions {
   std::filesystem::path file;
   std::vector<std::string> set;
+  bool strict = false;
 };
 
 std::variant<Scene, Campaign> read_changed(const CheckOptions& options) {
@@ -27,10 +31,23 @@ std::variant<Scene, Campaign> read_changed(const CheckOptions& options) {
   return read;
 }
 
+/// What it holds, and where its bodies are.
+std::string text_of(const Scene& scene) { return describe(scene) + describe_placement(scene); }
+std::string text_of(const Campaign& campaign) {
+  return describe(campaign) + describe_placement(campaign.scene);
+}
+
+std::vector<Notice> examine_file(const std::variant<Scene, Campaign>& read,
+                                 const std::filesystem::path& file) {
+  if (const Scene* scene = std::get_if<Scene>(&read)) return examine(*scene, {}, file);
+  return examine(std::get<Campaign>(read), file);
+}
+
 int check(const CheckOptions& options) {
   const std::variant<Scene, Campaign> read = read_changed(options);
-  const auto text = std::visit([](const auto& spec) { return describe(spec); }, read);
-  fmt::print("{}{}", text, text.ends_with('\n') ? "" : "\n");
+  const std::vector<Notice> notices = examine_file(read, options.file);
+  fmt::print("{}", std::visit([](const auto& spec) { return text_of(spec); }, read));
+  heed(notices, options.strict);
   return exit_code::done;
 }
 
@@ -38,12 +55,15 @@ int check(const CheckOptions& options) {
 
 void add_check(CLI::App& app, Action& action) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
-      app.add_subcommand("check", "Validate a scene or a campaign, and say what it holds");
+  CLI::App* command = app.add_subcommand(
+      "check", "Validate a scene or a campaign; say what it holds, and what looks wrong");
   command->add_option("file", options->file, "The scene or campaign, a JSON file")->required();
+  add_strict_option(*command, options->strict);
   add_set_option(*command, options->set);
   command->footer(
-      R"(All problems are reported together, each with its place; the exit code is then 2.
+      R"(All problems are reported together, each with its place; the exit code is then 2. What can be
+run but looks wrong is warned of on standard error: angles in degrees, springs that push away from
+their latch, bodies in each other's place, laws that turn a sign, and the like.
 
 Example:
   wingspread check campaign.json)");

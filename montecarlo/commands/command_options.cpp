@@ -13,6 +13,8 @@
 namespace wingspread {
 namespace {
 
+constexpr std::size_t most_notices = 30; // in one list
+
 /// "/t_end" → "--t-end"; what lies deeper is the option's too.
 std::string option_of(std::string_view pointer) {
   const std::string_view key = pointer.substr(std::min<std::size_t>(1, pointer.size()));
@@ -131,6 +133,19 @@ void add_sampling_options(CLI::App& command, SamplingOptions& sampling) {
       ->check(CLI::Range(std::int64_t{1}, most_runs).description(""))
       ->type_name("N");
   add_seed_option(command, sampling.seed);
+}
+
+void add_strict_option(CLI::App& command, bool& strict) {
+  command.add_flag("--strict", strict,
+                   "What is warned of is an error: nothing is done, exit code 2");
+}
+
+void heed(const std::vector<Notice>& notices, bool strict) {
+  if (strict && !notices.empty()) throw as_errors(notices);
+  for (std::size_t i = 0; i < std::min(notices.size(), most_notices); ++i)
+    fmt::print(stderr, "warning: {}\n", to_string(notices[i]));
+  if (notices.size() > most_notices)
+    fmt::print(stderr, "warning: and {} more\n", notices.size() - most_notices);
 }
 
 } // namespace wingspread

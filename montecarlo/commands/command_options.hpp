@@ -3,6 +3,7 @@
 
 #include "montecarlo/campaign/campaign.hpp"
 #include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/notices/notice.hpp"
 #include "montecarlo/runs/evaluator.hpp"
 
 #include <cstdint>
@@ -41,6 +42,13 @@ void add_crew_options(CLI::App& command, CrewOptions& options);
 
 /// @throws CLI::ValidationError where this processor has not got what is asked for
 [[nodiscard]] Crew crew_of(const CrewOptions& options);
+
+/// --strict: what is noticed is an error.
+void add_strict_option(CLI::App& command, bool& strict);
+
+/// Says on standard error what was noticed of the input, a line each.
+/// @throws SpecError with all of it, if it is to be an error
+void heed(const std::vector<Notice>& notices, bool strict);
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling);
 

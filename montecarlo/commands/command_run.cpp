@@ -10,6 +10,7 @@
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/machine/team.hpp"
+#include "montecarlo/notices/examine.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ struct RunOptions {
   std::filesystem::path campaign, out;
   SamplingOptions sampling;
   CrewOptions crew;
-  bool resume = false;
+  bool resume = false, strict = false;
   std::string shard;
   std::vector<std::string> until, set, cases;
   Display display;
@@ -205,6 +206,7 @@ int run(const RunOptions& options) {
   change_scene(campaign, options.set);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   override_until(campaign, options.until);
+  heed(examine(campaign, options.campaign), options.strict);
   if (!campaign.cases.empty()) return run_cases(campaign, options);
   (void)chosen_cases(campaign, options.cases); // there are none
   return run_into(campaign, options.out, options,
@@ -239,6 +241,7 @@ void add_run(CLI::App& app, Action& action) {
                    "Of a campaign with cases only this one; several times if wanted")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  add_strict_option(*command, options->strict);
   add_display_options(*command, options->display);
   command->footer(
       std::string("Progress goes to standard error, if that is a terminal.\n") + display_help +

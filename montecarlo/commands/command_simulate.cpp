@@ -5,6 +5,7 @@
 #include "montecarlo/folder/replay.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/number_text.hpp"
+#include "montecarlo/notices/examine.hpp"
 #include "montecarlo/report/outcome_report.hpp"
 #include "montecarlo/report/replay_report.hpp"
 #include "montecarlo/report/trajectory.hpp"
@@ -24,7 +25,7 @@ struct SimulateOptions {
   std::filesystem::path scene, out;
   std::vector<std::string> set;
   std::string of_case;
-  bool json = false;
+  bool json = false, strict = false;
   std::optional<std::string> method, latch;
   std::optional<double> step, rtol, atol, t_end;
 };
@@ -100,6 +101,7 @@ int status_code(const Outcome& outcome) {
 int simulate(const SimulateOptions& options) {
   Task task = read_task(options);
   apply_options(options, task.integration);
+  heed(examine(task.scene, task.integration, options.scene), options.strict);
   Goal goal;
   goal.to_t_end = true;
   const Outcome outcome = write_trajectory(options.out, task.scene, [&](const Observer& observer) {
@@ -136,6 +138,7 @@ void add_simulate(CLI::App& app, Action& action) {
   add_case_option(*command, options->of_case);
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->add_option("--out", options->out, "Write the trajectory to this CSV file");
+  add_strict_option(*command, options->strict);
   command->add_option("--method", options->method, "See wingspread methods");
   command->add_option("--step", options->step, "The step of a method with a fixed one, s");
   command->add_option("--rtol", options->rtol, "Relative tolerance of a step");

@@ -121,7 +121,12 @@ TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
   long sum = 0;
   for (const auto& [status, share] : summary["status"].items()) sum += share["count"].get<long>();
   CHECK(sum == 30);
-  CHECK(error == "error: " + summary["status"]["failed"]["count"].dump() +
+  // Φ(−10/6), by scipy 1.10.1
+  CHECK(error == "warning: " + setting.campaign +
+                     ": /dispersions/1: found a probability of 0.0478 that a draw takes below 0 "
+                     "bodies.panel_1.mass, usual is less than 1e-09: a law that ends before "
+                     "(lognormal, or \"truncate\")\nerror: " +
+                     summary["status"]["failed"]["count"].dump() +
                      " of 30 runs failed numerically; " + setting.out +
                      "/summary.json has their reasons\n");
 }
@@ -133,7 +138,9 @@ TEST_CASE("runs that stall are counted with their reasons, and are no failures")
   const Setting setting(json);
   const auto [code, out, error] = setting.run(setting.out);
   CHECK(code == 0);
-  CHECK(error.empty());
+  CHECK(lines_of(error).size() == 3); // told of each hinge before it is run
+  for (const std::string& line : lines_of(error))
+    CHECK_THAT(line, Catch::StartsWith("warning: ") && Catch::Contains("a net static torque of "));
   const Results results = read_stored_results(read_stored_campaign(setting.out)).results;
   CHECK(std::ranges::count(results.status, Status::stalled) == 12);
   for (std::size_t row = 0; row < results.size(); ++row) CHECK_FALSE(results.reason[row].empty());

@@ -54,7 +54,7 @@ CAMPAIGN = {
          "each": "bodies.*.mass"}],
     "sampling": {"runs": 24, "seed": 7}, "integration": {"rtol": 1e-4, "atol": 1e-6, "t_end": 20},
     "outputs": ["latch_time"],
-    "requirements": [{"output": "root.latch_time", "max": 100, "probability": 0.5, "confidence": 0.5}],
+    "requirements": [{"output": "root.latch_time", "max": 20, "probability": 0.5, "confidence": 0.5}],
     "margin": {"scale": ["hinges.*.spring.torque_stowed"], "range": [0.9, 1.1], "points": 2, "tolerance": 0.2}}
 
 

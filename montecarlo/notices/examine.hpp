@@ -1,0 +1,24 @@
+/// All that is noticed of a scene or a campaign before it is run.
+#pragma once
+
+#include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/notices/notice.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace wingspread {
+
+/// Where the scene stands that a file is or holds: in itself, under "/scene", or in the file that it names.
+/// @pre the file was read without a problem
+[[nodiscard]] ScenePlace scene_place(const std::filesystem::path& file);
+
+/// Cost: that of a deployment up to its last latch.
+[[nodiscard]] std::vector<Notice> examine(const Scene& scene, const Integration& integration,
+                                          const std::filesystem::path& file);
+
+/// Of its nominal scene, the torques of its cases, its dispersions, correlations and requirements.
+[[nodiscard]] std::vector<Notice> examine(const Campaign& campaign,
+                                          const std::filesystem::path& file);
+
+} // namespace wingspread

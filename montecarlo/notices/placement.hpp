@@ -1,0 +1,34 @@
+/// Where the bodies of a scene are at given hinge angles: what a designer compares with the drawing.
+///
+/// | symbol | meaning                                                    | unit |
+/// |--------|------------------------------------------------------------|------|
+/// | θ_i    | absolute angle of body i: θ_i = θ_p + φ_i  [MODEL.md §1]   | rad  |
+/// | r_i    | its centre of mass: r_i = r_p + R(θ_p) c_pi − R(θ_i) c_ii  | m    |
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+struct Placement {
+  Eigen::Vector2d position{0, 0}; ///< of the centre of mass, inertial axes, m
+  double angle = 0;               ///< rad
+};
+
+/// All bodies, in the scene's order. The base stands where it is at the start; a fixed one in the origin.
+/// @param angles of the hinges, in the scene's order, rad
+/// @pre outward_order(scene) is not empty
+[[nodiscard]] std::vector<Placement> place_bodies(const Scene& scene,
+                                                  std::span<const double> angles);
+
+[[nodiscard]] std::vector<double> stowed_angles(const Scene& scene);
+[[nodiscard]] std::vector<double> latched_angles(const Scene& scene);
+
+/// A table of every body stowed and deployed, in m and degrees, and the mass of all of them.
+[[nodiscard]] std::string describe_placement(const Scene& scene);
+
+} // namespace wingspread

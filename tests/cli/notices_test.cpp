@@ -1,0 +1,63 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// The seed scene, with a latch that holds nothing.
+std::string spoilt_scene(const Folder& folder) {
+  Json scene = parse_json_file(three_panel_file());
+  scene["hinges"][1]["latch"]["stiffness"] = 0;
+  return folder.write("scene.json", scene.dump());
+}
+
+const std::string found = "/hinges/1/latch/stiffness: found 0 N·m/rad, ";
+const std::string usual = "> 0: nothing holds the hinge when it is latched\n";
+
+} // namespace
+
+TEST_CASE("check, run and simulate warn on standard error, and go on") {
+  const Folder folder;
+  const std::string scene = spoilt_scene(folder);
+  const std::string warning = "warning: " + scene + ": " + found + "usual is " + usual;
+  const auto checked = run_program(folder, {"check", scene});
+  CHECK((checked.code == 0 && checked.error == warning));
+  const auto simulated = run_program(folder, {"simulate", scene, "--json", "--t-end", "8"});
+  CHECK((simulated.code == 0 && simulated.error == warning));
+  CHECK(parse_json(simulated.out)["status"] == "deployed");
+  Json campaign = quick_campaign(5);
+  campaign["scene"] = "scene.json";
+  const std::string file = folder.write("campaign.json", campaign.dump());
+  const auto ran = run_program(folder, {"run", file, "--out", folder.path() / "r"});
+  CHECK((ran.code == 0 && ran.error == warning));
+  CHECK(std::filesystem::exists(folder.path() / "r" / summary_file));
+}
+
+TEST_CASE("--strict makes errors of warnings, and nothing is done") {
+  const Folder folder;
+  const std::string scene = spoilt_scene(folder);
+  const std::string error = "error: " + scene + ": " + found + "expected " + usual;
+  for (const char* command : {"check", "simulate"}) {
+    const auto refused = run_program(folder, {command, scene, "--strict"});
+    CHECK((refused.code == 2 && refused.error == error && refused.out.empty()));
+  }
+  Json campaign = quick_campaign(5);
+  campaign["scene"] = "scene.json";
+  const std::string file = folder.write("campaign.json", campaign.dump());
+  const auto refused = run_program(folder, {"run", file, "--out", folder.path() / "r", "--strict"});
+  CHECK((refused.code == 2 && refused.error == error));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "r"));
+  const auto fine = run_program(folder, {"check", three_panel_file(), "--strict"});
+  CHECK((fine.code == 0 && fine.error.empty()));
+}
+
+TEST_CASE("check says where every body is, and how much they weigh") {
+  const Folder folder;
+  const std::string out = run_program(folder, {"check", three_panel_file()}).out;
+  CHECK(out.find("  panel_3                     0.1000      0.5050     90.00      2.5250") !=
+        std::string::npos);
+  CHECK(out.ends_with("mass of 3 bodies: 30 kg\n"));
+}
