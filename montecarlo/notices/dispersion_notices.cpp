@@ -182,23 +182,20 @@ void notice_through(const Dispersion& dispersion, const Spread& spread, const st
   }
 }
 
-double between(const std::vector<RankCorrelation>& all, std::size_t a, std::size_t b) {
-  for (const RankCorrelation& each : all)
-    if ((each.first == a && each.second == b) || (each.first == b && each.second == a))
-      return std::abs(each.spearman);
-  return 0;
+bool are_named(const std::vector<RankCorrelation>& all, std::size_t a, std::size_t b) {
+  return std::ranges::any_of(all, [&](const RankCorrelation& each) {
+    return (each.first == a && each.second == b) || (each.first == b && each.second == a);
+  });
 }
 
 /// Three that are correlated with each other; nothing where there are none.
-std::optional<std::array<std::size_t, 3>> common_cause(const std::vector<RankCorrelation>& all) {
+std::optional<std::array<std::size_t, 3>> common_cause(std::vector<RankCorrelation> all) {
+  std::erase_if(all, [](const auto& each) { return std::abs(each.spearman) < several_causes; });
   for (const RankCorrelation& pair : all)
-    for (const RankCorrelation& other : all) {
-      const std::size_t third = other.second;
-      if (other.first != pair.first || third == pair.second) continue;
-      if (std::min({std::abs(pair.spearman), std::abs(other.spearman),
-                    between(all, pair.second, third)}) >= several_causes)
-        return std::array{pair.first, pair.second, third};
-    }
+    for (const RankCorrelation& other : all)
+      if (other.first == pair.first && other.second != pair.second &&
+          are_named(all, pair.second, other.second))
+        return std::array{pair.first, pair.second, other.second};
   return std::nullopt;
 }
 
