@@ -5,6 +5,7 @@
 #include "core/mechanics/wing.hpp"
 
 #include <iterator>
+#include <limits>
 
 namespace wingspread {
 
@@ -56,7 +57,9 @@ template <class T> [[nodiscard]] DrivenPiece<T> driven_piece(const BaseTerms<T>&
 /// knot so near that no step could be made to it counts as reached.
 template <class T>
 [[nodiscard]] int number_of_piece(const BaseTable& table, const T& t, int before = 0) {
-  const T reached = t + larger(T(T(8 * epsilon_of<T>) * t), T(1e-12));
+  const T epsilon =
+      std::numeric_limits<T>::epsilon(); // a quad's is none of the compiler's constants
+  const T reached = t + larger(T(T(8) * epsilon * t), T(1e-12));
   int k = before;
   while (k + 1 < std::ssize(table.pieces()) && T(table.pieces()[k + 1].from) <= reached) ++k;
   return k;
