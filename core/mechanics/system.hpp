@@ -193,12 +193,19 @@ private:
     ++work_.evaluations;
     if (work_.stuck > 0) {
       evaluate_stuck(x, dxdt, t);
+    } else if (!wing_.plates.empty()) {
+      evaluate_in_air(x, dxdt, t);
     } else if constexpr (is_static<Topology>) {
       std::array<BodyFrame<T>, Topology::bodies() + 1> frames; // in registers
-      evaluate<forces>(frames, x, dxdt, t);
+      evaluate<forces, false>(frames, x, dxdt, t);
     } else {
-      evaluate<forces>(work_.frames, x, dxdt, t);
+      evaluate<forces, false>(work_.frames, x, dxdt, t);
     }
+  }
+
+  /// Apart: whoever asks for the frames' address takes them out of the registers.
+  [[gnu::noinline]] void evaluate_in_air(const State<T>& x, State<T>& dxdt, const T& t) {
+    evaluate<true, true>(work_.frames, x, dxdt, t);
   }
 
   static constexpr int first_coordinate = base_freedoms<M>; ///< φ_1 in q
@@ -243,7 +250,10 @@ private:
     Augmented<T>& parts = work_.held;
     place_base<M>(wing_, layout_, work_.driven, parts.frames[0], x, t);
     place_bodies<M>(wing_, topology(), parts.frames, x);
-    apply_moments(parts.frames, x, t);
+    if (wing_.plates.empty())
+      apply_moments<false>(parts.frames, x, t);
+    else
+      apply_moments<true>(parts.frames, x, t);
     factorize_all<M>(wing_, topology(), parts, [&](int i) {
       return HingeConstraint<T>{T(0), sticks(i)};
     });
@@ -263,7 +273,7 @@ private:
     if (layout_.smoothed) advance_latches(x, dxdt);
   }
 
-  template <class Frames>
+  template <bool air, class Frames>
   [[gnu::always_inline]] void apply_moments(Frames& frames, const State<T>& x, const T& t) {
     const T* const angles = x.data() + first_coordinate;
     const T* const rates = angles + freedoms();
@@ -277,7 +287,7 @@ private:
         frames[i].moment = frames[i].moment + work_.nonlinear[i];
       });
     }
-    if (!wing_.plates.empty()) {
+    if constexpr (air) {
       find_air_loads(wing_, topology(), frames.data(), base_velocity(x, t), work_);
       for (int i = M == BaseMotion::free ? 0 : 1; i <= layout_.bodies; ++i)
         frames[i].moment = frames[i].moment + work_.air_moments[i];
@@ -286,7 +296,13 @@ private:
 
   /// What is not linear, apart from the frames so that these stay in registers.
   [[gnu::noinline]] void find_nonlinear_moments(const State<T>& x) {
-    for (int i = 1; i <= layout_.bodies; ++i) work_.nonlinear[i] = nonlinear_moment(x, i);
+    for (int i = 1; i <= layout_.bodies; ++i) work_.nonlinear[i] = smooth_moment(x, i);
+    if (wing_.is_real()) add_real_moments(x);
+  }
+
+  [[gnu::noinline]] void add_real_moments(const State<T>& x) {
+    for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i)
+      work_.nonlinear[i] = work_.nonlinear[i] + of_real_hinge(x, i);
     for (const LoopTerms<T>& loop : wing_.loops) {
       const LoopState<T> state = state_of(loop, x);
       const T torque = loop_torque(loop, state);
@@ -309,14 +325,22 @@ private:
   }
 
   [[nodiscard]] T nonlinear_moment(const State<T>& x, int i) const {
+    const T m = smooth_moment(x, i);
+    return wing_.real.empty() ? m : m + of_real_hinge(x, i);
+  }
+
+  [[nodiscard]] T of_real_hinge(const State<T>& x, int i) const {
+    return real_moment(wing_.real[i], work_.modes[i], x[layout_.angle(i)], x[layout_.rate(i)]);
+  }
+
+  /// Of regularized friction and a smoothed latch.
+  [[nodiscard]] T smooth_moment(const State<T>& x, int i) const {
     const T& rate = x[layout_.rate(i)];
     T m =
         wing_.has_regularized_friction ? regularized_friction_moment(wing_.hinges[i], rate) : T(0);
     if (layout_.smoothed && wing_.hinges[i].has_latch)
       m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)],
                                     epsilon_);
-    if (!wing_.real.empty())
-      m = m + real_moment(wing_.real[i], work_.modes[i], x[layout_.angle(i)], rate);
     return m;
   }
 
@@ -330,15 +354,15 @@ private:
     });
   }
 
-  template <bool forces, class Frames>
+  template <bool forces, bool air, class Frames>
   [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
                                        const T& t) {
     place_base<M>(wing_, layout_, work_.driven, frames[0], x, t);
     place_bodies<M>(wing_, topology(), frames, x);
-    apply_moments(frames, x, t);
+    apply_moments<air>(frames, x, t);
     topology().inward([&](int i)
                           __attribute__((always_inline)) { gather(wing_, topology(), frames, i); });
-    accelerate_base(frames, dxdt);
+    accelerate_base<air>(frames, dxdt);
     T* const accelerations = dxdt.data() + first_coordinate + freedoms();
     topology().outward([&](int i) __attribute__((always_inline)) {
       accelerations[i - 1] = accelerate<M>(topology(), frames, i);
@@ -349,7 +373,7 @@ private:
       topology().outward([&](int i) __attribute__((always_inline)) {
         work_.forces[i] = hinge_force(frames[i]);
       });
-    if (forces && wants_forces_) take_air_from_forces();
+    if (air && forces && wants_forces_) take_air_from_forces();
   }
 
   /// The hinges need not push what the air does.
@@ -359,12 +383,12 @@ private:
       work_.forces[i] = work_.forces[i] - work_.air_forces[i];
   }
 
-  template <class Frames>
+  template <bool air, class Frames>
   [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) const {
     if constexpr (M == BaseMotion::free) {
       BodyFrame<T>& base = frames[0];
       gather(wing_, topology(), frames, 0);
-      if (!wing_.plates.empty()) base.bias = base.bias - work_.air_forces[0];
+      if constexpr (air) base.bias = base.bias - work_.air_forces[0];
       accelerate_free_base(base);
       copy_base(base, dxdt);
     }

@@ -71,6 +71,15 @@ template <int W>
   return mask.bits ? a.v : b.v;
 }
 
+/// Whether it holds in any lane.
+template <class Mask>
+requires requires(Mask mask) { mask.bits; }
+[[nodiscard, gnu::always_inline]] inline bool any(const Mask& mask) {
+  std::int64_t some = 0;
+  for (int lane = 0; lane < static_cast<int>(sizeof mask.bits / 8); ++lane) some |= mask.bits[lane];
+  return some != 0;
+}
+
 /// a·b + c with one rounding.
 template <int W>
 [[nodiscard, gnu::always_inline]] inline Pack<W> fused(const Pack<W>& a, const Pack<W>& b,

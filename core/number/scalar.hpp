@@ -22,6 +22,9 @@ template <class T>
   return mask ? a : b;
 }
 
+/// Whether it holds in any lane.
+[[nodiscard]] inline bool any(bool mask) { return mask; }
+
 /// a·b + c. One rounding where the instruction set has it for this type, two elsewhere; written out
 /// because the compiler's own contraction is off and results must not depend on its choices.
 template <class T>

@@ -21,10 +21,12 @@ template <class T>
                                  const T& most) {
   const HingeTerms<T>& hinge = wing.hinges[i];
   const T before = hinge.sense * step.x[at.rate(i)], after = hinge.sense * step.x1[at.rate(i)];
+  const auto turns = before < T(0) && after >= T(0);
+  if (!any(turns)) return turns;
   T furthest = most;
   for (const T& c : step.coordinate(at.angle(i), at.freedoms()))
     furthest = larger(furthest, beyond_stowed(hinge, c));
-  return before < T(0) && after >= T(0) && furthest > most;
+  return turns && furthest > most;
 }
 
 /// Raises `most` to the largest overtravel of hinge i over the step.
