@@ -47,6 +47,8 @@ public:
     rests_ = system.wing().loops.empty(), offset_ = p_ = q_ = T(0);
     rest_.assign(system.layout().size(), T(0));
     for (int i = 1; i <= n; ++i) prepare(system, i);
+    elastic_ = bounded_ && system.base_motion == BaseMotion::fixed;
+    for (int i = 1; i <= n; ++i) elastic_ = elastic_ && least_stiffness_(i) > T(0);
   }
 
   /// What no energy from now on to t_end exceeds: (1), Ē of (2), or (3). None where that has no
@@ -76,6 +78,11 @@ public:
   [[nodiscard]] const T& stiffness(int i) const { return stiffness_(i); } ///< κ
   [[nodiscard]] const T& damping(int i) const { return damping_(i); }     ///< δ
   [[nodiscard]] const T& steady(int i) const { return steady_(i); }       ///< g
+  /// κ such that the energy is at least T + ½ Σ κ (φ − rest)² over the hinges, the first at [0]; null
+  /// where it is not.
+  [[nodiscard]] const T* least_stiffness() const {
+    return elastic_ ? least_stiffness_.data() + 1 : nullptr;
+  }
   [[nodiscard]] const ApparentLoad<T>& load() const { return load_; }
 
 private:
@@ -223,6 +230,7 @@ private:
 
   ApparentLoad<T> load_;
   bool bounded_ = false, rests_ = false;
+  bool elastic_ = false; ///< on a base that is fixed every hinge has a rest
   Numbers stiffness_, damping_, steady_;
   Numbers least_stiffness_; ///< κ
   Numbers at_rest_;         ///< P(y*) of a real hinge

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/events/events.hpp"
+#include "core/proofs/modal_bounds.hpp"
 #include "core/proofs/peak_bounds.hpp"
 #include "core/proofs/prospects.hpp"
 #include "core/proofs/stall.hpp"
@@ -13,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 namespace wingspread {
 
@@ -26,7 +28,7 @@ public:
 
   /// A run begins.
   void start() {
-    stalled_ = bounds_ready_ = false;
+    stalled_ = bounds_ready_ = has_modes_ = false;
     why_stalled_.clear();
     since_last_look_ = 0;
     latches_were_left_ = true;
@@ -109,6 +111,7 @@ private:
     if (!bounds_ready_) prepare_bounds();
     const std::optional<T> energy =
         prospects_.energy(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end));
+    if (no_mode_can_raise_a_peak(energy)) return true;
     if (!energy) return false;
     bounds_.bound(run_.system, prospects_, *energy);
     for (int i = 1; i <= run_.at.bodies; ++i) {
@@ -122,6 +125,65 @@ private:
     prospects_.prepare(run_.system);
     bounds_.prepare(run_.system, prospects_);
     bounds_ready_ = true;
+    prepare_modes();
+  }
+
+  void prepare_modes() {
+    has_modes_ = false;
+    if constexpr (std::is_same_v<T, double>) {
+      if (latches_left()) return;
+      const Layout& at = run_.at;
+      const State<double>& x = run_.step.x;
+      find_modes(&x[at.rate(1)]);
+      if (has_modes_) { // dampers have been made linear for the rates of an instant
+        modes_.find_rates(&x[at.angle(1)], &x[at.rate(1)]);
+        retune();
+      }
+    }
+  }
+
+  /// @param rates for which dampers are made linear
+  void find_modes(const double* rates) {
+    const double* rest = &prospects_.rest()[run_.at.angle(1)];
+    has_modes_ = make_rest_model(run_.system.wing(), run_.system.work(), rest, rates, model_) &&
+                 modes_.prepare(model_);
+    if (has_modes_) modes_.prepare_cap(prospects_.least_stiffness(), rest);
+  }
+
+  /// Makes dampers linear for the rates that are left, where these have become others.
+  void retune() {
+    if (!model_.is_tuned_for(modes_.rates()))
+      find_modes(State<double>(modes_.rates().begin(), modes_.rates().end()).data());
+  }
+
+  /// By the modes of the latched wing.
+  [[nodiscard]] bool no_mode_can_raise_a_peak(const std::optional<T>& energy) {
+    if constexpr (std::is_same_v<T, double>) {
+      const Layout& at = run_.at;
+      const State<double>& x = run_.step.x;
+      if (!has_modes_ || !latches_are_in(x)) return false;
+      const auto values = [&](const auto& peaks, State<double>& to) {
+        to.resize(at.bodies);
+        for (int i = 1; i <= at.bodies; ++i) to[i - 1] = peaks[i].value;
+        return to.data();
+      };
+      if (modes_.none_exceeds(&x[at.angle(1)], &x[at.rate(1)],
+                              run_.goal.peak_moment ? values(peaks_.moments(), moments_) : nullptr,
+                              run_.goal.peak_force ? values(peaks_.forces(), forces_) : nullptr,
+                              energy))
+        return true;
+      retune();
+    }
+    return false;
+  }
+
+  /// Whether every latch acts with its whole strength: a smoothed one comes in.
+  [[nodiscard]] bool latches_are_in(const State<T>& x) const {
+    if (!run_.at.smoothed) return true;
+    for (int i = 1; i <= run_.at.bodies; ++i)
+      if (run_.system.wing().hinges[i].has_latch && !(x[run_.at.latch(i)] >= run_.system.epsilon()))
+        return false;
+    return true;
   }
 
   Underway<T, AnySystem>& run_;
@@ -130,6 +192,10 @@ private:
   const PeakSearch<T, AnySystem>& peaks_;
   Prospects<T> prospects_;
   PeakBounds<T> bounds_;
+  RestModel model_;
+  ModalBounds modes_;
+  State<double> moments_, forces_;
+  bool has_modes_ = false;    ///< no hinge will latch any more, and all modes decay
   bool bounds_ready_ = false; ///< no hinge will latch any more
   bool stalled_ = false;      ///< no hinge can reach its latch any more
   std::string why_stalled_;

@@ -1,0 +1,96 @@
+/// Bounds on what every hinge of a latched wing can still see, mode by mode.
+///
+/// With z = (u, u̇), Λ the eigenvalues and W the eigenvectors of the linear model of rest_model.hpp,
+/// P = W⁻¹ and w = P z, (2) there is
+///
+///     ẇ_j = λ_j w_j + r_j w + p_j M_0⁻¹ (Sᵀn + f)        P = (… p), r what rounding leaves of P L W − Λ
+///
+/// so that with α_j = −Re λ_j > 0, from now on, while no |w_j| leaves B_j and no |ω̇_k| leaves a_k
+///
+///     |w_j| ≤ |w_j(0)| + (Σ |r_jk| B_k + Σ |p_j M_0⁻¹Sᵀ|_k n_k + Σ |p_j M_0⁻¹|_k f_k)/α_j           (4)
+///     |ω̇_k| ≤ Σ |S W_v Λ|_kj B_j + Σ |S M_0⁻¹Sᵀ|_kl n_l + Σ |S M_0⁻¹|_kl f_l                        (5)
+///
+/// n and f being bounded over that box by (3) and with |u| ≤ |W_u| B, |u̇| ≤ |W_v| B. Where the right
+/// sides lie inside the box they never leave it: what grows continuously would have to reach its edge
+/// first. Fast modes are soon gone from |w(0)|, so that the bounds come down to what truly
+/// remains. An energy E (prospects.hpp) that is never exceeded caps the modes too: with κ the least
+/// stiffness of the hinges and μ ≥ the spectral radius of M_0⁻¹(M − M_0),
+///
+///     |w_j| ≤ √(2E/(1 − μ)) √(p'_j diag(κ, M_0)⁻¹ p'_jᴴ),    p' the row of P                         (6)
+///
+/// Then |M_i| ≤ Σ |K W_u + C W_v|_ij B_j + f_i + |M_i at rest|, and of the reactions, Y_ik the levers,
+///
+///     |Y_i| ≤ |Σ_j |F_ij| B_j| + Σ_k |Y_ik| (what (5) adds to the modes + |S u|_k a_k + ω_k²) + |a| m   (7)
+///
+/// F_ij by the accelerations of mode j at rest, component by component.
+///
+/// The proof uses a library's eigenvectors and sums, whose last bits may differ between processors: a run
+/// may then end a look earlier or later, but no peak depends on when a run ends.
+#pragma once
+
+#include "core/proofs/rest_model.hpp"
+
+#include <Eigen/Dense>
+
+#include <optional>
+
+namespace wingspread {
+
+class ModalBounds {
+public:
+  /// Finds the modes. Cost O(n³). @return whether all of them decay
+  bool prepare(const RestModel& model);
+
+  /// Makes ready for energies E ≥ T + ½ Σ κ_i (φ_i − rest_i)² that are never exceeded. @pre prepared
+  /// @param least, rest 1 … n: κ, N·m/rad, and the angles; null: energies are not asked of
+  void prepare_cap(const double* least, const double* rest);
+
+  /// Whether no moment and no force will exceed these, from a state on. Cost O(n²) a pass.
+  /// @param angles, rates of the hinges
+  /// @param moments, forces of each hinge so far; null: not asked for
+  /// @param energy that is never exceeded, J, where there is one
+  /// @pre prepared, and all decay
+  bool none_exceeds(const double* angles, const double* rates, const double* moments,
+                    const double* forces, const std::optional<double>& energy);
+
+  /// Finds `rates()` alone.
+  void find_rates(const double* angles, const double* rates);
+  /// Of the last question, where a box was found: 0 … n − 1.
+  [[nodiscard]] const Eigen::VectorXd& moment() const { return moment_; }
+  [[nodiscard]] const Eigen::VectorXd& force() const { return force_; }
+  /// No hinge of the linear model will turn faster from that state on, rad/s.
+  [[nodiscard]] const Eigen::VectorXd& rates() const { return rate_; }
+
+private:
+  using Vector = Eigen::VectorXd;
+  using Matrix = Eigen::MatrixXd;
+  using Complex = Eigen::MatrixXcd;
+
+  void keep(const Eigen::VectorXcd& lambda, const Complex& W, const Complex& P,
+            const Complex& residual);
+  bool find_box(const std::optional<double>& energy);
+  void follow();
+  void cap_modes(double energy);
+  void bound_linear(const Vector& modes);
+  void bound_all();
+  [[nodiscard]] bool below(const double* moments, const double* forces) const;
+
+  const RestModel* model_ = nullptr;
+  int n_ = 0, modes_ = 0;
+  Matrix S_, inverse_;
+  Eigen::EigenSolver<Matrix> solver_;
+  Complex P_;                           ///< rows of the modes kept: one of each conjugate pair
+  Vector decay_;                        ///< α
+  Matrix way_, rate_of_, turn_, swing_; ///< |W_u|, |W_v|, |S W_v|, |S W_v Λ|, pairs counted twice
+  Matrix by_turns_, by_hinges_, rounding_;  ///< of (4), divided by α
+  Matrix swing_by_turns_, swing_by_hinges_; ///< of (5)
+  Matrix moment_of_, force_x_, force_y_, lever_;
+  Vector by_energy_, offset_; ///< of (6): the root, and what the two rests differ by
+  bool capped_ = false;
+  // of a question
+  Vector z_, start_, B_, next_B_, a_, next_a_, added_;
+  Vector u_, v_, turned_, spin_, n_bound_, f_;
+  Vector moment_, force_, rate_;
+};
+
+} // namespace wingspread

@@ -1,0 +1,335 @@
+#include "core/proofs/rest_model.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wingspread {
+
+namespace {
+
+[[nodiscard]] double length(const Vec2<double>& v) { return std::sqrt(dot(v, v)); }
+
+[[nodiscard]] Vec2<double> turned_by(double angle, const Vec2<double>& v) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+/// The damping that a damper is for rates up to v.
+[[nodiscard]] double secant(const DamperTerms<double>& damper, double v) {
+  if (damper.law != DamperLaw::power) return damper_damping(damper, 0.0);
+  const double rate = std::max(v, damper.rate);
+  return -damper_moment(damper, rate) / rate;
+}
+
+/// Largest |moment + taken·v| of a damper for rates up to `most`.
+[[nodiscard]] double beyond_linear(const DamperTerms<double>& damper, double taken, double most) {
+  const auto left = [&](double v) { return std::abs(damper_moment(damper, v) + taken * v); };
+  switch (damper.law) {
+  case DamperLaw::viscous:
+    break;
+  case DamperLaw::power: { // linear, then a power: its difference from a line has one extreme
+    double largest = left(most);
+    if (most > damper.rate) largest = std::max(largest, left(damper.rate));
+    const double p = damper.exponent, steep = damper.strength * p;
+    if (p != 1 && taken > 0 && steep > 0) {
+      const double v = std::pow(steep / taken, 1 / (1 - p));
+      if (v > damper.rate && v < most) largest = std::max(largest, left(v));
+    }
+    return largest;
+  }
+  case DamperLaw::eddy_current: // S r³/(1 + r²): it rises
+    return left(most);
+  }
+  return 0;
+}
+
+class Maker {
+public:
+  Maker(const Wing<double>& wing, const Workspace<double>& work, RestModel& model)
+      : wing_(wing), work_(work), m_(model), n_(wing.size()) {}
+
+  bool make(const double* angles, const double* rates) {
+    if (!is_modelled()) return false;
+    resize();
+    for (int i = 1; i <= n_; ++i) {
+      m_.parents[i - 1] = wing_.tree.parent_of(i) - 1;
+      m_.angles(i - 1) = angles[i - 1];
+    }
+    weigh();
+    find_rest();
+    take_damping(rates);
+    take_loops();
+    find_masses();
+    find_levers();
+    take_remainders();
+    return m_.stiffness.allFinite() && m_.mass.allFinite() && m_.angles.allFinite();
+  }
+
+private:
+  static constexpr int most_bodies = 40;
+
+  [[nodiscard]] bool is_modelled() const {
+    const BaseTerms<double>& base = wing_.base;
+    if (base.motion == BaseMotion::free || n_ > most_bodies || !wing_.plates.empty()) return false;
+    if (base.motion == BaseMotion::prescribed && (base.rate != 0 || base.angular_acceleration != 0))
+      return false;
+    return std::none_of(wing_.real.begin(), wing_.real.end(),
+                        [](const auto& real) { return real.has_backlash; });
+  }
+
+  void resize() {
+    m_.parents.resize(n_);
+    for (Eigen::VectorXd* v :
+         {&m_.angles, &m_.pushed, &m_.weight, &m_.moment, &m_.room, &residual_})
+      v->setZero(n_);
+    for (Eigen::MatrixXd* v :
+         {&m_.mass, &m_.stiffness, &m_.damping, &m_.cosine, &m_.sine, &m_.lever_x, &m_.lever_y})
+      v->setZero(n_, n_);
+    m_.remainders.assign(n_, {});
+    m_.loops.clear();
+    push_ = wing_.base.motion == BaseMotion::prescribed ? wing_.base.felt() : Vec2<double>{0, 0};
+    outward_mass_.assign(n_ + 1, 0), turn_.assign(n_ + 1, 0);
+    own_moment_.assign(n_ + 1, {0, 0}), Y_.assign(n_ + 1, {0, 0});
+  }
+
+  /// Masses, and first moments in each body's own axes.
+  void weigh() {
+    for (int i = n_; i >= 1; --i) {
+      const BodyTerms<double>& body = wing_.bodies[i];
+      const int p = wing_.tree.parent_of(i);
+      outward_mass_[i] += body.mass;
+      outward_mass_[p] += outward_mass_[i];
+      own_moment_[i] = own_moment_[i] + body.mass_moment;
+      if (p != 0) own_moment_[p] = fused(outward_mass_[i], body.arm, own_moment_[p]);
+    }
+  }
+
+  /// Turns the bodies as the hinges stand.
+  void place() {
+    turn_[0] = wing_.base.angle;
+    for (int i = 1; i <= n_; ++i) {
+      turn_[i] = turn_[wing_.tree.parent_of(i)] + m_.angles(i - 1);
+      Y_[i] = turned_by(turn_[i], own_moment_[i]);
+    }
+  }
+  [[nodiscard]] Vec2<double> arm(int i) const {
+    return turned_by(turn_[wing_.tree.parent_of(i)], wing_.bodies[i].arm);
+  }
+
+  // ---- rest, K and C
+
+  [[nodiscard]] LinearLaw<double> law(int i) const {
+    return linear_law(wing_.hinges[i], wing_.hinges[i].has_latch);
+  }
+
+  /// Newton's way to where moments and push balance; what is left then is steady.
+  void find_rest() {
+    constexpr int passes = 3;
+    for (int pass = 0;; ++pass) {
+      place();
+      find_stiffness();
+      if (pass == passes) break;
+      m_.angles += m_.stiffness.partialPivLu().solve(residual_);
+    }
+    for (int i = 0; i < n_; ++i) m_.remainders[i].steady = std::abs(residual_(i));
+  }
+
+  /// K, the moments at rest, and what they and the push leave.
+  void find_stiffness() {
+    m_.stiffness.setZero();
+    for (int i = 1; i <= n_; ++i) {
+      const LinearLaw<double> own = law(i);
+      const double phi = m_.angles(i - 1);
+      double& k = m_.stiffness(i - 1, i - 1);
+      m_.moment(i - 1) = linear_moment(own, phi, 0.0), k = own.stiffness;
+      if (wing_.real.empty()) continue;
+      const RealHingeTerms<double>& real = wing_.real[i];
+      m_.moment(i - 1) += curves_moment(real, phi);
+      if (real.spring) k -= real.spring_weight * slope(*real.spring, phi);
+      if (real.harness) k -= real.harness_weight * slope(*real.harness, phi);
+    }
+    for (const LoopTerms<double>& loop : wing_.loops) {
+      const LoopState<double> at = state_of(loop);
+      const double tau = carried_by_strands(loop, at.elastic);
+      m_.moment(loop.first - 1) += on_first(loop, at.gear) * tau;
+      m_.moment(loop.second - 1) += on_second(loop) * tau;
+      add(m_.stiffness, loop, at, taut_share(loop, at.elastic) * loop.stiffness);
+    }
+    residual_ = m_.moment;
+    for (int k = 1; k <= n_; ++k) // the push turns body k, and with it what it hangs on
+      for (int i = k; i != 0; i = wing_.tree.parent_of(i))
+        residual_(i - 1) += dot(turned(Y_[k]), scaled(-1.0, push_));
+  }
+
+  [[nodiscard]] LoopState<double> state_of(const LoopTerms<double>& loop) const {
+    return loop_state(loop, m_.angles(loop.first - 1), 0.0, m_.angles(loop.second - 1), 0.0);
+  }
+
+  static void add(Eigen::MatrixXd& to, const LoopTerms<double>& loop, const LoopState<double>& at,
+                  double strength) {
+    const int a = loop.first - 1, b = loop.second - 1;
+    const double on_a = on_first(loop, at.gear), on_b = on_second(loop);
+    to(a, a) += strength * on_a * on_a, to(b, b) += strength * on_b * on_b;
+    to(a, b) += strength * on_a * on_b, to(b, a) += strength * on_a * on_b;
+  }
+
+  void take_damping(const double* rates) {
+    for (int i = 1; i <= n_; ++i) {
+      double& own = m_.damping(i - 1, i - 1);
+      own = law(i).damping;
+      if (wing_.real.empty() || !wing_.real[i].has_damper) continue;
+      if (work_.modes[i].damper_acts == 0) continue;
+      RestModel::Remainder& left = m_.remainders[i - 1];
+      left.damper = wing_.real[i].damper;
+      left.taken = secant(*left.damper, std::abs(rates[i - 1]));
+      if (left.damper->law == DamperLaw::power)
+        left.tuned_for = std::max(std::abs(rates[i - 1]), left.damper->rate);
+      own += left.taken;
+    }
+  }
+
+  void take_loops() {
+    for (const LoopTerms<double>& loop : wing_.loops) {
+      const LoopState<double> at = state_of(loop);
+      add(m_.damping, loop, at, taut_share(loop, at.elastic) * loop.damping);
+      RestModel::Loop kept{loop.first - 1,
+                           loop.second - 1,
+                           std::abs(carried_by_strands(loop, at.elastic)),
+                           std::abs(at.gear),
+                           0,
+                           loop.stiffness,
+                           loop.damping,
+                           loop.slack_beyond - std::abs(at.elastic)};
+      if (loop.table) {
+        const double rise = loop.table->steepest_rise(), fall = loop.table->steepest_fall();
+        kept.gear = std::max(std::abs(rise), std::abs(fall));
+        kept.gear_changes = std::max(rise - at.gear, at.gear - fall);
+      }
+      m_.loops.push_back(kept);
+    }
+  }
+
+  // ---- masses
+
+  /// (1), and M_0.
+  void find_masses() {
+    Eigen::MatrixXd& M = m_.mass; // first in absolute rates
+    for (int l = 1; l <= n_; ++l) {
+      M(l - 1, l - 1) += wing_.bodies[l].inertia;
+      int outer = l;
+      for (int k = wing_.tree.parent_of(l); k != 0; k = wing_.tree.parent_of(k)) {
+        const Vec2<double> A = arm(outer);
+        const double c = dot(A, Y_[l]), s = std::abs(A.x * Y_[l].y - A.y * Y_[l].x);
+        if (k == wing_.tree.parent_of(l)) M(k - 1, k - 1) += outward_mass_[l] * dot(A, A);
+        M(k - 1, l - 1) = M(l - 1, k - 1) = c;
+        m_.cosine(k - 1, l - 1) = m_.cosine(l - 1, k - 1) = std::abs(c);
+        m_.sine(k - 1, l - 1) = m_.sine(l - 1, k - 1) = s;
+        outer = k;
+      }
+    }
+    for (int i = n_ - 1; i >= 0; --i) // SᵀMS
+      if (m_.parents[i] >= 0) M.row(m_.parents[i]) += M.row(i);
+    for (int i = n_ - 1; i >= 0; --i)
+      if (m_.parents[i] >= 0) M.col(m_.parents[i]) += M.col(i);
+  }
+
+  /// First moments: of what is outward of hinge i, each body's turning moves its own part.
+  void find_levers() {
+    const double push = length(push_);
+    for (int i = 1; i <= n_; ++i) {
+      m_.pushed(i - 1) = push * length(Y_[i]), m_.weight(i - 1) = push * outward_mass_[i];
+      int outer = i;
+      for (int k = wing_.tree.parent_of(i); k != 0; k = wing_.tree.parent_of(k)) {
+        set_lever(i, k, scaled(outward_mass_[i], arm(outer)));
+        outer = k;
+      }
+      for (int k = i; k != 0; k = wing_.tree.parent_of(k)) set_lever(k, i, Y_[i]);
+    }
+  }
+  void set_lever(int i, int k, const Vec2<double>& v) {
+    m_.lever_x(i - 1, k - 1) = v.x, m_.lever_y(i - 1, k - 1) = v.y;
+  }
+
+  // ---- what the linear model leaves out
+
+  void take_remainders() {
+    m_.room.setConstant(std::numeric_limits<double>::infinity());
+    for (int i = 1; i <= n_; ++i) {
+      RestModel::Remainder& left = m_.remainders[i - 1];
+      left.steady += wing_.hinges[i].most_friction();
+      if (wing_.real.empty()) continue;
+      const RealHingeTerms<double>& real = wing_.real[i];
+      const double phi = m_.angles(i - 1);
+      left.bend =
+          bend(real.spring, real.spring_weight, phi) + bend(real.harness, real.harness_weight, phi);
+      double& room = m_.room(i - 1);
+      if (real.has_stop)
+        room = work_.modes[i].in_contact != 0
+                   ? 0
+                   : std::min(room, real.sense * (phi - real.contact_angle));
+      if (real.has_damper && real.has_window)
+        for (const double edge : {real.window_low, real.window_high})
+          room = std::min(room, std::abs(phi - edge));
+    }
+  }
+
+  /// By how much the slope of a curve may differ from that at an angle.
+  [[nodiscard]] static double bend(const Curve* curve, double weight, double angle) {
+    if (!curve) return 0;
+    const double here = slope(*curve, angle);
+    return std::abs(weight) *
+           std::max(curve->steepest_rise() - here, here - curve->steepest_fall());
+  }
+
+  const Wing<double>& wing_;
+  const Workspace<double>& work_;
+  RestModel& m_;
+  int n_;
+  Vec2<double> push_{0, 0};
+  Eigen::VectorXd residual_;
+  std::vector<double> outward_mass_, turn_;
+  std::vector<Vec2<double>> own_moment_; ///< Y in the body's own axes
+  std::vector<Vec2<double>> Y_;          ///< 1 … n
+};
+
+} // namespace
+
+bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work, const double* angles,
+                     const double* rates, RestModel& model) {
+  return Maker(wing, work, model).make(angles, rates);
+}
+
+bool RestModel::is_tuned_for(const Eigen::VectorXd& rates) const {
+  for (int i = 0; i < size(); ++i) {
+    const double tuned = remainders[i].tuned_for;
+    if (tuned == 0) continue;
+    const double rate = std::max(rates(i), remainders[i].damper->rate);
+    if (rate > 1.5 * tuned || rate < 0.3 * tuned) return false;
+  }
+  return true;
+}
+
+void RestModel::bound_remainders(const Eigen::VectorXd& u, const Eigen::VectorXd& v,
+                                 Eigen::VectorXd& f) const {
+  for (int i = 0; i < size(); ++i) {
+    const Remainder& left = remainders[i];
+    f(i) = left.steady + left.bend * u(i);
+    if (left.damper) f(i) += beyond_linear(*left.damper, left.taken, v(i));
+  }
+  for (const Loop& loop : loops) {
+    const double e = loop.gear * u(loop.first) + u(loop.second);
+    const double e_rate = loop.gear * v(loop.first) + v(loop.second);
+    const double elastic = loop.stiffness * e, viscous = loop.damping * e_rate;
+    double rest =
+        loop.gear_changes * (loop.stiffness * u(loop.first) + loop.damping * v(loop.first));
+    if (elastic > loop.until_slack) // where half of it comes or goes
+      rest += 0.5 * (elastic - std::max(loop.until_slack, 0.0) + viscous);
+    f(loop.first) += loop.gear * rest + loop.gear_changes * (loop.torque + elastic + viscous);
+    f(loop.second) += rest;
+  }
+}
+
+} // namespace wingspread
