@@ -44,20 +44,45 @@ template <class T> [[nodiscard]] PieceAt<T> piece_at(const Curve& curve, const T
   return detail::piece_at(curve.pieces()[k], detail::knot_of(curve, k), x);
 }
 
+namespace detail {
+
 /// A lane at a time.
 template <int W>
-[[nodiscard]] inline PieceAt<Pack<W>> piece_at(const Curve& curve, const Pack<W>& x) {
+[[nodiscard]] inline PieceAt<Pack<W>> piece_lane_by_lane(const Curve& curve, const Pack<W>& x) {
   PieceAt<Pack<W>> found;
   Pack<W> knot(0.0);
   found.integral = Pack<W>(0.0);
   found.c.fill(Pack<W>(0.0));
   for (int lane = 0; lane < W; ++lane) {
     const double at = x.v[lane];
-    const std::size_t k = detail::piece_number(curve, at);
+    const std::size_t k = piece_number(curve, at);
     const Curve::Piece& piece = curve.pieces()[k];
-    knot.v[lane] = detail::knot_of(curve, k);
+    knot.v[lane] = knot_of(curve, k);
     for (int power = 0; power < 4; ++power) found.c[power].v[lane] = piece.c[power];
     found.integral.v[lane] = piece.integral;
+  }
+  found.u = x - knot;
+  return found;
+}
+
+} // namespace detail
+
+/// In all lanes at once: from piece to piece, each lane takes what begins before it. With more than
+/// a dozen knots it is faster to look for each lane's own.
+template <int W>
+[[nodiscard]] inline PieceAt<Pack<W>> piece_at(const Curve& curve, const Pack<W>& x) {
+  using P = Pack<W>;
+  const std::vector<double>& knots = curve.knots();
+  if (knots.size() > 12) return detail::piece_lane_by_lane(curve, x);
+  PieceAt<P> found = detail::piece_at(curve.pieces()[0], 0.0, x);
+  P knot(knots[0]);
+  for (std::size_t k = 0; k < knots.size(); ++k) {
+    const Curve::Piece& piece = curve.pieces()[k + 1];
+    const auto there = x >= P(knots[k]);
+    knot = select(there, P(knots[k]), knot);
+    for (int power = 0; power < 4; ++power)
+      found.c[power] = select(there, P(piece.c[power]), found.c[power]);
+    found.integral = select(there, P(piece.integral), found.integral);
   }
   found.u = x - knot;
   return found;

@@ -86,7 +86,6 @@ public:
       place.step.t = step_.t.v[lane], place.step.h = step_.h.v[lane];
       get_lane(lane, step_.x, place.step.x), get_lane(lane, step_.dxdt, place.step.dxdt);
       if (shape_.forces) get_lane(lane, force_before_, place.force_before);
-      get_lane(lane, overtravel_, place.overtravel);
     }
     get_lane(lane, step_.x1, place.x1), get_lane(lane, step_.dxdt1, place.dxdt1);
     if (shape_.forces) get_lane(lane, work_.forces, place.forces);
@@ -200,10 +199,6 @@ private:
     if (shape_.forces)
       for (int i = 1; i <= at_.bodies; ++i)
         force_before_[i] = select(accepted, force_after_[i], force_before_[i]);
-    for (int i = 1; i <= at_.bodies; ++i)
-      overtravel_[i] = select(
-          accepted, larger(overtravel_[i], beyond_stowed(wing_.hinges[i], step_.x[at_.angle(i)])),
-          overtravel_[i]);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
     keep_pace(accepted, these);
     step_.h = select(these, judgement.next, step_.h);
@@ -230,7 +225,8 @@ private:
       const HingeTerms<P>& hinge = wing_.hinges[i];
       look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
       if (hinge.has_latch) look = look || (waits_[i] > P(0.0) && may_engage(i));
-      look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
+      look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]) ||
+             beyond_stowed(hinge, step_.x1[at_.angle(i)]) > overtravel_[i];
       if (!wing_.real.empty()) look = look || may_pass_edge(i);
       if (wing_.can_stick) look = look || may_come_to_rest(i);
       if (shape_.moments) {

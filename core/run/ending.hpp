@@ -11,6 +11,7 @@
 #include "core/run/record.hpp"
 #include "core/run/underway.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -30,7 +31,7 @@ public:
   void start() {
     stalled_ = bounds_ready_ = has_modes_ = false;
     why_stalled_.clear();
-    since_last_look_ = 0;
+    begin_to_look();
     latches_were_left_ = true;
   }
 
@@ -42,10 +43,11 @@ public:
     if (goal.to_t_end) return false;
     if (rests_for_ever() && (latches_left() || diary_.any_latch())) return true;
     if (!proofs_may_end()) return !latches_left() && diary_.any_latch() && !wants_peaks();
-    if (latches_left() != latches_were_left_) since_last_look_ = 0; // after the last: another proof
+    if (latches_left() != latches_were_left_) begin_to_look(); // after the last: another proof
     latches_were_left_ = latches_left();
     const bool look = steps_to_look() == 0;
-    ++since_last_look_;
+    ++steps_;
+    if (look) next_look_ = steps_ + interval();
     if (!look || (latches_left() && !lacks_energy())) return false;
     return !wants_peaks() || no_peak_can_rise();
   }
@@ -65,16 +67,28 @@ public:
 
   /// Steps until the proofs are tried: they cost an evaluation and more.
   [[nodiscard]] long steps_to_look() const {
-    const int interval = latches_left() && !stalled_ ? 64 : 16;
     if (!proofs_may_end()) return std::numeric_limits<long>::max();
-    return interval - 1 - since_last_look_ % interval;
+    return std::max(0L, next_look_ - steps_ - 1);
   }
   /// So many steps were accepted elsewhere. @pre no more than `steps_to_look`
   void pass(long steps) {
-    if (proofs_may_end()) since_last_look_ += steps;
+    if (proofs_may_end()) steps_ += steps;
   }
 
 private:
+  /// From here on it is another proof that is sought.
+  void begin_to_look() {
+    steps_ = 0;
+    next_look_ = interval();
+  }
+
+  /// Steps from one look to the next: where modes may tell, a quarter of those that the tail has had.
+  [[nodiscard]] long interval() const {
+    if (latches_left()) return stalled_ ? 16 : 64;
+    if (bounds_ready_ && !has_modes_) return 16;
+    return std::clamp(steps_ / 4, 4L, 64L);
+  }
+
   [[nodiscard]] bool latches_left() const { return events_.latches_left() > 0; }
   [[nodiscard]] bool wants_peaks() const { return run_.goal.peak_moment || run_.goal.peak_force; }
 
@@ -199,8 +213,8 @@ private:
   bool bounds_ready_ = false; ///< no hinge will latch any more
   bool stalled_ = false;      ///< no hinge can reach its latch any more
   std::string why_stalled_;
-  long since_last_look_ = 0;      ///< steps
-  bool latches_were_left_ = true; ///< then
+  long steps_ = 0, next_look_ = 0; ///< since the last latch, or the start
+  bool latches_were_left_ = true;  ///< then
 };
 
 } // namespace wingspread

@@ -46,7 +46,6 @@ struct Handover {
 struct Place {
   Step<double>& step;                ///< t, h, x and dxdt, if the run was carried
   std::vector<double>& force_before; ///< 1 … n: at its start, where forces are asked for
-  std::vector<double>& overtravel;   ///< 1 … n: up to its start, rad
   State<double>&x1, &dxdt1;          ///< the end of the step made last
   std::vector<Vec2<double>>& forces; ///< 1 … n: there, where they are asked for
 };

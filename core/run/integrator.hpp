@@ -80,8 +80,8 @@ public:
   }
 
   [[nodiscard]] Place place() {
-    return {run_.step,  peaks_.force_before(), peaks_.overtravel(),
-            *asked_.x1, *asked_.dxdt1,         run_.system.made_elsewhere().forces};
+    return {run_.step, peaks_.force_before(), *asked_.x1, *asked_.dxdt1,
+            run_.system.made_elsewhere().forces};
   }
 
   /// The run was carried so far; what the engine brings back lies in `place()`.
