@@ -1,0 +1,298 @@
+// The bounds by the modes of a latched wing: motions are sought that break them.
+#include "core/mechanics/system.hpp"
+#include "core/proofs/modal_bounds.hpp"
+#include "core/proofs/prospects.hpp"
+#include "tests/support/dry_friction.hpp"
+#include "tests/support/random_scenes.hpp"
+#include "tests/support/real_scenes.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using oracle::Draws;
+
+namespace {
+
+/// A wing with all latches engaged that it has, and its model about rest.
+template <BaseMotion M> struct Latched {
+  explicit Latched(const Scene& scene)
+      : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
+    State<double> x;
+    system.start(x);
+    for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] = wing.hinges[i].latched, x[at.rate(i)] = 0;
+    system.find_sides(x);
+    for (int i = 1; i <= at.bodies; ++i)
+      if (wing.hinges[i].has_latch) system.engage(i);
+    system.want_forces(true);
+    prospects.prepare(system);
+    still = x;
+    has_model = tune(&still[at.rate(1)]);
+  }
+
+  /// @param rates for which dampers are linear
+  bool tune(const double* rates) {
+    if (!make_rest_model(wing, work, &still[at.angle(1)], rates, model) || !modes.prepare(model))
+      return false;
+    modes.prepare_cap(prospects.least_stiffness(), &prospects.rest()[at.angle(1)]);
+    return true;
+  }
+
+  [[nodiscard]] State<double> rest() const {
+    State<double> x = still;
+    for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] = model.angles(i - 1);
+    return x;
+  }
+
+  [[nodiscard]] Eigen::VectorXd accelerations(const State<double>& x) {
+    State<double> dxdt(at.size());
+    system(x, dxdt, 0);
+    return Eigen::Map<Eigen::VectorXd>(&dxdt[at.rate(1)], at.bodies);
+  }
+
+  /// Largest rate at which the linear model changes, rad/s.
+  [[nodiscard]] double fastest() const {
+    const int n = at.bodies;
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    L.topRightCorner(n, n).setIdentity();
+    L.bottomLeftCorner(n, n) = -model.mass.inverse() * model.stiffness;
+    L.bottomRightCorner(n, n) = -model.mass.inverse() * model.damping;
+    return L.eigenvalues().cwiseAbs().maxCoeff();
+  }
+
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, M> system;
+  Layout at;
+  Prospects<double> prospects;
+  State<double> still;
+  RestModel model;
+  ModalBounds modes;
+  bool has_model = false;
+
+private:
+  static Wing<double> with_numbers(const Scene& scene) {
+    Wing<double> made = make_wing<double>(scene, outward_order(scene));
+    set_parameters(made, scene);
+    return made;
+  }
+};
+
+struct Shares {
+  double moment = 0, force = 0;
+};
+
+/// Largest shares of the bounds that the motion from x takes, by Runge and Kutta's classical steps;
+/// none where no bound was found.
+template <BaseMotion M>
+std::optional<Shares> shares_from(Latched<M>& wing, State<double> x, bool by_energy, double h,
+                                  int steps) {
+  const Layout& at = wing.at;
+  const std::vector<double> no_peak(at.bodies, 1e300);
+  const auto asked = [&] {
+    std::optional<double> energy;
+    if (by_energy) energy = wing.prospects.energy(wing.system, x, 0., 0.);
+    return wing.modes.none_exceeds(&x[at.angle(1)], &x[at.rate(1)], no_peak.data(), no_peak.data(),
+                                   energy);
+  };
+  wing.modes.find_rates(&x[at.angle(1)], &x[at.rate(1)]);
+  const Eigen::VectorXd rates = wing.modes.rates();
+  if (!wing.model.is_tuned_for(rates) && !wing.tune(rates.data())) return std::nullopt;
+  if (!asked()) return std::nullopt;
+  const Eigen::VectorXd moment = wing.modes.moment(), force = wing.modes.force();
+  Shares worst;
+  State<double> k1(at.size()), k2 = k1, k3 = k1, k4 = k1, y = x;
+  const auto stage = [&](const State<double>& k, double part, State<double>& to) {
+    for (int j = 0; j < at.size(); ++j) y[j] = x[j] + part * k[j];
+    wing.system(y, to, 0);
+  };
+  for (int step = 0; step < steps; ++step) {
+    wing.system(x, k1, 0);
+    for (int i = 1; i <= at.bodies; ++i) {
+      const Vec2<double>& f = wing.work.forces[i];
+      worst.moment = std::max(worst.moment, std::abs(wing.system.moment(x, i)) / moment(i - 1));
+      worst.force = std::max(worst.force, std::sqrt(dot(f, f)) / force(i - 1));
+    }
+    stage(k1, h / 2, k2), stage(k2, h / 2, k3), stage(k3, h, k4);
+    for (int j = 0; j < at.size(); ++j) x[j] += h / 6 * (k1[j] + 2 * k2[j] + 2 * k3[j] + k4[j]);
+  }
+  return worst;
+}
+
+struct Sought {
+  Shares worst;
+  int bounded = 0, tried = 0;
+};
+
+/// From random states of this size.
+template <BaseMotion M>
+void seek(Latched<M>& wing, Draws& draws, double size, int states, Sought& sought) {
+  const double fast = wing.fastest(), slow = std::sqrt(fast);
+  double h = 0.3 / fast;
+  for (int i = 1; i <= wing.at.bodies; ++i) {
+    const HingeTerms<double>& hinge = wing.wing.hinges[i];
+    const double least = wing.wing.bodies[i].central_inertia;
+    if (hinge.most_regularized() > 0)
+      h = std::min(h, hinge.slip_rate * least / hinge.most_regularized());
+  }
+  for (int k = 0; k < states; ++k) {
+    State<double> x = wing.rest();
+    const double rates = draws.log_uniform(0.1 * slow, fast);
+    for (int i = 1; i <= wing.at.bodies; ++i) {
+      x[wing.at.angle(i)] += size * draws.uniform(-1, 1) * draws.log_uniform(1e-3, 1);
+      x[wing.at.rate(i)] = size * rates * draws.uniform(-1, 1) * draws.log_uniform(1e-3, 1);
+    }
+    ++sought.tried;
+    const std::optional<Shares> found = shares_from(wing, x, k % 2 == 0, h, 4000);
+    if (!found) continue;
+    ++sought.bounded;
+    sought.worst.moment = std::max(sought.worst.moment, found->moment);
+    sought.worst.force = std::max(sought.worst.force, found->force);
+  }
+}
+
+Scene with_latches(Scene scene, Draws& draws) {
+  for (Hinge& hinge : scene.hinges)
+    hinge.latch = Latch{draws.log_uniform(1e3, 1e5), draws.log_uniform(1, 1e3)};
+  return scene;
+}
+
+template <BaseMotion M> void check_model(const Scene& scene) {
+  Latched<M> wing(scene);
+  REQUIRE(wing.has_model);
+  const int n = wing.at.bodies;
+  const State<double> rest = wing.rest();
+  const Eigen::VectorXd forces = wing.model.mass * wing.accelerations(rest);
+  CHECK(forces.cwiseAbs().maxCoeff() < 1e-9 * wing.model.stiffness.diagonal().maxCoeff());
+  constexpr double d = 1e-6;
+  for (int j = 1; j <= n; ++j)
+    for (const bool by_rate : {false, true}) {
+      const int k = by_rate ? wing.at.rate(j) : wing.at.angle(j);
+      State<double> up = rest, down = rest;
+      up[k] += d, down[k] -= d;
+      const Eigen::VectorXd slope =
+          wing.model.mass * (wing.accelerations(up) - wing.accelerations(down)) / (2 * d);
+      const Eigen::MatrixXd& of = by_rate ? wing.model.damping : wing.model.stiffness;
+      CAPTURE(j, by_rate);
+      CHECK((slope + of.col(j - 1)).cwiseAbs().maxCoeff() <=
+            1e-5 * of.cwiseAbs().maxCoeff() + 1e-6 * wing.model.stiffness.maxCoeff());
+    }
+}
+
+} // namespace
+
+TEST_CASE("the linear model about rest is that of the equations of motion") {
+  oracle::RealFeatures features;
+  features.backlash = features.air = features.stops = features.gravity = false;
+  features.preloads = features.windows = false; // where the law changes there is no slope
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    oracle::RandomScene options;
+    options.bodies = 1 + static_cast<int>(seed % 6);
+    options.motion = BaseMotion::fixed;
+    options.friction = false;
+    Draws draws(seed);
+    Scene scene = with_latches(oracle::random_scene(seed, options), draws);
+    if (seed > 10) scene = oracle::with_real_hinges(scene, seed, features);
+    for (Hinge& hinge : scene.hinges) {
+      if (hinge.damper && hinge.damper->law == DamperLaw::power) hinge.damper.reset();
+      hinge.friction.scale = 0;
+    }
+    for (Synchronisation& loop : scene.synchronisations)
+      loop.table.reset(); // the way to rest is long
+    CAPTURE(seed);
+    check_model<BaseMotion::fixed>(scene);
+  }
+}
+
+TEST_CASE("no motion breaks the bounds by modes: the seed wing") {
+  Latched<BaseMotion::fixed> wing(oracle::seed_scene());
+  REQUIRE(wing.has_model);
+  Draws draws(1);
+  for (const double size : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    Sought sought;
+    seek(wing, draws, size, 40, sought);
+    CAPTURE(size, sought.bounded, sought.worst.moment, sought.worst.force);
+    CHECK(sought.worst.moment <= 1);
+    CHECK(sought.worst.force <= 1);
+    if (size > 1e-3) continue;
+    CHECK(sought.bounded >= 39);
+    CHECK(sought.worst.moment > 0.9);
+    CHECK(sought.worst.force > 0.8);
+  }
+}
+
+TEST_CASE("no motion breaks the bounds by modes: random wings, rubbing ones, pushed ones") {
+  Sought all;
+  for (int k = 0; k < 60; ++k) {
+    Draws draws(k + 10);
+    oracle::RandomScene options;
+    options.bodies = 1 + k % 6;
+    options.branching = k % 2 == 0;
+    options.motion = k % 3 == 0 ? BaseMotion::prescribed : BaseMotion::fixed;
+    options.friction = k % 4 == 0;
+    options.mass_lower = 1, options.mass_upper = 30;
+    Scene scene = with_latches(oracle::random_scene(600 + k, options), draws);
+    scene.base.rate = scene.base.angular_acceleration = 0;
+    for (Hinge& hinge : scene.hinges) hinge.friction.regularization_rate = 0.02;
+    const auto check = [&](auto& wing) {
+      if (!wing.has_model) return;
+      Sought sought;
+      seek(wing, draws, draws.log_uniform(1e-6, 3e-2), 6, sought);
+      CAPTURE(k, sought.worst.moment, sought.worst.force);
+      CHECK(sought.worst.moment <= 1);
+      CHECK(sought.worst.force <= 1);
+      all.bounded += sought.bounded, all.tried += sought.tried;
+    };
+    if (options.motion == BaseMotion::fixed) {
+      Latched<BaseMotion::fixed> wing(scene);
+      check(wing);
+    } else {
+      Latched<BaseMotion::prescribed> wing(scene);
+      check(wing);
+    }
+  }
+  CAPTURE(all.bounded, all.tried);
+  CHECK(all.bounded >= 250);
+}
+
+TEST_CASE("no motion breaks the bounds by modes: real hinges and loops") {
+  Sought all;
+  oracle::RealFeatures features;
+  features.backlash = features.air = features.gravity = false;
+  for (int k = 0; k < 60; ++k) {
+    Draws draws(k + 100);
+    oracle::RandomScene options;
+    options.bodies = 2 + k % 4;
+    options.motion = BaseMotion::fixed;
+    options.friction = false;
+    options.mass_lower = 1, options.mass_upper = 30;
+    Scene scene = with_latches(oracle::random_scene(700 + k, options), draws);
+    scene = oracle::with_real_hinges(scene, k, features);
+    for (Hinge& hinge : scene.hinges) hinge.friction.regularization_rate = 0.02;
+    Latched<BaseMotion::fixed> wing(scene);
+    if (!wing.has_model) continue;
+    Sought sought;
+    seek(wing, draws, draws.log_uniform(1e-5, 3e-2), 6, sought);
+    CAPTURE(k, sought.worst.moment, sought.worst.force);
+    CHECK(sought.worst.moment <= 1);
+    CHECK(sought.worst.force <= 1);
+    all.bounded += sought.bounded, all.tried += sought.tried;
+  }
+  CAPTURE(all.bounded, all.tried);
+  CHECK(all.bounded >= 110);
+}
+
+TEST_CASE("there is no model by modes of backlash, of air, of a base that turns") {
+  Scene scene = oracle::seed_scene();
+  scene.hinges[0].latch->backlash = 1e-3;
+  CHECK_FALSE(Latched<BaseMotion::fixed>(scene).has_model);
+  scene = oracle::seed_scene();
+  scene.bodies[0].plate = Plate{{-0.5, 0}, {0.5, 0}, 1, 1.2};
+  scene.environment.air_density = 1.2;
+  CHECK_FALSE(Latched<BaseMotion::fixed>(scene).has_model);
+  scene = oracle::seed_scene();
+  scene.base.motion = BaseMotion::prescribed;
+  CHECK(Latched<BaseMotion::prescribed>(scene).has_model);
+  scene.base.rate = 0.1;
+  CHECK_FALSE(Latched<BaseMotion::prescribed>(scene).has_model);
+}
