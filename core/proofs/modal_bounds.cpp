@@ -7,9 +7,6 @@ namespace wingspread {
 
 bool ModalBounds::prepare(const RestModel& model) {
   model_ = &model, n_ = model.size();
-  S_.setIdentity(n_, n_);
-  for (int k = 0; k < n_; ++k)
-    if (model.parents[k] >= 0) S_.row(k).head(k) += S_.row(model.parents[k]).head(k);
   inverse_ = model.mass.llt().solve(Matrix::Identity(n_, n_));
   Matrix L = Matrix::Zero(2 * n_, 2 * n_);
   L.topRightCorner(n_, n_).setIdentity();
@@ -50,10 +47,12 @@ void ModalBounds::keep(const Eigen::VectorXcd& lambda, const Complex& W, const C
   for (int j = 0; j < 2 * n_; ++j)
     if (lambda(j).imag() >= 0) kept.push_back(j);
   modes_ = static_cast<int>(kept.size());
-  for (Matrix* m : {&way_, &rate_of_, &turn_, &swing_, &moment_of_, &force_x_, &force_y_})
-    m->resize(n_, modes_);
+  const Matrix& S = model_->turns;
+  const int bodies = n_ + 1;
+  for (Matrix* m : {&way_, &rate_of_, &moment_of_, &force_x_, &force_y_}) m->resize(n_, modes_);
+  for (Matrix* m : {&turn_, &swing_}) m->resize(bodies, modes_);
   P_.resize(modes_, 2 * n_), decay_.resize(modes_), rounding_.setZero(modes_, modes_);
-  const Complex turns = S_.cast<std::complex<double>>() * W.bottomRows(n_);
+  const Complex turns = S.cast<std::complex<double>>() * W.bottomRows(n_);
   const Complex moments = model_->stiffness.cast<std::complex<double>>() * W.topRows(n_) +
                           model_->damping.cast<std::complex<double>>() * W.bottomRows(n_);
   for (int m = 0; m < modes_; ++m) {
@@ -79,14 +78,13 @@ void ModalBounds::keep(const Eigen::VectorXcd& lambda, const Complex& W, const C
   const Complex drive = P_.rightCols(n_) * inverse_.cast<std::complex<double>>();
   const Vector time = decay_.cwiseInverse();
   by_hinges_ = time.asDiagonal() * drive.cwiseAbs();
-  by_turns_ = time.asDiagonal() * (drive * S_.transpose().cast<std::complex<double>>()).cwiseAbs();
+  by_turns_ = time.asDiagonal() * (drive * S.transpose().cast<std::complex<double>>()).cwiseAbs();
   rounding_ = time.asDiagonal() * rounding_;
-  swing_by_hinges_ = (S_ * inverse_).cwiseAbs();
-  swing_by_turns_ = (S_ * inverse_ * S_.transpose()).cwiseAbs();
+  swing_by_hinges_ = (S * inverse_).cwiseAbs();
+  swing_by_turns_ = ((S * inverse_ * S.transpose()).array() + model_->rigid).abs().matrix();
   lever_ = (model_->lever_x.array().square() + model_->lever_y.array().square()).sqrt().matrix();
-  for (Vector* v : {&u_, &v_, &turned_, &spin_, &n_bound_, &f_, &a_, &next_a_, &added_, &moment_,
-                    &force_, &rate_})
-    v->setZero(n_);
+  for (Vector* v : {&u_, &v_, &f_, &moment_, &force_, &rate_}) v->setZero(n_);
+  for (Vector* v : {&turned_, &spin_, &n_bound_, &a_, &next_a_, &added_}) v->setZero(bodies);
 }
 
 void ModalBounds::find_rates(const double* angles, const double* rates) {
@@ -98,50 +96,61 @@ void ModalBounds::find_rates(const double* angles, const double* rates) {
 }
 
 bool ModalBounds::none_exceeds(const double* angles, const double* rates, const double* moments,
-                               const double* forces, const std::optional<double>& energy) {
+                               const double* forces, const std::optional<double>& energy,
+                               double spin) {
   find_rates(angles, rates);
   bound_linear(start_);
-  if (!below(moments, forces) || !find_box(energy)) return false;
+  if (!below(moments, forces) || !find_box(energy, spin)) return false;
   bound_all();
   return below(moments, forces);
 }
 
-/// A box that (4) and (5) do not leave.
-bool ModalBounds::find_box(const std::optional<double>& energy) {
+/// A box that (4), (5) and (6) do not leave.
+bool ModalBounds::find_box(const std::optional<double>& energy, double spin) {
   constexpr int passes = 12;
   constexpr double wider = 1.02;
   B_ = wider * start_;
   a_.noalias() = swing_ * B_;
+  momentum_ = spin;
+  rigid_ = model_->spin + wider * model_->rigid * spin;
   for (int pass = 0; pass < passes; ++pass) {
     follow();
     if (capped_ && energy) cap_modes(*energy);
     if (!next_B_.allFinite() || !next_a_.allFinite()) return false;
-    const bool inside =
-        (next_B_.array() <= B_.array()).all() && (next_a_.array() < a_.array()).all();
+    // on a base that is not free the first body does not take part: 0 in 0
+    const bool inside = (next_B_.array() <= B_.array()).all() &&
+                        (next_a_.array() <= a_.array()).all() && next_rigid_ <= rigid_;
     if (inside) return (u_.array() < model_->room.array()).all();
+    rigid_ = std::max(rigid_, wider * next_rigid_);
     B_ = B_.cwiseMax(wider * next_B_), a_ = a_.cwiseMax(wider * next_a_);
   }
   return false;
 }
 
-/// The right sides of (4) and (5) over the box.
+/// The right sides of (4), (5) and (6) over the box.
 void ModalBounds::follow() {
   u_.noalias() = way_ * B_, v_.noalias() = rate_of_ * B_;
   spin_.noalias() = turn_ * B_;
+  spin_.array() += rigid_;
   const RestModel& m = *model_;
   m.bound_remainders(u_, v_, f_);
-  for (int k = 0; k < n_; ++k) {
-    const int p = m.parents[k];
-    turned_(k) = u_(k) + (p < 0 ? 0.0 : turned_(p));
-    n_bound_(k) = m.pushed(k) * turned_(k);
+  turned_(0) = n_bound_(0) = 0;
+  for (int k = 1; k <= n_; ++k) {
+    turned_(k) = u_(k - 1) + turned_(m.parents[k - 1]);
+    n_bound_(k) = m.pushed(k) * (m.push_turns ? 1.0 : turned_(k));
   }
-  for (int l = 0; l < n_; ++l)
-    for (int k = m.parents[l]; k >= 0; k = m.parents[k]) { // k inward of l
-      const double way = turned_(l) - turned_(k), c = m.cosine(k, l), s = m.sine(k, l);
-      const double mass = way * std::fma(0.5 * c, way, s), turning = std::fma(c, way, s);
-      n_bound_(k) += mass * a_(l) + turning * spin_(l) * spin_(l);
-      n_bound_(l) += mass * a_(k) + turning * spin_(k) * spin_(k);
-    }
+  double momentum = momentum_;
+  for (const RestModel::Pair& pair : m.pairs) {
+    const int k = pair.first, l = pair.second;
+    const double way = turned_(k) + turned_(l) - 2 * turned_(pair.meet);
+    const double mass = way * std::fma(0.5 * pair.cosine, way, pair.sine);
+    const double turning = std::fma(pair.cosine, way, pair.sine);
+    n_bound_(k) += mass * a_(l) + turning * spin_(l) * spin_(l);
+    n_bound_(l) += mass * a_(k) + turning * spin_(k) * spin_(k);
+    momentum += mass * (spin_(k) + spin_(l));
+  }
+  next_rigid_ = m.spin + m.rigid * momentum;
+  if (m.rigid == 0) n_bound_(0) = 0; // the base is not moved by it
   next_B_ = start_;
   next_B_.noalias() += rounding_ * B_;
   next_B_.noalias() += by_turns_ * n_bound_;
@@ -152,11 +161,12 @@ void ModalBounds::follow() {
   next_a_.noalias() += swing_ * B_;
 }
 
-/// (6).
+/// (7).
 void ModalBounds::cap_modes(double energy) {
   double mu = 0; // by Collatz, a being positive
   const Vector shaken = swing_by_turns_ * n_bound_;
-  for (int k = 0; k < n_; ++k) mu = std::max(mu, shaken(k) / a_(k));
+  for (int k = 0; k <= n_; ++k)
+    if (shaken(k) > 0) mu = std::max(mu, shaken(k) / a_(k));
   if (!(mu < 1)) return;
   const double size = std::sqrt(2 * std::max(energy, 0.0) / (1 - mu));
   next_B_ = next_B_.cwiseMin(size * by_energy_ + offset_);

@@ -3,29 +3,30 @@
 /// With z = (u, u̇), Λ the eigenvalues and W the eigenvectors of the linear model of rest_model.hpp,
 /// P = W⁻¹ and w = P z, (2) there is
 ///
-///     ẇ_j = λ_j w_j + r_j w + p_j M_0⁻¹ (Sᵀn + f)        P = (… p), r what rounding leaves of P L W − Λ
+///     ẇ_j = λ_j w_j + e_j w + p_j M_0⁻¹ (Sᵀn + f)      P = (… p), e what rounding leaves of P L W − Λ
 ///
 /// so that with α_j = −Re λ_j > 0, from now on, while no |w_j| leaves B_j and no |ω̇_k| leaves a_k
 ///
-///     |w_j| ≤ |w_j(0)| + (Σ |r_jk| B_k + Σ |p_j M_0⁻¹Sᵀ|_k n_k + Σ |p_j M_0⁻¹|_k f_k)/α_j           (4)
-///     |ω̇_k| ≤ Σ |S W_v Λ|_kj B_j + Σ |S M_0⁻¹Sᵀ|_kl n_l + Σ |S M_0⁻¹|_kl f_l                        (5)
+///     |w_j| ≤ |w_j(0)| + (Σ |e_jk| B_k + Σ |p_j M_0⁻¹Sᵀ|_k n_k + Σ |p_j M_0⁻¹|_k f_k)/α_j         (5)
+///     |ω̇_k| ≤ Σ |S W_v Λ|_kj B_j + Σ |S M_0⁻¹Sᵀ + 1 1ᵀ/I|_kl n_l + Σ |S M_0⁻¹|_kl f_l            (6)
 ///
-/// n and f being bounded over that box by (3) and with |u| ≤ |W_u| B, |u̇| ≤ |W_v| B. Where the right
-/// sides lie inside the box they never leave it: what grows continuously would have to reach its edge
-/// first. Fast modes are soon gone from |w(0)|, so that the bounds come down to what truly
-/// remains. An energy E (prospects.hpp) that is never exceeded caps the modes too: with κ the least
-/// stiffness of the hinges and μ ≥ the spectral radius of M_0⁻¹(M − M_0),
+/// n and f being bounded over that box by (3), with |u| ≤ |W_u| B, |u̇| ≤ |W_v| B and
+/// |ω| ≤ |S W_v| B + |r|, r by (4). Where the right sides lie inside the box they never leave it: what
+/// changes continuously would have to reach its edge first. Fast modes are soon gone from
+/// |w(0)|, so that the bounds come down to what truly remains. An energy E (prospects.hpp)
+/// that is never exceeded caps the modes too: with κ the least stiffness of the hinges and
+/// μ ≥ the spectral radius of M(rest)⁻¹(M − M(rest)),
 ///
-///     |w_j| ≤ √(2E/(1 − μ)) √(p'_j diag(κ, M_0)⁻¹ p'_jᴴ),    p' the row of P                         (6)
+///     |w_j| ≤ √(2E/(1 − μ)) √(P_j diag(κ, M_0)⁻¹ P_jᴴ)                                          (7)
 ///
 /// Then |M_i| ≤ Σ |K W_u + C W_v|_ij B_j + f_i + |M_i at rest|, and of the reactions, Y_ik the levers,
 ///
-///     |Y_i| ≤ |Σ_j |F_ij| B_j| + Σ_k |Y_ik| (what (5) adds to the modes + |S u|_k a_k + ω_k²) + |a| m   (7)
+///     |Y_i| ≤ |Σ_j |F_ij| B_j| + Σ_k |Y_ik| (what (6) adds to the modes + |turn_k| a_k + ω_k²) + |a| m (8)
 ///
 /// F_ij by the accelerations of mode j at rest, component by component.
 ///
-/// The proof uses a library's eigenvectors and sums, whose last bits may differ between processors: a run
-/// may then end a look earlier or later, but no peak depends on when a run ends.
+/// The proof uses a library's eigenvectors and sums, whose last bits may differ between processors:
+/// a run may then end a look earlier or later, but no peak depends on when a run ends.
 #pragma once
 
 #include "core/proofs/rest_model.hpp"
@@ -49,9 +50,10 @@ public:
   /// @param angles, rates of the hinges
   /// @param moments, forces of each hinge so far; null: not asked for
   /// @param energy that is never exceeded, J, where there is one
+  /// @param spin   |H| of a free base about the common centre of mass, kg·m²/s, else 0
   /// @pre prepared, and all decay
   bool none_exceeds(const double* angles, const double* rates, const double* moments,
-                    const double* forces, const std::optional<double>& energy);
+                    const double* forces, const std::optional<double>& energy, double spin = 0);
 
   /// Finds `rates()` alone.
   void find_rates(const double* angles, const double* rates);
@@ -68,7 +70,7 @@ private:
 
   void keep(const Eigen::VectorXcd& lambda, const Complex& W, const Complex& P,
             const Complex& residual);
-  bool find_box(const std::optional<double>& energy);
+  bool find_box(const std::optional<double>& energy, double spin);
   void follow();
   void cap_modes(double energy);
   void bound_linear(const Vector& modes);
@@ -77,7 +79,7 @@ private:
 
   const RestModel* model_ = nullptr;
   int n_ = 0, modes_ = 0;
-  Matrix S_, inverse_;
+  Matrix inverse_; ///< M_0⁻¹
   Eigen::EigenSolver<Matrix> solver_;
   Complex P_;                           ///< rows of the modes kept: one of each conjugate pair
   Vector decay_;                        ///< α
@@ -89,6 +91,8 @@ private:
   bool capped_ = false;
   // of a question
   Vector z_, start_, B_, next_B_, a_, next_a_, added_;
+  double rigid_ = 0, next_rigid_ = 0; ///< |r| of the box, and the right side of (4)
+  double momentum_ = 0;               ///< |H|
   Vector u_, v_, turned_, spin_, n_bound_, f_;
   Vector moment_, force_, rate_;
 };

@@ -47,7 +47,7 @@ public:
     rests_ = system.wing().loops.empty(), offset_ = p_ = q_ = T(0);
     rest_.assign(system.layout().size(), T(0));
     for (int i = 1; i <= n; ++i) prepare(system, i);
-    elastic_ = bounded_ && system.base_motion == BaseMotion::fixed;
+    elastic_ = bounded_ && system.base_motion != BaseMotion::prescribed;
     for (int i = 1; i <= n; ++i) elastic_ = elastic_ && least_stiffness_(i) > T(0);
   }
 
@@ -230,7 +230,7 @@ private:
 
   ApparentLoad<T> load_;
   bool bounded_ = false, rests_ = false;
-  bool elastic_ = false; ///< on a base that is fixed every hinge has a rest
+  bool elastic_ = false; ///< on a base that is not driven every hinge has a rest
   Numbers stiffness_, damping_, steady_;
   Numbers least_stiffness_; ///< κ
   Numbers at_rest_;         ///< P(y*) of a real hinge

@@ -55,7 +55,7 @@ public:
     if (!is_modelled()) return false;
     resize();
     for (int i = 1; i <= n_; ++i) {
-      m_.parents[i - 1] = wing_.tree.parent_of(i) - 1;
+      m_.parents[i - 1] = wing_.tree.parent_of(i);
       m_.angles(i - 1) = angles[i - 1];
     }
     weigh();
@@ -73,24 +73,25 @@ private:
 
   [[nodiscard]] bool is_modelled() const {
     const BaseTerms<double>& base = wing_.base;
-    if (base.motion == BaseMotion::free || n_ > most_bodies || !wing_.plates.empty()) return false;
-    if (base.motion == BaseMotion::prescribed && (base.rate != 0 || base.angular_acceleration != 0))
-      return false;
+    if (n_ > most_bodies || !wing_.plates.empty()) return false;
+    if (base.motion == BaseMotion::prescribed && base.angular_acceleration != 0) return false;
     return std::none_of(wing_.real.begin(), wing_.real.end(),
                         [](const auto& real) { return real.has_backlash; });
   }
 
   void resize() {
     m_.parents.resize(n_);
-    for (Eigen::VectorXd* v :
-         {&m_.angles, &m_.pushed, &m_.weight, &m_.moment, &m_.room, &residual_})
+    for (Eigen::VectorXd* v : {&m_.angles, &m_.weight, &m_.moment, &m_.room, &residual_})
       v->setZero(n_);
-    for (Eigen::MatrixXd* v :
-         {&m_.mass, &m_.stiffness, &m_.damping, &m_.cosine, &m_.sine, &m_.lever_x, &m_.lever_y})
-      v->setZero(n_, n_);
+    for (Eigen::MatrixXd* v : {&m_.mass, &m_.stiffness, &m_.damping}) v->setZero(n_, n_);
+    for (Eigen::MatrixXd* v : {&m_.lever_x, &m_.lever_y}) v->setZero(n_, n_ + 1);
+    m_.turns.setZero(n_ + 1, n_), m_.pushed.setZero(n_ + 1);
     m_.remainders.assign(n_, {});
-    m_.loops.clear();
-    push_ = wing_.base.motion == BaseMotion::prescribed ? wing_.base.felt() : Vec2<double>{0, 0};
+    m_.loops.clear(), m_.pairs.clear();
+    const bool driven = wing_.base.motion == BaseMotion::prescribed;
+    push_ = driven ? wing_.base.felt() : Vec2<double>{0, 0};
+    m_.spin = driven ? std::abs(wing_.base.rate) : 0;
+    m_.push_turns = m_.spin != 0, m_.rigid = 0;
     outward_mass_.assign(n_ + 1, 0), turn_.assign(n_ + 1, 0);
     own_moment_.assign(n_ + 1, {0, 0}), Y_.assign(n_ + 1, {0, 0});
   }
@@ -103,13 +104,15 @@ private:
       outward_mass_[i] += body.mass;
       outward_mass_[p] += outward_mass_[i];
       own_moment_[i] = own_moment_[i] + body.mass_moment;
-      if (p != 0) own_moment_[p] = fused(outward_mass_[i], body.arm, own_moment_[p]);
+      own_moment_[p] = fused(outward_mass_[i], body.arm, own_moment_[p]);
     }
+    outward_mass_[0] += wing_.bodies[0].mass;
   }
 
   /// Turns the bodies as the hinges stand.
   void place() {
     turn_[0] = wing_.base.angle;
+    Y_[0] = turned_by(turn_[0], own_moment_[0]);
     for (int i = 1; i <= n_; ++i) {
       turn_[i] = turn_[wing_.tree.parent_of(i)] + m_.angles(i - 1);
       Y_[i] = turned_by(turn_[i], own_moment_[i]);
@@ -159,6 +162,7 @@ private:
       add(m_.stiffness, loop, at, taut_share(loop, at.elastic) * loop.stiffness);
     }
     residual_ = m_.moment;
+    if (m_.push_turns) return;
     for (int k = 1; k <= n_; ++k) // the push turns body k, and with it what it hangs on
       for (int i = k; i != 0; i = wing_.tree.parent_of(i))
         residual_(i - 1) += dot(turned(Y_[k]), scaled(-1.0, push_));
@@ -214,43 +218,87 @@ private:
 
   // ---- masses
 
-  /// (1), and M_0.
+  [[nodiscard]] bool is_free() const { return wing_.base.motion == BaseMotion::free; }
+
+  /// (1), S and M_0.
   void find_masses() {
-    Eigen::MatrixXd& M = m_.mass; // first in absolute rates
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n_ + 1, n_ + 1); // in absolute rates
+    Eigen::MatrixXd s = M;                                     // A × Y
+    M(0, 0) = wing_.bodies[0].inertia;
     for (int l = 1; l <= n_; ++l) {
-      M(l - 1, l - 1) += wing_.bodies[l].inertia;
-      int outer = l;
-      for (int k = wing_.tree.parent_of(l); k != 0; k = wing_.tree.parent_of(k)) {
+      M(l, l) += wing_.bodies[l].inertia;
+      const int p = wing_.tree.parent_of(l);
+      M(p, p) += outward_mass_[l] * dot(arm(l), arm(l));
+      for (int k = p, outer = l;; outer = k, k = wing_.tree.parent_of(k)) {
         const Vec2<double> A = arm(outer);
-        const double c = dot(A, Y_[l]), s = std::abs(A.x * Y_[l].y - A.y * Y_[l].x);
-        if (k == wing_.tree.parent_of(l)) M(k - 1, k - 1) += outward_mass_[l] * dot(A, A);
-        M(k - 1, l - 1) = M(l - 1, k - 1) = c;
-        m_.cosine(k - 1, l - 1) = m_.cosine(l - 1, k - 1) = std::abs(c);
-        m_.sine(k - 1, l - 1) = m_.sine(l - 1, k - 1) = s;
-        outer = k;
+        M(k, l) = M(l, k) = dot(A, Y_[l]);
+        s(k, l) = s(l, k) = cross(A, Y_[l]);
+        if (k == 0) break;
       }
     }
-    for (int i = n_ - 1; i >= 0; --i) // SᵀMS
-      if (m_.parents[i] >= 0) M.row(m_.parents[i]) += M.row(i);
-    for (int i = n_ - 1; i >= 0; --i)
-      if (m_.parents[i] >= 0) M.col(m_.parents[i]) += M.col(i);
+    if (is_free()) take_about_center(M, s);
+    find_turns(M);
+    m_.mass = m_.turns.transpose() * M * m_.turns;
+    find_pairs(M, s);
+  }
+  [[nodiscard]] static double cross(const Vec2<double>& a, const Vec2<double>& b) {
+    return a.x * b.y - a.y * b.x;
+  }
+
+  void take_about_center(Eigen::MatrixXd& M, Eigen::MatrixXd& s) const {
+    const double share = 1 / outward_mass_[0];
+    for (int k = 0; k <= n_; ++k)
+      for (int l = k; l <= n_; ++l) {
+        M(k, l) -= share * dot(Y_[k], Y_[l]), M(l, k) = M(k, l);
+        s(k, l) -= share * cross(Y_[k], Y_[l]), s(l, k) = s(k, l);
+      }
+  }
+
+  void find_turns(const Eigen::MatrixXd& M) {
+    for (int k = 1; k <= n_; ++k) {
+      m_.turns.row(k) = m_.turns.row(wing_.tree.parent_of(k));
+      m_.turns(k, k - 1) = 1;
+    }
+    if (!is_free()) return;
+    m_.rigid = 1 / M.sum();
+    const Eigen::RowVectorXd back = m_.rigid * (M.colwise().sum() * m_.turns);
+    m_.turns.rowwise() -= back;
+  }
+
+  void find_pairs(const Eigen::MatrixXd& M, const Eigen::MatrixXd& s) {
+    const bool base_turns = is_free() || m_.spin != 0;
+    for (int l = 1; l <= n_; ++l)
+      for (int k = base_turns ? 0 : 1; k < l; ++k)
+        if (M(k, l) != 0 || s(k, l) != 0)
+          m_.pairs.push_back({k, l, meeting(k, l), std::abs(M(k, l)), std::abs(s(k, l))});
+  }
+
+  /// The outermost body that is inward of both, or one of them.
+  [[nodiscard]] int meeting(int k, int l) const {
+    while (k != l) (k > l ? k : l) = wing_.tree.parent_of(std::max(k, l));
+    return k;
   }
 
   /// First moments: of what is outward of hinge i, each body's turning moves its own part.
   void find_levers() {
     const double push = length(push_);
     for (int i = 1; i <= n_; ++i) {
-      m_.pushed(i - 1) = push * length(Y_[i]), m_.weight(i - 1) = push * outward_mass_[i];
-      int outer = i;
-      for (int k = wing_.tree.parent_of(i); k != 0; k = wing_.tree.parent_of(k)) {
+      m_.pushed(i) = push * length(Y_[i]), m_.weight(i - 1) = push * outward_mass_[i];
+      for (int k = wing_.tree.parent_of(i), outer = i;; outer = k, k = wing_.tree.parent_of(k)) {
         set_lever(i, k, scaled(outward_mass_[i], arm(outer)));
-        outer = k;
+        if (k == 0) break;
       }
       for (int k = i; k != 0; k = wing_.tree.parent_of(k)) set_lever(k, i, Y_[i]);
     }
+    if (!is_free()) return;
+    for (int i = 1; i <= n_; ++i) // the centre of mass goes on as it does
+      for (int k = 0; k <= n_; ++k) {
+        const double share = outward_mass_[i] / outward_mass_[0];
+        m_.lever_x(i - 1, k) -= share * Y_[k].x, m_.lever_y(i - 1, k) -= share * Y_[k].y;
+      }
   }
   void set_lever(int i, int k, const Vec2<double>& v) {
-    m_.lever_x(i - 1, k - 1) = v.x, m_.lever_y(i - 1, k - 1) = v.y;
+    m_.lever_x(i - 1, k) = v.x, m_.lever_y(i - 1, k) = v.y;
   }
 
   // ---- what the linear model leaves out

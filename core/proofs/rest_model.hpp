@@ -1,21 +1,26 @@
 /// A latched wing about its rest: the linear model of its motion, and how far the truth may differ
-/// from it. For a base that is fixed, or pushed without turning.
+/// from it. The base is fixed, pushed, turned at a constant rate, or free.
 ///
-/// Let u be the ways of the hinges from a rest φ*, S u the turns of the bodies: S_kl = 1 where l is
-/// k or inward of it. With A_kl the way across body k towards body l, and Y_l the first moment about
-/// hinge l of what l's own turning moves,
+/// Let u be the ways of the hinges from a rest φ*, ω the rates of the bodies, the base's the first.
+/// With Y_k the first moment of all outward of hinge k that body k's turning moves, and A_kl the way
+/// across body k towards body l, the masses come to
 ///
-///     M_kl = c_kl cos Δ + s_kl sin Δ    c = A_kl·Y_l,  |s| = |A_kl × Y_l|,  Δ = (S u)_l − (S u)_k  (1)
+///     M_kl = c_kl cos Δ + s_kl sin Δ        Δ: how far l has turned against k since rest           (1)
 ///
-/// is the mass matrix in absolute rates ω for k inward of l, c and s at rest, and with
-/// M_0 = SᵀM(rest)S
+/// c = A_kl·Y_l and |s| = |A_kl × Y_l| at rest for k inward of l. On a free base they are taken about the
+/// common centre of mass: less Y_k·Y_l/m and Y_k × Y_l/m, m the whole mass, for all pairs. Let 1 be
+/// the rigid rotation, I = 1ᵀM 1, and S u̇ the rates of the bodies that go with u̇: of each body the
+/// hinges inward of it, on a free base less the rotation by which the angular momentum at rest stays
+/// zero. Then ω = S u̇ + r 1 and, with M_0 = SᵀM(rest)S,
 ///
 ///     M_0 ü = −K u − C u̇ + Sᵀn + f                                                              (2)
-///     |n_k| ≤ Σ_l (½|c|Δ² + |s||Δ|) |ω̇_l| + Σ_l (|s| + |c||Δ|) ω_l² + |a| |Y_k| |(S u)_k|       (3)
+///     |n_k| ≤ Σ_l (½|c|Δ² + |s||Δ|) |ω̇_l| + Σ_l (|s| + |c||Δ|) ω_l² + what a push does             (3)
+///     |r| ≤ (|H| + Σ_kl (½|c|Δ² + |s||Δ|) |ω_l|)/I,  ṙ = 1ᵀn/I     on a free base                 (4)
 ///
-/// The first sum is M(θ) − M(rest), the second what centripetal accelerations come to, the third
-/// how a push a of the base turns. f is what the moments of the hinges have beyond K and C:
-/// friction, curves that bend, dampers that are not viscous, loops that go slack.
+/// The first sum is M(θ) − M(rest), the second what centripetal accelerations come to; H is the
+/// angular momentum. On a base that turns r is its rate, and there is no first sum for it. f is what
+/// the moments of the hinges have beyond K and C: friction, curves that bend, dampers that are not
+/// viscous, loops that go slack.
 #pragma once
 
 #include "core/mechanics/wing.hpp"
@@ -28,8 +33,14 @@
 
 namespace wingspread {
 
-/// Hinges and bodies count from 0 here.
+/// Hinges count from 0 here; so do bodies, 0 being the base.
 struct RestModel {
+  /// Of two bodies, the first with the lesser number.
+  struct Pair {
+    int first, second, meet; ///< the outermost body inward of both, or one of them
+    double cosine, sine;     ///< |c|, |s|
+  };
+
   /// |f| ≤ steady + bend |u|, and what the damper has beyond its part of C.
   struct Remainder {
     double steady = 0; ///< N·m
@@ -46,14 +57,19 @@ struct RestModel {
     double until_slack; ///< K |e| may rise so far before a strand is slack, N·m; < 0: one is
   };
 
-  std::vector<int> parents;           ///< −1: the base
+  std::vector<int> parents;           ///< of hinge i: the body that it hangs on
   Eigen::VectorXd angles;             ///< φ*, rad
   Eigen::MatrixXd mass;               ///< M_0
   Eigen::MatrixXd stiffness, damping; ///< K, C
-  Eigen::MatrixXd cosine, sine;       ///< |c|, |s|, both ways; 0 on the diagonal and off the paths
+  Eigen::MatrixXd turns;              ///< S: bodies by hinges
+  double rigid = 0;                   ///< 1/I of a free base, else 0
+  double spin = 0;                    ///< |r| of a base that turns, rad/s
+  std::vector<Pair> pairs;            ///< those that count
   /// (i, k): first moment of what is outward of hinge i, as far as body k's turning moves it, kg·m
   Eigen::MatrixXd lever_x, lever_y;
-  Eigen::VectorXd pushed; ///< |a| |Y|, N·m
+  Eigen::VectorXd pushed; ///< 0 … n: |a| |Y|, N·m
+  bool push_turns =
+      false;              ///< against the wing at rest: all of it counts, not what turns alone adds
   Eigen::VectorXd weight; ///< |a| times the mass outward, N
   Eigen::VectorXd moment; ///< M of each hinge at rest, N·m
   Eigen::VectorXd room;   ///< no other law holds within this way from rest, rad
@@ -72,7 +88,8 @@ struct RestModel {
 /// Makes the model of a wing all of whose latches have engaged. Cost O(n³).
 /// @param angles 1 … n at `angles[i − 1]`: from where rest is sought
 /// @param rates  of the hinges: for which dampers are made linear
-/// @return whether it has one: a base that turns, backlash, air and more than 40 bodies have none
+/// @return whether it has one: a base that turns faster and faster, backlash, air and more than 40
+///         bodies have none
 [[nodiscard]] bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work,
                                    const double* angles, const double* rates, RestModel& model);
 

@@ -191,6 +191,13 @@ private:
     return false;
   }
 
+  /// |H| of a free base about the common centre of mass, kg·m²/s.
+  [[nodiscard]] double spin() {
+    if constexpr (AnySystem::base_motion != BaseMotion::free) return 0;
+    using std::abs;
+    return static_cast<double>(abs(total_motion(run_.system, run_.step.x, run_.step.t).spin()));
+  }
+
   /// Whether every latch acts with its whole strength: a smoothed one comes in.
   [[nodiscard]] bool latches_are_in(const State<T>& x) const {
     if (!run_.at.smoothed) return true;

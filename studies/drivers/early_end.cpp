@@ -1,0 +1,145 @@
+// What an early end of runs saves, and whether it loses anything: every run of several campaigns as a
+// campaign makes it, and again to its t_end. No bit of a latch or a peak may differ.
+//
+//   build/release/studies/early_end                 some ten thousand runs of each campaign; minutes
+//   build/release/studies/early_end --quick         a hundred of each
+//
+// Exits 1 where anything was lost.
+
+#include "core/deployment.hpp"
+#include "montecarlo/campaign/campaign_json.hpp"
+#include "montecarlo/runs/run_plan.hpp"
+#include "studies/support/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+using namespace wingspread;
+
+namespace {
+
+/// A campaign, how many of its runs, and how far these go: at some campaigns' own t_end a wing has been
+/// at rest for most of the time.
+struct Case {
+  const char* campaign;
+  long runs;
+  double t_end; ///< s
+  std::uint64_t seed;
+};
+constexpr Case cases[] = {{"seed", 40000, 30, 11},
+                          {"work_precision", 20000, 30, 12},
+                          {"work_precision_rubbing", 15000, 30, 13},
+                          {"work_precision_sticking", 15000, 30, 14},
+                          {"prescribed_base", 4000, 40, 15},
+                          {"stall", 8000, 40, 16},
+                          {"yoke_wing", 2000, 40, 17},
+                          {"two_wing_free", 1000, 30, 18}};
+
+struct Found {
+  long runs = 0, deployed = 0, early = 0, lost = 0;
+  double evaluations = 0, of_whole = 0; ///< of all runs
+  double tail = 0; ///< from the last latch to the end of those that ended early, s
+
+  void add(const Found& other) {
+    runs += other.runs, deployed += other.deployed, early += other.early, lost += other.lost;
+    evaluations += other.evaluations, of_whole += other.of_whole, tail += other.tail;
+  }
+};
+
+bool same(const std::vector<Peak>& a, const std::vector<Peak>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Peak& p, const Peak& q) {
+    return p.value == q.value && p.time == q.time;
+  });
+}
+
+/// Whether the whole run has nothing that the early one has not.
+bool nothing_lost(const Outcome& early, const Outcome& whole) {
+  const bool latches =
+      std::equal(early.latches.begin(), early.latches.end(), whole.latches.begin(),
+                 whole.latches.end(), [](const LatchEvent& a, const LatchEvent& b) {
+                   return a.hinge == b.hinge && a.time == b.time;
+                 });
+  return latches && same(early.peak_moment, whole.peak_moment) &&
+         same(early.peak_force, whole.peak_force);
+}
+
+Found compare(Deployment& deployment, const Scene& scene, const Integration& how, long run) {
+  const Outcome early = deployment.run(scene, how, {});
+  Goal to_the_end;
+  to_the_end.to_t_end = true;
+  const Outcome whole = deployment.run(scene, how, to_the_end);
+  Found found;
+  found.runs = 1, found.deployed = early.status == Status::deployed;
+  found.early = early.t_end < whole.t_end, found.lost = !nothing_lost(early, whole);
+  found.evaluations = static_cast<double>(early.work.rhs_evaluations);
+  found.of_whole = static_cast<double>(whole.work.rhs_evaluations);
+  if (found.early && found.deployed) found.tail = early.t_end - early.latches.back().time;
+  if (found.lost) fmt::print("  run {} has lost something\n", run);
+  return found;
+}
+
+Found compare_all(const Campaign& campaign, long runs) {
+  const RunPlan plan(campaign);
+  std::atomic<long> next = 0;
+  std::mutex mutex;
+  Found all;
+  const auto work = [&] {
+    Deployment deployment;
+    Scene scene = campaign.scene;
+    std::vector<double> draws(campaign.dispersions.size());
+    Found own;
+    for (long k = next++; k < runs; k = next++) {
+      plan.draw(k, draws);
+      apply(campaign, draws, campaign.scene, scene);
+      own.add(compare(deployment, scene, campaign.integration, k));
+    }
+    const std::lock_guard lock(mutex);
+    all.add(own);
+  };
+  std::vector<std::jthread> threads;
+  for (unsigned k = 0; k < std::max(1U, std::thread::hardware_concurrency()); ++k)
+    threads.emplace_back(work);
+  threads.clear();
+  return all;
+}
+
+long study_all(const study::StudyOptions& options) {
+  study::Table table{"campaign", "runs",     "deployed",          "ended early",
+                     "lost",     "tail [s]", "evaluations a run", "to t_end"};
+  fmt::print("{:24} {:>7} {:>8} {:>11} {:>5} {:>8} {:>17} {:>9}\n", "campaign", "runs", "deployed",
+             "ended early", "lost", "tail, s", "evaluations a run", "to t_end");
+  long lost = 0;
+  for (const Case& one : cases) {
+    Campaign campaign = read_campaign_file(fmt::format("studies/campaigns/{}.json", one.campaign));
+    campaign.sampling.seed = one.seed;
+    campaign.sampling.runs = options.quick ? 100 : one.runs;
+    campaign.integration.t_end = one.t_end;
+    const Found found = compare_all(campaign, campaign.sampling.runs);
+    const auto runs = static_cast<double>(found.runs);
+    const double tail = found.tail / static_cast<double>(std::max(1L, found.early));
+    fmt::print("{:24} {:7} {:8} {:11} {:5} {:8.3f} {:17.0f} {:9.0f}\n", one.campaign, found.runs,
+               found.deployed, found.early, found.lost, tail, found.evaluations / runs,
+               found.of_whole / runs);
+    table.add({one.campaign, runs, static_cast<double>(found.deployed),
+               static_cast<double>(found.early), static_cast<double>(found.lost), tail,
+               found.evaluations / runs, found.of_whole / runs});
+    lost += found.lost;
+  }
+  table.write(options.folder / "early_end.csv");
+  return lost;
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+  long lost = 0;
+  const int status = study::run_study(
+      count, arguments, "early_end", "What an early end of runs saves, and whether it loses a peak",
+      [&](const study::StudyOptions& options) { lost = study_all(options); });
+  return status != 0 ? status : lost > 0 ? 1 : 0;
+}
