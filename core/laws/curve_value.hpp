@@ -126,6 +126,36 @@ template <class T> [[nodiscard]] ValueRange<T> scaled(const T& by, const ValueRa
   return {smaller(a, b), larger(a, b)};
 }
 
+/// The product of two.
+template <class T>
+[[nodiscard]] ValueRange<T> operator*(const ValueRange<T>& a, const ValueRange<T>& b) {
+  ValueRange<T> range = scaled(a.low, b);
+  range.include(a.high * b.low), range.include(a.high * b.high);
+  return range;
+}
+
+/// Of a curve's slope over a range of x, that of one number: of each cubic at its ends and where its
+/// bend turns.
+template <class T>
+[[nodiscard]] ValueRange<T> range_of_slope(const Curve& curve, const ValueRange<T>& x) {
+  const std::size_t first = detail::piece_number(curve, x.low),
+                    last = detail::piece_number(curve, x.high);
+  ValueRange<T> range{slope(curve, x.low), slope(curve, x.low)};
+  for (std::size_t k = first; k <= last; ++k) {
+    const auto at = [&](const T& where) {
+      range.include(slope(detail::piece_at(curve.pieces()[k], detail::knot_of(curve, k), where)));
+    };
+    const T from = k == first ? x.low : T(detail::knot_of(curve, k));
+    const T to = k == last ? x.high : T(curve.knots()[k]);
+    at(from), at(to);
+    const Curve::Piece& piece = curve.pieces()[k];
+    if (piece.c[3] == 0) continue;
+    const T turn = T(detail::knot_of(curve, k)) - T(piece.c[2]) / (T(3) * T(piece.c[3]));
+    if (from < turn && turn < to) at(turn);
+  }
+  return range;
+}
+
 /// Over a range of x: the extremes lie at knots, or are no more than the overshoot beyond.
 template <class T>
 [[nodiscard]] ValueRange<T> range_of(const Curve& curve, const ValueRange<T>& x) {

@@ -101,6 +101,22 @@ template <class T>
   return range;
 }
 
+/// Of its damping over a range of rates. @pre not an eddy-current damper
+template <class T>
+[[nodiscard]] ValueRange<T> damping_range(const DamperTerms<T>& damper, const ValueRange<T>& v) {
+  const T first = damper_damping(damper, v.low), last = damper_damping(damper, v.high);
+  ValueRange<T> range{smaller(first, last), larger(first, last)};
+  if (damper.law == DamperLaw::viscous) return range;
+  using std::abs;
+  // beyond w it rises or falls with |v|, below it is constant, and at w it jumps
+  if (v.low < T(0) && v.high > T(0)) range.include(damper.near_zero);
+  const T least = v.low < T(0) && v.high > T(0) ? T(0) : smaller(T(abs(v.low)), T(abs(v.high)));
+  const T most = larger(T(abs(v.low)), T(abs(v.high)));
+  if (least <= damper.rate && damper.rate <= most)
+    range.include(damper.near_zero), range.include(damper.exponent * damper.near_zero);
+  return range;
+}
+
 /// No |moment| is larger for rates up to `most`.
 template <class T> [[nodiscard]] T most_of_damper(const DamperTerms<T>& damper, const T& most) {
   const ValueRange<T> range = damper_range(damper, ValueRange<T>{T(-most), most});

@@ -19,6 +19,7 @@
 #include "core/scene/scene.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace wingspread {
 
@@ -201,6 +202,28 @@ template <class T>
     range = range + scaled(mode.in_contact, push);
   }
   return range;
+}
+
+/// dM/dt over ranges of angle, rate and acceleration; none where its laws have no smooth bound here:
+/// regularized friction by a test, an eddy-current damper, a stop in contact.
+template <class T>
+[[nodiscard]] std::optional<ValueRange<T>>
+real_change(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, const ValueRange<T>& angle,
+            const ValueRange<T>& rate, const ValueRange<T>& acceleration) {
+  const bool braked = hinge.has_damper && mode.damper_acts != T(0);
+  if ((hinge.friction && hinge.regularized) || mode.in_contact != T(0) ||
+      (braked && hinge.damper.law == DamperLaw::eddy_current))
+    return std::nullopt;
+  if (hinge.friction && !(range_of(*hinge.friction, angle).low > T(0))) return std::nullopt;
+  ValueRange<T> slopes{T(0), T(0)};
+  const auto add = [&](const Curve* curve, const T& weight) {
+    if (curve) slopes = slopes + scaled(weight, range_of_slope(*curve, angle));
+  };
+  add(hinge.spring, hinge.spring_weight), add(hinge.harness, hinge.harness_weight);
+  add(hinge.friction, T(-(mode.sliding * hinge.friction_weight)));
+  ValueRange<T> change = slopes * rate;
+  if (braked) change = change + scaled(T(-1), damping_range(hinge.damper, rate)) * acceleration;
+  return change;
 }
 
 /// Between what their stiffness −∂M/∂φ lies, at any angle.

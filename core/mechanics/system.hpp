@@ -79,7 +79,7 @@ public:
   }
   [[nodiscard]] const Workspace<T>& work() const { return work_; }
   [[nodiscard]] const T& epsilon() const { return epsilon_; }
-  /// For evaluations made elsewhere: their number, and the forces at the last one.
+  /// For evaluations made elsewhere: their number, and the last one's forces.
   [[nodiscard]] Workspace<T>& made_elsewhere() { return work_; }
 
   /// The state at t = 0.
@@ -250,10 +250,8 @@ private:
     Augmented<T>& parts = work_.held;
     place_base<M>(wing_, layout_, work_.driven, parts.frames[0], x, t);
     place_bodies<M>(wing_, topology(), parts.frames, x);
-    if (wing_.plates.empty())
-      apply_moments<false>(parts.frames, x, t);
-    else
-      apply_moments<true>(parts.frames, x, t);
+    wing_.plates.empty() ? apply_moments<false>(parts.frames, x, t)
+                         : apply_moments<true>(parts.frames, x, t);
     factorize_all<M>(wing_, topology(), parts, [&](int i) {
       return HingeConstraint<T>{T(0), sticks(i)};
     });

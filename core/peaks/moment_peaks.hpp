@@ -57,6 +57,28 @@ public:
     return range;
   }
 
+  /// Whether it only rises or only falls over the step, by the hulls of what it is made of: then it
+  /// is largest at an end. Not asked where friction is regularized or the latch smoothed.
+  [[nodiscard]] bool keeps_direction() const {
+    if (hinge_.regularized_friction > T(0) || smoothed_) return false;
+    ValueRange<T> change = hull(derivative(linear_, step_.h));
+    const Wing<T>& wing = system_.wing();
+    if (!wing.real.empty()) {
+      const std::optional<ValueRange<T>> own =
+          real_change(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_),
+                      hull(derivative(rate_, step_.h)));
+      if (!own) return false;
+      change = change + *own;
+    }
+    for (const LoopTerms<T>& loop : wing.loops) {
+      if (loop.first != i_ && loop.second != i_) continue;
+      const std::optional<ValueRange<T>> own = change_of(loop);
+      if (!own) return false;
+      change = change + *own;
+    }
+    return change.low > T(0) || change.high < T(0);
+  }
+
   /// d²/dt² at s, by differences.
   [[nodiscard]] T bend(const T& s) const {
     const T width = T(1) / T(32), at = smaller(larger(s, width), T(T(1) - width));
@@ -89,6 +111,24 @@ private:
                                           value(b, s), value(derivative(b, step_.h), s));
     return (loop.first == i_ ? on_first(loop, state.gear) : on_second(loop)) *
            loop_torque(loop, state);
+  }
+
+  /// d/dt of what a loop does; none where a strand goes slack, or its gear is a table's.
+  [[nodiscard]] std::optional<ValueRange<T>> change_of(const LoopTerms<T>& loop) const {
+    if (loop.table) return std::nullopt;
+    const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
+    Quintic<T> elastic;
+    for (int k = 0; k < 6; ++k)
+      elastic[k] = loop_state(loop, a[k], T(0), b[k], T(0)).elastic; // K e is a polynomial too
+    const ValueRange<T> carried = hull(elastic);
+    if (carried.high > loop.slack_beyond || carried.low < -loop.slack_beyond) return std::nullopt;
+    const Quintic<T> rise = derivative(elastic, step_.h), bend = derivative(rise, step_.h);
+    const T time = loop.stiffness > T(0) ? loop.damping / loop.stiffness : T(0);
+    if (!(loop.stiffness > T(0)) && loop.damping > T(0)) return std::nullopt;
+    Quintic<T> change;
+    for (int k = 0; k < 6; ++k) change[k] = fused(time, bend[k], rise[k]);
+    const T on = loop.first == i_ ? on_first(loop, T(loop.ratio)) : on_second(loop);
+    return scaled(on, hull(change));
   }
 
   /// What a loop may do over the step: K e and D ė as polynomials, about the table's slope at the
@@ -207,6 +247,11 @@ raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int 
   using std::abs;
   const MomentOverStep<T, AnySystem> moment(system, step, i);
   if (!(moment.most() > peak.value)) return std::nullopt;
+  if (moment.keeps_direction()) {
+    peak.raise(T(abs(moment(T(0)))), step.t);
+    peak.raise(T(abs(moment(T(1)))), step.t + step.h);
+    return std::nullopt;
+  }
   PeakOf<T> candidate = peak;
   raise_by_interpolant(candidate, moment, step);
   if (!(candidate.value > peak.value)) return std::nullopt;

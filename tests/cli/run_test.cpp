@@ -111,7 +111,7 @@ TEST_CASE("a folder in use is refused, and one that cannot be made") {
 
 TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
   Json json = full_campaign(30);
-  json["integration"]["max_steps"] = 600;
+  json["integration"]["max_steps"] = 300;
   json["integration"]["method"] = "dopri5"; // others need fewer
   const Setting setting(json);
   const auto [code, out, error] = setting.run(setting.out);
