@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
+
 using namespace wingspread;
 using oracle::Draws;
 
@@ -21,6 +23,52 @@ TEST_CASE("a curve's range over an interval holds its values there, sums of curv
       for (int k = 0; k <= 400; ++k) {
         const double y = value(*curve, a + (b - a) * k / 400);
         REQUIRE((y > range.low - 1e-14 && y < range.high + 1e-14));
+      }
+    }
+  }
+}
+
+TEST_CASE("a slope's range over an interval holds its values there, and no more") {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Draws draws(seed);
+    std::vector<double> x{0}, y;
+    for (int k = 0; k < 5; ++k) x.push_back(x.back() + draws.log_uniform(0.05, 1));
+    for (std::size_t k = 0; k < x.size(); ++k) y.push_back(draws.uniform(-1, 1));
+    const Curve curve(x, y, seed % 3 == 0 ? Interpolation::linear : Interpolation::monotone,
+                      seed % 2 == 0 ? Beyond::constant : Beyond::straight);
+    const double a = draws.uniform(-0.5, x.back()), b = a + draws.log_uniform(1e-3, 2);
+    const ValueRange<double> range = range_of_slope(curve, ValueRange<double>{a, b});
+    double least = 1e300, most = -1e300;
+    for (int k = 0; k <= 4000; ++k) {
+      const double there = slope(curve, a + (b - a) * k / 4000);
+      least = std::min(least, there), most = std::max(most, there);
+    }
+    CAPTURE(seed, a, b, range.low, range.high, least, most);
+    CHECK(least >= range.low - 1e-12);
+    CHECK(most <= range.high + 1e-12);
+    CHECK(range.high - range.low <= (most - least) * 1.02 + 1e-2); // knots are not sampled
+  }
+}
+
+TEST_CASE("in all lanes a curve has the piece of each") {
+  Draws draws(5);
+  for (const int knots : {2, 6, 12, 13, 40}) { // more than a dozen are looked up lane by lane
+    std::vector<double> x{0}, y{0};
+    for (int k = 1; k < knots; ++k)
+      x.push_back(x.back() + draws.log_uniform(0.05, 1)), y.push_back(draws.uniform(-1, 1));
+    const Curve curve(x, y, Interpolation::monotone);
+    for (int k = 0; k < 200; ++k) {
+      Pack<4> at;
+      for (int lane = 0; lane < 4; ++lane) at.v[lane] = draws.uniform(-1, x.back() + 1);
+      at.v[k % 4] = x[k % x.size()]; // a knot itself
+      if (k == 7) at.v[2] = std::numeric_limits<double>::quiet_NaN();
+      const PieceAt<Pack<4>> found = piece_at(curve, at);
+      for (int lane = 0; lane < 4; ++lane) {
+        const PieceAt<double> alone = piece_at(curve, double(at.v[lane]));
+        CAPTURE(knots, k, lane);
+        CHECK((found.u.v[lane] == alone.u || k == 7));
+        CHECK(found.integral.v[lane] == alone.integral);
+        for (int c = 0; c < 4; ++c) CHECK(found.c[c].v[lane] == alone.c[c]);
       }
     }
   }
