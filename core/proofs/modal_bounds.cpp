@@ -8,7 +8,8 @@ namespace wingspread {
 bool ModalBounds::prepare(const RestModel& model) {
   model_ = &model, n_ = model.size();
   inverse_ = model.mass.llt().solve(Matrix::Identity(n_, n_));
-  Matrix L = Matrix::Zero(2 * n_, 2 * n_);
+  const Eigen::Index states = 2L * n_;
+  Matrix L = Matrix::Zero(states, states);
   L.topRightCorner(n_, n_).setIdentity();
   L.bottomLeftCorner(n_, n_) = -inverse_ * model.stiffness;
   L.bottomRightCorner(n_, n_) = -inverse_ * model.damping;
@@ -51,7 +52,7 @@ void ModalBounds::keep(const Eigen::VectorXcd& lambda, const Complex& W, const C
   const int bodies = n_ + 1;
   for (Matrix* m : {&way_, &rate_of_, &moment_of_, &force_x_, &force_y_}) m->resize(n_, modes_);
   for (Matrix* m : {&turn_, &swing_}) m->resize(bodies, modes_);
-  P_.resize(modes_, 2 * n_), decay_.resize(modes_), rounding_.setZero(modes_, modes_);
+  P_.resize(modes_, 2L * n_), decay_.resize(modes_), rounding_.setZero(modes_, modes_);
   const Complex turns = S.cast<std::complex<double>>() * W.bottomRows(n_);
   const Complex moments = model_->stiffness.cast<std::complex<double>>() * W.topRows(n_) +
                           model_->damping.cast<std::complex<double>>() * W.bottomRows(n_);
@@ -88,7 +89,7 @@ void ModalBounds::keep(const Eigen::VectorXcd& lambda, const Complex& W, const C
 }
 
 void ModalBounds::find_rates(const double* angles, const double* rates) {
-  z_.resize(2 * n_);
+  z_.resize(2L * n_);
   z_.head(n_) = Eigen::Map<const Vector>(angles, n_) - model_->angles;
   z_.tail(n_) = Eigen::Map<const Vector>(rates, n_);
   start_ = (P_ * z_.cast<std::complex<double>>()).cwiseAbs();

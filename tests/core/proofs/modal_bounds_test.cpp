@@ -53,7 +53,7 @@ template <BaseMotion M> struct Latched {
   /// Largest rate at which the linear model changes, rad/s.
   [[nodiscard]] double fastest() const {
     const int n = at.bodies;
-    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(2L * n, 2L * n);
     L.topRightCorner(n, n).setIdentity();
     L.bottomLeftCorner(n, n) = -model.mass.inverse() * model.stiffness;
     L.bottomRightCorner(n, n) = -model.mass.inverse() * model.damping;
