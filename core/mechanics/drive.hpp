@@ -65,6 +65,11 @@ template <class T>
   return k;
 }
 
+/// The piece in which a run begins.
+template <class T> [[nodiscard]] DrivenPiece<T> first_piece(const BaseTerms<T>& base) {
+  return driven_piece(base, number_of_piece(*base.table, T(0)));
+}
+
 /// A run of a base with a table stands at t. @return whether its motion goes on by another piece
 template <class T> bool enter_piece(const BaseTerms<T>& base, const T& t, DrivenPiece<T>& piece) {
   const int before = piece.number, number = number_of_piece(*base.table, t, before);

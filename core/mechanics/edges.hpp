@@ -4,6 +4,8 @@
 #include "core/mechanics/wing.hpp"
 #include "core/mechanics/workspace.hpp"
 
+#include <optional>
+
 namespace wingspread {
 
 /// Where hinge i has this edge, rad. @pre wing.real is not empty
@@ -36,6 +38,27 @@ template <class T>
 /// Whether the stop is in contact, by the side of its edge.
 template <class T> [[nodiscard]] bool touches_stop(const Wing<T>& wing, int i, bool above) {
   return wing.real[i].has_stop && above != (wing.real[i].sense > T(0));
+}
+
+/// What hinge i does on these sides of its edges, sliding or not.
+template <class T, class Sides>
+[[nodiscard]] HingeMode<T> mode_of(const Wing<T>& wing, int i, const Sides& sides,
+                                   Contact contact) {
+  const auto above = [&](Edge edge) { return sides[static_cast<int>(edge)] != 0; };
+  const bool acts =
+      !wing.real[i].has_window || (above(Edge::window_low) && !above(Edge::window_high));
+  return {T(touches_stop(wing, i, above(Edge::stop)) ? 1 : 0), T(acts ? 1 : 0),
+          contact == Contact::stuck ? T(0) : T(static_cast<int>(contact))};
+}
+
+/// β/2 towards the side on which an engaged latch bears, from the latched angle; 0 without
+/// backlash. None while it bears on neither.
+template <class T, class Sides>
+[[nodiscard]] std::optional<T> side_of_backlash(const RealHingeTerms<T>& real, const Sides& sides) {
+  if (!real.has_backlash) return T(0);
+  if (sides[static_cast<int>(Edge::backlash_high)] != 0) return real.half_backlash;
+  if (sides[static_cast<int>(Edge::backlash_low)] == 0) return T(-real.half_backlash);
+  return std::nullopt;
 }
 
 } // namespace wingspread

@@ -44,8 +44,7 @@ public:
     work_.evaluations = 0;
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
     if constexpr (is_one_number<T>)
-      if (has_table())
-        work_.driven = driven_piece(wing_.base, number_of_piece(*wing_.base.table, T(0)));
+      if (has_table()) work_.driven = first_piece(wing_.base);
   }
 
   /// The next knot of the base's table, where a step has to end, s; `never` where there is none.
@@ -158,15 +157,14 @@ public:
 
   /// The most that exact friction can hold at hinge i at this angle, N·m.
   [[nodiscard]] T static_limit(const State<T>& x, int i) const {
-    const T& limit = wing_.hinges[i].static_friction;
-    if (wing_.real.empty() || wing_.real[i].regularized) return limit;
-    return limit + measured_friction(wing_.real[i], x[layout_.angle(i)]);
+    const bool tested = !wing_.real.empty() && !wing_.real[i].regularized;
+    return wing_.hinges[i].static_friction +
+           (tested ? measured_friction(wing_.real[i], x[layout_.angle(i)]) : T(0));
   }
 
   /// Velocity of the base's origin; a prescribed base is taken to start at rest.
   [[nodiscard]] Vec2<T> base_velocity(const State<T>& x, const T& t) const {
-    const int v = layout_.freedoms();
-    if constexpr (M == BaseMotion::free) return {x[v], x[v + 1]};
+    if constexpr (M == BaseMotion::free) return {x[layout_.freedoms()], x[layout_.freedoms() + 1]};
     if constexpr (M == BaseMotion::prescribed)
       return wing_.base.table ? velocity(work_.driven, t) : scaled(t, wing_.base.acceleration);
     return {T(0), T(0)};
@@ -221,28 +219,13 @@ private:
                        : contact == Contact::backward ? wing_.hinges[i].kinetic_friction
                                                       : T(0);
     if constexpr (is_one_number<T>)
-      if (!wing_.real.empty()) update_mode(i, contact);
+      if (!wing_.real.empty()) work_.modes[i] = mode_of(wing_, i, work_.above[i], contact);
     work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction, backlash_side(i));
   }
 
-  void update_mode(int i, Contact contact) {
-    const RealHingeTerms<T>& real = wing_.real[i];
-    const auto above = [&](Edge edge) { return work_.above[i][static_cast<int>(edge)] != 0; };
-    const bool acts = !real.has_window || (above(Edge::window_low) && !above(Edge::window_high));
-    work_.modes[i] = {T(touches_stop(wing_, i, above(Edge::stop)) ? 1 : 0), T(acts ? 1 : 0),
-                      contact == Contact::stuck ? T(0) : T(static_cast<int>(contact))};
-  }
-
-  /// β/2 towards the side on which an engaged latch bears, from the latched angle; 0 without
-  /// backlash. None while it bears on neither.
   [[nodiscard]] std::optional<T> backlash_side(int i) const {
     if (wing_.real.empty() || !latch_acts(i)) return T(0);
-    const T& half = wing_.real[i].half_backlash;
-    if (!wing_.real[i].has_backlash) return T(0);
-    const auto& above = work_.above[i];
-    if (above[static_cast<int>(Edge::backlash_high)] != 0) return half;
-    if (above[static_cast<int>(Edge::backlash_low)] == 0) return T(-half);
-    return std::nullopt;
+    return side_of_backlash(wing_.real[i], work_.above[i]);
   }
 
   /// The right-hand side with hinges locked by friction; leaves what holds them in the workspace.
@@ -323,8 +306,7 @@ private:
   }
 
   [[nodiscard]] T nonlinear_moment(const State<T>& x, int i) const {
-    const T m = smooth_moment(x, i);
-    return wing_.real.empty() ? m : m + of_real_hinge(x, i);
+    return smooth_moment(x, i) + (wing_.real.empty() ? T(0) : of_real_hinge(x, i));
   }
 
   [[nodiscard]] T of_real_hinge(const State<T>& x, int i) const {

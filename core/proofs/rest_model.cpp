@@ -1,5 +1,7 @@
 #include "core/proofs/rest_model.hpp"
 
+#include "core/mechanics/drive.hpp"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -74,7 +76,7 @@ private:
   [[nodiscard]] bool is_modelled() const {
     const BaseTerms<double>& base = wing_.base;
     if (n_ > most_bodies || !wing_.plates.empty()) return false;
-    if (base.motion == BaseMotion::prescribed && base.angular_acceleration != 0) return false;
+    if (base.motion == BaseMotion::prescribed && !is_steady(base, work_.driven)) return false;
     return std::none_of(wing_.real.begin(), wing_.real.end(),
                         [](const auto& real) { return real.has_backlash; });
   }
@@ -89,10 +91,13 @@ private:
     m_.remainders.assign(n_, {});
     m_.loops.clear(), m_.pairs.clear();
     const bool driven = wing_.base.motion == BaseMotion::prescribed;
-    push_ = driven ? wing_.base.felt() : Vec2<double>{0, 0};
-    m_.spin = driven ? std::abs(wing_.base.rate) : 0;
+    const double since = wing_.base.table ? work_.driven.from : 0;
+    const Drive<double> drive = drive_at(wing_.base, work_.driven, since);
+    push_ = driven ? drive.felt : Vec2<double>{0, 0};
+    m_.spin = driven ? std::abs(drive.rate) : 0;
+    turn_.assign(n_ + 1, driven ? drive.angle : 0);
     m_.push_turns = m_.spin != 0, m_.rigid = 0;
-    outward_mass_.assign(n_ + 1, 0), turn_.assign(n_ + 1, 0);
+    outward_mass_.assign(n_ + 1, 0);
     own_moment_.assign(n_ + 1, {0, 0}), Y_.assign(n_ + 1, {0, 0});
   }
 
@@ -111,7 +116,6 @@ private:
 
   /// Turns the bodies as the hinges stand.
   void place() {
-    turn_[0] = wing_.base.angle;
     Y_[0] = turned_by(turn_[0], own_moment_[0]);
     for (int i = 1; i <= n_; ++i) {
       turn_[i] = turn_[wing_.tree.parent_of(i)] + m_.angles(i - 1);
