@@ -46,8 +46,9 @@ std::vector<Notice> examine_file(const std::variant<Scene, Campaign>& read,
 int check(const CheckOptions& options) {
   const std::variant<Scene, Campaign> read = read_changed(options);
   const std::vector<Notice> notices = examine_file(read, options.file);
+  if (options.strict) heed(notices, true);
   fmt::print("{}", std::visit([](const auto& spec) { return text_of(spec); }, read));
-  heed(notices, options.strict);
+  heed(notices, false); // last, where it is seen
   return exit_code::done;
 }
 

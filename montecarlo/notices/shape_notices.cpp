@@ -80,6 +80,7 @@ bool passes_turn(double from, double to) {
 void notice_turning(const Scene& scene, std::size_t h, Notices& notices) {
   const Hinge& hinge = scene.hinges[h];
   if (hinge.parent_point.norm() == 0 || hinge.child_point.norm() == 0) return;
+  if (std::abs(hinge.latched - hinge.stowed) > 2 * std::numbers::pi) return; // degrees: told so
   const double apart = direction(-hinge.child_point) - direction(-hinge.parent_point);
   if (!passes_turn(apart + hinge.stowed, apart + hinge.latched)) return;
   notices.add(fmt::format("/hinges/{}/angle", h),

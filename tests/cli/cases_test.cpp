@@ -173,14 +173,14 @@ TEST_CASE("analyze goes through all cases, and writes elsewhere where it is told
   CHECK(all_contents(cases.out) == before);
   const std::string other = cases.folder.write(
       "late.json",
-      R"([{"output": "deployment_time", "max": 60, "probability": 0.8, "confidence": 0.9}])");
+      R"([{"output": "deployment_time", "max": 20, "probability": 0.8, "confidence": 0.9}])");
   const std::string late = cases.folder.path() / "late";
   CHECK(cases.program({"analyze", cases.out, "--requirements", other, "--out", late}).code == 0);
   CHECK(all_contents(cases.out) == before); // the first verdicts stay
   const Json side_by_side = parse_json_file(late + "/cases.json");
   REQUIRE(side_by_side["requirements"].size() == 1);
   CHECK(side_by_side["requirements"][0]["verdict"] == "pass");
-  CHECK(parse_json_file(late + "/heavy/summary.json")["requirements"][0]["max"] == 60);
+  CHECK(parse_json_file(late + "/heavy/summary.json")["requirements"][0]["max"] == 20);
 }
 
 TEST_CASE("--set changes the nominal scene, and is part of the campaign", "[cases]") {
