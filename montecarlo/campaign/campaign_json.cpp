@@ -54,13 +54,13 @@ public:
   /// @param t_end of the runs; none: limits on times are not compared with it
   GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design,
                   std::optional<double> t_end)
-      : known_(scene), design_(design), t_end_(t_end) {
-    if (!known_) return;
+      : scene_(scene), design_(design), t_end_(t_end) {
+    if (!scene_) return;
     names_ = output_names(*scene, outputs);
     all_names_ = output_names(*scene, all_outputs());
   }
   void read(const JsonCursor& at, std::vector<Requirement>& requirements) const {
-    read_requirements(at, known_ ? &names_ : nullptr, all_names_, requirements);
+    read_requirements(at, scene_ ? &names_ : nullptr, all_names_, requirements, scene_);
     if (t_end_) refuse_late_limits(at, requirements, *t_end_);
     if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
   }
@@ -70,12 +70,12 @@ public:
     std::vector<std::string> names;
     if (requirements)
       for (const Requirement& requirement : *requirements) names.push_back(name_of(requirement));
-    read_stopping_rule(at, known_ ? &names_ : nullptr, requirements ? &names : nullptr, until);
+    read_stopping_rule(at, scene_ ? &names_ : nullptr, requirements ? &names : nullptr, until);
     if (!until.empty()) refuse_dependent_draws(at, "goals to stop at", design_);
   }
 
 private:
-  bool known_;
+  const Scene* scene_;
   DesignKind design_;
   std::optional<double> t_end_;
   std::vector<std::string> names_, all_names_;

@@ -81,18 +81,35 @@ void check_groups(const JsonCursor& at, std::span<const Requirement> requirement
   }
 }
 
+/// A static margin has no output of its own, and is limited from below: by 0 if nothing is said.
+void read_static_margin(JsonObject& object, const Scene* scene, Requirement& requirement) {
+  requirement.static_margin.emplace();
+  read_required_margin(object, scene, *requirement.static_margin);
+  requirement.output = name_of(*requirement.static_margin);
+  requirement.min = 0;
+  object.optional("min", *requirement.min, "a number");
+}
+
+void read_output(JsonObject& object, const std::vector<std::string>* outputs,
+                 std::span<const std::string> all_outputs, Requirement& requirement) {
+  const bool named =
+      object.required("output", requirement.output, "a string, an output or \"deployed\"");
+  if (named && outputs && object.is_object())
+    refuse_unknown_output(object.at().member("output"), requirement.output, *outputs, all_outputs);
+  read_limits(object, requirement);
+  read_absolute(object, requirement);
+}
+
 Requirement read_requirement(const JsonCursor& at, const std::vector<std::string>* outputs,
-                             std::span<const std::string> all_outputs) {
+                             std::span<const std::string> all_outputs, const Scene* scene) {
   Requirement requirement;
   JsonObject object(at, "a requirement: an object");
   object.optional("name", requirement.name, "a string, not empty, without control characters",
                   is_name);
-  const bool named =
-      object.required("output", requirement.output, "a string, an output or \"deployed\"");
-  if (named && outputs && object.is_object())
-    refuse_unknown_output(at.member("output"), requirement.output, *outputs, all_outputs);
-  read_limits(object, requirement);
-  read_absolute(object, requirement);
+  if (at.value().is_object() && at.value().contains("motorization"))
+    read_static_margin(object, scene, requirement);
+  else
+    read_output(object, outputs, all_outputs, requirement);
   object.optional("group", requirement.group, "a string, not empty, without control characters",
                   is_name);
   object.required("probability", requirement.probability, "a number, > 0 and < 1", is_proper_share);
@@ -115,11 +132,11 @@ const std::string& name_of(const Requirement& requirement) {
 
 void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
                        std::span<const std::string> all_outputs,
-                       std::vector<Requirement>& requirements) {
+                       std::vector<Requirement>& requirements, const Scene* scene) {
   if (!at.value().is_array()) return void(at.refuse("an array of requirements"));
   requirements.clear();
   for (const JsonCursor& element : at.elements())
-    requirements.push_back(read_requirement(element, outputs, all_outputs));
+    requirements.push_back(read_requirement(element, outputs, all_outputs, scene));
   check_groups(at, requirements);
 }
 
@@ -145,7 +162,12 @@ Json write_requirements(std::span<const Requirement> requirements) {
   for (const Requirement& requirement : requirements) {
     Json json = Json::object();
     if (!requirement.name.empty()) json["name"] = requirement.name;
-    json["output"] = requirement.output;
+    if (requirement.static_margin) {
+      json["motorization"] = word_of(*requirement.static_margin);
+      json["hinge"] = requirement.static_margin->hinge;
+    } else {
+      json["output"] = requirement.output;
+    }
     if (requirement.max) json["max"] = *requirement.max;
     if (requirement.min) json["min"] = *requirement.min;
     if (requirement.absolute) json["abs"] = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "montecarlo/formats/json_reader.hpp"
+#include "montecarlo/motorization/required_margin.hpp"
 
 #include <optional>
 #include <span>
@@ -15,11 +16,13 @@ inline constexpr std::string_view deployed_output = "deployed";
 
 /// P(the run deploys, and its output keeps to the limit) ≥ probability, shown with confidence.
 struct Requirement {
-  std::string name;                       ///< what a report calls it; may be empty
-  std::string output;                     ///< a column of the results, or "deployed"
-  std::optional<double> max, min;         ///< one of them; none of "deployed"
+  std::string name;               ///< what a report calls it; may be empty
+  std::string output;             ///< a column of the results, "deployed" or name_of(static_margin)
+  std::optional<double> max, min; ///< one of them; none of "deployed"
   double probability = 0, confidence = 0; ///< each in (0, 1); the confidence is one-sided
   bool absolute = false;                  ///< "abs": the limit is on the output's magnitude
+  /// Where the output is a static margin: nothing that a run records, but of its draw.
+  std::optional<RequiredMargin> static_margin{};
   std::string group{}; ///< those of one group hold together at their confidence; empty: alone
 };
 
@@ -35,9 +38,10 @@ struct Requirement {
 /// @param outputs the campaign's columns; nothing when they are not known, for a scene or a
 ///   list of outputs that is wrong itself: then no name is missed
 /// @param all_outputs those that other families would add, for the message
+/// @param scene       whose hinges static margins may be of; null: then no hinge is looked up
 void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
                        std::span<const std::string> all_outputs,
-                       std::vector<Requirement>& requirements);
+                       std::vector<Requirement>& requirements, const Scene* scene = nullptr);
 
 /// Notes each limit on a time that lies beyond the end of every run.
 void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,
@@ -45,7 +49,7 @@ void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requi
 
 [[nodiscard]] Json write_requirements(std::span<const Requirement> requirements);
 
-/// "root.peak_moment ≤ 400 N·m, 99.73 % at 90 %", after its name if it has one.
+/// "root.peak_moment ≤ 400 N·m, 99.73 % at 90 %", "NASA margin of root ≥ 0, 99 % at 90 %", after its name if it has one.
 [[nodiscard]] std::string to_string(const Requirement& requirement);
 
 } // namespace wingspread

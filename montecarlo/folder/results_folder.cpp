@@ -6,6 +6,7 @@
 #include "montecarlo/formats/json_reader.hpp"
 #include "montecarlo/runs/row_reader.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
+#include "montecarlo/summary/static_margins.hpp"
 #include "montecarlo/summary/summary_json.hpp"
 #include "montecarlo/summary/warnings.hpp"
 
@@ -51,7 +52,7 @@ bool goals_are_met(const Campaign& campaign, const Results& results) {
   };
   std::vector<Verdict> verdicts;
   if (std::ranges::any_of(campaign.until, decides))
-    verdicts = judge_all(campaign.requirements, results, count_looks(campaign));
+    verdicts = judge_campaign(campaign, results, count_looks(campaign));
   return are_met(goals_of(campaign, results, verdicts));
 }
 
@@ -78,7 +79,7 @@ Summary summarize(const StoredCampaign& stored, const Results& results, const St
   summary.looks = looks;
   summary.looked_at.assign(campaign.sampling.extended_from.begin(),
                            campaign.sampling.extended_from.end());
-  summary.requirements = judge_all(campaign.requirements, results, looks);
+  summary.requirements = judge_campaign(campaign, results, looks);
   if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
   summary.until = goals_of(campaign, results, summary.requirements);
   summary.overtravels = overtravels(campaign.scene, results);

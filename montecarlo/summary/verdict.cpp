@@ -19,6 +19,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// As good as infinite: a static margin where nothing resists.
+constexpr double no_number = std::numeric_limits<double>::max();
+
 /// How bad a run is: its value seen from the limit's side, so that larger is worse; the limit in
 /// the same way. Of "deployed", 0 where it did.
 struct Badness {
@@ -33,10 +36,14 @@ double limit_of(const Requirement& requirement) {
   return requirement.min ? -*requirement.min : 0;
 }
 
-const Column* column_of(const Results& results, const Requirement& requirement) {
-  const auto found = std::ranges::find(results.outputs, requirement.output, &Column::name);
-  assert(found != results.outputs.end() || requirement.output == deployed_output);
-  return found == results.outputs.end() ? nullptr : &*found;
+const Column* column_of(const Results& results, std::span<const Column> besides,
+                        const Requirement& requirement) {
+  for (const std::span<const Column> columns : {std::span(results.outputs), besides})
+    if (const auto found = std::ranges::find(columns, requirement.output, &Column::name);
+        found != columns.end())
+      return &*found;
+  assert(requirement.output == deployed_output);
+  return nullptr;
 }
 
 /// What is asked of an output's values before they are compared.
@@ -108,7 +115,7 @@ void add_values(const RankedOutput& output, Verdict& verdict) {
     const auto index = static_cast<std::size_t>(place);
     const auto values = requirement.min ? output.worst_below() : output.worst_above();
     const double value = values[requirement.min ? index : values.size() - 1 - index];
-    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+    return std::abs(value) < no_number ? std::optional(value) : std::nullopt;
   };
   if (verdict.runs > 0)
     verdict.observed =
@@ -179,13 +186,13 @@ Verdict judge(const Requirement& requirement, const Results& results, long looks
 }
 
 std::vector<Verdict> judge_all(std::span<const Requirement> requirements, const Results& results,
-                               long looks) {
+                               long looks, std::span<const Column> besides) {
   std::vector<Verdict> verdicts(requirements.size());
   std::vector<bool> judged(requirements.size(), false);
   for (std::size_t first = 0; first < requirements.size(); ++first) {
     if (judged[first]) continue;
     const Requirement& like = requirements[first];
-    const Column* column = column_of(results, like);
+    const Column* column = column_of(results, besides, like);
     std::optional<RankedOutput> ranks;
     if (column) ranks.emplace(results, *column, like.absolute);
     for (std::size_t k = first; k < requirements.size(); ++k) {

@@ -84,8 +84,10 @@ private:
 [[nodiscard]] Verdict judge(const Requirement& requirement, const Results& results, long looks = 1);
 
 /// Of each of the requirements; those of a group share a confidence. Every output is sorted once, however many there are on it.
+/// @param besides columns that requirements are on and the results do not have: what is worked out of the draws
 [[nodiscard]] std::vector<Verdict> judge_all(std::span<const Requirement> requirements,
-                                             const Results& results, long looks = 1);
+                                             const Results& results, long looks = 1,
+                                             std::span<const Column> besides = {});
 
 /// Whether the runs have decided it: passed or disproved.
 [[nodiscard]] bool is_decided(const Verdict& verdict);

@@ -144,3 +144,67 @@ TEST_CASE("A limit on a time beyond the end of every run is refused", "[requirem
                         "and what has not latched by then breaks the requirement (a later limit "
                         "wants a later t_end)"));
 }
+
+namespace {
+
+/// Two hinges, of which only the first has a spring.
+Scene sprung() {
+  Scene scene;
+  scene.hinges.resize(2);
+  scene.hinges[0].name = "root", scene.hinges[1].name = "tip";
+  scene.hinges[0].spring = {2, 1};
+  return scene;
+}
+
+std::string margin_problems(const Json& document, std::vector<Requirement>& requirements) {
+  const Scene scene = sprung();
+  return test::problems_of(document, [&](const JsonCursor& at) {
+    read_requirements(at, &outputs, all_outputs, requirements, &scene);
+  });
+}
+
+} // namespace
+
+TEST_CASE(
+    "A static margin is required by its standard and its hinge, at least 0 if nothing is said",
+    "[requirement]") {
+  std::vector<Requirement> requirements;
+  CHECK(margin_problems(parse_json(R"([
+          { "motorization": "NASA", "probability": 0.99, "confidence": 0.9 },
+          { "name": "M-1", "motorization": "ECSS", "hinge": "root", "min": 0.25, "group": "A",
+            "probability": 0.9, "confidence": 0.9 } ])"),
+                        requirements)
+            .empty());
+  REQUIRE(requirements.size() == 2);
+  CHECK(to_string(requirements[0]) == "NASA margin of every hinge ≥ 0, 99 % at 90 %");
+  CHECK(to_string(requirements[1]) == "M-1: ECSS margin of root ≥ 0.25, 90 % at 90 % in group A");
+  CHECK(requirements[0].static_margin == RequiredMargin{MarginKind::nasa, "*"});
+  CHECK(write_requirements(requirements) == parse_json(R"([
+    { "motorization": "NASA", "hinge": "*", "min": 0.0, "probability": 0.99, "confidence": 0.9 },
+    { "name": "M-1", "motorization": "ECSS", "hinge": "root", "min": 0.25,
+      "probability": 0.9, "confidence": 0.9, "group": "A" } ])"));
+  std::vector<Requirement> again;
+  CHECK(margin_problems(write_requirements(requirements), again).empty());
+  CHECK(write_requirements(again) == write_requirements(requirements));
+}
+
+TEST_CASE("Each fault of a required margin is told", "[requirement]") {
+  std::vector<Requirement> requirements;
+  CHECK(margin_problems(parse_json(R"([
+          { "motorization": "MIL", "hinge": "tip", "probability": 0.99, "confidence": 0.9 },
+          { "motorization": "AIAA", "hinge": 1, "max": 2, "probability": 0.9, "confidence": 0.9 },
+          { "motorization": "GEVS", "hinge": "rot", "output": "deployed", "probability": 0.9,
+            "confidence": 0.9 } ])"),
+                        requirements) ==
+        "/0/motorization: found string \"MIL\", expected \"ECSS\", \"NASA\", "
+        "\"NASA_one_spring_out\", \"GEVS\" or \"AIAA\"\n"
+        "/0/hinge: found string \"tip\", expected the name of a hinge with a spring or a latch, or "
+        "\"*\" for all\n"
+        "/1/hinge: found 1, expected a string, a hinge's name, or \"*\" for all\n"
+        "/1/max: found the unknown key \"max\", expected \"name\", \"motorization\", \"hinge\", "
+        "\"min\", \"group\", \"probability\" or \"confidence\"\n"
+        "/2/hinge: found string \"rot\", expected the name of a hinge with a spring or a latch, or "
+        "\"*\" for all (did you mean \"root\"?)\n"
+        "/2/output: found the unknown key \"output\", expected \"name\", \"motorization\", "
+        "\"hinge\", \"min\", \"group\", \"probability\" or \"confidence\"");
+}
