@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::array<std::string_view, 2> case_names{"nominal", "one_spring_out"};
 constexpr const char* expected_range = "an array of two numbers, 0 < lower < upper";
+constexpr const char* expected_widest = "an array of two numbers > 0, about \"range\"";
+/// How far a range is widened on either side if nothing is said: three octaves.
+constexpr double widening = 8;
 
 bool is_point_count(const std::int64_t& number) {
   return number >= 2 && number <= most_margin_points;
@@ -24,6 +27,18 @@ void read_range(const JsonCursor& at, MarginSpec& margin) {
     return void(at.refuse(expected_range));
   margin.lower = range[0];
   margin.upper = range[1];
+  margin.lowest = margin.lower / widening;
+  margin.highest = margin.upper * widening;
+}
+
+void read_widest(const JsonCursor& at, MarginSpec& margin) {
+  std::vector<double> widest;
+  if (!at.read(widest, expected_widest)) return;
+  if (widest.size() != 2 ||
+      !(widest[0] > 0 && widest[0] <= margin.lower && widest[1] >= margin.upper))
+    return void(at.refuse(expected_widest));
+  margin.lowest = widest[0];
+  margin.highest = widest[1];
 }
 
 void read_cases(const JsonCursor& at, MarginSpec& margin) {
@@ -84,6 +99,7 @@ MarginSpec read_margin(const JsonCursor& at, const Scene* scene, MotorizationSpe
   if (const auto scale = object.require("scale", "the paths of the parameters to size"))
     margin.scaled = read_paths(*scale, scene);
   if (const auto range = object.require("range", expected_range)) read_range(*range, margin);
+  if (const auto widest = object.find("widest")) read_widest(*widest, margin);
   object.optional_choice("mode", margin.mode, margin_mode_names);
   const std::string points = fmt::format("an integer from 2 to {}", most_margin_points);
   object.optional("points", margin.points, points, is_point_count);
@@ -104,6 +120,7 @@ Json write_margin(const MarginSpec& margin, const MotorizationSpec& motorization
   if (margin.one_spring_out) cases.push_back(case_names[1]);
   return {{"scale", paths_of(scene, margin.scaled)},
           {"range", {margin.lower, margin.upper}},
+          {"widest", {margin.lowest, margin.highest}},
           {"mode", margin_mode_names[static_cast<std::size_t>(margin.mode)]},
           {"points", margin.points},
           {"tolerance", margin.edge_tolerance},

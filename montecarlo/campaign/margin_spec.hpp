@@ -1,7 +1,7 @@
 /// What the `margin` of a campaign asks for: which springs to size, and in what range of strength.
 ///
 ///     "margin": { "scale": ["hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"],
-///                 "range": [0.5, 2], "mode": "joint", "points": 13, "tolerance": 0.01,
+///                 "range": [0.5, 2], "widest": [0.0625, 16], "mode": "joint", "points": 13, "tolerance": 0.01,
 ///                 "cases": ["nominal", "one_spring_out"], "springs_per_hinge": 2,
 ///                 "motorization": { … } }                         as in motorization_spec.hpp
 #pragma once
@@ -24,6 +24,8 @@ inline constexpr std::array<std::string_view, 2> margin_mode_names{"joint", "eac
 struct MarginSpec {
   std::vector<SceneParameter> scaled; ///< each once, in the order given; at least one
   double lower = 0, upper = 0;        ///< of the scale: 0 < lower < upper
+  double lowest = 0,
+         highest = 0; ///< how far it may be widened: 0 < lowest ≤ lower, highest ≥ upper
   MarginMode mode = MarginMode::joint;
   std::int64_t points = 13;     ///< scales looked at first, from end to end, ≥ 2
   double edge_tolerance = 0.01; ///< how closely an edge is located, relative, in (0, 1)

@@ -51,7 +51,7 @@ int conclude(const Campaign& campaign, const MarginResult& result) {
                             "point further from what they break, or begin anew with another "
                             "seed and more runs (going on until one passes would not show it)",
                             result.confirmation_seed)
-              : "no scale of the springs in the range meets all requirements");
+              : why_withheld(search));
   const int code =
       report_failed(result.failed, result.runs, ", and count against every requirement");
   return code != exit_code::done || is_met(result) ? code : exit_code::not_met;
@@ -117,8 +117,12 @@ void add_margin(CLI::App& app, Action& action) {
       R"(Scales what the campaign's "margin" names, runs the same draws at every scale, judges the
 campaign's requirements there, and finds the scales between which all of them are met: each edge to
 1 % ("tolerance"), with the requirement that sets it and how many runs break it on either side.
-The recommended scale is in the middle, and is run again with a seed of its own. Where no scale will
-do, it says which requirements rule that out. All runs are made: "until" is of no account here. They
+An end of the range is no edge: where nothing fails there, it is widened until something does, or to
+the limits in "widest"; without both edges nothing is recommended. The recommended scale is the one
+at which the requirement that is worst off is best off, by the share of runs that break it over the
+share that may; what it gives up against the present springs is said, and it is run again with a
+seed of its own. Weaker springs are not advised where static margins of the nominal wing would be
+negative. Where no scale will do, it says which requirements rule that out. All runs are made: "until" is of no account here. They
 go only as far as the requirements need: where none is about a peak, a run that fails after its last
 latch has deployed here, and has failed in wingspread run. Each verdict holds with its requirement's
 confidence; the report says what all of them and both edges come to together.
@@ -127,14 +131,16 @@ confidence; the report says what all of them and both edges come to together.
               "range": [0.5, 2] }
 
   mode                joint: all together, the default; each: one hinge after the other
+  widest              how far the range may be widened, an eighth and eight times if left out
   points, tolerance   scales looked at first, 13; how closely an edge is located, 0.01
   cases               ["nominal"], ["nominal", "one_spring_out"]: each hinge loses one of
   springs_per_hinge   its springs in turn, 2 if left out
-  motorization        factors of the static margins, by ECSS-E-ST-33-01C and NASA-STD-5017B
+  motorization        factors of the static margins, by ECSS, NASA, GEVS and AIAA
 
 The folder gets margin.json, margin.csv (all that was seen at every scale), motorization.csv (the
 static margins at every angle of the travel) and recommended.json, the campaign with the recommended
-springs. Exit code 0: there is a window; 1: there is none, or the other seed does not confirm it.
+springs. Exit code 0: there is a window, and in it a scale to recommend; 1: there is none, or the other
+seed does not confirm it.
 
 Example:
   wingspread margin campaign.json --out results/margin

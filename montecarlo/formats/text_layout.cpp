@@ -44,7 +44,8 @@ std::string in_digits(double value) {
   return text;
 }
 
-std::string paragraph(std::string_view text) {
+std::string paragraph(std::string_view text, std::size_t indent) {
+  const std::string margin(indent, ' ');
   constexpr std::size_t width = table_width;
   std::string lines;
   std::size_t column = 0;
@@ -52,8 +53,8 @@ std::string paragraph(std::string_view text) {
   for (std::string word; words >> word;) {
     const std::size_t length = count_characters(word);
     const bool fits = column > 0 && column + 1 + length <= width;
-    lines += fits ? " " : column == 0 ? "  " : "\n  ";
-    column = fits ? column + 1 + length : 2 + length;
+    lines += fits ? " " : column == 0 ? margin : '\n' + margin;
+    column = fits ? column + 1 + length : indent + length;
     lines += word;
   }
   return lines.empty() ? "" : lines + '\n';

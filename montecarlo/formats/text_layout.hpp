@@ -24,8 +24,8 @@ inline constexpr int table_width = 100;
 /// Five significant digits, trailing zeros among them, so that columns line up; "–" of NaN.
 [[nodiscard]] std::string in_digits(double value);
 
-/// Lines indented by two and within `table_width`, broken at blanks.
-[[nodiscard]] std::string paragraph(std::string_view text);
+/// Lines indented by so many columns and within `table_width`, broken at blanks.
+[[nodiscard]] std::string paragraph(std::string_view text, std::size_t indent = 2);
 
 /// "0.500 %" of 0.005; "–" of NaN.
 [[nodiscard]] std::string percent(double share, int decimals = 3);

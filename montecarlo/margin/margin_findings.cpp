@@ -1,6 +1,9 @@
 #include "montecarlo/margin/margin_findings.hpp"
 
+#include "montecarlo/margin/recommendation.hpp"
 #include "montecarlo/statistics/bonferroni.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
@@ -39,6 +42,14 @@ std::vector<double> confidences_of(const Campaign& campaign, const MarginResult&
     confidences.push_back(
         confidence_alone(campaign.requirements, campaign.requirements[condition.requirement]));
   return confidences;
+}
+
+/// Whether more runs break it, or those that have its output come nearer to the limit.
+bool is_worse(const Concession& change) {
+  const bool nearer = change.recommended->requirement.min
+                          ? change.quantile < change.present_quantile
+                          : change.quantile > change.present_quantile;
+  return nearer || change.recommended->broken.size() > change.present->broken.size();
 }
 
 } // namespace
@@ -101,6 +112,50 @@ Failing telling(const ScaleLook& look) {
     first += each.verdicts.size();
   }
   return all;
+}
+
+std::vector<Concession> concessions(const Campaign& campaign, const MarginResult& result,
+                                    const MarginSearch& search) {
+  std::vector<Concession> all;
+  const auto present = search.seen.find(1);
+  if (!search.recommended || *search.recommended == 1 || present == search.seen.end()) return all;
+  const ScaleLook& recommended = search.seen.at(*search.recommended);
+  const auto conditions = conditions_of(campaign, result);
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    const Concession change{
+        k, &verdict_of(present->second, conditions[k]), &verdict_of(recommended, conditions[k]),
+        quantile_of(present->second, conditions[k]), quantile_of(recommended, conditions[k])};
+    if (is_worse(change)) all.push_back(change);
+  }
+  return all;
+}
+
+std::size_t most_strained(const ScaleLook& look) {
+  std::vector<double> strains;
+  for (const CaseLook& each : look)
+    for (const Verdict& verdict : each.verdicts) strains.push_back(strain(verdict));
+  return static_cast<std::size_t>(std::ranges::max_element(strains) - strains.begin());
+}
+
+std::string why_withheld(const MarginSearch& search) {
+  switch (search.withheld) {
+  case Withheld::nothing:
+    return "";
+  case Withheld::no_window:
+    return "no scale that was looked at meets all requirements";
+  case Withheld::no_lower_edge:
+    return fmt::format("nothing fails down to {}: no edge was found, and how far down the springs "
+                       "may go is not known",
+                       search.seen.begin()->first);
+  case Withheld::no_upper_edge:
+    return fmt::format("nothing fails up to {}: no edge was found, for nothing that is required "
+                       "limits the springs from above",
+                       search.seen.rbegin()->first);
+  case Withheld::short_of_torque:
+    break;
+  }
+  return "only weaker springs meet all requirements, and their static margins fall short" +
+         (search.passed_over ? ": " + to_string(*search.passed_over) : "");
 }
 
 bool is_met(const MarginResult& result) {

@@ -47,6 +47,23 @@ struct MarginEdge {
 /// their case that "deployed" is required, or another condition before them, says so already.
 [[nodiscard]] Failing telling(const ScaleLook& look);
 
+/// What the recommended springs give up against the present ones: a condition that more runs break, or that the
+/// runs which have its output come nearer to: by the quantile that is required.
+struct Concession {
+  std::size_t condition;
+  const Verdict *present, *recommended;
+  double present_quantile, quantile; ///< over those runs; NaN without any
+};
+/// None where nothing is recommended, or what is present. @pre the search outlives them
+[[nodiscard]] std::vector<Concession>
+concessions(const Campaign& campaign, const MarginResult& result, const MarginSearch& search);
+
+/// The condition that strains a scale most (recommendation.hpp); the first of equals.
+[[nodiscard]] std::size_t most_strained(const ScaleLook& look);
+
+/// Why no scale is recommended; empty where one is.
+[[nodiscard]] std::string why_withheld(const MarginSearch& search);
+
 /// Whether every search has a window that is confirmed: what the command's exit status says.
 [[nodiscard]] bool is_met(const MarginResult& result);
 

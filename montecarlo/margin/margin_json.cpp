@@ -1,5 +1,6 @@
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/margin/margin_report.hpp"
+#include "montecarlo/margin/recommendation.hpp"
 #include "montecarlo/summary/verdict_json.hpp"
 
 namespace wingspread {
@@ -27,7 +28,8 @@ public:
     const Window* best = widest(windows);
     Json json{{"name", search_.name},
               {"scales", paths_of(report_.campaign.scene, search_.scaled)},
-              {"looks", looks_.size()}};
+              {"looks", looks_.size()},
+              {"looked_at", {looks_.begin()->first, looks_.rbegin()->first}}};
     json["window"] = best ? window(*best) : Json(nullptr);
     json["other_windows"] = Json::array();
     for (const Window& other : windows)
@@ -36,6 +38,8 @@ public:
     for (const std::size_t condition : closed_by(looks_))
       json["closed_by"].push_back(name(condition));
     json["recommended"] = recommended();
+    json["why_none"] = search_.recommended ? Json(nullptr) : Json(why_withheld(search_));
+    json["passed_over"] = passed_over();
     json["present"] = present();
     json["requirements"] = requirements();
     return json;
@@ -81,6 +85,37 @@ private:
     return json;
   }
 
+  /// A static margin, present and with other springs.
+  [[nodiscard]] static Json lowered(const Shortfall& each) {
+    return {{"drive", each.drive},
+            {"margin", margin_kind_names[static_cast<std::size_t>(each.kind)]},
+            {"at_1", json_number(each.present)},
+            {"at_scale", json_number(each.margin)}};
+  }
+
+  [[nodiscard]] Json given_up() const {
+    Json json{{"requirements", Json::array()}, {"static_margins", Json::array()}};
+    for (const Concession& each : concessions(report_.campaign, report_.result, search_)) {
+      Json entry = name(each.condition);
+      entry["at_1"] = evidence(each.condition, 1);
+      entry["at_scale"] = evidence(each.condition, *search_.recommended);
+      entry["at_1"]["quantile_over_runs"] = json_number(each.present_quantile);
+      entry["at_scale"]["quantile_over_runs"] = json_number(each.quantile);
+      json["requirements"].push_back(std::move(entry));
+    }
+    for (const Shortfall& each :
+         lowered_margins(report_.result.campaigns, search_.scaled, *search_.recommended))
+      json["static_margins"].push_back(lowered(each));
+    return json;
+  }
+
+  [[nodiscard]] Json passed_over() const {
+    if (!search_.passed_over) return nullptr;
+    Json json = lowered(*search_.passed_over);
+    json["scale"] = search_.passed_over->scale;
+    return json;
+  }
+
   [[nodiscard]] Json recommended() const {
     if (!search_.recommended) return nullptr;
     const double scale = *search_.recommended;
@@ -90,6 +125,9 @@ private:
           scale * parameter.in(report_.campaign.scene);
     return {{"scale", scale},
             {"values", values},
+            {"strain", strain(search_.seen.at(scale))},
+            {"most_strained", name(most_strained(search_.seen.at(scale)))},
+            {"given_up", given_up()},
             {"verdicts", verdicts(search_.seen.at(scale))},
             {"confirmation",
              {{"seed", report_.result.confirmation_seed},
@@ -136,11 +174,21 @@ Json definitions() {
                 "every scale"},
       {"window", "the widest stretch of scales at which every requirement is shown in every case"},
       {"edge", "the outermost scale that passes; what sets it fails at fails_at, within the "
-               "tolerance; range_end: nothing fails up to the end of the range"},
+               "tolerance; range_end: nothing fails up to where the search ended, at the limit to "
+               "which the range may be widened: no edge"},
       {"as_well", "what fails there by the same runs, which do not deploy"},
       {"verdict", "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; what did not "
                   "deploy or happen counts against it; disproved: the opposite is shown"},
-      {"recommended", "geometric mean of the edges; confirmed by draws of a seed of its own"},
+      {"recommended",
+       "the scale of the window with the least strain; of several the present springs, or "
+       "the middle; none where an edge was not found; confirmed by draws of a seed of "
+       "its own"},
+      {"strain", "of the requirement that is worst off: runs that break it over n (1 - p)"},
+      {"given_up",
+       "against the present springs (scale 1): requirements that more runs break or whose "
+       "observed value is nearer to its limit, and static margins that are lower"},
+      {"passed_over",
+       "a scale of less strain that is not advised: static margins would be negative"},
       {"joint_confidence",
        "at least this for all requirements in all cases together, each verdict's "
        "own being its requirement's: 1 - the sum of (1 - c), of a window over both "
@@ -181,6 +229,7 @@ Json margin_json(const MarginReport& report, const Json& about) {
           {"runs", report.result.runs},
           {"runs_failed", report.result.failed},
           {"range", {spec.lower, spec.upper}},
+          {"widest", {spec.lowest, spec.highest}},
           {"tolerance", spec.edge_tolerance},
           {"mode", margin_mode_names[static_cast<std::size_t>(spec.mode)]},
           {"cases", cases},

@@ -3,6 +3,7 @@
 #include "montecarlo/statistics/binomial_bounds.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -30,16 +31,29 @@ DeployedShare deployed_share(const CaseLook& look, double confidence) {
           clopper_pearson(deployed, runs, confidence)};
 }
 
+bool applies(const Requirement& requirement, const MarginCase& which) {
+  return which.weakened.empty() || !requirement.static_margin;
+}
+
 std::vector<MarginCondition> conditions_of(const Campaign& campaign, const MarginResult& result) {
   std::vector<MarginCondition> conditions;
-  for (std::size_t which = 0; which < result.cases.size(); ++which)
-    for (std::size_t requirement = 0; requirement < campaign.requirements.size(); ++requirement)
-      conditions.push_back({which, requirement});
+  for (std::size_t which = 0; which < result.cases.size(); ++which) {
+    std::size_t verdict = 0;
+    for (std::size_t k = 0; k < campaign.requirements.size(); ++k)
+      if (applies(campaign.requirements[k], result.cases[which]))
+        conditions.push_back({which, k, verdict++});
+  }
   return conditions;
 }
 
 const Verdict& verdict_of(const ScaleLook& look, const MarginCondition& condition) {
-  return look[condition.which_case].verdicts[condition.requirement];
+  return look[condition.which_case].verdicts[condition.verdict];
+}
+
+double quantile_of(const ScaleLook& look, const MarginCondition& condition) {
+  const std::vector<double>& quantiles = look[condition.which_case].quantiles;
+  return condition.verdict < quantiles.size() ? quantiles[condition.verdict]
+                                              : std::numeric_limits<double>::quiet_NaN();
 }
 
 Failing failing(const ScaleLook& look) {

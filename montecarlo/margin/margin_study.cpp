@@ -4,11 +4,15 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/margin/recommendation.hpp"
 #include "montecarlo/margin/scaled_springs.hpp"
+#include "montecarlo/statistics/statistics.hpp"
+#include "montecarlo/summary/static_margins.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace wingspread {
@@ -44,54 +48,74 @@ Outputs outputs_for(const std::vector<Requirement>& requirements) {
   return outputs;
 }
 
-std::vector<MarginCase> cases_of(const MarginSpec& spec, const Scene& scene) {
-  std::vector<MarginCase> cases;
-  if (spec.nominal) cases.push_back({"nominal", {}});
-  if (!spec.one_spring_out) return cases;
+/// Those of one of the campaigns.
+void add_cases(const Campaign& campaign, std::size_t index, std::vector<MarginCase>& cases) {
+  const MarginSpec& spec = *campaign.margin;
+  const std::string& name = campaign.of_case;
+  if (spec.nominal) cases.push_back({name.empty() ? "nominal" : name, {}, index});
+  if (!spec.one_spring_out) return;
+  const Scene& scene = campaign.scene;
   for (int hinge = 0; hinge < std::ssize(scene.hinges); ++hinge) {
-    if (sizes_spring(spec.scaled, scene, hinge))
-      cases.push_back({scene.hinges[hinge].name + " spring out", spring_torques(scene, hinge)});
+    if (!sizes_spring(spec.scaled, scene, hinge)) continue;
+    const std::string lost = scene.hinges[hinge].name + " spring out";
+    cases.push_back(
+        {name.empty() ? lost : name + ", " + lost, spring_torques(scene, hinge), index});
   }
-  return cases;
 }
 
 /// What is scaled together: all of it, or hinge by hinge in the order of the first mention.
 std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene) {
-  if (spec.mode == MarginMode::joint) return {{"joint", spec.scaled, {}, {}, {}}};
+  if (spec.mode == MarginMode::joint) return {{.name = "joint", .scaled = spec.scaled}};
   std::vector<MarginSearch> searches;
   for (const SceneParameter& parameter : spec.scaled) {
     const std::string& name = scene.hinges[parameter.index].name;
     auto found = std::ranges::find(searches, name, &MarginSearch::name);
-    if (found == searches.end()) found = searches.insert(found, MarginSearch{name, {}, {}, {}, {}});
+    if (found == searches.end()) found = searches.insert(found, {.name = name, .scaled = {}});
     found->scaled.push_back(parameter);
   }
   return searches;
 }
 
+/// The quantile that is required, over the runs that have the output; NaN of what is no column of theirs.
+double quantile_over_runs(const Requirement& requirement, const Results& results) {
+  const auto column = std::ranges::find(results.outputs, requirement.output, &Column::name);
+  std::vector<double> values;
+  if (column != results.outputs.end())
+    for (const double value : column->values)
+      if (!std::isnan(value)) values.push_back(requirement.absolute ? std::abs(value) : value);
+  std::ranges::sort(values);
+  return quantile(values, requirement.min ? 1 - requirement.probability : requirement.probability);
+}
+
 /// Makes the runs that a search asks for.
 class Looking {
 public:
-  Looking(const Campaign& campaign, Evaluator& evaluator, const std::function<void(long)>& progress,
-          MarginResult& result)
-      : campaign_(campaign), evaluator_(evaluator), progress_(progress), result_(result) {
-    campaign_.outputs = outputs_for(campaign.requirements);
+  Looking(Evaluator& evaluator, const std::function<void(long)>& progress, MarginResult& result)
+      : campaigns_(result.campaigns), evaluator_(evaluator), progress_(progress), result_(result) {
+    for (Campaign& campaign : campaigns_) campaign.outputs = outputs_for(campaign.requirements);
   }
 
   [[nodiscard]] ScaleLook at(const std::vector<SceneParameter>& parameters, double scale) {
-    const Campaign sized = scaled(campaign_, parameters, scale);
-    const double springs = static_cast<double>(campaign_.motorization.springs_per_hinge);
+    std::vector<Campaign> sized;
+    for (const Campaign& campaign : campaigns_)
+      sized.push_back(scaled(campaign, parameters, scale));
     ScaleLook look;
-    for (const MarginCase& each : result_.cases)
+    for (const MarginCase& each : result_.cases) {
+      const Campaign& campaign = sized[each.campaign];
+      const double springs = static_cast<double>(campaign.motorization.springs_per_hinge);
       look.push_back(each.weakened.empty()
-                         ? runs_of(sized)
-                         : runs_of(scaled(sized, each.weakened, (springs - 1) / springs)));
+                         ? runs_of(campaign, each)
+                         : runs_of(scaled(campaign, each.weakened, (springs - 1) / springs), each));
+    }
     return look;
   }
 
-  void use_seed(std::uint64_t seed) { override_sampling(campaign_, std::nullopt, seed); }
+  void use_seed(std::uint64_t seed) {
+    for (Campaign& campaign : campaigns_) override_sampling(campaign, std::nullopt, seed);
+  }
 
 private:
-  [[nodiscard]] CaseLook runs_of(const Campaign& campaign) {
+  [[nodiscard]] CaseLook runs_of(const Campaign& campaign, const MarginCase& which) {
     const RunPlan plan(campaign);
     Results results(plan.names());
     const RunRange range{0, campaign.sampling.runs};
@@ -106,15 +130,31 @@ private:
     CaseLook look;
     for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
     result_.failed += look.statuses[static_cast<std::size_t>(Status::failed)];
-    look.verdicts = judge_all(campaign.requirements, results);
+    look.verdicts = judge_campaign(campaign, results);
+    std::erase_if(look.verdicts,
+                  [&](const Verdict& verdict) { return !applies(verdict.requirement, which); });
+    for (const Verdict& verdict : look.verdicts)
+      look.quantiles.push_back(quantile_over_runs(verdict.requirement, results));
     return look;
   }
 
-  Campaign campaign_;
+  std::vector<Campaign> campaigns_; ///< with the outputs that the requirements need
   Evaluator& evaluator_;
   const std::function<void(long)>& progress_;
   MarginResult& result_;
 };
+
+/// Then these bound the window, and no others speak against weaker springs.
+bool requires_margins(const Campaign& campaign) {
+  return std::ranges::any_of(campaign.requirements, [](const Requirement& requirement) {
+    return requirement.static_margin.has_value();
+  });
+}
+
+SearchRange range_of(const MarginSpec& spec) {
+  return {spec.lower,          spec.upper,  static_cast<long>(spec.points),
+          spec.edge_tolerance, spec.lowest, spec.highest};
+}
 
 } // namespace
 
@@ -128,16 +168,24 @@ void find_margin(const Campaign& campaign, Evaluator& evaluator,
                  const std::function<void(long)>& progress, MarginResult& result) {
   refuse_unsuitable(campaign);
   const MarginSpec& spec = *campaign.margin;
-  result = {cases_of(spec, campaign.scene), searches_of(spec, campaign.scene),
-            confirmation_seed(campaign.sampling.seed), 0, 0};
-  Looking looking(campaign, evaluator, progress, result);
+  result = {};
+  result.campaigns = campaigns_of(campaign);
+  for (std::size_t k = 0; k < result.campaigns.size(); ++k)
+    add_cases(result.campaigns[k], k, result.cases);
+  result.searches = searches_of(spec, campaign.scene);
+  result.confirmation_seed = confirmation_seed(campaign.sampling.seed);
+  Looking looking(evaluator, progress, result);
   for (MarginSearch& search : result.searches) {
-    const auto judge = [&](double scale) {
-      return failing(search.seen[scale] = looking.at(search.scaled, scale));
+    const auto look = [&](double scale) { search.seen[scale] = looking.at(search.scaled, scale); };
+    (void)search_window(range_of(spec), [&](double scale) {
+      look(scale);
+      return failing(search.seen.at(scale));
+    });
+    const auto shortfall = [&](double scale) {
+      return requires_margins(campaign) ? std::nullopt
+                                        : shortfall_at(result.campaigns, search.scaled, scale);
     };
-    const SearchRange range{spec.lower, spec.upper, static_cast<long>(spec.points),
-                            spec.edge_tolerance};
-    search.recommended = recommended(search_window(range, judge), spec.edge_tolerance);
+    recommend({spec.edge_tolerance, look, shortfall}, search);
   }
   looking.use_seed(result.confirmation_seed);
   for (MarginSearch& search : result.searches)

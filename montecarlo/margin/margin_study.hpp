@@ -24,9 +24,12 @@
 /// latch, so that one which would have failed on the way to its peaks has deployed here, and has failed
 /// in `run` of a campaign that asks for peaks.
 ///
+/// A campaign's cases (cold, hot, end of life) are looked at alike, each with its own nominal wing and the
+/// same draws: the requirements hold in all of them, and the worst of them sets the edges.
+///
 /// One spring out: a hinge's torque comes from m equal springs. In one case more for each hinge
-/// whose springs are sized, its torque is (m − 1)/m of what was drawn. The requirements hold in all
-/// cases.
+/// whose springs are sized, its torque is (m − 1)/m of what was drawn. The requirements hold in these
+/// too.
 #pragma once
 
 #include "montecarlo/campaign/campaign.hpp"

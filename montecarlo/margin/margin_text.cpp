@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace wingspread {
 namespace {
@@ -27,7 +28,8 @@ public:
         if (&other != best) text += fmt::format(" {} to {}", other.lower, other.upper);
       text += '\n';
     }
-    return text + present() + requirements() + (best ? new_values() : "") + looks();
+    text += present() + given_up() + requirements();
+    return text + (search_.recommended ? new_values() : "") + looks();
   }
 
 private:
@@ -36,8 +38,14 @@ private:
     const std::string what = search_.name == "joint" && spec.mode == MarginMode::joint
                                  ? fmt::format("{} parameters together", search_.scaled.size())
                                  : fmt::format("hinge {} alone", search_.name);
-    return fmt::format("WINDOW of the springs' scale: {}, looked at from {} to {}", what,
-                       spec.lower, spec.upper);
+    std::string text = fmt::format("WINDOW of the springs' scale: {}, looked at from {} to {}",
+                                   what, spec.lower, spec.upper);
+    const double lowest = search_.seen.begin()->first, highest = search_.seen.rbegin()->first;
+    if (lowest < spec.lower || spec.upper < highest)
+      text += fmt::format(",\n  and further, from {} to {}, for want of an edge or of the present "
+                          "springs",
+                          lowest, highest);
+    return text;
   }
 
   [[nodiscard]] std::string name(std::size_t condition) const {
@@ -71,7 +79,9 @@ private:
   }
 
   [[nodiscard]] std::string edge(const char* label, const MarginEdge& edge) const {
-    if (!edge.failing) return line(label, edge.passing, "end of the range: nothing fails up to it");
+    if (!edge.failing)
+      return line(label, edge.passing,
+                  "no edge: nothing fails this far, and the search ended here");
     std::string text;
     for (const std::size_t condition : edge.set_by)
       text += first_or_next(text.empty(), label, edge.passing, condition) +
@@ -83,9 +93,56 @@ private:
   }
 
   [[nodiscard]] std::string window(const Window& window) const {
-    return edge("weakest springs", lower_edge(search_, window)) +
-           line("recommended", *search_.recommended, confirmation()) +
+    return edge("weakest springs", lower_edge(search_, window)) + recommended() +
            edge("strongest springs", upper_edge(search_, window)) + together(window);
+  }
+
+  [[nodiscard]] static std::string below(std::string_view words) { return paragraph(words, 34); }
+
+  [[nodiscard]] std::string recommended() const {
+    if (!search_.recommended)
+      return fmt::format("  {:<20}{:>8}  nothing, for\n", "recommended", "–") +
+             below(why_withheld(search_));
+    const double scale = *search_.recommended;
+    std::string text = line("recommended", scale, confirmation());
+    const std::size_t worst = most_strained(search_.seen.at(scale));
+    const Verdict& verdict = verdict_of(search_.seen.at(scale), conditions_[worst].condition);
+    text += below(verdict.broken.empty()
+                      ? "no run breaks any requirement there"
+                      : fmt::format("the most strained there: {}: {} of {} runs break it",
+                                    name(worst), verdict.broken.size(), verdict.runs));
+    if (search_.passed_over)
+      text += below(fmt::format("{} would strain less, but is not advised: {}",
+                                search_.passed_over->scale, to_string(*search_.passed_over)));
+    return text;
+  }
+
+  /// What the recommended springs give up against the present ones.
+  [[nodiscard]] std::string given_up() const {
+    if (!search_.recommended) return "";
+    const double scale = *search_.recommended;
+    if (scale == 1) return line("given up", 1, "nothing: the present springs are kept");
+    std::string text;
+    for (const Concession& each : concessions(report_.campaign, report_.result, search_))
+      text += first_or_next(text.empty(), "given up", scale, each.condition) + change(each);
+    const auto lowered = lowered_margins(report_.result.campaigns, search_.scaled, scale);
+    if (const auto least = std::ranges::min_element(lowered, {}, &Shortfall::margin);
+        least != lowered.end())
+      text += line(text.empty() ? "given up" : "", scale, "static margins: " + to_string(*least));
+    return text.empty() ? line("given up", scale, "nothing: no requirement is nearer to its limit")
+                        : text;
+  }
+
+  /// "at 1: 67 of 3000 runs break it, and of those that have it 99 % come to 230.1; here 1, 264.2".
+  [[nodiscard]] static std::string change(const Concession& each) {
+    const Verdict& before = *each.present;
+    std::string text = fmt::format("at 1: {} of {} runs break it; here {}", before.broken.size(),
+                                   before.runs, each.recommended->broken.size());
+    if (!std::isnan(each.present_quantile) && !std::isnan(each.quantile))
+      text +=
+          fmt::format("; {:.10g} % of those that have it keep to {:.5g}; here {:.5g}",
+                      100 * before.requirement.probability, each.present_quantile, each.quantile);
+    return below(text);
   }
 
   /// What all requirements, and both edges, come to together.

@@ -34,6 +34,10 @@ Json draws_of_run(const Campaign& campaign, const RunPlan& plan, long run) {
   return json;
 }
 
+std::string case_of(const ScaledMotorization& at) {
+  return at.campaign.of_case.empty() ? "nominal" : at.campaign.of_case;
+}
+
 const Hinge& leader_of(const DriveMotorization& each, const Campaign& campaign) {
   return campaign.scene.hinges[each.drive.hinges.front()];
 }
@@ -70,7 +74,7 @@ constexpr std::array terms{Term{"available", &MotorizationTerms::available},
                            Term{"damping", &MotorizationTerms::damping}};
 
 std::string motorization_header(const Campaign& campaign) {
-  std::string header = "scale,hinge,travel,angle";
+  std::string header = "scale,case,hinge,travel,angle";
   for (const Term& term : terms) header += fmt::format(",{}", term.name);
   for (const std::string_view kind : margin_kind_names) {
     header += fmt::format(",{}", kind);
@@ -100,8 +104,9 @@ std::string margin_text(double margin) {
 }
 
 /// A line for each hinge and kind: the least over the travel.
-std::string motorization_lines(const Campaign& campaign, const ScaledMotorization& at) {
-  std::string text;
+std::string motorization_lines(const ScaledMotorization& at) {
+  const Campaign& campaign = at.campaign;
+  std::string text = campaign.of_case.empty() ? "" : campaign.of_case + '\n';
   for (const DriveMotorization& each : at.study.drives)
     for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
       const Hinge& hinge = leader_of(each, campaign);
@@ -120,7 +125,6 @@ std::string motorization_lines(const Campaign& campaign, const ScaledMotorizatio
 } // namespace
 
 Json motorization_json(const Campaign& campaign, const std::vector<ScaledMotorization>& scales) {
-  const RunPlan plan(campaign);
   Json json{{"standards",
              {{"ecss", ecss_standard},
               {"nasa", nasa_standard},
@@ -129,13 +133,15 @@ Json motorization_json(const Campaign& campaign, const std::vector<ScaledMotoriz
   json["factors"] = write_motorization(campaign.motorization, campaign.scene);
   json["springs_per_hinge"] = campaign.motorization.springs_per_hinge;
   json["at"] = Json::array();
-  for (const auto& [scale, study] : scales) {
+  for (const ScaledMotorization& at : scales) {
+    const RunPlan plan(at.campaign);
     Json drives = Json::array();
-    for (const DriveMotorization& each : study.drives)
-      drives.push_back(drive_json(campaign, plan, each));
-    json["at"].push_back({{"scale", scale},
-                          {"draws", study.draws},
-                          {"invalid", study.invalid},
+    for (const DriveMotorization& each : at.study.drives)
+      drives.push_back(drive_json(at.campaign, plan, each));
+    json["at"].push_back({{"scale", at.scale},
+                          {"case", case_of(at)},
+                          {"draws", at.study.draws},
+                          {"invalid", at.study.invalid},
                           {"least_over_travel", drives}});
   }
   return json;
@@ -144,11 +150,11 @@ Json motorization_json(const Campaign& campaign, const std::vector<ScaledMotoriz
 std::string motorization_csv(const Campaign& campaign,
                              const std::vector<ScaledMotorization>& scales) {
   std::string csv = motorization_header(campaign);
-  for (const auto& [scale, study] : scales)
-    for (const DriveMotorization& each : study.drives)
+  for (const ScaledMotorization& at : scales)
+    for (const DriveMotorization& each : at.study.drives)
       for (const TravelPoint& point : each.travel) {
-        append_csv_cell(csv, scale);
-        append_csv_cells(csv, name_of(each.drive, campaign.scene));
+        append_csv_cell(csv, at.scale);
+        append_csv_cells(csv, case_of(at), name_of(each.drive, campaign.scene));
         append_point(csv, point);
       }
   return csv;
@@ -169,7 +175,7 @@ std::string motorization_text(const Campaign& campaign,
       quantiles.empty() ? "–" : fmt::format("{:g} %", 100 * quantiles.front());
   text += fmt::format("{:<10}{:<16}{:<22}{:>9}{:>9}{:>10}{:>10}{:>8}\n", "SCALE", "hinge", "by",
                       "nominal", "at rad", quantile, "least", "run");
-  for (const ScaledMotorization& at : scales) text += motorization_lines(campaign, at);
+  for (const ScaledMotorization& at : scales) text += motorization_lines(at);
   return text;
 }
 

@@ -9,9 +9,10 @@
 
 namespace wingspread {
 
-/// The static margins with the springs at a scale.
+/// The static margins of a case's wing with the springs at a scale.
 struct ScaledMotorization {
   double scale;
+  Campaign campaign; ///< the case's, with its present springs
   MotorizationStudy study;
 };
 
@@ -19,7 +20,7 @@ struct ScaledMotorization {
 [[nodiscard]] Json motorization_json(const Campaign& campaign,
                                      const std::vector<ScaledMotorization>& scales);
 
-/// A row for each scale, hinge and place of the travel: terms, margins, their quantiles over the
+/// A row for each scale, case, hinge and place of the travel: terms, margins, their quantiles over the
 /// draws and the worst draw.
 [[nodiscard]] std::string motorization_csv(const Campaign& campaign,
                                            const std::vector<ScaledMotorization>& scales);

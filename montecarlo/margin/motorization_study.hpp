@@ -48,7 +48,7 @@ struct MotorizationStudy {
 
 /// @param nominal the wing without dispersion (the campaign's scene, or with other springs)
 /// Cost: the campaign's draws twice for each of the drives, more often where margins at all places would take more
-/// than 256 MiB; no integration. Memory: that, or 24 bytes a draw.
+/// than 256 MiB; no integration. Memory: that, or 40 bytes a draw.
 [[nodiscard]] MotorizationStudy study_motorization(const Campaign& campaign, const Scene& nominal);
 
 } // namespace wingspread

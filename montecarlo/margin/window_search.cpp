@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 namespace wingspread {
 namespace {
@@ -24,17 +25,6 @@ bool may_hold_edge(const Failing& a, const Failing& b) {
 
 bool differ(const Failing& a, const Failing& b) { return a != b; }
 
-/// With digits enough to stay far within the tolerance.
-double rounded(double scale, double tolerance) {
-  const int digits = static_cast<int>(std::ceil(-std::log10(tolerance))) + 2;
-  return parse_csv_number(fmt::format("{:.{}g}", scale, digits)).value_or(scale);
-}
-
-double middle_of(const Window& window, double tolerance) {
-  const double middle = rounded(std::sqrt(window.lower * window.upper), tolerance);
-  return std::clamp(middle, window.lower, window.upper);
-}
-
 /// The search as it goes on.
 class Search {
 public:
@@ -43,13 +33,8 @@ public:
 
   Looks run() {
     look_at_grid();
-    for (;;) {
-      refine(may_hold_edge);
-      if (look_at_middle()) continue; // it may fail, and split the window
-      if (!windows_of(looks_).empty()) break;
-      refine(differ);
-      if (windows_of(looks_).empty()) break;
-    }
+    do widen();
+    while (refine(may_hold_edge) || (windows_of(looks_).empty() && refine(differ)));
     return std::move(looks_);
   }
 
@@ -58,36 +43,52 @@ private:
     const double cells = static_cast<double>(range_.points - 1);
     for (long k = 0; k < range_.points - 1; ++k)
       look(k == 0 ? range_.lower
-                  : rounded(range_.lower * std::pow(range_.upper / range_.lower,
-                                                    static_cast<double>(k) / cells),
-                            range_.tolerance));
+                  : rounded_scale(range_.lower * std::pow(range_.upper / range_.lower,
+                                                          static_cast<double>(k) / cells),
+                                  range_.tolerance));
     look(range_.upper);
-    if (range_.lower < 1 && 1 < range_.upper) look(1);
+    look(1);
+  }
+
+  /// Beyond ends that are no edges.
+  void widen() {
+    constexpr double step = std::numbers::sqrt2;
+    for (std::size_t before = 0;
+         before != looks_.size();) { // what holds at one end matters at the other
+      before = looks_.size();
+      while (looks_.begin()->first > range_.lowest && is_open(looks_.begin()->second))
+        look(
+            std::max(rounded_scale(looks_.begin()->first / step, range_.tolerance), range_.lowest));
+      while (looks_.rbegin()->first < range_.highest && is_open(looks_.rbegin()->second))
+        look(std::min(rounded_scale(looks_.rbegin()->first * step, range_.tolerance),
+                      range_.highest));
+    }
+  }
+
+  /// (2)
+  [[nodiscard]] bool is_open(const Failing& at_end) const {
+    return std::ranges::none_of(at_end, [&](std::size_t condition) {
+      return std::ranges::any_of(
+          looks_, [&](const auto& look) { return !look.second.contains(condition); });
+    });
   }
 
   void look(double scale) {
     if (!looks_.contains(scale)) looks_[scale] = judge_(scale);
   }
 
-  /// Halves the wide cells that `wanted` names until there are none.
-  void refine(const Cell& wanted) {
+  /// Halves the wide cells that `wanted` names until there are none. @return whether there were any
+  bool refine(const Cell& wanted) {
+    const std::size_t before = looks_.size();
     for (auto a = looks_.begin(); std::next(a) != looks_.end();) {
       const auto b = std::next(a);
       const bool wide = b->first > a->first * (1 + range_.tolerance);
-      const double middle = rounded(std::sqrt(a->first * b->first), range_.tolerance);
+      const double middle = rounded_scale(std::sqrt(a->first * b->first), range_.tolerance);
       if (wide && wanted(a->second, b->second) && a->first < middle && middle < b->first)
         look(middle); // and this cell again, which is smaller now
       else
         ++a;
     }
-  }
-
-  /// @return whether it was not looked at before
-  bool look_at_middle() {
-    const auto windows = windows_of(looks_);
-    if (windows.empty()) return false;
-    const std::size_t before = looks_.size();
-    look(middle_of(*widest(windows), range_.tolerance));
     return looks_.size() > before;
   }
 
@@ -147,10 +148,9 @@ const Window* widest(const std::vector<Window>& windows) {
   return found == windows.end() ? nullptr : &*found;
 }
 
-std::optional<double> recommended(const Looks& looks, double tolerance) {
-  const auto windows = windows_of(looks);
-  if (windows.empty()) return std::nullopt;
-  return middle_of(*widest(windows), tolerance);
+double rounded_scale(double scale, double tolerance) {
+  const int digits = static_cast<int>(std::ceil(-std::log10(tolerance))) + 2;
+  return parse_csv_number(fmt::format("{:.{}g}", scale, digits)).value_or(scale);
 }
 
 std::vector<std::size_t> closed_by(const Looks& looks) {

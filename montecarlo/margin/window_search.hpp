@@ -12,9 +12,17 @@
 /// end, or lie within. So a window is not missed for being narrower than a cell, and where there is
 /// none, every cell has a condition that rules it out. Then, for the sake of the proof, the edges
 /// of every single condition are located as well.
+///
+/// An end of the range is no edge. Where nothing fails there that holds anywhere further in,
+///
+///     F(end) ∩ ⋃_s H(s) = ∅,    H(s): the conditions that hold at scale s                      (2)
+///
+/// looks go on outwards, each by a factor of √2, until (2) is no longer so or a limit is reached: then a
+/// window may end without an edge, and says so.
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -31,17 +39,19 @@ struct SearchRange {
   double lower, upper; ///< 0 < lower < upper
   long points;         ///< of the grid, evenly by ratio, ≥ 2
   double tolerance;    ///< largest ratio of an edge's two sides, less 1; > 0
+  /// How far it may be widened; by default not at all.
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0;
 };
 
 /// Neighbouring scales that pass.
 struct Window {
   double lower, upper;         ///< the outermost that were seen to pass
-  std::optional<double> below; ///< the next scale down, which fails; none at the range's end
+  std::optional<double> below; ///< the next scale down, which fails; none where the search ended
   std::optional<double> above; ///< the next one up
 };
 
-/// Looks at the grid, at 1 if that is in the range, and at as many scales more as it takes. Scales
-/// are numbers of few digits, so that they are what a report prints.
+/// Looks at the grid, at 1 (the present springs, with which all is compared), and at as many scales more
+/// as it takes. Scales are numbers of few digits, so that they are what a report prints.
 /// @param judge pure; what it throws ends the search
 [[nodiscard]] Looks search_window(const SearchRange& range,
                                   const std::function<Failing(double)>& judge);
@@ -56,9 +66,8 @@ struct Window {
 /// The widest, by ratio; the lowest of equals. Null without any.
 [[nodiscard]] const Window* widest(const std::vector<Window>& windows);
 
-/// The scale in the middle of the widest window, by ratio: as many times stronger than its weakest
-/// springs as its strongest are stronger than this. It was looked at, and passes.
-[[nodiscard]] std::optional<double> recommended(const Looks& looks, double tolerance);
+/// A number of few digits near the scale, far within the tolerance.
+[[nodiscard]] double rounded_scale(double scale, double tolerance);
 
 /// The fewest conditions that leave no scale to pass, of the lowest numbers: one that never holds,
 /// else two that never hold together, else all that ever fail. Empty when there is a window.

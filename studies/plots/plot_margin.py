@@ -27,7 +27,8 @@ def draw_window(axes, search):
         axes.axvspan(window["lower"]["scale"], window["upper"]["scale"], color=WINDOW, zorder=-2)
         for edge in ("lower", "upper"):
             axes.axvline(window[edge]["scale"], color="0.35", linewidth=0.9, zorder=-1)
-        axes.axvline(search["recommended"]["scale"], color="0.35", linewidth=0.9, linestyle=":", zorder=-1)
+        if search["recommended"]:
+            axes.axvline(search["recommended"]["scale"], color="0.35", linewidth=0.9, linestyle=":", zorder=-1)
 
 
 def mark(axes, rows, values):
@@ -104,8 +105,10 @@ def title(search, found):
     window = search["window"]
     if not window:
         return f"{found['scene']}: no scale of the springs meets all requirements"
+    chosen = search["recommended"]
+    recommended = f"recommended {chosen['scale']:g}" if chosen else "none recommended"
     return (f"{found['scene']}: all requirements are met from {window['lower']['scale']:g} to "
-            f"{window['upper']['scale']:g}, recommended {search['recommended']['scale']:g}\n"
+            f"{window['upper']['scale']:g}, {recommended}\n"
             f"{found['runs_per_scale']} runs a scale; dashed: limits; dots meet them, crosses do not "
             "(at the foot: too few runs deploy)")
 

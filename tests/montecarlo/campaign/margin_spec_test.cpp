@@ -38,7 +38,7 @@ TEST_CASE("A margin is read with its defaults, and written in full", "[margin]")
   CHECK(campaign.resolved["margin"] == parse_json(R"({
     "scale": ["hinges.root.spring.torque_stowed", "hinges.mid.spring.torque_stowed",
               "hinges.root.spring.torque_latched"],
-    "range": [0.5, 2.0], "mode": "joint", "points": 13, "tolerance": 0.01, "cases": ["nominal"],
+    "range": [0.5, 2.0], "widest": [0.0625, 16.0], "mode": "joint", "points": 13, "tolerance": 0.01, "cases": ["nominal"],
     "springs_per_hinge": 2,
     "motorization": {
       "ecss": { "basis": "theoretical", "inertia": 1.1, "spring": 1.2, "motor": 1.5,
@@ -68,7 +68,7 @@ TEST_CASE("A campaign without a margin is the one that it was", "[margin]") {
 TEST_CASE("What a margin sets otherwise is read too", "[margin]") {
   Json json = small_margin();
   json.update(parse_json(R"({
-    "mode": "each", "points": 2, "tolerance": 0.001, "cases": ["one_spring_out"],
+    "mode": "each", "points": 2, "widest": [0.5, 3], "tolerance": 0.001, "cases": ["one_spring_out"],
     "springs_per_hinge": 4,
     "motorization": { "ecss": { "friction": 2, "basis": "measured" }, "points": 5,
                       "nasa": { "basis": "development_test", "variable": 2.2 },
@@ -78,6 +78,7 @@ TEST_CASE("What a margin sets otherwise is read too", "[margin]") {
                       "rates": { "mid": "180 deg/s" } } })"));
   const Campaign campaign = read(json);
   const MarginSpec& margin = *campaign.margin;
+  CHECK((margin.lowest == 0.5 && margin.highest == 3));
   CHECK((margin.mode == MarginMode::each && !margin.nominal && margin.one_spring_out));
   const MotorizationSpec& factors = campaign.motorization;
   CHECK(factors.springs_per_hinge == 4);
@@ -112,6 +113,12 @@ TEST_CASE("Each fault of a margin is told", "[margin]") {
         "/margin/range: found an array of 2, expected an array of two numbers, 0 < lower < upper"},
        {"/range", "[1]",
         "/margin/range: found an array of 1, expected an array of two numbers, 0 < lower < upper"},
+       {"/widest", "[0.6, 16]",
+        "/margin/widest: found an array of 2, expected an array of two numbers > 0, about "
+        "\"range\""},
+       {"/widest", "[0.5]",
+        "/margin/widest: found an array of 1, expected an array of two numbers > 0, about "
+        "\"range\""},
        {"/mode", "\"both\"", "/margin/mode: found string \"both\", expected \"joint\" or \"each\""},
        {"/points", "1", "/margin/points: found 1, expected an integer from 2 to 1000"},
        {"/tolerance", "0", "/margin/tolerance: found 0, expected a number, > 0 and < 1"},
@@ -122,8 +129,10 @@ TEST_CASE("Each fault of a margin is told", "[margin]") {
         "/margin/cases/1: found string \"nominal\" a second time, expected each case once"},
        {"/springs_per_hinge", "1", "/margin/springs_per_hinge: found 1, expected an integer, ≥ 2"},
        {"/steps", "9",
-        "/margin/steps: found the unknown key \"steps\", expected \"scale\", \"range\", \"mode\", "
-        "\"points\", \"tolerance\", \"cases\", \"springs_per_hinge\" or \"motorization\""},
+        "/margin/steps: found the unknown key \"steps\", expected \"scale\", \"range\", "
+        "\"widest\", "
+        "\"mode\", \"points\", \"tolerance\", \"cases\", \"springs_per_hinge\" or "
+        "\"motorization\""},
        {"/motorization", R"({"ecss": {"friction": 0}})",
         "/margin/motorization/ecss/friction: found 0, expected a factor: a number, > 0"},
        {"/motorization", R"({"nasa": {"basis": "guess"}})",

@@ -24,6 +24,7 @@ TEST_CASE("what is too long is cut between characters, and says so", "[text_layo
 TEST_CASE("a paragraph is broken at blanks, within the width of a table", "[text_layout]") {
   CHECK(paragraph("").empty());
   CHECK(paragraph("two  words\n") == "  two words\n");
+  CHECK(paragraph("a b", 98) == std::string(98, ' ') + "a\n" + std::string(98, ' ') + "b\n");
   std::string long_text;
   for (int i = 0; i < 49; ++i) long_text += "µ ";
   const std::string full = "  " + long_text.substr(0, long_text.size() - 1) + '\n';

@@ -96,6 +96,50 @@ TEST_CASE("each condition's edges have a word", "[margin]") {
   CHECK(kinds({{1, good}, {2, fast}, {3, good}}) == Words{"always", "several"});
 }
 
+// At 1 three runs are too fast and none at 0.8; there two stall, and none at 1.
+TEST_CASE("what a recommended scale gives up is what is worse there than at present", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(100));
+  MarginResult result;
+  result.cases = {{"nominal", {}}};
+  MarginSearch search;
+  search.seen = {{0.8, look(2, 0)}, {1, look(0, 3)}};
+  CHECK(concessions(campaign, result, search).empty());
+  search.recommended = 0.8;
+  const auto given_up = concessions(campaign, result, search);
+  REQUIRE(given_up.size() == 1);
+  CHECK(given_up[0].condition == 0); // the stalled; of the rates 2 are broken in place of 3
+  CHECK((given_up[0].present->broken.empty() && given_up[0].recommended->broken.size() == 2));
+  search.seen[1] = look(2, 0); // as many, but nearer to the limit, which is one from below
+  search.seen[1][0].quantiles = {std::numeric_limits<double>::quiet_NaN(), -0.5};
+  search.seen[0.8][0].quantiles = {std::numeric_limits<double>::quiet_NaN(), -0.6};
+  search.seen[0.8][0].verdicts[1].requirement.min = -0.8;
+  const auto nearer = concessions(campaign, result, search);
+  REQUIRE(nearer.size() == 1);
+  CHECK(nearer[0].condition == 1);
+  search.recommended = 1;
+  CHECK(concessions(campaign, result, search).empty());
+}
+
+TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
+  MarginSearch search;
+  search.seen = {{0.0625, look(0, 0)}, {16, look(0, 0)}};
+  CHECK(why_withheld(search).empty());
+  search.withheld = Withheld::no_window;
+  CHECK(why_withheld(search) == "no scale that was looked at meets all requirements");
+  search.withheld = Withheld::no_lower_edge;
+  CHECK(why_withheld(search) == "nothing fails down to 0.0625: no edge was found, and how far down "
+                                "the springs may go is not known");
+  search.withheld = Withheld::no_upper_edge;
+  CHECK(why_withheld(search) == "nothing fails up to 16: no edge was found, for nothing that is "
+                                "required limits the springs from above");
+  search.withheld = Withheld::short_of_torque;
+  search.passed_over = Shortfall{0.7, "root", MarginKind::nasa, -0.1, 0.25};
+  CHECK(
+      why_withheld(search) ==
+      "only weaker springs meet all requirements, and their static margins fall short: NASA margin "
+      "of root -0.10, now +0.25");
+}
+
 TEST_CASE("springs are recommended where they were sized together, and have a window", "[margin]") {
   Json json = one_panel_margin(100);
   MarginResult result;

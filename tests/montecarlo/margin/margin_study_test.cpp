@@ -1,6 +1,7 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/margin/margin_study.hpp"
+#include "montecarlo/margin/motorization_study.hpp"
 #include "montecarlo/margin/scaled_springs.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
@@ -65,6 +66,7 @@ TEST_CASE("the window is where the closed form has it, count by count", "[margin
 // A narrow window: at its middle about 2 % of the draws do not deploy, and as many are too fast.
 TEST_CASE("the confirmation is by other draws, of a seed that nobody takes next", "[margin]") {
   Json json = one_panel_margin(300);
+  for (Json& torque : json["scene"]["hinges"][0]["spring"]) torque = 0.75 * torque.get<double>();
   for (Json& requirement : json["requirements"]) requirement["probability"] = 0.9;
   json["requirements"][1]["min"] = -0.5;
   const MarginResult result = margin_of(campaign_of(json));
@@ -222,4 +224,110 @@ TEST_CASE("an interruption ends it, and keeps the scales that were finished", "[
   CHECK(search.seen.size() == 2);
   CHECK(search.seen.contains(0.5));
   CHECK_FALSE(search.recommended);
+}
+
+namespace {
+
+/// A wing that deploys by its momentum where it has hardly any torque left at rest: the spring's last torque, 0.09 N·m,
+/// against a friction of 0.1. It deploys down to some 0.1 of its springs, and strikes too hard a little above 1: the range
+/// down to 0.5 has no lower edge.
+Json driven_by_momentum() {
+  Json json = one_panel_margin(400);
+  Json& root = json["scene"]["hinges"][0];
+  root["spring"] = {{"torque_stowed", 2.0}, {"torque_latched", 0.09}};
+  root["friction"] = {{"model", "exact"}, {"coulomb", 0.1}, {"static", 0.1}};
+  json["dispersions"][1]["distribution"]["std"] = 0.005;
+  json["requirements"][1]["min"] = -1.15;
+  return json;
+}
+
+} // namespace
+
+// The campaign of a range without a lower edge: once the mean of 0.5 and the upper edge was recommended, weaker springs.
+TEST_CASE("where the lower edge lies outside of the range no weaker springs are advised",
+          "[margin]") {
+  const MarginResult result = margin_of(campaign_of(driven_by_momentum()));
+  const MarginSearch& search = result.searches.front();
+  const Window window = only_window(windows_of(looks_of(search)));
+  CHECK(failing(search.seen.at(0.5)).empty());
+  CHECK((window.lower < 0.5 && window.below && window.above)); // found beyond it
+  CHECK((window.upper > 1 && window.upper < 1.5));
+  REQUIRE(search.recommended);
+  CHECK(*search.recommended >= 1);
+  const MotorizationStudy present =
+      study_motorization(result.campaigns[0], result.campaigns[0].scene);
+  CHECK(present.drives[0].worst[0] < 0); // why: it is short of torque at rest as it is
+  CHECK(present.drives[0].worst[1] < 0);
+}
+
+TEST_CASE("where no edge is found as far as one may look, nothing is recommended", "[margin]") {
+  Json json = driven_by_momentum();
+  json["margin"]["widest"] = {0.5, 16};
+  const MarginSearch search = margin_of(campaign_of(json)).searches.front();
+  CHECK_FALSE(search.recommended);
+  CHECK_FALSE(search.confirmation);
+  CHECK(search.withheld == Withheld::no_lower_edge);
+  CHECK(search.seen.begin()->first == 0.5);
+}
+
+// The margin of a draw is 0.2 a s/(3 f) − 1 at the scale s: required to be 0 for 97 % of all, that takes s so large that
+// no more than the allowed number of draws have less.
+TEST_CASE("a required static margin bounds the window, count by count", "[margin]") {
+  Json json = one_panel_margin(300);
+  json["scene"]["hinges"][0]["friction"] = {
+      {"model", "exact"}, {"coulomb", 0.08}, {"static", 0.08}};
+  json["dispersions"][1]["distribution"]["std"] = 0.008;
+  json["requirements"][0] = {{"motorization", "NASA"}, {"probability", 0.97}, {"confidence", 0.9}};
+  json["requirements"][1]["min"] = -4;
+  json["margin"]["cases"] = {"nominal", "one_spring_out"};
+  json["margin"]["range"] = {0.9, 2};
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  const MarginSearch& search = result.searches.front();
+  const auto conditions = conditions_of(campaign, result);
+  REQUIRE(conditions.size() ==
+          3); // the margin is of the whole wing, and not of the one that lost a spring
+  CHECK((conditions[2].which_case == 1 && conditions[2].requirement == 1));
+  const RunPlan plan(campaign);
+  std::vector<double> draws(campaign.dispersions.size());
+  for (const auto& [scale, look] : search.seen) {
+    long broken = 0;
+    for (long run = 0; run < 300; ++run) {
+      plan.draw(run, draws);
+      broken += 0.2 * scale * draws[0] < 3 * (0.08 + draws[1]) ? 1 : 0;
+    }
+    CAPTURE(scale);
+    CHECK(std::ssize(verdict_of(look, conditions[0]).broken) == broken);
+  }
+  const Window window = only_window(windows_of(looks_of(search)));
+  CHECK((window.lower > 1.2 && window.lower < 1.7));
+  CHECK(looks_of(search).at(*window.below).contains(0));
+  CHECK(*search.recommended > 1);
+}
+
+// Cold, the friction is twice what it is: the weakest springs are those of the cold case, and the strongest those of the
+// other, whose wing comes faster.
+TEST_CASE("requirements are held in every case of the campaign", "[margin]") {
+  Json json = one_panel_margin(300);
+  json["scene"]["hinges"][0]["friction"] = {{"model", "exact"}, {"coulomb", 0.4}, {"static", 0.4}};
+  json["requirements"][1]["min"] = -1.4;
+  const auto window_of_cases = [&](const Json& cases) {
+    Json own = json;
+    if (!cases.empty()) own["cases"] = cases;
+    const MarginResult result = margin_of(campaign_of(own));
+    return std::pair{only_window(windows_of(looks_of(result.searches.front()))), result};
+  };
+  const Json cold = parse_json(R"({ "name": "cold", "scale": { "hinges.root.friction.coulomb": 1.5,
+                                                               "hinges.root.friction.static": 1.5 } })");
+  const Json warm =
+      parse_json(R"({ "name": "warm", "scale": { "hinges.root.latch.stiffness": 1 } })");
+  const Window ambient = window_of_cases(Json::array()).first;
+  const Window only_cold = window_of_cases(Json::array({cold})).first;
+  const auto [both, result] = window_of_cases(Json::array({cold, warm}));
+  CHECK(only_cold.lower > 1.3 * ambient.lower);
+  CHECK(both.lower == Approx(only_cold.lower).epsilon(0.01));
+  CHECK(both.upper == Approx(ambient.upper).epsilon(0.01));
+  REQUIRE(result.cases.size() == 2);
+  CHECK((result.cases[0].name == "cold" && result.cases[1].name == "warm"));
+  CHECK(result.searches[0].seen.at(1).size() == 2);
 }
