@@ -99,8 +99,8 @@ def campaign(path):
             "damper": "damper" in has["hinges"][0], "loop_stiffness": "synchronisations" in has,
             "stop_stiffness": "stop" in has["hinges"][0]}
     whole.update(scene=path.name, requirements=[])
-    whole["dispersions"] = [one for one in whole["dispersions"] if kept.get(one["name"], True)]
-    whole.pop("cases", None)
+    whole["dispersions"] = [one for one in whole["dispersions"] if kept.get(one["name"], "through" not in one)]
+    whole.pop("cases", None)  # and the temperature that makes them: one thing at a time
     file, out = path.with_suffix(".campaign.json"), path.with_suffix(".runs")
     file.write_text(json.dumps(whole, indent=1))
     subprocess.run(["rm", "-rf", out], check=True)
