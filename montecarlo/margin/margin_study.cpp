@@ -58,8 +58,8 @@ void add_cases(const Campaign& campaign, std::size_t index, std::vector<MarginCa
   for (int hinge = 0; hinge < std::ssize(scene.hinges); ++hinge) {
     if (!sizes_spring(spec.scaled, scene, hinge)) continue;
     const std::string lost = scene.hinges[hinge].name + " spring out";
-    cases.push_back(
-        {name.empty() ? lost : name + ", " + lost, spring_torques(scene, hinge), index});
+    cases.push_back({name.empty() ? lost : fmt::format("{}, {}", name, lost),
+                     spring_torques(scene, hinge), index});
   }
 }
 
