@@ -30,6 +30,8 @@ struct Goal {
   bool audit = true;             ///< watch the energy up to the first latch
   bool to_t_end = false;         ///< integrate to t_end whatever happens
   bool first_latch_only = false; ///< end at the first latch
+  /// The observer is shown the multiples of it, by dense output, in place of every step; s, 0: every step.
+  double sample_interval = 0;
 };
 
 /// `stalled`: a hinge has not latched, and there is proof that none will any more, though some may
@@ -59,6 +61,12 @@ struct Configuration {
   Eigen::Vector2d base_velocity{0, 0};
   double base_angle = 0;
   double base_rate = 0;
+};
+
+/// The largest change of a free base's motion since the start of a run.
+struct BasePeaks {
+  double angle = 0; ///< rad
+  double rate = 0;  ///< rad/s
 };
 
 struct EnergyAudit {
@@ -93,7 +101,9 @@ struct Outcome {
   std::vector<Peak> peak_force;    ///< N; empty when not asked for
   /// How far each hinge turned beyond its stowed angle, rad, ≥ 0; empty when it was not watched.
   std::vector<double> overtravel;
-  /// Whether it is proven that none of these peaks would be exceeded were the run to go on. If not,
+  /// Up to the run's end, whatever it was that ended it; nothing where the base is not free.
+  std::optional<BasePeaks> base_peaks;
+  /// Whether it is proven that no peak of moments and forces would be exceeded were the run to go on. If not,
   /// `t_end` cut them: they may still rise, or there is no proof, on a base that turns faster and
   /// faster and where a hinge has neither a latch that holds it nor a spring towards a rest.
   bool peaks_final = false;
@@ -105,14 +115,18 @@ struct Outcome {
 /// The methods of an outcome's phases, each once, in order of first use: "dopri5, rosenbrock_w".
 [[nodiscard]] std::string methods_used(const Outcome& outcome);
 
-/// One sample of a trajectory: every accepted step, and both sides of an engagement.
+/// One sample of a trajectory: every accepted step, and both sides of an engagement; or a multiple of
+/// Goal::sample_interval.
 struct Sample {
   double t = 0;
-  std::vector<double> angles;  ///< relative, Scene order, rad
-  std::vector<double> rates;   ///< rad/s
-  std::vector<double> moments; ///< N·m
-  double kinetic = 0;          ///< J
-  double potential = 0;        ///< J
+  std::vector<double> angles;          ///< relative, Scene order, rad
+  std::vector<double> rates;           ///< rad/s
+  std::vector<double> moments;         ///< N·m
+  double kinetic = 0;                  ///< J
+  double potential = 0;                ///< J
+  Eigen::Vector2d base_position{0, 0}; ///< of a free base, m
+  double base_angle = 0;               ///< rad
+  double base_rate = 0;                ///< rad/s
 };
 using Observer = std::function<void(const Sample&)>;
 

@@ -25,6 +25,7 @@ public:
     latches_.clear();
     phases_.clear();
     largest_drift_ = 0;
+    samples_ = 0;
     initial_energy_ = energy();
   }
 
@@ -45,8 +46,28 @@ public:
       largest_drift_ = std::max(largest_drift_, std::abs(energy() - initial_energy_));
   }
 
+  /// Shows the observer where the run stands; of a grid, only its start.
   void notify() {
-    if (observer_) observer_(sample_at(run_.system, run_.step.x, run_.step.t));
+    if (!observer_ || (on_grid() && samples_ > 0)) return;
+    observer_(sample_at(run_.system, run_.step.x, run_.step.t));
+    ++samples_;
+  }
+
+  /// A step was accepted: shows the observer the multiples of its interval inside, by dense output.
+  void notify_inside() {
+    if (!observer_ || !on_grid()) return;
+    const Step<T>& step = run_.step;
+    const double end = static_cast<double>(T(step.t + step.h));
+    constexpr double rounding = 1 + 1e-14; // of a multiple that is the end of the run
+    for (double t = time_of_sample(); t <= end * rounding; t = time_of_sample()) {
+      const T s = smaller(T(1), T((T(t) - step.t) / step.h));
+      if (run_.system.work().stuck > 0)
+        run_.evaluate_at(s); // the moments that hold hinges
+      else
+        step.interpolate(run_.at, s, run_.x);
+      observer_(sample_at(run_.system, run_.x, T(t)));
+      ++samples_;
+    }
   }
 
   /// The run has come to its end.
@@ -65,6 +86,9 @@ public:
     out.overtravel.resize(wing.size());
     for (int i = 1; i <= wing.size(); ++i)
       out.overtravel[wing.hinge_of[i]] = static_cast<double>(peaks.overtravel()[i]);
+    if (run_.at.base > 0)
+      out.base_peaks = {static_cast<double>(peaks.base().angle()),
+                        static_cast<double>(peaks.base().rate())};
     out.peaks_final = peaks_final;
     out.work = work;
     out.final = configuration_at(run_.system, run_.step.x, run_.step.t);
@@ -73,6 +97,11 @@ public:
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
 
 private:
+  [[nodiscard]] bool on_grid() const { return run_.goal.sample_interval > 0; }
+  [[nodiscard]] double time_of_sample() const {
+    return static_cast<double>(samples_) * run_.goal.sample_interval;
+  }
+
   void end_phase(long steps) {
     if (phases_.empty()) return;
     phases_.back().to = static_cast<double>(run_.step.t);
@@ -86,6 +115,7 @@ private:
   Outcome outcome_;
   std::vector<LatchEvent> latches_;
   std::vector<Phase> phases_;
+  long samples_ = 0;                              ///< that the observer was shown
   double initial_energy_ = 0, largest_drift_ = 0; ///< J
 };
 

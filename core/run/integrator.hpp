@@ -217,6 +217,7 @@ private:
 
   /// Goes on to the step's end, and to what it brings about.
   void finish_step() {
+    diary_.notify_inside();
     stepping_.advance(landing_.at_event());
     Step<T>& step = run_.step;
     diary_.watch_energy();

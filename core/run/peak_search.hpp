@@ -1,6 +1,7 @@
 /// The largest moments and forces of a run.
 #pragma once
 
+#include "core/peaks/base_peaks.hpp"
 #include "core/peaks/force_peaks.hpp"
 #include "core/peaks/moment_peaks.hpp"
 #include "core/peaks/overtravel.hpp"
@@ -26,8 +27,12 @@ public:
   [[nodiscard]] std::vector<T>& overtravel() { return overtravel_; }
   [[nodiscard]] const std::vector<T>& overtravel() const { return overtravel_; }
 
+  /// Of a free base.
+  [[nodiscard]] const BaseExcursion<T>& base() const { return base_; }
+
   /// A run begins.
   void start() {
+    base_.start(run_.at, run_.step.x);
     moments_.assign(run_.at.bodies + 1, {});
     overtravel_.assign(run_.at.bodies + 1, T(0));
     if (run_.goal.peak_force) forces_.start(run_.system);
@@ -48,6 +53,7 @@ public:
     made_sure_ = false;
     hinge_ = 0;
     doubt_.reset(), held_at_.reset();
+    base_.over_step(run_.at, run_.step);
     for (int i = 1; i <= run_.at.bodies; ++i)
       raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
     if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
@@ -103,6 +109,7 @@ private:
   Underway<T, AnySystem>& run_;
   std::vector<PeakOf<T>> moments_; ///< 1 … n
   std::vector<T> overtravel_;      ///< 1 … n
+  BaseExcursion<T> base_;
   ForcePeaks<T, AnySystem> forces_;
   int hinge_ = 0;                          ///< whose moment is looked at
   std::optional<DoubtfulMoment<T>> doubt_; ///< of it; none while forces are in doubt

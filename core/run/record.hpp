@@ -36,6 +36,11 @@ template <class T, class Topology, BaseMotion M>
     sample.rates[hinge] = static_cast<double>(x[at.rate(i)]);
     sample.moments[hinge] = static_cast<double>(system.moment(x, i));
   }
+  system.place_all(x, t);
+  sample.base_angle = static_cast<double>(system.work().frames[0].angle);
+  sample.base_rate = static_cast<double>(system.work().frames[0].rate);
+  if constexpr (M == BaseMotion::free)
+    sample.base_position = {static_cast<double>(x[0]), static_cast<double>(x[1])};
   sample.kinetic = static_cast<double>(kinetic_energy(system, x, t));
   sample.potential = static_cast<double>(potential_energy(system, x, t));
   return sample;

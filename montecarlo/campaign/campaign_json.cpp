@@ -198,6 +198,10 @@ private:
     if (!was_run_ && problems_.size() == before) t_end_ = campaign_.integration.t_end;
     before = problems_.size();
     read_part("outputs", read_outputs, campaign_.outputs);
+    if (scene_ && scene_->base.motion != BaseMotion::free &&
+        campaign_.outputs.contains(OutputFamily::base_motion))
+      object_.at().member("outputs").refuse("\"base_motion\" with a base that is not free",
+                                            "a base whose motion is \"free\"");
     outputs_known_ = scene_ && problems_.size() == before;
     read_part("statistics", read_statistics, campaign_.statistics);
   }

@@ -33,6 +33,11 @@ double overtravel_of(int hinge, const Outcome& outcome) {
   return known ? outcome.overtravel[hinge] : undefined;
 }
 
+double of_base(const Outcome& outcome, double BasePeaks::*quantity) {
+  const bool known = outcome.base_peaks && outcome.status != Status::failed;
+  return known ? (*outcome.base_peaks).*quantity : undefined;
+}
+
 double number_of(const OutputColumn& column, const Outcome& outcome) {
   const auto at_latch = [&](int hinge, auto value) {
     const LatchEvent* latch = latch_of(hinge, outcome);
@@ -52,6 +57,10 @@ double number_of(const OutputColumn& column, const Outcome& outcome) {
     return peak_of(column.hinge, outcome.peak_force, outcome.status);
   case Quantity::overtravel:
     return overtravel_of(column.hinge, outcome);
+  case Quantity::base_peak_angle:
+    return of_base(outcome, &BasePeaks::angle);
+  case Quantity::base_peak_rate:
+    return of_base(outcome, &BasePeaks::rate);
   case Quantity::deployment_time:
     return outcome.status == Status::deployed ? outcome.latches.back().time : undefined;
   }
@@ -90,6 +99,7 @@ void match_peaks_final(Outputs& outputs) {
 Outputs all_outputs() {
   Outputs outputs = default_outputs();
   outputs.insert(OutputFamily::rate_at);
+  outputs.insert(OutputFamily::base_motion);
   return outputs;
 }
 
@@ -126,6 +136,10 @@ std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outp
     add(OutputFamily::overtravel, "overtravel", Quantity::overtravel);
     if (outputs.contains(OutputFamily::rate_at)) add_rates_at(scene, i, columns);
   }
+  if (outputs.contains(OutputFamily::base_motion) && scene.base.motion == BaseMotion::free) {
+    columns.push_back({"base.peak_angle", Quantity::base_peak_angle, -1, -1});
+    columns.push_back({"base.peak_rate", Quantity::base_peak_rate, -1, -1});
+  }
   columns.push_back({"deployment_time", Quantity::deployment_time, -1, -1});
   return columns;
 }
@@ -135,7 +149,7 @@ Goal goal_of(const Outputs& outputs) {
   goal.peak_moment = outputs.contains(OutputFamily::peak_moment);
   goal.peak_force = outputs.contains(OutputFamily::peak_force);
   goal.audit = false;
-  goal.to_t_end = false;
+  goal.to_t_end = outputs.contains(OutputFamily::base_motion);
   return goal;
 }
 

@@ -29,14 +29,15 @@ enum class OutputFamily {
   peak_force,
   rate_at,
   overtravel,
-  peaks_final
+  peaks_final,
+  base_motion ///< of a free base: asked for by name, for runs go to t_end for it
 };
-inline constexpr std::array<std::string_view, 7> output_family_names{
+inline constexpr std::array<std::string_view, 8> output_family_names{
     "latch_time", "latch_rate", "peak_moment", "peak_force",
-    "rate_at",    "overtravel", "peaks_final"};
+    "rate_at",    "overtravel", "peaks_final", "base_motion"};
 using Outputs = std::set<OutputFamily>;
 
-/// All but `rate_at`, whose number grows with the square of the hinges'.
+/// All but `rate_at`, whose number grows with the square of the hinges', and `base_motion`.
 [[nodiscard]] Outputs default_outputs();
 
 /// Whether a family is of peaks, which t_end may cut.
@@ -65,19 +66,21 @@ struct OutputColumn {
     peak_force,
     rate_at,
     overtravel,
+    base_peak_angle,
+    base_peak_rate,
     deployment_time
   } quantity;
-  int hinge = -1; ///< index into Scene::hinges; none for the deployment time
+  int hinge = -1; ///< index into Scene::hinges; none for what is the wing's or the base's
   int other = -1; ///< of `rate_at`: the hinge that latches
 };
 
 /// The columns that a campaign's families of outputs come to: hinge by hinge in the scene's order,
-/// then `deployment_time`, which is always there. A hinge without a latch has no latch time and
+/// then those of a free base, then `deployment_time`, which is always there. A hinge without a latch has no latch time and
 /// rate, but rates at the latching of others; a hinge's rate at its own latching is its
 /// `latch_rate`, and no `rate_at`.
 [[nodiscard]] std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs);
 
-/// What the families need of a run: without peaks it ends at the last latch.
+/// What the families need of a run: without peaks it ends at the last latch, with the base's motion at t_end.
 [[nodiscard]] Goal goal_of(const Outputs& outputs);
 
 /// A number as results hold it: NaN where it is not finite.

@@ -86,9 +86,7 @@ Crew crew_of(const CrewOptions& options) {
 
 void add_set_option(CLI::App& command, std::vector<std::string>& changes) {
   command
-      .add_option("--set", changes,
-                  "Change the nominal scene, e.g. hinges.root.spring.scale=0.9 or "
-                  "\"bodies.*.mass=22 lb\"; several times if wanted")
+      .add_option("--set", changes, "Change the nominal scene, e.g. hinges.root.spring.scale=0.9")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
 }

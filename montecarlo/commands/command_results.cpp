@@ -142,8 +142,7 @@ void add_analyze(CLI::App& app, Action& action) {
   command->add_option("--requirements", options->requirements,
                       "In place of the campaign's: a JSON file, an array of requirements");
   command->add_option("--out", options->out,
-                      "Write the statistics into this folder, new or empty: those in the results "
-                      "folder stay");
+                      "Write the statistics there: a new or an empty folder");
   add_display_options(*command, options->display);
   command->footer(
       std::string(

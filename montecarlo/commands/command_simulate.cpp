@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -27,7 +28,7 @@ struct SimulateOptions {
   std::string of_case;
   bool json = false, strict = false;
   std::optional<std::string> method, latch;
-  std::optional<double> step, rtol, atol, t_end;
+  std::optional<double> step, rtol, atol, t_end, dt;
 };
 
 struct ReplayOptions {
@@ -98,12 +99,23 @@ int status_code(const Outcome& outcome) {
   return exit_code::failed_runs;
 }
 
+/// Of the trajectory's times; 0: every step.
+double interval_of(const SimulateOptions& options) {
+  if (!options.dt) return 0;
+  if (options.out.empty())
+    throw SpecError({{"", "--dt", "no --out", "the trajectory's file, whose times it spaces"}});
+  if (!(*options.dt > 0) || !std::isfinite(*options.dt))
+    throw SpecError({{"", "--dt", fmt::format("{}", *options.dt), "a number, s, > 0"}});
+  return *options.dt;
+}
+
 int simulate(const SimulateOptions& options) {
   Task task = read_task(options);
   apply_options(options, task.integration);
   heed(examine(task.scene, task.integration, options.scene), options.strict);
   Goal goal;
   goal.to_t_end = true;
+  goal.sample_interval = interval_of(options);
   const Outcome outcome = write_trajectory(options.out, task.scene, [&](const Observer& observer) {
     return Deployment().run(task.scene, task.integration, goal, observer);
   });
@@ -139,6 +151,8 @@ void add_simulate(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->add_option("--out", options->out, "Write the trajectory to this CSV file");
   add_strict_option(*command, options->strict);
+  command->add_option("--dt", options->dt, "Rows at these intervals, s; else at every step")
+      ->type_name("S");
   command->add_option("--method", options->method, "See wingspread methods");
   command->add_option("--step", options->step, "The step of a method with a fixed one, s");
   command->add_option("--rtol", options->rtol, "Relative tolerance of a step");
@@ -152,7 +166,7 @@ void add_simulate(CLI::App& app, Action& action) {
 
 Example:
   wingspread simulate three_panel.json --t-end 20
-  wingspread simulate three_panel.json --json --out trajectory.csv)");
+  wingspread simulate three_panel.json --json --out trajectory.csv --dt 0.01)");
   command->callback([options, &action] { action = [options] { return simulate(*options); }; });
 }
 

@@ -66,6 +66,16 @@ void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, lo
   }
 }
 
+/// The nominal run and its outputs, which this program makes: of another tool's rows it would say nothing.
+void add_nominal(const Campaign& campaign, Summary& summary) {
+  const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
+                                           goal_of(campaign.outputs), Observer{});
+  summary.nominal = {outcome.status, latch_order(campaign.scene, outcome), outcome.reason};
+  const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    summary.outputs[i].nominal = output_of(columns[i], outcome);
+}
+
 /// The statistics, their confidence shared out among the looks that the campaign may take.
 Summary summarize(const StoredCampaign& stored, const Results& results, const StatisticsSpec& spec,
                   int threads) {
@@ -82,6 +92,7 @@ Summary summarize(const StoredCampaign& stored, const Results& results, const St
   summary.requirements = judge_campaign(campaign, results, looks);
   if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
   summary.until = goals_of(campaign, results, summary.requirements);
+  if (!stored.foreign) add_nominal(campaign, summary);
   summary.overtravels = overtravels(campaign.scene, results);
   if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
   summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);

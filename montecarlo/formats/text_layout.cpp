@@ -37,6 +37,26 @@ std::string right_aligned(std::string_view text, std::size_t width) {
   return std::string(length < width ? width - length : 1, ' ') + std::string(text);
 }
 
+std::string wrapped(std::string_view text, std::size_t indent) {
+  std::string lines;
+  std::size_t column = indent;
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    const std::size_t length = count_characters(word);
+    if (column == indent) {
+      column += length;
+    } else if (column + 1 + length <= table_width) {
+      lines += ' ';
+      column += 1 + length;
+    } else {
+      lines += '\n' + std::string(indent, ' ');
+      column = indent + length;
+    }
+    lines += word;
+  }
+  return lines;
+}
+
 std::string in_digits(double value) {
   if (std::isnan(value)) return "–";
   std::string text = fmt::format("{:#.5g}", value);

@@ -21,6 +21,10 @@ inline constexpr int table_width = 100;
 /// The text at the end of a column, with a blank before it at least.
 [[nodiscard]] std::string right_aligned(std::string_view text, std::size_t width);
 
+/// Text that goes on a line that stands at column `indent`: broken at blanks to stay within `table_width`, its further
+/// lines indented. A word alone may be longer.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent);
+
 /// Five significant digits, trailing zeros among them, so that columns line up; "–" of NaN.
 [[nodiscard]] std::string in_digits(double value);
 

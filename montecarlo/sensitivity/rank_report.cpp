@@ -93,8 +93,8 @@ std::string sensitivity_table(const RankSensitivity& all, std::string_view title
     };
     const auto line = [&](std::size_t j) {
       const auto& [spearman, partial, seen] = output.effects[j];
-      return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[j], name_width - 2),
-                         name_width, value_text(partial.value, partial.bounds),
+      return fmt::format("{}{}{}\n", in_column("  " + all.dispersions[j], name_width + 2),
+                         value_text(partial.value, partial.bounds),
                          value_text(spearman.value, spearman.bounds));
     };
     text += effect_block(

@@ -91,8 +91,8 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
     const auto size = [&](std::size_t i) { return found.effects[i].total.value; };
     const auto line = [&](std::size_t i) {
       const auto& [first, total, inert] = found.effects[i];
-      return fmt::format("  {:<{}}{}{}\n", shortened(all.dispersions[i], name_width - 2),
-                         name_width, value_text(total.value, total.bounds),
+      return fmt::format("{}{}{}\n", in_column("  " + all.dispersions[i], name_width + 2),
+                         value_text(total.value, total.bounds),
                          value_text(first.value, first.bounds));
     };
     text += effect_block(heading_of(name, found.rows, "rows", found.incomplete,

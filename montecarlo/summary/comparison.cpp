@@ -79,6 +79,9 @@ std::string outcome_lines(Cases cases) {
   for (std::size_t i = 0; i < statuses.size(); ++i)
     text += line("  " + spaced(to_string(statuses[i])), cases,
                  [i](const CaseSummary& each) { return percent(each.summary.statuses[i].rate); });
+  text += line("  the nominal wing", cases, [](const CaseSummary& each) {
+    return each.summary.nominal ? spaced(to_string(each.summary.nominal->status)) : "–";
+  });
   return text;
 }
 
@@ -94,6 +97,9 @@ std::string output_lines(const OutputSummary& output, std::size_t index, Cases c
   const auto of = [index](const CaseSummary& each) -> const OutputSummary& {
     return each.summary.outputs[index];
   };
+  text += line("  nominal", cases, [&](const CaseSummary& each) {
+    return of(each).nominal ? in_digits(*of(each).nominal) : "–";
+  });
   text += line("  mean", cases,
                [&](const CaseSummary& each) { return in_digits(of(each).moments.mean); });
   const std::size_t count = output.quantiles.size();
@@ -147,6 +153,7 @@ Json cases_json(const std::vector<CaseSummary>& cases, const Json& about) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     Json& its = json["cases"][cases[i].name];
     its = {{"runs", cases[i].summary.runs}, {"status", summaries[i]["status"]}};
+    if (summaries[i].contains("nominal")) its["nominal"] = summaries[i]["nominal"];
     if (cases[i].partial) its["partial"] = true;
     for (const auto& [output, statistics] : summaries[i]["outputs"].items())
       json["outputs"][output][cases[i].name] = statistics;

@@ -64,6 +64,14 @@ struct OutputSummary {
   std::vector<QuantileEstimate> quantiles;
   Histogram histogram;
   std::vector<ToleranceLimitEstimate> tolerance_limits{}; ///< over all runs (verdict.hpp)
+  std::optional<double>
+      nominal{}; ///< of the nominal run; NaN where it did not happen, nothing where there is none
+};
+
+/// What became of the wing with nothing dispersed.
+struct NominalRun {
+  Status status = Status::failed;
+  std::string latch_order, reason;
 };
 
 /// 1 for a run that deployed, 0 for one that stalled or timed out, NaN for the others: what became
@@ -95,6 +103,7 @@ struct Summary {
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
   // What the campaign asks for beyond its statistics; write_statistics (results_folder.hpp) adds it.
   std::vector<Verdict> requirements{};
+  std::optional<NominalRun> nominal{};   ///< its outputs stand with theirs
   std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
   std::optional<PeaksCount> peaks{};     ///< none where it was not recorded
   std::vector<GoalFound> until{};        ///< what decides when it stops

@@ -61,6 +61,9 @@ Json definitions(const Summary& summary) {
                            ? "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; "
                              "what did not deploy or happen counts against them"
                            : "none: the draws depend on each other"}};
+  if (summary.nominal)
+    json["nominal"] =
+        "of the run with nothing dispersed; what drives others by tables is at its median";
   if (summary.requirements.size() > 1)
     json["joint_confidence"] =
         "at least this for all that pass together: 1 - the sum of (1 - c) over all requirements";
@@ -89,6 +92,12 @@ Json statuses_json(const Summary& summary) {
       entry["note"] = summary.replicates == 1 ? one_replicate : replicates_agree;
     json[to_string(share.status)] = std::move(entry);
   }
+  return json;
+}
+
+Json nominal_json(const NominalRun& run) {
+  Json json{{"status", to_string(run.status)}, {"latch_order", run.latch_order}};
+  if (!run.reason.empty()) json["reason"] = run.reason;
   return json;
 }
 
@@ -171,17 +180,18 @@ Json tolerance_json(const Summary& summary, const OutputSummary& output) {
 
 Json output_json(const Summary& summary, const OutputSummary& output) {
   const Moments& m = output.moments;
-  Json json{{"unit", parse_output_name(output.name).unit},
-            {"count", m.count},
-            {"missing", output.missing},
-            {"mean", json_number(m.mean)},
-            {"mean_error", json_number(output.mean_error)},
-            {"std", json_number(m.std)},
-            {"min", json_number(m.min)},
-            {"max", json_number(m.max)},
-            {"skewness", json_number(m.skewness)},
-            {"kurtosis", json_number(m.kurtosis)},
-            {"quantiles", quantiles_json(summary, output)}};
+  Json json{{"unit", parse_output_name(output.name).unit}};
+  if (output.nominal) json["nominal"] = json_number(output.nominal);
+  json.update({{"count", m.count},
+               {"missing", output.missing},
+               {"mean", json_number(m.mean)},
+               {"mean_error", json_number(output.mean_error)},
+               {"std", json_number(m.std)},
+               {"min", json_number(m.min)},
+               {"max", json_number(m.max)},
+               {"skewness", json_number(m.skewness)},
+               {"kurtosis", json_number(m.kurtosis)},
+               {"quantiles", quantiles_json(summary, output)}});
   if (!output.tolerance_limits.empty()) json["tolerance"] = tolerance_json(summary, output);
   return json;
 }
@@ -267,6 +277,7 @@ std::vector<double> densities(const Histogram& histogram) {
 
 Json summary_json(const Summary& summary, const Json& about) {
   Json json{{stamp_key, about}, {"runs", summary.runs}, {"confidence", summary.confidence}};
+  if (summary.nominal) json["nominal"] = nominal_json(*summary.nominal);
   json["status"] = statuses_json(summary);
   add_reasons(json, summary);
   add_latch_orders(json, summary);

@@ -17,7 +17,7 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t most_lines = 8; ///< of reasons and of latch orders
-constexpr std::size_t columns_per_block = 5;
+constexpr std::size_t columns_per_block = 6, label_width = 19, number_width = 11; // of outputs
 
 std::string percent_bounds(const Bounds& bounds) {
   if (!bounds.lower || !bounds.upper) return "–";
@@ -28,14 +28,6 @@ double share_of(long count, long runs) {
   return static_cast<double>(count) / static_cast<double>(runs);
 }
 
-/// Five significant digits, trailing zeros among them, so that columns line up.
-std::string in_words(double value) {
-  if (std::isnan(value)) return "–";
-  std::string text = fmt::format("{:#.5g}", value);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
-}
-
 std::string outcomes(const Summary& summary) {
   const std::string bounds = fmt::format("{:g} % bounds", 100 * summary.confidence);
   std::string text =
@@ -43,6 +35,9 @@ std::string outcomes(const Summary& summary) {
   for (const StatusShare& share : summary.statuses)
     text += fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", spaced(to_string(share.status)),
                         share.count, percent(share.rate), percent_bounds(share.bounds));
+  if (summary.nominal)
+    text +=
+        fmt::format("  {:<48}{}\n", "the nominal wing", spaced(to_string(summary.nominal->status)));
   if (summary.replicates == 1) text += fmt::format("  {}\n", one_replicate);
   return text;
 }
@@ -52,8 +47,8 @@ std::string reasons(const Summary& summary) {
   std::string text = fmt::format("\n{:<12}{:>8}  {}\n", "WHY", "runs", "reason");
   const std::size_t shown = std::min(summary.reasons.size(), most_lines);
   for (const auto& [status, reason, count] : std::span(summary.reasons).first(shown))
-    text += fmt::format("  {:<10}{:>8}  {}\n", spaced(to_string(status)), count,
-                        shortened(reason, table_width - 22));
+    text +=
+        fmt::format("  {:<10}{:>8}  {}\n", spaced(to_string(status)), count, wrapped(reason, 22));
   if (shown < summary.reasons.size())
     text +=
         fmt::format("  and {} other reasons, in summary.json\n", summary.reasons.size() - shown);
@@ -63,7 +58,7 @@ std::string reasons(const Summary& summary) {
 std::string latch_orders(const Summary& summary) {
   std::string text = fmt::format("\n{:<50}{:>10}{:>12}\n", "LATCH ORDER", "runs", "share");
   const auto line = [&](std::string_view order, long count) {
-    text += fmt::format("  {:<48}{:>10}{:>12}\n", shortened(order, 48), count,
+    text += fmt::format("{}{:>10}{:>12}\n", in_column(fmt::format("  {}", order), 50), count,
                         percent(share_of(count, summary.runs)));
   };
   const std::size_t shown = std::min(summary.latch_orders.size(), most_lines);
@@ -88,6 +83,8 @@ struct NumberColumn {
 std::vector<NumberColumn> number_columns(const Summary& summary) {
   std::vector<NumberColumn> columns{{"mean", [](const OutputSummary& o) { return o.moments.mean; }},
                                     {"std", [](const OutputSummary& o) { return o.moments.std; }}};
+  if (summary.nominal)
+    columns.insert(columns.begin(), {"nominal", [](const OutputSummary& o) { return *o.nominal; }});
   if (summary.outputs.empty()) return columns;
   const auto& quantiles = summary.outputs.front().quantiles;
   for (std::size_t i = 0; i < quantiles.size(); ++i)
@@ -101,23 +98,29 @@ std::string label(const OutputName& name) {
   return name.quantity == "rate_at" ? "rate at " + name.other : spaced(name.quantity);
 }
 
+/// With a digit less where five leave no blank before the column.
+std::string in_number_column(double value) {
+  const std::string text = in_digits(value);
+  const bool fits = count_characters(text) < number_width;
+  return right_aligned(fits ? text : fmt::format("{:#.4g}", value), number_width);
+}
+
 std::string output_line(const OutputSummary& output, std::span<const NumberColumn> columns) {
   const OutputName name = parse_output_name(output.name);
-  std::string text = fmt::format("  {:<24}{:<6}{:>8}", shortened(label(name), 23), name.unit,
-                                 output.moments.count);
-  for (const NumberColumn& column : columns)
-    text += fmt::format("{:>12}", in_words(column.value(output)));
+  std::string text = fmt::format("{}{:<6}{:>9}", in_column("  " + label(name), label_width),
+                                 name.unit, output.moments.count);
+  for (const NumberColumn& column : columns) text += in_number_column(column.value(output));
   return text + '\n';
 }
 
 std::string output_block(const Summary& summary, std::span<const NumberColumn> columns) {
-  std::string text = fmt::format("\n{:<26}{:<6}{:>8}", "OUTPUT", "unit", "runs");
-  for (const NumberColumn& column : columns) text += fmt::format("{:>12}", column.heading);
+  std::string text = fmt::format("\n{:<{}}{:<6}{:>9}", "OUTPUT", label_width, "unit", "runs");
+  for (const NumberColumn& column : columns) text += right_aligned(column.heading, number_width);
   text += '\n';
   for (const char* previous = nullptr; const OutputSummary& output : summary.outputs) {
     const std::string hinge = parse_output_name(output.name).hinge;
     if (!previous || hinge != parse_output_name(previous).hinge)
-      text += fmt::format("{}\n", hinge.empty() ? "wing" : shortened(hinge, table_width));
+      text += fmt::format("{}\n", hinge.empty() ? "wing" : hinge);
     text += output_line(output, columns);
     previous = output.name.c_str();
   }
@@ -139,7 +142,9 @@ std::string outputs(const Summary& summary) {
   return text;
 }
 
-std::string in_words(const std::optional<double>& value) { return value ? in_words(*value) : "–"; }
+std::string in_digits_if_any(const std::optional<double>& value) {
+  return value ? in_digits(*value) : "–";
+}
 
 /// A line for each output and each limit asked for.
 std::string tolerance(const Summary& summary) {
@@ -148,10 +153,10 @@ std::string tolerance(const Summary& summary) {
     for (const auto& [spec, limits] : output.tolerance_limits) {
       const std::string content =
           fmt::format("{:.10g} % at {:.10g} %", 100 * spec.probability, 100 * spec.confidence);
-      text += fmt::format("  {:<42}{:<28}{:>14}{:>14}\n", shortened(output.name, 41),
-                          shortened(content, 27),
-                          spec.side == Side::upper ? "" : in_words(limits.lower),
-                          spec.side == Side::lower ? "–" : in_words(limits.upper));
+      text += fmt::format("{}{}{:>14}{:>14}\n", in_column("  " + output.name, 44),
+                          in_column(content, 28),
+                          spec.side == Side::upper ? "" : in_digits_if_any(limits.lower),
+                          spec.side == Side::lower ? "–" : in_digits_if_any(limits.upper));
     }
   if (text.empty()) return "";
   return fmt::format("\n{:<44}{:<28}{:>14}{:>14}\n", "TOLERANCE LIMITS", "content, confidence",
@@ -185,14 +190,13 @@ std::string requirements(const Summary& summary, std::string_view folder) {
                                  "broken", "may", "observed", "guaranteed");
   for (const Verdict& verdict : summary.requirements) {
     const bool share = verdict.requirement.output == deployed_output;
-    text +=
-        fmt::format("  {:<44}{:<10}{:>8}{:>8}{:>13}{:>13}\n",
-                    shortened(to_string(verdict.requirement), 43), to_string(verdict.decision),
-                    verdict.broken.size(), verdict.allowed ? std::to_string(*verdict.allowed) : "–",
-                    share ? percent(verdict.share) : in_words(verdict.observed),
-                    share ? percent(verdict.guaranteed_share) : in_words(verdict.guaranteed));
-    if (verdict.decision != Decision::pass)
-      text += "    " + shortened(evidence(verdict), table_width - 4) + '\n';
+    text += fmt::format(
+        "{}{:<10}{:>8}{:>8}{:>13}{:>13}\n", in_column("  " + to_string(verdict.requirement), 46),
+        to_string(verdict.decision), verdict.broken.size(),
+        verdict.allowed ? std::to_string(*verdict.allowed) : "–",
+        share ? percent(verdict.share) : in_digits_if_any(verdict.observed),
+        share ? percent(verdict.guaranteed_share) : in_digits_if_any(verdict.guaranteed));
+    if (verdict.decision != Decision::pass) text += "    " + wrapped(evidence(verdict), 4) + '\n';
     text += broken_runs(verdict, folder);
   }
   text += groups(summary);
@@ -207,7 +211,7 @@ std::string requirements(const Summary& summary, std::string_view folder) {
 std::string warning_lines(const Summary& summary) {
   const std::vector<std::string> lines = warnings(summary);
   std::string text = lines.empty() ? "" : "\nWARNING\n";
-  for (const std::string& line : lines) text += "  " + line + '\n';
+  for (const std::string& line : lines) text += "  " + wrapped(line, 2) + '\n';
   return text;
 }
 
@@ -217,8 +221,8 @@ std::string stopping(const Summary& summary) {
       fmt::format("\n{:<58}{:>20}{:>20}\n", "UNTIL THE INTERVAL'S WIDTH IS", "found", "reached");
   for (const auto& [goal, width, met] : summary.until) {
     const bool decision = std::holds_alternative<DecisionGoal>(goal);
-    const std::string found = decision ? (met ? "decided" : "open") : in_words(width);
-    text += fmt::format("  {:<56}{:>20}{:>20}\n", shortened(to_string(goal), 55), found,
+    const std::string found = decision ? (met ? "decided" : "open") : in_digits_if_any(width);
+    text += fmt::format("{}{:>20}{:>20}\n", in_column("  " + to_string(goal), 58), found,
                         met ? "yes" : "no");
   }
   return text;
@@ -257,9 +261,9 @@ std::string bar(long eighths) {
 } // namespace
 
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
-  return shortened(title, table_width) + '\n' + outcomes(summary) + reasons(summary) +
-         latch_orders(summary) + outputs(summary) + tolerance(summary) +
-         requirements(summary, folder) + stopping(summary) + warning_lines(summary) + files(folder);
+  return std::string(title) + '\n' + outcomes(summary) + reasons(summary) + latch_orders(summary) +
+         outputs(summary) + tolerance(summary) + requirements(summary, folder) + stopping(summary) +
+         warning_lines(summary) + files(folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

@@ -127,6 +127,10 @@ TEST_CASE("Each fault of a campaign is told", "[campaign_json]") {
         "/dispersions/0/to/1: found string \"hinges.root.spring.torque\", expected the path of a "
         "parameter (did you mean \"hinges.root.spring.scale\"?)"},
        {"/sampling", R"({"runs": -5})", "/sampling/runs: found -5, expected an integer, ≥ 1"},
+       {"/outputs", R"(["base_motion"])",
+        "/outputs: found \"base_motion\" with a base that is not free, expected a base whose "
+        "motion is "
+        "\"free\""},
        {"/output", "[]",
         "/output: found the unknown key \"output\", expected \"scene\", \"dispersions\", "
         "\"cases\", \"case\", \"sampling\", \"integration\", \"outputs\", \"statistics\", "

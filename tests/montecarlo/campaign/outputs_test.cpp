@@ -68,10 +68,30 @@ TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_setting
       {{"\"latch_time\"", "found string \"latch_time\", expected an array of output families"},
        {R"(["latch_times"])", "/0: found string \"latch_times\", expected \"latch_time\", "
                               "\"latch_rate\", \"peak_moment\", \"peak_force\", \"rate_at\", "
-                              "\"overtravel\" or \"peaks_final\""},
+                              "\"overtravel\", \"peaks_final\" or \"base_motion\""},
        {R"(["rate_at", "rate_at"])",
         "/1: found string \"rate_at\" a second time, expected each family once"}}));
   CHECK(read(json, default_outputs(), read_outputs).problems == message);
+}
+
+TEST_CASE("a free base has columns of its own, for which runs go to t_end") {
+  Scene scene = read_scene_file(three_panel_file());
+  const Outputs asked{OutputFamily::base_motion};
+  CHECK(column_names(scene, asked) == std::vector<std::string>{"deployment_time"});
+  scene.base.motion = BaseMotion::free;
+  CHECK(column_names(scene, asked) ==
+        std::vector<std::string>{"base.peak_angle", "base.peak_rate", "deployment_time"});
+  CHECK(goal_of(asked).to_t_end);
+  CHECK_FALSE(goal_of(default_outputs()).to_t_end);
+  Outcome outcome;
+  outcome.status = Status::timed_out;
+  const std::vector<OutputColumn> columns = output_columns(scene, asked);
+  CHECK(std::isnan(output_of(columns[0], outcome)));
+  outcome.base_peaks = {0.25, 0.5};
+  CHECK(output_of(columns[0], outcome) == 0.25);
+  CHECK(output_of(columns[1], outcome) == 0.5);
+  outcome.status = Status::failed; // a larger one may have been to come
+  CHECK(std::isnan(output_of(columns[1], outcome)));
 }
 
 TEST_CASE("the columns stand hinge by hinge, then the deployment time") {

@@ -33,6 +33,29 @@ TEST_CASE("a paragraph is broken at blanks, within the width of a table", "[text
   CHECK(paragraph(long_text + "x").ends_with("µ\n  x\n")); // x would stand in column 101
 }
 
+TEST_CASE("a name fills its column, or a line of its own before it", "[text_layout]") {
+  CHECK(in_column("µm", 4) == "µm  ");
+  CHECK(in_column("µµm", 4) == "µµm ");
+  CHECK(in_column("hinge", 5) == "hinge\n     ");
+  CHECK(right_aligned("·1", 4) == "  ·1");
+  CHECK(right_aligned("1234", 4) == " 1234");
+}
+
+TEST_CASE("numbers in five digits", "[text_layout]") {
+  CHECK(in_digits(2) == "2.0000");
+  CHECK(in_digits(-123456) == "-1.2346e+05");
+  CHECK(in_digits(12345) == "12345.0");
+  CHECK(in_digits(std::numeric_limits<double>::quiet_NaN()) == "–");
+}
+
+TEST_CASE("text that goes on a line is broken at blanks, and no word is cut", "[text_layout]") {
+  CHECK(wrapped("", 3).empty());
+  CHECK(wrapped("a  b", 3) == "a b");
+  const std::string word(60, 'w');
+  CHECK(wrapped(word + " x " + word, 10) == word + " x\n" + std::string(10, ' ') + word);
+  CHECK(wrapped(word + word, 10) == word + word);
+}
+
 TEST_CASE("shares in percent, and counted things", "[text_layout]") {
   CHECK(percent(0.123456) == "12.346 %");
   CHECK(percent(0.126, 0) == "13 %");

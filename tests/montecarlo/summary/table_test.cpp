@@ -80,16 +80,51 @@ TEST_CASE("the table stays within its width and leaves no blanks behind") {
                   Status::failed,
                   {0},
                   {none, none, none, none},
-                  std::string(300, 'x'),
-                  std::string(300, 'y')});
-  const std::string table = summary_table(summarize(results, spec), std::string(150, 't'), "");
+                  "tip>root",
+                  "it took more steps, one after the other, than anybody had thought of, and then "
+                  "some more of them"});
+  const std::string table = summary_table(summarize(results, spec), "a title", "");
   for (const std::string& line : lines(table)) {
     INFO(line);
     CHECK(count_characters(line) <= table_width);
     CHECK((line.empty() || line.back() != ' '));
   }
   CHECK(contains(table, "99.865 %"));
+  CHECK_THAT(table, Catch::Contains("than anybody had thought of, and then\n" +
+                                    std::string(22, ' ') + "some more of them\n"));
   CHECK_FALSE(contains(table, "FILES"));
+}
+
+TEST_CASE("no name is cut off: one that has no room has a line of its own") {
+  const std::string order(120, 'o'), hinge(110, 'h');
+  Results results(ResultNames{{}, {hinge + ".latch_time", "root.rate_at." + hinge}});
+  results.append({0, Status::failed, {}, {1, 2}, order, std::string(90, 'r')});
+  Summary summary = summarize(results, {});
+  summary.requirements = judge_all(
+      std::vector<Requirement>{{std::string(60, 'n'), hinge + ".latch_time", 3.0, {}, 0.9, 0.9}},
+      results);
+  const std::string table = summary_table(summary, std::string(150, 't'), "");
+  CHECK_FALSE(contains(table, "…"));
+  CHECK(contains(table, std::string(150, 't') + "\n"));
+  CHECK(contains(table, "  " + order + "\n" + std::string(50, ' ') + "         1"));
+  CHECK(contains(table, "\n" + hinge + "\n  latch time"));
+  CHECK(contains(table, "  rate at " + hinge + "\n" + std::string(19, ' ') + "rad/s "));
+  CHECK(contains(table, "  failed           1  " + std::string(90, 'r') + "\n"));
+  CHECK(contains(table, "  " + std::string(60, 'n') + ": " + hinge +
+                            ".latch_time ≤ 3 s, 90 % at 90 %\n" + std::string(46, ' ') + "fail"));
+}
+
+TEST_CASE("the nominal run stands beside the statistics") {
+  Summary summary = summarize(some_results(), {});
+  CHECK_FALSE(contains(summary_table(summary, "", ""), "nominal"));
+  summary.nominal = NominalRun{Status::timed_out, "root", "t_end came first"};
+  for (OutputSummary& output : summary.outputs) output.nominal = none;
+  summary.outputs[0].nominal = 10.5;
+  const std::string table = summary_table(summary, "", "");
+  CHECK(contains(table, "\n  the nominal wing" + std::string(32, ' ') + "timed out\n"));
+  CHECK(contains(table, "OUTPUT             unit       runs    nominal       mean"));
+  CHECK(contains(table, "  latch time       s            90     10.500     10.490"));
+  CHECK(contains(table, "  deployment time  s            90          –     12.000"));
 }
 
 TEST_CASE("the table of nothing is still a table") {
