@@ -44,6 +44,7 @@ void take_cells(const std::string& line, std::set<std::string>& names) {
 
 Campaign everything() {
   Json json = quick_campaign(50);
+  json["scene"]["base"] = {{"motion", "free"}, {"mass", 500}, {"inertia", 300}};
   json["outputs"] = Json::array();
   for (const std::string_view family : output_family_names) json["outputs"].push_back(family);
   json["dispersions"] = Json::array();
