@@ -53,7 +53,7 @@ private:
 /// One drive of the wing.
 struct DriveStudy {
   const Scene& nominal;
-  const Drive& drive;
+  const HingeDrive& drive;
   const MotorizationSpec& spec;
   std::int64_t runs; ///< of the campaign, ≥ 1
 
@@ -143,7 +143,7 @@ MotorizationStudy study_motorization(const Campaign& campaign, const Scene& nomi
   const auto for_each_draw = [&](const auto& take) {
     all.invalid = for_each_scene(campaign, take);
   };
-  for (const Drive& drive : drives_of(nominal)) {
+  for (const HingeDrive& drive : drives_of(nominal)) {
     const DriveStudy study{nominal, drive, campaign.motorization, campaign.sampling.runs};
     all.drives.push_back(study.study(campaign.statistics.quantiles, for_each_draw));
   }

@@ -31,7 +31,7 @@ struct TravelPoint {
 
 /// Of a hinge, or of hinges that loops keep together.
 struct DriveMotorization {
-  Drive drive;
+  HingeDrive drive;
   /// Evenly over the travel, and the nominal turning points: ascending in x.
   std::vector<TravelPoint> travel;
   std::array<double, margin_kind_names.size()> worst_at{}; ///< x of the nominal wing's least

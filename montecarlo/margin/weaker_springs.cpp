@@ -18,7 +18,7 @@ void add_lowered(const Campaign& campaign, const std::vector<SceneParameter>& pa
                  double scale, std::vector<Shortfall>& all) {
   const Scene weaker = scaled(campaign.scene, parameters, scale);
   const std::string of_case = campaign.of_case.empty() ? "" : " (" + campaign.of_case + ")";
-  for (const Drive& drive : drives_of(campaign.scene)) {
+  for (const HingeDrive& drive : drives_of(campaign.scene)) {
     const Margins present = least_margins(campaign.scene, drive, campaign.motorization);
     const Margins then = least_margins(weaker, drive, campaign.motorization);
     for (const MarginKind kind : advised_by) {

@@ -43,8 +43,8 @@ double taken_back(const Synchronisation& loop, double travel_of_second, double w
   return to;
 }
 
-Stand follow(const Scene& scene, const Drive& drive, std::size_t member, const Stand& from) {
-  const Drive::Link& link = drive.links[member - 1];
+Stand follow(const Scene& scene, const HingeDrive& drive, std::size_t member, const Stand& from) {
+  const HingeDrive::Link& link = drive.links[member - 1];
   const Synchronisation& loop = scene.synchronisations[link.loop];
   if (link.forward) return {given(loop, from.travel), slope_of(loop, from.travel) * from.gear};
   const Hinge& hinge = scene.hinges[drive.hinges[member]];
@@ -53,19 +53,19 @@ Stand follow(const Scene& scene, const Drive& drive, std::size_t member, const S
   return {travel, gear != 0 ? from.gear / gear : 0}; // a loop that hands on nothing
 }
 
-std::vector<Stand> stands_at(const Scene& scene, const Drive& drive, double x) {
+std::vector<Stand> stands_at(const Scene& scene, const HingeDrive& drive, double x) {
   std::vector<Stand> stands{{x * whole_travel(scene.hinges[drive.hinges.front()]), 1}};
   for (std::size_t member = 1; member < drive.hinges.size(); ++member)
     stands.push_back(follow(scene, drive, member, stands[drive.links[member - 1].from]));
   return stands;
 }
 
-double share_at(const Scene& scene, const Drive& drive, std::size_t member, double x) {
+double share_at(const Scene& scene, const HingeDrive& drive, std::size_t member, double x) {
   return share_of(scene.hinges[drive.hinges[member]], stands_at(scene, drive, x)[member].travel);
 }
 
 /// Adds the x at which a hinge is at places of its own way, of those that it comes past.
-void add_places(const Scene& scene, const Drive& drive, std::size_t member,
+void add_places(const Scene& scene, const HingeDrive& drive, std::size_t member,
                 const std::vector<double>& places, std::vector<double>& points) {
   const double first = share_at(scene, drive, member, 0), last = share_at(scene, drive, member, 1);
   for (const double place : places) {
@@ -79,9 +79,9 @@ void add_places(const Scene& scene, const Drive& drive, std::size_t member,
 }
 
 /// Places along the curves of the loops' tables.
-void add_loop_places(const Scene& scene, const Drive& drive, std::vector<double>& points) {
+void add_loop_places(const Scene& scene, const HingeDrive& drive, std::vector<double>& points) {
   for (std::size_t member = 1; member < drive.hinges.size(); ++member) {
-    const Drive::Link& link = drive.links[member - 1];
+    const HingeDrive::Link& link = drive.links[member - 1];
     const Synchronisation& loop = scene.synchronisations[link.loop];
     if (!loop.table) continue;
     const std::size_t first = link.forward ? link.from : member; // has the table's knots
@@ -98,7 +98,8 @@ void add_loop_places(const Scene& scene, const Drive& drive, std::vector<double>
 
 /// A hinge's own places in terms of x, hinge by hinge.
 template <class PlacesOf>
-std::vector<double> by_leader(const Scene& scene, const Drive& drive, const PlacesOf& places_of) {
+std::vector<double> by_leader(const Scene& scene, const HingeDrive& drive,
+                              const PlacesOf& places_of) {
   std::vector<double> points = places_of(scene.hinges[drive.hinges.front()]);
   for (std::size_t member = 1; member < drive.hinges.size(); ++member)
     add_places(scene, drive, member, places_of(scene.hinges[drive.hinges[member]]), points);
@@ -134,8 +135,8 @@ int leader_of(const Scene& scene, const std::vector<int>& group) {
 }
 
 /// The hinges that turn with the leading one, each by one loop.
-Drive drive_led_by(const Scene& scene, int leader) {
-  Drive drive{{leader}, {}};
+HingeDrive drive_led_by(const Scene& scene, int leader) {
+  HingeDrive drive{{leader}, {}};
   const auto take = [&](std::size_t from, int loop, int hinge, bool forward) {
     if (std::ranges::find(drive.hinges, hinge) != drive.hinges.end()) return;
     drive.hinges.push_back(hinge);
@@ -158,8 +159,8 @@ HingeExtras extras_of(const MotorizationSpec& spec, int hinge) {
 
 } // namespace
 
-std::vector<Drive> drives_of(const Scene& scene) {
-  std::vector<Drive> drives;
+std::vector<HingeDrive> drives_of(const Scene& scene) {
+  std::vector<HingeDrive> drives;
   for (int hinge = 0; hinge < std::ssize(scene.hinges); ++hinge) {
     const std::vector<int> group = connected_with(scene, hinge);
     const auto drives_any = [&](int each) { return has_drive(scene.hinges[each]); };
@@ -169,13 +170,13 @@ std::vector<Drive> drives_of(const Scene& scene) {
   return drives;
 }
 
-std::string name_of(const Drive& drive, const Scene& scene) {
+std::string name_of(const HingeDrive& drive, const Scene& scene) {
   std::string name;
   for (const int hinge : drive.hinges) name += (name.empty() ? "" : "+") + scene.hinges[hinge].name;
   return name;
 }
 
-MotorizationTerms terms_at(const Scene& scene, const Drive& drive, double x,
+MotorizationTerms terms_at(const Scene& scene, const HingeDrive& drive, double x,
                            const MotorizationSpec& spec) {
   const int leader = drive.hinges.front();
   MotorizationTerms terms = terms_at(scene.hinges[leader], x, extras_of(spec, leader));
@@ -190,14 +191,14 @@ MotorizationTerms terms_at(const Scene& scene, const Drive& drive, double x,
   return terms;
 }
 
-std::vector<double> turning_points(const Scene& scene, const Drive& drive) {
+std::vector<double> turning_points(const Scene& scene, const HingeDrive& drive) {
   std::vector<double> points =
       by_leader(scene, drive, [](const Hinge& hinge) { return turning_points(hinge); });
   std::ranges::sort(points);
   return points;
 }
 
-std::vector<double> places_of_least(const Scene& scene, const Drive& drive) {
+std::vector<double> places_of_least(const Scene& scene, const HingeDrive& drive) {
   std::vector<double> points =
       by_leader(scene, drive, [](const Hinge& hinge) { return places_of_least(hinge); });
   add_loop_places(scene, drive, points);
@@ -205,7 +206,7 @@ std::vector<double> places_of_least(const Scene& scene, const Drive& drive) {
   return points;
 }
 
-Margins least_margins(const Scene& scene, const Drive& drive, const MotorizationSpec& spec,
+Margins least_margins(const Scene& scene, const HingeDrive& drive, const MotorizationSpec& spec,
                       Margins* at) {
   Margins least;
   least.fill(std::numeric_limits<double>::infinity());

@@ -24,7 +24,7 @@
 namespace wingspread {
 
 /// By the scene's structure alone: the same for all draws.
-struct Drive {
+struct HingeDrive {
   struct Link {
     std::size_t from; ///< place in `hinges` of the one that it turns with
     int loop;         ///< index into Scene::synchronisations
@@ -36,23 +36,23 @@ struct Drive {
 
 /// All with a spring or a latch, in the order of their first hinges in the scene. Of hinges in loops one leads
 /// that no loop has as its second, where there is one.
-[[nodiscard]] std::vector<Drive> drives_of(const Scene& scene);
+[[nodiscard]] std::vector<HingeDrive> drives_of(const Scene& scene);
 
 /// "root", "root+mid".
-[[nodiscard]] std::string name_of(const Drive& drive, const Scene& scene);
+[[nodiscard]] std::string name_of(const HingeDrive& drive, const Scene& scene);
 
 /// The terms at x of the leading hinge's travel.
-[[nodiscard]] MotorizationTerms terms_at(const Scene& scene, const Drive& drive, double x,
+[[nodiscard]] MotorizationTerms terms_at(const Scene& scene, const HingeDrive& drive, double x,
                                          const MotorizationSpec& spec);
 
 /// The turning points of all hinges, and where one of them is at its end; by x, ascending.
-[[nodiscard]] std::vector<double> turning_points(const Scene& scene, const Drive& drive);
+[[nodiscard]] std::vector<double> turning_points(const Scene& scene, const HingeDrive& drive);
 /// Where the margins may have their least.
-[[nodiscard]] std::vector<double> places_of_least(const Scene& scene, const Drive& drive);
+[[nodiscard]] std::vector<double> places_of_least(const Scene& scene, const HingeDrive& drive);
 
 /// The least margins over the travel, kind by kind.
 /// @param at if given: the x of each
-[[nodiscard]] Margins least_margins(const Scene& scene, const Drive& drive,
+[[nodiscard]] Margins least_margins(const Scene& scene, const HingeDrive& drive,
                                     const MotorizationSpec& spec, Margins* at = nullptr);
 
 } // namespace wingspread

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 5> kind_words{"ECSS", "NASA", "NASA_one_s
 constexpr std::string_view every_hinge = "*";
 constexpr const char* expected_hinge = "a string, a hinge's name, or \"*\" for all";
 
-bool has_hinge(const Drive& drive, const Scene& scene, const std::string& name) {
+bool has_hinge(const HingeDrive& drive, const Scene& scene, const std::string& name) {
   return std::ranges::any_of(drive.hinges,
                              [&](int hinge) { return scene.hinges[hinge].name == name; });
 }
@@ -24,7 +24,7 @@ bool has_hinge(const Drive& drive, const Scene& scene, const std::string& name) 
 void refuse_unknown_hinge(const JsonCursor& at, const Scene& scene, const RequiredMargin& margin) {
   if (!required_drives(scene, margin).empty()) return;
   std::vector<std::string> names;
-  for (const Drive& drive : drives_of(scene))
+  for (const HingeDrive& drive : drives_of(scene))
     for (const int hinge : drive.hinges) names.push_back(scene.hinges[hinge].name);
   at.refuse("the name of a hinge with a spring or a latch, or \"*\" for all" +
             did_you_mean(margin.hinge, names));
@@ -48,18 +48,18 @@ std::string name_of(const RequiredMargin& margin) {
                      margin.hinge == every_hinge ? "every hinge" : margin.hinge);
 }
 
-std::vector<Drive> required_drives(const Scene& scene, const RequiredMargin& margin) {
-  std::vector<Drive> drives = drives_of(scene);
+std::vector<HingeDrive> required_drives(const Scene& scene, const RequiredMargin& margin) {
+  std::vector<HingeDrive> drives = drives_of(scene);
   if (margin.hinge != every_hinge)
     std::erase_if(drives,
-                  [&](const Drive& drive) { return !has_hinge(drive, scene, margin.hinge); });
+                  [&](const HingeDrive& drive) { return !has_hinge(drive, scene, margin.hinge); });
   return drives;
 }
 
-double least_margin(const Scene& scene, std::span<const Drive> drives, MarginKind kind,
+double least_margin(const Scene& scene, std::span<const HingeDrive> drives, MarginKind kind,
                     const MotorizationSpec& spec) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Drive& drive : drives)
+  for (const HingeDrive& drive : drives)
     least = std::min(least, least_margins(scene, drive, spec)[static_cast<std::size_t>(kind)]);
   return least;
 }

@@ -31,10 +31,11 @@ void read_required_margin(JsonObject& object, const Scene* scene, RequiredMargin
 [[nodiscard]] std::string name_of(const RequiredMargin& margin);
 
 /// The drives of the scene whose margins count.
-[[nodiscard]] std::vector<Drive> required_drives(const Scene& scene, const RequiredMargin& margin);
+[[nodiscard]] std::vector<HingeDrive> required_drives(const Scene& scene,
+                                                      const RequiredMargin& margin);
 
 /// The least margin of a scene over the travels of these. +∞ where nothing resists any of them.
-[[nodiscard]] double least_margin(const Scene& scene, std::span<const Drive> drives,
+[[nodiscard]] double least_margin(const Scene& scene, std::span<const HingeDrive> drives,
                                   MarginKind kind, const MotorizationSpec& spec);
 
 } // namespace wingspread

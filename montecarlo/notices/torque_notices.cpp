@@ -50,12 +50,13 @@ void notice_latch(const std::string& at, const Hinge& hinge, Notices& notices) {
 }
 
 /// Spring less what resists at rest, of all that turns as one, for a turn of the first.
-double net_torque(const Scene& scene, const Drive& drive, double x, const MotorizationSpec& spec) {
+double net_torque(const Scene& scene, const HingeDrive& drive, double x,
+                  const MotorizationSpec& spec) {
   const MotorizationTerms terms = terms_at(scene, drive, x, spec);
   return terms.available - terms.spring - terms.friction - terms.harness;
 }
 
-void notice_net(const Scene& scene, const Drive& drive, Notices& notices) {
+void notice_net(const Scene& scene, const HingeDrive& drive, Notices& notices) {
   const MotorizationSpec spec = default_motorization(scene);
   Least least;
   for (const double x : places_of_least(scene, drive))
@@ -79,7 +80,7 @@ void notice_torques(const Scene& scene, Notices& notices) {
     pushes.push_back(notice_spring(at, scene.hinges[h], notices));
     notice_latch(at, scene.hinges[h], notices);
   }
-  for (const Drive& drive : drives_of(scene))
+  for (const HingeDrive& drive : drives_of(scene))
     if (std::ranges::all_of(drive.hinges, [&](int h) { return pushes[h]; }))
       notice_net(scene, drive, notices);
 }

@@ -10,7 +10,7 @@ namespace {
 /// A static margin that is required, and where it goes.
 struct Wanted {
   RequiredMargin margin;
-  std::vector<Drive> drives;
+  std::vector<HingeDrive> drives;
   Column column;
 };
 

@@ -43,7 +43,7 @@ TEST_CASE("hinges without loops drive alone, and those without spring and latch 
   Scene scene = looped();
   scene.synchronisations.clear();
   scene.hinges[1].latch.reset();
-  const std::vector<Drive> drives = drives_of(scene);
+  const std::vector<HingeDrive> drives = drives_of(scene);
   REQUIRE(drives.size() == 2);
   CHECK(name_of(drives[0], scene) == "root");
   CHECK(name_of(drives[1], scene) == "tip");
@@ -52,7 +52,7 @@ TEST_CASE("hinges without loops drive alone, and those without spring and latch 
 // For a radian of the root mid and tip turn two: T = 3 + 2·0 + 2·0.5, FR = 0.5 + 2·0.2 + 2·0.1 N·m.
 TEST_CASE("hinges in loops have their margin together, each by its gear", "[motorization]") {
   const Scene scene = looped();
-  const std::vector<Drive> drives = drives_of(scene);
+  const std::vector<HingeDrive> drives = drives_of(scene);
   REQUIRE(drives.size() == 1);
   CHECK(name_of(drives[0], scene) == "root+mid+tip");
   MotorizationSpec spec = default_motorization(scene);
@@ -70,14 +70,14 @@ TEST_CASE("whichever of a loop leads, the margin is the same", "[motorization]")
   const MotorizationSpec spec = default_motorization(scene);
   const Margins forward = least_margins(scene, drives_of(scene).front(), spec);
   scene.synchronisations[0] = loop_of(1, 0, 0.5);
-  const std::vector<Drive> drives = drives_of(scene);
+  const std::vector<HingeDrive> drives = drives_of(scene);
   REQUIRE(drives.size() == 1);
   CHECK(name_of(drives[0], scene) == "mid+root+tip");
   const Margins backward = least_margins(scene, drives[0], spec);
   for (std::size_t kind = 0; kind < forward.size(); ++kind)
     CHECK(backward[kind] == Approx(forward[kind]).epsilon(1e-12));
   // and against the direction in which the loops are given
-  Drive turned{{2, 1, 0}, {{0, 1, false}, {1, 0, true}}};
+  HingeDrive turned{{2, 1, 0}, {{0, 1, false}, {1, 0, true}}};
   const Margins from_tip = least_margins(scene, turned, spec);
   for (std::size_t kind = 0; kind < forward.size(); ++kind)
     CHECK(from_tip[kind] == Approx(forward[kind]).epsilon(1e-12));
@@ -86,7 +86,7 @@ TEST_CASE("whichever of a loop leads, the margin is the same", "[motorization]")
 TEST_CASE("a loop without stiffness ties nothing", "[motorization]") {
   Scene scene = looped();
   scene.synchronisations[0].stiffness = 0;
-  const std::vector<Drive> drives = drives_of(scene);
+  const std::vector<HingeDrive> drives = drives_of(scene);
   REQUIRE(drives.size() == 2);
   CHECK(name_of(drives[0], scene) == "root");
   CHECK(name_of(drives[1], scene) == "mid+tip");
@@ -113,7 +113,7 @@ TEST_CASE("a loop by a table has its gear from place to place, and its least is 
   loop.table = std::make_shared<const Curve>(std::vector{0.0, 0.5, 1.0}, std::vector{0.0, 0.5, 2.0},
                                              Interpolation::linear, Beyond::straight);
   const MotorizationSpec spec = default_motorization(scene);
-  const Drive drive = drives_of(scene).front();
+  const HingeDrive drive = drives_of(scene).front();
   CHECK(terms_at(scene, drive, 0.25, spec).friction == Approx(0.5 + 0.2).epsilon(1e-14));
   CHECK(terms_at(scene, drive, 0.75, spec).friction == Approx(0.5 + 3 * 0.2).epsilon(1e-14));
   Margins at{};
