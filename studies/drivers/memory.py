@@ -32,7 +32,7 @@ CAMPAIGN = pathlib.Path("studies/campaigns/seed.json")
 CHEAP_SCENE = pathlib.Path("studies/scenes/three_panel.json")
 CHEAP_DISPERSIONS = ("root_spring", "mid_spring", "tip_spring", "mass", "inertia")
 MOST_BYTES_A_RUN = 200  # at 10⁷ runs just below 2 GiB
-MOST_BYTES_A_DRAW = 800  # of margin: up to 256 MiB it holds the margins at all places of the travel
+MOST_BYTES_A_DRAW = 1200  # of margin: up to 256 MiB it holds the margins at all places of the travel
 MIB = 1024  # ru_maxrss is in KiB
 
 

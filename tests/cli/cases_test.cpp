@@ -183,7 +183,7 @@ TEST_CASE("analyze goes through all cases, and writes elsewhere where it is told
   CHECK(parse_json_file(late + "/heavy/summary.json")["requirements"][0]["max"] == 20);
 }
 
-TEST_CASE("--set changes the nominal scene, and is part of the campaign", "[cases]") {
+TEST_CASE("what --set changes is the nominal scene, and part of the campaign", "[cases]") {
   const Folder folder;
   const std::string file = folder.write("c.json", quick_campaign(4).dump());
   const std::string out = folder.path() / "r";

@@ -36,7 +36,7 @@ TEST_CASE("check, run and simulate warn on standard error, and go on") {
   CHECK(std::filesystem::exists(folder.path() / "r" / summary_file));
 }
 
-TEST_CASE("--strict makes errors of warnings, and nothing is done") {
+TEST_CASE("with --strict, errors are made of warnings, and nothing is done") {
   const Folder folder;
   const std::string scene = spoilt_scene(folder);
   const std::string error = "error: " + scene + ": " + found + "expected " + usual;

@@ -54,7 +54,8 @@ CAMPAIGN = {
          "each": "bodies.*.mass"}],
     "sampling": {"runs": 24, "seed": 7}, "integration": {"rtol": 1e-4, "atol": 1e-6, "t_end": 20},
     "outputs": ["latch_time"],
-    "requirements": [{"output": "root.latch_time", "max": 20, "probability": 0.5, "confidence": 0.5}],
+    "requirements": [{"output": "root.latch_time", limit: at, "probability": 0.5, "confidence": 0.5}
+                     for limit, at in (("max", 4.6), ("min", 4.2))],  # the springs' window has two edges
     "margin": {"scale": ["hinges.*.spring.torque_stowed"], "range": [0.9, 1.1], "points": 2, "tolerance": 0.2}}
 
 

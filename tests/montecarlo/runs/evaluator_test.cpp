@@ -77,7 +77,7 @@ TEST_CASE("what the sink throws comes out of the evaluator, and ends it", "[para
 
 TEST_CASE("every run has a status, and a reason unless it deployed or timed out", "[parallel]") {
   Json json = full_campaign(80);
-  json["integration"]["max_steps"] = 600;
+  json["integration"]["max_steps"] = 300;
   json["integration"]["method"] = "dopri5"; // others need fewer
   const Campaign campaign = campaign_of(json);
   const RunPlan plan(campaign);
