@@ -44,7 +44,7 @@ TEST_CASE("what is to be warned of stands in the table and in summary.json") {
   const std::size_t end = expected[1].find(" from"); // of the table's line
   CHECK_THAT(summary_table(summary, "four", ""),
              Catch::Contains("\nWARNING\n  " + expected[0] + "\n  " + expected[1].substr(0, end) +
-                             "\n    " + expected[1].substr(end + 1) + "\n"));
+                             "\n  " + expected[1].substr(end + 1) + "\n"));
 }
 
 TEST_CASE("nothing is warned of where there is nothing, or it was not recorded") {
