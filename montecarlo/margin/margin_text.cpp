@@ -60,14 +60,14 @@ private:
   }
 
   [[nodiscard]] static std::string line(const char* label, double scale, std::string_view text) {
-    return fmt::format("  {:<20}{:>8}  {}\n", label, scale, shortened(text, table_width - 32));
+    return fmt::format("  {:<20}{:>8}  {}\n", label, scale, wrapped(text, 32));
   }
 
   /// A condition on the labelled line, or below it.
   [[nodiscard]] std::string first_or_next(bool first, const char* label, double scale,
                                           std::size_t condition) const {
     return first ? line(label, scale, name(condition))
-                 : fmt::format("{:32}{}\n", "", shortened(name(condition), table_width - 32));
+                 : fmt::format("{:32}{}\n", "", wrapped(name(condition), 32));
   }
 
   /// "at 1.18: pass: 2 of 2000 runs break it, and 2 may".
@@ -163,7 +163,7 @@ private:
   [[nodiscard]] std::string no_window() const {
     std::string text = "  EMPTY: no scale meets all requirements.\n";
     for (const std::size_t condition : closed_by(looks_))
-      text += fmt::format("    {}: {}\n", shortened(name(condition), 60), holds(condition));
+      text += fmt::format("    {}\n", wrapped(name(condition) + ": " + holds(condition), 6));
     return text;
   }
 
@@ -205,8 +205,8 @@ private:
       if (report_.result.cases.size() > 1 && !(previous && *previous == each.which_case))
         text += each.which_case + '\n';
       previous = &each.which_case;
-      text += fmt::format("  {:<52}{:>10}  {}\n", shortened(each.requirement, 51), disorder(k),
-                          shortened(holds(k), table_width - 66));
+      text += fmt::format("{}{:>10}  {}\n", in_column("  " + each.requirement, 54), disorder(k),
+                          wrapped(holds(k), 66));
     }
     return text;
   }
@@ -226,8 +226,8 @@ private:
     for (const SceneParameter& parameter : search_.scaled) {
       const double value = parameter.in(report_.campaign.scene);
       const std::string_view unit = unit_of(parameter);
-      text += fmt::format("  {:<58}{:>12.5g}{:>14.5g}{}{}\n",
-                          shortened(path_of(report_.campaign.scene, parameter), 57), value,
+      text += fmt::format("{}{:>12.5g}{:>14.5g}{}{}\n",
+                          in_column("  " + path_of(report_.campaign.scene, parameter), 60), value,
                           value * *search_.recommended, unit.empty() ? "" : " ", unit);
     }
     return text;
@@ -240,14 +240,14 @@ private:
       const DeployedShare deployed = deployed_share(look.front(), confidence());
       text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale, percent(deployed.share),
                           percent_range(deployed.bounds.lower, deployed.bounds.upper),
-                          shortened(outputs_of(telling(look)), table_width - 48));
+                          outputs_of(telling(look)));
     }
     return text;
   }
 
   [[nodiscard]] double confidence() const { return report_.campaign.statistics.confidence; }
 
-  /// The outputs that fail, each once, behind a space.
+  /// The outputs that fail, each once, behind a space, at their column.
   [[nodiscard]] std::string outputs_of(const Failing& failing) const {
     std::vector<std::string> outputs;
     for (const std::size_t condition : failing) {
@@ -256,7 +256,8 @@ private:
       if (std::ranges::find(outputs, requirement.output) == outputs.end())
         outputs.push_back(requirement.output);
     }
-    return outputs.empty() ? "" : fmt::format("   {}", fmt::join(outputs, ", "));
+    if (outputs.empty()) return "";
+    return "   " + wrapped(fmt::format("{}", fmt::join(outputs, ", ")), 51);
   }
 
   const MarginReport& report_;

@@ -112,9 +112,9 @@ std::string motorization_lines(const ScaledMotorization& at) {
       const Hinge& hinge = leader_of(each, campaign);
       const MarginSpread& spread = each.worst_spread[kind];
       const double angle = hinge.stowed + (hinge.latched - hinge.stowed) * each.worst_at[kind];
-      text += fmt::format("  {:<8}{:<16}{:<22}{:>9}{:>9.3f}{:>10}{:>10}{:>8}\n",
-                          kind == 0 ? fmt::format("{}", at.scale) : "",
-                          kind == 0 ? shortened(name_of(each.drive, campaign.scene), 15) : "",
+      const std::string whose =
+          kind == 0 ? fmt::format("  {:<8}{}", at.scale, name_of(each.drive, campaign.scene)) : "";
+      text += fmt::format("{}{:<22}{:>9}{:>9.3f}{:>10}{:>10}{:>8}\n", in_column(whose, 26),
                           margin_kind_texts[kind], margin_text(each.worst[kind]), angle,
                           margin_text(spread.quantiles.empty() ? NAN : spread.quantiles.front()),
                           margin_text(spread.least), spread.worst_run);
