@@ -12,8 +12,9 @@
 ///
 /// n and f being bounded over that box by (3), with |u| ≤ |W_u| B, |u̇| ≤ |W_v| B and
 /// |ω| ≤ |S W_v| B + |r|, r by (4). Where the right sides lie inside the box they never leave it: what
-/// changes continuously would have to reach its edge first. Fast modes are soon gone from
-/// |w(0)|, so that the bounds come down to what truly remains. An energy E (prospects.hpp)
+/// changes continuously would have to reach its edge first, and the accelerations, which jump where
+/// friction does, obey (6) at each instant: there a box that holds its own right side says that the
+/// matrix in front of a is contracting. Fast modes are soon gone from |w(0)|, so that the bounds come down to what truly remains. An energy E (prospects.hpp)
 /// that is never exceeded caps the modes too: with κ the least stiffness of the hinges and
 /// μ ≥ the spectral radius of M(rest)⁻¹(M − M(rest)),
 ///
@@ -84,10 +85,10 @@ private:
   Complex P_;                           ///< rows of the modes kept: one of each conjugate pair
   Vector decay_;                        ///< α
   Matrix way_, rate_of_, turn_, swing_; ///< |W_u|, |W_v|, |S W_v|, |S W_v Λ|, pairs counted twice
-  Matrix by_turns_, by_hinges_, rounding_;  ///< of (4), divided by α
-  Matrix swing_by_turns_, swing_by_hinges_; ///< of (5)
+  Matrix by_turns_, by_hinges_, rounding_;  ///< of (5), divided by α
+  Matrix swing_by_turns_, swing_by_hinges_; ///< of (6)
   Matrix moment_of_, force_x_, force_y_, lever_;
-  Vector by_energy_, offset_; ///< of (6): the root, and what the two rests differ by
+  Vector by_energy_, offset_; ///< of (7): the root, and what the two rests differ by
   bool capped_ = false;
   // of a question
   Vector z_, start_, B_, next_B_, a_, next_a_, added_;

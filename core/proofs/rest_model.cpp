@@ -312,6 +312,8 @@ private:
     for (int i = 1; i <= n_; ++i) {
       RestModel::Remainder& left = m_.remainders[i - 1];
       left.steady += wing_.hinges[i].most_friction();
+      if (wing_.hinges[i].has_latch) // beyond its stowed angle its overtravel may rise
+        m_.room(i - 1) = std::abs(m_.angles(i - 1) - wing_.hinges[i].stowed);
       if (wing_.real.empty()) continue;
       const RealHingeTerms<double>& real = wing_.real[i];
       const double phi = m_.angles(i - 1);

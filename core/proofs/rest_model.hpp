@@ -72,7 +72,7 @@ struct RestModel {
       false;              ///< against the wing at rest: all of it counts, not what turns alone adds
   Eigen::VectorXd weight; ///< |a| times the mass outward, N
   Eigen::VectorXd moment; ///< M of each hinge at rest, N·m
-  Eigen::VectorXd room;   ///< no other law holds within this way from rest, rad
+  Eigen::VectorXd room;   ///< within this way from rest no other law holds, nor an overtravel, rad
   std::vector<Remainder> remainders;
   std::vector<Loop> loops;
 

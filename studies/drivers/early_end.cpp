@@ -1,5 +1,5 @@
 // What an early end of runs saves, and whether it loses anything: every run of several campaigns as a
-// campaign makes it, and again to its t_end. No bit of a latch or a peak may differ.
+// campaign makes it, and again to its t_end. No bit of a latch, a peak or an overtravel may differ.
 //
 //   build/release/studies/early_end                 some ten thousand runs of each campaign; minutes
 //   build/release/studies/early_end --quick         a hundred of each
@@ -64,8 +64,8 @@ bool nothing_lost(const Outcome& early, const Outcome& whole) {
                  whole.latches.end(), [](const LatchEvent& a, const LatchEvent& b) {
                    return a.hinge == b.hinge && a.time == b.time;
                  });
-  return latches && same(early.peak_moment, whole.peak_moment) &&
-         same(early.peak_force, whole.peak_force);
+  return latches && early.overtravel == whole.overtravel &&
+         same(early.peak_moment, whole.peak_moment) && same(early.peak_force, whole.peak_force);
 }
 
 Found compare(Deployment& deployment, const Scene& scene, const Integration& how, long run) {
