@@ -39,6 +39,7 @@ montecarlo/runs
 montecarlo/summary
 montecarlo/folder
 montecarlo/sensitivity montecarlo/rare montecarlo/margin
+montecarlo/page_data
 montecarlo/report
 montecarlo/commands
 montecarlo/main

@@ -76,29 +76,6 @@ void add_nominal(const Campaign& campaign, Summary& summary) {
     summary.outputs[i].nominal = output_of(columns[i], outcome);
 }
 
-/// The statistics, their confidence shared out among the looks that the campaign may take.
-Summary summarize(const StoredCampaign& stored, const Results& results, const StatisticsSpec& spec,
-                  int threads) {
-  const Campaign& campaign = stored.campaign;
-  const long looks = count_looks(campaign);
-  StatisticsSpec at_a_look = spec;
-  at_a_look.confidence = at_each_of(spec.confidence, looks);
-  Summary summary =
-      summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
-  summary.confidence = spec.confidence;
-  summary.looks = looks;
-  summary.looked_at.assign(campaign.sampling.extended_from.begin(),
-                           campaign.sampling.extended_from.end());
-  summary.requirements = judge_campaign(campaign, results, looks);
-  if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
-  summary.until = goals_of(campaign, results, summary.requirements);
-  if (!stored.foreign) add_nominal(campaign, summary);
-  summary.overtravels = overtravels(campaign.scene, results);
-  if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
-  summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
-  return summary;
-}
-
 /// Another tool's rows may do without what is recorded here, asked for or not, unless their campaign asks for it.
 void match_recorded(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
   std::string header;
@@ -194,9 +171,31 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
   return read;
 }
 
+Summary stored_summary(const StoredCampaign& stored, const Results& results,
+                       const StatisticsSpec& spec, int threads) {
+  const Campaign& campaign = stored.campaign;
+  const long looks = count_looks(campaign);
+  StatisticsSpec at_a_look = spec;
+  at_a_look.confidence = at_each_of(spec.confidence, looks);
+  Summary summary =
+      summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
+  summary.confidence = spec.confidence;
+  summary.looks = looks;
+  summary.looked_at.assign(campaign.sampling.extended_from.begin(),
+                           campaign.sampling.extended_from.end());
+  summary.requirements = judge_campaign(campaign, results, looks);
+  if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
+  summary.until = goals_of(campaign, results, summary.requirements);
+  if (!stored.foreign) add_nominal(campaign, summary);
+  summary.overtravels = overtravels(campaign.scene, results);
+  if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
+  summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
+  return summary;
+}
+
 Summary write_statistics(const StoredCampaign& stored, const Results& results,
                          const StatisticsSpec& spec, int threads) {
-  Summary summary = summarize(stored, results, spec, threads);
+  Summary summary = stored_summary(stored, results, spec, threads);
   write_file(stored.folder / summary_file,
              json_text(summary_json(summary, about(stored, summary))));
   write_file(stored.folder / histograms_json_file, json_text(histograms_json(summary)));

@@ -68,6 +68,12 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
 /// @throws SpecError when it is broken, or has a run that is not the folder's
 [[nodiscard]] ResultsFile read_stored_results(const StoredCampaign& stored);
 
+/// The statistics of the rows, their confidence shared out among the looks that the campaign may take, with all that it
+/// asks for besides.
+/// @param threads as of team_size (team.hpp)
+[[nodiscard]] Summary stored_summary(const StoredCampaign& stored, const Results& results,
+                                     const StatisticsSpec& spec, int threads = 0);
+
 /// Works out the statistics of the rows and writes the three files of them. Results that lack some
 /// of the folder's runs are labelled so: "partial" in summary.json's stamp.
 /// @param threads as of team_size (team.hpp)

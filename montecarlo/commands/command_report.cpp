@@ -1,0 +1,69 @@
+#include "montecarlo/commands/commands.hpp"
+#include "montecarlo/folder/cases_folder.hpp"
+#include "montecarlo/formats/files.hpp"
+#include "montecarlo/report/html_page.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+namespace wingspread {
+namespace {
+
+constexpr const char* report_file = "report.html";
+
+struct ReportOptions {
+  std::vector<std::filesystem::path> folders;
+  std::filesystem::path out;
+  int threads = 0;
+};
+
+/// The command that makes the page, wherever it goes.
+std::string command_of(const ReportOptions& options) {
+  std::string command = "wingspread report";
+  for (const std::filesystem::path& folder : options.folders) command += ' ' + folder.string();
+  return command;
+}
+
+int report(const ReportOptions& options) {
+  std::deque<FolderLock> locks;
+  for (const std::filesystem::path& folder : options.folders) {
+    (void)read_any_campaign(folder); // there is one to be locked
+    locks.emplace_back(folder);
+  }
+  const std::filesystem::path out =
+      options.out.empty() ? options.folders.front() / report_file : options.out;
+  const PageSources sources = read_page_sources(options.folders, options.threads);
+  write_file(out, html_page(page_json(sources, command_of(options), options.threads)));
+  fmt::print("{}\n", out.string());
+  return exit_code::done;
+}
+
+} // namespace
+
+void add_report(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App* command = app.add_subcommand(
+      "report", "One HTML page of a folder's results; of several folders, a comparison");
+  command->add_option("folders", options->folders, "Results folders")->required();
+  command->add_option("--out", options->out, "The page; DIR/report.html of the first if left out")
+      ->type_name("FILE");
+  command->add_option("--threads", options->threads, "0: all processors")
+      ->check(CLI::Range(0, 1024).description(""));
+  command->footer(
+      R"(The page opens offline and asks no network for anything: verdicts, every output's distribution, the
+wing in motion (runs of the folder are made again for it), what moves what, how statistics settled,
+and the inputs. Its size does not grow with the number of runs: at most 4 MB. Of a campaign with
+cases it has a set for each. The same folders give the same bytes. Its path is printed; exit code 0
+says that it was written, whatever the verdicts on it.
+
+Example:
+  wingspread report results/first
+  wingspread report results/before results/after --out change.html)");
+  command->callback([options, &action] { action = [options] { return report(*options); }; });
+}
+
+} // namespace wingspread

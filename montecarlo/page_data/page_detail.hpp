@@ -1,0 +1,30 @@
+/// How fine the page is: as fine as its size allows, whatever the number of runs, outputs, hinges and sets.
+#pragma once
+
+#include <cstddef>
+
+namespace wingspread {
+
+/// What the page is about, as far as its size depends on it.
+struct PageExtent {
+  std::size_t sets = 1;
+  std::size_t hinges = 1;  ///< of the set that has most
+  std::size_t outputs = 1; ///< likewise
+};
+
+/// The most of each list that grows with the scene or the number of sets (page/DATA.md).
+struct PageDetail {
+  std::size_t bins = 80;            ///< of a histogram
+  std::size_t knots = 129;          ///< of a distribution function
+  std::size_t checkpoints = 40;     ///< of a convergence
+  std::size_t motion_samples = 400; ///< of one run
+  std::size_t envelope_times = 100;
+  std::size_t envelope_runs = 200;
+  std::size_t latch_times = 200; ///< of one hinge
+  std::size_t scatters = 12;
+};
+
+/// Everything in full as long as the page's block keeps to its 3.5 MB; else each part by what it takes of them.
+[[nodiscard]] PageDetail page_detail(const PageExtent& extent);
+
+} // namespace wingspread

@@ -1,0 +1,89 @@
+#include "montecarlo/report/html_page.hpp"
+
+#include "montecarlo/folder/cases_folder.hpp"
+#include "montecarlo/folder/version.hpp"
+#include "montecarlo/page_data/page_numbers.hpp"
+#include "montecarlo/page_data/set_json.hpp"
+#include "montecarlo/report/page_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+constexpr std::size_t most_sets = 12;
+
+std::string name_of_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path name =
+      folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+  return name.empty() || name == "." || name == ".." ? folder.string() : name.string();
+}
+
+/// The sets of one folder. @param several whether there are other folders, from which its cases are to be told
+void read_folder(const std::filesystem::path& folder, bool several, int threads,
+                 PageSources& sources) {
+  const std::string name = name_of_folder(folder);
+  if (!is_cases_folder(folder))
+    return sources.push_back(read_page_source(read_any_campaign(folder), name, nullptr, threads));
+  const StoredCampaign whole = read_stored_campaign(folder);
+  for (const CaseSpec& spec : made_cases(whole))
+    sources.push_back(read_page_source(read_stored_campaign(folder / spec.name),
+                                       several ? name + " · " + spec.name : spec.name,
+                                       &whole.campaign.scene, threads));
+}
+
+/// Two folders of one name are told apart by their paths.
+void tell_apart(PageSources& sources) {
+  std::vector<std::string> labels;
+  for (const auto& source : sources) labels.push_back(source->label);
+  for (const auto& source : sources)
+    if (std::ranges::count(labels, source->label) > 1)
+      source->label = source->stored.folder.string();
+}
+
+PageExtent extent_of(const PageSources& sources) {
+  PageExtent extent{sources.size()};
+  for (const auto& source : sources) {
+    extent.hinges = std::max(extent.hinges, source->stored.campaign.scene.hinges.size());
+    extent.outputs = std::max(extent.outputs, source->results.outputs.size());
+  }
+  return extent;
+}
+
+} // namespace
+
+PageSources read_page_sources(std::span<const std::filesystem::path> folders, int threads) {
+  PageSources sources;
+  for (const std::filesystem::path& folder : folders)
+    read_folder(folder, folders.size() > 1, threads, sources);
+  if (sources.empty() || sources.size() > most_sets)
+    throw SpecError({{folders.front().string(), "", fmt::format("{} sets of runs", sources.size()),
+                      fmt::format("from 1 to {}: folders, and cases in them", most_sets)}});
+  tell_apart(sources);
+  return sources;
+}
+
+Json page_json(const PageSources& sources, const std::string& command, int threads) {
+  const PageDetail detail = page_detail(extent_of(sources));
+  Json json{{"format", 1},
+            {"version", version()},
+            {"command", command},
+            {"title", sources.front()->stored.campaign.scene.name},
+            {"glossary", Json::object()},
+            {"sets", Json::array()},
+            {"comparisons", Json::array()}};
+  for (const auto& source : sources) json["sets"].push_back(set_json(*source, detail, threads));
+  return json;
+}
+
+std::string html_page(const Json& data) {
+  std::string page(page_before_data);
+  page += "<script type=\"application/json\" id=\"data\">";
+  page += page_text(data);
+  page += "</script>";
+  return page += page_behind_data;
+}
+
+} // namespace wingspread

@@ -1,0 +1,29 @@
+/// The report: one HTML page that needs nothing but itself.
+///
+/// Its template and its scripts stand in page/, and page/DATA.md has the shape of the data in it.
+#pragma once
+
+#include "montecarlo/page_data/page_source.hpp"
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace wingspread {
+
+using PageSources = std::vector<std::unique_ptr<PageSource>>;
+
+/// Reads folders of results: a set each or, of a campaign with cases, one for each case.
+/// @param threads as of team_size (team.hpp)
+/// @throws SpecError for what is none, is broken, or comes to more than 12 sets
+[[nodiscard]] PageSources read_page_sources(std::span<const std::filesystem::path> folders,
+                                            int threads);
+
+/// The page's block of data.
+/// @param command that makes the page
+[[nodiscard]] Json page_json(const PageSources& sources, const std::string& command, int threads);
+
+/// The page. The same folders give the same bytes, whatever the number of threads.
+[[nodiscard]] std::string html_page(const Json& data);
+
+} // namespace wingspread
