@@ -1,0 +1,101 @@
+// Numbers as a reader wants them: sensible digits, a true minus, units in their usual form, and words for what is not there.
+(function () {
+  "use strict";
+  const W = window.wingspread;
+  const F = (W.format = {});
+  const DEGREES = 180 / Math.PI;
+  F.DEGREES = DEGREES;
+  F.none = "–";
+
+  const superscripts = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+  function power(text) {
+    const [mantissa, exponent] = text.split("e");
+    return `${mantissa.replace("-", "−")} × 10${[...String(Number(exponent))].map((digit) => superscripts[digit]).join("")}`;
+  }
+  function grouped(text) {
+    const [whole, fraction] = text.split(".");
+    const spaced = whole.length > 5 || (whole.length === 5 && whole[0] !== "-") ? whole.replace(/\B(?=(\d{3})+(?!\d))/g, ",") : whole;
+    return (fraction === undefined ? spaced : `${spaced}.${fraction}`).replace("-", "−");
+  }
+
+  // With so many decimals.
+  F.fixed = function (value, decimals) {
+    if (!W.isNumber(value)) return F.none;
+    const text = value.toFixed(Math.max(0, Math.min(12, decimals)));
+    return grouped(Number(text) === 0 ? text.replace("-", "") : text);
+  };
+  // With so many significant digits.
+  F.number = function (value, digits = 4) {
+    if (!W.isNumber(value)) return F.none;
+    if (value === 0) return "0";
+    const size = Math.floor(Math.log10(Math.abs(value)));
+    if (size < -4 || size > 7) return power(value.toExponential(digits - 1).replace(/\.?0+e/, "e"));
+    return F.fixed(value, digits - 1 - size);
+  };
+  // An input as it was written: no digits that nobody gave.
+  F.given = function (value) {
+    if (!W.isNumber(value)) return F.none;
+    const short = Number(value.toPrecision(7));
+    return Math.abs(short) >= 1e7 || (short !== 0 && Math.abs(short) < 1e-4) ? power(short.toExponential()) : grouped(String(short));
+  };
+  // Decimals that a spread of this size carries: two digits of it.
+  F.decimals = function (spread, value) {
+    if (W.isNumber(spread) && spread > 0) return Math.max(0, 1 - Math.floor(Math.log10(spread)));
+    return W.isNumber(value) && value !== 0 ? Math.max(0, 3 - Math.floor(Math.log10(Math.abs(value)))) : 0;
+  };
+  F.count = (value) => (W.isNumber(value) ? value.toFixed(0).replace(/\B(?=(\d{3})+(?!\d))/g, ",") : F.none);
+  F.runs = (value) => `${F.count(value)} ${value === 1 ? "run" : "runs"}`;
+
+  // A share in per cent; near 0 and 1 with the digits that still tell.
+  F.share = function (value) {
+    if (!W.isNumber(value)) return F.none;
+    if (value === 0 || value === 1) return `${100 * value} %`;
+    const tail = Math.min(value, 1 - value) * 100;
+    if (tail < 1e-4) return value < 0.5 ? `${F.number(100 * value, 2)} %` : `${F.fixed(100 * value, 6)} %`;
+    return `${F.fixed(100 * value, Math.max(1, 1 - Math.floor(Math.log10(tail))))} %`;
+  };
+  F.shareBounds = function (lower, upper) {
+    if (!W.isNumber(lower) && !W.isNumber(upper)) return "no bounds";
+    if (lower === 0) return `below ${F.share(upper)}`;
+    if (upper === 1) return `above ${F.share(lower)}`;
+    return `${F.share(lower)} – ${F.share(upper)}`;
+  };
+
+  // Units: "N m" reads N·m; radians may be shown in degrees.
+  F.unit = (unit) => (unit || "").replace(/ /g, "·").replace(/\^2/g, "²").replace(/\*/g, "·");
+  F.angular = (unit) => unit === "rad" || unit === "rad/s" || unit === "rad/s^2";
+  F.shown = function (unit) {
+    const degrees = W.chosen.angles === "deg" && F.angular(unit);
+    return { factor: degrees ? DEGREES : 1, unit: degrees ? unit.replace("rad", "deg") : F.unit(unit) };
+  };
+  // A value of an output in the unit that is shown, with decimals that suit `spread` (in SI).
+  F.value = function (value, unit, spread) {
+    const { factor } = F.shown(unit);
+    if (!W.isNumber(value)) return F.none;
+    return W.isNumber(spread) && spread > 0 ? F.sized(value * factor, spread * factor) : F.number(value * factor, 5);
+  };
+  F.sized = function (value, spread) {
+    const decimals = F.decimals(spread, value);
+    return decimals > 7 || Math.abs(value) >= 1e8 ? F.number(value, 4) : F.fixed(value, decimals);
+  };
+  F.withUnit = (value, unit, spread) => (W.isNumber(value) ? `${F.value(value, unit, spread)} ${F.shown(unit).unit}`.trim() : F.none);
+
+  // What a column of an output is precise to: a fiftieth of its spread (or of its size, where there is no spread).
+  F.grain = (output) => (W.isNumber(output.std) && output.std > 0 ? output.std / 10 : null);
+  F.name = (output) => (output.hinge && output.name.startsWith(output.hinge + ".") ? `${output.hinge} ${words(output.name.slice(output.hinge.length + 1))}` : words(output.name));
+  F.nameOf = function (name) {
+    const output = W.sets.flatMap(W.outputsOf).find((one) => one.name === name);
+    return output ? F.name(output) : words(name);
+  };
+  function words(text) {
+    return text.replace(/_/g, " ").replace(/\./g, " ");
+  }
+  F.order = (order) => order.replace(/>/g, " › ");
+
+  F.ticks = (axis, factor) => axis.tickFormat((value) => tick(value * (factor || 1)));
+  function tick(value) {
+    if (value === 0) return "0";
+    return Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4 ? power(value.toExponential(1).replace(".0e", "e")) : grouped(String(Number(value.toPrecision(6))));
+  }
+  F.tick = tick;
+})();

@@ -1,0 +1,77 @@
+// What `margin` and `rare` left in the folder, and static margins: the window of the springs, torque along the travel, rare events.
+(function () {
+  "use strict";
+  const W = window.wingspread;
+  const { h, format: F, marks: M } = W;
+
+  function marginWindow(margin) {
+    const [low, high] = margin.window || [null, null], { scales, requirements } = margin;
+    const words = W.isNumber(low) || W.isNumber(high) ? `The window is ${W.isNumber(low) ? `from ${F.number(low, 4)}` : "open below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "and open above"}${W.isNumber(margin.recommended) ? `; recommended is ${F.number(margin.recommended, 4)}` : ""}.` : "No scale meets all requirements.";
+    return W.figure({
+      title: "Margin window: how strong the springs may be", class: "margin", note: words, description: `Share of runs that meet each requirement against the springs' scale. ${words}`,
+      table: () => ({ columns: ["scale", ...requirements.flatMap((one) => [one.text, "lower", "upper", "verdict"])], rows: scales.map((scale, at) => [scale, ...requirements.flatMap((one) => [one.passed[at], one.lower[at], one.upper[at], one.verdict[at]])]) }),
+      draw: function (svg, width) {
+        const top = M.legend(svg, [...requirements.map((one, at) => ({ text: one.text, line: M.colour(at), dash: M.dash(at) })), { text: "window", fill: "var(--good)", opacity: 0.25 }], width);
+        const box = { left: 48, right: width - 14, top: top + 18, bottom: top + 270 }, x = M.linear([...scales, low, high], [box.left, box.right]), y = d3.scaleLinear([0, 1.02], [box.bottom, box.top]);
+        if (W.isNumber(low) || W.isNumber(high)) {
+          const from = W.isNumber(low) ? x(low) : box.left, to = W.isNumber(high) ? x(high) : box.right;
+          svg.append("rect").attr("class", "window").attr("x", from).attr("width", Math.max(0, to - from)).attr("y", box.top).attr("height", box.bottom - box.top);
+        }
+        M.axes(svg, box, x, y, { xText: "scale of the springs", yText: "share of the runs that meet it", yFormat: (value) => `${Math.round(100 * value)} %` });
+        requirements.forEach(function (one, at) {
+          svg.append("path").attr("class", "curve-band").style("fill", M.colour(at)).attr("d", M.band(x, y)(scales.map((scale, k) => [scale, one.lower[k], one.upper[k]])));
+          svg.append("path").attr("class", "trace").style("stroke", M.colour(at)).attr("stroke-dasharray", M.dash(at)).attr("d", M.line(x, y)(scales.map((scale, k) => [scale, one.passed[k]])));
+          scales.forEach((scale, k) => W.isNumber(one.passed[k]) && svg.append("circle").attr("class", "looked").attr("cx", x(scale)).attr("cy", y(one.passed[k])).attr("r", 3).style("stroke", M.colour(at)).style("fill", W.verdicts.verdictOf(one.verdict[k]) === "passed" ? M.colour(at) : "var(--paper)")
+            .append("title").text(`${one.text}: ${one.verdict[k]} at ${F.number(scale, 4)}`));
+        });
+        M.uprights(svg, box, [{ x: x(1), text: "present", kind: "nominal" }, ...(W.isNumber(margin.recommended) ? [{ x: x(margin.recommended), text: `recommended ${F.number(margin.recommended, 4)}`, kind: "limit" }] : [])]);
+        return box.bottom + 40;
+      } });
+  }
+
+  function staticMargins(hinges) {
+    const part = hinges.slice(0, 7), least = hinges.map((one) => [one.hinge, F.fixed(one.least, 2), F.fixed(one.lower, 2), F.fixed(one.required, 2), W.isNumber(one.least) ? W.badge(one.least >= one.required ? "passed" : "failed") : F.none]);
+    return [W.figure({
+      title: "Static margin of torque along the travel", class: "static-margins", note: hinges.length > part.length ? `The first ${part.length} of ${hinges.length} hinges are drawn; all stand in the table.` : null,
+      description: () => hinges.slice(0, 20).map((one) => `${one.hinge}: least ${F.fixed(one.least, 2)}`).join("; "),
+      table: () => ({ columns: ["hinge", "angle deg", "margin", "required"], rows: hinges.flatMap((one) => one.angle.map((angle, at) => [one.hinge, angle * F.DEGREES, one.margin[at], one.required])) }),
+      draw: function (svg, width) {
+        const top = M.legend(svg, part.map((one, at) => ({ text: one.hinge, line: M.colour(at), dash: M.dash(at) })), width);
+        const y = M.linear([0, ...part.flatMap((one) => [...one.margin, one.required])], [0, 1]), box = { left: M.leftFor(y), right: width - 14, top: top + 18, bottom: top + 250 };
+        y.range([box.bottom, box.top]);
+        const x = M.linear(part.flatMap((one) => one.angle.map((angle) => angle * F.DEGREES)), [box.left, box.right]);
+        M.axes(svg, box, x, y, { xText: "hinge angle (deg)", yText: "margin" });
+        for (const required of new Set(part.map((one) => one.required).filter(W.isNumber))) svg.append("line").attr("class", "limit").attr("x1", box.left).attr("x2", box.right).attr("y1", y(required)).attr("y2", y(required));
+        part.forEach((one, at) => svg.append("path").attr("class", "trace").style("stroke", M.colour(at)).attr("stroke-dasharray", M.dash(at)).attr("d", M.line(x, y)(one.angle.map((angle, k) => [angle * F.DEGREES, one.margin[k]]))));
+        return box.bottom + 40;
+      } }), W.table("Least static margins", [{ text: "Hinge" }, { text: "Least, nominal", kind: "number" }, { text: "Least, dispersed", kind: "number" }, { text: "Required", kind: "number" }, { text: "Nominal" }], least)];
+  }
+
+  function rareEvent(rare) {
+    const drawn = (rare.levels || []).filter((one) => W.isNumber(one.threshold) && one.probability > 0), likeliest = rare.likeliest && rare.likeliest.draws;
+    const figure = drawn.length < 2 ? null : W.figure({
+      title: "Rare event: the way there, level by level", class: "rare", description: () => drawn.map((one) => `beyond ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "),
+      table: () => ({ columns: ["threshold", "probability"], rows: drawn.map((one) => [one.threshold, one.probability]) }),
+      draw: function (svg, width) {
+        const box = { left: 62, right: width - 14, top: 22, bottom: 240 }, x = M.linear(drawn.map((one) => one.threshold), [box.left, box.right]);
+        const y = d3.scaleLog([d3.min(drawn, (one) => one.probability) / 2, 1], [box.bottom, box.top]), decades = d3.range(0, Math.ceil(-Math.log10(y.domain()[0]))).map((k) => 10 ** -k);
+        M.axes(svg, box, x, y, { xText: "threshold", yText: "probability to go beyond", yValues: decades, yFormat: (value) => `10${["⁰", "⁻¹", "⁻²", "⁻³", "⁻⁴", "⁻⁵", "⁻⁶", "⁻⁷", "⁻⁸", "⁻⁹"][Math.round(-Math.log10(value))] || ""}` });
+        svg.append("path").attr("class", "trace").style("stroke", M.colour(0)).attr("d", M.line(x, y)(drawn.map((one) => [one.threshold, one.probability])));
+        drawn.forEach((one) => svg.append("circle").attr("class", "quantile").attr("cx", x(one.threshold)).attr("cy", y(one.probability)).attr("r", 3.5));
+        return box.bottom + 40;
+      } });
+    return [h("p", {}, h("b", {}, `${rare.text}: ${F.number(rare.probability, 3)}`), ` (bounds ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).`), figure,
+      likeliest && likeliest.length ? W.table("The likeliest such run that was met", [{ text: "Dispersion" }, { text: "Value", kind: "number" }, { text: "Deviation", unit: "σ", kind: "number" }], likeliest.slice().sort((a, b) => Math.abs(b.sigma) - Math.abs(a.sigma)).map((one) => [one.name, F.number(one.value, 5), `${one.sigma > 0 ? "+" : ""}${F.fixed(one.sigma, 2)}`]), { showCaption: true }) : null];
+  }
+
+  W.studies = function (set) {
+    const parts = [], missing = [];
+    if (set.margin && (set.margin.scales || []).length) parts.push(h("div", {}, h("h3", {}, "Margin window"), marginWindow(set.margin)));
+    else missing.push("the margin window (wingspread margin)");
+    if (set.static_margins && (set.static_margins.hinges || []).length) parts.push(h("div", {}, h("h3", {}, "Static margins"), staticMargins(set.static_margins.hinges)));
+    else missing.push("static margins");
+    if (set.rare) parts.push(h("div", {}, h("h3", {}, "Rare events"), rareEvent(set.rare)));
+    else missing.push("rare events (wingspread rare)");
+    return [h("div", { class: "grid" }, parts), missing.length ? h("p", { class: "note" }, `Not in this folder: ${missing.join(", ")}.`) : null];
+  };
+})();

@@ -1,0 +1,73 @@
+// Puts the page together, and again where a switch asks for it.
+(function () {
+  "use strict";
+  const W = window.wingspread;
+  const { h } = W;
+  const PARTS = [W.outcomes, W.outputs, W.wing, W.why, W.convergence, W.comparison, W.inputs, W.glossary];
+  const IDS = ["verdicts", "outputs", "wing", "why", "convergence", "comparison", "inputs", "glossary"];
+
+  // A part that cannot be drawn says so and leaves the others alone: half a report is better than none.
+  function draw() {
+    PARTS.forEach(function (part, at) {
+      try {
+        part();
+      } catch (error) {
+        console.error(error);
+        W.fill(W.section(IDS[at]), h("p", { class: "nothing" }, `This part could not be drawn: ${error.message}.`));
+      }
+    });
+  }
+
+  function theme() {
+    const select = document.getElementById("theme");
+    select.addEventListener("change", function () {
+      if (select.value === "auto") document.documentElement.removeAttribute("data-theme");
+      else document.documentElement.setAttribute("data-theme", select.value);
+    });
+  }
+  function angles() {
+    const select = document.getElementById("angles");
+    select.value = W.chosen.angles;
+    select.addEventListener("change", function () {
+      W.choose("angles", select.value);
+      draw();
+    });
+  }
+  function cases() {
+    const label = document.getElementById("case-switch"), select = label.querySelector("select");
+    label.hidden = W.sets.length < 2;
+    label.querySelector("span").textContent = W.sets.some((set) => set.case) ? "Case" : "Folder";
+    W.fill(select, W.sets.map((set, at) => h("option", { value: at }, set.label)));
+    select.addEventListener("change", () => W.choose("set", Number(select.value)));
+    W.on("set", function (at) {
+      select.value = at;
+      W.chosen.motion = 0;
+      W.player.time = 0;
+      draw();
+      W.say(`${W.set().label} shown.`);
+    });
+    // The page opens on the case that is worst.
+    const worst = W.verdicts.judged()[0];
+    if (worst) W.chosen.set = worst.at;
+    select.value = W.chosen.set;
+  }
+
+  // The link of the section that is read is marked.
+  function reading() {
+    const links = [...document.querySelectorAll(".sections a")];
+    const observer = new IntersectionObserver((entries) => entries.forEach(function (entry) {
+      if (entry.isIntersecting) links.forEach((link) => (link.getAttribute("href") === `#${entry.target.id}` ? link.setAttribute("aria-current", "true") : link.removeAttribute("aria-current")));
+    }), { rootMargin: "-20% 0px -70% 0px" });
+    document.querySelectorAll("main > section").forEach((section) => observer.observe(section));
+  }
+
+  if (!W.sets.length) {
+    W.fill(W.section("verdicts"), h("p", { class: "nothing" }, "This report holds no results."));
+    return;
+  }
+  theme();
+  angles();
+  cases();
+  draw();
+  reading();
+})();
