@@ -25,25 +25,6 @@ std::string describe_argument(const std::vector<double>& values) {
                             : fmt::format("{} numbers", values.size());
 }
 
-std::string describe_distribution(const Distribution& distribution) {
-  std::string text(type_of(distribution.law));
-  const char* separator = " (";
-  std::visit(
-      [&]<class L>(const L& law) {
-        for (const auto& parameter : L::parameters()) {
-          text += fmt::format("{}{} {}", separator, parameter.name,
-                              describe_argument(law.*parameter.member));
-          separator = ", ";
-        }
-      },
-      distribution.law);
-  text += ")";
-  if (distribution.truncate)
-    text +=
-        fmt::format(" within [{}, {}]", distribution.truncate->lower, distribution.truncate->upper);
-  return text;
-}
-
 std::string describe_targets(const Scene& scene, std::span<const SceneParameter> parameters) {
   std::vector<std::string> targets;
   for (const SceneParameter& target : parameters)
@@ -62,8 +43,7 @@ std::string describe_table(const Curve& table) {
 
 /// A line, and one more for each thing that a `through` drives.
 std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
-  std::string text =
-      fmt::format("{}: {}", dispersion.name, describe_distribution(dispersion.distribution));
+  std::string text = fmt::format("{}: {}", dispersion.name, describe(dispersion.distribution));
   for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve* table) {
     const std::string_view verb = apply_names[static_cast<std::size_t>(how)];
     text += table ? fmt::format("\n    {} by {}: {}", verb, describe_table(*table),
@@ -92,7 +72,7 @@ std::string describe_case(const Campaign& campaign, const CaseSpec& spec) {
         with_unit(target.in(campaign.scene), unit)));
   }
   for (const auto& [dispersion, distribution] : spec.distributions)
-    changes.push_back(fmt::format("{}: {}", dispersion, describe_distribution(distribution)));
+    changes.push_back(fmt::format("{}: {}", dispersion, describe(distribution)));
   if (changes.empty()) changes.emplace_back("as it is");
   return fmt::format("{}: {}", spec.name, fmt::join(changes, ", "));
 }
@@ -198,6 +178,25 @@ std::string describe_guarantees(const Campaign& campaign) {
 }
 
 } // namespace
+
+std::string describe(const Distribution& distribution) {
+  std::string text(type_of(distribution.law));
+  const char* separator = " (";
+  std::visit(
+      [&]<class L>(const L& law) {
+        for (const auto& parameter : L::parameters()) {
+          text += fmt::format("{}{} {}", separator, parameter.name,
+                              describe_argument(law.*parameter.member));
+          separator = ", ";
+        }
+      },
+      distribution.law);
+  text += ")";
+  if (distribution.truncate)
+    text +=
+        fmt::format(" within [{}, {}]", distribution.truncate->lower, distribution.truncate->upper);
+  return text;
+}
 
 std::string describe(const Campaign& campaign) {
   std::string text = "campaign\n" + describe(campaign.scene) +

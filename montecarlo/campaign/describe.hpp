@@ -8,6 +8,9 @@
 
 namespace wingspread {
 
+/// "normal (mean 1, std 0.05) within [0, 2]".
+[[nodiscard]] std::string describe(const Distribution& distribution);
+
 /// The scene, then a line for each dispersion,
 /// and for the sampling, integration, outputs and statistics.
 [[nodiscard]] std::string describe(const Campaign& campaign);

@@ -84,6 +84,11 @@ MotionSample between(const MotionSample& from, const MotionSample& to, const Mot
   return sample;
 }
 
+void pin_only(std::span<MotionSample> samples, std::span<const double> times) {
+  for (MotionSample& sample : samples)
+    sample.pinned = std::ranges::find(times, sample.t) != times.end();
+}
+
 std::vector<MotionSample> resample(std::span<const MotionSample> samples,
                                    const MotionLayout& layout, std::size_t most) {
   if (samples.size() < 2) return {samples.begin(), samples.end()};

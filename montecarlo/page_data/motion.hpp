@@ -34,7 +34,7 @@ public:
 
   /// What to hand to the run. @pre the recorder outlives it
   [[nodiscard]] Observer observer();
-  [[nodiscard]] const std::vector<MotionSample>& samples() const { return samples_; }
+  [[nodiscard]] std::vector<MotionSample>& samples() { return samples_; }
 
 private:
   static constexpr std::size_t most_kept = 1 << 14;
@@ -51,6 +51,9 @@ private:
 /// @param t from the first to the second; they are apart
 [[nodiscard]] MotionSample between(const MotionSample& from, const MotionSample& to,
                                    const MotionLayout& layout, double t);
+
+/// Pins the two sides of the engagements at these times, and no others: a hinge that sticks has two sides too.
+void pin_only(std::span<MotionSample> samples, std::span<const double> times);
 
 /// At most `most` samples and the pinned ones. They stand where much changes: a third of them by time, a third by the
 /// ways of all angles, a third by those of all moments.

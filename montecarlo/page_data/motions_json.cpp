@@ -118,9 +118,12 @@ void add_statuses(const PageSource& source, Choice& choice) {
 }
 
 /// A run as the page plays it.
-Json motion_json(const Scene& scene, const MotionRecorder& recorder, const Outcome& outcome,
+Json motion_json(const Scene& scene, MotionRecorder& recorder, const Outcome& outcome,
                  std::size_t most) {
   const MotionLayout layout{scene.hinges.size()};
+  std::vector<double> latched;
+  for (const LatchEvent& latch : outcome.latches) latched.push_back(latch.time);
+  pin_only(recorder.samples(), latched);
   const std::vector<MotionSample> samples = resample(recorder.samples(), layout, most);
   const auto column = [&](std::size_t place, int digits) {
     Json json = Json::array();

@@ -8,7 +8,8 @@ namespace {
 
 // Numbers of each part on one page, at some 9 bytes a number: 3.4 MB together.
 constexpr double most_output_numbers = 140'000, most_motion_numbers = 130'000,
-                 most_envelope_numbers = 60'000, most_scatter_numbers = 45'000;
+                 most_envelope_numbers = 60'000, most_scatter_numbers = 45'000,
+                 most_effect_numbers = 20'000;
 
 /// A part's share of what it would take in full: 1 where there is room for all of it.
 double share_of(double room, double wanted) { return std::min(1.0, room / wanted); }
@@ -48,6 +49,10 @@ PageDetail page_detail(const PageExtent& extent) {
   const double scatter =
       share_of(most_scatter_numbers, sets * static_cast<double>(detail.scatters) * of_scatter);
   detail.scatters = scaled(detail.scatters, scatter, 1);
+  constexpr double of_effect = 8;
+  const double effect = share_of(most_effect_numbers,
+                                 sets * outputs * of_effect * static_cast<double>(detail.effects));
+  detail.effects = scaled(detail.effects, effect, 2);
   return detail;
 }
 

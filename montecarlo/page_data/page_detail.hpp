@@ -22,6 +22,7 @@ struct PageDetail {
   std::size_t envelope_runs = 200;
   std::size_t latch_times = 200; ///< of one hinge
   std::size_t scatters = 12;
+  std::size_t effects = 12; ///< on one output
 };
 
 /// Everything in full as long as the page's block keeps to its 3.5 MB; else each part by what it takes of them.

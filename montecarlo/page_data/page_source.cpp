@@ -7,10 +7,10 @@
 namespace wingspread {
 
 std::unique_ptr<PageSource> read_page_source(StoredCampaign stored, const std::string& label,
-                                             const Scene* before_case, int threads) {
+                                             const Campaign* before_case, int threads) {
   auto source = std::make_unique<PageSource>();
   source->label = label;
-  source->before_case = before_case ? *before_case : stored.campaign.scene;
+  source->before_case = before_case ? *before_case : stored.campaign;
   source->stored = std::move(stored);
   const Campaign& campaign = source->stored.campaign;
   source->results = std::move(read_stored_results(source->stored).results);

@@ -14,8 +14,8 @@ namespace wingspread {
 struct PageSource {
   std::string label;
   StoredCampaign stored;
-  /// The whole campaign's scene before its case changed it; the set's own where it is of no case.
-  Scene before_case;
+  /// The whole campaign before its case changed it; the set's own where it is of no case.
+  Campaign before_case;
   Results results;
   Replication replication;
   Summary summary;
@@ -31,6 +31,7 @@ struct PageSource {
 /// @throws SpecError as read_stored_results does
 [[nodiscard]] std::unique_ptr<PageSource> read_page_source(StoredCampaign stored,
                                                            const std::string& label,
-                                                           const Scene* before_case, int threads);
+                                                           const Campaign* before_case,
+                                                           int threads);
 
 } // namespace wingspread

@@ -1,5 +1,8 @@
 #include "montecarlo/page_data/set_json.hpp"
 
+#include "montecarlo/page_data/causes_json.hpp"
+#include "montecarlo/page_data/envelopes_json.hpp"
+#include "montecarlo/page_data/inputs_json.hpp"
 #include "montecarlo/page_data/motions_json.hpp"
 #include "montecarlo/page_data/output_json.hpp"
 #include "montecarlo/page_data/page_numbers.hpp"
@@ -140,17 +143,16 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["accuracy"] = nullptr;
   json["requirements"] = requirements_json(summary);
   json["outputs"] = outputs_json(source, detail, threads);
-  json["correlations"] = nullptr;
-  json["sensitivity"] = nullptr;
-  json["scatters"] = Json::array();
+  json["correlations"] = correlations_json(source);
+  json["sensitivity"] = effects_json(source, detail);
+  json["scatters"] = scatters_json(source, detail);
   json["wing"] = wing_json(source.stored.campaign.scene);
   json["motions"] = motions_json(source, detail, threads);
-  json["envelopes"] = nullptr;
+  json["envelopes"] = envelopes_json(source, detail, threads);
   json["static_margins"] = nullptr;
   json["margin"] = nullptr;
   json["rare"] = nullptr;
-  json["inputs"] = {
-      {"scene", Json::array()}, {"dispersions", Json::array()}, {"settings", Json::array()}};
+  json["inputs"] = inputs_json(source);
   return json;
 }
 

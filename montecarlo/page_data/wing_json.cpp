@@ -38,6 +38,14 @@ Point furthest(const std::vector<Point>& marks) {
       marks, {}, [&](const Point& mark) { return (mark - marks.front()).norm(); });
 }
 
+/// A way nearly along an axis of its frame is meant to be along it: hinges stand off a panel's middle on either side.
+Point straightened(Point way) {
+  constexpr double slant = 0.2;
+  if (std::abs(way.y()) < slant * std::abs(way.x())) way.y() = 0;
+  if (std::abs(way.x()) < slant * std::abs(way.y())) way.x() = 0;
+  return way.normalized();
+}
+
 BodyOutline panel(const std::vector<Point>& marks, const Point& along) {
   const Point across{-along.y(), along.x()};
   double least = 0, most = 0, thick = 0;
@@ -82,7 +90,7 @@ BodyOutline base_outline(const Scene& scene) {
     const double size = std::max(spread, half);
     return {{{-size, -size}, {size, -size}, {size, size}, {-size, size}}, true};
   }
-  const Point along = outward.normalized(), across = Point{-along.y(), along.x()} * half;
+  const Point along = straightened(outward), across = Point{-along.y(), along.x()} * half;
   const Point inner = joints - 2 * half * along;
   return {{joints - across, joints + across, inner + across, inner - across}, true};
 }
@@ -139,7 +147,7 @@ BodyOutline body_outline(const Scene& scene, int body) {
   if (marks.size() == 1) marks.emplace_back(-marks.front()); // the last of its wing
   const Point way = furthest(marks) - marks.front();
   if (way.norm() == 0) return {{{0, 0}, {0, 0}}, false};
-  const Point along = way.normalized(), across{-along.y(), along.x()};
+  const Point along = straightened(way), across{-along.y(), along.x()};
   const bool bent = std::ranges::any_of(
       marks, [&](const Point& mark) { return std::abs(mark.dot(across)) > 0.2 * way.norm(); });
   return bent ? star(marks) : panel(marks, along);

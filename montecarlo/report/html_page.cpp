@@ -2,6 +2,7 @@
 
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/folder/version.hpp"
+#include "montecarlo/page_data/differences.hpp"
 #include "montecarlo/page_data/page_numbers.hpp"
 #include "montecarlo/page_data/set_json.hpp"
 #include "montecarlo/report/page_files.hpp"
@@ -31,7 +32,7 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
   for (const CaseSpec& spec : made_cases(whole))
     sources.push_back(read_page_source(read_stored_campaign(folder / spec.name),
                                        several ? name + " · " + spec.name : spec.name,
-                                       &whole.campaign.scene, threads));
+                                       &whole.campaign, threads));
 }
 
 /// Two folders of one name are told apart by their paths.
@@ -50,6 +51,14 @@ PageExtent extent_of(const PageSources& sources) {
     extent.outputs = std::max(extent.outputs, source->results.outputs.size());
   }
   return extent;
+}
+
+/// Each set with the first, and with the one before it.
+void add_comparisons(const PageSources& sources, Json& comparisons) {
+  for (std::size_t j = 1; j < sources.size(); ++j)
+    for (const std::size_t i :
+         j > 1 ? std::vector<std::size_t>{0, j - 1} : std::vector<std::size_t>{0})
+      comparisons.push_back(comparison_json(*sources[i], *sources[j], {i, j}));
 }
 
 } // namespace
@@ -75,6 +84,7 @@ Json page_json(const PageSources& sources, const std::string& command, int threa
             {"sets", Json::array()},
             {"comparisons", Json::array()}};
   for (const auto& source : sources) json["sets"].push_back(set_json(*source, detail, threads));
+  add_comparisons(sources, json["comparisons"]);
   return json;
 }
 

@@ -4,10 +4,7 @@
 #   cmake -DPAGE=DIR -DD3=FILE -DD3_LICENCE=FILE -DOUT=FILE -P page_files.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(html "<!doctype html><title>wingspread</title><!-- style --><!-- data --><!-- scripts -->") # until the page is there
-if(EXISTS ${PAGE}/index.html)
-  file(READ ${PAGE}/index.html html)
-endif()
+file(READ ${PAGE}/index.html html)
 set(style "")
 file(GLOB sheets ${PAGE}/*.css)
 list(SORT sheets)
