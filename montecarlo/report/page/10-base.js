@@ -48,7 +48,7 @@
   // A table. A column: { text, unit, kind: "text" | "number", key: the row's header }. Cells: text, a number's text or an element.
   W.table = function (caption, columns, rows, options = {}) {
     const cell = (column, content, first) =>
-      W.h(first && column.header !== false ? "th" : "td", { scope: first && column.header !== false ? "row" : null, class: column.kind === "number" ? "number" : null }, content);
+      W.h(first && column.header !== false ? "th" : "td", { scope: first && column.header !== false ? "row" : null, class: column.kind === "number" ? "number" : null, "data-label": options.stacks && !first ? column.text : null }, content);
     const head = columns.map((column) =>
       W.h("th", { scope: "col", class: column.kind === "number" ? "number" : null }, column.text, column.unit ? W.h("span", { class: "unit" }, " " + column.unit) : null));
     const body = rows.map((row) => W.h("tr", { class: row.mark || null }, (row.cells || row).map((content, at) => cell(columns[at], content, at === 0))));

@@ -30,9 +30,12 @@
     return h("button", { type: "button", class: "small", "aria-label": label, title: label, onclick }, text);
   }
 
-  function draw(figure, width) {
-    const { host, options } = figure;
-    figure.width = width;
+  // On a projector the page's letters grow, and those in pictures with them: they are drawn smaller and shown larger.
+  const growth = () => (printing ? 1 : Math.max(1, parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.3));
+
+  function draw(figure, shown) {
+    const { host, options } = figure, width = Math.round(shown / growth());
+    figure.width = shown;
     const svg = d3.create("svg").attr("xmlns", "http://www.w3.org/2000/svg").attr("role", options.interactive ? "group" : "img")
       .attr("aria-labelledby", `${figure.titleId}-t`).attr("aria-describedby", figure.descriptionId).attr("class", "chart");
     svg.append("title").attr("id", `${figure.titleId}-t`).text(options.title);

@@ -23,7 +23,7 @@
   const ruler = document.createElement("canvas").getContext("2d");
   M.textWidth = function (text, size = 12) {
     ruler.font = `${size}px ${getComputedStyle(document.body).fontFamily}`;
-    return ruler.measureText(text).width;
+    return 1.05 * ruler.measureText(text).width; // tabular figures are a little wider
   };
 
   // A legend above the picture, in as many lines as it takes: items { text, fill | line, dash, mark }. Returns its height.
@@ -35,7 +35,7 @@
       if (x > left && x + needed > width + 12) { x = left; y += 18; }
       const one = group.append("g").attr("transform", `translate(${x},${y})`);
       if (item.fill) one.append("rect").attr("x", 0).attr("y", -5).attr("width", 16).attr("height", 10).style("fill", item.fill).style("fill-opacity", item.opacity || null);
-      else if (item.mark) one.append("circle").attr("cx", 8).attr("r", 4).style("fill", item.mark);
+      else if (item.mark) one.append("path").attr("transform", "translate(8,0)").attr("d", d3.symbol().size(50).type(item.shape || d3.symbolCircle)()).style("fill", item.mark);
       else one.append("line").attr("x2", 16).style("stroke", item.line).attr("stroke-width", item.heavy || 2).attr("stroke-dasharray", item.dash || null);
       one.append("text").attr("x", 21).attr("dy", "0.34em").text(M.shorten(item.text, width - 24));
       x += needed;
@@ -48,6 +48,10 @@
     while (kept.length > 1 && M.textWidth(kept + "…", size) > width) kept = kept.slice(0, -1);
     return kept + "…";
   };
+
+  // A shape for each number, besides its colour.
+  const SHAPES = [d3.symbolCircle, d3.symbolTriangle, d3.symbolSquare, d3.symbolDiamond, d3.symbolCross, d3.symbolStar, d3.symbolWye];
+  M.shape = (at) => SHAPES[((at % 7) + 7) % 7];
 
   // Axes of a box { left, right, top, bottom }: x below, y at the left, light lines across.
   M.axes = function (svg, box, x, y, options = {}) {
@@ -80,13 +84,13 @@
     const group = svg.append("g").attr("class", "uprights"), taken = [];
     for (const line of lines) {
       if (line.x < box.left - 0.5 || line.x > box.right + 0.5) continue;
-      const wide = M.textWidth(line.text, 11) + 4, rightwards = line.x + wide < box.right;
+      const wide = M.textWidth(line.text, 12) + 12, rightwards = line.x + wide < box.right;
       const from = rightwards ? line.x : line.x - wide;
       let row = 0;
       while (taken.some((one) => one.row === row && from < one.to && from + wide > one.from)) ++row;
       taken.push({ row, from, to: from + wide });
       group.append("line").attr("class", line.kind).attr("x1", line.x).attr("x2", line.x).attr("y1", box.top).attr("y2", box.bottom);
-      group.append("text").attr("class", line.kind + "-text").attr("x", line.x + (rightwards ? 4 : -4)).attr("y", box.top + 10 + 13 * row)
+      group.append("text").attr("class", line.kind + "-text").attr("x", line.x + (rightwards ? 4 : -4)).attr("y", lines.low ? box.bottom - 8 - 13 * row : box.top + 10 + 13 * row)
         .attr("text-anchor", rightwards ? "start" : "end").text(line.text);
     }
   };

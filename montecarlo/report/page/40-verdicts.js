@@ -26,10 +26,10 @@
     const [failed, open, passed] = ["failed", "open", "passed"].map(count);
     const worst = failed ? "failed" : open ? "open" : "passed";
     const cases = W.sets.length > 1 ? ` over ${W.sets.length} ${W.sets.some((set) => set.case) ? "cases" : "folders"}` : "";
-    const text = failed ? `${failed} of ${rows.length} ${rows.length === 1 ? "verdict is" : "verdicts are"} “not shown”${cases}`
-      : open ? `${open} of ${rows.length} undecided${cases}: too few runs can be seen` : `All ${rows.length} requirements are shown to be met${cases}`;
-    const parts = [failed && `${failed} failed`, open && `${open} undecided`, passed && `${passed} passed`].filter(Boolean).join(", ");
-    return h("p", { class: `headline ${worst}` }, W.badge(worst), " ", text, h("small", {}, ` ${parts}.`));
+    const text = failed ? `${failed} of ${rows.length} ${rows.length === 1 ? "requirement" : "requirements"} not shown to be met${cases}`
+      : open ? `${open} of ${rows.length} undecided${cases}: so few runs cannot show it` : `All ${rows.length} requirements are shown to be met${cases}`;
+    const parts = [failed && `${failed} failed`, open && `${open} undecided`, passed && `${passed} passed`].filter(Boolean);
+    return h("p", { class: `headline ${worst}` }, W.badge(worst), " ", text, parts.length > 1 ? h("small", {}, ` ${parts.join(", ")}`) : null);
   }
 
   // Values of a requirement on an output have its unit; those of one on an outcome are shares.
@@ -37,10 +37,12 @@
     const output = W.outputsOf(set).find((one) => one.name === requirement.output);
     return output ? output.unit : "";
   }
+  // Four digits, and more where it takes them to tell the value from its limit.
   function valueText(value, requirement, set) {
     if (!W.isNumber(value)) return F.none;
-    const unit = unitOf(requirement, set);
-    return `${F.number(value, 5)} ${F.unit(unit)}`.trim();
+    const size = (number) => (W.isNumber(number) && number !== 0 ? Math.floor(Math.log10(Math.abs(number))) : 0);
+    const decimals = Math.max(3 - size(W.isNumber(requirement.guaranteed_value) ? requirement.guaranteed_value : value), W.isNumber(requirement.margin) ? 1 - size(requirement.margin) : 0);
+    return `${decimals > 7 ? F.number(value, 4) : F.fixed(value, decimals)} ${F.unit(unitOf(requirement, set))}`.trim();
   }
   const observed = (one, set) => (W.isNumber(one.observed_value) ? valueText(one.observed_value, one, set) : F.share(one.observed));
   function guaranteed(one, set) {
@@ -84,7 +86,7 @@
       mark: verdictOf(one.verdict),
       cells: [h("span", {}, one.text, h("span", { class: "evidence" }, one.evidence)), W.badge(one.verdict), several && h("span", { class: "nowrap" }, set.label), observed(one, set), guaranteed(one, set),
         marginText(one, set), bullet(one), h("span", {}, brokenRuns(one, at))].filter((cell) => cell !== false) }));
-    return W.table("Requirements, the worst first", columns, body, { class: "requirements" });
+    return W.table("Requirements, the worst first", columns, body, { class: "requirements", stacks: true });
   }
 
   // A cell for each requirement and case.

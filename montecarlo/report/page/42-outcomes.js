@@ -33,11 +33,15 @@
       h("ul", { class: "plain" }, set.reasons.map((one) => h("li", {}, h("b", {}, F.count(one.count)), ` ${NAMES[one.status] || one.status}: ${one.reason || "no reason given"}`))));
   }
 
+  function others(set) {
+    const kinds = set.order_kinds - set.orders.length + 1;
+    return kinds === 1 ? "one other order" : `${kinds} other orders`;
+  }
   function orders() {
     const set = W.set();
-    if (!(set.orders || []).length) return h("p", {}, "No hinge latched in any run.");
+    if (!(set.orders || []).length) return [h("h3", {}, "Orders of latching"), h("p", {}, "No hinge latched in any run.")];
     const total = d3.sum(set.orders, (one) => one.count) + (set.without_latch || 0);
-    const rows = set.orders.map((one, at) => [h("span", {}, h("i", { class: "key", style: `background:var(--c${at % 7})`, "aria-hidden": "true" }), one.order === "others" ? `others (${set.order_kinds - set.orders.length + 1} orders)` : F.order(one.order)), F.count(one.count), F.share(one.count / total)]);
+    const rows = set.orders.map((one, at) => [h("span", {}, h("i", { class: "key", style: `background:var(--c${at % 7})`, "aria-hidden": "true" }), one.order === "others" ? others(set) : F.order(one.order)), F.count(one.count), F.share(one.count / total)]);
     if (set.without_latch) rows.push([h("span", {}, h("i", { class: "key", style: "background:var(--none)", "aria-hidden": "true" }), "no hinge latched"), F.count(set.without_latch), F.share(set.without_latch / total)]);
     return [h("h3", {}, W.sets.length > 1 ? `Orders of latching · ${set.label}` : "Orders of latching"), W.table("Orders of latching", [{ text: "Order" }, { text: "Runs", kind: "number" }, { text: "Share", kind: "number" }], rows, { class: "long-names" })];
   }
@@ -89,6 +93,6 @@
   W.outcomes = function () {
     subtitle();
     W.fill(W.section("verdicts"), h("div", { class: "first" }, h("div", { class: "judgement" }, W.verdicts.requirements()), h("div", { class: "columns" },
-      h("div", {}, outcomes()), h("div", {}, orders()), h("div", {}, accuracy()), h("div", {}, warnings())), again()));
+      h("div", {}, outcomes()), h("div", {}, orders()), h("div", {}, warnings(), accuracy())), again()));
   };
 })();

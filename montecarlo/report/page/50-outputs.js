@@ -8,6 +8,7 @@
   function spark(output) {
     const svg = d3.create("svg").attr("class", "spark").attr("viewBox", "0 0 84 18").attr("width", 84).attr("height", 18).attr("aria-hidden", "true");
     const histogram = output.histogram;
+    if (W.isNumber(output.min) && output.min === output.max) return W.h("span", { class: "faint" }, output.count === 1 ? "one value" : "one value always");
     if (histogram && histogram.counts.length) {
       const { edges, counts } = histogram, x = d3.scaleLinear([edges[0], edges[edges.length - 1]], [0, 84]), y = d3.scaleLinear([0, d3.max(counts)], [0, 17]);
       svg.append("path").attr("d", counts.map((count, at) => `M${x(edges[at]).toFixed(1)},18v${(-y(count)).toFixed(1)}H${x(edges[at + 1]).toFixed(1)}V18`).join("") + "Z");
@@ -31,7 +32,7 @@
     const rows = outputs.map(function (output) {
       const verdict = worstVerdict(set, output), grain = F.grain(output), value = (number) => F.value(number, output.unit, grain);
       const button = h("button", { type: "button", class: "pick", "data-output": output.name, "aria-pressed": String(output.name === W.chosen.output), onclick: () => W.choose("output", output.name) }, F.name(output));
-      return { mark: output.count ? null : "zero", cells: [h("span", {}, button, verdict ? [" ", W.badge(verdict, true)] : null), F.shown(output.unit).unit, F.count(output.count), spark(output), value(output.nominal), value(output.mean), F.value(output.std, output.unit, output.std),
+      return { mark: output.count ? null : "zero", cells: [h("span", {}, button, verdict ? [" ", W.badge(verdict, true)] : null), F.shown(output.unit).unit, F.count(output.count), output.count ? spark(output) : "in no run", value(output.nominal), value(output.mean), F.value(output.std, output.unit, output.std),
         ...shownLevels.map((p) => value(((output.quantiles || []).find((one) => one.p === p) || {}).value))] };
     });
     const table = W.table(`Outputs of ${set.label}`, columns, rows, { class: "outputs" });
@@ -59,9 +60,13 @@
     event.preventDefault();
   }
 
+  function bounds(one, text) {
+    if (W.isNumber(one.lower) && W.isNumber(one.upper)) return `${text(one.lower)} … ${text(one.upper)}`;
+    return W.isNumber(one.lower) ? `above ${text(one.lower)}` : W.isNumber(one.upper) ? `below ${text(one.upper)}` : "too few runs for bounds";
+  }
   function quantiles(output, set) {
     const rows = (output.quantiles || []).map((one) => [one.p === 0.5 ? "median" : F.share(one.p).replace(/\.0 /, " "), F.value(one.value, output.unit, F.grain(output)),
-      W.isNumber(one.lower) || W.isNumber(one.upper) ? `${F.value(one.lower, output.unit, F.grain(output))} … ${F.value(one.upper, output.unit, F.grain(output))}` : "too few runs for bounds"]);
+      bounds(one, (value) => F.value(value, output.unit, F.grain(output)))]);
     for (const one of output.tolerance_limits || [])
       rows.push([`tolerance: ${one.text}`, [one.lower, one.upper].filter(W.isNumber).map((value) => F.value(value, output.unit, F.grain(output))).join(" … ") || F.none, ""]);
     return W.table(`Quantiles of ${F.name(output)}`, [{ text: "Quantile" }, { text: "Value", unit: F.shown(output.unit).unit, kind: "number" }, { text: `${100 * set.confidence} % bounds`, kind: "number" }], rows, { showCaption: true });

@@ -10,7 +10,7 @@
     if (W.isNumber(output.nominal)) lines.push({ x: x(output.nominal * factor), text: "nominal", kind: "nominal" });
     for (const at of output.limits || []) {
       const one = set.requirements[at];
-      if (one && W.isNumber(one.limit)) lines.push({ x: x(one.limit * factor), text: `${one.upper ? "≤" : "≥"} ${F.number(one.limit * factor, 5)}`, kind: "limit" });
+      if (one && W.isNumber(one.limit)) lines.push({ x: x(one.limit * factor), text: `${one.upper ? "≤" : "≥"} ${F.given(Number((one.limit * factor).toPrecision(6)))}`, kind: "limit" });
     }
     return lines;
   }
@@ -26,7 +26,7 @@
   function beyond(set, output, factor, unit, edges) {
     const shown = d3.extent(reach(set, output, factor, edges));
     const far = (output.limits || []).map((at) => set.requirements[at]).filter((one) => one && W.isNumber(one.limit) && (one.limit * factor < shown[0] || one.limit * factor > shown[1]));
-    return far.map((one) => `The limit ${one.upper ? "≤" : "≥"} ${F.number(one.limit * factor, 5)} ${unit} lies outside of the picture.`).join(" ");
+    return far.map((one) => `The limit ${one.upper ? "≤" : "≥"} ${F.given(Number((one.limit * factor).toPrecision(6)))} ${unit} lies outside of the picture.`).join(" ");
   }
 
   W.histogram = function (set, output) {
@@ -127,10 +127,10 @@
       const rows = curve.x.map((value, at) => [value * factor, curve.lower[at], curve.upper[at]]);
       svg.append("path").attr("class", "curve-band").style("fill", colour || M.colour(0)).attr("d", d3.area().defined((row) => row.every(W.isNumber)).curve(d3.curveStepAfter).x((row) => x(row[0])).y0((row) => height(row[1])).y1((row) => height(row[2]))(rows));
       svg.append("path").attr("class", "curve").style("stroke", colour).attr("stroke-dasharray", several ? M.dash(one.at) : null)
-        .attr("d", d3.line().curve(d3.curveStepAfter).x((row) => x(row[0])).y((row) => height(row[1]))(curve.x.map((value, at) => [value * factor, curve.p[at]])));
+        .attr("d", d3.line().curve(d3.curveStepAfter).x((row) => x(row[0])).y((row) => height(row[1]))([...(paper ? [] : [[x.domain()[0], 0]]), ...curve.x.map((value, at) => [value * factor, curve.p[at]]), ...(paper ? [] : [[x.domain()[1], 1]])]));
     }
     if (!several) quantileMarks(svg, output, x, height, factor);
-    M.uprights(svg, box, marksOf(set, output, x, factor));
+    M.uprights(svg, box, Object.assign(marksOf(set, output, x, factor), { low: true })); // where the curve is not
     return box.bottom + 40;
   }
   const tidy = (p) => (p <= 0.5 ? `${Number((100 * p).toPrecision(2))} %` : `${Number((100 - Number((100 * (1 - p)).toPrecision(2))).toFixed(4))} %`);

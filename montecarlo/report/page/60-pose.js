@@ -84,7 +84,7 @@
       description: () => `The wing drawn to scale at ${times.length} instants from stowed to ${W.format.number(end, 3)} s.`,
       table: () => ({ columns: ["time s", ...wing.hinges.map((hinge) => `${hinge.name} deg`)], rows: times.map((time) => [time, ...P.at(motion, time).angles.map((angle) => angle * W.format.DEGREES)]) }),
       draw: function (svg, width) {
-        const poses = times.map((time) => P.at(motion, time)), scale = P.scale(P.bounds(wing, poses), width, 380, 4);
+        const poses = times.map((time) => P.at(motion, time)), scale = P.scale(P.bounds(wing, poses), width, Math.max(170, Math.min(400, 0.4 * width)), 4);
         poses.forEach(function (pose, at) {
           const share = at / (poses.length - 1);
           P.draw(svg.append("g").attr("class", "pose").attr("opacity", 0.18 + 0.82 * share * share), wing, scale, pose, at === poses.length - 1 ? () => true : null);

@@ -7,7 +7,7 @@
   const calm = () => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 
   // What is played: time and speed live here, so that pictures can be drawn anew at any width.
-  const player = (W.player = { time: 0, playing: false, speed: 1, quantity: "moments", motion: null });
+  const player = (W.player = { time: 0, playing: false, speed: 1, quantity: "moments", span: "whole", motion: null });
   const QUANTITIES = { moments: ["Moment", "N·m", 1], angles: ["Angle", "deg", F.DEGREES], rates: ["Rate", "deg/s", F.DEGREES] };
   const listeners = [];
 
@@ -70,6 +70,7 @@
   // Beside it: a quantity of every hinge against time. Of many hinges those with the largest peaks have colours.
   function history(wing, motion) {
     let x, box, cursor;
+    const clip = W.newId("clip");
     const [text, unit, factor] = QUANTITIES[player.quantity], rows = motion[player.quantity] || [];
     const size = rows.map((row) => d3.max(row, (value) => Math.abs(value)) || 0), ranked = d3.range(rows.length).sort((a, b) => size[b] - size[a]);
     const named = rows.length <= 7 ? d3.range(rows.length) : ranked.slice(0, 6).sort(d3.ascending), colour = (at) => (named.includes(at) ? M.colour(named.indexOf(at)) : "var(--none)");
@@ -83,13 +84,15 @@
         const y = M.linear([0, ...rows.flat().filter(W.isNumber).map((value) => value * factor)], [0, 1]);
         box = { left: M.leftFor(y), right: width - 10, top: top + 18, bottom: top + Math.max(210, Math.min(330, width * 0.5)) };
         y.range([box.bottom, box.top]);
-        x = d3.scaleLinear(d3.extent(motion.t), [box.left, box.right]);
+        x = d3.scaleLinear(spanOf(motion), [box.left, box.right]);
         M.axes(svg, box, x, y, { xText: "time (s)", yText: `${text.toLowerCase()} (${unit})` });
         for (const latch of motion.latches || []) svg.append("line").attr("class", "latch-line").style("stroke", colour(latch.hinge)).attr("x1", x(latch.time)).attr("x2", x(latch.time)).attr("y1", box.top).attr("y2", box.bottom);
         d3.range(rows.length).sort((a, b) => named.includes(a) - named.includes(b)).forEach((at) =>
           svg.append("path").attr("class", "trace").attr("d", M.line(x, y)(motion.t.map((time, k) => [time, W.isNumber(rows[at][k]) ? rows[at][k] * factor : null]))).style("stroke", colour(at)).attr("stroke-dasharray", named.includes(at) ? M.dash(named.indexOf(at)) : null)
             .append("title").text(wing.hinges[at].name));
-        cursor = svg.append("line").attr("class", "cursor").attr("y1", box.top - 4).attr("y2", box.bottom + 4);
+        svg.append("clipPath").attr("id", clip).append("rect").attr("x", box.left).attr("y", box.top - 4).attr("width", box.right - box.left).attr("height", box.bottom - box.top + 8);
+        svg.selectAll(".trace, .latch-line").attr("clip-path", `url(#${clip})`);
+        cursor = svg.append("line").attr("clip-path", `url(#${clip})`).attr("class", "cursor").attr("y1", box.top - 4).attr("y2", box.bottom + 4);
         const toTime = (event) => seek(x.invert(((event.clientX - svg.node().getBoundingClientRect().left) * width) / svg.node().getBoundingClientRect().width));
         svg.append("rect").attr("class", "catch").attr("x", box.left).attr("y", box.top).attr("width", box.right - box.left).attr("height", box.bottom - box.top)
           .on("pointerdown", () => toTime(d3.event)).on("pointermove", () => d3.event.buttons && toTime(d3.event));
@@ -101,6 +104,14 @@
     }
     listeners.push(move);
     return element;
+  }
+
+  // The whole run, or the time in which the hinges latch.
+  function spanOf(motion) {
+    const whole = d3.extent(motion.t), latches = d3.extent(motion.latches || [], (latch) => latch.time);
+    if (player.span === "whole" || latches[0] === undefined) return whole;
+    const room = Math.max(0.03 * whole[1], 0.25 * (latches[1] - latches[0]));
+    return [Math.max(whole[0], latches[0] - room), Math.min(whole[1], latches[1] + 3 * room)];
   }
 
   // Numbers at the cursor.
@@ -159,10 +170,11 @@
     player.time = Math.min(player.time, motion.t[motion.t.length - 1]);
     if (!player.time) player.time = opening(motion);
     const beside = h("div", {});
-    const show = () => W.fill(beside, W.buttons("Show", Object.entries(QUANTITIES).map(([key, [text]]) => [key, text]), player.quantity, (value) => { player.quantity = value; show(); }), history(wing, motion));
+    const show = () => W.fill(beside, h("div", { class: "controls" }, W.buttons("Show", Object.entries(QUANTITIES).map(([key, [text]]) => [key, text]), player.quantity, (value) => { player.quantity = value; show(); }),
+      (motion.latches || []).length ? W.buttons("Time", [["whole", "whole run"], ["latches", "while latching"]], player.span, (value) => { player.span = value; show(); }) : null), history(wing, motion));
     show();
     const element = h("div", { class: "player", role: "group", "aria-label": "Wing in motion. Space plays and pauses, the arrow keys step, Home and End go to the ends", tabindex: "0", onkeydown: byKeys },
-      h("div", { class: "pair" }, stage(wing, motion), beside), controls(motion), readout(wing, motion));
+      h("div", { class: "pair" }, h("div", {}, stage(wing, motion), controls(motion), readout(wing, motion)), beside));
     return [choices(set), h("p", { class: "why-shown" }, h("b", {}, motion.label), motion.why ? `: ${motion.why}` : "", motion.reason ? ` · ${motion.reason}` : ""), motion.replay ? W.command(motion.replay, "command of this run") : null, element];
   };
   // The first picture is of a wing on its way, not of a stack.

@@ -16,7 +16,7 @@
   function panel(svg, box, envelopes, rows, title, unit, range) {
     const { middle, pairs } = bands(envelopes.levels), x = d3.scaleLinear(d3.extent(envelopes.t), [box.left, box.right]);
     const y = range.copy().range([box.bottom, box.top]);
-    M.axes(svg, box, x, y, { yText: `${title} (${unit})`, yTextAt: box.left - 34, yTicks: 4, xTicks: Math.max(2, Math.min(6, (box.right - box.left) / 60)) });
+    M.axes(svg, box, x, y, { yText: `${title} (${unit})`, yTextAt: box.left - 34, yTicks: 4, xTicks: Math.max(2, Math.min(6, (box.right - box.left) / 60)), xFormat: (value, at, all) => `${F.tick(value)}${at === all.length - 1 ? " s" : ""}` });
     pairs.forEach(([low, high], depth) => svg.append("path").attr("class", `envelope depth-${depth}`).attr("d", M.band(x, y)(envelopes.t.map((time, at) => [time, rows[low][at] * F.DEGREES, rows[high][at] * F.DEGREES]))));
     if (middle >= 0) svg.append("path").attr("class", "median").attr("d", M.line(x, y)(envelopes.t.map((time, at) => [time, rows[middle][at] * F.DEGREES])));
   }
@@ -25,14 +25,14 @@
     const { envelopes, wing } = set, { pairs } = bands(envelopes.levels);
     const range = (rows) => M.linear(rows.flat().map((value) => (W.isNumber(value) ? value * F.DEGREES : null)), [0, 1]);
     return W.figure({
-      title: `Envelopes of angles and rates${parts > 1 ? `, ${wing.hinges[hinges[0]].name} to ${wing.hinges[hinges[hinges.length - 1]].name}` : ""}`, class: "envelopes",
+      title: `Envelopes of angles and rates${parts > 1 ? `, ${wing.hinges[hinges[0]].name} to ${wing.hinges[hinges[hinges.length - 1]].name}` : ""}`, class: "envelopes", printed: 940,
       note: `Quantiles at each instant, over ${F.count(envelopes.runs)} runs spread evenly through the campaign; no single run follows a band's edge.`,
       description: `Bands of the angle and rate of each hinge against time: ${pairs.map(([low, high]) => `${percent(envelopes.levels[low])} to ${percent(envelopes.levels[high])}`).join(", ")}, and the median.`,
       table: () => ({ columns: ["time s", ...hinges.flatMap((hinge) => envelopes.levels.flatMap((level) => [`${wing.hinges[hinge].name} angle ${percent(level)} deg`, `${wing.hinges[hinge].name} rate ${percent(level)} deg/s`]))],
         rows: envelopes.t.map((time, at) => [time, ...hinges.flatMap((hinge) => envelopes.levels.flatMap((_, level) => [envelopes.angles[hinge][level][at], envelopes.rates[hinge][level][at]].map((value) => (W.isNumber(value) ? value * F.DEGREES : null))))]) }),
       draw: function (svg, width) {
         const top = M.legend(svg, [...pairs.map(([low, high], depth) => ({ text: `${percent(envelopes.levels[low])} – ${percent(envelopes.levels[high])}`, fill: `var(--band-${depth})` })), { text: "median", line: "var(--c0)" }], width);
-        const columns = width > 1150 ? 4 : 2, across = Math.min(columns, 2 * hinges.length), cell = width / across, tall = width < 500 ? 130 : 150;
+        const columns = width >= 900 ? 4 : 2, across = Math.min(columns, 2 * hinges.length), cell = width / across, tall = width < 500 ? 130 : 150;
         hinges.forEach(function (hinge, at) {
           [["angle", "angles", "deg"], ["rate", "rates", "deg/s"]].forEach(function ([text, key, unit], second) {
             const place = 2 * at + second, left = (place % across) * cell, upper = top + Math.floor(place / across) * (tall + 24);

@@ -22,7 +22,7 @@
     if (!rows.length) return h("p", { class: "nothing" }, `No dispersion's effect on ${F.nameOf(name)} is known: too few runs have it, or it does not vary.`);
     const measure = kind === "sobol" ? "share of the variance" : "rank correlation";
     return W.figure({
-      title: `What moves ${F.nameOf(name)}`, class: "tornado", note: kind === "sobol" ? "First order: alone. Total: with what it does together with others. Lines are confidence bounds." : `Strongest first.${kind === "rank" ? " Lines are confidence bounds." : ""} To the right: the output rises with the dispersion.`,
+      title: `What moves ${F.nameOf(name)}`, class: "tornado", printed: 860, note: kind === "sobol" ? "First order: alone. Total: with what it does together with others. Lines are confidence bounds." : `Strongest first.${kind === "rank" ? " Lines are confidence bounds." : ""} To the right: the output rises with the dispersion.`,
       description: () => rows.map((one) => `${one.draw}: ${pair.map(([key, text]) => `${text} ${F.fixed(one[key], 2)}`).join(", ")}`).join("; "),
       table: () => ({ columns: ["dispersion", ...pair.flatMap(([key, text]) => (`${key}_lower` in rows[0] ? [text, "lower", "upper"] : [text]))], rows: rows.map((one) => [one.draw, ...pair.flatMap(([key]) => (`${key}_lower` in rows[0] ? [one[key], one[`${key}_lower`], one[`${key}_upper`]] : [one[key]]))]) }),
       draw: function (svg, width) {
@@ -62,17 +62,17 @@
       table: () => ({ columns: ["run", pair.draw, `${pair.output} ${F.unit(output.unit)}`, "order of latching"], rows: order.map((k) => [String(points.run[k]), points.x[k], points.y[k], ((set.orders || [])[points.order[k]] || { order: "" }).order]) }),
       draw: function (svg, width) {
         const { factor, unit } = F.shown(output.unit), used = [...new Set(points.order)].sort(d3.ascending);
-        const top = M.legend(svg, used.length > 1 ? used.map((one) => ({ text: one < 0 ? "no hinge latched" : F.order(set.orders[one].order), mark: M.colour(one) })) : [], width);
+        const top = M.legend(svg, used.length > 1 ? used.map((one) => ({ text: one < 0 ? "no hinge latched" : F.order(set.orders[one].order), mark: M.colour(one), shape: M.shape(one) })) : [], width);
         const y = M.linear([...pair.y_edges, ...points.y].map((value) => value * factor), [0, 1]), box = { left: M.leftFor(y), right: width - 12, top: top + 18, bottom: top + 270 };
         y.range([box.bottom, box.top]);
         const x = M.linear([...pair.x_edges, ...points.x], [box.left, box.right]);
         M.axes(svg, box, x, y, { xText: pair.draw, yText: `${F.name(output)}${unit ? ` (${unit})` : ""}` });
         cells(svg, pair, x, (value) => y(value * factor));
-        const shapes = d3.symbol().size(34), kinds = [d3.symbolCircle, d3.symbolTriangle, d3.symbolSquare, d3.symbolDiamond, d3.symbolCross, d3.symbolStar, d3.symbolWye];
+        const shapes = d3.symbol().size(34);
         const list = svg.append("g").attr("class", "points").attr("role", "listbox").attr("tabindex", 0).attr("aria-label", `Runs by ${pair.draw}. Arrow keys go through them, Enter chooses`);
         const stem = W.newId("run");
         marks = list.selectAll("path").data(order).enter().append("path").attr("role", "option").attr("id", (k) => `${stem}-${k}`).attr("class", "point").attr("aria-selected", "false")
-          .attr("d", (k) => shapes.type(kinds[((points.order[k] % 7) + 7) % 7])()).attr("transform", (k) => `translate(${x(points.x[k])},${y(points.y[k] * factor)})`).style("fill", (k) => M.colour(points.order[k]))
+          .attr("d", (k) => shapes.type(M.shape(points.order[k]))()).attr("transform", (k) => `translate(${x(points.x[k])},${y(points.y[k] * factor)})`).style("fill", (k) => M.colour(points.order[k]))
           .attr("aria-label", (k) => `run ${points.run[k]}: ${pair.draw} ${F.number(points.x[k], 4)}, ${F.name(output)} ${F.withUnit(points.y[k], output.unit)}`)
           .on("click", (k) => W.select(setAt, points.run[k], { [pair.draw]: points.x[k], [pair.output]: points.y[k] }));
         marks.append("title").text((k) => `run ${points.run[k]}`);
@@ -120,10 +120,10 @@
   const tornadoHost = h("div", {});
   W.why = function () {
     const set = W.set(), pairs = set.scatters || [];
-    const more = (from, to, text) => (pairs.length > from ? h("details", { class: "later" }, h("summary", {}, text), h("div", { class: "grid" }, pairs.slice(from, to).map((pair) => scatter(set, W.chosen.set, pair)))) : null);
+    const more = (from, to, text) => (pairs.length > from ? h("details", { class: "later" }, h("summary", {}, text), h("div", { class: "grid pairs" }, pairs.slice(from, to).map((pair) => scatter(set, W.chosen.set, pair)))) : null);
     W.fill(tornadoHost, tornado(set, W.chosen.output));
     W.fill(W.section("why"), h("p", { class: "lead" }, "Of the output chosen above; the strongest pairs of all outputs follow."), tornadoHost,
-      pairs.length ? [h("h3", {}, "Strongest pairs"), h("div", { class: "grid" }, pairs.slice(0, 4).map((pair) => scatter(set, W.chosen.set, pair))), more(4, 12, `${pairs.length - 4} more pairs`)] : null, W.studies(set));
+      pairs.length ? [h("h3", {}, "Strongest pairs"), h("div", { class: "grid pairs" }, pairs.slice(0, 4).map((pair) => scatter(set, W.chosen.set, pair))), more(4, 12, `${pairs.length - 4} more pairs`)] : null, W.studies(set));
   };
   W.on("output", (name) => tornadoHost.isConnected && W.fill(tornadoHost, tornado(W.set(), name)));
 })();

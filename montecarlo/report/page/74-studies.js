@@ -61,7 +61,7 @@
         return box.bottom + 40;
       } });
     return [h("p", {}, h("b", {}, `${rare.text}: ${F.number(rare.probability, 3)}`), ` (bounds ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).`), figure,
-      likeliest && likeliest.length ? W.table("The likeliest such run that was met", [{ text: "Dispersion" }, { text: "Value", kind: "number" }, { text: "Deviation", unit: "σ", kind: "number" }], likeliest.slice().sort((a, b) => Math.abs(b.sigma) - Math.abs(a.sigma)).map((one) => [one.name, F.number(one.value, 5), `${one.sigma > 0 ? "+" : ""}${F.fixed(one.sigma, 2)}`]), { showCaption: true }) : null];
+      likeliest && likeliest.length ? W.table("The likeliest such run that was met", [{ text: "Dispersion" }, { text: "Value", kind: "number" }, { text: "Deviation", unit: "σ", kind: "number" }], likeliest.slice().sort((a, b) => Math.abs(b.sigma) - Math.abs(a.sigma)).map((one) => [one.name, F.number(one.value, 4), `${one.sigma > 0 ? "+" : ""}${F.fixed(one.sigma, 2)}`]), { showCaption: true }) : null];
   }
 
   W.studies = function (set) {

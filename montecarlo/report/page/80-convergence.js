@@ -11,7 +11,7 @@
     if (!rows.some((row) => W.isNumber(row[1]))) return null;
     const last = rows[rows.length - 1];
     return W.figure({
-      title: `${text} against runs: ${F.name(output)}`, class: "settling", printed: 440, description: `At ${F.runs(last[0])}: ${F.number(last[1], 5)} ${unit}, bounds ${F.number(last[2], 5)} to ${F.number(last[3], 5)}.`,
+      title: `${text} against runs: ${F.name(output)}`, class: "settling", printed: 440, note: rows.some((row) => row.every(W.isNumber)) ? null : "So few runs have no bounds on both sides.", description: `At ${F.runs(last[0])}: ${F.number(last[1], 5)} ${unit}, bounds ${F.number(last[2], 5)} to ${F.number(last[3], 5)}.`,
       table: () => ({ columns: ["runs", `${text.toLowerCase()} ${unit}`, "lower", "upper"], rows }),
       draw: function (svg, width) {
         const top = M.legend(svg, [{ text: text.toLowerCase(), line: "var(--c0)" }, { text: "bounds", fill: "var(--c0)", opacity: 0.2 }], width);
@@ -23,7 +23,7 @@
         const decades = d3.range(0, 10).flatMap((k) => [1, 2, 5].map((m) => m * 10 ** k)).filter((value) => value >= x.domain()[0] && value <= x.domain()[1]);
         M.axes(svg, box, x, y, { xText: "runs", yText: `${text.toLowerCase()}${unit ? ` (${unit})` : ""}`, xValues: decades.length * 44 > width - box.left ? decades.filter((value) => /^1/.test(String(value))) : decades, xFormat: F.count });
         svg.append("path").attr("class", "curve-band").style("fill", "var(--c0)").attr("d", M.band(x, y)(rows.map((row) => [row[0], row[2], row[3]])));
-        svg.append("path").attr("class", "trace").style("stroke", "var(--c0)").attr("d", M.line(x, y)(rows));
+        svg.append("path").attr("class", "trace").style("stroke", "var(--c0)").attr("d", M.line(x, y)(rows.map((row) => row.slice(0, 2))));
         return box.bottom + 40;
       } });
   }
@@ -64,12 +64,13 @@
       } });
     return figure;
   }
+  const relativeSpread = (one) => (W.isNumber(one.lower) && one.difference !== 0 ? Math.abs((50 * (one.upper - one.lower) * one.relative) / one.difference) : Math.abs(one.relative));
   function compared(comparison, open) {
     const statuses = (comparison.statuses || []).filter((one) => one.difference !== 0 || W.sets[comparison.sets[0]].statuses.some((each) => each.status === one.status && each.count));
     const unit = (name) => (W.sets.flatMap(W.outputsOf).find((one) => one.name === name) || {}).unit || "";
     const sign = (value, text) => (value > 0 ? `+${text}` : text);
-    const rows = comparison.outputs.map((one) => [F.nameOf(one.output), F.shown(unit(one.output)).unit, W.isNumber(one.difference) ? sign(one.difference, F.value(one.difference, unit(one.output), Math.abs(one.difference) / 20)) : F.none,
-      W.isNumber(one.lower) ? `${F.value(one.lower, unit(one.output), (one.upper - one.lower) / 2)} … ${F.value(one.upper, unit(one.output), (one.upper - one.lower) / 2)}` : "no bounds", W.isNumber(one.relative) ? sign(one.relative, `${F.number(100 * one.relative, 3)} %`) : F.none]);
+    const rows = comparison.outputs.map((one) => [F.nameOf(one.output), F.shown(unit(one.output)).unit, W.isNumber(one.difference) ? sign(one.difference, F.value(one.difference, unit(one.output), W.isNumber(one.lower) ? (one.upper - one.lower) / 2 : Math.abs(one.difference) / 20)) : F.none,
+      W.isNumber(one.lower) ? `${F.value(one.lower, unit(one.output), (one.upper - one.lower) / 2)} … ${F.value(one.upper, unit(one.output), (one.upper - one.lower) / 2)}` : "no bounds", W.isNumber(one.relative) ? sign(one.relative, `${F.sized(100 * one.relative, relativeSpread(one))} %`) : F.none]);
     return h("details", { class: "later", open }, h("summary", {}, comparison.text), h("div", { class: "wide-pair" }, forest(comparison), h("div", {},
       W.table(`Differences of the means: ${comparison.text}`, [{ text: "Output" }, { text: "Unit" }, { text: "Difference", kind: "number" }, { text: "Bounds", kind: "number" }, { text: "Relative", kind: "number" }], rows, { class: "tall" }),
       statuses.length ? W.table(`Differences of the outcomes: ${comparison.text}`, [{ text: "Outcome" }, { text: "Difference", kind: "number" }, { text: "Bounds, percentage points", kind: "number" }],
