@@ -1,0 +1,71 @@
+"""A headless Chromium with the pages that the tests look at: made-up ones, and the program's own where there is a program."""
+
+import base64
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+
+import assemble
+import mock
+
+CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("WINGSPREAD_PROGRAM")  # where it is set, its own pages are looked at too
+_scratch = tempfile.TemporaryDirectory(prefix="wingspread_pages_")
+SCRATCH = pathlib.Path(_scratch.name)
+
+
+def browser():
+    options = webdriver.ChromeOptions()
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1280,1000"):
+        options.add_argument(argument)
+    options.binary_location = CHROMIUM
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(options=options, service=Service(DRIVER))
+
+
+def made_up(kind):
+    """The path of a page of this kind of mock.py; made once."""
+    path = SCRATCH / f"{kind}.html"
+    if not path.exists():
+        path.write_text(assemble.page(json.dumps(mock.KINDS[kind](), allow_nan=False, ensure_ascii=False)), encoding="utf-8")
+    return path
+
+
+def real(campaign, runs):
+    """The path of the program's own page of so many runs of a campaign of studies/campaigns."""
+    path = SCRATCH / f"real_{campaign}.html"
+    if not path.exists():
+        folder = SCRATCH / campaign
+        ran = subprocess.run([PROGRAM, "run", ROOT / f"studies/campaigns/{campaign}.json", "--runs", str(runs), "--out", folder], capture_output=True, text=True)
+        assert ran.returncode in (0, 1), ran.stderr  # 1: a requirement is not shown to be met
+        subprocess.run([PROGRAM, "report", folder, "--out", path], check=True, capture_output=True)
+    return path
+
+
+def resize(driver, width, height=1000):
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+
+
+def media(driver, **features):
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]})
+
+
+def picture(driver, path):
+    """The whole page as a PNG file."""
+    width, height = driver.execute_script("return [innerWidth, Math.min(16000, document.documentElement.scrollHeight)]")
+    resize(driver, width, height)
+    shot = driver.execute_cdp_cmd("Page.captureScreenshot", {"format": "png"})
+    pathlib.Path(path).write_bytes(base64.b64decode(shot["data"]))
+    resize(driver, width)
+
+
+def settle(driver):
+    """Until sizes have been seen and pictures drawn: two frames and a task."""
+    driver.execute_async_script("const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30)))")

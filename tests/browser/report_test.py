@@ -1,0 +1,305 @@
+"""The report page in a real browser: what is drawn against the data, what moves, what keys and clicks do, how it prints.
+
+    /usr/bin/python3 tests/browser/report_test.py            all
+    /usr/bin/python3 tests/browser/report_test.py Quick      what ctest runs
+
+WINGSPREAD_PROGRAM=build/release/wingspread has its own pages looked at as well. axe-core comes from npm, into
+WINGSPREAD_AXE or a folder of the build; where there is no npm that question is left out, and says so.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+try:
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    import pages
+except ImportError as missing:
+    raise SystemExit(f"left out: {missing}")
+
+KINDS = ("plain", "cases", "stalls", "all_failed", "single", "forty")
+
+
+class Page(unittest.TestCase):
+    """One browser for all tests of a class; every test ends with an empty console."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.driver = pages.browser()
+        cls.driver.set_script_timeout(60)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.driver.quit()
+
+    def open(self, path, width=1280):
+        pages.resize(self.driver, width)
+        self.driver.get(path.as_uri())
+        pages.settle(self.driver)
+
+    def tearDown(self):
+        lines = [line["message"] for line in self.driver.get_log("browser") if line["level"] in ("SEVERE", "WARNING")]
+        self.assertEqual(lines, [])
+        pages.media(self.driver)
+
+    def run_script(self, script, *arguments):
+        return self.driver.execute_script("const W = window.wingspread; " + script, *arguments)
+
+    def all(self, selector):
+        return self.driver.find_elements(By.CSS_SELECTOR, selector)
+
+    def one(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+
+class Quick(Page):
+    def test_first_screen_holds_every_verdict_and_count(self):
+        self.open(pages.made_up("cases"))
+        data = self.run_script("return W.data")
+        text = self.one("#verdicts").text
+        for data_set in data["sets"]:
+            self.assertIn(data_set["label"], text)
+            for status in data_set["statuses"]:
+                if status["count"]:
+                    self.assertIn(f"{status['count']:,}", text)
+        self.assertIn(data["command"], text)
+        self.assertIn(data["sets"][0]["made_by"], text)
+        self.assertIn(data["sets"][0]["hash"], text)
+        for warning in data["sets"][0]["warnings"]:
+            self.assertIn(warning, text)
+        verdicts = sum(len(one["requirements"]) for one in data["sets"])
+        self.assertEqual(len(self.all("#verdicts details .requirements tbody tr")), verdicts)
+
+    def test_requirements_stand_worst_first(self):
+        self.open(pages.made_up("cases"))
+        order = self.run_script("return W.verdicts.judged().map(row => row.requirement.verdict)")
+        rank = {"failed": 0, "open": 1, "passed": 2}
+        self.assertEqual(order, sorted(order, key=rank.get))
+        self.assertEqual(order[0], "failed")
+
+    def test_histogram_has_a_mark_for_every_filled_bin_of_every_order(self):
+        self.open(pages.made_up("plain"))
+        for name in ("root.peak_moment", "tip.latch_time"):
+            self.run_script("W.choose('output', arguments[0])", name)
+            pages.settle(self.driver)
+            drawn, filled, tall, sizes = self.run_script("""
+                const h = W.output().histogram, bins = [...document.querySelectorAll('.histogram .bin')];
+                const left = h.counts.map((n, b) => n - h.by_order.reduce((sum, row) => sum + row[b], 0));
+                return [bins.length, [...h.by_order, left].flat().filter(n => n > 0).length,
+                        bins.reduce((sum, bin) => sum + Number(bin.getAttribute('height')), 0), h.counts.reduce((a, b) => a + b)]""")
+            self.assertEqual(drawn, filled)
+            self.assertGreater(tall, 0)
+            self.assertGreater(sizes, 0)
+
+    def test_every_part_is_drawn(self):
+        self.open(pages.made_up("cases"))
+        for part in ("histogram", "distribution", "stage", "history", "still", "strobe", "envelopes", "strips", "tornado", "scatter", "margin", "static-margins",
+                     "rare", "settling", "forest"):
+            figures = self.all(f"figure.{part} svg")
+            self.assertTrue(figures, part)
+            marks = self.run_script("return document.querySelectorAll(arguments[0]).length", f"figure.{part} svg :is(path, rect, circle, line)")
+            self.assertGreater(marks, 3, part)
+        named = self.run_script("""return [...document.querySelectorAll('.picture svg')].every(svg => svg.querySelector('title').textContent && svg.querySelector('desc').textContent
+                                   && !/NaN|undefined|Infinity/.test(svg.outerHTML))""")
+        self.assertTrue(named)
+
+    def test_scatter_has_its_points_and_a_click_chooses_the_run(self):
+        self.open(pages.made_up("plain"))
+        points = self.run_script("return W.set().scatters[0].points.run")
+        marks = self.all("figure.scatter")[0].find_elements(By.CSS_SELECTOR, ".point")
+        self.assertEqual(len(marks), len(points))
+        self.driver.execute_script("arguments[0].dispatchEvent(new MouseEvent('click', { bubbles: true }))", marks[3])
+        chosen = self.run_script("return W.chosen.run.run")
+        self.assertIn(chosen, points)
+        self.assertIn(f"wingspread replay results/mock --run {chosen}", self.one("#selection").text)
+        self.assertTrue(self.one("#selection").is_displayed())
+
+    def test_the_animation_moves_and_pauses(self):
+        self.open(pages.made_up("plain"))
+        self.run_script("W.player.seek(0)")
+        pose = "return document.querySelector('.stage .pose').innerHTML"
+        before = self.driver.execute_script(pose)
+        self.one(".play").click()
+        self.driver.execute_async_script("setTimeout(arguments[0], 400)")
+        self.assertNotEqual(self.driver.execute_script(pose), before)
+        self.assertEqual(self.one(".play").text, "Pause")
+        self.one(".play").click()
+        still, cursor = self.run_script("return [W.player.time, document.querySelector('.history .cursor').getAttribute('x1')]")
+        self.driver.execute_async_script("setTimeout(arguments[0], 200)")
+        self.assertEqual(self.run_script("return W.player.time"), still)
+        self.run_script("W.player.seek(W.player.time + 1)")
+        self.assertNotEqual(self.run_script("return document.querySelector('.history .cursor').getAttribute('x1')"), cursor)
+
+    def test_the_wing_ends_up_deployed_to_scale(self):
+        self.open(pages.made_up("plain"))
+        wide = self.run_script("""const wing = W.set().wing, frames = W.pose.frames(wing, W.pose.deployed(wing)), points = W.pose.outlines(wing, frames).flat();
+                                  return Math.max(...points.map(p => p[0])) - Math.min(...points.map(p => p[0]))""")
+        self.assertAlmostEqual(wide, 0.5 + 3 * 1.01, places=6)  # the base and three panels, end to end
+
+    def test_keys_play_step_and_go_through_lists(self):
+        self.open(pages.made_up("plain"))
+        player = self.one(".player")
+        self.run_script("W.player.seek(1); arguments[0].focus()", player)
+        player.send_keys(Keys.ARROW_RIGHT)
+        self.assertGreater(self.run_script("return W.player.time"), 1)
+        player.send_keys(Keys.SPACE)
+        self.assertTrue(self.run_script("return W.player.playing"))
+        player.send_keys(Keys.SPACE)
+        self.assertFalse(self.run_script("return W.player.playing"))
+        player.send_keys(Keys.HOME)
+        self.assertEqual(self.run_script("return W.player.time"), 0)
+        pick = self.all(".pick")[0]
+        pick.send_keys(Keys.ENTER)
+        first = self.run_script("return W.chosen.output")
+        pick.send_keys(Keys.ARROW_DOWN)
+        self.assertEqual(self.run_script("return [W.set().outputs[0].name, W.set().outputs[1].name]"), [first, self.run_script("return W.chosen.output")])
+        points = self.one("figure.scatter .points")
+        self.driver.execute_script("arguments[0].focus()", points)
+        points.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ENTER)
+        self.assertIsNotNone(self.run_script("return W.chosen.run"))
+
+    def test_search_narrows_the_list(self):
+        self.open(pages.made_up("plain"))
+        self.one('input[type="search"]').send_keys("tip peak")
+        shown = [row.text for row in self.all(".outputs tbody tr") if row.is_displayed()]
+        self.assertEqual(len(shown), 1)
+        self.assertIn("tip peak moment", shown[0])
+
+    def test_cases_switch_and_overlay(self):
+        self.open(pages.made_up("cases"))
+        self.run_script("W.choose('set', 1)")
+        pages.settle(self.driver)
+        self.assertEqual(self.one("#case-switch select").get_attribute("value"), "1")
+        self.run_script("W.choose('split', 'case')")
+        pages.settle(self.driver)
+        self.assertEqual(len(self.all(".histogram .outline")), 3)
+        self.assertEqual(len(self.all(".distribution .curve")), 3)
+        dashes = {one.get_attribute("stroke-dasharray") for one in self.all(".distribution .curve")}
+        self.assertEqual(len(dashes), 3)  # not by colour alone
+
+    def test_degrees_on_request(self):
+        self.open(pages.made_up("plain"))
+        self.run_script("W.choose('output', 'root.latch_rate'); const s = document.getElementById('angles'); s.value = 'deg'; s.dispatchEvent(new Event('change'))")
+        pages.settle(self.driver)
+        self.assertIn("deg/s", self.one(".output").text)
+
+    def test_pictures_can_be_taken_along(self):
+        self.open(pages.made_up("plain"))
+        pages.media(self.driver, prefers_color_scheme="dark")
+        text = self.run_script("return W.standalone(document.querySelector('.histogram .picture'))")
+        self.assertTrue(text.startswith("<svg"))
+        self.assertNotIn("var(--", self.run_script("return [...new DOMParser().parseFromString(arguments[0], 'image/svg+xml').querySelectorAll('rect')].map(r => r.getAttribute('style') || '').join()", text))
+        size = self.driver.execute_async_script("""const done = arguments[1], image = new Image(); image.onload = () => done([image.width, image.height]); image.onerror = () => done(null);
+                                                   image.src = 'data:image/svg+xml;charset=utf-8,' + encodeURIComponent(arguments[0])""", text)
+        self.assertGreater(size[0], 200)
+        for what in ("SVG", "PNG", "Copy data"):
+            self.assertEqual(len(self.all("figure")), self.run_script("return [...document.querySelectorAll('.tools button')].filter(b => b.textContent === arguments[0]).length", what), what)
+
+    def test_edge_cases_are_told_in_words(self):
+        for kind, words in (("all_failed", ("did not happen in any run", "No hinge latched in any run")), ("single", ("1 run", "too few runs for bounds"))):
+            self.open(pages.made_up(kind))
+            text = self.one("main").text
+            for word in words:
+                self.assertIn(word, text)
+            self.assertNotRegex(text, r"NaN|undefined|null|Infinity|could not be drawn")
+
+    def test_no_width_overflows(self):
+        for width in (360, 1280, 2560):
+            self.open(pages.made_up("cases"), width)
+            self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), width)
+
+    def test_no_picture_is_cut_in_print(self):
+        self.open(pages.made_up("cases"))
+        before = self.run_script("return document.querySelectorAll('.picture svg').length")
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.driver.execute_script("dispatchEvent(new Event('beforeprint'))")
+        pages.resize(self.driver, 695)  # px of A4 between its margins
+        tall, inside, cut = self.run_script("""const figures = [...document.querySelectorAll('figure')].filter(f => f.getClientRects().length);
+            return [Math.max(...figures.map(f => f.getBoundingClientRect().height)), figures.every(f => getComputedStyle(f).breakInside === 'avoid'),
+                    figures.filter(f => f.getBoundingClientRect().right > 697).length]""")
+        self.driver.execute_script("dispatchEvent(new Event('afterprint'))")
+        self.assertLess(tall, 1000)  # 267 mm of an A4 page at 96 px an inch
+        self.assertTrue(inside)
+        self.assertEqual(cut, 0)
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        printed = self.driver.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
+        self.assertGreater(len(printed["data"]), 50_000)
+        self.assertEqual(self.run_script("return document.querySelectorAll('.picture svg').length"), before)
+
+    def test_stills_in_place_of_motion_where_that_is_wanted(self):
+        self.open(pages.made_up("plain"))
+        pages.media(self.driver, prefers_reduced_motion="reduce")
+        self.run_script("W.player.seek(0)")
+        self.one(".play").click()
+        self.driver.execute_async_script("setTimeout(arguments[0], 250)")
+        self.assertEqual(self.run_script("return W.player.time"), 0)
+        self.driver.execute_async_script("setTimeout(arguments[0], 600)")
+        self.assertGreater(self.run_script("return W.player.time"), 0)
+        self.one(".play").click()
+
+
+class Everywhere(Page):
+    """Every made-up page at every width, light and dark; and the program's own."""
+
+    def paths(self):
+        found = [(kind, pages.made_up(kind)) for kind in KINDS]
+        if pages.PROGRAM:
+            found += [(f"real {name}", pages.real(name, 300)) for name in ("seed", "stall", "yoke_wing")]
+        return found
+
+    def test_widths_and_themes(self):
+        for kind, path in self.paths():
+            for width in (360, 1280, 2560):
+                for theme in ("light", "dark"):
+                    with self.subTest(page=kind, width=width, theme=theme):
+                        pages.media(self.driver, prefers_color_scheme=theme)
+                        self.open(path, width)
+                        self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), width)
+                        self.assertNotRegex(self.one("main").text, r"NaN|undefined|Infinity|could not be drawn")
+                        self.assertGreater(len(self.all(".picture svg")), 3)
+
+    def test_every_output_and_every_motion_draws(self):
+        for kind, path in self.paths():
+            with self.subTest(page=kind):
+                self.open(path)
+                wrong = self.run_script("""const wrong = [];
+                    W.sets.forEach((set, at) => { W.choose('set', at);
+                      set.outputs.slice(0, 40).forEach(o => { W.choose('output', o.name); if (/NaN|undefined/.test(document.querySelector('main').innerHTML)) wrong.push(o.name); });
+                      set.motions.forEach((m, k) => { W.choose('motion', k); W.player.seek(1e9); if (/NaN/.test(document.querySelector('#wing').innerHTML)) wrong.push(m.label); }); });
+                    return wrong""")
+                self.assertEqual(wrong, [])
+
+    def test_axe_finds_no_serious_fault(self):
+        script = axe()
+        if not script:
+            self.skipTest("axe-core cannot be had: no npm, or no network")
+        for kind, path in self.paths():
+            for theme in ("light", "dark"):
+                with self.subTest(page=kind, theme=theme):
+                    pages.media(self.driver, prefers_color_scheme=theme)
+                    self.open(path)
+                    self.driver.execute_script(script)
+                    faults = self.driver.execute_async_script("""const done = arguments[0];
+                        axe.run(document, { resultTypes: ['violations'] }).then(r => done(r.violations.map(v => [v.impact, v.id, v.nodes.length, v.nodes[0].html.slice(0, 160), v.nodes[0].failureSummary])))""")
+                    self.assertEqual([fault for fault in faults if fault[0] in ("serious", "critical")], [])
+
+
+def axe():
+    """axe-core's text, installed from npm where it is not there yet."""
+    folder = pathlib.Path(os.environ.get("WINGSPREAD_AXE", pages.ROOT / "build" / "axe"))
+    file = folder / "node_modules" / "axe-core" / "axe.min.js"
+    if not file.exists() and shutil.which("npm"):
+        folder.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["npm", "install", "--no-save", "--no-audit", "--no-fund", "--prefix", folder, "axe-core"], capture_output=True, timeout=120)
+    return file.read_text("utf-8") if file.exists() else None
+
+
+if __name__ == "__main__":
+    if not (pages.CHROMIUM and pages.DRIVER):
+        raise SystemExit("left out: chromium and chromium-driver are not installed")
+    unittest.main(verbosity=2)
