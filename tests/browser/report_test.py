@@ -1,7 +1,7 @@
 """The report page in a real browser: what is drawn against the data, what moves, what keys and clicks do, how it prints.
 
     /usr/bin/python3 tests/browser/report_test.py            all
-    /usr/bin/python3 tests/browser/report_test.py Quick      what ctest runs
+    /usr/bin/python3 tests/browser/report_test.py Quick Own  what ctest runs
 
 WINGSPREAD_PROGRAM=build/release/wingspread has its own pages looked at as well. axe-core comes from npm, into
 WINGSPREAD_AXE or a folder of the build; where there is no npm that question is left out, and says so.
@@ -229,7 +229,7 @@ class Quick(Page):
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
         printed = self.driver.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})
         self.assertGreater(len(printed["data"]), 50_000)
-        self.assertEqual(self.run_script("return document.querySelectorAll('.picture svg').length"), before)
+        self.assertGreaterEqual(self.run_script("return document.querySelectorAll('.picture svg').length"), before)
 
     def test_stills_in_place_of_motion_where_that_is_wanted(self):
         self.open(pages.made_up("plain"))
@@ -243,13 +243,61 @@ class Quick(Page):
         self.one(".play").click()
 
 
+class Own(Page):
+    """The program's own pages: of the seed campaign, of a wing of which some stall, of three cases."""
+
+    CAMPAIGNS = {"seed": 300, "stall": 300, "yoke_wing": 40}
+
+    @classmethod
+    def setUpClass(cls):
+        if not pages.PROGRAM:
+            raise unittest.SkipTest("WINGSPREAD_PROGRAM is not set")
+        super().setUpClass()
+
+    def test_all_of_it_is_drawn(self):
+        for campaign, runs in self.CAMPAIGNS.items():
+            with self.subTest(campaign=campaign):
+                path = pages.real(campaign, runs)
+                self.assertLess(path.stat().st_size, 4_000_000)
+                self.open(path)
+                self.assertNotRegex(self.one("main").text, r"NaN|undefined|Infinity|could not be drawn")
+                for part in ("histogram", "distribution", "stage", "history", "strobe", "envelopes", "strips", "tornado", "scatter", "settling"):
+                    self.assertTrue(self.all(f"figure.{part} svg"), part)
+                drawn, filled = self.run_script("""const h = W.output().histogram, left = h.counts.map((n, b) => n - h.by_order.reduce((sum, row) => sum + row[b], 0));
+                    return [document.querySelectorAll('.histogram .bin').length, [...h.by_order, left].flat().filter(n => n > 0).length]""")
+                self.assertEqual(drawn, filled)
+                self.assertEqual(len(self.all("figure.forest svg")) > 0, campaign == "yoke_wing")
+                self.assertEqual(self.run_script("return W.set().runs"), runs)
+                self.assertLessEqual(self.driver.execute_script("return document.documentElement.scrollWidth"), 1280)
+
+    def test_runs_that_stall_are_counted_and_shown_in_motion(self):
+        self.open(pages.real("stall", 300))
+        count = self.run_script("return W.set().statuses.find(one => one.status === 'stalled').count")
+        self.assertGreater(count, 0)
+        self.assertRegex(self.one("#verdicts").text, rf"stalled\s+{count}\b")
+        choice = [one for one in self.all(".choice") if "stalled" in one.text][0]
+        choice.click()
+        self.run_script("W.player.seek(1e9)")
+        self.assertIn("never latches", self.one(".readout").text)
+
+    def test_the_command_beside_a_point_replays_that_run(self):
+        self.open(pages.real("seed", 300))
+        mark = self.all("figure.scatter .point")[7]
+        self.driver.execute_script("arguments[0].dispatchEvent(new MouseEvent('click', { bubbles: true }))", mark)
+        words = self.one("#selection code").text.split()
+        self.assertEqual(words[:2], ["wingspread", "replay"])
+        replayed = subprocess.run([pages.PROGRAM, *words[1:], "--json"], capture_output=True, text=True)
+        self.assertEqual(replayed.returncode, 0, replayed.stderr)
+        self.assertIn(f'"run": {words[words.index("--run") + 1]}', replayed.stdout)
+
+
 class Everywhere(Page):
     """Every made-up page at every width, light and dark; and the program's own."""
 
     def paths(self):
         found = [(kind, pages.made_up(kind)) for kind in KINDS]
         if pages.PROGRAM:
-            found += [(f"real {name}", pages.real(name, 300)) for name in ("seed", "stall", "yoke_wing")]
+            found += [(f"real {name}", pages.real(name, runs)) for name, runs in Own.CAMPAIGNS.items()]
         return found
 
     def test_widths_and_themes(self):

@@ -47,18 +47,19 @@
   F.runs = (value) => `${F.count(value)} ${value === 1 ? "run" : "runs"}`;
 
   // A share in per cent; near 0 and 1 with the digits that still tell.
-  F.share = function (value) {
+  const shareDecimals = (value) => (value <= 0 || value >= 1 ? 0 : Math.max(1, 1 - Math.floor(Math.log10(Math.min(value, 1 - value) * 100))));
+  F.share = function (value, decimals) {
     if (!W.isNumber(value)) return F.none;
     if (value === 0 || value === 1) return `${100 * value} %`;
-    const tail = Math.min(value, 1 - value) * 100;
-    if (tail < 1e-4) return value < 0.5 ? `${F.number(100 * value, 2)} %` : `${F.fixed(100 * value, 6)} %`;
-    return `${F.fixed(100 * value, Math.max(1, 1 - Math.floor(Math.log10(tail))))} %`;
+    if (Math.min(value, 1 - value) < 1e-6) return value < 0.5 ? `${F.number(100 * value, 2)} %` : `${F.fixed(100 * value, 6)} %`;
+    return `${F.fixed(100 * value, decimals === undefined ? shareDecimals(value) : decimals)} %`;
   };
   F.shareBounds = function (lower, upper) {
     if (!W.isNumber(lower) && !W.isNumber(upper)) return "no bounds";
     if (lower === 0) return `below ${F.share(upper)}`;
     if (upper === 1) return `above ${F.share(lower)}`;
-    return `${F.share(lower)} – ${F.share(upper)}`;
+    const decimals = Math.min(6, Math.max(shareDecimals(lower), shareDecimals(upper)));
+    return `${F.share(lower, decimals)} – ${F.share(upper, decimals)}`;
   };
 
   // Units: "N m" reads N·m; radians may be shown in degrees.

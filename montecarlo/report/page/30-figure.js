@@ -58,7 +58,7 @@
   let printing = false;
   window.addEventListener("beforeprint", function () {
     printing = true;
-    for (const figure of figures) if (figure.element.isConnected && figure.host.clientWidth) figure.update(figure.options.printed || PRINTED);
+    for (const figure of figures) if (figure.element.isConnected && !figure.element.closest("details:not([open])")) figure.update(figure.options.printed || PRINTED);
   });
   window.addEventListener("afterprint", function () {
     printing = false;

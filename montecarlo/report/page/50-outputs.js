@@ -75,7 +75,7 @@
     const value = (number) => F.withUnit(number, output.unit, F.grain(output));
     const rows = [["runs that have it", F.count(output.count)], ["runs without", F.count(output.missing)], ["nominal run", W.isNumber(output.nominal) ? value(output.nominal) : "did not happen"], ["mean", value(output.mean)],
       ["its standard error", F.withUnit(output.mean_error, output.unit, output.mean_error)], ["standard deviation", F.withUnit(output.std, output.unit, output.std)], ["least", value(output.min)], ["largest", value(output.max)],
-      ["skewness", F.number(output.skewness, 3)], ["kurtosis", F.number(output.kurtosis, 3)]];
+      ["skewness", F.fixed(output.skewness, 2)], ["kurtosis", F.fixed(output.kurtosis, 2)]];
     return W.table(`Moments of ${F.name(output)}`, [{ text: "Statistic" }, { text: "Value", kind: "number" }], rows, { showCaption: true });
   }
   // By case: the quantiles of the chosen output, side by side.

@@ -123,7 +123,7 @@
     const more = (from, to, text) => (pairs.length > from ? h("details", { class: "later" }, h("summary", {}, text), h("div", { class: "grid pairs" }, pairs.slice(from, to).map((pair) => scatter(set, W.chosen.set, pair)))) : null);
     W.fill(tornadoHost, tornado(set, W.chosen.output));
     W.fill(W.section("why"), h("p", { class: "lead" }, "Of the output chosen above; the strongest pairs of all outputs follow."), tornadoHost,
-      pairs.length ? [h("h3", {}, "Strongest pairs"), h("div", { class: "grid pairs" }, pairs.slice(0, 4).map((pair) => scatter(set, W.chosen.set, pair))), more(4, 12, `${pairs.length - 4} more pairs`)] : null, W.studies(set));
+      pairs.length ? [h("h3", {}, "Strongest pairs"), h("div", { class: "grid pairs" }, pairs.slice(0, 4).map((pair) => scatter(set, W.chosen.set, pair))), more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`)] : null, W.studies(set));
   };
   W.on("output", (name) => tornadoHost.isConnected && W.fill(tornadoHost, tornado(W.set(), name)));
 })();

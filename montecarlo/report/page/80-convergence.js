@@ -41,6 +41,14 @@
   W.on("output", convergence);
 
   // Differences with intervals: one line for each output, relative to the first set's value where that is told.
+  // Changes of a few per cent beside such of a thousand: linear about zero and logarithmic farther out.
+  function wideScale(values, range) {
+    const known = values.filter(W.isNumber), far = d3.max(known, Math.abs) || 0;
+    if (far < 40) return M.linear(values, range);
+    const [low, high] = d3.extent(known), x = d3.scaleSymlog().constant(2).domain([low < 0 ? 1.3 * low : 0.7 * low, high > 0 ? 1.3 * high : 0.7 * high]).range(range);
+    x.wide = [-10000, -1000, -100, -10, 0, 10, 100, 1000, 10000].filter((value) => value >= x.domain()[0] && value <= x.domain()[1]);
+    return x;
+  }
   function forest(comparison) {
     const rows = comparison.outputs.filter((one) => W.isNumber(one.difference)), [i, j] = comparison.sets;
     const relative = (value, one) => (W.isNumber(value) && W.isNumber(one.relative) && one.difference !== 0 ? (100 * value * one.relative) / one.difference : null);
@@ -51,8 +59,8 @@
       table: () => ({ columns: ["output", "difference", "lower", "upper", "relative"], rows: comparison.outputs.map((one) => [one.output, one.difference, one.lower, one.upper, one.relative]) }),
       draw: function (svg, width) {
         const left = Math.min(width * 0.4, Math.max(...drawn.map((one) => M.textWidth(F.nameOf(one.output)))) + 12), box = { left, right: width - 16, top: 6, bottom: 6 + 20 * drawn.length };
-        const values = drawn.flatMap((one) => [0, 100 * one.relative, relative(one.lower, one), relative(one.upper, one)]), x = M.linear(values, [box.left, box.right]);
-        M.axes(svg, box, x, null, { xText: "change of the mean (%)" });
+        const values = drawn.flatMap((one) => [0, 100 * one.relative, relative(one.lower, one), relative(one.upper, one)]), x = wideScale(values, [box.left, box.right]);
+        M.axes(svg, box, x, null, { xText: "change of the mean (%)", xValues: x.wide });
         svg.append("line").attr("class", "zero-line").attr("x1", x(0)).attr("x2", x(0)).attr("y1", box.top).attr("y2", box.bottom);
         drawn.forEach(function (one, at) {
           const y = box.top + 20 * (at + 0.5), low = relative(one.lower, one), high = relative(one.upper, one), sure = W.isNumber(one.lower) && one.lower * one.upper > 0;

@@ -36,7 +36,7 @@
     return h("details", { open: rows.length <= 80 }, h("summary", {}, `Scene: ${F.count(rows.length)} parameters`), W.table(`Scene of ${set.label}`, drop(columns), rows.map((row) => ({ mark: row.mark, cells: drop(row.cells) })), { class: "tall" }));
   }
   function dispersions(set) {
-    const rows = (set.inputs.dispersions || []).map((one) => [one.draw, one.law, F.unit(one.unit), either(one.nominal), `${either(one.low)} … ${either(one.high)}`, inDegrees(one.low, one.unit) ? `${inDegrees(one.low, one.unit)} … ${inDegrees(one.high, one.unit)}` : "", h("span", { class: "paths" }, (one.paths || []).map((path, at) => [at ? ", " : "", h("code", {}, path)]))]);
+    const rows = (set.inputs.dispersions || []).map((one) => [one.draw, h("span", { class: String(one.law).length < 60 ? "nowrap" : null }, one.law), F.unit(one.unit), either(one.nominal), `${F.number(one.low, 4)} … ${F.number(one.high, 4)}`, inDegrees(one.low, one.unit) ? `${inDegrees(one.low, one.unit)} … ${inDegrees(one.high, one.unit)}` : "", h("span", { class: "paths" }, (one.paths || []).map((path, at) => [at ? ", " : "", h("code", {}, path)]))]);
     const degrees = rows.some((row) => row[5]), drop = (list) => list.filter((_, at) => degrees || at !== 5);
     return h("details", { open: rows.length <= 60 }, h("summary", {}, `Dispersions: ${F.count(rows.length)}`), rows.length ? W.table(`Dispersions of ${set.label}`, drop([{ text: "Dispersion" }, { text: "Law" }, { text: "Unit" }, { text: "Nominal", kind: "number" }, { text: "Range", kind: "number" }, { text: "In degrees", kind: "number" }, { text: "Acts on" }]), rows.map(drop)) : h("p", {}, "Nothing is dispersed."));
   }
