@@ -59,12 +59,15 @@ def orders_of(rows):
         if row["order"]:
             counts[row["order"]] = counts.get(row["order"], 0) + 1
     frequent = sorted(counts, key=lambda order: -counts[order])
-    kept = frequent if len(frequent) <= 7 else frequent[:6]
+    kept = frequent[:6]
     orders = [{"order": name, "count": counts[name]} for name in kept]
-    if len(frequent) > 7:
+    if len(frequent) > 6:
         orders.append({"order": "others", "count": sum(counts[name] for name in frequent[6:])})
-    index = [kept.index(row["order"]) if row["order"] in kept else len(kept) if row["order"] and len(frequent) > 7 else -1
+    index = [kept.index(row["order"]) if row["order"] in kept else len(kept) if row["order"] else -1
              for row in rows]
+    if -1 in index:
+        orders.append({"order": "no latch", "count": index.count(-1)})
+        index = [len(orders) - 1 if one < 0 else one for one in index]
     return orders, len(frequent), index
 
 
@@ -135,7 +138,7 @@ def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_
     folder = f"results/mock/{case}" if case else "results/mock"
     tally = [sum(row["status"] == status for row in rows) for status in STATUSES]
     return {
-        "label": label, "folder": folder, "case": case, "campaign": "mock_wing", "seed": seed, "hash": "5f1c0a93d2e84b77",
+        "label": label, "folder": folder, "case": case, "campaign": "mock_wing", "seed": str(seed), "foreign": False, "stopped": False, "looks": 1, "hash": "5f1c0a93d2e84b77",
         "description": "Made-up numbers for the tests of the page.", "version": "0.2.0+mock", "runs": count, "planned": count,
         "partial": False, "shard": None, "design": "random", "confidence": 0.95, "replicates": 0,
         "made_by": f"wingspread run studies/campaigns/mock.json --seed {seed} --runs {count} --out results/mock",
@@ -143,7 +146,7 @@ def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_
                               (status, k, k / count, *numbers.clopper_pearson(k, count, 0.95)))) for status, k in zip(STATUSES, tally)],
         "reasons": [{"status": s, "reason": r, "count": k} for s, r, k in (
             ("stalled", f"{hinges[-1]} sticks, and what loads it stays as it is", tally[1]), ("failed", "more than 1000000 steps", tally[4])) if k],
-        "orders": orders, "order_kinds": kinds, "without_latch": index.count(-1),
+        "orders": orders, "order_kinds": kinds, "without_latch": sum(not row["order"] for row in rows),
         "warnings": ["root turned beyond its stowed angle by more than 1 deg in 12 runs, and has no stop"] if full else [],
         "accuracy": {"runs": 40, "method": "auto", "rtol": 1e-8, "reference_method": "dop853", "reference_rtol": 1e-12, "order_in_doubt": 0,
                      "outputs": [{"output": o["name"], "largest": 3e-7 * abs(o["mean"]), "rms": 1e-7 * abs(o["mean"]),

@@ -12,6 +12,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -49,6 +50,11 @@ class Page(unittest.TestCase):
 
     def run_script(self, script, *arguments):
         return self.driver.execute_script("const W = window.wingspread; " + script, *arguments)
+
+    def wait(self, happened, seconds=10):
+        end = time.monotonic() + seconds
+        while not happened():
+            self.assertLess(time.monotonic(), end, "it did not happen")
 
     def all(self, selector):
         return self.driver.find_elements(By.CSS_SELECTOR, selector)
@@ -125,8 +131,7 @@ class Quick(Page):
         pose = "return document.querySelector('.stage .pose').innerHTML"
         before = self.driver.execute_script(pose)
         self.one(".play").click()
-        self.driver.execute_async_script("setTimeout(arguments[0], 400)")
-        self.assertNotEqual(self.driver.execute_script(pose), before)
+        self.wait(lambda: self.driver.execute_script(pose) != before)
         self.assertEqual(self.one(".play").text, "Pause")
         self.one(".play").click()
         still, cursor = self.run_script("return [W.player.time, document.querySelector('.history .cursor').getAttribute('x1')]")
@@ -236,10 +241,10 @@ class Quick(Page):
         pages.media(self.driver, prefers_reduced_motion="reduce")
         self.run_script("W.player.seek(0)")
         self.one(".play").click()
-        self.driver.execute_async_script("setTimeout(arguments[0], 250)")
-        self.assertEqual(self.run_script("return W.player.time"), 0)
-        self.driver.execute_async_script("setTimeout(arguments[0], 600)")
-        self.assertGreater(self.run_script("return W.player.time"), 0)
+        self.wait(lambda: self.run_script("return W.player.time") > 0)
+        steps = self.run_script("const t = W.player.motion.t; return 20 * W.player.time / t[t.length - 1]")
+        self.assertAlmostEqual(steps, round(steps), places=6)  # jumps of a twentieth, two a second
+        self.assertLess(steps, 8)
         self.one(".play").click()
 
 

@@ -91,7 +91,7 @@
   function words(text) {
     return text.replace(/_/g, " ").replace(/\./g, " ");
   }
-  F.order = (order) => order.replace(/>/g, " › ");
+  F.order = (order) => (order === "no latch" ? "no hinge latched" : order === "others" ? "other orders" : order.replace(/>/g, " › "));
 
   F.ticks = (axis, factor) => axis.tickFormat((value) => tick(value * (factor || 1)));
   function tick(value) {

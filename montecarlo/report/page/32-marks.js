@@ -49,6 +49,12 @@
     return kept + "…";
   };
 
+  // The colour's number of a set's order of latching: "no latch" has none, "others" the last.
+  M.ofOrder = function (set, at) {
+    const name = ((set.orders || [])[at] || { order: "no latch" }).order;
+    return name === "no latch" ? -1 : name === "others" ? 6 : at;
+  };
+
   // A shape for each number, besides its colour.
   const SHAPES = [d3.symbolCircle, d3.symbolTriangle, d3.symbolSquare, d3.symbolDiamond, d3.symbolCross, d3.symbolStar, d3.symbolWye];
   M.shape = (at) => SHAPES[((at % 7) + 7) % 7];

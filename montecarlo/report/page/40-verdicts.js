@@ -22,15 +22,20 @@
 
   function headline(rows) {
     if (!rows.length) return h("p", { class: "headline" }, "This campaign states no requirements.", h("small", {}, " What follows is statistics without a verdict."));
-    const count = (verdict) => rows.filter((row) => verdictOf(row.requirement.verdict) === verdict).length;
-    const [failed, open, passed] = ["failed", "open", "passed"].map(count);
-    const worst = failed ? "failed" : open ? "open" : "passed";
-    const cases = W.sets.length > 1 ? ` over ${W.sets.length} ${W.sets.some((set) => set.case) ? "cases" : "folders"}` : "";
-    const text = failed ? `${failed} of ${rows.length} ${rows.length === 1 ? "requirement" : "requirements"} not shown to be met${cases}`
-      : open ? `${open} of ${rows.length} undecided${cases}: so few runs cannot show it` : `All ${rows.length} requirements are shown to be met${cases}`;
-    const parts = [failed && `${failed} failed`, open && `${open} undecided`, passed && `${passed} passed`].filter(Boolean);
-    return h("p", { class: `headline ${worst}` }, W.badge(worst), " ", text, parts.length > 1 ? h("small", {}, ` ${parts.join(", ")}`) : null);
+    // A requirement is as good as its worst case.
+    const worstOf = new Map();
+    for (const row of rows) if (!worstOf.has(row.requirement.text)) worstOf.set(row.requirement.text, verdictOf(row.requirement.verdict));
+    const total = worstOf.size, count = (verdict) => [...worstOf.values()].filter((one) => one === verdict).length;
+    const [failed, open, passed] = ["failed", "open", "passed"].map(count), worst = failed ? "failed" : open ? "open" : "passed";
+    const noun = total === 1 ? "requirement" : "requirements", several = W.sets.length > 1;
+    const failing = [...new Set(rows.filter((row) => verdictOf(row.requirement.verdict) === "failed").map((row) => row.set.label))];
+    const where = !several || !failed ? "" : failing.length === W.sets.length ? " in any case" : ` in ${listed(failing)}`;
+    const text = failed ? `${failed} of ${total} ${noun} not shown to be met${where}` : open ? `${open} of ${total} ${noun} undecided: so few runs cannot show ${open === 1 ? "it" : "them"}`
+      : `${total === 1 ? "The requirement is" : `All ${total} requirements are`} shown to be met${several ? " in every case" : ""}`;
+    const parts = [failed && open ? `${open} undecided` : null, passed && worst !== "passed" ? `${passed} passed${several ? " in every case" : ""}` : null].filter(Boolean);
+    return h("p", { class: `headline ${worst}` }, W.badge(worst), " ", text, parts.length ? h("small", {}, ` ${parts.join(", ")}`) : null);
   }
+  const listed = (names) => (names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}` : names[0]);
 
   // Values of a requirement on an output have its unit; those of one on an outcome are shares.
   function unitOf(requirement, set) {
@@ -84,7 +89,7 @@
       { text: "Margin", kind: "number" }, { text: "Against the limit" }, { text: "Runs that break it" }].filter(Boolean);
     const body = rows.map(({ requirement: one, set, at }) => ({
       mark: verdictOf(one.verdict),
-      cells: [h("span", {}, one.text, h("span", { class: "evidence" }, one.evidence)), W.badge(one.verdict), several && h("span", { class: "nowrap" }, set.label), observed(one, set), guaranteed(one, set),
+      cells: [h("span", {}, one.text, h("span", { class: "evidence" }, one.evidence, one.disproved ? " · disproved" : null)), W.badge(one.verdict), several && h("span", { class: "nowrap" }, set.label), observed(one, set), guaranteed(one, set),
         marginText(one, set), bullet(one), h("span", {}, brokenRuns(one, at))].filter((cell) => cell !== false) }));
     return W.table("Requirements, the worst first", columns, body, { class: "requirements", stacks: true });
   }

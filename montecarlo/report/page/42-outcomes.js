@@ -34,22 +34,23 @@
   }
 
   function others(set) {
-    const kinds = set.order_kinds - set.orders.length + 1;
+    const kinds = set.order_kinds - set.orders.filter((one) => !["others", "no latch"].includes(one.order)).length;
     return kinds === 1 ? "one other order" : `${kinds} other orders`;
   }
   function orders() {
     const set = W.set();
-    if (!(set.orders || []).length) return [h("h3", {}, "Orders of latching"), h("p", {}, "No hinge latched in any run.")];
-    const total = d3.sum(set.orders, (one) => one.count) + (set.without_latch || 0);
-    const rows = set.orders.map((one, at) => [h("span", {}, h("i", { class: "key", style: `background:var(--c${at % 7})`, "aria-hidden": "true" }), one.order === "others" ? others(set) : F.order(one.order)), F.count(one.count), F.share(one.count / total)]);
-    if (set.without_latch) rows.push([h("span", {}, h("i", { class: "key", style: "background:var(--none)", "aria-hidden": "true" }), "no hinge latched"), F.count(set.without_latch), F.share(set.without_latch / total)]);
+    if (!(set.orders || []).some((one) => one.order !== "no latch")) return [h("h3", {}, "Orders of latching"), h("p", {}, "No hinge latched in any run.")];
+    const counted = set.orders.some((one) => one.order === "no latch"), without = counted ? 0 : set.without_latch || 0;
+    const total = d3.sum(set.orders, (one) => one.count) + without, colour = (at) => W.marks.colour(W.marks.ofOrder(set, at));
+    const rows = set.orders.map((one, at) => [h("span", {}, h("i", { class: "key", style: `background:${colour(at)}`, "aria-hidden": "true" }), one.order === "others" ? others(set) : F.order(one.order)), F.count(one.count), F.share(one.count / total)]);
+    if (without) rows.push([h("span", {}, h("i", { class: "key", style: "background:var(--none)", "aria-hidden": "true" }), "no hinge latched"), F.count(without), F.share(without / total)]);
     return [h("h3", {}, W.sets.length > 1 ? `Orders of latching · ${set.label}` : "Orders of latching"), W.table("Orders of latching", [{ text: "Order" }, { text: "Runs", kind: "number" }, { text: "Share", kind: "number" }], rows, { class: "long-names" })];
   }
 
   function warnings() {
     const all = W.sets.flatMap((set) => (set.warnings || []).map((text) => ({ set, text })));
     const texts = [...new Set(all.map((one) => one.text))];
-    const partial = W.sets.filter((set) => set.partial || set.runs < set.planned).map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
+    const partial = W.sets.filter((set) => set.partial || (set.runs < set.planned && !set.stopped)).map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
     const items = [...partial.map((text) => h("li", {}, text)), ...texts.map(function (text) {
       const where = all.filter((one) => one.text === text).map((one) => one.set.label);
       return h("li", {}, text, W.sets.length > 1 ? h("span", { class: "faint" }, where.length === W.sets.length ? " (all)" : ` (${where.join(", ")})`) : null);
@@ -83,7 +84,7 @@
     const set = W.set(), one = (read) => [...new Set(W.sets.map(read))];
     const facts = [W.sets.length > 1 ? `${W.sets.length} ${W.sets.some((each) => each.case) ? "cases" : "folders"}: ${W.sets.map((each) => each.label).join(", ")}` : null,
       one((each) => each.runs).length === 1 ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}` : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
-      `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`, `seed ${one((each) => each.seed).join(", ")}`, `bounds at ${100 * set.confidence} %`, set.shard ? `shard ${set.shard}` : null, `wingspread ${one((each) => each.version).join(", ")}`, `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`];
+      `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`, `seed ${one((each) => each.seed).join(", ")}`, `bounds at ${100 * set.confidence} %`, set.shard ? `shard ${set.shard}` : null, set.stopped ? `stopped by its goals, of ${F.count(set.planned)} planned runs` : null, set.looks > 1 ? `look ${set.looks} at a growing campaign` : null, `wingspread ${one((each) => each.version).join(", ")}`, `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`];
     W.fill(document.getElementById("subtitle"), set.description ? h("p", { class: "description" }, set.description) : null, h("p", { class: "facts" }, facts.filter(Boolean).map((fact) => h("span", {}, fact))));
     document.getElementById("title").textContent = W.data.title;
     document.title = `${W.data.title} · wingspread report`;

@@ -8,16 +8,22 @@
   function marksOf(set, output, x, factor) {
     const lines = [];
     if (W.isNumber(output.nominal)) lines.push({ x: x(output.nominal * factor), text: "nominal", kind: "nominal" });
+    const limits = new Set();
     for (const at of output.limits || []) {
       const one = set.requirements[at];
-      if (one && W.isNumber(one.limit)) lines.push({ x: x(one.limit * factor), text: `${one.upper ? "≤" : "≥"} ${F.given(Number((one.limit * factor).toPrecision(6)))}`, kind: "limit" });
+      if (!one || !W.isNumber(one.limit)) continue;
+      for (const [limit, upper] of one.abs ? [[one.limit, true], [-one.limit, false]] : [[one.limit, one.upper]]) limits.add(`${limit} ${upper ? "≤" : "≥"}`);
+    }
+    for (const one of limits) {
+      const [limit, sign] = one.split(" "), shown = Number((limit * factor).toPrecision(6));
+      lines.push({ x: x(shown), text: `${sign} ${F.given(shown)}`, kind: "limit" });
     }
     return lines;
   }
   // Limits and the nominal are shown where they are near; a limit far away must not squeeze the picture.
   function reach(set, output, factor, edges) {
     const low = edges[0], high = edges[edges.length - 1], span = high - low || Math.abs(high) || 1;
-    const marks = [output.nominal, ...(output.limits || []).map((at) => (set.requirements[at] || {}).limit)].filter(W.isNumber);
+    const marks = [output.nominal, ...(output.limits || []).map((at) => (set.requirements[at] || {}).limit), ...(output.limits || []).map((at) => (set.requirements[at] || {}).abs && -set.requirements[at].limit)].filter(W.isNumber);
     return [low, high, ...marks.filter((value) => value > low - span && value < high + span)].map((value) => value * factor);
   }
   const overlaid = () => (W.chosen.split === "case" && W.sets.length > 1
@@ -32,7 +38,7 @@
   W.histogram = function (set, output) {
     const { factor, unit } = F.shown(output.unit), cases = overlaid();
     const histogram = output.histogram, orders = set.orders || [];
-    const known = (histogram.by_order || []).map((counts, at) => ({ at, counts, text: orders[at] ? F.order(orders[at].order) : `order ${at + 1}` })).filter((one) => d3.sum(one.counts) > 0);
+    const known = (histogram.by_order || []).map((counts, at) => ({ at: M.ofOrder(set, at), counts, text: orders[at] ? F.order(orders[at].order) : `order ${at + 1}` })).filter((one) => d3.sum(one.counts) > 0);
     const rest = histogram.counts.map((count, bin) => count - d3.sum(known, (one) => one.counts[bin]));
     const layers = d3.sum(rest) > 0 ? [...known, { at: -1, counts: rest, text: "no hinge latched" }] : known;
     const table = () => (cases ? { columns: ["case", `from ${unit}`, `to ${unit}`, "runs"], rows: cases.flatMap(({ set: one, output: each }) => each.histogram.counts.map((count, bin) => [one.label, each.histogram.edges[bin] * factor, each.histogram.edges[bin + 1] * factor, count])) }
@@ -49,7 +55,7 @@
   }
   function drawStack(svg, width, layers, set, output, factor, unit) {
     const { edges, counts } = output.histogram, fill = M.hatches(svg, 7);
-    const top = M.legend(svg, layers.map((one) => ({ text: one.text, fill: fill(one.at < 0 ? -1 : one.at % 7) })), width);
+    const top = M.legend(svg, layers.map((one) => ({ text: one.text, fill: fill(one.at) })), width);
     const y = d3.scaleLinear([0, d3.max(counts) * 1.06 || 1], [0, 1]), box = boxOf(top, width, y);
     y.range([box.bottom, box.top]);
     const x = M.linear(reach(set, output, factor, edges), [box.left, box.right]);
@@ -60,7 +66,7 @@
       layer.counts.forEach(function (count, bin) {
         if (count > 0) {
           const left = x(edges[bin] * factor), right = x(edges[bin + 1] * factor);
-          group.append("rect").attr("class", "bin").attr("x", Math.min(left, right) + 0.25).attr("width", Math.max(0.6, Math.abs(right - left) - 0.5)).attr("y", y(base[bin] + count)).attr("height", y(base[bin]) - y(base[bin] + count)).style("fill", fill(layer.at < 0 ? -1 : layer.at % 7))
+          group.append("rect").attr("class", "bin").attr("x", Math.min(left, right) + 0.25).attr("width", Math.max(0.6, Math.abs(right - left) - 0.5)).attr("y", y(base[bin] + count)).attr("height", y(base[bin]) - y(base[bin] + count)).style("fill", fill(layer.at))
             .append("title").text(`${layer.text}: ${F.runs(count)} from ${F.value(edges[bin], output.unit, F.grain(output))} to ${F.value(edges[bin + 1], output.unit, F.grain(output))} ${unit}`);
           base[bin] += count;
         }

@@ -12,9 +12,10 @@
   P.frames = function (wing, angles, base) {
     const frames = [], ofHinge = [];
     wing.bodies.forEach(function (body, at) {
-      if (body.hinge < 0) frames[at] = { origin: base ? [base.x, base.y] : [0, 0], angle: base ? base.angle : 0 };
+      const still = (wing.base && wing.base.angle) || 0;
+      if (body.hinge < 0) frames[at] = { origin: base ? [base.x, base.y] : [0, 0], angle: base ? base.angle : still };
       else {
-        const parentHinge = wing.hinges[body.hinge].parent, parent = parentHinge < 0 ? frames[wing.bodies.findIndex((one) => one.hinge < 0)] || { origin: [0, 0], angle: base ? base.angle : 0 } : ofHinge[parentHinge];
+        const parentHinge = wing.hinges[body.hinge].parent, parent = parentHinge < 0 ? frames[wing.bodies.findIndex((one) => one.hinge < 0)] || { origin: [0, 0], angle: base ? base.angle : still } : ofHinge[parentHinge];
         const joint = plus(parent.origin, turned(body.joint_in_parent, parent.angle)), angle = parent.angle + angles[body.hinge];
         frames[at] = { origin: plus(joint, turned(body.inner.map((one) => -one), angle)), angle, joint };
         ofHinge[body.hinge] = frames[at];

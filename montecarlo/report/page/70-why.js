@@ -62,7 +62,7 @@
       table: () => ({ columns: ["run", pair.draw, `${pair.output} ${F.unit(output.unit)}`, "order of latching"], rows: order.map((k) => [String(points.run[k]), points.x[k], points.y[k], ((set.orders || [])[points.order[k]] || { order: "" }).order]) }),
       draw: function (svg, width) {
         const { factor, unit } = F.shown(output.unit), used = [...new Set(points.order)].sort(d3.ascending);
-        const top = M.legend(svg, used.length > 1 ? used.map((one) => ({ text: one < 0 ? "no hinge latched" : F.order(set.orders[one].order), mark: M.colour(one), shape: M.shape(one) })) : [], width);
+        const top = M.legend(svg, used.length > 1 ? used.map((one) => ({ text: set.orders[one] ? F.order(set.orders[one].order) : "no hinge latched", mark: M.colour(M.ofOrder(set, one)), shape: M.shape(M.ofOrder(set, one)) })) : [], width);
         const y = M.linear([...pair.y_edges, ...points.y].map((value) => value * factor), [0, 1]), box = { left: M.leftFor(y), right: width - 12, top: top + 18, bottom: top + 270 };
         y.range([box.bottom, box.top]);
         const x = M.linear([...pair.x_edges, ...points.x], [box.left, box.right]);
@@ -72,7 +72,7 @@
         const list = svg.append("g").attr("class", "points").attr("role", "listbox").attr("tabindex", 0).attr("aria-label", `Runs by ${pair.draw}. Arrow keys go through them, Enter chooses`);
         const stem = W.newId("run");
         marks = list.selectAll("path").data(order).enter().append("path").attr("role", "option").attr("id", (k) => `${stem}-${k}`).attr("class", "point").attr("aria-selected", "false")
-          .attr("d", (k) => shapes.type(M.shape(points.order[k]))()).attr("transform", (k) => `translate(${x(points.x[k])},${y(points.y[k] * factor)})`).style("fill", (k) => M.colour(points.order[k]))
+          .attr("d", (k) => shapes.type(M.shape(M.ofOrder(set, points.order[k])))()).attr("transform", (k) => `translate(${x(points.x[k])},${y(points.y[k] * factor)})`).style("fill", (k) => M.colour(M.ofOrder(set, points.order[k])))
           .attr("aria-label", (k) => `run ${points.run[k]}: ${pair.draw} ${F.number(points.x[k], 4)}, ${F.name(output)} ${F.withUnit(points.y[k], output.unit)}`)
           .on("click", (k) => W.select(setAt, points.run[k], { [pair.draw]: points.x[k], [pair.output]: points.y[k] }));
         marks.append("title").text((k) => `run ${points.run[k]}`);
@@ -117,12 +117,18 @@
     W.say(`Run ${choice.run} chosen. ${command}`);
   });
 
+  // Dispersions that seem to move nothing may be applied to the wrong parameter.
+  function idle(set) {
+    const names = (set.sensitivity && set.sensitivity.idle) || [];
+    return names.length ? h("details", { open: names.length <= 12 }, h("summary", {}, `${names.length} ${names.length === 1 ? "dispersion is" : "dispersions are"} not seen to move any output`), h("p", { class: "note" }, names.join(", "), ". One that makes an output rise and fall would not be seen: Sobol' indices show it.")) : null;
+  }
+
   const tornadoHost = h("div", {});
   W.why = function () {
     const set = W.set(), pairs = set.scatters || [];
     const more = (from, to, text) => (pairs.length > from ? h("details", { class: "later" }, h("summary", {}, text), h("div", { class: "grid pairs" }, pairs.slice(from, to).map((pair) => scatter(set, W.chosen.set, pair)))) : null);
     W.fill(tornadoHost, tornado(set, W.chosen.output));
-    W.fill(W.section("why"), h("p", { class: "lead" }, "Of the output chosen above; the strongest pairs of all outputs follow."), tornadoHost,
+    W.fill(W.section("why"), h("p", { class: "lead" }, "Of the output chosen above; the strongest pairs of all outputs follow."), tornadoHost, idle(set),
       pairs.length ? [h("h3", {}, "Strongest pairs"), h("div", { class: "grid pairs" }, pairs.slice(0, 4).map((pair) => scatter(set, W.chosen.set, pair))), more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`)] : null, W.studies(set));
   };
   W.on("output", (name) => tornadoHost.isConnected && W.fill(tornadoHost, tornado(W.set(), name)));
