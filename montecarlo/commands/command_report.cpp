@@ -2,6 +2,7 @@
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/report/html_page.hpp"
+#include "montecarlo/report/study_set.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ std::string command_of(const ReportOptions& options) {
 int report(const ReportOptions& options) {
   std::deque<FolderLock> locks;
   for (const std::filesystem::path& folder : options.folders) {
-    (void)read_any_campaign(folder); // there is one to be locked
+    if (!is_study_folder(folder)) (void)read_any_campaign(folder); // there is one to be locked
     locks.emplace_back(folder);
   }
   const std::filesystem::path out =

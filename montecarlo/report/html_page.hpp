@@ -8,12 +8,17 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace wingspread {
 
-using PageSources = std::vector<std::unique_ptr<PageSource>>;
+struct PageSources {
+  std::vector<std::unique_ptr<PageSource>> runs; ///< sets of runs
+  std::vector<Json> studies;                     ///< sets of folders that a study left, behind them
+};
 
-/// Reads folders of results: a set each or, of a campaign with cases, one for each case.
+/// Reads folders of results: a set each or, of a campaign with cases, one for each case; and folders that `margin`,
+/// `sensitivity` of a campaign or `rare` left.
 /// @param threads as of team_size (team.hpp)
 /// @throws SpecError for what is none, is broken, or comes to more than 12 sets
 [[nodiscard]] PageSources read_page_sources(std::span<const std::filesystem::path> folders,
