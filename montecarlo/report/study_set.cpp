@@ -84,6 +84,11 @@ auto& found_or_made(List& list, Same same, Make make) {
   return list.back();
 }
 
+/// As the page has verdicts.
+std::string page_verdict(const std::string& verdict) {
+  return verdict == "pass" ? "passed" : verdict == "fail" ? "failed" : "open";
+}
+
 MarginTable read_margin_csv(const std::filesystem::path& path) {
   std::ifstream in(path);
   CsvReader reader(in, path.string());
@@ -112,7 +117,7 @@ MarginTable read_margin_csv(const std::filesystem::path& path) {
     row.scales.push_back(number("scale"));
     row.runs.push_back(std::lround(number("runs")));
     row.broken.push_back(std::lround(number("broken")));
-    row.verdicts.push_back(cell("verdict"));
+    row.verdicts.push_back(page_verdict(cell("verdict")));
   }
   return table;
 }
