@@ -183,6 +183,8 @@ class Quick(Page):
         self.run_script("W.choose('split', 'case')")
         pages.settle(self.driver)
         self.assertEqual(len(self.all(".histogram .outline")), 3)
+        tall = self.run_script("return [...document.querySelectorAll('.histogram .outline')].map(path => path.getBBox().height)")
+        self.assertGreater(min(tall), 60)  # outlines stand up
         self.assertEqual(len(self.all(".distribution .curve")), 3)
         dashes = {one.get_attribute("stroke-dasharray") for one in self.all(".distribution .curve")}
         self.assertEqual(len(dashes), 3)  # not by colour alone

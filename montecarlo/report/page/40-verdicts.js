@@ -29,7 +29,7 @@
     const [failed, open, passed] = ["failed", "open", "passed"].map(count), worst = failed ? "failed" : open ? "open" : "passed";
     const noun = total === 1 ? "requirement" : "requirements", several = W.sets.length > 1;
     const failing = [...new Set(rows.filter((row) => verdictOf(row.requirement.verdict) === "failed").map((row) => row.set.label))];
-    const where = !several || !failed ? "" : failing.length === W.sets.length ? " in any case" : ` in ${listed(failing)}`;
+    const where = !several || !failed ? "" : failing.length === W.sets.length ? ", in every case" : `, in ${listed(failing)}`;
     const text = failed ? `${failed} of ${total} ${noun} not shown to be met${where}` : open ? `${open} of ${total} ${noun} undecided: so few runs cannot show ${open === 1 ? "it" : "them"}`
       : `${total === 1 ? "The requirement is" : `All ${total} requirements are`} shown to be met${several ? " in every case" : ""}`;
     const parts = [failed && open ? `${open} undecided` : null, passed && worst !== "passed" ? `${passed} passed${several ? " in every case" : ""}` : null].filter(Boolean);

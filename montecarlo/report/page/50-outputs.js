@@ -83,10 +83,10 @@
     const found = W.sets.map((set) => ({ set, output: W.output(set) })).filter((one) => one.output);
     if (found.length < 2) return null;
     const levels = [...new Set(found.flatMap((one) => (one.output.quantiles || []).map((q) => q.p)))].sort(d3.ascending);
-    const unit = found[0].output.unit;
-    return W.table(`${name} by case`, [{ text: "Case" }, { text: "Nominal", unit: F.shown(unit).unit, kind: "number" }, { text: "Mean", kind: "number" }, ...levels.map((p) => ({ text: p === 0.5 ? "Median" : F.share(p).replace(/\.0 /, " "), kind: "number" })), { text: "Missing", kind: "number" }],
+    const unit = found[0].output.unit, missing = found.some((one) => one.output.missing);
+    return W.table(`${name} by case`, [{ text: "Case" }, { text: "Nominal", unit: F.shown(unit).unit, kind: "number" }, { text: "Mean", kind: "number" }, ...levels.map((p) => ({ text: p === 0.5 ? "Median" : F.share(p).replace(/\.0 /, " "), kind: "number" })), ...(missing ? [{ text: "Missing", kind: "number" }] : [])],
       found.map(({ set, output }) => [set.label, F.value(output.nominal, unit, F.grain(output)), F.value(output.mean, unit, F.grain(output)),
-        ...levels.map((p) => F.value(((output.quantiles || []).find((q) => q.p === p) || {}).value, unit, F.grain(output))), F.count(output.missing)]), { showCaption: true });
+        ...levels.map((p) => F.value(((output.quantiles || []).find((q) => q.p === p) || {}).value, unit, F.grain(output))), ...(missing ? [F.count(output.missing)] : [])]), { showCaption: true });
   }
 
   function glossaryText(output) {

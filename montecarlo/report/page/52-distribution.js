@@ -87,7 +87,7 @@
     for (const one of cases) {
       const { edges } = one.output.histogram, values = density(one);
       const points = [[edges[0], 0], ...values.flatMap((value, bin) => [[edges[bin], value], [edges[bin + 1], value]]), [edges[edges.length - 1], 0]];
-      svg.append("path").attr("class", "outline").attr("d", d3.line((point) => x(point[0] * factor), (point) => y(point[1]))(points)).style("stroke", M.colour(one.at)).style("fill", M.colour(one.at)).attr("stroke-dasharray", M.dash(one.at))
+      svg.append("path").attr("class", "outline").attr("d", d3.line().x((point) => x(point[0] * factor)).y((point) => y(point[1]))(points)).style("stroke", M.colour(one.at)).style("fill", M.colour(one.at)).attr("stroke-dasharray", M.dash(one.at))
         .append("title").text(one.set.label);
     }
     M.uprights(svg, box, marksOf(set, output, x, factor));

@@ -175,7 +175,8 @@
     show();
     const element = h("div", { class: "player", role: "group", "aria-label": "Wing in motion. Space plays and pauses, the arrow keys step, Home and End go to the ends", tabindex: "0", onkeydown: byKeys },
       h("div", { class: "pair" }, h("div", {}, stage(wing, motion), controls(motion), readout(wing, motion)), beside));
-    return [choices(set), h("p", { class: "why-shown" }, h("b", {}, motion.label), motion.why ? `: ${motion.why}` : "", motion.reason ? ` · ${motion.reason}` : ""), motion.replay ? W.command(motion.replay, "command of this run") : null, element];
+    const strobe = P.stroboscope(wing, motion, motion.label);
+    return [choices(set), h("p", { class: "why-shown" }, h("b", {}, motion.label), motion.why ? `: ${motion.why}` : "", motion.reason ? ` · ${motion.reason}` : ""), motion.replay ? W.command(motion.replay, "command of this run") : null, element, strobe];
   };
   // The first picture is of a wing on its way, not of a stack.
   const opening = (motion) => 0.8 * (d3.min(motion.latches || [], (latch) => latch.time) || motion.t[motion.t.length - 1]);
