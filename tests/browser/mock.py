@@ -159,6 +159,29 @@ def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_
         "inputs": mock_wing.inputs(hinges, case)}
 
 
+def study(label, **found):
+    """What `margin`, `sensitivity` or `rare` left: a set without runs."""
+    hinges = ["root", "mid", "tip"]
+    empty = {key: [] for key in ("statuses", "reasons", "orders", "warnings", "requirements", "outputs", "scatters", "motions")}
+    return {"label": label, "folder": f"results/{label}", "case": None, "campaign": "mock_wing", "description": "", "foreign": False, "seed": "1",
+            "hash": "5f1c0a93d2e84b77", "version": "0.2.0+mock", "runs": 0, "planned": 0, "partial": False, "stopped": False, "shard": None, "design": "",
+            "confidence": 0.95, "looks": 1, "replicates": 0, "made_by": "", **empty, "without_latch": 0, "order_kinds": 0, "accuracy": None,
+            "correlations": None, "sensitivity": None, "wing": mock_wing.wing(hinges), "envelopes": None, "static_margins": None, "margin": None,
+            "rare": None, "inputs": {"scene": [], "dispersions": [], "settings": []}, **found}
+
+
+def sobol():
+    return {"kind": "sobol", "effects": [
+        {"output": output, "draw": draw, "first": share, "first_lower": share - 0.05, "first_upper": share + 0.05, "total": share + 0.1,
+         "total_lower": share + 0.02, "total_upper": share + 0.2}
+        for output in ("root.peak_moment", "tip.latch_time") for draw, share in (("root.spring", 0.6), ("tip.coulomb", 0.2))]}
+
+
+def studies():
+    found = mock_wing.studies(["root", "mid", "tip"])
+    return [study("margin", margin=found["margin"], static_margins=found["static_margins"]), study("sobol", sensitivity=sobol()), study("rare", rare=found["rare"])]
+
+
 def comparison(sets, first, second):
     rows = []
     for one, two in zip(sets[first]["outputs"], sets[second]["outputs"]):
@@ -177,7 +200,7 @@ def block(sets, title="mock_wing"):
         ("latch_time", "s", "when the hinge reaches its latched angle for the first time"),
         ("latch_rate", "rad/s", "its own relative rate at that instant; signed"), ("peak_moment", "N m", "largest |M| of the whole run"))}
     return {"format": 1, "version": "0.2.0+mock", "command": "wingspread report results/mock", "title": title, "glossary": glossary,
-            "sets": sets, "comparisons": [comparison(sets, 0, k) for k in range(1, len(sets))]}
+            "sets": sets, "comparisons": [comparison(sets, 0, k) for k in range(1, len(sets)) if sets[k]["runs"]]}
 
 
 KINDS = {
@@ -187,6 +210,8 @@ KINDS = {
     "stalls": lambda: block([make_set("mock_wing", 2, count=300, stalls=0.05)]),
     "all_failed": lambda: block([make_set("mock_wing", 3, count=50, all_failed=True, full=False)]),
     "single": lambda: block([make_set("mock_wing", 4, count=1, full=False)]),
+    "studies": lambda: block(studies()),
+    "beside": lambda: block([make_set("mock_wing", 2, count=300, full=False), *studies()]),
     "forty": lambda: block([make_set("forty hinges", 5, hinge_count=40, count=300)]),
 }
 

@@ -23,7 +23,7 @@ try:
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
 
-KINDS = ("plain", "cases", "stalls", "all_failed", "single", "forty")
+KINDS = ("plain", "cases", "stalls", "all_failed", "single", "studies", "beside", "forty")
 
 
 class Page(unittest.TestCase):
@@ -214,6 +214,14 @@ class Quick(Page):
             for word in words:
                 self.assertIn(word, text)
             self.assertNotRegex(text, r"NaN|undefined|null|Infinity|could not be drawn")
+
+    def test_studies_without_runs_and_beside_them(self):
+        for kind in ("studies", "beside"):
+            self.open(pages.made_up(kind))
+            for part in ("margin", "static-margins", "rare", "tornado", "still"):
+                self.assertTrue(self.all(f"figure.{part} svg"), part)
+            self.assertNotIn("could not be drawn", self.one("main").text)
+        self.assertFalse(self.one("#comparison").is_displayed())  # a study is no set to compare
 
     def test_no_width_overflows(self):
         for width in (360, 1280, 2560):

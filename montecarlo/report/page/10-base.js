@@ -3,7 +3,11 @@
   "use strict";
   const W = (window.wingspread = {});
   W.data = JSON.parse(document.getElementById("data").textContent);
-  W.sets = W.data.sets || [];
+  // Sets of runs; and, behind them, what `margin`, `sensitivity` and `rare` left, which have no runs.
+  const all = W.data.sets || [], isStudy = (set) => !set.runs && !(set.statuses || []).length;
+  W.studySets = all.filter(isStudy);
+  W.onlyStudies = all.length > 0 && W.studySets.length === all.length;
+  W.sets = W.onlyStudies ? W.studySets.slice(0, 1) : all.filter((set) => !isStudy(set));
 
   // What the reader has chosen. `choose` tells all who asked to know; nothing is kept when the page is closed.
   W.chosen = { set: 0, output: null, split: "order", scale: "linear", angles: "rad", motion: 0, run: null };

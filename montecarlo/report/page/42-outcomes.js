@@ -75,16 +75,16 @@
   }
 
   function again() {
-    const made = [...new Map(W.sets.map((set) => [set.made_by, set])).values()];
+    const made = [...new Map(W.sets.filter((set) => set.made_by).map((set) => [set.made_by, set])).values()];
     return h("div", { class: "again" }, h("h3", {}, "To make it again"), made.map((set) => W.command(set.made_by, `command of ${set.label}`)), W.command(W.data.command, "command of this report"),
-      h("p", { class: "note" }, made.map((set, at) => [at ? "; " : "", W.sets.length > 1 && made.length > 1 ? `${set.label}: ` : "", `wingspread ${set.version}, seed ${set.seed}, campaign hash `, h("code", { class: "hash" }, set.hash)]), ". The same seed gives the same bytes, on any number of threads."));
+      h("p", { class: "note" }, made.map((set, at) => [at ? "; " : "", W.sets.length > 1 && made.length > 1 ? `${set.label}: ` : "", `wingspread ${set.version}, seed ${set.seed}, campaign hash `, h("code", { class: "hash" }, set.hash)]), made.length ? ". The same seed gives the same bytes, on any number of threads." : null));
   }
 
   function subtitle() {
     const set = W.set(), one = (read) => [...new Set(W.sets.map(read))];
     const facts = [W.sets.length > 1 ? `${W.sets.length} ${W.sets.some((each) => each.case) ? "cases" : "folders"}: ${W.sets.map((each) => each.label).join(", ")}` : null,
-      one((each) => each.runs).length === 1 ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}` : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
-      `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`, `seed ${one((each) => each.seed).join(", ")}`, `bounds at ${100 * set.confidence} %`, set.shard ? `shard ${set.shard}` : null, set.stopped ? `stopped by its goals, of ${F.count(set.planned)} planned runs` : null, set.looks > 1 ? `look ${set.looks} at a growing campaign` : null, `wingspread ${one((each) => each.version).join(", ")}`, `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`];
+      W.onlyStudies ? null : one((each) => each.runs).length === 1 ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}` : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
+      set.design ? `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}` : null, set.seed === "" ? null : `seed ${one((each) => each.seed).join(", ")}`, set.foreign ? "rows of another tool" : null, `bounds at ${100 * set.confidence} %`, set.shard ? `shard ${set.shard}` : null, set.stopped ? `stopped by its goals, of ${F.count(set.planned)} planned runs` : null, set.looks > 1 ? `look ${set.looks} at a growing campaign` : null, `wingspread ${one((each) => each.version).join(", ")}`, `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`];
     W.fill(document.getElementById("subtitle"), set.description ? h("p", { class: "description" }, set.description) : null, h("p", { class: "facts" }, facts.filter(Boolean).map((fact) => h("span", {}, fact))));
     document.getElementById("title").textContent = W.data.title;
     document.title = `${W.data.title} · wingspread report`;
@@ -93,6 +93,11 @@
 
   W.outcomes = function () {
     subtitle();
+    if (W.onlyStudies) {
+      const labels = W.studySets.map((set) => `${set.label}${set.made_by ? ` (${set.made_by})` : ""}`);
+      W.fill(W.section("verdicts"), h("p", { class: "headline" }, "Studies of a campaign, without its runs."), h("p", {}, `${labels.join(", ")}: what they found stands under “Why”. A folder that wingspread run has written, given beside them, adds verdicts and distributions.`), again());
+      return;
+    }
     W.fill(W.section("verdicts"), h("div", { class: "first" }, h("div", { class: "judgement" }, W.verdicts.requirements()), h("div", { class: "columns" },
       h("div", {}, outcomes()), h("div", {}, orders()), h("div", {}, warnings(), accuracy())), again()));
   };

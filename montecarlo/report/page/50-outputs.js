@@ -119,6 +119,7 @@
 
   const host = h("div", { class: "output" }), listHost = h("div", {});
   W.outputs = function () {
+    if (W.onlyStudies) return;
     W.chosen.output = W.defaultOutput();
     W.fill(listHost, list());
     chosen(host);

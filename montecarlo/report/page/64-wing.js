@@ -77,8 +77,9 @@
     if (!set.wing || !(set.wing.bodies || []).length) return W.fill(host, h("p", { class: "nothing" }, "The folder holds no scene to draw."));
     const drawn = (set.motions || []).length ? set.motions[0] : null;
     if (drawn) W.fill(motionHost, W.motion(set));
+    else if (W.onlyStudies) W.fill(motionHost);
     else W.fill(motionHost, h("p", { class: "nothing" }, "No run of this set could be made again to be shown in motion."));
-    W.fill(host, motionHost, h("div", { class: "stills" }, P.still(set.wing, P.stowed(set.wing), "Stowed", "The wing stowed, drawn to scale."), P.still(set.wing, P.deployed(set.wing), "Deployed", "The wing deployed, drawn to scale.")), envelopeParts(set));
+    W.fill(host, motionHost, h("div", { class: "stills" }, P.still(set.wing, P.stowed(set.wing), "Stowed", "The wing stowed, drawn to scale."), P.still(set.wing, P.deployed(set.wing), "Deployed", "The wing deployed, drawn to scale.")), W.onlyStudies ? null : envelopeParts(set));
   }
   W.wing = wingParts;
   W.on("motion", function () {

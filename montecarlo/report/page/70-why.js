@@ -124,12 +124,28 @@
   }
 
   const tornadoHost = h("div", {});
+  W.tornado = tornado;
+  // The outputs whose effects are known, to choose from here as well.
+  W.effectOutputs = function (set) {
+    const found = set.sensitivity && set.sensitivity.effects ? set.sensitivity.effects.map((one) => one.output) : (set.correlations || { outputs: [] }).outputs;
+    return [...new Set(found)];
+  };
+  W.chooser = (names, chosen, onchoose) => h("label", { class: "search" }, "Output ", h("select", { onchange: (event) => onchoose(event.target.value) }, names.map((name) => h("option", { value: name, selected: name === chosen }, F.nameOf(name)))));
+
+  const chooserHost = h("div", { class: "controls" });
+  const choose = (set) => W.fill(chooserHost, W.effectOutputs(set).length > 1 ? W.chooser(W.effectOutputs(set), W.chosen.output, (name) => W.choose("output", name)) : null);
   W.why = function () {
+    if (W.onlyStudies) { W.fill(W.section("why"), W.studies(W.studySets)); return; }
     const set = W.set(), pairs = set.scatters || [];
     const more = (from, to, text) => (pairs.length > from ? h("details", { class: "later" }, h("summary", {}, text), h("div", { class: "grid pairs" }, pairs.slice(from, to).map((pair) => scatter(set, W.chosen.set, pair)))) : null);
     W.fill(tornadoHost, tornado(set, W.chosen.output));
-    W.fill(W.section("why"), h("p", { class: "lead" }, "Of the output chosen above; the strongest pairs of all outputs follow."), tornadoHost, idle(set),
-      pairs.length ? [h("h3", {}, "Strongest pairs"), h("div", { class: "grid pairs" }, pairs.slice(0, 4).map((pair) => scatter(set, W.chosen.set, pair))), more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`)] : null, W.studies(set));
+    choose(set);
+    W.fill(W.section("why"), chooserHost, tornadoHost, idle(set),
+      pairs.length ? [h("h3", {}, "Strongest pairs"), h("div", { class: "grid pairs" }, pairs.slice(0, 4).map((pair) => scatter(set, W.chosen.set, pair))), more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`)] : null, W.studies([set, ...W.studySets]));
   };
-  W.on("output", (name) => tornadoHost.isConnected && W.fill(tornadoHost, tornado(W.set(), name)));
+  W.on("output", function (name) {
+    if (!tornadoHost.isConnected) return;
+    W.fill(tornadoHost, tornado(W.set(), name));
+    choose(W.set());
+  });
 })();

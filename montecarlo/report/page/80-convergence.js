@@ -35,6 +35,7 @@
     W.fill(host, h("p", { class: "lead" }, `${F.name(output)}${W.sets.length > 1 ? `, ${set.label}` : ""}: what one would have said after fewer runs.`), h("div", { class: "pair" }, settling(output, "mean", "Mean"), settling(output, "quantile", W.isNumber(p) ? (p === 0.5 ? "Median" : `${F.share(p).replace(/\.0 /, " ")} quantile`) : "Quantile")));
   }
   W.convergence = function () {
+    if (W.onlyStudies) return;
     convergence();
     if (!host.isConnected) W.fill(W.section("convergence"), host);
   };
@@ -87,7 +88,6 @@
   W.comparison = function () {
     const comparisons = W.data.comparisons || [], section = document.getElementById("comparison");
     section.hidden = W.sets.length < 2;
-    document.querySelector('.sections a[href="#comparison"]').parentNode.hidden = section.hidden;
     if (section.hidden) return;
     W.fill(W.section("comparison"), comparisons.length ? [h("p", { class: "lead" }, "Differences with their confidence intervals; a filled point: the interval leaves out zero. “By case, overlaid” above lays the distributions over each other."), comparisons.map((one, at) => compared(one, at < 2))]
       : h("p", { class: "nothing" }, "These folders have no output in common."));

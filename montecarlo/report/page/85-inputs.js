@@ -5,7 +5,7 @@
   const { h, format: F } = W;
 
   // An angle or a rate in degrees as well: the drawing has them so.
-  const inDegrees = (value, unit) => (W.isNumber(value) && F.angular(unit) ? `${F.given(value * F.DEGREES)} ${unit.replace("rad", "deg")}` : "");
+  const inDegrees = (value, unit) => (W.isNumber(value) && F.angular(unit) ? `${F.given(Number((value * F.DEGREES).toPrecision(6)))} ${unit.replace("rad", "deg")}` : "");
   const either = (value) => (typeof value === "number" ? F.given(value) : value === null || value === undefined ? F.none : String(value));
 
   function changed() {
@@ -36,9 +36,9 @@
     return h("details", { open: rows.length <= 80 }, h("summary", {}, `Scene: ${F.count(rows.length)} parameters`), W.table(`Scene of ${set.label}`, drop(columns), rows.map((row) => ({ mark: row.mark, cells: drop(row.cells) })), { class: "tall" }));
   }
   function dispersions(set) {
-    const rows = (set.inputs.dispersions || []).map((one) => [one.draw, h("span", { class: String(one.law).length < 60 ? "nowrap" : null }, one.law), F.unit(one.unit), either(one.nominal), `${F.number(one.low, 4)} … ${F.number(one.high, 4)}`, inDegrees(one.low, one.unit) ? `${inDegrees(one.low, one.unit)} … ${inDegrees(one.high, one.unit)}` : "", h("span", { class: "paths" }, (one.paths || []).map((path, at) => [at ? ", " : "", h("code", {}, path)]))]);
+    const rows = (set.inputs.dispersions || []).map((one) => [one.draw, h("span", { class: String(one.law).length < 60 ? "nowrap" : null }, one.law, one.law_before_case ? h("small", { class: "faint" }, ` (nominal: ${one.law_before_case})`) : null), F.unit(one.unit), `${either(one.nominal)} ${one.nominal_unit && one.nominal_unit !== one.unit ? F.unit(one.nominal_unit) : ""}`.trim(), `${F.number(one.low, 4)} … ${F.number(one.high, 4)}`, inDegrees(one.low, one.unit) ? `${inDegrees(one.low, one.unit)} … ${inDegrees(one.high, one.unit)}` : "", h("span", { class: "paths" }, one.apply ? `${one.apply}: ` : null, (one.paths || []).map((path, at) => [at ? ", " : "", h("code", {}, path)]))]);
     const degrees = rows.some((row) => row[5]), drop = (list) => list.filter((_, at) => degrees || at !== 5);
-    return h("details", { open: rows.length <= 60 }, h("summary", {}, `Dispersions: ${F.count(rows.length)}`), rows.length ? W.table(`Dispersions of ${set.label}`, drop([{ text: "Dispersion" }, { text: "Law" }, { text: "Unit" }, { text: "Nominal", kind: "number" }, { text: "Range", kind: "number" }, { text: "In degrees", kind: "number" }, { text: "Acts on" }]), rows.map(drop)) : h("p", {}, "Nothing is dispersed."));
+    return h("details", { open: rows.length <= 60 }, h("summary", {}, `Dispersions: ${F.count(rows.length)}`), rows.length ? W.table(`Dispersions of ${set.label}`, drop([{ text: "Dispersion" }, { text: "Law" }, { text: "Unit" }, { text: "Nominal", kind: "number" }, { text: "1 % … 99 %", kind: "number" }, { text: "In degrees", kind: "number" }, { text: "Acts on" }]), rows.map(drop)) : h("p", {}, "Nothing is dispersed."));
   }
   function settings(set) {
     return W.table("How it was integrated", [{ text: "Setting" }, { text: "Value" }], (set.inputs.settings || []).map((one) => [one.label, either(one.value)]), { showCaption: true });
@@ -46,7 +46,7 @@
 
   W.inputs = function () {
     const set = W.set();
-    if (!set.inputs) return W.fill(W.section("inputs"), h("p", { class: "nothing" }, "The folder does not hold its campaign's inputs."));
+    if (!set.inputs || !(set.inputs.scene || []).length) return W.fill(W.section("inputs"), h("p", { class: "nothing" }, "The folder does not hold its campaign's inputs."));
     W.fill(W.section("inputs"), changed(), laws(), W.sets.length > 1 ? h("h3", {}, set.label) : null, scene(set), dispersions(set), h("div", { class: "narrow" }, settings(set)));
   };
 

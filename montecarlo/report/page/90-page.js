@@ -52,6 +52,12 @@
     select.value = W.chosen.set;
   }
 
+  // Sections that have nothing to show are left out of the page and of its bar.
+  function sections() {
+    if (W.onlyStudies) ["outputs", "convergence", "inputs"].forEach((id) => (document.getElementById(id).hidden = true));
+    document.querySelectorAll(".sections a").forEach((link) => (link.parentNode.hidden = document.querySelector(link.getAttribute("href")).hidden));
+  }
+
   // The link of the section that is read is marked.
   function reading() {
     const links = [...document.querySelectorAll(".sections a")];
@@ -69,5 +75,6 @@
   angles();
   cases();
   draw();
+  sections();
   reading();
 })();
