@@ -55,7 +55,7 @@
     return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "none by so few runs";
   }
   function marginText(one, set) {
-    if (W.isNumber(one.margin) && W.isNumber(one.limit)) return `${one.margin > 0 ? "+" : ""}${valueText(one.margin, one, set)}`;
+    if (W.isNumber(one.margin) && W.isNumber(one.limit)) return `${one.margin > 0 ? "+" : ""}${F.number(one.margin, 3)} ${F.unit(unitOf(one, set))}`.trim();
     return W.isNumber(one.guaranteed) && !W.isNumber(one.limit) ? `${one.guaranteed > one.probability ? "+" : ""}${F.fixed(100 * (one.guaranteed - one.probability), 2)} points` : F.none;
   }
 
@@ -80,7 +80,7 @@
   function brokenRuns(one, at) {
     if (!one.broken) return "0";
     const runs = (one.broken_runs || []).slice(0, 5).map((run) => h("button", { type: "button", class: "run", onclick: () => W.select(at, run) }, String(run)));
-    return [F.count(one.broken), runs.length ? h("span", { class: "runs" }, h("span", { class: "faint" }, one.broken > runs.length ? " worst: " : " runs: "), runs.flatMap((run, k) => (k ? [", ", run] : [run]))) : null];
+    return [F.count(one.broken), runs.length ? h("span", { class: "runs" }, h("span", { class: "faint" }, one.broken > runs.length ? " worst: " : one.broken === 1 ? " run: " : " runs: "), runs.flatMap((run, k) => (k ? [", ", run] : [run]))) : null];
   }
 
   function requirementTable(rows) {

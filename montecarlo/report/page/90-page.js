@@ -71,6 +71,11 @@
     W.fill(W.section("verdicts"), h("p", { class: "nothing" }, "This report holds no results."));
     return;
   }
+  // On paper the inputs stand in full, whatever is folded on the screen.
+  const opened = [];
+  window.addEventListener("beforeprint", () => document.querySelectorAll("#inputs details:not([open])").forEach((one) => { one.open = true; opened.push(one); }));
+  window.addEventListener("afterprint", () => opened.splice(0).forEach((one) => (one.open = false)));
+
   theme();
   angles();
   cases();
