@@ -179,7 +179,10 @@
     return [choices(set), h("p", { class: "why-shown" }, h("b", {}, motion.label), motion.why ? `: ${motion.why}` : "", motion.reason ? ` · ${motion.reason}` : ""), motion.replay ? W.command(motion.replay, "command of this run") : null, element, strobe];
   };
   // The first picture is of a wing on its way, not of a stack.
-  const opening = (motion) => 0.8 * (d3.min(motion.latches || [], (latch) => latch.time) || motion.t[motion.t.length - 1]);
+  function opening(motion) {
+    const [first, last] = d3.extent(motion.latches || [], (latch) => latch.time);
+    return first === undefined ? 0.4 * motion.t[motion.t.length - 1] : Math.max(0.8 * first, 0.35 * last);
+  }
   function play_stop() {
     player.playing = false;
     listeners.length = 0;
