@@ -207,6 +207,24 @@ class Quick(Page):
         for what in ("SVG", "PNG", "Copy data"):
             self.assertEqual(len(self.all("figure")), self.run_script("return [...document.querySelectorAll('.tools button')].filter(b => b.textContent === arguments[0]).length", what), what)
 
+    def test_buttons_save_files_and_copy_numbers(self):
+        self.open(pages.made_up("plain"))
+        folder = pages.SCRATCH / "saved"
+        self.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
+        for button in self.all("figure.histogram .tools button"):
+            self.driver.execute_script("arguments[0].click()", button)
+        svg, png = (folder / f"histogram_root_peak_moment.{ending}" for ending in ("svg", "png"))
+        self.wait(lambda: svg.exists() and png.exists() and png.stat().st_size > 0)
+        self.assertTrue(svg.read_text("utf-8").startswith("<svg"))
+        self.assertEqual(png.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.wait(lambda: self.run_script("return document.getElementById('spoken').textContent") != "")
+        heard = self.driver.execute_async_script("""const done = arguments[0];
+            const written = []; navigator.clipboard.writeText = text => { written.push(text); return Promise.resolve(); };
+            document.querySelectorAll('figure.histogram .tools button')[2].click(); setTimeout(() => done(written[0]), 50)""")
+        lines = heard.strip().split("\n")
+        self.assertEqual(len(lines), 1 + self.run_script("return W.output().histogram.counts.length"))
+        self.assertEqual(sum(float(line.split("\t")[2]) for line in lines[1:]), self.run_script("return W.output().count"))
+
     def test_edge_cases_are_told_in_words(self):
         for kind, words in (("all_failed", ("did not happen in any run", "No hinge latched in any run")), ("single", ("1 run", "too few runs for bounds"))):
             self.open(pages.made_up(kind))

@@ -93,7 +93,9 @@
     if (theme) root.setAttribute("data-theme", theme);
     else root.removeAttribute("data-theme");
     const paper = document.createElementNS("http://www.w3.org/2000/svg", "rect");
-    Object.entries({ width: "100%", height: "100%", fill: "#fff" }).forEach(([name, value]) => paper.setAttribute(name, value));
+    const [, , width, height] = original.getAttribute("viewBox").split(" ").map(Number); // with a margin, to be pasted as it is
+    Object.entries({ x: -14, y: -12, width: width + 28, height: height + 24, fill: "#fff" }).forEach(([name, value]) => paper.setAttribute(name, value));
+    Object.entries({ viewBox: `-14 -12 ${width + 28} ${height + 24}`, width: width + 28, height: height + 24 }).forEach(([name, value]) => copy.setAttribute(name, value));
     copy.insertBefore(paper, copy.children[2] || null);
     return new XMLSerializer().serializeToString(copy);
   }
@@ -110,9 +112,9 @@
     save(new Blob([standalone(host)], { type: "image/svg+xml" }), fileName(title, "svg"));
   }
   function savePng(host, title) {
-    const svg = host.querySelector("svg"), image = new Image(), factor = 3;
+    const image = new Image(), factor = 3;
     image.onload = function () {
-      const canvas = h("canvas", { width: svg.getAttribute("width") * factor, height: svg.getAttribute("height") * factor });
+      const canvas = h("canvas", { width: image.width * factor, height: image.height * factor });
       canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
       canvas.toBlob((blob) => save(blob, fileName(title, "png")));
     };
