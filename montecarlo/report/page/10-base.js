@@ -4,7 +4,8 @@
   const W = (window.wingspread = {});
   W.data = JSON.parse(document.getElementById("data").textContent);
   // Sets of runs; and, behind them, what `margin`, `sensitivity` and `rare` left, which have no runs.
-  const all = W.data.sets || [], isStudy = (set) => !set.runs && !(set.statuses || []).length;
+  const all = W.data.sets || [],
+    isStudy = (set) => !set.runs && !(set.statuses || []).length;
   W.studySets = all.filter(isStudy);
   W.onlyStudies = all.length > 0 && W.studySets.length === all.length;
   W.sets = W.onlyStudies ? W.studySets.slice(0, 1) : all.filter((set) => !isStudy(set));
@@ -31,13 +32,16 @@
     const element = document.createElement(tag);
     for (const [name, value] of Object.entries(attributes || {})) {
       if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-      else if (value !== null && value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : value);
+      else if (value !== null && value !== undefined && value !== false)
+        element.setAttribute(name, value === true ? "" : value);
     }
     element.append(...children.flat(3).filter((child) => child !== null && child !== undefined && child !== false));
     return element;
   };
   W.fill = function (parent, ...children) {
-    parent.replaceChildren(...children.flat(3).filter((child) => child !== null && child !== undefined && child !== false));
+    parent.replaceChildren(
+      ...children.flat(3).filter((child) => child !== null && child !== undefined && child !== false),
+    );
     return parent;
   };
   W.section = (id) => document.querySelector(`#${id} > .content`);
@@ -52,11 +56,37 @@
   // A table. A column: { text, unit, kind: "text" | "number", key: the row's header }. Cells: text, a number's text or an element.
   W.table = function (caption, columns, rows, options = {}) {
     const cell = (column, content, first) =>
-      W.h(first && column.header !== false ? "th" : "td", { scope: first && column.header !== false ? "row" : null, class: column.kind === "number" ? "number" : null, "data-label": options.stacks && !first ? column.text : null }, content);
+      W.h(
+        first && column.header !== false ? "th" : "td",
+        {
+          scope: first && column.header !== false ? "row" : null,
+          class: column.kind === "number" ? "number" : null,
+          "data-label": options.stacks && !first ? column.text : null,
+        },
+        content,
+      );
     const head = columns.map((column) =>
-      W.h("th", { scope: "col", class: column.kind === "number" ? "number" : null }, column.text, column.unit ? W.h("span", { class: "unit" }, " " + column.unit) : null));
-    const body = rows.map((row) => W.h("tr", { class: row.mark || null }, (row.cells || row).map((content, at) => cell(columns[at], content, at === 0))));
-    const table = W.h("table", { class: options.class }, W.h("caption", { class: options.showCaption ? null : "unseen" }, caption), W.h("thead", {}, W.h("tr", {}, head)), W.h("tbody", {}, body));
+      W.h(
+        "th",
+        { scope: "col", class: column.kind === "number" ? "number" : null },
+        column.text,
+        column.unit ? W.h("span", { class: "unit" }, " " + column.unit) : null,
+      ),
+    );
+    const body = rows.map((row) =>
+      W.h(
+        "tr",
+        { class: row.mark || null },
+        (row.cells || row).map((content, at) => cell(columns[at], content, at === 0)),
+      ),
+    );
+    const table = W.h(
+      "table",
+      { class: options.class },
+      W.h("caption", { class: options.showCaption ? null : "unseen" }, caption),
+      W.h("thead", {}, W.h("tr", {}, head)),
+      W.h("tbody", {}, body),
+    );
     return W.h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": caption }, table);
   };
 
@@ -76,7 +106,19 @@
     else older();
   };
   W.command = function (text, what) {
-    const button = W.h("button", { type: "button", class: "small", "aria-label": `Copy: ${what}`, onclick: () => { W.copy(text, what); flash(button); } }, "Copy");
+    const button = W.h(
+      "button",
+      {
+        type: "button",
+        class: "small",
+        "aria-label": `Copy: ${what}`,
+        onclick: () => {
+          W.copy(text, what);
+          flash(button);
+        },
+      },
+      "Copy",
+    );
     return W.h("div", { class: "command" }, W.h("code", {}, text), button);
   };
   function flash(button) {
@@ -89,10 +131,24 @@
   // A row of buttons of which one is pressed.
   W.buttons = function (label, options, chosen, onchoose) {
     const buttons = options.map(([value, text]) =>
-      W.h("button", { type: "button", "aria-pressed": String(value === chosen), onclick: (event) => {
-        buttons.forEach((button) => button.setAttribute("aria-pressed", String(button === event.currentTarget)));
-        onchoose(value);
-      } }, text));
-    return W.h("div", { class: "buttons", role: "group", "aria-label": label }, W.h("span", { class: "label", "aria-hidden": "true" }, label), buttons);
+      W.h(
+        "button",
+        {
+          type: "button",
+          "aria-pressed": String(value === chosen),
+          onclick: (event) => {
+            buttons.forEach((button) => button.setAttribute("aria-pressed", String(button === event.currentTarget)));
+            onchoose(value);
+          },
+        },
+        text,
+      ),
+    );
+    return W.h(
+      "div",
+      { class: "buttons", role: "group", "aria-label": label },
+      W.h("span", { class: "label", "aria-hidden": "true" }, label),
+      buttons,
+    );
   };
 })();

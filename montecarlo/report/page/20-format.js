@@ -14,7 +14,10 @@
   }
   function grouped(text) {
     const [whole, fraction] = text.split(".");
-    const spaced = whole.length > 5 || (whole.length === 5 && whole[0] !== "-") ? whole.replace(/\B(?=(\d{3})+(?!\d))/g, ",") : whole;
+    const spaced =
+      whole.length > 5 || (whole.length === 5 && whole[0] !== "-")
+        ? whole.replace(/\B(?=(\d{3})+(?!\d))/g, ",")
+        : whole;
     return (fraction === undefined ? spaced : `${spaced}.${fraction}`).replace("-", "−");
   }
 
@@ -36,7 +39,9 @@
   F.given = function (value) {
     if (!W.isNumber(value)) return F.none;
     const short = Number(value.toPrecision(7));
-    return Math.abs(short) >= 1e7 || (short !== 0 && Math.abs(short) < 1e-4) ? power(short.toExponential()) : grouped(String(short));
+    return Math.abs(short) >= 1e7 || (short !== 0 && Math.abs(short) < 1e-4)
+      ? power(short.toExponential())
+      : grouped(String(short));
   };
   // Decimals that a spread of this size carries: two digits of it.
   F.decimals = function (spread, value) {
@@ -47,11 +52,13 @@
   F.runs = (value) => `${F.count(value)} ${value === 1 ? "run" : "runs"}`;
 
   // A share in per cent; near 0 and 1 with the digits that still tell.
-  const shareDecimals = (value) => (value <= 0 || value >= 1 ? 0 : Math.max(1, 1 - Math.floor(Math.log10(Math.min(value, 1 - value) * 100))));
+  const shareDecimals = (value) =>
+    value <= 0 || value >= 1 ? 0 : Math.max(1, 1 - Math.floor(Math.log10(Math.min(value, 1 - value) * 100)));
   F.share = function (value, decimals) {
     if (!W.isNumber(value)) return F.none;
     if (value === 0 || value === 1) return `${100 * value} %`;
-    if (Math.min(value, 1 - value) < 1e-6) return value < 0.5 ? `${F.number(100 * value, 2)} %` : `${F.fixed(100 * value, 6)} %`;
+    if (Math.min(value, 1 - value) < 1e-6)
+      return value < 0.5 ? `${F.number(100 * value, 2)} %` : `${F.fixed(100 * value, 6)} %`;
     return `${F.fixed(100 * value, decimals === undefined ? shareDecimals(value) : decimals)} %`;
   };
   F.shareBounds = function (lower, upper) {
@@ -79,11 +86,15 @@
     const decimals = F.decimals(spread, value);
     return decimals > 7 || Math.abs(value) >= 1e8 ? F.number(value, 4) : F.fixed(value, decimals);
   };
-  F.withUnit = (value, unit, spread) => (W.isNumber(value) ? `${F.value(value, unit, spread)} ${F.shown(unit).unit}`.trim() : F.none);
+  F.withUnit = (value, unit, spread) =>
+    W.isNumber(value) ? `${F.value(value, unit, spread)} ${F.shown(unit).unit}`.trim() : F.none;
 
   // What a column of an output is precise to: a fiftieth of its spread (or of its size, where there is no spread).
   F.grain = (output) => (W.isNumber(output.std) && output.std > 0 ? output.std / 10 : null);
-  F.name = (output) => (output.hinge && output.name.startsWith(output.hinge + ".") ? `${output.hinge} ${words(output.name.slice(output.hinge.length + 1))}` : words(output.name));
+  F.name = (output) =>
+    output.hinge && output.name.startsWith(output.hinge + ".")
+      ? `${output.hinge} ${words(output.name.slice(output.hinge.length + 1))}`
+      : words(output.name);
   F.nameOf = function (name) {
     const output = W.sets.flatMap(W.outputsOf).find((one) => one.name === name);
     return output ? F.name(output) : words(name);
@@ -91,12 +102,15 @@
   function words(text) {
     return text.replace(/_/g, " ").replace(/\./g, " ");
   }
-  F.order = (order) => (order === "no latch" ? "no hinge latched" : order === "others" ? "other orders" : order.replace(/>/g, " › "));
+  F.order = (order) =>
+    order === "no latch" ? "no hinge latched" : order === "others" ? "other orders" : order.replace(/>/g, " › ");
 
   F.ticks = (axis, factor) => axis.tickFormat((value) => tick(value * (factor || 1)));
   function tick(value) {
     if (value === 0) return "0";
-    return Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4 ? power(value.toExponential(1).replace(".0e", "e")) : grouped(String(Number(value.toPrecision(6))));
+    return Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4
+      ? power(value.toExponential(1).replace(".0e", "e"))
+      : grouped(String(Number(value.toPrecision(6))));
   }
   F.tick = tick;
 })();

@@ -8,16 +8,41 @@
 
   // options: title, description (text or function), note, draw(svg, width) → height, table() → { columns, rows }, printed (px), wide
   W.figure = function (options) {
-    const titleId = W.newId("figure"), descriptionId = W.newId("description");
+    const titleId = W.newId("figure"),
+      descriptionId = W.newId("description");
     const host = h("div", { class: "picture" });
     const details = options.table ? h("details", { class: "numbers" }, h("summary", {}, "Numbers as a table")) : null;
-    if (details) details.addEventListener("toggle", () => { if (details.open && !details.querySelector("table")) details.append(asTable(options)); });
+    if (details)
+      details.addEventListener("toggle", () => {
+        if (details.open && !details.querySelector("table")) details.append(asTable(options));
+      });
     const svgButton = tool("SVG", `Save as SVG: ${options.title}`, () => saveSvg(host, options.title));
     const pngButton = tool("PNG", `Save as PNG: ${options.title}`, () => savePng(host, options.title));
-    const dataButton = options.table ? tool("Copy data", `Copy data: ${options.title}`, (event) => { W.copy(asText(options), "Data"); W.flash(event.currentTarget); }) : null;
-    const element = h("figure", { class: options.class || null },
-      h("figcaption", {}, h("span", { class: "caption", id: titleId }, options.title), h("span", { class: "tools", role: "group", "aria-label": `Take along: ${options.title}` }, svgButton, pngButton, dataButton)),
-      host, options.note ? h("p", { class: "note" }, options.note) : null, details);
+    const dataButton = options.table
+      ? tool("Copy data", `Copy data: ${options.title}`, (event) => {
+          W.copy(asText(options), "Data");
+          W.flash(event.currentTarget);
+        })
+      : null;
+    const element = h(
+      "figure",
+      { class: options.class || null },
+      h(
+        "figcaption",
+        {},
+        h("span", { class: "caption", id: titleId }, options.title),
+        h(
+          "span",
+          { class: "tools", role: "group", "aria-label": `Take along: ${options.title}` },
+          svgButton,
+          pngButton,
+          dataButton,
+        ),
+      ),
+      host,
+      options.note ? h("p", { class: "note" }, options.note) : null,
+      details,
+    );
     const figure = { element, host, options, titleId, descriptionId, width: 0 };
     figure.update = (width) => draw(figure, width);
     figures.add(figure);
@@ -31,17 +56,30 @@
   }
 
   // On a projector the page's letters grow, and those in pictures with them: they are drawn smaller and shown larger.
-  const growth = () => (printing ? 1 : Math.max(1, parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.3));
+  const growth = () =>
+    printing ? 1 : Math.max(1, parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.3);
 
   function draw(figure, shown) {
-    const { host, options } = figure, width = Math.round(shown / growth());
+    const { host, options } = figure,
+      width = Math.round(shown / growth());
     figure.width = shown;
-    const svg = d3.create("svg").attr("xmlns", "http://www.w3.org/2000/svg").attr("role", options.interactive ? "group" : "img")
-      .attr("aria-labelledby", `${figure.titleId}-t`).attr("aria-describedby", figure.descriptionId).attr("class", "chart");
+    const svg = d3
+      .create("svg")
+      .attr("xmlns", "http://www.w3.org/2000/svg")
+      .attr("role", options.interactive ? "group" : "img")
+      .attr("aria-labelledby", `${figure.titleId}-t`)
+      .attr("aria-describedby", figure.descriptionId)
+      .attr("class", "chart");
     svg.append("title").attr("id", `${figure.titleId}-t`).text(options.title);
-    svg.append("desc").attr("id", figure.descriptionId).text(typeof options.description === "function" ? options.description() : options.description || options.title);
+    svg
+      .append("desc")
+      .attr("id", figure.descriptionId)
+      .text(typeof options.description === "function" ? options.description() : options.description || options.title);
     const height = options.draw(svg, width);
-    svg.attr("viewBox", `0 0 ${width} ${Math.ceil(height)}`).attr("width", width).attr("height", Math.ceil(height));
+    svg
+      .attr("viewBox", `0 0 ${width} ${Math.ceil(height)}`)
+      .attr("width", width)
+      .attr("height", Math.ceil(height));
     const focused = host.contains(document.activeElement);
     host.replaceChildren(svg.node());
     if (options.drawn) options.drawn(svg, focused);
@@ -53,38 +91,87 @@
       const width = Math.floor(entry.contentRect.width);
       if (figure && width > 0 && width !== figure.width && !printing) figure.update(width);
     }
-    for (const figure of figures) if (!figure.element.isConnected) { observer.unobserve(figure.host); figures.delete(figure); }
+    for (const figure of figures)
+      if (!figure.element.isConnected) {
+        observer.unobserve(figure.host);
+        figures.delete(figure);
+      }
   });
   let printing = false;
   window.addEventListener("beforeprint", function () {
     printing = true;
-    for (const figure of figures) if (figure.element.isConnected && !figure.element.closest("details:not([open])")) figure.update(figure.options.printed || PRINTED);
+    for (const figure of figures)
+      if (figure.element.isConnected && !figure.element.closest("details:not([open])"))
+        figure.update(figure.options.printed || PRINTED);
   });
   window.addEventListener("afterprint", function () {
     printing = false;
-    for (const figure of figures) if (figure.element.isConnected && figure.host.clientWidth) figure.update(figure.host.clientWidth);
+    for (const figure of figures)
+      if (figure.element.isConnected && figure.host.clientWidth) figure.update(figure.host.clientWidth);
   });
-  W.redraw = () => figures.forEach((figure) => { if (figure.element.isConnected && figure.width) figure.update(figure.width); });
+  W.redraw = () =>
+    figures.forEach((figure) => {
+      if (figure.element.isConnected && figure.width) figure.update(figure.width);
+    });
 
   // The numbers.
   function asTable(options) {
     const { columns, rows } = options.table();
-    const format = (value) => (typeof value === "number" ? W.format.number(value, 6) : value === null || value === undefined ? W.format.none : String(value));
-    const kinds = columns.map((text, at) => ({ text, kind: rows.some((row) => typeof row[at] === "number") ? "number" : "text", header: at === 0 ? undefined : false }));
-    return W.table(options.title, kinds, rows.map((row) => row.map(format)));
+    const format = (value) =>
+      typeof value === "number"
+        ? W.format.number(value, 6)
+        : value === null || value === undefined
+          ? W.format.none
+          : String(value);
+    const kinds = columns.map((text, at) => ({
+      text,
+      kind: rows.some((row) => typeof row[at] === "number") ? "number" : "text",
+      header: at === 0 ? undefined : false,
+    }));
+    return W.table(
+      options.title,
+      kinds,
+      rows.map((row) => row.map(format)),
+    );
   }
   function asText(options) {
     const { columns, rows } = options.table();
-    return [columns, ...rows].map((row) => row.map((value) => (value === null || value === undefined ? "" : value)).join("\t")).join("\n") + "\n";
+    return (
+      [columns, ...rows]
+        .map((row) => row.map((value) => (value === null || value === undefined ? "" : value)).join("\t"))
+        .join("\n") + "\n"
+    );
   }
 
   // The picture by itself: what style sheets give it is written into it, in the light theme, on white.
-  const KEPT = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-opacity", "stroke-dasharray", "stroke-linejoin", "stroke-linecap", "opacity", "font-family", "font-size", "font-weight", "font-style", "text-anchor", "dominant-baseline", "paint-order", "visibility", "display"];
+  const KEPT = [
+    "fill",
+    "fill-opacity",
+    "stroke",
+    "stroke-width",
+    "stroke-opacity",
+    "stroke-dasharray",
+    "stroke-linejoin",
+    "stroke-linecap",
+    "opacity",
+    "font-family",
+    "font-size",
+    "font-weight",
+    "font-style",
+    "text-anchor",
+    "dominant-baseline",
+    "paint-order",
+    "visibility",
+    "display",
+  ];
   function standalone(host) {
-    const root = document.documentElement, theme = root.getAttribute("data-theme");
+    const root = document.documentElement,
+      theme = root.getAttribute("data-theme");
     root.setAttribute("data-theme", "light");
-    const original = host.querySelector("svg"), copy = original.cloneNode(true);
-    const from = [original, ...original.querySelectorAll("*")], to = [copy, ...copy.querySelectorAll("*")];
+    const original = host.querySelector("svg"),
+      copy = original.cloneNode(true);
+    const from = [original, ...original.querySelectorAll("*")],
+      to = [copy, ...copy.querySelectorAll("*")];
     from.forEach(function (element, at) {
       const computed = getComputedStyle(element);
       to[at].setAttribute("style", KEPT.map((name) => `${name}:${computed.getPropertyValue(name)}`).join(";"));
@@ -94,12 +181,20 @@
     else root.removeAttribute("data-theme");
     const paper = document.createElementNS("http://www.w3.org/2000/svg", "rect");
     const [, , width, height] = original.getAttribute("viewBox").split(" ").map(Number); // with a margin, to be pasted as it is
-    Object.entries({ x: -14, y: -12, width: width + 28, height: height + 24, fill: "#fff" }).forEach(([name, value]) => paper.setAttribute(name, value));
-    Object.entries({ viewBox: `-14 -12 ${width + 28} ${height + 24}`, width: width + 28, height: height + 24 }).forEach(([name, value]) => copy.setAttribute(name, value));
+    Object.entries({ x: -14, y: -12, width: width + 28, height: height + 24, fill: "#fff" }).forEach(([name, value]) =>
+      paper.setAttribute(name, value),
+    );
+    Object.entries({ viewBox: `-14 -12 ${width + 28} ${height + 24}`, width: width + 28, height: height + 24 }).forEach(
+      ([name, value]) => copy.setAttribute(name, value),
+    );
     copy.insertBefore(paper, copy.children[2] || null);
     return new XMLSerializer().serializeToString(copy);
   }
-  const fileName = (title, ending) => `${title.toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_|_$/g, "")}.${ending}`;
+  const fileName = (title, ending) =>
+    `${title
+      .toLowerCase()
+      .replace(/[^a-z0-9]+/g, "_")
+      .replace(/^_|_$/g, "")}.${ending}`;
   function save(blob, name) {
     const link = h("a", { href: URL.createObjectURL(blob), download: name });
     document.body.append(link);
@@ -112,7 +207,8 @@
     save(new Blob([standalone(host)], { type: "image/svg+xml" }), fileName(title, "svg"));
   }
   function savePng(host, title) {
-    const image = new Image(), factor = 3;
+    const image = new Image(),
+      factor = 3;
     image.onload = function () {
       const canvas = h("canvas", { width: image.width * factor, height: image.height * factor });
       canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);

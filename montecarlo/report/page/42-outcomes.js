@@ -6,31 +6,104 @@
 
   function statusBar(set) {
     const total = d3.sum(set.statuses, (one) => one.count) || 1;
-    return h("div", { class: "stack", "aria-hidden": "true" }, set.statuses.filter((one) => one.count).map((one) => h("span", { class: one.status, style: `flex-grow:${Math.max(one.count, 0.006 * total)}` })));
+    return h(
+      "div",
+      { class: "stack", "aria-hidden": "true" },
+      set.statuses
+        .filter((one) => one.count)
+        .map((one) => h("span", { class: one.status, style: `flex-grow:${Math.max(one.count, 0.006 * total)}` })),
+    );
   }
-  const NAMES = { deployed: "deployed", stalled: "stalled", timed_out: "timed out", invalid: "invalid", failed: "failed" };
+  const NAMES = {
+    deployed: "deployed",
+    stalled: "stalled",
+    timed_out: "timed out",
+    invalid: "invalid",
+    failed: "failed",
+  };
 
   function outcomes() {
     const confidence = `${100 * (W.set().confidence || 0.95)} % bounds`;
     if (W.sets.length === 1) {
       const set = W.set();
-      const rows = set.statuses.map((one) => ({ mark: one.count ? null : "zero", cells: [h("span", {}, h("i", { class: `key ${one.status}`, "aria-hidden": "true" }), NAMES[one.status] || one.status),
-        F.count(one.count), F.share(one.rate), F.shareBounds(one.lower, one.upper)] }));
-      return [h("h3", {}, "Outcomes"), statusBar(set), W.table("Outcomes of the runs", [{ text: "Outcome" }, { text: "Runs", kind: "number" }, { text: "Share", kind: "number" }, { text: confidence, kind: "number" }], rows), reasons(set)];
+      const rows = set.statuses.map((one) => ({
+        mark: one.count ? null : "zero",
+        cells: [
+          h("span", {}, h("i", { class: `key ${one.status}`, "aria-hidden": "true" }), NAMES[one.status] || one.status),
+          F.count(one.count),
+          F.share(one.rate),
+          F.shareBounds(one.lower, one.upper),
+        ],
+      }));
+      return [
+        h("h3", {}, "Outcomes"),
+        statusBar(set),
+        W.table(
+          "Outcomes of the runs",
+          [
+            { text: "Outcome" },
+            { text: "Runs", kind: "number" },
+            { text: "Share", kind: "number" },
+            { text: confidence, kind: "number" },
+          ],
+          rows,
+        ),
+        reasons(set),
+      ];
     }
-    const statuses = [...new Set(W.sets.flatMap((set) => set.statuses.map((one) => one.status)))].filter((status) => W.sets.some((set) => set.statuses.some((one) => one.status === status && one.count)) || status === "deployed");
+    const statuses = [...new Set(W.sets.flatMap((set) => set.statuses.map((one) => one.status)))].filter(
+      (status) =>
+        W.sets.some((set) => set.statuses.some((one) => one.status === status && one.count)) || status === "deployed",
+    );
     const cell = function (set, status) {
       const one = set.statuses.find((each) => each.status === status);
-      return one ? h("span", { class: "double" }, `${F.count(one.count)} · ${F.share(one.rate)}`, h("small", {}, F.shareBounds(one.lower, one.upper))) : F.none;
+      return one
+        ? h(
+            "span",
+            { class: "double" },
+            `${F.count(one.count)} · ${F.share(one.rate)}`,
+            h("small", {}, F.shareBounds(one.lower, one.upper)),
+          )
+        : F.none;
     };
-    return [h("h3", {}, "Outcomes"), W.table(`Outcomes by case, with ${confidence}`, [{ text: "Case" }, { text: "Runs", kind: "number" }, ...statuses.map((status) => ({ text: NAMES[status] || status, kind: "number" }))],
-      W.sets.map((set) => [set.label, F.count(set.runs), ...statuses.map((status) => cell(set, status))])), h("p", { class: "note" }, `Under each share its ${confidence} (exact where draws are independent). Outcomes not listed did not happen in any run.`),
-      W.sets.map((set) => reasons(set, set.label))];
+    return [
+      h("h3", {}, "Outcomes"),
+      W.table(
+        `Outcomes by case, with ${confidence}`,
+        [
+          { text: "Case" },
+          { text: "Runs", kind: "number" },
+          ...statuses.map((status) => ({ text: NAMES[status] || status, kind: "number" })),
+        ],
+        W.sets.map((set) => [set.label, F.count(set.runs), ...statuses.map((status) => cell(set, status))]),
+      ),
+      h(
+        "p",
+        { class: "note" },
+        `Under each share its ${confidence} (exact where draws are independent). Outcomes not listed did not happen in any run.`,
+      ),
+      W.sets.map((set) => reasons(set, set.label)),
+    ];
   }
   function reasons(set, label) {
     if (!(set.reasons || []).length) return null;
-    return h("details", { open: set.reasons.length <= 4 }, h("summary", {}, `Why runs did not deploy${label ? `: ${label}` : ""}`),
-      h("ul", { class: "plain" }, set.reasons.map((one) => h("li", {}, h("b", {}, F.count(one.count)), ` ${NAMES[one.status] || one.status}: ${one.reason || "no reason given"}`))));
+    return h(
+      "details",
+      { open: set.reasons.length <= 4 },
+      h("summary", {}, `Why runs did not deploy${label ? `: ${label}` : ""}`),
+      h(
+        "ul",
+        { class: "plain" },
+        set.reasons.map((one) =>
+          h(
+            "li",
+            {},
+            h("b", {}, F.count(one.count)),
+            ` ${NAMES[one.status] || one.status}: ${one.reason || "no reason given"}`,
+          ),
+        ),
+      ),
+    );
   }
 
   function others(set) {
@@ -39,66 +112,222 @@
   }
   function orders() {
     const set = W.set();
-    if (!(set.orders || []).some((one) => one.order !== "no latch")) return [h("h3", {}, "Orders of latching"), h("p", {}, "No hinge latched in any run.")];
-    const counted = set.orders.some((one) => one.order === "no latch"), without = counted ? 0 : set.without_latch || 0;
-    const total = d3.sum(set.orders, (one) => one.count) + without, colour = (at) => W.marks.colour(W.marks.ofOrder(set, at));
-    const rows = set.orders.map((one, at) => [h("span", {}, h("i", { class: "key", style: `background:${colour(at)}`, "aria-hidden": "true" }), one.order === "others" ? others(set) : F.order(one.order)), F.count(one.count), F.share(one.count / total)]);
-    if (without) rows.push([h("span", {}, h("i", { class: "key", style: "background:var(--none)", "aria-hidden": "true" }), "no hinge latched"), F.count(without), F.share(without / total)]);
-    return [h("h3", {}, W.sets.length > 1 ? `Orders of latching · ${set.label}` : "Orders of latching"), W.table("Orders of latching", [{ text: "Order" }, { text: "Runs", kind: "number" }, { text: "Share", kind: "number" }], rows, { class: "long-names" })];
+    if (!(set.orders || []).some((one) => one.order !== "no latch"))
+      return [h("h3", {}, "Orders of latching"), h("p", {}, "No hinge latched in any run.")];
+    const counted = set.orders.some((one) => one.order === "no latch"),
+      without = counted ? 0 : set.without_latch || 0;
+    const total = d3.sum(set.orders, (one) => one.count) + without,
+      colour = (at) => W.marks.colour(W.marks.ofOrder(set, at));
+    const rows = set.orders.map((one, at) => [
+      h(
+        "span",
+        {},
+        h("i", { class: "key", style: `background:${colour(at)}`, "aria-hidden": "true" }),
+        one.order === "others" ? others(set) : F.order(one.order),
+      ),
+      F.count(one.count),
+      F.share(one.count / total),
+    ]);
+    if (without)
+      rows.push([
+        h(
+          "span",
+          {},
+          h("i", { class: "key", style: "background:var(--none)", "aria-hidden": "true" }),
+          "no hinge latched",
+        ),
+        F.count(without),
+        F.share(without / total),
+      ]);
+    return [
+      h("h3", {}, W.sets.length > 1 ? `Orders of latching · ${set.label}` : "Orders of latching"),
+      W.table(
+        "Orders of latching",
+        [{ text: "Order" }, { text: "Runs", kind: "number" }, { text: "Share", kind: "number" }],
+        rows,
+        { class: "long-names" },
+      ),
+    ];
   }
 
   function warnings() {
     const all = W.sets.flatMap((set) => (set.warnings || []).map((text) => ({ set, text })));
     const texts = [...new Set(all.map((one) => one.text))];
-    const partial = W.sets.filter((set) => set.partial || (set.runs < set.planned && !set.stopped)).map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
-    const items = [...partial.map((text) => h("li", {}, text)), ...texts.map(function (text) {
-      const where = all.filter((one) => one.text === text).map((one) => one.set.label);
-      return h("li", {}, text, W.sets.length > 1 ? h("span", { class: "faint" }, where.length === W.sets.length ? " (all)" : ` (${where.join(", ")})`) : null);
-    })];
-    return h("div", { class: items.length ? "warnings" : "warnings none" }, h("h3", {}, "Warnings"), items.length ? h("ul", {}, items) : h("p", {}, "None."));
+    const partial = W.sets
+      .filter((set) => set.partial || (set.runs < set.planned && !set.stopped))
+      .map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
+    const items = [
+      ...partial.map((text) => h("li", {}, text)),
+      ...texts.map(function (text) {
+        const where = all.filter((one) => one.text === text).map((one) => one.set.label);
+        return h(
+          "li",
+          {},
+          text,
+          W.sets.length > 1
+            ? h("span", { class: "faint" }, where.length === W.sets.length ? " (all)" : ` (${where.join(", ")})`)
+            : null,
+        );
+      }),
+    ];
+    return h(
+      "div",
+      { class: items.length ? "warnings" : "warnings none" },
+      h("h3", {}, "Warnings"),
+      items.length ? h("ul", {}, items) : h("p", {}, "None."),
+    );
   }
 
   // What the integration contributes, beside what the number of runs leaves open.
   function accuracy() {
-    const set = W.set(), one = set.accuracy;
+    const set = W.set(),
+      one = set.accuracy;
     const title = h("h3", {}, "Numerical against statistical error");
     const rows = ((one && one.outputs) || []).filter((row) => W.isNumber(row.largest));
     if (!rows.length) return [title, h("p", {}, "No runs were made again at a tighter tolerance.")];
-    const share = (row) => (W.isNumber(row.standard_error) && row.standard_error > 0 ? row.largest / row.standard_error : null);
-    const ordered = rows.slice().sort((a, b) => (share(b) || 0) - (share(a) || 0)), worst = share(ordered[0]);
-    const times = worst === null || worst === 0 ? null : worst < 1 ? `${F.number(1 / worst, 2)} times smaller than` : `${F.number(worst, 2)} times`;
-    const table = W.table("Numerical and statistical error of each output", [{ text: "Output" }, { text: "Unit" }, { text: "Numerical, largest", kind: "number" }, { text: "Numerical, rms", kind: "number" }, { text: "Standard error of the mean", kind: "number" }],
-      ordered.map((row) => { const output = W.outputsOf(set).find((each) => each.name === row.output); return [F.nameOf(row.output), F.unit(output && output.unit), F.number(row.largest, 2), F.number(row.rms, 2), F.number(row.standard_error, 2)]; }));
-    return [title, h("p", {}, `${F.runs(one.runs)} made again with ${one.reference_method} at rtol ${F.number(one.reference_rtol, 2)} (the campaign: ${one.method}, ${F.number(one.rtol, 2)}). `,
-      times ? h("b", {}, `At worst (${F.nameOf(ordered[0].output)}) the integration's error is ${times} the mean's standard error.`) : "They agree to the last digit, or there is no statistical error to compare with.",
-      one.order_in_doubt ? ` In ${F.runs(one.order_in_doubt)} the order of latching changed.` : " No order of latching changed."), h("details", {}, h("summary", {}, "Every output"), table)];
+    const share = (row) =>
+      W.isNumber(row.standard_error) && row.standard_error > 0 ? row.largest / row.standard_error : null;
+    const ordered = rows.slice().sort((a, b) => (share(b) || 0) - (share(a) || 0)),
+      worst = share(ordered[0]);
+    const times =
+      worst === null || worst === 0
+        ? null
+        : worst < 1
+          ? `${F.number(1 / worst, 2)} times smaller than`
+          : `${F.number(worst, 2)} times`;
+    const table = W.table(
+      "Numerical and statistical error of each output",
+      [
+        { text: "Output" },
+        { text: "Unit" },
+        { text: "Numerical, largest", kind: "number" },
+        { text: "Numerical, rms", kind: "number" },
+        { text: "Standard error of the mean", kind: "number" },
+      ],
+      ordered.map((row) => {
+        const output = W.outputsOf(set).find((each) => each.name === row.output);
+        return [
+          F.nameOf(row.output),
+          F.unit(output && output.unit),
+          F.number(row.largest, 2),
+          F.number(row.rms, 2),
+          F.number(row.standard_error, 2),
+        ];
+      }),
+    );
+    return [
+      title,
+      h(
+        "p",
+        {},
+        `${F.runs(one.runs)} made again with ${one.reference_method} at rtol ${F.number(one.reference_rtol, 2)} (the campaign: ${one.method}, ${F.number(one.rtol, 2)}). `,
+        times
+          ? h(
+              "b",
+              {},
+              `At worst (${F.nameOf(ordered[0].output)}) the integration's error is ${times} the mean's standard error.`,
+            )
+          : "They agree to the last digit, or there is no statistical error to compare with.",
+        one.order_in_doubt
+          ? ` In ${F.runs(one.order_in_doubt)} the order of latching changed.`
+          : " No order of latching changed.",
+      ),
+      h("details", {}, h("summary", {}, "Every output"), table),
+    ];
   }
 
   function again() {
     const made = [...new Map(W.sets.filter((set) => set.made_by).map((set) => [set.made_by, set])).values()];
-    return h("div", { class: "again" }, h("h3", {}, "To make it again"), made.map((set) => W.command(set.made_by, `command of ${set.label}`)), W.command(W.data.command, "command of this report"),
-      h("p", { class: "note" }, made.map((set, at) => [at ? "; " : "", W.sets.length > 1 && made.length > 1 ? `${set.label}: ` : "", `wingspread ${set.version}, seed ${set.seed}, campaign hash `, h("code", { class: "hash" }, set.hash)]), made.length ? ". The same seed gives the same bytes, on any number of threads." : null));
+    return h(
+      "div",
+      { class: "again" },
+      h("h3", {}, "To make it again"),
+      made.map((set) => W.command(set.made_by, `command of ${set.label}`)),
+      W.command(W.data.command, "command of this report"),
+      h(
+        "p",
+        { class: "note" },
+        made.map((set, at) => [
+          at ? "; " : "",
+          W.sets.length > 1 && made.length > 1 ? `${set.label}: ` : "",
+          `wingspread ${set.version}, seed ${set.seed}, campaign hash `,
+          h("code", { class: "hash" }, set.hash),
+        ]),
+        made.length ? ". The same seed gives the same bytes, on any number of threads." : null,
+      ),
+    );
   }
 
   function subtitle() {
-    const set = W.set(), one = (read) => [...new Set(W.sets.map(read))];
-    const facts = [W.sets.length > 1 ? `${W.sets.length} ${W.sets.some((each) => each.case) ? "cases" : "folders"}: ${W.sets.map((each) => each.label).join(", ")}` : null,
-      W.onlyStudies ? null : one((each) => each.runs).length === 1 ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}` : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
-      set.design ? `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}` : null, set.seed === "" ? null : `seed ${one((each) => each.seed).join(", ")}`, set.foreign ? "rows of another tool" : null, `bounds at ${100 * set.confidence} %`, set.shard ? `shard ${set.shard}` : null, set.stopped ? `stopped by its goals, of ${F.count(set.planned)} planned runs` : null, set.looks > 1 ? `look ${set.looks} at a growing campaign` : null, `wingspread ${one((each) => each.version).join(", ")}`, `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`];
-    W.fill(document.getElementById("subtitle"), set.description ? h("p", { class: "description" }, set.description) : null, h("p", { class: "facts" }, facts.filter(Boolean).map((fact) => h("span", {}, fact))));
+    const set = W.set(),
+      one = (read) => [...new Set(W.sets.map(read))];
+    const facts = [
+      W.sets.length > 1
+        ? `${W.sets.length} ${W.sets.some((each) => each.case) ? "cases" : "folders"}: ${W.sets.map((each) => each.label).join(", ")}`
+        : null,
+      W.onlyStudies
+        ? null
+        : one((each) => each.runs).length === 1
+          ? `${F.runs(set.runs)}${W.sets.length > 1 ? " each" : ""}`
+          : `${F.count(d3.min(W.sets, (each) => each.runs))} to ${F.runs(d3.max(W.sets, (each) => each.runs))}`,
+      set.design
+        ? `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`
+        : null,
+      set.seed === "" ? null : `seed ${one((each) => each.seed).join(", ")}`,
+      set.foreign ? "rows of another tool" : null,
+      `bounds at ${100 * set.confidence} %`,
+      set.shard ? `shard ${set.shard}` : null,
+      set.stopped ? `stopped by its goals, of ${F.count(set.planned)} planned runs` : null,
+      set.looks > 1 ? `look ${set.looks} at a growing campaign` : null,
+      `wingspread ${one((each) => each.version).join(", ")}`,
+      `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`,
+    ];
+    W.fill(
+      document.getElementById("subtitle"),
+      set.description ? h("p", { class: "description" }, set.description) : null,
+      h(
+        "p",
+        { class: "facts" },
+        facts.filter(Boolean).map((fact) => h("span", {}, fact)),
+      ),
+    );
     document.getElementById("title").textContent = W.data.title;
     document.title = `${W.data.title} · wingspread report`;
-    document.getElementById("colophon").textContent = `Made by ${W.data.command} (wingspread ${W.data.version}). This page holds its data and asks no network.`;
+    document.getElementById("colophon").textContent =
+      `Made by ${W.data.command} (wingspread ${W.data.version}). This page holds its data and asks no network.`;
   }
 
   W.outcomes = function () {
     subtitle();
     if (W.onlyStudies) {
       const labels = W.studySets.map((set) => `${set.label}${set.made_by ? ` (${set.made_by})` : ""}`);
-      W.fill(W.section("verdicts"), h("p", { class: "headline" }, "Studies of a campaign, without its runs."), h("p", {}, `${labels.join(", ")}: what they found stands under “Why”. A folder that wingspread run has written, given beside them, adds verdicts and distributions.`), again());
+      W.fill(
+        W.section("verdicts"),
+        h("p", { class: "headline" }, "Studies of a campaign, without its runs."),
+        h(
+          "p",
+          {},
+          `${labels.join(", ")}: what they found stands under “Why”. A folder that wingspread run has written, given beside them, adds verdicts and distributions.`,
+        ),
+        again(),
+      );
       return;
     }
-    W.fill(W.section("verdicts"), h("div", { class: "first" }, h("div", { class: "judgement" }, W.verdicts.requirements()), h("div", { class: "columns" },
-      h("div", {}, outcomes()), h("div", {}, orders()), h("div", {}, warnings(), accuracy())), again()));
+    W.fill(
+      W.section("verdicts"),
+      h(
+        "div",
+        { class: "first" },
+        h("div", { class: "judgement" }, W.verdicts.requirements()),
+        h(
+          "div",
+          { class: "columns" },
+          h("div", {}, outcomes()),
+          h("div", {}, orders()),
+          h("div", {}, warnings(), accuracy()),
+        ),
+        again(),
+      ),
+    );
   };
 })();

@@ -1,4 +1,4 @@
-// Why: which dispersions move an output (tornado), the strongest pairs as scatter and density, and a run chosen from them.
+// Why: which dispersions move an output (tornado), with the strongest pairs and what other studies found.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -8,140 +8,231 @@
   function effectsOf(set, name) {
     const sensitivity = set.sensitivity;
     if (sensitivity && sensitivity.effects) {
-      const pair = sensitivity.kind === "sobol" ? [["first", "first order"], ["total", "total"]] : [["spearman", "Spearman"], ["prcc", sensitivity.held === false ? "PRCC" : "PRCC, others held"]];
+      const pair =
+        sensitivity.kind === "sobol"
+          ? [
+              ["first", "first order"],
+              ["total", "total"],
+            ]
+          : [
+              ["spearman", "Spearman"],
+              ["prcc", sensitivity.held === false ? "PRCC" : "PRCC, others held"],
+            ];
       return { pair, kind: sensitivity.kind, rows: sensitivity.effects.filter((one) => one.output === name) };
     }
-    const table = set.correlations, column = table ? table.outputs.indexOf(name) : -1;
+    const table = set.correlations,
+      column = table ? table.outputs.indexOf(name) : -1;
     if (column < 0) return { pair: [], rows: [] };
-    const rows = table.draws.map((draw, at) => ({ draw, spearman: table.spearman[at][column] })).filter((one) => W.isNumber(one.spearman));
-    return { pair: [["spearman", "Spearman"]], kind: "correlation", rows: rows.sort((a, b) => Math.abs(b.spearman) - Math.abs(a.spearman)).slice(0, 12) };
+    const rows = table.draws
+      .map((draw, at) => ({ draw, spearman: table.spearman[at][column] }))
+      .filter((one) => W.isNumber(one.spearman));
+    return {
+      pair: [["spearman", "Spearman"]],
+      kind: "correlation",
+      rows: rows.sort((a, b) => Math.abs(b.spearman) - Math.abs(a.spearman)).slice(0, 12),
+    };
   }
 
   function tornado(set, name) {
     const { pair, kind, rows } = effectsOf(set, name);
-    if (!rows.length) return h("p", { class: "nothing" }, `No dispersion's effect on ${F.nameOf(name)} is known: too few runs have it, or it does not vary.`);
+    if (!rows.length)
+      return h(
+        "p",
+        { class: "nothing" },
+        `No dispersion's effect on ${F.nameOf(name)} is known: too few runs have it, or it does not vary.`,
+      );
     const measure = kind === "sobol" ? "share of the variance" : "rank correlation";
     return W.figure({
-      title: `What moves ${F.nameOf(name)}`, class: "tornado", printed: 860, note: kind === "sobol" ? "First order: alone. Total: with what it does together with others. Lines are confidence bounds." : `Strongest first.${kind === "rank" ? " Lines are confidence bounds." : ""} To the right: the output rises with the dispersion.`,
-      description: () => rows.map((one) => `${one.draw}: ${pair.map(([key, text]) => `${text} ${F.fixed(one[key], 2)}`).join(", ")}`).join("; "),
-      table: () => ({ columns: ["dispersion", ...pair.flatMap(([key, text]) => (`${key}_lower` in rows[0] ? [text, "lower", "upper"] : [text]))], rows: rows.map((one) => [one.draw, ...pair.flatMap(([key]) => (`${key}_lower` in rows[0] ? [one[key], one[`${key}_lower`], one[`${key}_upper`]] : [one[key]]))]) }),
+      title: `What moves ${F.nameOf(name)}`,
+      class: "tornado",
+      printed: 860,
+      note:
+        kind === "sobol"
+          ? "First order: alone. Total: with what it does together with others. Lines are confidence bounds."
+          : `Strongest first.${kind === "rank" ? " Lines are confidence bounds." : ""} To the right: the output rises with the dispersion.`,
+      description: () =>
+        rows
+          .map((one) => `${one.draw}: ${pair.map(([key, text]) => `${text} ${F.fixed(one[key], 2)}`).join(", ")}`)
+          .join("; "),
+      table: () => ({
+        columns: [
+          "dispersion",
+          ...pair.flatMap(([key, text]) => (`${key}_lower` in rows[0] ? [text, "lower", "upper"] : [text])),
+        ],
+        rows: rows.map((one) => [
+          one.draw,
+          ...pair.flatMap(([key]) =>
+            `${key}_lower` in rows[0] ? [one[key], one[`${key}_lower`], one[`${key}_upper`]] : [one[key]],
+          ),
+        ]),
+      }),
       draw: function (svg, width) {
-        const fill = M.hatches(svg, 2), top = M.legend(svg, pair.map(([, text], at) => ({ text, fill: fill(at) })), width);
-        const left = Math.min(width * 0.34, Math.max(...rows.map((one) => M.textWidth(one.draw))) + 12), row = 15 * pair.length + 10;
+        const fill = M.hatches(svg, 2),
+          top = M.legend(
+            svg,
+            pair.map(([, text], at) => ({ text, fill: fill(at) })),
+            width,
+          );
+        const left = Math.min(width * 0.34, Math.max(...rows.map((one) => M.textWidth(one.draw))) + 12),
+          row = 15 * pair.length + 10;
         const box = { left, right: width - 16, top: top + 4, bottom: top + 4 + row * rows.length };
-        const far = Math.max(0.1, ...rows.flatMap((one) => pair.flatMap(([key]) => [one[key], one[`${key}_lower`], one[`${key}_upper`]])).filter(W.isNumber).map(Math.abs));
-        const x = d3.scaleLinear([kind === "sobol" ? Math.min(0, d3.min(rows, (one) => d3.min(pair, ([key]) => one[`${key}_lower`])) || 0) : -Math.min(1, far * 1.05), Math.min(kind === "sobol" ? far * 1.05 : 1, far * 1.05)], [box.left, box.right]);
+        const far = Math.max(
+          0.1,
+          ...rows
+            .flatMap((one) => pair.flatMap(([key]) => [one[key], one[`${key}_lower`], one[`${key}_upper`]]))
+            .filter(W.isNumber)
+            .map(Math.abs),
+        );
+        const x = d3.scaleLinear(
+          [
+            kind === "sobol"
+              ? Math.min(0, d3.min(rows, (one) => d3.min(pair, ([key]) => one[`${key}_lower`])) || 0)
+              : -Math.min(1, far * 1.05),
+            Math.min(kind === "sobol" ? far * 1.05 : 1, far * 1.05),
+          ],
+          [box.left, box.right],
+        );
         M.axes(svg, box, x, null, { xText: measure });
-        svg.append("line").attr("class", "zero-line").attr("x1", x(0)).attr("x2", x(0)).attr("y1", box.top).attr("y2", box.bottom);
+        svg
+          .append("line")
+          .attr("class", "zero-line")
+          .attr("x1", x(0))
+          .attr("x2", x(0))
+          .attr("y1", box.top)
+          .attr("y2", box.bottom);
         rows.forEach(function (one, at) {
           const upper = box.top + row * at + 5;
-          svg.append("text").attr("x", left - 8).attr("y", upper + (row - 10) / 2).attr("dy", "0.35em").attr("text-anchor", "end").text(M.shorten(one.draw, left - 8)).append("title").text(one.draw);
+          svg
+            .append("text")
+            .attr("x", left - 8)
+            .attr("y", upper + (row - 10) / 2)
+            .attr("dy", "0.35em")
+            .attr("text-anchor", "end")
+            .text(M.shorten(one.draw, left - 8))
+            .append("title")
+            .text(one.draw);
           pair.forEach(function ([key, text], place) {
-            const value = one[key], low = one[`${key}_lower`], high = one[`${key}_upper`], y = upper + 15 * place;
+            const value = one[key],
+              low = one[`${key}_lower`],
+              high = one[`${key}_upper`],
+              y = upper + 15 * place;
             if (!W.isNumber(value)) return;
-            svg.append("rect").attr("class", "effect").attr("x", Math.min(x(0), x(value))).attr("width", Math.max(1, Math.abs(x(value) - x(0)))).attr("y", y + 1).attr("height", 12).style("fill", fill(place))
-              .append("title").text(`${one.draw}, ${text}: ${F.fixed(value, 3)}${W.isNumber(low) ? ` (${F.fixed(low, 3)} … ${F.fixed(high, 3)})` : ""}`);
-            if (W.isNumber(low) && W.isNumber(high)) svg.append("path").attr("class", "whisker").attr("d", `M${x(low)},${y + 7}H${x(high)}M${x(low)},${y + 3.5}v7M${x(high)},${y + 3.5}v7`);
+            svg
+              .append("rect")
+              .attr("class", "effect")
+              .attr("x", Math.min(x(0), x(value)))
+              .attr("width", Math.max(1, Math.abs(x(value) - x(0))))
+              .attr("y", y + 1)
+              .attr("height", 12)
+              .style("fill", fill(place))
+              .append("title")
+              .text(
+                `${one.draw}, ${text}: ${F.fixed(value, 3)}${W.isNumber(low) ? ` (${F.fixed(low, 3)} … ${F.fixed(high, 3)})` : ""}`,
+              );
+            if (W.isNumber(low) && W.isNumber(high))
+              svg
+                .append("path")
+                .attr("class", "whisker")
+                .attr("d", `M${x(low)},${y + 7}H${x(high)}M${x(low)},${y + 3.5}v7M${x(high)},${y + 3.5}v7`);
           });
         });
         return box.bottom + 40;
-      } });
-  }
-
-  function scatter(set, setAt, pair) {
-    const output = W.outputsOf(set).find((one) => one.name === pair.output) || { name: pair.output, unit: "" }, points = pair.points;
-    const order = d3.range(points.run.length).sort((a, b) => points.x[a] - points.x[b]);
-    let marks = null, at = -1;
-    const chosen = () => (W.chosen.run && W.chosen.run.set === setAt ? W.chosen.run.run : null);
-    function mark() {
-      if (marks) marks.classed("chosen", (k) => points.run[k] === chosen()).attr("aria-selected", (k) => String(points.run[k] === chosen()));
-    }
-    const element = W.figure({
-      title: `${F.nameOf(pair.output)} against ${pair.draw}`, class: "scatter", interactive: true, printed: 440, note: `Spearman ${F.fixed(pair.spearman, 2)}. Shading: density of all runs; points: the extreme ones and every n-th run. Choose a point for its run.`,
-      description: () => `Scatter of ${F.nameOf(pair.output)} over the dispersion ${pair.draw}, Spearman's coefficient ${F.fixed(pair.spearman, 2)}, ${points.run.length} runs as points.`,
-      table: () => ({ columns: ["run", pair.draw, `${pair.output} ${F.unit(output.unit)}`, "order of latching"], rows: order.map((k) => [String(points.run[k]), points.x[k], points.y[k], ((set.orders || [])[points.order[k]] || { order: "" }).order]) }),
-      draw: function (svg, width) {
-        const { factor, unit } = F.shown(output.unit), used = [...new Set(points.order)].sort(d3.ascending);
-        const top = M.legend(svg, used.length > 1 ? used.map((one) => ({ text: set.orders[one] ? F.order(set.orders[one].order) : "no hinge latched", mark: M.colour(M.ofOrder(set, one)), shape: M.shape(M.ofOrder(set, one)) })) : [], width);
-        const y = M.linear([...pair.y_edges, ...points.y].map((value) => value * factor), [0, 1]), box = { left: M.leftFor(y), right: width - 12, top: top + 18, bottom: top + 270 };
-        y.range([box.bottom, box.top]);
-        const x = M.linear([...pair.x_edges, ...points.x], [box.left, box.right]);
-        M.axes(svg, box, x, y, { xText: pair.draw, yText: `${F.name(output)}${unit ? ` (${unit})` : ""}` });
-        cells(svg, pair, x, (value) => y(value * factor));
-        const shapes = d3.symbol().size(34);
-        const list = svg.append("g").attr("class", "points").attr("role", "listbox").attr("tabindex", 0).attr("aria-label", `Runs by ${pair.draw}. Arrow keys go through them, Enter chooses`);
-        const stem = W.newId("run");
-        marks = list.selectAll("path").data(order).enter().append("path").attr("role", "option").attr("id", (k) => `${stem}-${k}`).attr("class", "point").attr("aria-selected", "false")
-          .attr("d", (k) => shapes.type(M.shape(M.ofOrder(set, points.order[k])))()).attr("transform", (k) => `translate(${x(points.x[k])},${y(points.y[k] * factor)})`).style("fill", (k) => M.colour(M.ofOrder(set, points.order[k])))
-          .attr("aria-label", (k) => `run ${points.run[k]}: ${pair.draw} ${F.number(points.x[k], 4)}, ${F.name(output)} ${F.withUnit(points.y[k], output.unit)}`)
-          .on("click", (k) => W.select(setAt, points.run[k], { [pair.draw]: points.x[k], [pair.output]: points.y[k] }));
-        marks.append("title").text((k) => `run ${points.run[k]}`);
-        list.on("keydown", () => byKeys(d3.event, list, stem));
-        mark();
-        return box.bottom + 40;
-      } });
-    function byKeys(event, list, stem) {
-      const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
-      if (step) at = Math.max(0, Math.min(order.length - 1, at + step));
-      else if ((event.key === "Enter" || event.key === " ") && at >= 0) W.select(setAt, points.run[order[at]], { [pair.draw]: points.x[order[at]], [pair.output]: points.y[order[at]] });
-      else return;
-      list.attr("aria-activedescendant", `${stem}-${order[at]}`);
-      marks.classed("current", (k) => k === order[at]);
-      event.preventDefault();
-    }
-    W.on("run", () => element.isConnected && mark());
-    return element;
-  }
-  function cells(svg, pair, x, y) {
-    const most = d3.max(pair.density) || 1, across = pair.x_edges.length - 1, group = svg.append("g").attr("class", "density");
-    pair.density.forEach(function (count, at) {
-      const column = at % across, row = Math.floor(at / across);
-      if (count > 0) group.append("rect").attr("x", x(pair.x_edges[column])).attr("width", Math.max(0.5, x(pair.x_edges[column + 1]) - x(pair.x_edges[column]) + 0.4)).attr("y", Math.min(y(pair.y_edges[row]), y(pair.y_edges[row + 1]))).attr("height", Math.abs(y(pair.y_edges[row]) - y(pair.y_edges[row + 1])) + 0.4).attr("fill-opacity", 0.08 + 0.5 * Math.sqrt(count / most));
+      },
     });
   }
-
-  // The run that was chosen, anywhere on the page: its values, its command, its motion if there is one.
-  W.select = function (setAt, run, values) {
-    W.choose("run", { set: setAt, run, values: values || {} });
-  };
-  W.on("run", function (choice) {
-    const host = document.getElementById("selection");
-    host.hidden = !choice;
-    if (!choice) return;
-    const set = W.sets[choice.set], motion = (set.motions || []).findIndex((one) => one.run === choice.run), known = motion >= 0 ? set.motions[motion] : null;
-    const command = known ? known.replay : `wingspread replay ${set.folder} --run ${choice.run}`;
-    const values = Object.entries(choice.values).map(([name, value]) => { const output = W.outputsOf(set).find((one) => one.name === name); return h("span", {}, `${output ? F.name(output) : name} `, h("b", {}, output ? F.withUnit(value, output.unit) : F.number(value, 4))); });
-    W.fill(host, h("p", {}, h("b", {}, `Run ${choice.run}`), W.sets.length > 1 ? ` of ${set.label}` : "", known ? ` · ${known.label}` : "", values.map((value) => [" · ", value])), W.command(command, `command of run ${choice.run}`),
-      h("p", {}, known ? h("button", { type: "button", onclick: () => { if (W.chosen.set !== choice.set) W.choose("set", choice.set); W.choose("motion", motion); document.getElementById("wing").scrollIntoView(); } }, "Show its motion") : h("span", { class: "faint" }, "Its motion is not in this page; the command makes it."),
-        " ", h("button", { type: "button", onclick: () => W.choose("run", null) }, "Close")));
-    W.say(`Run ${choice.run} chosen. ${command}`);
-  });
 
   // Dispersions that seem to move nothing may be applied to the wrong parameter.
   function idle(set) {
     const names = (set.sensitivity && set.sensitivity.idle) || [];
-    return names.length ? h("details", { open: names.length <= 12 }, h("summary", {}, `${names.length} ${names.length === 1 ? "dispersion is" : "dispersions are"} not seen to move any output`), h("p", { class: "note" }, names.join(", "), ". One that makes an output rise and fall would not be seen: Sobol' indices show it.")) : null;
+    return names.length
+      ? h(
+          "details",
+          { open: names.length <= 12 },
+          h(
+            "summary",
+            {},
+            `${names.length} ${names.length === 1 ? "dispersion is" : "dispersions are"} not seen to move any output`,
+          ),
+          h(
+            "p",
+            { class: "note" },
+            names.join(", "),
+            ". One that makes an output rise and fall would not be seen: Sobol' indices show it.",
+          ),
+        )
+      : null;
   }
 
   const tornadoHost = h("div", {});
   W.tornado = tornado;
   // The outputs whose effects are known, to choose from here as well.
   W.effectOutputs = function (set) {
-    const found = set.sensitivity && set.sensitivity.effects ? set.sensitivity.effects.map((one) => one.output) : (set.correlations || { outputs: [] }).outputs;
+    const found =
+      set.sensitivity && set.sensitivity.effects
+        ? set.sensitivity.effects.map((one) => one.output)
+        : (set.correlations || { outputs: [] }).outputs;
     return [...new Set(found)];
   };
-  W.chooser = (names, chosen, onchoose) => h("label", { class: "search" }, "Output ", h("select", { onchange: (event) => onchoose(event.target.value) }, names.map((name) => h("option", { value: name, selected: name === chosen }, F.nameOf(name)))));
+  W.chooser = (names, chosen, onchoose) =>
+    h(
+      "label",
+      { class: "search" },
+      "Output ",
+      h(
+        "select",
+        { onchange: (event) => onchoose(event.target.value) },
+        names.map((name) => h("option", { value: name, selected: name === chosen }, F.nameOf(name))),
+      ),
+    );
 
   const chooserHost = h("div", { class: "controls" });
-  const choose = (set) => W.fill(chooserHost, W.effectOutputs(set).length > 1 ? W.chooser(W.effectOutputs(set), W.chosen.output, (name) => W.choose("output", name)) : null);
+  const choose = (set) =>
+    W.fill(
+      chooserHost,
+      W.effectOutputs(set).length > 1
+        ? W.chooser(W.effectOutputs(set), W.chosen.output, (name) => W.choose("output", name))
+        : null,
+    );
   W.why = function () {
-    if (W.onlyStudies) { W.fill(W.section("why"), W.studies(W.studySets)); return; }
-    const set = W.set(), pairs = set.scatters || [];
-    const more = (from, to, text) => (pairs.length > from ? h("details", { class: "later" }, h("summary", {}, text), h("div", { class: "grid pairs" }, pairs.slice(from, to).map((pair) => scatter(set, W.chosen.set, pair)))) : null);
+    if (W.onlyStudies) {
+      W.fill(W.section("why"), W.studies(W.studySets));
+      return;
+    }
+    const set = W.set(),
+      pairs = set.scatters || [];
+    const more = (from, to, text) =>
+      pairs.length > from
+        ? h(
+            "details",
+            { class: "later" },
+            h("summary", {}, text),
+            h(
+              "div",
+              { class: "grid pairs" },
+              pairs.slice(from, to).map((pair) => W.scatter(set, W.chosen.set, pair)),
+            ),
+          )
+        : null;
     W.fill(tornadoHost, tornado(set, W.chosen.output));
     choose(set);
-    W.fill(W.section("why"), chooserHost, tornadoHost, idle(set),
-      pairs.length ? [h("h3", {}, "Strongest pairs"), h("div", { class: "grid pairs" }, pairs.slice(0, 4).map((pair) => scatter(set, W.chosen.set, pair))), more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`)] : null, W.studies([set, ...W.studySets]));
+    W.fill(
+      W.section("why"),
+      chooserHost,
+      tornadoHost,
+      idle(set),
+      pairs.length
+        ? [
+            h("h3", {}, "Strongest pairs"),
+            h(
+              "div",
+              { class: "grid pairs" },
+              pairs.slice(0, 4).map((pair) => W.scatter(set, W.chosen.set, pair)),
+            ),
+            more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`),
+          ]
+        : null,
+      W.studies([set, ...W.studySets]),
+    );
   };
   W.on("output", function (name) {
     if (!tornadoHost.isConnected) return;

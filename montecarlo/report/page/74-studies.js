@@ -5,89 +5,309 @@
   const { h, format: F, marks: M } = W;
 
   function marginWindow(margin) {
-    const [low, high] = margin.window || [null, null], { scales, requirements } = margin;
-    const words = W.isNumber(low) || W.isNumber(high) ? `The window is ${W.isNumber(low) ? `from ${F.number(low, 4)}` : "open below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "and open above"}${W.isNumber(margin.recommended) ? `; recommended is ${F.number(margin.recommended, 4)}` : ""}.${margin.why_none ? ` Nothing is recommended: ${margin.why_none}.` : ""}` : margin.why_none || "No scale meets all requirements.";
+    const [low, high] = margin.window || [null, null],
+      { scales, requirements } = margin;
+    const words =
+      W.isNumber(low) || W.isNumber(high)
+        ? `The window is ${W.isNumber(low) ? `from ${F.number(low, 4)}` : "open below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "and open above"}${W.isNumber(margin.recommended) ? `; recommended is ${F.number(margin.recommended, 4)}` : ""}.${margin.why_none ? ` Nothing is recommended: ${margin.why_none}.` : ""}`
+        : margin.why_none || "No scale meets all requirements.";
     return W.figure({
-      title: "Margin window: how strong the springs may be", class: "margin", note: words, description: `Share of runs that meet each requirement against the springs' scale. ${words}`,
-      table: () => ({ columns: ["scale", ...requirements.flatMap((one) => [one.text, "lower", "upper", "verdict"])], rows: scales.map((scale, at) => [scale, ...requirements.flatMap((one) => [one.passed[at], one.lower[at], one.upper[at], one.verdict[at]])]) }),
+      title: "Margin window: how strong the springs may be",
+      class: "margin",
+      note: words,
+      description: `Share of runs that meet each requirement against the springs' scale. ${words}`,
+      table: () => ({
+        columns: ["scale", ...requirements.flatMap((one) => [one.text, "lower", "upper", "verdict"])],
+        rows: scales.map((scale, at) => [
+          scale,
+          ...requirements.flatMap((one) => [one.passed[at], one.lower[at], one.upper[at], one.verdict[at]]),
+        ]),
+      }),
       draw: function (svg, width) {
-        const top = M.legend(svg, [...requirements.map((one, at) => ({ text: one.text, line: M.colour(at), dash: M.dash(at) })), { text: "window", fill: "var(--good)", opacity: 0.25 }], width);
-        const box = { left: 48, right: width - 14, top: top + 18, bottom: top + 270 }, x = M.linear([...scales, low, high], [box.left, box.right]);
+        const top = M.legend(
+          svg,
+          [
+            ...requirements.map((one, at) => ({ text: one.text, line: M.colour(at), dash: M.dash(at) })),
+            { text: "window", fill: "var(--good)", opacity: 0.25 },
+          ],
+          width,
+        );
+        const box = { left: 48, right: width - 14, top: top + 18, bottom: top + 270 },
+          x = M.linear([...scales, low, high], [box.left, box.right]);
         // A scale of nines: what matters lies between 90 and 100 %.
-        const nines = d3.scaleLinear([0, 3.6], [box.bottom, box.top]), y = (share) => nines(Math.min(3.6, -Math.log10(Math.max(1e-9, 1 - share))));
-        const SHARES = [0, 0.5, 0.9, 0.99, 0.999, 1], axis = nines.copy();
+        const nines = d3.scaleLinear([0, 3.6], [box.bottom, box.top]),
+          y = (share) => nines(Math.min(3.6, -Math.log10(Math.max(1e-9, 1 - share))));
+        const SHARES = [0, 0.5, 0.9, 0.99, 0.999, 1],
+          axis = nines.copy();
         if (W.isNumber(low) || W.isNumber(high)) {
-          const from = W.isNumber(low) ? x(low) : box.left, to = W.isNumber(high) ? x(high) : box.right;
-          svg.append("rect").attr("class", "window").attr("x", from).attr("width", Math.max(0, to - from)).attr("y", box.top).attr("height", box.bottom - box.top);
+          const from = W.isNumber(low) ? x(low) : box.left,
+            to = W.isNumber(high) ? x(high) : box.right;
+          svg
+            .append("rect")
+            .attr("class", "window")
+            .attr("x", from)
+            .attr("width", Math.max(0, to - from))
+            .attr("y", box.top)
+            .attr("height", box.bottom - box.top);
         }
-        M.axes(svg, box, x, axis, { xText: "scale of the springs", yText: "share of the runs that meet it, on a scale of nines", yValues: SHARES.map((share) => nines.invert(y(share))), yFormat: (_, at) => `${Number((100 * SHARES[at]).toPrecision(4))} %` });
-        requirements.forEach(function (one, at) {
-          svg.append("path").attr("class", "curve-band").style("fill", M.colour(at)).style("fill-opacity", 0.09).attr("d", M.band(x, y)(scales.map((scale, k) => [scale, one.lower[k], one.upper[k]])));
-          svg.append("path").attr("class", "trace").style("stroke", M.colour(at)).attr("stroke-dasharray", M.dash(at)).attr("d", M.line(x, y)(scales.map((scale, k) => [scale, one.passed[k]])));
-          scales.forEach((scale, k) => W.isNumber(one.passed[k]) && svg.append("circle").attr("class", "looked").attr("cx", x(scale)).attr("cy", y(one.passed[k])).attr("r", 3).style("stroke", M.colour(at)).style("fill", W.verdicts.verdictOf(one.verdict[k]) === "passed" ? M.colour(at) : "var(--paper)")
-            .append("title").text(`${one.text}: ${one.verdict[k]} at ${F.number(scale, 4)}`));
+        M.axes(svg, box, x, axis, {
+          xText: "scale of the springs",
+          yText: "share of the runs that meet it, on a scale of nines",
+          yValues: SHARES.map((share) => nines.invert(y(share))),
+          yFormat: (_, at) => `${Number((100 * SHARES[at]).toPrecision(4))} %`,
         });
-        M.uprights(svg, box, Object.assign([{ x: x(1), text: "present", kind: "nominal" }, ...(W.isNumber(margin.recommended) ? [{ x: x(margin.recommended), text: `recommended ${F.number(margin.recommended, 4)}`, kind: "chosen-line" }] : [])], { low: true }));
+        requirements.forEach(function (one, at) {
+          svg
+            .append("path")
+            .attr("class", "curve-band")
+            .style("fill", M.colour(at))
+            .style("fill-opacity", 0.09)
+            .attr("d", M.band(x, y)(scales.map((scale, k) => [scale, one.lower[k], one.upper[k]])));
+          svg
+            .append("path")
+            .attr("class", "trace")
+            .style("stroke", M.colour(at))
+            .attr("stroke-dasharray", M.dash(at))
+            .attr("d", M.line(x, y)(scales.map((scale, k) => [scale, one.passed[k]])));
+          scales.forEach(
+            (scale, k) =>
+              W.isNumber(one.passed[k]) &&
+              svg
+                .append("circle")
+                .attr("class", "looked")
+                .attr("cx", x(scale))
+                .attr("cy", y(one.passed[k]))
+                .attr("r", 3)
+                .style("stroke", M.colour(at))
+                .style("fill", W.verdicts.verdictOf(one.verdict[k]) === "passed" ? M.colour(at) : "var(--paper)")
+                .append("title")
+                .text(`${one.text}: ${one.verdict[k]} at ${F.number(scale, 4)}`),
+          );
+        });
+        M.uprights(
+          svg,
+          box,
+          Object.assign(
+            [
+              { x: x(1), text: "present", kind: "nominal" },
+              ...(W.isNumber(margin.recommended)
+                ? [
+                    {
+                      x: x(margin.recommended),
+                      text: `recommended ${F.number(margin.recommended, 4)}`,
+                      kind: "chosen-line",
+                    },
+                  ]
+                : []),
+            ],
+            { low: true },
+          ),
+        );
         return box.bottom + 40;
-      } });
+      },
+    });
   }
 
   function staticMargins({ hinges, kind, draws, lower_p: share }) {
-    const part = hinges.slice(0, 7), dispersed = W.isNumber(share) ? `Least, ${F.share(share).replace(/\.0 /, " ")} of draws` : "Least, dispersed", least = hinges.map((one) => [one.hinge, F.fixed(one.least, 2), F.fixed(one.lower, 2), F.fixed(one.required, 2), W.isNumber(one.least) ? W.badge(one.least >= one.required ? "passed" : "failed") : F.none]);
-    return [W.figure({
-      title: `Static margin of torque along the travel${kind ? ` (${kind})` : ""}`, class: "static-margins",
-      note: `Thick: nominal.${W.isNumber(share) ? ` Thin: the ${F.share(share).replace(/\.0 /, " ")} quantile over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The first ${part.length} of ${hinges.length} hinges are drawn; all stand in the table.` : ""}`,
-      description: () => hinges.slice(0, 20).map((one) => `${one.hinge}: least ${F.fixed(one.least, 2)}`).join("; "),
-      table: () => ({ columns: ["hinge", "angle deg", "margin", "margin, lower quantile", "required"], rows: hinges.flatMap((one) => one.angle.map((angle, at) => [one.hinge, angle * F.DEGREES, one.margin[at], (one.margin_lower || [])[at], one.required])) }),
-      draw: function (svg, width) {
-        const top = M.legend(svg, part.map((one, at) => ({ text: one.hinge, line: M.colour(at), dash: M.dash(at) })), width);
-        const y = M.linear([0, ...part.flatMap((one) => [...one.margin, ...(one.margin_lower || []), one.required])], [0, 1]), box = { left: M.leftFor(y), right: width - 14, top: top + 18, bottom: top + 250 };
-        y.range([box.bottom, box.top]);
-        const x = M.linear(part.flatMap((one) => one.angle.map((angle) => angle * F.DEGREES)), [box.left, box.right]);
-        M.axes(svg, box, x, y, { xText: "hinge angle (deg)", yText: "margin" });
-        for (const required of new Set(part.map((one) => one.required).filter(W.isNumber))) svg.append("line").attr("class", "limit").attr("x1", box.left).attr("x2", box.right).attr("y1", y(required)).attr("y2", y(required));
-        part.forEach((one, at) => [["trace", one.margin], ["trace thin", one.margin_lower || []]].forEach(([style, values]) =>
-          svg.append("path").attr("class", style).style("stroke", M.colour(at)).attr("stroke-dasharray", M.dash(at)).attr("d", M.line(x, y)(one.angle.map((angle, k) => [angle * F.DEGREES, values[k]])))));
-        return box.bottom + 40;
-      } }), W.table("Least static margins", [{ text: "Hinge" }, { text: "Least, nominal", kind: "number" }, { text: dispersed, kind: "number" }, { text: "Required", kind: "number" }, { text: "Nominal verdict" }], least)];
+    const part = hinges.slice(0, 7),
+      dispersed = W.isNumber(share) ? `Least, ${F.share(share).replace(/\.0 /, " ")} of draws` : "Least, dispersed",
+      least = hinges.map((one) => [
+        one.hinge,
+        F.fixed(one.least, 2),
+        F.fixed(one.lower, 2),
+        F.fixed(one.required, 2),
+        W.isNumber(one.least) ? W.badge(one.least >= one.required ? "passed" : "failed") : F.none,
+      ]);
+    return [
+      W.figure({
+        title: `Static margin of torque along the travel${kind ? ` (${kind})` : ""}`,
+        class: "static-margins",
+        note: `Thick: nominal.${W.isNumber(share) ? ` Thin: the ${F.share(share).replace(/\.0 /, " ")} quantile over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The first ${part.length} of ${hinges.length} hinges are drawn; all stand in the table.` : ""}`,
+        description: () =>
+          hinges
+            .slice(0, 20)
+            .map((one) => `${one.hinge}: least ${F.fixed(one.least, 2)}`)
+            .join("; "),
+        table: () => ({
+          columns: ["hinge", "angle deg", "margin", "margin, lower quantile", "required"],
+          rows: hinges.flatMap((one) =>
+            one.angle.map((angle, at) => [
+              one.hinge,
+              angle * F.DEGREES,
+              one.margin[at],
+              (one.margin_lower || [])[at],
+              one.required,
+            ]),
+          ),
+        }),
+        draw: function (svg, width) {
+          const top = M.legend(
+            svg,
+            part.map((one, at) => ({ text: one.hinge, line: M.colour(at), dash: M.dash(at) })),
+            width,
+          );
+          const y = M.linear(
+              [0, ...part.flatMap((one) => [...one.margin, ...(one.margin_lower || []), one.required])],
+              [0, 1],
+            ),
+            box = { left: M.leftFor(y), right: width - 14, top: top + 18, bottom: top + 250 };
+          y.range([box.bottom, box.top]);
+          const x = M.linear(
+            part.flatMap((one) => one.angle.map((angle) => angle * F.DEGREES)),
+            [box.left, box.right],
+          );
+          M.axes(svg, box, x, y, { xText: "hinge angle (deg)", yText: "margin" });
+          for (const required of new Set(part.map((one) => one.required).filter(W.isNumber)))
+            svg
+              .append("line")
+              .attr("class", "limit")
+              .attr("x1", box.left)
+              .attr("x2", box.right)
+              .attr("y1", y(required))
+              .attr("y2", y(required));
+          part.forEach((one, at) =>
+            [
+              ["trace", one.margin],
+              ["trace thin", one.margin_lower || []],
+            ].forEach(([style, values]) =>
+              svg
+                .append("path")
+                .attr("class", style)
+                .style("stroke", M.colour(at))
+                .attr("stroke-dasharray", M.dash(at))
+                .attr("d", M.line(x, y)(one.angle.map((angle, k) => [angle * F.DEGREES, values[k]]))),
+            ),
+          );
+          return box.bottom + 40;
+        },
+      }),
+      W.table(
+        "Least static margins",
+        [
+          { text: "Hinge" },
+          { text: "Least, nominal", kind: "number" },
+          { text: dispersed, kind: "number" },
+          { text: "Required", kind: "number" },
+          { text: "Nominal verdict" },
+        ],
+        least,
+      ),
+    ];
   }
 
   function rareEvent(rare) {
-    const drawn = (rare.levels || []).filter((one) => W.isNumber(one.threshold) && one.probability > 0), likeliest = rare.likeliest && rare.likeliest.draws;
-    const figure = drawn.length < 2 ? null : W.figure({
-      title: "Rare event: the way there, level by level", class: "rare", description: () => drawn.map((one) => `beyond ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "),
-      table: () => ({ columns: ["threshold", "probability"], rows: drawn.map((one) => [one.threshold, one.probability]) }),
-      draw: function (svg, width) {
-        const box = { left: 62, right: width - 14, top: 22, bottom: 240 }, x = M.linear(drawn.map((one) => one.threshold), [box.left, box.right]);
-        const y = d3.scaleLog([d3.min(drawn, (one) => one.probability) / 2, 1], [box.bottom, box.top]), decades = d3.range(0, Math.ceil(-Math.log10(y.domain()[0]))).map((k) => 10 ** -k);
-        M.axes(svg, box, x, y, { xText: "threshold", yText: "probability to go beyond", yValues: decades, yFormat: (value) => `10${["⁰", "⁻¹", "⁻²", "⁻³", "⁻⁴", "⁻⁵", "⁻⁶", "⁻⁷", "⁻⁸", "⁻⁹"][Math.round(-Math.log10(value))] || ""}` });
-        svg.append("path").attr("class", "trace").style("stroke", M.colour(0)).attr("d", M.line(x, y)(drawn.map((one) => [one.threshold, one.probability])));
-        drawn.forEach((one) => svg.append("circle").attr("class", "quantile").attr("cx", x(one.threshold)).attr("cy", y(one.probability)).attr("r", 3.5));
-        return box.bottom + 40;
-      } });
-    const reached = rare.reached === false ? " No way led to the event: this is the estimate of the last level that was reached, more than the event's." : "";
-    return [h("p", {}, h("b", {}, `${rare.text}: ${F.number(rare.probability, 3)}`), ` (bounds ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).${reached}`), figure,
-      likeliest && likeliest.length ? W.table("The likeliest such run that was met", [{ text: "Dispersion" }, { text: "Value", kind: "number" }, { text: "Deviation", unit: "σ", kind: "number" }], likeliest.slice().sort((a, b) => Math.abs(b.sigma) - Math.abs(a.sigma)).map((one) => [one.name, F.number(one.value, 4), `${one.sigma > 0 ? "+" : ""}${F.fixed(one.sigma, 2)}`]), { showCaption: true }) : null];
+    const drawn = (rare.levels || []).filter((one) => W.isNumber(one.threshold) && one.probability > 0),
+      likeliest = rare.likeliest && rare.likeliest.draws;
+    const figure =
+      drawn.length < 2
+        ? null
+        : W.figure({
+            title: "Rare event: the way there, level by level",
+            class: "rare",
+            description: () =>
+              drawn.map((one) => `beyond ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "),
+            table: () => ({
+              columns: ["threshold", "probability"],
+              rows: drawn.map((one) => [one.threshold, one.probability]),
+            }),
+            draw: function (svg, width) {
+              const box = { left: 62, right: width - 14, top: 22, bottom: 240 },
+                x = M.linear(
+                  drawn.map((one) => one.threshold),
+                  [box.left, box.right],
+                );
+              const y = d3.scaleLog([d3.min(drawn, (one) => one.probability) / 2, 1], [box.bottom, box.top]),
+                decades = d3.range(0, Math.ceil(-Math.log10(y.domain()[0]))).map((k) => 10 ** -k);
+              M.axes(svg, box, x, y, {
+                xText: "threshold",
+                yText: "probability to go beyond",
+                yValues: decades,
+                yFormat: (value) =>
+                  `10${["⁰", "⁻¹", "⁻²", "⁻³", "⁻⁴", "⁻⁵", "⁻⁶", "⁻⁷", "⁻⁸", "⁻⁹"][Math.round(-Math.log10(value))] || ""}`,
+              });
+              svg
+                .append("path")
+                .attr("class", "trace")
+                .style("stroke", M.colour(0))
+                .attr("d", M.line(x, y)(drawn.map((one) => [one.threshold, one.probability])));
+              drawn.forEach((one) =>
+                svg
+                  .append("circle")
+                  .attr("class", "quantile")
+                  .attr("cx", x(one.threshold))
+                  .attr("cy", y(one.probability))
+                  .attr("r", 3.5),
+              );
+              return box.bottom + 40;
+            },
+          });
+    const reached =
+      rare.reached === false
+        ? " No way led to the event: this is the estimate of the last level that was reached, more than the event's."
+        : "";
+    return [
+      h(
+        "p",
+        {},
+        h("b", {}, `${rare.text}: ${F.number(rare.probability, 3)}`),
+        ` (bounds ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).${reached}`,
+      ),
+      figure,
+      likeliest && likeliest.length
+        ? W.table(
+            "The likeliest such run that was met",
+            [
+              { text: "Dispersion" },
+              { text: "Value", kind: "number" },
+              { text: "Deviation", unit: "σ", kind: "number" },
+            ],
+            likeliest
+              .slice()
+              .sort((a, b) => Math.abs(b.sigma) - Math.abs(a.sigma))
+              .map((one) => [one.name, F.number(one.value, 4), `${one.sigma > 0 ? "+" : ""}${F.fixed(one.sigma, 2)}`]),
+            { showCaption: true },
+          )
+        : null,
+    ];
   }
 
   // Sobol' indices of a study's own: of one output at a time.
   function indices(set) {
-    const names = W.effectOutputs(set), host = h("div", {}), show = (name) => W.fill(host, W.tornado(set, name));
+    const names = W.effectOutputs(set),
+      host = h("div", {}),
+      show = (name) => W.fill(host, W.tornado(set, name));
     const first = names.includes(W.chosen.output) ? W.chosen.output : names[0];
     show(first);
     return [names.length > 1 ? h("div", { class: "controls" }, W.chooser(names, first, show)) : null, host];
   }
   W.studies = function (sets) {
-    const parts = [], found = new Set(), several = sets.length > 1;
-    const add = (kind, title, set, ...content) => { found.add(kind); parts.push(h("div", {}, h("h3", {}, several && W.studySets.includes(set) ? `${title} · ${set.label}` : title), content)); };
+    const parts = [],
+      found = new Set(),
+      several = sets.length > 1;
+    const add = (kind, title, set, ...content) => {
+      found.add(kind);
+      parts.push(
+        h("div", {}, h("h3", {}, several && W.studySets.includes(set) ? `${title} · ${set.label}` : title), content),
+      );
+    };
     for (const set of sets) {
       if (W.studySets.includes(set) && W.effectOutputs(set).length) add("sobol", "Sensitivity", set, indices(set));
       if (set.margin && (set.margin.scales || []).length) add("margin", "Margin window", set, marginWindow(set.margin));
-      if (!found.has("static") && set.static_margins && (set.static_margins.hinges || []).length) add("static", "Static margins", set, staticMargins(set.static_margins));
+      if (!found.has("static") && set.static_margins && (set.static_margins.hinges || []).length)
+        add("static", "Static margins", set, staticMargins(set.static_margins));
       if (set.rare) add("rare", "Rare events", set, rareEvent(set.rare));
     }
-    const names = { margin: "the margin window (wingspread margin)", static: "static margins (motorization in the campaign)", rare: "rare events (wingspread rare)" };
-    const missing = Object.keys(names).filter((kind) => !found.has(kind)).map((kind) => names[kind]);
-    return [h("div", { class: "grid pairs" }, parts), missing.length ? h("p", { class: "note" }, `Not in this report: ${missing.join(", ")}.`) : null];
+    const names = {
+      margin: "the margin window (wingspread margin)",
+      static: "static margins (motorization in the campaign)",
+      rare: "rare events (wingspread rare)",
+    };
+    const missing = Object.keys(names)
+      .filter((kind) => !found.has(kind))
+      .map((kind) => names[kind]);
+    return [
+      h("div", { class: "grid pairs" }, parts),
+      missing.length ? h("p", { class: "note" }, `Not in this report: ${missing.join(", ")}.`) : null,
+    ];
   };
 })();

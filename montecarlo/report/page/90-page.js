@@ -34,10 +34,14 @@
     });
   }
   function cases() {
-    const label = document.getElementById("case-switch"), select = label.querySelector("select");
+    const label = document.getElementById("case-switch"),
+      select = label.querySelector("select");
     label.hidden = W.sets.length < 2;
     label.querySelector("span").textContent = W.sets.some((set) => set.case) ? "Case" : "Folder";
-    W.fill(select, W.sets.map((set, at) => h("option", { value: at }, set.label)));
+    W.fill(
+      select,
+      W.sets.map((set, at) => h("option", { value: at }, set.label)),
+    );
     select.addEventListener("change", () => W.choose("set", Number(select.value)));
     W.on("set", function (at) {
       select.value = at;
@@ -54,16 +58,28 @@
 
   // Sections that have nothing to show are left out of the page and of its bar.
   function sections() {
-    if (W.onlyStudies) ["outputs", "convergence", "inputs"].forEach((id) => (document.getElementById(id).hidden = true));
-    document.querySelectorAll(".sections a").forEach((link) => (link.parentNode.hidden = document.querySelector(link.getAttribute("href")).hidden));
+    if (W.onlyStudies)
+      ["outputs", "convergence", "inputs"].forEach((id) => (document.getElementById(id).hidden = true));
+    document
+      .querySelectorAll(".sections a")
+      .forEach((link) => (link.parentNode.hidden = document.querySelector(link.getAttribute("href")).hidden));
   }
 
   // The link of the section that is read is marked.
   function reading() {
     const links = [...document.querySelectorAll(".sections a")];
-    const observer = new IntersectionObserver((entries) => entries.forEach(function (entry) {
-      if (entry.isIntersecting) links.forEach((link) => (link.getAttribute("href") === `#${entry.target.id}` ? link.setAttribute("aria-current", "true") : link.removeAttribute("aria-current")));
-    }), { rootMargin: "-20% 0px -70% 0px" });
+    const observer = new IntersectionObserver(
+      (entries) =>
+        entries.forEach(function (entry) {
+          if (entry.isIntersecting)
+            links.forEach((link) =>
+              link.getAttribute("href") === `#${entry.target.id}`
+                ? link.setAttribute("aria-current", "true")
+                : link.removeAttribute("aria-current"),
+            );
+        }),
+      { rootMargin: "-20% 0px -70% 0px" },
+    );
     document.querySelectorAll("main > section").forEach((section) => observer.observe(section));
   }
 
@@ -73,7 +89,12 @@
   }
   // On paper the inputs stand in full, whatever is folded on the screen.
   const opened = [];
-  window.addEventListener("beforeprint", () => document.querySelectorAll("#inputs details:not([open])").forEach((one) => { one.open = true; opened.push(one); }));
+  window.addEventListener("beforeprint", () =>
+    document.querySelectorAll("#inputs details:not([open])").forEach((one) => {
+      one.open = true;
+      opened.push(one);
+    }),
+  );
   window.addEventListener("afterprint", () => opened.splice(0).forEach((one) => (one.open = false)));
 
   theme();

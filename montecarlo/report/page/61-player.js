@@ -1,0 +1,71 @@
+// What is played, and when: time and speed live here, so that pictures can be drawn anew at any width.
+(function () {
+  "use strict";
+  const W = window.wingspread;
+  const calm = () => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+  const player = (W.player = { time: 0, playing: false, speed: 1, quantity: "moments", span: "whole", motion: null });
+  const listeners = [];
+
+  function seek(time) {
+    const end = player.motion.t[player.motion.t.length - 1];
+    player.time = Math.max(player.motion.t[0], Math.min(end, time));
+    listeners.forEach((listener) => listener());
+  }
+  let last = null,
+    sinceStep = 0;
+  function frame(now) {
+    if (!player.playing) return;
+    const passed = last === null ? 0 : (now - last) / 1000;
+    last = now;
+    const end = player.motion.t[player.motion.t.length - 1];
+    if (calm()) {
+      // stills, two a second, in place of a moving picture
+      sinceStep += passed;
+      if (sinceStep > 0.5) {
+        sinceStep = 0;
+        seek(player.time + end / 20);
+      }
+    } else seek(player.time + passed * player.speed);
+    if (player.time >= end) play(false);
+    else requestAnimationFrame(frame);
+  }
+  function play(on) {
+    if (on && player.time >= player.motion.t[player.motion.t.length - 1]) seek(player.motion.t[0]);
+    player.playing = on;
+    last = null;
+    if (on) requestAnimationFrame(frame);
+    listeners.forEach((listener) => listener());
+  }
+
+  // The first picture is of a wing on its way, not of a stack.
+  function opening(motion) {
+    const [first, last] = d3.extent(motion.latches || [], (latch) => latch.time);
+    return first === undefined ? 0.4 * motion.t[motion.t.length - 1] : Math.max(0.8 * first, 0.35 * last);
+  }
+  function byKeys(event) {
+    const end = player.motion.t[player.motion.t.length - 1],
+      inside = event.target.matches("input, select, button, summary, .scroll");
+    const actions = {
+      " ": () => play(!player.playing),
+      k: () => play(!player.playing),
+      ArrowRight: () => seek(player.time + end / 200),
+      ArrowLeft: () => seek(player.time - end / 200),
+      Home: () => seek(0),
+      End: () => seek(end),
+    };
+    if (!actions[event.key] || (inside && event.key !== "k")) return;
+    actions[event.key]();
+    event.preventDefault();
+  }
+
+  // Another run: nothing plays, and nobody of the one before is told any more.
+  function load(motion) {
+    player.playing = false;
+    listeners.length = 0;
+    player.motion = motion;
+    player.time = Math.min(player.time, motion.t[motion.t.length - 1]);
+    if (!player.time) player.time = opening(motion);
+  }
+  Object.assign(player, { seek, play, byKeys, load, listen: (listener) => listeners.push(listener) });
+})();
