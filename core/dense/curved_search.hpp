@@ -33,6 +33,19 @@ template <class T> struct Bulge {
   }
 };
 
+/// How many samples the searches in a step may make. A bulge a thousand million times what the function does
+/// would have them make as many: they give up, and what they were asked is not known.
+class SampleBudget {
+public:
+  void renew() { left_ = most; }
+  [[nodiscard]] bool spend() { return left_ > 0 && left_-- > 0; }
+  [[nodiscard]] bool is_spent() const { return left_ == 0; }
+
+private:
+  static constexpr long most = 20000;
+  long left_ = most;
+};
+
 /// A function's value at a fraction of the step.
 template <class T> struct Sampled { T s, value; };
 
@@ -75,10 +88,11 @@ template <class T, class Function>
 /// The first s in [0, 1] where f > 0; none where f stays ≤ 0 or exceeds it by no more than `close`.
 /// @param first, last f at s = 0 and 1
 /// @param crest raised to the largest sample made on the way
+/// @param budget spent: not known
 template <class T, class Function>
 [[nodiscard]] std::optional<T> first_positive(const Function& f, const T& first, const T& last,
                                               const Bulge<T>& rise, const T& close,
-                                              Sampled<T>& crest) {
+                                              Sampled<T>& crest, SampleBudget& budget) {
   if (first > T(0)) return T(0);
   detail::OpenStretches<T> open;
   open.push({{T(0), first}, {T(1), last}});
@@ -90,6 +104,7 @@ template <class T, class Function>
       if (!ends_above) continue;
       return at->a.value < T(0) ? detail::root_of_rise(*at, f) : at->a.s;
     }
+    if (!budget.spend()) return std::nullopt;
     const T s = T(0.5) * (at->a.s + at->b.s);
     const Sampled<T> middle{s, f(s)};
     if (middle.value > crest.value) crest = middle;
@@ -100,9 +115,11 @@ template <class T, class Function>
 }
 
 /// Where f is largest, to `close`, if that is more than `floor`; else one of the samples.
+/// @param budget spent: not known
 template <class T, class Function>
 [[nodiscard]] Sampled<T> largest_of(const Function& f, const T& first, const T& last,
-                                    const Bulge<T>& rise, const T& floor, const T& close) {
+                                    const Bulge<T>& rise, const T& floor, const T& close,
+                                    SampleBudget& budget) {
   Sampled<T> best = last > first ? Sampled<T>{T(1), last} : Sampled<T>{T(0), first};
   detail::OpenStretches<T> open;
   open.push({{T(0), first}, {T(1), last}});
@@ -111,6 +128,7 @@ template <class T, class Function>
     if (!(larger(at->a.value, at->b.value) + inside > larger(best.value, floor)) ||
         inside <= close || open.full())
       continue;
+    if (!budget.spend()) break;
     const T s = T(0.5) * (at->a.s + at->b.s);
     const Sampled<T> middle{s, f(s)};
     if (middle.value > best.value) best = middle;

@@ -31,7 +31,10 @@ public:
   explicit Events(AnySystem& system) : system_(system), latches_(system) {}
 
   /// A run begins.
-  void start() { latches_.start(); }
+  void start() {
+    latches_.start();
+    holding_.start();
+  }
 
   /// Latches that have not engaged.
   [[nodiscard]] int latches_left() const { return latches_.left(); }
@@ -65,6 +68,9 @@ public:
     }
     return first;
   }
+
+  /// Whether it could not be told, in the last step looked at, if a hinge is let go.
+  [[nodiscard]] bool in_vain() const { return holding_.in_vain(); }
 
   /// What reaches 0 from below at the event, and its rate, at the end of a step just made.
   struct Indicator {

@@ -26,6 +26,9 @@ template <class T> struct Release {
 /// Watches the friction that holds hinges over a step.
 template <class T> class Holding {
 public:
+  /// A run begins.
+  void start() { samples_.renew(); }
+
   /// The last evaluation was at the start of the next step.
   template <class AnySystem> void begin_step(const AnySystem& system, const State<T>& x) {
     before_.resize(system.layout().bodies + 1);
@@ -39,6 +42,7 @@ public:
   template <class AnySystem>
   [[nodiscard]] std::optional<Release<T>> first_release(AnySystem& system, const Step<T>& step,
                                                         State<T>& x, State<T>& dxdt) {
+    samples_.renew();
     if (!comes_near(system, step)) return std::nullopt;
     std::optional<Release<T>> first;
     for (int i = 1; i <= system.layout().bodies; ++i) {
@@ -54,6 +58,9 @@ public:
     system(step.x1, dxdt, step.t + step.h);
     return first;
   }
+
+  /// Whether it could not be told, in the last step looked at, if a hinge is let go.
+  [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
   /// Friction that holds hinge i beyond its limit, at the last evaluation, at x, N·m.
   template <class AnySystem>
@@ -84,11 +91,11 @@ private:
 
   template <class Function>
   [[nodiscard]] std::optional<Release<T>> release_of(const Function& excess_at, int i,
-                                                     const T& limit, const T& h) const {
+                                                     const T& limit, const T& h) {
     constexpr double grazes = 1e-3, width = 1e-3;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
     const auto s = first_positive(excess_at, before_[i], after_[i], bound_.friction(i),
-                                  T(1e-10) * limit, crest);
+                                  T(1e-10) * limit, crest, samples_);
     if (s) {
       const T slope = (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * h);
       return Release<T>{i, *s, slope};
@@ -99,6 +106,7 @@ private:
   }
 
   HeldLoadBound<T> bound_;
+  SampleBudget samples_;
   std::vector<T> after_;
   std::vector<T> before_;
 };

@@ -286,17 +286,18 @@ template <class T, class AnySystem>
 /// The same for a hinge that sticks, whose moment takes an evaluation to know: it is at most its
 /// linear part and the static limit; what that does not dismiss is sought by its curvature.
 /// @param load load(s): |moment| by an evaluation on the dense output
+/// @param budget spent: the moment is not known
 /// @return where a step of the method must make sure of it
 template <class T, class AnySystem, class Load>
-[[nodiscard]] std::optional<T> raise_held_moment(PeakOf<T>& peak, const AnySystem& system,
-                                                 const Step<T>& step, int i,
-                                                 HeldLoadBound<T>& bound, Load&& load) {
+[[nodiscard]] std::optional<T>
+raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
+                  HeldLoadBound<T>& bound, SampleBudget& budget, Load&& load) {
   const T most = MomentOverStep<T, AnySystem>(system, step, i).most();
   if (!(most + system.static_limit(step.x, i) > peak.value)) return std::nullopt;
   bound.over_step(system, step);
   const T first = load(T(0)), last = load(T(1));
-  const Sampled<T> found =
-      largest_of(load, first, last, Bulge<T>{bound.rise(i)}, peak.value, T(1e-10) * peak.value);
+  const Sampled<T> found = largest_of(load, first, last, Bulge<T>{bound.rise(i)}, peak.value,
+                                      T(1e-10) * peak.value, budget);
   peak.raise(first, step.t);
   peak.raise(last, step.t + step.h);
   if (!(found.value > peak.value)) return std::nullopt;

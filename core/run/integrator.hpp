@@ -233,10 +233,10 @@ private:
       if (stepping_.changes_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
       if (at_knot) pass_knot();
     }
-    if (angles_are_known(run_.at, step.x))
-      go_on();
-    else
-      fail("a hinge has turned past 1e8 rad");
+    if (!angles_are_known(run_.at, step.x)) return fail("a hinge has turned past 1e8 rad");
+    if (peaks_.in_vain() || events_.in_vain())
+      return fail("what a hinge that sticks bears is too small beside its bounds to be found");
+    go_on();
   }
 
   /// The base goes on by another piece of its table.

@@ -36,6 +36,7 @@ public:
     moments_.assign(run_.at.bodies + 1, {});
     overtravel_.assign(run_.at.bodies + 1, T(0));
     if (run_.goal.peak_force) forces_.start(run_.system);
+    samples_.renew();
   }
 
   /// The right-hand side has just been evaluated where the run stands, and is new.
@@ -51,6 +52,7 @@ public:
   /// @return the first doubt: the fraction of the step to which the method must make one of its own
   [[nodiscard]] std::optional<T> first_doubt() {
     made_sure_ = false;
+    samples_.renew();
     hinge_ = 0;
     doubt_.reset(), held_at_.reset();
     base_.over_step(run_.at, run_.step);
@@ -74,6 +76,8 @@ public:
 
   /// Whether the method has made steps inside the one accepted.
   [[nodiscard]] bool made_sure() const { return made_sure_; }
+  /// Whether what a hinge that sticks bears in this step could not be told.
+  [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
 private:
   /// Forces first, then the moments of hinge after hinge.
@@ -88,10 +92,11 @@ private:
   [[nodiscard]] std::optional<T> doubtful_moment() {
     PeakOf<T>& peak = moments_[hinge_];
     if (run_.system.sticks(hinge_)) {
-      held_at_ = raise_held_moment(peak, run_.system, run_.step, hinge_, held_, [this](const T& s) {
-        using std::abs;
-        return T(abs(run_.system.moment(run_.evaluate_at(s), hinge_)));
-      });
+      held_at_ = raise_held_moment(peak, run_.system, run_.step, hinge_, held_, samples_,
+                                   [this](const T& s) {
+                                     using std::abs;
+                                     return T(abs(run_.system.moment(run_.evaluate_at(s), hinge_)));
+                                   });
       return held_at_;
     }
     doubt_ = raise_moment(peak, run_.system, run_.step, hinge_);
@@ -114,6 +119,7 @@ private:
   int hinge_ = 0;                          ///< whose moment is looked at
   std::optional<DoubtfulMoment<T>> doubt_; ///< of it; none while forces are in doubt
   HeldLoadBound<T> held_;
+  SampleBudget samples_;
   std::optional<T> held_at_; ///< where the moment of a hinge that sticks is in doubt
   bool made_sure_ = false;
 };

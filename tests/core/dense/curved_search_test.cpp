@@ -19,6 +19,7 @@ struct Wave {
 } // namespace
 
 TEST_CASE("the first point where a function is positive is found, however narrow the crest") {
+  SampleBudget budget;
   int found = 0;
   for (int k = 0; k < 400; ++k) {
     const double margin = std::pow(10, -8 + 7.0 * (k % 20) / 20); // of the crest over zero
@@ -29,7 +30,8 @@ TEST_CASE("the first point where a function is positive is found, however narrow
     const double expected = (left + cycles * turn - wave.phase) / wave.turns;
     Sampled<double> crest{0, -1e9};
     if (wave(0) > 0) continue;
-    const auto s = first_positive(wave, wave(0), wave(1), Bulge<double>{wave.rise()}, 1e-12, crest);
+    const auto s =
+        first_positive(wave, wave(0), wave(1), Bulge<double>{wave.rise()}, 1e-12, crest, budget);
     CAPTURE(k, margin, expected);
     REQUIRE(s.has_value() == (expected <= 1));
     if (!s) continue;
@@ -41,13 +43,14 @@ TEST_CASE("the first point where a function is positive is found, however narrow
 }
 
 TEST_CASE("the largest value is found, at an end or inside, and none below the floor is sought") {
+  SampleBudget budget;
   int inside = 0;
   for (int k = 0; k < 400; ++k) {
     const Wave wave{2, 0.5 + 0.04 * k, 0.61 * k, 5};
     int calls = 0;
     const auto counted = [&](double s) { return ++calls, wave(s); };
     const Sampled<double> best =
-        largest_of(counted, wave(0), wave(1), Bulge<double>{wave.rise()}, 0.0, 1e-12);
+        largest_of(counted, wave(0), wave(1), Bulge<double>{wave.rise()}, 0.0, 1e-12, budget);
     double expected = std::max(wave(0), wave(1));
     for (int n = 1; n < 2000; ++n) expected = std::max(expected, wave(n / 2000.0));
     CAPTURE(k);
@@ -57,8 +60,22 @@ TEST_CASE("the largest value is found, at an end or inside, and none below the f
     inside += best.s > 0 && best.s < 1;
     calls = 0;
     (void)largest_of(counted, wave(0), wave(1), Bulge<double>{wave.rise()}, 7 + wave.rise() + 1,
-                     1e-12);
+                     1e-12, budget);
     CHECK(calls == 0);
   }
   CHECK(inside > 100);
+}
+
+TEST_CASE("a search whose bulge says nothing gives up, and says so") {
+  const Wave wave{1, 3, 0.4, -2}; // ≤ −1
+  Sampled<double> crest{0, -2};
+  SampleBudget budget;
+  CHECK_FALSE(first_positive(wave, wave(0), wave(1), Bulge<double>{1e8}, 1e-12, crest, budget));
+  CHECK_FALSE(budget.is_spent()); // some 10,000 samples tell it
+  CHECK_FALSE(first_positive(wave, wave(0), wave(1), Bulge<double>{1e12}, 1e-12, crest, budget));
+  CHECK(budget.is_spent());
+  budget.renew();
+  CHECK_FALSE(budget.is_spent());
+  (void)largest_of(wave, wave(0), wave(1), Bulge<double>{1e8}, -1e9, 1e-3, budget);
+  CHECK(budget.is_spent());
 }
