@@ -4,12 +4,14 @@
 /// forgotten on the way.
 #pragma once
 
+#include "core/mechanics/energy.hpp"
 #include "core/mechanics/hinge_moment.hpp"
 #include "core/mechanics/wing.hpp"
 #include "core/methods/held_back_steps.hpp"
 #include "core/methods/step_control.hpp"
 #include "core/number/pack.hpp"
 #include "core/number/planar.hpp"
+#include "core/peaks/base_peaks.hpp"
 #include "core/peaks/reaction_bound.hpp"
 #include "core/run/handover.hpp"
 
@@ -124,6 +126,16 @@ concept A = is_a<std::remove_const_t<S>, Struct>;
 [[nodiscard, gnu::always_inline]] inline auto fields(A<HeldBackSteps> auto& s) {
   auto& [shortest, wait_until, last_free] = s;
   return std::tie(shortest, wait_until, last_free);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<Conserved> auto& s) {
+  auto& [start, velocity, spin] = s;
+  return std::tie(start, velocity, spin);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<BaseExcursion> auto& s) {
+  auto& [angle, rate, first_angle, first_rate] = s;
+  return std::tie(angle, rate, first_angle, first_rate);
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<Pace> auto& s) {

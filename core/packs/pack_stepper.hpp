@@ -8,6 +8,7 @@
 #include "core/methods/dop853.hpp"
 #include "core/methods/runge_kutta.hpp"
 #include "core/packs/fields.hpp"
+#include "core/packs/free_bases.hpp"
 #include "core/packs/pack_engine.hpp"
 #include "core/packs/structure.hpp"
 #include "core/peaks/moment_peaks.hpp"
@@ -70,6 +71,7 @@ public:
       forces_[i].v[lane] = run.forces ? run.forces[i].value : 0;
       force_before_[i].v[lane] = run.force_before ? run.force_before[i] : 0;
     }
+    if constexpr (M == BaseMotion::free) free_.carry(lane, run);
     rtol_.v[lane] = run.tolerance.rtol, atol_.v[lane] = run.tolerance.atol;
     tolerance_of_dense_.v[lane] = run.tolerance_of_dense;
     t_end_.v[lane] = run.t_end;
@@ -87,9 +89,15 @@ public:
       get_lane(lane, step_.x, place.step.x), get_lane(lane, step_.dxdt, place.step.dxdt);
       if (shape_.forces) get_lane(lane, force_before_, place.force_before);
     }
-    get_lane(lane, step_.x1, place.x1), get_lane(lane, step_.dxdt1, place.dxdt1);
-    if (shape_.forces) get_lane(lane, work_.forces, place.forces);
+    if constexpr (M == BaseMotion::free) {
+      free_.hand_back(lane, place, shape_.forces);
+    } else {
+      get_lane(lane, step_.x1, place.x1), get_lane(lane, step_.dxdt1, place.dxdt1);
+      if (shape_.forces) get_lane(lane, work_.forces, place.forces);
+    }
     Carried carried{tries, (tries + 1) * Formula::evaluations, error_size_.v[lane], {}};
+    if constexpr (M == BaseMotion::free)
+      carried.evaluations += static_cast<long>(free_.projections().v[lane]);
     get_lane(lane, pace_, carried.pace);
     return carried;
   }
@@ -184,9 +192,10 @@ private:
     const P end = step_.t + step_.h, now = select(accepted, end, step_.t);
     const Mask late = look_ < P(static_cast<double>(round_));
     const Mask at_an_end = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
-    if constexpr (M == BaseMotion::free) return late || at_an_end || accepted;
     const Mask may_leave = pace_.held_back.may_leave(step_.h, P(pace_.steps + P(1.0)));
-    return late || at_an_end || (accepted && (may_leave || worth_a_look()));
+    const Mask event = an_event_may_be_near();
+    if constexpr (M == BaseMotion::free) free_.restore_momenta(system_, step_);
+    return late || at_an_end || (accepted && (may_leave || event || a_peak_may_rise()));
   }
 
   /// Accepts, or tries again, in these lanes.
@@ -207,7 +216,11 @@ private:
   /// As the run itself would count the step.
   void keep_pace(const Mask& accepted, const Mask& these) {
     pace_.steps = select(accepted, P(pace_.steps + P(1.0)), pace_.steps);
-    const P evaluations(static_cast<double>(round_ * Formula::evaluations));
+    P evaluations(static_cast<double>(round_ * Formula::evaluations));
+    if constexpr (M == BaseMotion::free) {
+      free_.accept(accepted, wing_.plates.empty());
+      evaluations = evaluations + free_.projections();
+    }
     pace_.held_back.accepted(accepted, step_.h,
                              {step_.t, evaluations_before_ + evaluations, pace_.steps});
     StepMemory<P> after = pace_.memory, cut = pace_.memory;
@@ -217,18 +230,26 @@ private:
     assign_where(accepted, pace_.memory, after);
   }
 
-  /// Lanes in which an event, a peak or an angle past bounds may lie inside the step: all tests are
-  /// those that the run itself begins with.
-  [[nodiscard]] Mask worth_a_look() {
+  /// Lanes in which an event or an angle past bounds may lie inside the step: all tests, these and
+  /// those for peaks, are those that the run itself begins with.
+  [[nodiscard]] Mask an_event_may_be_near() {
     Mask look{};
     for (int i = 1; i <= at_.bodies; ++i) {
       const HingeTerms<P>& hinge = wing_.hinges[i];
-      look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
       if (hinge.has_latch) look = look || (waits_[i] > P(0.0) && may_engage(i));
-      look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]) ||
-             beyond_stowed(hinge, step_.x1[at_.angle(i)]) > overtravel_[i];
       if (!wing_.real.empty()) look = look || may_pass_edge(i);
       if (wing_.can_stick) look = look || may_come_to_rest(i);
+    }
+    return look;
+  }
+
+  [[nodiscard]] Mask a_peak_may_rise() {
+    Mask look{};
+    if constexpr (M == BaseMotion::free) look = free_.may_swing_further(at_, step_);
+    for (int i = 1; i <= at_.bodies; ++i) {
+      look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
+      look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]) ||
+             beyond_stowed(wing_.hinges[i], step_.x1[at_.angle(i)]) > overtravel_[i];
       if (shape_.moments) {
         const MomentOverStep<P, AnySystem> moment(system_, step_, i);
         look = look || !(moment.most() <= moments_[i]);
@@ -304,6 +325,7 @@ private:
   std::vector<Lever<P>> levers_;
   std::vector<Lever<double>> levers_of_wing_; ///< scratch
   ReactionBound<P> bound_;
+  FreeBases<W> free_; ///< where bases are free
   Pace<P> pace_;
   P busy_; ///< 1 where a lane has a run, else 0
   /// Rounds, counted as numbers: when the run was taken, and after which it must know.

@@ -21,32 +21,53 @@ template <class T> void raise_magnitude(T& most, const Quintic<T>& p, int halvin
 }
 
 /// The largest changes of a free base's angle and rate since the start.
-template <class T> class BaseExcursion {
-public:
+template <class T> struct BaseExcursion {
   static constexpr int coordinate = 2;
 
+  T angle{}, rate{};             ///< the largest so far, rad and rad/s
+  T first_angle{}, first_rate{}; ///< at the start
+
   void start(const Layout& at, const State<T>& x) {
-    angle_ = rate_ = T(0);
+    angle = rate = T(0);
     if (at.base == 0) return;
-    first_angle_ = x[coordinate];
-    first_rate_ = x[coordinate + at.freedoms()];
+    first_angle = x[coordinate];
+    first_rate = x[coordinate + at.freedoms()];
   }
 
   void over_step(const Layout& at, const Step<T>& step) {
     if (at.base == 0) return;
-    Quintic<T> angle = step.coordinate(coordinate, at.freedoms());
-    Quintic<T> rate = derivative(angle, step.h);
-    for (T& c : angle) c = c - first_angle_;
-    for (T& c : rate) c = c - first_rate_;
-    raise_magnitude(angle_, angle);
-    raise_magnitude(rate_, rate);
+    const auto [turn, turning] = changes(at, step);
+    raise_magnitude(angle, turn);
+    raise_magnitude(rate, turning);
   }
 
-  [[nodiscard]] const T& angle() const { return angle_; }
-  [[nodiscard]] const T& rate() const { return rate_; }
+  /// The same where the step's ends tell it: for runs in packs.
+  /// @return where they do not, and over_step has to be asked
+  [[nodiscard]] auto raise_by_ends(const Layout& at, const Step<T>& step) {
+    const auto [turn, turning] = changes(at, step);
+    const auto doubtful = raise_by_ends(angle, turn);
+    return doubtful || raise_by_ends(rate, turning);
+  }
 
 private:
-  T angle_{}, rate_{}, first_angle_{}, first_rate_{};
+  struct Changes {
+    Quintic<T> angle, rate;
+  };
+  /// Since the start.
+  [[nodiscard]] Changes changes(const Layout& at, const Step<T>& step) const {
+    Changes now;
+    now.angle = step.coordinate(coordinate, at.freedoms());
+    now.rate = derivative(now.angle, step.h);
+    for (T& c : now.angle) c = c - first_angle;
+    for (T& c : now.rate) c = c - first_rate;
+    return now;
+  }
+
+  [[nodiscard]] static auto raise_by_ends(T& most, const Quintic<T>& p) {
+    using std::abs;
+    most = larger(most, larger(T(abs(p.front())), T(abs(p.back()))));
+    return !(bound(p) <= T(most * T(1 + 1e-12)));
+  }
 };
 
 } // namespace wingspread

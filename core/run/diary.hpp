@@ -87,8 +87,8 @@ public:
     for (int i = 1; i <= wing.size(); ++i)
       out.overtravel[wing.hinge_of[i]] = static_cast<double>(peaks.overtravel()[i]);
     if (run_.at.base > 0)
-      out.base_peaks = {static_cast<double>(peaks.base().angle()),
-                        static_cast<double>(peaks.base().rate())};
+      out.base_peaks = {static_cast<double>(peaks.base().angle),
+                        static_cast<double>(peaks.base().rate)};
     out.peaks_final = peaks_final;
     out.work = work;
     out.final = configuration_at(run_.system, run_.step.x, run_.step.t);

@@ -8,10 +8,12 @@
 #pragma once
 
 #include "core/dense/step.hpp"
+#include "core/mechanics/energy.hpp"
 #include "core/mechanics/workspace.hpp"
 #include "core/methods/held_back_steps.hpp"
 #include "core/methods/method.hpp"
 #include "core/methods/step_control.hpp"
+#include "core/peaks/base_peaks.hpp"
 #include "core/peaks/peak.hpp"
 
 #include <vector>
@@ -27,15 +29,17 @@ template <class P> struct Pace {
 
 /// A run as an engine takes it. What is referred to stays with the run.
 struct Handover {
-  const Step<double>& step;      ///< t, x and dxdt: where it stands
-  double h;                      ///< the step to try first, s
-  const Workspace<double>& work; ///< laws, and latches that wait
-  Tolerance tolerance;           ///< of a step
-  double tolerance_of_dense;     ///< absolute, of the roughness of a step's dense output
-  const PeakOf<double>* moments; ///< 1 … n: so far; none: not asked for
-  const PeakOf<double>* forces;  ///< the same
-  const double* force_before;    ///< 1 … n: at the step's start, where forces are asked for
-  const double* overtravel;      ///< 1 … n: so far, rad
+  const Step<double>& step;          ///< t, x and dxdt: where it stands
+  double h;                          ///< the step to try first, s
+  const Workspace<double>& work;     ///< laws, and latches that wait
+  Tolerance tolerance;               ///< of a step
+  double tolerance_of_dense;         ///< absolute, of the roughness of a step's dense output
+  const PeakOf<double>* moments;     ///< 1 … n: so far; none: not asked for
+  const PeakOf<double>* forces;      ///< the same
+  const double* force_before;        ///< 1 … n: at the step's start, where forces are asked for
+  const double* overtravel;          ///< 1 … n: so far, rad
+  const Conserved<double>& kept;     ///< by a free base
+  const BaseExcursion<double>& base; ///< of a free one, so far
   double t_end; ///< where a step has to end, s; one from which the next may reach it is the run's
   long tries;   ///< that may be made before one is the run's
   long evaluations; ///< so far
@@ -48,6 +52,7 @@ struct Place {
   std::vector<double>& force_before; ///< 1 … n: at its start, where forces are asked for
   State<double>&x1, &dxdt1;          ///< the end of the step made last
   std::vector<Vec2<double>>& forces; ///< 1 … n: there, where they are asked for
+  BaseExcursion<double>& base;       ///< of a free one, up to the step's start
 };
 
 /// How far a run was carried, without the step made last.

@@ -73,6 +73,8 @@ public:
             .forces = goal.peak_force ? peaks_.forces().data() : nullptr,
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
             .overtravel = peaks_.overtravel().data(),
+            .kept = kept_,
+            .base = peaks_.base(),
             .t_end = static_cast<double>(stepping_.end_of_stretch()),
             .tries = tries_to_look(),
             .evaluations = run_.system.work().evaluations,
@@ -81,7 +83,7 @@ public:
 
   [[nodiscard]] Place place() {
     return {run_.step, peaks_.force_before(), *asked_.x1, *asked_.dxdt1,
-            run_.system.made_elsewhere().forces};
+            run_.system.made_elsewhere().forces, peaks_.base()};
   }
 
   /// The run was carried so far; what the engine brings back lies in `place()`.

@@ -29,6 +29,7 @@ public:
 
   /// Of a free base.
   [[nodiscard]] const BaseExcursion<T>& base() const { return base_; }
+  [[nodiscard]] BaseExcursion<T>& base() { return base_; }
 
   /// A run begins.
   void start() {
