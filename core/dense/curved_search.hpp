@@ -13,6 +13,7 @@
 
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -33,17 +34,25 @@ template <class T> struct Bulge {
   }
 };
 
-/// How many samples the searches in a step may make. A bulge a thousand million times what the function does
-/// would have them make as many: they give up, and what they were asked is not known.
+/// How many samples the searches of a run may make. A load that stays as it is takes some 1e5 times the rate of turn
+/// in each second of motion. One whose bulge is many orders above what it does would have them make as many: they give
+/// up, and what they were asked is not known.
 class SampleBudget {
 public:
+  /// A run begins.
   void renew() { left_ = most; }
-  [[nodiscard]] bool spend() { return left_ > 0 && left_-- > 0; }
-  [[nodiscard]] bool is_spent() const { return left_ == 0; }
+  /// A step of h begins, s.
+  void refill(double h) { left_ = std::min(left_ + each_step + each_second * h, most); }
+  [[nodiscard]] bool spend() {
+    if (is_spent()) return false;
+    left_ -= 1;
+    return true;
+  }
+  [[nodiscard]] bool is_spent() const { return left_ < 1; }
 
 private:
-  static constexpr long most = 20000;
-  long left_ = most;
+  static constexpr double most = 1e6, each_step = 300, each_second = 1e6;
+  double left_ = most;
 };
 
 /// A function's value at a fraction of the step.

@@ -40,6 +40,18 @@ derivative_bounds(const Quintic<T>& p, const DifferenceScale<T>& scale) {
           scale.fourth * largest_magnitude(T(c1 - c0), T(c2 - c1))};
 }
 
+/// The same of a quintic over a step so short that its coefficients differ by little more than their
+/// rounding, δ of the largest: third and fourth derivatives that 8 δ and 16 δ would explain are none.
+template <class T>
+[[nodiscard]] DerivativeBounds<T>
+derivative_bounds_beyond_rounding(const Quintic<T>& p, const DifferenceScale<T>& scale) {
+  DerivativeBounds<T> bounds = derivative_bounds(p, scale);
+  const T rounding = T(2) * T(epsilon_of<T>) * bound(p);
+  bounds.third = larger(T(0), T(bounds.third - scale.third * T(8) * rounding));
+  bounds.fourth = larger(T(0), T(bounds.fourth - scale.fourth * T(16) * rounding));
+  return bounds;
+}
+
 /// |d⁴/dt⁴ (cos θ, sin θ)| = |i θ⁽⁴⁾ − 4 θ̇ θ⃛ − 3 θ̈² − 6 i θ̇² θ̈ + θ̇⁴| is no larger.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T fourth_of_direction(const DerivativeBounds<T>& angle) {

@@ -52,7 +52,7 @@ public:
       const Quintic<T> angle =
           step.coordinate(system.layout().angle(i), system.layout().freedoms());
       for (int k = 0; k < 6; ++k) own.path[k] = parent.path[k] + angle[k];
-      own.turn(derivative_bounds(own.path, scale));
+      own.turn(derivative_bounds_beyond_rounding(own.path, scale));
       const T arm = length(wing.bodies[i].arm);
       own.hinge = added(parent.hinge, arm, parent.direction);
       const T center = length(wing.bodies[i].center), mass = wing.bodies[i].mass;
@@ -160,7 +160,8 @@ private:
     if constexpr (M == BaseMotion::free) {
       const int n = system.layout().freedoms();
       for (const int k : {0, 1}) {
-        const DerivativeBounds<T> b = derivative_bounds(step.coordinate(k, n), scale);
+        const DerivativeBounds<T> b =
+            derivative_bounds_beyond_rounding(step.coordinate(k, n), scale);
         base.hinge = added(base.hinge, T(1), {b.second, b.third, b.fourth});
         base.speed = base.speed + b.first;
       }
@@ -175,7 +176,7 @@ private:
                          length(system.base_velocity(step.x, step.t)));
       base.path = turn_of_base(given, system.work().driven, step);
     }
-    base.turn(derivative_bounds(base.path, scale));
+    base.turn(derivative_bounds_beyond_rounding(base.path, scale));
   }
 
   std::vector<Bounds> bodies_;  ///< 0 … n

@@ -42,7 +42,7 @@ public:
   template <class AnySystem>
   [[nodiscard]] std::optional<Release<T>> first_release(AnySystem& system, const Step<T>& step,
                                                         State<T>& x, State<T>& dxdt) {
-    samples_.renew();
+    samples_.refill(static_cast<double>(step.h));
     if (!comes_near(system, step)) return std::nullopt;
     std::optional<Release<T>> first;
     for (int i = 1; i <= system.layout().bodies; ++i) {

@@ -62,7 +62,8 @@ template <class T>
                                         const Quintic<T>& b, const T& h) {
   using std::abs;
   const DifferenceScale<T> scale(h);
-  const DerivativeBounds<T> x = derivative_bounds(a, scale), y = derivative_bounds(b, scale);
+  const DerivativeBounds<T> x = derivative_bounds_beyond_rounding(a, scale),
+                            y = derivative_bounds_beyond_rounding(b, scale);
   const ValueRange<T> at = detail::hull(a);
   const detail::GearBounds<T> g = detail::gear_bounds(
       loop, scaled(loop.sense_a, ValueRange<T>{at.low - loop.stowed_a, at.high - loop.stowed_a}));

@@ -53,7 +53,7 @@ public:
   /// @return the first doubt: the fraction of the step to which the method must make one of its own
   [[nodiscard]] std::optional<T> first_doubt() {
     made_sure_ = false;
-    samples_.renew();
+    samples_.refill(static_cast<double>(run_.step.h));
     hinge_ = 0;
     doubt_.reset(), held_at_.reset();
     base_.over_step(run_.at, run_.step);

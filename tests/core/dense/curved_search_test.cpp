@@ -19,7 +19,6 @@ struct Wave {
 } // namespace
 
 TEST_CASE("the first point where a function is positive is found, however narrow the crest") {
-  SampleBudget budget;
   int found = 0;
   for (int k = 0; k < 400; ++k) {
     const double margin = std::pow(10, -8 + 7.0 * (k % 20) / 20); // of the crest over zero
@@ -30,6 +29,7 @@ TEST_CASE("the first point where a function is positive is found, however narrow
     const double expected = (left + cycles * turn - wave.phase) / wave.turns;
     Sampled<double> crest{0, -1e9};
     if (wave(0) > 0) continue;
+    SampleBudget budget;
     const auto s =
         first_positive(wave, wave(0), wave(1), Bulge<double>{wave.rise()}, 1e-12, crest, budget);
     CAPTURE(k, margin, expected);
@@ -43,11 +43,11 @@ TEST_CASE("the first point where a function is positive is found, however narrow
 }
 
 TEST_CASE("the largest value is found, at an end or inside, and none below the floor is sought") {
-  SampleBudget budget;
   int inside = 0;
   for (int k = 0; k < 400; ++k) {
     const Wave wave{2, 0.5 + 0.04 * k, 0.61 * k, 5};
     int calls = 0;
+    SampleBudget budget;
     const auto counted = [&](double s) { return ++calls, wave(s); };
     const Sampled<double> best =
         largest_of(counted, wave(0), wave(1), Bulge<double>{wave.rise()}, 0.0, 1e-12, budget);
@@ -70,12 +70,19 @@ TEST_CASE("a search whose bulge says nothing gives up, and says so") {
   const Wave wave{1, 3, 0.4, -2}; // ≤ −1
   Sampled<double> crest{0, -2};
   SampleBudget budget;
-  CHECK_FALSE(first_positive(wave, wave(0), wave(1), Bulge<double>{1e8}, 1e-12, crest, budget));
-  CHECK_FALSE(budget.is_spent()); // some 10,000 samples tell it
-  CHECK_FALSE(first_positive(wave, wave(0), wave(1), Bulge<double>{1e12}, 1e-12, crest, budget));
+  const auto search = [&](double bulge) {
+    return first_positive(wave, wave(0), wave(1), Bulge<double>{bulge}, 1e-12, crest, budget);
+  };
+  CHECK_FALSE(search(1e9));
+  CHECK_FALSE(budget.is_spent()); // some 100,000 samples tell it
+  CHECK_FALSE(search(1e14));
   CHECK(budget.is_spent());
+  budget.refill(0.5e-3);
+  CHECK_FALSE(budget.is_spent());
+  CHECK_FALSE(search(1e9));
+  CHECK(budget.is_spent()); // a step's are not so many
   budget.renew();
   CHECK_FALSE(budget.is_spent());
-  (void)largest_of(wave, wave(0), wave(1), Bulge<double>{1e8}, -1e9, 1e-3, budget);
+  (void)largest_of(wave, wave(0), wave(1), Bulge<double>{1e14}, -1e9, 1e-3, budget);
   CHECK(budget.is_spent());
 }
