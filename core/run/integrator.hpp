@@ -82,8 +82,12 @@ public:
   }
 
   [[nodiscard]] Place place() {
-    return {run_.step, peaks_.force_before(), *asked_.x1, *asked_.dxdt1,
-            run_.system.made_elsewhere().forces, peaks_.base()};
+    return {run_.step,
+            peaks_.force_before(),
+            *asked_.x1,
+            *asked_.dxdt1,
+            run_.system.made_elsewhere().forces,
+            peaks_.base()};
   }
 
   /// The run was carried so far; what the engine brings back lies in `place()`.
