@@ -12,8 +12,6 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t most_draws = 100, most_columns = 400;
-
 // ---- effects
 
 /// The first runs of a random design; all of one whose replicates have to stay whole.
@@ -120,10 +118,10 @@ Json scatter_json(const PageSource& source, const Pair& pair) {
 
 } // namespace
 
-Json correlations_json(const PageSource& source) {
+Json correlations_json(const PageSource& source, const PageDetail& detail) {
   const Results& results = source.results;
-  const std::size_t draws = std::min(results.draws.size(), most_draws);
-  const std::size_t outputs = std::min(results.outputs.size(), most_columns);
+  const std::size_t draws = std::min(results.draws.size(), detail.correlated_draws);
+  const std::size_t outputs = std::min(results.outputs.size(), detail.outputs);
   if (draws == 0 || results.size() < 2) return nullptr;
   Json json{{"draws", Json::array()},
             {"outputs", Json::array()},
@@ -154,7 +152,9 @@ Json effects_json(const PageSource& source, const PageDetail& detail) {
   const RankSensitivity all =
       rank_sensitivity(runs, source.stored.campaign.statistics.confidence, made);
   Json effects = Json::array();
-  for (const OutputRanks& output : all.outputs) add_effects(all, output, detail.effects, effects);
+  const std::size_t shown = std::min(all.outputs.size(), detail.outputs);
+  for (const OutputRanks& output : std::span(all.outputs).first(shown))
+    add_effects(all, output, detail.effects, effects);
   if (effects.empty()) return nullptr;
   return {{"kind", "rank"},   {"runs", all.runs},          {"confidence", all.confidence},
           {"idle", all.idle}, {"warnings", warnings(all)}, {"effects", std::move(effects)}};

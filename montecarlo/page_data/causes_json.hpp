@@ -14,7 +14,7 @@ namespace wingspread {
 inline constexpr std::size_t most_effect_runs = 20'000;
 
 /// Each draw with each output; null without draws.
-[[nodiscard]] Json correlations_json(const PageSource& source);
+[[nodiscard]] Json correlations_json(const PageSource& source, const PageDetail& detail);
 
 /// Rank correlations with their bounds (rank_sensitivity.hpp), the strongest of each output first; null where there is
 /// nothing to tell.

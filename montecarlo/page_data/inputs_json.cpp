@@ -23,13 +23,12 @@ std::string label_of(std::string path) {
 }
 
 /// All parameters that are not 0 in both scenes, with what the case makes of them.
-Json scene_json(const PageSource& source) {
-  constexpr std::size_t most_parameters = 1500;
+Json scene_json(const PageSource& source, std::size_t most) {
   const Scene &nominal = source.before_case.scene, &scene = source.stored.campaign.scene;
   Json json = Json::array();
   for (const std::string& path : parameter_paths(scene)) {
     const auto matches = resolve(scene, path).matches;
-    if (matches.empty() || json.size() >= most_parameters) continue;
+    if (matches.empty() || json.size() >= most) continue;
     const SceneParameter& parameter = matches.front().parameter;
     const double value = parameter.in(nominal), in_case = parameter.in(scene);
     if (value == 0 && in_case == 0) continue;
@@ -100,13 +99,13 @@ Json settings_json(const Campaign& campaign) {
 
 } // namespace
 
-Json inputs_json(const PageSource& source) {
+Json inputs_json(const PageSource& source, const PageDetail& detail) {
   const Campaign& campaign = source.stored.campaign;
   Json dispersions = Json::array();
   for (std::size_t i = 0; i < campaign.dispersions.size(); ++i)
     dispersions.push_back(
         dispersion_json(campaign, campaign.dispersions[i], source.before_case.dispersions[i]));
-  return {{"scene", scene_json(source)},
+  return {{"scene", scene_json(source, detail.parameters)},
           {"dispersions", std::move(dispersions)},
           {"settings", settings_json(campaign)}};
 }

@@ -17,16 +17,15 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t most_chosen = 11;
 constexpr std::array other_statuses{Status::stalled, Status::timed_out, Status::failed};
 
 /// Gathers runs, each once.
 class Choice {
 public:
-  explicit Choice(const Results& results) : results_(results) {}
+  Choice(const Results& results, std::size_t most) : results_(results), most_(most) {}
 
   void add(std::string label, std::string why, long run) {
-    if (chosen_.size() < most_chosen && !std::ranges::count(chosen_, run, &ChosenRun::run))
+    if (chosen_.size() < most_ && !std::ranges::count(chosen_, run, &ChosenRun::run))
       chosen_.push_back({std::move(label), std::move(why), run});
   }
   void add_row(std::string label, std::string why, std::size_t row) {
@@ -37,6 +36,7 @@ public:
 
 private:
   const Results& results_;
+  std::size_t most_;
   std::vector<ChosenRun> chosen_;
 };
 
@@ -184,11 +184,11 @@ Json chosen_json(const PageSource& source, const RunPlan& plan, const ChosenRun&
 
 } // namespace
 
-std::vector<ChosenRun> chosen_runs(const PageSource& source) {
-  Choice choice(source.results);
+std::vector<ChosenRun> chosen_runs(const PageSource& source, std::size_t most) {
+  Choice choice(source.results, most);
   add_median(source, choice);
   for (const Verdict& verdict : source.summary.requirements)
-    if (choice.size() + other_statuses.size() < most_chosen) add_worst_of(source, verdict, choice);
+    if (choice.size() + other_statuses.size() < most) add_worst_of(source, verdict, choice);
   if (source.summary.requirements.empty())
     for (const char* family : {"peak_moment", "peak_force", "deployment_time"})
       add_largest_of(source, family, choice);
@@ -198,7 +198,7 @@ std::vector<ChosenRun> chosen_runs(const PageSource& source) {
 
 Json motions_json(const PageSource& source, const PageDetail& detail, int threads) {
   if (!source.replayable()) return Json::array();
-  const std::vector<ChosenRun> chosen = chosen_runs(source);
+  const std::vector<ChosenRun> chosen = chosen_runs(source, detail.motions - 1);
   const RunPlan plan(source.stored.campaign);
   std::vector<Json> motions(1 + chosen.size());
   for_each_task(threads, motions.size(), [&](std::size_t i) {

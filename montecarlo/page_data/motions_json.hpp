@@ -17,8 +17,8 @@ struct ChosenRun {
 };
 
 /// The median run that deployed; for each requirement the run that stands worst; one run of each other status. Without
-/// requirements the largest peaks and the slowest deployment stand for the worst. Each run once, at most 11.
-[[nodiscard]] std::vector<ChosenRun> chosen_runs(const PageSource& source);
+/// requirements the largest peaks and the slowest deployment stand for the worst. Each run once.
+[[nodiscard]] std::vector<ChosenRun> chosen_runs(const PageSource& source, std::size_t most = 11);
 
 /// The nominal run, then the chosen ones made again. None where they cannot be (PageSource::replayable).
 /// @param threads as of team_size (team.hpp)

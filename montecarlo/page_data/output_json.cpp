@@ -127,8 +127,7 @@ Json output_json(const PageSource& source, std::size_t index, const PageDetail& 
 } // namespace
 
 Json outputs_json(const PageSource& source, const PageDetail& detail, int threads) {
-  constexpr std::size_t most_outputs = 400;
-  const std::size_t count = std::min(source.results.outputs.size(), most_outputs);
+  const std::size_t count = std::min(source.results.outputs.size(), detail.outputs);
   const std::size_t bytes = (source.replication.replicates > 0 ? 64 : 16) * source.results.size();
   std::vector<Json> blocks(count);
   for_each_task(team_within(threads, bytes), count,

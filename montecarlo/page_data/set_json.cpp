@@ -123,6 +123,16 @@ Json requirement_json(const Verdict& verdict) {
   return json;
 }
 
+/// The summary's, and what the page has no room for.
+std::vector<std::string> all_warnings(const PageSource& source, const PageDetail& detail) {
+  std::vector<std::string> lines = warnings(source.summary);
+  if (const std::size_t all = source.results.outputs.size(); all > detail.outputs)
+    lines.push_back(fmt::format("the page has room for the first {} of {} outputs: {} has all",
+                                detail.outputs, all,
+                                (source.stored.folder / summary_file).string()));
+  return lines;
+}
+
 Json requirements_json(const Summary& summary) {
   Json json = Json::array();
   for (const Verdict& verdict : summary.requirements) json.push_back(requirement_json(verdict));
@@ -139,11 +149,11 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["orders"] = orders_json(*source.orders);
   json["order_kinds"] = summary.latch_order_kinds;
   json["without_latch"] = summary.without_latch;
-  json["warnings"] = warnings(summary);
+  json["warnings"] = all_warnings(source, detail);
   json["accuracy"] = nullptr;
   json["requirements"] = requirements_json(summary);
   json["outputs"] = outputs_json(source, detail, threads);
-  json["correlations"] = correlations_json(source);
+  json["correlations"] = correlations_json(source, detail);
   json["sensitivity"] = effects_json(source, detail);
   json["scatters"] = scatters_json(source, detail);
   json["wing"] = wing_json(source.stored.campaign.scene);
@@ -152,7 +162,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["static_margins"] = nullptr;
   json["margin"] = nullptr;
   json["rare"] = nullptr;
-  json["inputs"] = inputs_json(source);
+  json["inputs"] = inputs_json(source, detail);
   return json;
 }
 

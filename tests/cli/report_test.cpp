@@ -1,0 +1,174 @@
+#include "montecarlo/folder/cases_folder.hpp"
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <fstream>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// The page's block of data.
+Json data_of(const std::filesystem::path& page) {
+  const std::string text = read_text(page).value();
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t from = text.find(begin) + begin.size();
+  return parse_json(text.substr(from, text.find("</script>", from) - from));
+}
+
+struct Done {
+  Folder folder{};
+  std::filesystem::path path = folder.path() / "r", page = path / "report.html";
+  explicit Done(const Json& json, const Session& session = {}) {
+    (void)run_into(path, campaign_of(json), session);
+  }
+
+  [[nodiscard]] Finished program(const std::vector<std::string>& arguments) const {
+    return run_program(folder, arguments);
+  }
+};
+
+} // namespace
+
+TEST_CASE("report writes one page, the same bytes on any number of threads", "[report][parallel]") {
+  const Done done(full_campaign(40));
+  const auto before = contents(done.path);
+  const auto [code, out, error] = done.program({"report", done.path, "--threads", "1"});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  CHECK(out == done.page.string() + "\n");
+  const std::string bytes = read_text(done.page).value();
+  CHECK(done.program({"report", done.path, "--threads", "2"}).code == 0);
+  CHECK(read_text(done.page).value() == bytes);
+  std::filesystem::remove(done.page);
+  CHECK(contents(done.path) == before); // and nothing else was touched
+  const auto elsewhere = done.folder.path() / "page.html";
+  CHECK(done.program({"report", done.path, "--out", elsewhere}).out == elsewhere.string() + "\n");
+  CHECK(read_text(elsewhere).value() == bytes);
+  CHECK(!std::filesystem::exists(done.page));
+  const Json data = data_of(elsewhere);
+  CHECK(data["format"] == 1);
+  CHECK(data["command"] == "wingspread report " + done.path.string());
+  REQUIRE(data["sets"].size() == 1);
+  CHECK(data["sets"][0]["label"] == "r");
+  CHECK(data["sets"][0]["seed"] == "7");
+  CHECK(data["sets"][0]["runs"] == 40);
+  CHECK(data["comparisons"].empty());
+}
+
+TEST_CASE("report refuses what is no results folder, with its place", "[report]") {
+  const Done done(quick_campaign(3));
+  const std::string nowhere = done.folder.path() / "nowhere", f = done.folder.path();
+  const auto expect = [&](const std::vector<std::string>& arguments, int code,
+                          const std::string& message) {
+    const Finished refused = done.program(arguments);
+    CHECK(refused.code == code);
+    CHECK(refused.out.empty());
+    CHECK(refused.error == message);
+  };
+  expect({"report"}, 2, "error: folders is required\nerror: see wingspread report --help\n");
+  expect({"report", nowhere}, 2,
+         "error: " + nowhere + ": found no such folder, expected a results folder\n");
+  expect({"report", f}, 2,
+         "error: " + f +
+             ": found no campaign.json in it, expected a results folder: one that "
+             "`wingspread run` or `merge` wrote\n");
+  CHECK(!std::filesystem::exists(nowhere));
+  const std::string into = done.folder.path() / "no/such/page.html";
+  const Finished unwritable = done.program({"report", done.path, "--out", into});
+  CHECK(unwritable.code != 0);
+  CHECK(unwritable.error.find(into) != std::string::npos);
+  std::vector<std::string> many{"report"};
+  for (int k = 0; k < 13; ++k) many.push_back(done.path);
+  CHECK(done.program(many).code != 0);
+}
+
+TEST_CASE("report shows a single run, and a campaign without a run that deployed", "[report]") {
+  const Done single(full_campaign(1));
+  CHECK(single.program({"report", single.path}).code == 0);
+  const Json one = data_of(single.page)["sets"][0];
+  CHECK(one["runs"] == 1);
+  CHECK(one["correlations"].is_null());
+  CHECK(one["sensitivity"].is_null());
+  Json json = full_campaign(5);
+  json["dispersions"][1]["distribution"] = {{"type", "constant"}, {"value", -1}};
+  const Done invalid(json);
+  CHECK(invalid.program({"report", invalid.path}).code == 0);
+  const Json none = data_of(invalid.page)["sets"][0];
+  CHECK(none["statuses"][3]["count"] == 5);
+  CHECK(none["envelopes"].is_null());
+  CHECK(none["motions"].size() == 1); // the nominal one
+  CHECK(none["outputs"][0]["count"] == 0);
+}
+
+TEST_CASE("report says when runs are missing", "[report]") {
+  const Done done(quick_campaign(10));
+  const auto lines = lines_of(read_text(done.path / runs_file).value());
+  std::string part;
+  for (std::size_t k = 0; k < 5; ++k) part += lines[k] + '\n';
+  std::ofstream(done.path / runs_file, std::ios::binary) << part;
+  CHECK(done.program({"report", done.path}).code == 0);
+  const Json set = data_of(done.page)["sets"][0];
+  CHECK(set["partial"] == true);
+  CHECK(set["runs"] == 4);
+  CHECK(set["planned"] == 10);
+}
+
+TEST_CASE("report makes no run again of another tool's rows", "[report]") {
+  const Done done(full_campaign(10));
+  Json campaign = parse_json_file(done.path / campaign_file);
+  campaign.erase(stamp_key);
+  std::ofstream(done.path / campaign_file, std::ios::binary) << campaign.dump();
+  CHECK(done.program({"report", done.path}).code == 0);
+  const Json set = data_of(done.page)["sets"][0];
+  CHECK(set["foreign"] == true);
+  CHECK(set["motions"].empty());
+  CHECK(set["envelopes"].is_null());
+  CHECK(set["made_by"] == "");
+  CHECK(set["outputs"][0]["count"].get<long>() > 0);
+}
+
+TEST_CASE("report has a set for each case, and compares them run by run", "[report][cases]") {
+  const Folder folder;
+  Json json = quick_campaign(20);
+  json["cases"] = parse_json(
+      R"([ { "name": "as_it_is" }, { "name": "heavy", "scale": { "bodies.*.inertia": 1.5 } } ])");
+  const std::string file = folder.write("c.json", json.dump()), out = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", file, "--out", out}).code == 0);
+  REQUIRE(run_program(folder, {"report", out}).code == 0);
+  const Json data = data_of(folder.path() / "r/report.html");
+  REQUIRE(data["sets"].size() == 2);
+  CHECK(data["sets"][0]["label"] == "as_it_is");
+  CHECK(data["sets"][1]["case"] == "heavy");
+  REQUIRE(data["comparisons"].size() == 1);
+  CHECK(data["comparisons"][0]["paired"] == true);
+  CHECK(data["comparisons"][0]["text"] == "heavy − as_it_is, the same draws");
+  CHECK(data["comparisons"][0]["outputs"].back()["lower"].get<double>() >
+        0); // the heavier, the slower
+}
+
+TEST_CASE("a page of many runs keeps to its size", "[report]") {
+  Json json = quick_campaign(20'000);
+  const Done done(quick_campaign(20));
+  const Campaign campaign = campaign_of(json);
+  const Results made = read_stored_results(read_stored_campaign(done.path)).results;
+  std::string csv; // rows that no one ran: those of twenty, over and over and a little off
+  append_header(csv, RunPlan(campaign).names());
+  for (long run = 0; run < 20'000; ++run) {
+    ResultRow row = made.row(static_cast<std::size_t>(run % 20));
+    row.run = run;
+    for (double& output : row.outputs) output *= 1 + 1e-3 * std::sin(static_cast<double>(run));
+    append_row(csv, row);
+  }
+  const auto many = done.folder.path() / "many";
+  std::filesystem::create_directories(many);
+  std::ofstream(many / campaign_file, std::ios::binary)
+      << campaign_text(campaign, stamp_of(campaign, {}));
+  std::ofstream(many / runs_file, std::ios::binary) << csv;
+  CHECK(done.program({"report", many}).code == 0);
+  CHECK(std::filesystem::file_size(many / "report.html") < 4'000'000);
+  CHECK(data_of(many / "report.html")["sets"][0]["runs"] == 20'000);
+}
