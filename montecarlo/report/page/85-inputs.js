@@ -129,8 +129,9 @@
         (one.paths || []).map((path, at) => [at ? ", " : "", h("code", {}, path)]),
       ),
     ]);
-    const degrees = rows.some((row) => row[5]),
-      drop = (list) => list.filter((_, at) => degrees || at !== 5);
+    // columns that are empty in every row are left out
+    const kept = (at) => ![2, 5].includes(at) || rows.some((row) => row[at]),
+      drop = (list) => list.filter((_, at) => kept(at));
     return h(
       "details",
       { open: rows.length <= 60 },
