@@ -1,5 +1,6 @@
 #include "montecarlo/page_data/causes_json.hpp"
 
+#include "montecarlo/machine/team.hpp"
 #include "montecarlo/page_data/page_numbers.hpp"
 #include "montecarlo/sensitivity/rank_report.hpp"
 
@@ -199,11 +200,13 @@ std::vector<std::size_t> scatter_rows(const Column& x, const Column& y, std::siz
   return chosen;
 }
 
-Json scatters_json(const PageSource& source, const PageDetail& detail) {
-  Json json = Json::array();
-  for (const Pair& pair : strongest_pairs(source, detail.scatters))
-    json.push_back(scatter_json(source, pair));
-  return json;
+Json scatters_json(const PageSource& source, const PageDetail& detail, int threads) {
+  const std::vector<Pair> pairs = strongest_pairs(source, detail.scatters);
+  std::vector<Json> scatters(pairs.size());
+  for_each_task(team_within(threads, 24 * source.results.size()), pairs.size(),
+                [&](std::size_t i) { scatters[i] = scatter_json(source, pairs[i]); });
+  source.results.release();
+  return scatters;
 }
 
 } // namespace wingspread

@@ -11,7 +11,7 @@ namespace wingspread {
 
 /// Effects of a random design are of its first runs, up to this many: that settles them to a hundredth, and the time
 /// that they take does not grow on.
-inline constexpr std::size_t most_effect_runs = 20'000;
+inline constexpr std::size_t most_effect_runs = 10'000;
 
 /// Each draw with each output; null without draws.
 [[nodiscard]] Json correlations_json(const PageSource& source, const PageDetail& detail);
@@ -33,6 +33,7 @@ struct Pair {
 [[nodiscard]] std::vector<std::size_t> scatter_rows(const Column& x, const Column& y,
                                                     std::size_t most);
 
-[[nodiscard]] Json scatters_json(const PageSource& source, const PageDetail& detail);
+/// @param threads as of team_size (team.hpp); the bytes do not depend on them
+[[nodiscard]] Json scatters_json(const PageSource& source, const PageDetail& detail, int threads);
 
 } // namespace wingspread

@@ -1,6 +1,7 @@
 #include "montecarlo/page_data/convergence.hpp"
 
 #include "montecarlo/statistics/binomial_bounds.hpp"
+#include "montecarlo/statistics/number_sort.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 #include "montecarlo/statistics/two_sided.hpp"
 
@@ -12,10 +13,11 @@ namespace wingspread {
 namespace {
 
 /// Puts what is behind `sorted` in its place. @param sorted how many at the beginning are sorted
-template <class Value, class Less>
-void merge_behind(std::vector<Value>& values, std::size_t sorted, Less less) {
+template <class Value, class Number>
+void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number) {
+  const auto less = [&](const Value& a, const Value& b) { return number(a) < number(b); };
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(sorted);
-  std::stable_sort(middle, values.end(), less);
+  sort_by_number(std::span(middle, values.end()), number);
   std::inplace_merge(values.begin(), middle, values.end(), less);
 }
 
@@ -35,10 +37,10 @@ public:
       if (replicated)
         settled_.replicated.push_back({column_.values[rows_], replication_.of_row[rows_]});
     }
-    merge_behind(settled_.sorted, before, std::less{});
+    merge_behind(settled_.sorted, before, std::identity{});
     if (replicated)
       merge_behind(settled_.replicated, before,
-                   [](const auto& a, const auto& b) { return a.value < b.value; });
+                   [](const ReplicateValue& each) { return each.value; });
   }
 
   [[nodiscard]] ConvergencePoint point(double p, double confidence) const {

@@ -155,7 +155,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["outputs"] = outputs_json(source, detail, threads);
   json["correlations"] = correlations_json(source, detail);
   json["sensitivity"] = effects_json(source, detail);
-  json["scatters"] = scatters_json(source, detail);
+  json["scatters"] = scatters_json(source, detail, threads);
   json["wing"] = wing_json(source.stored.campaign.scene);
   json["motions"] = motions_json(source, detail, threads);
   json["envelopes"] = envelopes_json(source, detail, threads);

@@ -1,6 +1,7 @@
 #include "montecarlo/statistics/ranked_column.hpp"
 
 #include "montecarlo/machine/team.hpp"
+#include "montecarlo/statistics/number_sort.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -26,7 +27,7 @@ RankedColumn::RankedColumn(const Spilled<double>& values) : values_(&values) {
     if (!std::isnan(values[row])) sorted.push_back({values[row], static_cast<std::uint32_t>(row)});
   values.release();
   complete_ = sorted.size() == values.size();
-  std::ranges::sort(sorted, {}, &Placed::value);
+  sort_by_number(std::span(sorted), [](const Placed& placed) { return placed.value; });
   std::vector<std::uint32_t> doubled(values.size(), 0);
   for (std::size_t first = 0, end = 0; first < sorted.size(); first = end) {
     while (end < sorted.size() && sorted[end].value == sorted[first].value) ++end;
@@ -68,7 +69,7 @@ std::vector<double> RankedColumn::ranks_where(const std::vector<bool>& keep) con
 std::vector<RankedColumn> rank_columns(std::span<const Spilled<double>* const> columns,
                                        int threads) {
   std::vector<std::optional<RankedColumn>> ranked(columns.size());
-  const std::size_t bytes = columns.empty() ? 0 : 28 * columns.front()->size(); // 20 of vectors
+  const std::size_t bytes = columns.empty() ? 0 : 44 * columns.front()->size(); // 36 of vectors
   for_each_task(team_within(threads, bytes), columns.size(),
                 [&](std::size_t i) { ranked[i].emplace(*columns[i]); });
   std::vector<RankedColumn> result;

@@ -1,5 +1,7 @@
 #include "montecarlo/statistics/statistics.hpp"
 
+#include "montecarlo/statistics/number_sort.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -79,7 +81,7 @@ std::vector<double> sorted_present(std::span<const double> values) {
   present.reserve(values.size());
   std::ranges::copy_if(values, std::back_inserter(present),
                        [](double v) { return !std::isnan(v); });
-  std::ranges::sort(present);
+  sort_numbers(present);
   return present;
 }
 

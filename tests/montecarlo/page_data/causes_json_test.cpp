@@ -44,7 +44,7 @@ TEST_CASE("the strongest pairs come first, at most two of an output", "[page]") 
     CHECK(++of_output[pairs[i].output] <= 2);
     CHECK(pairs[i].output < source->results.outputs.size()); // `deployed` is no axis
   }
-  const Json scatter = scatters_json(*source, {}).front();
+  const Json scatter = scatters_json(*source, {}, 1).front();
   CHECK(scatter["draw"] == source->results.draws[pairs[0].draw].name);
   const auto density = scatter["density"].get<std::vector<long>>();
   REQUIRE(density.size() == 1024);
@@ -54,7 +54,7 @@ TEST_CASE("the strongest pairs come first, at most two of an output", "[page]") 
 
 TEST_CASE("a density counts row by row of y", "[page]") {
   const auto source = made(quick_campaign(50));
-  const Json scatter = scatters_json(*source, {}).front();
+  const Json scatter = scatters_json(*source, {}, 2).front();
   const auto x = scatter["points"]["x"].get<std::vector<double>>();
   const auto y = scatter["points"]["y"].get<std::vector<double>>();
   const auto x_edges = scatter["x_edges"].get<std::vector<double>>();
