@@ -87,8 +87,19 @@
       W.h("thead", {}, W.h("tr", {}, head)),
       W.h("tbody", {}, body),
     );
-    return W.h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": caption }, table);
+    const box = W.h("div", { class: "scroll", role: "group", "aria-label": caption }, table);
+    widths.observe(box);
+    return box;
   };
+  // A table that is larger than its box can be scrolled by keys; another is no stop on the way through the page.
+  const widths = new ResizeObserver((entries) =>
+    entries.forEach(function ({ target: box }) {
+      if (box.scrollWidth > box.clientWidth + 1 || box.scrollHeight > box.clientHeight + 1)
+        box.setAttribute("tabindex", "0");
+      else box.removeAttribute("tabindex");
+      if (!box.isConnected) widths.unobserve(box);
+    }),
+  );
 
   // The clipboard, also where a page opened from a file may not use the newer way.
   W.copy = function (text, what) {

@@ -218,7 +218,9 @@
             ? latch.time <= player.time
               ? `latched at ${F.fixed(latch.time, 3)} s`
               : "open"
-            : "open, never latches",
+            : wing.hinges[at].latch === false
+              ? "has no latch"
+              : "open, never latches",
         ];
         texts.forEach((text, place) => {
           if (row[place].data !== text) row[place].data = text;
