@@ -174,7 +174,10 @@
       "div",
       { class: items.length ? "warnings" : "warnings none" },
       h("h3", {}, "Warnings"),
-      items.length ? h("ul", {}, items) : h("p", {}, "None."),
+      items.length ? h("ul", {}, items.slice(0, 6)) : h("p", {}, "None."),
+      items.length > 6
+        ? h("details", {}, h("summary", {}, `${items.length - 6} more`), h("ul", {}, items.slice(6)))
+        : null,
     );
   }
 

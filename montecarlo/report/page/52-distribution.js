@@ -289,7 +289,7 @@
     );
     const smallest = 0.5 / d3.max(cases, (one) => one.output.count),
       clip = (p) => Math.min(1 - smallest, Math.max(smallest, p));
-    const box = { left: paper ? 56 : 46, right: width - 12, top: top + 18, bottom: top + 250 };
+    const box = { left: paper ? 66 : 46, right: width - 12, top: top + 18, bottom: top + 250 };
     const y = d3.scaleLinear(paper ? [probit(smallest), probit(1 - smallest)] : [0, 1], [box.bottom, box.top]);
     const height = (p) => y(paper ? probit(clip(p)) : p);
     const x = M.linear(
@@ -320,6 +320,8 @@
     for (const one of cases) {
       const curve = one.output.curve,
         colour = several ? M.colour(one.at) : null;
+      // Of every run a step; of knots that stand for many runs a line from each to the next.
+      const form = one.output.count > curve.x.length ? d3.curveLinear : d3.curveStepAfter;
       const rows = curve.x.map((value, at) => [value * factor, curve.lower[at], curve.upper[at]]);
       svg
         .append("path")
@@ -330,7 +332,7 @@
           d3
             .area()
             .defined((row) => row.every(W.isNumber))
-            .curve(d3.curveStepAfter)
+            .curve(form)
             .x((row) => x(row[0]))
             .y0((row) => height(row[1]))
             .y1((row) => height(row[2]))(rows),
@@ -344,12 +346,12 @@
           "d",
           d3
             .line()
-            .curve(d3.curveStepAfter)
+            .curve(form)
             .x((row) => x(row[0]))
             .y((row) => height(row[1]))([
-            ...(paper ? [] : [[x.domain()[0], 0]]),
+            ...(paper ? [] : [x.domain()[0], curve.x[0] * factor].map((value) => [value, 0])),
             ...curve.x.map((value, at) => [value * factor, curve.p[at]]),
-            ...(paper ? [] : [[x.domain()[1], 1]]),
+            ...(paper ? [] : [curve.x[curve.x.length - 1] * factor, x.domain()[1]].map((value) => [value, 1])),
           ]),
         );
     }
