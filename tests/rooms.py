@@ -36,6 +36,7 @@ montecarlo/motorization
 montecarlo/campaign
 montecarlo/notices
 montecarlo/runs
+montecarlo/accuracy
 montecarlo/summary
 montecarlo/folder
 montecarlo/sensitivity montecarlo/rare montecarlo/margin

@@ -113,7 +113,7 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
   Json json{{"scene", write_scene(campaign.scene)},
             {"dispersions", std::move(dispersions)},
             {"sampling", write_sampling(campaign.sampling)},
-            {"integration", write_integration(campaign.integration)},
+            {"integration", write_integration(campaign.integration, campaign.tolerance)},
             {"outputs", write_outputs(campaign.outputs)},
             {"statistics", write_statistics(campaign.statistics)}};
   // Not there when there are none: what a campaign does not use does not change its hash.
@@ -194,7 +194,8 @@ private:
   void read_settings() {
     read_part("sampling", read_sampling, campaign_.sampling);
     std::size_t before = problems_.size();
-    read_part("integration", read_integration, campaign_.integration);
+    if (const auto at = object_.find("integration"))
+      read_integration(*at, campaign_.integration, campaign_.tolerance);
     if (!was_run_ && problems_.size() == before) t_end_ = campaign_.integration.t_end;
     before = problems_.size();
     read_part("outputs", read_outputs, campaign_.outputs);

@@ -12,7 +12,13 @@ constexpr std::size_t most_quantiles = 1000;
 constexpr std::int64_t most_replicates = 1'000'000;
 constexpr std::string_view fixed_step_method = "runge_kutta4";
 
+constexpr std::int64_t most_accuracy_runs = 10'000;
+constexpr const char* accuracy_runs_expected = "an integer from 0 (none) to 10000";
+
 bool is_at_least_1(const std::int64_t& number) { return number >= 1; }
+bool is_accuracy_runs(const std::int64_t& number) {
+  return number >= 0 && number <= most_accuracy_runs;
+}
 
 /// @return false when it noted a problem
 bool read_method(const JsonCursor& at, std::string& method) {
@@ -132,7 +138,24 @@ void read_sampling(const JsonCursor& at, Sampling& sampling) {
   object.refuse_others();
 }
 
-void read_integration(const JsonCursor& at, Integration& integration) {
+namespace {
+
+void read_tolerances(JsonObject& object, Integration& integration,
+                     std::optional<ToleranceChoice>* choice) {
+  const auto rtol = object.find("rtol");
+  const bool automatic = rtol && rtol->value() == "auto";
+  if (automatic && !choice)
+    rtol->refuse("a number, > 0 and < 1: only a campaign has a sampling error to weigh errors by");
+  if (!automatic)
+    object.optional("rtol", integration.rtol,
+                    choice ? "a number, > 0 and < 1, or \"auto\"" : "a number, > 0 and < 1",
+                    is_proper_share);
+  object.optional("atol", integration.atol, "a number, > 0", is_positive);
+  if (choice) read_tolerance_choice(object, automatic, *choice);
+}
+
+void read_all(const JsonCursor& at, Integration& integration,
+              std::optional<ToleranceChoice>* choice) {
   JsonObject object(at, "an object with the integration");
   const auto method = object.find("method");
   const bool known = !method || read_method(*method, integration.method);
@@ -141,14 +164,24 @@ void read_integration(const JsonCursor& at, Integration& integration) {
     refuse_step(*step, integration.method);
   else
     object.optional("step", integration.step, Dimension{"s", "> 0"}, is_positive);
-  object.optional("rtol", integration.rtol, "a number, > 0 and < 1", is_proper_share);
-  object.optional("atol", integration.atol, "a number, > 0", is_positive);
+  read_tolerances(object, integration, choice);
   if (const auto latch = object.find("latch")) read_latch_form(*latch, integration.smoothing);
   object.optional("t_end", integration.t_end, Dimension{"s", "> 0"}, is_positive);
   std::int64_t max_steps = integration.max_steps;
   object.optional("max_steps", max_steps, "an integer, ≥ 1", is_at_least_1);
   integration.max_steps = static_cast<long>(max_steps);
   object.refuse_others();
+}
+
+} // namespace
+
+void read_integration(const JsonCursor& at, Integration& integration) {
+  read_all(at, integration, nullptr);
+}
+
+void read_integration(const JsonCursor& at, Integration& integration,
+                      std::optional<ToleranceChoice>& choice) {
+  read_all(at, integration, &choice);
 }
 
 void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
@@ -159,6 +192,8 @@ void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
   if (const auto bins = object.find("bins")) read_bins(*bins, statistics.bins);
   if (const auto tolerance = object.find("tolerance"))
     read_tolerance(*tolerance, statistics.tolerance_limits);
+  object.optional("accuracy_runs", statistics.accuracy_runs, accuracy_runs_expected,
+                  is_accuracy_runs);
   object.refuse_others();
 }
 
@@ -171,13 +206,15 @@ Json write_sampling(const Sampling& sampling) {
   return json;
 }
 
-Json write_integration(const Integration& integration) {
+Json write_integration(const Integration& integration,
+                       const std::optional<ToleranceChoice>& choice) {
   const Json latch =
       integration.smoothing ? Json{{"smoothed", *integration.smoothing}} : Json("event");
   Json json{{"method", integration.method}, {"rtol", integration.rtol},
             {"atol", integration.atol},     {"latch", latch},
             {"t_end", integration.t_end},   {"max_steps", integration.max_steps}};
   if (has_fixed_step(integration.method)) json["step"] = integration.step;
+  if (choice) write_tolerance_choice(*choice, json);
   return json;
 }
 
@@ -188,6 +225,8 @@ Json write_statistics(const StatisticsSpec& statistics) {
             {"bins", count ? Json(*count) : Json("auto")}};
   if (!statistics.tolerance_limits.empty())
     json["tolerance"] = write_tolerance(statistics.tolerance_limits);
+  if (statistics.accuracy_runs != StatisticsSpec{}.accuracy_runs)
+    json["accuracy_runs"] = statistics.accuracy_runs;
   return json;
 }
 

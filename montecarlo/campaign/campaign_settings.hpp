@@ -1,18 +1,22 @@
 /// The parts of a campaign that say how its runs are drawn, integrated and summed up; what they
 /// leave behind is in outputs.hpp.
 ///
+/// `"rtol": "auto"` is in tolerance_choice.hpp.
+///
 /// Each `read_` starts from what is already there (the defaults), and notes its problems in the
 /// cursor's list; each `write_` gives the same in full.
 #pragma once
 
 #include "core/deployment.hpp"
 #include "distributions/design.hpp"
+#include "montecarlo/campaign/tolerance_choice.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 #include "montecarlo/statistics/histogram.hpp"
 #include "montecarlo/statistics/wilks.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -58,14 +62,19 @@ struct StatisticsSpec {
   double confidence = 0.95;                       ///< of every bound, two-sided, in (0, 1)
   Bins bins = AutoBins{};
   std::vector<ToleranceLimitSpec> tolerance_limits{};
+  std::int64_t accuracy_runs = 24; ///< that are made again to tell their errors, at most; 0: none
 };
 
 void read_sampling(const JsonCursor& at, Sampling& sampling);
 void read_integration(const JsonCursor& at, Integration& integration);
+/// That of a campaign, whose tolerance may be left to it. @param choice of the tolerance, if it is
+void read_integration(const JsonCursor& at, Integration& integration,
+                      std::optional<ToleranceChoice>& choice);
 void read_statistics(const JsonCursor& at, StatisticsSpec& statistics);
 
 [[nodiscard]] Json write_sampling(const Sampling& sampling);
-[[nodiscard]] Json write_integration(const Integration& integration);
+[[nodiscard]] Json write_integration(const Integration& integration,
+                                     const std::optional<ToleranceChoice>& choice = {});
 [[nodiscard]] Json write_statistics(const StatisticsSpec& statistics);
 
 } // namespace wingspread

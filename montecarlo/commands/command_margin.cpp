@@ -1,3 +1,4 @@
+#include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
@@ -73,6 +74,7 @@ void refuse_used(const std::filesystem::path& folder) {
 int margin(const MarginOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
+  settle_tolerance(campaign, crew_of(options.crew));
   refuse_used(options.out);
   const FolderLock lock(options.out);
   const Interrupt interrupt;

@@ -1,3 +1,4 @@
+#include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
@@ -71,6 +72,7 @@ int rare(const RareCommandOptions& given) {
   options.event = event_of(given);
   Campaign campaign = chosen_case(read_campaign_file(given.campaign), given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
+  settle_tolerance(campaign, crew_of(given.crew));
   StatisticsSpec spec = campaign.statistics;
   Json settings = Json::object();
   if (given.confidence) settings["confidence"] = *given.confidence;

@@ -1,3 +1,4 @@
+#include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
@@ -19,6 +20,7 @@
 #include <memory>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 #ifdef __GLIBC__
 #include <gnu/libc-version.h>
 #endif
@@ -152,6 +154,14 @@ Summary write_summary(const FolderWriter& folder, int threads, const std::string
   }
 }
 
+/// Adds to timing.json what it took to know the accuracy.
+void note_accuracy(const std::filesystem::path& folder, const Summary& summary) {
+  if (!summary.accuracy) return;
+  Json timing = parse_json_file(folder / timing_file);
+  timing["accuracy"] = {{"runs", summary.accuracy->runs}, {"seconds", summary.accuracy->seconds}};
+  write_file(folder / timing_file, json_text(timing));
+}
+
 /// Makes a campaign's runs into a folder, and shows what they come to.
 /// @param show takes the results and returns the exit status
 template <class Show>
@@ -168,7 +178,9 @@ int run_into(const Campaign& campaign, const std::filesystem::path& out, const R
   interruption = fmt::format("interrupted: {}; the same command with --resume goes on\n", kept);
   interrupt.end_at_once(interruption.c_str());
   if (!interrupt.is_urgent()) {
-    const int code = show(folder.stored(), write_summary(folder, options.crew.threads, kept));
+    Summary summary = write_summary(folder, options.crew.threads, kept);
+    note_accuracy(out, summary);
+    const int code = show(folder.stored(), std::move(summary));
     if (!interrupted) return code;
   }
   fmt::print(stderr, "{}", interruption);
@@ -200,6 +212,34 @@ int run_cases(const Campaign& campaign, const RunOptions& options) {
   return worst;
 }
 
+/// The tolerance that the campaign in the folder was given when it was begun, if it is the same one.
+void take_over_tolerance(Campaign& campaign, const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / campaign_file)) return;
+  const Campaign there = read_stored_campaign(folder).campaign;
+  if (!there.tolerance || !there.tolerance->pilot) return;
+  if (there.tolerance->pilot->seed != campaign.sampling.seed ||
+      there.tolerance->share != campaign.tolerance->share)
+    return;
+  campaign.integration = there.integration;
+  campaign.tolerance = there.tolerance;
+  campaign.resolved["integration"] = write_integration(campaign.integration, campaign.tolerance);
+}
+
+/// Chooses the tolerance where that is left to the campaign. One that goes on keeps its own.
+void settle(Campaign& campaign, const RunOptions& options) {
+  if (!campaign.tolerance || campaign.tolerance->pilot) return;
+  if (options.resume) take_over_tolerance(campaign, options.out);
+  settle_tolerance(campaign, crew_of(options.crew));
+  const TolerancePilot& pilot = *campaign.tolerance->pilot;
+  fmt::print(stderr, "note: rtol {:g}, by a pilot of {} runs\n", campaign.integration.rtol,
+             pilot.runs);
+  if (!pilot.reached)
+    fmt::print(stderr,
+               "warning: no tolerance keeps errors within {:g} % of the sampling error: it is "
+               "the tightest\n",
+               100 * campaign.tolerance->share);
+}
+
 int run(const RunOptions& options) {
   (void)crew_of(options.crew); // refused before anything is read
   Campaign campaign = read_campaign_file(options.campaign);
@@ -207,6 +247,7 @@ int run(const RunOptions& options) {
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   override_until(campaign, options.until);
   heed(examine(campaign, options.campaign), options.strict);
+  settle(campaign, options);
   if (!campaign.cases.empty()) return run_cases(campaign, options);
   (void)chosen_cases(campaign, options.cases); // there are none
   return run_into(campaign, options.out, options,

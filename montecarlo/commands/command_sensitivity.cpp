@@ -1,3 +1,4 @@
+#include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
@@ -128,6 +129,7 @@ int sobol_new(const SensitivityOptions& options) {
   SaltelliDesign design{chosen_case(read_campaign_file(options.from), options.of_case),
                         options.samples.value_or(1000)};
   override_sampling(design.campaign, std::nullopt, options.seed);
+  settle_tolerance(design.campaign, crew);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
   if (runs > most_runs)

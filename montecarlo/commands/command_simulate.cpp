@@ -62,6 +62,11 @@ std::optional<double> parse_smoothed(std::string_view text) {
   return parse_number<double>(text);
 }
 
+std::string refuse_auto(const std::string& text) {
+  if (text != "auto") return "";
+  return "found auto, expected a number: only a campaign has a sampling error to weigh errors by";
+}
+
 std::string refuse_latch(const std::string& text) {
   if (text == "event" || parse_smoothed(text)) return "";
   return fmt::format("found {}, expected event, or smoothed:EPS with EPS in rad, e.g. "
@@ -155,14 +160,15 @@ void add_simulate(CLI::App& app, Action& action) {
       ->type_name("S");
   command->add_option("--method", options->method, "See wingspread methods");
   command->add_option("--step", options->step, "The step of a method with a fixed one, s");
-  command->add_option("--rtol", options->rtol, "Relative tolerance of a step");
+  command->add_option("--rtol", options->rtol, "Relative tolerance of a step")->check(refuse_auto);
   command->add_option("--atol", options->atol, "Absolute tolerance of a step, rad and rad/s");
   command->add_option("--t-end", options->t_end, "Where to stop, s");
   command->add_option("--latch", options->latch, "event, or smoothed:EPS with EPS in rad")
       ->type_name("event|smoothed:EPS")
       ->check(refuse_latch);
   command->footer(
-      R"(Settings that are not given are the campaign's, or for a scene the defaults of a campaign.
+      R"(Settings that are not given are the campaign's, or for a scene the defaults of a campaign. Where the
+campaign leaves its rtol to a pilot ("auto"), one deployment is integrated at the default.
 
 Example:
   wingspread simulate three_panel.json --t-end 20

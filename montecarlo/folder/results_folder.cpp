@@ -1,5 +1,6 @@
 #include "montecarlo/folder/results_folder.hpp"
 
+#include "montecarlo/accuracy/accuracy.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/input_file.hpp"
@@ -189,7 +190,13 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
   if (!stored.foreign) add_nominal(campaign, summary);
   summary.overtravels = overtravels(campaign.scene, results);
   if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
-  summary.stopped = std::ssize(results.runs) < stored.runs().size() && is_complete(stored, results);
+  const bool whole = std::ssize(results.runs) == stored.runs().size();
+  summary.stopped = !whole && is_complete(stored, results);
+  if (!stored.foreign && !stored.stamp.shard && (whole || summary.stopped)) {
+    Campaign asked = campaign;
+    asked.statistics = spec;
+    summary.accuracy = measure_accuracy(asked, results, {.threads = threads});
+  }
   return summary;
 }
 

@@ -75,7 +75,8 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
                                      const StatisticsSpec& spec, int threads = 0);
 
 /// Works out the statistics of the rows and writes the three files of them. Results that lack some
-/// of the folder's runs are labelled so: "partial" in summary.json's stamp.
+/// of the folder's runs are labelled so: "partial" in summary.json's stamp. Of all of this program's own runs (not
+/// of a shard) some are made again, to say how accurate they are.
 /// @param threads as of team_size (team.hpp)
 /// @throws SpecError when they cannot be written
 Summary write_statistics(const StoredCampaign& stored, const Results& results,

@@ -7,6 +7,7 @@
 #include "montecarlo/page_data/output_json.hpp"
 #include "montecarlo/page_data/page_numbers.hpp"
 #include "montecarlo/page_data/wing_json.hpp"
+#include "montecarlo/summary/summary_json.hpp"
 #include "montecarlo/summary/warnings.hpp"
 
 #include <fmt/format.h>
@@ -150,7 +151,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["order_kinds"] = summary.latch_order_kinds;
   json["without_latch"] = summary.without_latch;
   json["warnings"] = all_warnings(source, detail);
-  json["accuracy"] = nullptr;
+  json["accuracy"] = accuracy_json(summary);
   json["requirements"] = requirements_json(summary);
   json["outputs"] = outputs_json(source, detail, threads);
   json["correlations"] = correlations_json(source, detail);

@@ -5,6 +5,7 @@
 /// the number in which it did not. The same results give the same summary, bit for bit.
 #pragma once
 
+#include "montecarlo/accuracy/accuracy.hpp"
 #include "montecarlo/campaign/campaign_settings.hpp"
 #include "montecarlo/runs/results.hpp"
 #include "montecarlo/statistics/bounds.hpp"
@@ -104,6 +105,7 @@ struct Summary {
   // What the campaign asks for beyond its statistics; write_statistics (results_folder.hpp) adds it.
   std::vector<Verdict> requirements{};
   std::optional<NominalRun> nominal{};   ///< its outputs stand with theirs
+  std::optional<Accuracy> accuracy{};    ///< of the integration; none where nobody measured it
   std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
   std::optional<PeaksCount> peaks{};     ///< none where it was not recorded
   std::vector<GoalFound> until{};        ///< what decides when it stops

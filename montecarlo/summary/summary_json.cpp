@@ -70,6 +70,10 @@ Json definitions(const Summary& summary) {
   if (summary.peaks)
     json["peaks_final"] = "runs whose peaks are proven (true) or were cut by t_end (false): a cut "
                           "peak breaks every requirement on it";
+  if (summary.accuracy)
+    json["accuracy"] = "runs chosen by their outcomes, edges and extremes, made again by the "
+                       "reference: largest and RMS difference; order_in_doubt: its status or latch "
+                       "order is another; standard_error: of the mean, by the number of runs";
   if (!judge_groups(summary.requirements).empty())
     json["groups"] = "m requirements of a group are judged at 1 - (1 - c)/m each, so that all of "
                      "them together hold at c";
@@ -275,6 +279,27 @@ std::vector<double> densities(const Histogram& histogram) {
 
 } // namespace
 
+Json accuracy_json(const Summary& summary) {
+  if (!summary.accuracy) return nullptr;
+  const Accuracy& accuracy = *summary.accuracy;
+  Json outputs = Json::array();
+  for (std::size_t i = 0; i < accuracy.outputs.size(); ++i)
+    outputs.push_back({{"output", accuracy.outputs[i].output},
+                       {"largest", json_number(accuracy.outputs[i].largest)},
+                       {"rms", json_number(accuracy.outputs[i].rms)},
+                       {"standard_error", json_number(summary.outputs[i].mean_error)}});
+  Json json{{"runs", accuracy.runs},
+            {"method", accuracy.method},
+            {"rtol", accuracy.rtol},
+            {"reference_method", accuracy.reference_method},
+            {"reference_rtol", accuracy.reference_rtol},
+            {"order_in_doubt", std::ssize(accuracy.in_doubt)},
+            {"outputs", std::move(outputs)}};
+  if (!accuracy.in_doubt.empty()) json["in_doubt"] = accuracy.in_doubt;
+  if (accuracy.unreached > 0) json["unreached"] = accuracy.unreached;
+  return json;
+}
+
 Json summary_json(const Summary& summary, const Json& about) {
   Json json{{stamp_key, about}, {"runs", summary.runs}, {"confidence", summary.confidence}};
   if (summary.nominal) json["nominal"] = nominal_json(*summary.nominal);
@@ -289,6 +314,7 @@ Json summary_json(const Summary& summary, const Json& about) {
   for (const OutputSummary& output : summary.outputs)
     json["outputs"][output.name] = output_json(summary, output);
   json["correlations"] = correlations_json(summary);
+  if (summary.accuracy) json["accuracy"] = accuracy_json(summary);
   json["requirements"] = requirements_json(summary);
   if (summary.requirements.size() > 1)
     json["joint_confidence"] = joint_confidence(summary.requirements);

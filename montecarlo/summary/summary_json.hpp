@@ -20,6 +20,9 @@ inline constexpr std::size_t most_broken = 1000;
 /// @param about what the caller says of the campaign and the program; the value of "wingspread".
 [[nodiscard]] Json summary_json(const Summary& summary, const Json& about);
 
+/// What the integration contributes, its key `accuracy`; null where nobody measured it.
+[[nodiscard]] Json accuracy_json(const Summary& summary);
+
 /// histograms.json: per output its unit, count, missing, edges, counts and density.
 [[nodiscard]] Json histograms_json(const Summary& summary);
 

@@ -5,6 +5,7 @@
 #include "montecarlo/summary/warnings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -142,6 +143,39 @@ std::string outputs(const Summary& summary) {
   return text;
 }
 
+/// An error: two digits.
+std::string in_two_digits(double error) {
+  return std::isnan(error) ? "–" : fmt::format("{:.2g}", error);
+}
+
+/// What the integration contributes to each output, beside what the number of runs does.
+std::string accuracy(const Summary& summary) {
+  if (!summary.accuracy) return "";
+  const Accuracy& found = *summary.accuracy;
+  std::string text =
+      fmt::format("\n{:<38}{:<6}{:>14}{:>14}{:>18}{:>10}\n", "ACCURACY of the integration", "unit",
+                  "largest error", "RMS error", "error of the mean", "RMS/that");
+  for (std::size_t i = 0; i < found.outputs.size(); ++i) {
+    const auto& [name, runs, largest, rms] = found.outputs[i];
+    const double sampling = summary.outputs[i].mean_error, share = 100 * rms / sampling;
+    text += fmt::format(
+        "{}{:<6}{}{}{}{}\n", in_column("  " + name, 38), parse_output_name(name).unit,
+        right_aligned(in_two_digits(largest), 14), right_aligned(in_two_digits(rms), 14),
+        right_aligned(in_two_digits(sampling), 18),
+        right_aligned(std::isfinite(share) ? fmt::format("{:.1g} %", share) : "–", 10));
+  }
+  std::string note = fmt::format(
+      "{} of {} runs again by {} at rtol {:g} ({} at {:g} before): status or order of "
+      "latching in doubt in {}.",
+      found.runs, summary.runs, found.reference_method, found.reference_rtol, found.method,
+      found.rtol, found.in_doubt.empty() ? "none" : fmt::format("{}", found.in_doubt.size()));
+  if (!found.in_doubt.empty())
+    note += fmt::format(" They are runs {}.", fmt::join(found.in_doubt, ", "));
+  if (found.unreached > 0)
+    note += fmt::format(" {} more could not be finished so.", found.unreached);
+  return text + "  " + wrapped(note, 2) + '\n';
+}
+
 std::string in_digits_if_any(const std::optional<double>& value) {
   return value ? in_digits(*value) : "–";
 }
@@ -262,8 +296,8 @@ std::string bar(long eighths) {
 
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
   return std::string(title) + '\n' + outcomes(summary) + reasons(summary) + latch_orders(summary) +
-         outputs(summary) + tolerance(summary) + requirements(summary, folder) + stopping(summary) +
-         warning_lines(summary) + files(folder);
+         outputs(summary) + accuracy(summary) + tolerance(summary) + requirements(summary, folder) +
+         stopping(summary) + warning_lines(summary) + files(folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

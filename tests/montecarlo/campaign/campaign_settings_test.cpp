@@ -47,6 +47,12 @@ TEST_CASE("Each fault of the sampling is told", "[campaign_settings]") {
   CHECK(read(json, Sampling{}, read_sampling).problems == message);
 }
 
+TEST_CASE("One run has no sampling error to choose a tolerance by", "[campaign_settings]") {
+  CHECK(read(R"({"rtol": "auto"})", Integration{}, read_integration).problems ==
+        "/rtol: found string \"auto\", expected a number, > 0 and < 1: only a campaign has a "
+        "sampling error to weigh errors by");
+}
+
 TEST_CASE("Integration is read over its defaults, and written in full", "[campaign_settings]") {
   const auto [integration, problems] =
       read(R"({"rtol": 1e-6, "latch": {"smoothed": 0.01}})", Integration{}, read_integration);
@@ -177,9 +183,11 @@ TEST_CASE("Each fault of the statistics is told", "[campaign_settings]") {
         "/bins: found 10000000.0, expected \"auto\" or an integer from 1 to 10000"},
        {R"({"bins": "fd"})",
         "/bins: found string \"fd\", expected \"auto\" or an integer from 1 to 10000"},
+       {R"({"accuracy_runs": 10001})",
+        "/accuracy_runs: found 10001, expected an integer from 0 (none) to 10000"},
        {R"({"bin": 3})",
         "/bin: found the unknown key \"bin\", expected \"quantiles\", \"confidence\", "
-        "\"bins\" or \"tolerance\" (did you mean \"bins\"?)"}}));
+        "\"bins\", \"tolerance\" or \"accuracy_runs\" (did you mean \"bins\"?)"}}));
   CHECK(read(json, StatisticsSpec{}, read_statistics).problems == message);
 }
 
@@ -240,4 +248,16 @@ TEST_CASE("the looks before a campaign was extended are read, and written where 
         "/extended_from: found an array of 1, expected none: a Latin hypercube of more runs has "
         "other "
         "draws");
+}
+
+TEST_CASE("Runs to be made again are written where they are not the usual number",
+          "[campaign_settings]") {
+  CHECK_FALSE(write_statistics({}).contains("accuracy_runs"));
+  for (const std::int64_t runs : {0, 100}) {
+    const auto [statistics, problems] =
+        read(Json{{"accuracy_runs", runs}}.dump().c_str(), StatisticsSpec{}, read_statistics);
+    CHECK(problems.empty());
+    CHECK(statistics.accuracy_runs == runs);
+    CHECK(write_statistics(statistics)["accuracy_runs"] == runs);
+  }
 }

@@ -255,3 +255,36 @@ TEST_CASE("summary.json: when a campaign stops, and what that does to its bounds
         "Clopper-Pearson, two-sided, at a confidence of 0.99 each, to hold at whichever of 5 "
         "checkpoints the campaign stops");
 }
+
+TEST_CASE("summary.json says what the integration contributes, where that was measured") {
+  Summary summary = some_summary(300);
+  CHECK(accuracy_json(summary).is_null());
+  summary.accuracy =
+      Accuracy{.runs = 24,
+               .method = "auto",
+               .rtol = 1e-8,
+               .reference_method = "dopri5",
+               .reference_rtol = 1e-11,
+               .in_doubt = {},
+               .unreached = 0,
+               .outputs = {{"root.latch_time", 20, 2e-9, 1e-9}, {"never", 0, none, none}}};
+  const Json json = summary_json(summary, {});
+  check_strict(json);
+  CHECK(keys(json["accuracy"]) == std::vector<std::string>{"runs", "method", "rtol",
+                                                           "reference_method", "reference_rtol",
+                                                           "order_in_doubt", "outputs"});
+  CHECK(json["accuracy"] == accuracy_json(summary));
+  CHECK(json["accuracy"]["order_in_doubt"] == 0);
+  const Json& output = json["accuracy"]["outputs"][0];
+  CHECK(output == Json{{"output", "root.latch_time"},
+                       {"largest", 2e-9},
+                       {"rms", 1e-9},
+                       {"standard_error", summary.outputs[0].mean_error}});
+  CHECK(json["accuracy"]["outputs"][1]["largest"].is_null());
+  CHECK(json["definitions"].contains("accuracy"));
+  summary.accuracy->in_doubt = {3, 8};
+  summary.accuracy->unreached = 1;
+  CHECK(accuracy_json(summary)["order_in_doubt"] == 2);
+  CHECK(accuracy_json(summary)["in_doubt"] == Json{3, 8});
+  CHECK(accuracy_json(summary)["unreached"] == 1);
+}

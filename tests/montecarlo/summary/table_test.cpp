@@ -211,3 +211,38 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
       summary_table(summary, "t", "out"),
       Catch::Contains("  Those that pass hold each for itself; all together at 80 % or more.\n"));
 }
+
+TEST_CASE("the table says what the integration contributes") {
+  Summary summary = summarize(some_results(), {});
+  CHECK_FALSE(contains(summary_table(summary, "t", "out"), "ACCURACY"));
+  summary.outputs[0].mean_error = 0.02;
+  summary.accuracy = Accuracy{.runs = 10,
+                              .method = "auto",
+                              .rtol = 1e-8,
+                              .reference_method = "dopri5",
+                              .reference_rtol = 1e-11,
+                              .in_doubt = {},
+                              .unreached = 0,
+                              .outputs = {{"root.latch_time", 9, 1.26e-9, 4e-10},
+                                          {"root.rate_at.a_hinge_with_a_long_name", 0, none, none},
+                                          {"tip.peak_moment", 10, 0, 0},
+                                          {"deployment_time", 9, 0.5, 0.25}}};
+  const std::vector<std::string> all = lines(summary_table(summary, "t", "out"));
+  const auto begin = std::ranges::find_if(
+      all, [](const std::string& line) { return line.starts_with("ACCURACY"); });
+  REQUIRE(all.end() - begin > 8);
+  CHECK(begin[0] == "ACCURACY of the integration           unit   largest error     RMS error "
+                    "error of the mean  RMS/that");
+  const auto blanks = [](std::size_t count) { return std::string(count, ' '); };
+  CHECK(begin[1] == "  root.latch_time" + blanks(21) + "s" + blanks(12) + "1.3e-09" + blanks(9) +
+                        "4e-10" + blanks(14) + "0.02" + blanks(3) + "2e-06 %");
+  CHECK(begin[3].starts_with(blanks(38) + "rad/s" + blanks(14) + "–"));
+  CHECK(begin[6] == "  10 of 100 runs again by dopri5 at rtol 1e-11 (auto at 1e-08 before): status "
+                    "or order of latching");
+  CHECK(begin[7] == "  in doubt in none.");
+  summary.accuracy->in_doubt = {17, 40};
+  summary.accuracy->unreached = 3;
+  CHECK(contains(summary_table(summary, "t", "out"),
+                 "order of latching\n  in doubt in 2. They are runs 17, 40. 3 more could not be "
+                 "finished so.\n"));
+}

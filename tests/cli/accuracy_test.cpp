@@ -1,0 +1,162 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// A campaign's file, and results folders beside it.
+struct Setting {
+  Folder folder{};
+  std::string campaign{};
+
+  explicit Setting(const Json& json) : campaign(folder.write("campaign.json", json.dump())) {}
+
+  [[nodiscard]] std::string at(const char* name) const { return (folder.path() / name).string(); }
+  [[nodiscard]] Finished run(const char* to, std::vector<std::string> options = {}) const {
+    options.insert(options.begin(), {"run", campaign, "--out", at(to)});
+    return run_program(folder, options);
+  }
+  [[nodiscard]] Json summary(const char* name) const {
+    return parse_json_file(folder.path() / name / summary_file);
+  }
+};
+
+Json latch_campaign(int runs) {
+  Json json = quick_campaign(runs);
+  json["outputs"] = {"latch_time"};
+  return json;
+}
+
+/// Without a tolerance of its own, and so little dispersed that it takes a tight one.
+Json open_campaign(int runs) {
+  Json json = latch_campaign(runs);
+  json["dispersions"][0]["distribution"]["std"] = 1e-7;
+  json["dispersions"].erase(1);
+  json["integration"] = {{"rtol", "auto"}, {"t_end", 20}};
+  return json;
+}
+
+} // namespace
+
+TEST_CASE("a campaign says what its integration contributes") {
+  const Setting setting(latch_campaign(60));
+  const auto [code, out, error] = setting.run("r", {"--table"});
+  CHECK(code == 0);
+  CHECK(error.empty());
+  const Json summary = setting.summary("r");
+  const Json& accuracy = summary["accuracy"];
+  CHECK(accuracy["runs"] == 6);
+  CHECK(accuracy["method"] == "auto");
+  CHECK(accuracy["rtol"] == 1e-6);
+  CHECK(accuracy["reference_method"] == "dopri5");
+  CHECK(accuracy["reference_rtol"] == 1e-10);
+  CHECK(accuracy["order_in_doubt"] == 0);
+  CHECK(accuracy["outputs"].size() == summary["outputs"].size());
+  for (const Json& each : accuracy["outputs"]) {
+    CHECK(each["standard_error"] == summary["outputs"][each["output"]]["mean_error"]);
+    CHECK(each["rms"] <= each["largest"]);
+    if (each["output"] == "tip.latch_time") CHECK((each["rms"] > 1e-12 && each["largest"] < 1e-6));
+  }
+  const std::size_t begin = out.find("\nACCURACY");
+  REQUIRE(begin != std::string::npos);
+  const std::vector<std::string> lines = lines_of(out.substr(begin + 1));
+  CHECK(lines[0] == "ACCURACY of the integration           unit   largest error     RMS error "
+                    "error of the mean  RMS/that");
+  CHECK(lines[1].starts_with("  root.latch_time                     s     "));
+  CHECK(out.find("\n  6 of 60 runs again by dopri5 at rtol 1e-10 (auto at 1e-06 before): status or "
+                 "order of latching") != std::string::npos);
+  CHECK(parse_json_file(setting.folder.path() / "r" / timing_file)["accuracy"]["runs"] == 6);
+}
+
+TEST_CASE("how many runs are made again can be set, and switched off") {
+  Json json = latch_campaign(60);
+  json["statistics"]["accuracy_runs"] = 3;
+  const Setting few(json);
+  CHECK(few.run("r").code == 0);
+  CHECK(few.summary("r")["accuracy"]["runs"] == 3);
+  json["statistics"]["accuracy_runs"] = 0;
+  const Setting off(json);
+  const auto [code, out, error] = off.run("off", {"--table"});
+  CHECK(code == 0);
+  CHECK_FALSE(off.summary("off").contains("accuracy"));
+  CHECK(out.find("ACCURACY") == std::string::npos);
+  json["statistics"]["accuracy_runs"] = -1;
+  const Setting wrong(json);
+  const auto refused = wrong.run("wrong");
+  CHECK(refused.code == 2);
+  CHECK(refused.error == "error: " + wrong.campaign +
+                             ": /statistics/accuracy_runs: found -1, expected an integer from 0 "
+                             "(none) to 10000\n");
+}
+
+TEST_CASE("accuracy is of all runs: of no shard, no part, and no rows of another tool",
+          "[parallel]") {
+  const Setting setting(latch_campaign(80));
+  CHECK(setting.run("whole", {"--threads", "1"}).code == 0);
+  CHECK(setting.run("one", {"--shard", "1/2"}).code == 0);
+  CHECK(setting.run("two", {"--shard", "2/2", "--threads", "2"}).code == 0);
+  CHECK_FALSE(setting.summary("one").contains("accuracy"));
+  const Finished merged = run_program(
+      setting.folder, {"merge", setting.at("two"), setting.at("one"), "--out", setting.at("both")});
+  CHECK(merged.code == 0);
+  CHECK(contents(setting.at("both")) == contents(setting.at("whole")));
+  const auto before = contents(setting.at("whole"));
+  CHECK(run_program(setting.folder, {"analyze", setting.at("whole")}).code == 0);
+  CHECK(contents(setting.at("whole")) == before);
+  Json unstamped = parse_json_file(setting.folder.path() / "whole" / campaign_file);
+  unstamped.erase(stamp_key);
+  std::filesystem::create_directory(setting.at("foreign"));
+  (void)setting.folder.write("foreign/campaign.json", unstamped.dump());
+  std::filesystem::copy(setting.folder.path() / "whole" / runs_file,
+                        setting.folder.path() / "foreign" / runs_file);
+  CHECK(run_program(setting.folder, {"analyze", setting.at("foreign")}).code == 0);
+  CHECK_FALSE(setting.summary("foreign").contains("accuracy"));
+}
+
+TEST_CASE("a tolerance left to the campaign is part of it, however it is run", "[parallel]") {
+  const Setting setting(open_campaign(80));
+  const auto [code, out, error] = setting.run("whole", {"--threads", "1"});
+  CHECK(code == 0);
+  const Json chosen =
+      parse_json_file(setting.folder.path() / "whole" / campaign_file)["integration"];
+  CHECK(chosen["rtol"] < 1e-6);
+  CHECK(chosen["rtol_pilot"]["runs"] == 32);
+  CHECK(error.starts_with("note: rtol "));
+  CHECK(error.ends_with(", by a pilot of 32 runs\n"));
+  CHECK(setting.run("one", {"--shard", "1/2", "--threads", "2"}).code == 0);
+  CHECK(setting.run("two", {"--shard", "2/2"}).code == 0);
+  const Finished merged = run_program(
+      setting.folder, {"merge", setting.at("one"), setting.at("two"), "--out", setting.at("both")});
+  CHECK(merged.code == 0);
+  CHECK(contents(setting.at("both")) == contents(setting.at("whole")));
+  CHECK(setting.run("whole", {"--resume"}).code == 0);
+  CHECK(contents(setting.at("both")) == contents(setting.at("whole")));
+  const Finished replayed =
+      run_program(setting.folder, {"replay", setting.at("whole"), "--run", "17"});
+  CHECK(replayed.code == 0);
+  CHECK(replayed.error.empty());
+  // More runs are added at the tolerance of the first ones, whatever their number would call for.
+  CHECK(setting.run("whole", {"--resume", "--runs", "160"}).code == 0);
+  CHECK(parse_json_file(setting.folder.path() / "whole" / campaign_file)["integration"] == chosen);
+}
+
+TEST_CASE("one deployment has no sampling error to choose its tolerance by") {
+  const Setting setting(open_campaign(80));
+  const auto refused =
+      run_program(setting.folder, {"simulate", setting.campaign, "--rtol", "auto"});
+  CHECK(refused.code == 2);
+  CHECK(refused.error == "error: --rtol: found auto, expected a number: only a campaign has a "
+                         "sampling error to weigh errors by\n"
+                         "error: see wingspread simulate --help\n");
+  const auto usual = run_program(setting.folder, {"simulate", setting.campaign, "--json"});
+  const auto same =
+      run_program(setting.folder, {"simulate", setting.campaign, "--json", "--rtol", "1e-8"});
+  CHECK(usual.code == 0);
+  CHECK(usual.out == same.out);
+  CHECK(run_program(setting.folder, {"check", setting.campaign})
+            .out.find("rtol chosen by a pilot, at most 1e-06 and errors within 1 % of the sampling "
+                      "error") != std::string::npos);
+}
