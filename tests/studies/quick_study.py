@@ -82,8 +82,29 @@ def check_design_error(folder):
     return ("design_error",)
 
 
+def check_error_budget(folder):
+    rows = read_rows(folder / "error_budget.csv")
+    by_tolerance = {}
+    for row in rows:
+        check(row["evaluations"] > 500 and row["cpu"] > 0, f"a run to the end: {row}")
+        if not math.isnan(row["rms"]):
+            check(abs(row["mean error"]) <= row["rms"] * 1.0000001 <= row["largest"] * 1.000001, f"mean, RMS, largest: {row}")
+            key = row["campaign"], row["rtol"]
+            by_tolerance[key] = max(by_tolerance.get(key, 0), row["rms"] / row["sigma"])
+    check(len(by_tolerance) == 3 * 9, "nine tolerances of three campaigns")
+    for campaign in ("work_precision", "seed", "yoke_wing"):
+        check(by_tolerance[campaign, 1e-8] < 1e-3 * by_tolerance[campaign, 1e-4], f"errors fall with the tolerance: {campaign}")
+        check(by_tolerance[campaign, 1e-8] < 1e-5, f"the default's errors are small beside sigma: {campaign}")
+    for row in read_rows(folder / "sampling.csv"):
+        ratio = row["spread"] / (row["sigma"] / math.sqrt(row["runs"]))
+        check(row["sigma"] == 0 or 0.1 < ratio < 2.5, f"block means spread by sigma over the root of N: {ratio}, {row}")
+    chosen = read_rows(folder / "chosen.csv")
+    check(len(chosen) == 3 * 5 and all(row["rtol"] <= 1e-6 for row in chosen), "auto takes 1e-6 at most")
+    return ("error_budget",)
+
+
 CHECKS = {"stiffness": check_stiffness, "latch_model": check_latch_model, "stability_map": check_stability_map,
-          "design_error": check_design_error}
+          "design_error": check_design_error, "error_budget": check_error_budget}
 
 
 def main(name, driver, folder):
@@ -91,7 +112,7 @@ def main(name, driver, folder):
     shutil.rmtree(folder, ignore_errors=True)
     subprocess.run([driver, "--quick", "--out", folder], check=True)
     figures = CHECKS[name](folder)
-    plot = "plot_design_error.py" if name == "design_error" else "plot_accuracy.py"
+    plot = f"plot_{name}.py" if name in ("design_error", "error_budget") else "plot_accuracy.py"
     subprocess.run([sys.executable, f"studies/plots/{plot}", folder], check=True)
     for figure in figures:
         for suffix in (".png", ".svg"):
