@@ -196,7 +196,7 @@
       worst === null || worst === 0
         ? null
         : worst < 1
-          ? `${F.number(1 / worst, 2)} times smaller than`
+          ? `${F.number(Number((1 / worst).toPrecision(2)), 2)} times smaller than`
           : `${F.number(worst, 2)} times`;
     const table = W.table(
       "Numerical and statistical error of each output",
@@ -232,8 +232,9 @@
             )
           : "They agree to the last digit, or there is no statistical error to compare with.",
         one.order_in_doubt
-          ? ` In ${F.runs(one.order_in_doubt)} the order of latching changed.`
-          : " No order of latching changed.",
+          ? ` In ${F.runs(one.order_in_doubt)} the status or the order of latching is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
+          : " No status and no order of latching is in doubt.",
+        one.unreached ? ` ${F.runs(one.unreached)} could not be made again.` : null,
       ),
       h("details", {}, h("summary", {}, "Every output"), table),
     ];
