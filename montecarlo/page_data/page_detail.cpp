@@ -54,8 +54,13 @@ void share_envelopes(double hinges, PageDetail& detail) {
   const double share = share_of(most_envelope_numbers, numbers);
   detail.envelope_times = scaled(detail.envelope_times, share, 12);
   detail.latch_times = scaled(detail.latch_times, share, 20);
-  const auto runs = static_cast<std::size_t>(2000 / hinges); // for they are made again
-  detail.envelope_runs = std::clamp<std::size_t>(runs, 40, detail.envelope_runs);
+}
+
+/// Runs that are made again for the envelopes: what each takes grows with the square of its hinges.
+void share_envelope_runs(const PageExtent& extent, PageDetail& detail) {
+  constexpr std::size_t hinges_squared = 8000, fewest = 24;
+  const std::size_t each = extent.sets * std::max<std::size_t>(extent.hinges * extent.hinges, 1);
+  detail.envelope_runs = std::clamp(hinges_squared / each, fewest, detail.envelope_runs);
 }
 
 } // namespace
@@ -69,6 +74,7 @@ PageDetail page_detail(const PageExtent& extent) {
   share_outputs(outputs, sets, detail);
   share_motions(hinges, detail);
   share_envelopes(hinges, detail);
+  share_envelope_runs(extent, detail);
   const double scatters = sets * of_scatter * static_cast<double>(detail.scatters);
   detail.scatters = scaled(detail.scatters, share_of(most_scatter_numbers, scatters), 1);
   const double effects = std::min(outputs, sets * static_cast<double>(detail.outputs)) * of_effect *
