@@ -195,8 +195,7 @@ std::vector<std::size_t> scatter_rows(const Column& x, const Column& y, std::siz
   const std::size_t rest = most - chosen.size();
   for (std::size_t i = 0; i < rest; ++i) chosen.push_back(rows[i * rows.size() / rest]);
   std::ranges::sort(chosen);
-  const auto again = std::ranges::unique(chosen);
-  chosen.erase(again.begin(), again.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
 }
 

@@ -84,8 +84,7 @@ std::vector<long> convergence_runs(long all, std::size_t most, long first) {
     runs.push_back(std::lround(
         std::exp(std::lerp(from, to, static_cast<double>(i) / static_cast<double>(most - 1)))));
   runs.push_back(all);
-  const auto rest = std::ranges::unique(runs);
-  runs.erase(rest.begin(), rest.end());
+  runs.erase(std::unique(runs.begin(), runs.end()), runs.end());
   return runs;
 }
 

@@ -49,8 +49,7 @@ std::vector<long> curve_ranks(long n, std::size_t most) {
     ranks.push_back(n + 1 - from_end);
   }
   std::ranges::sort(ranks);
-  const auto rest = std::ranges::unique(ranks);
-  ranks.erase(rest.begin(), rest.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
   return ranks;
 }
 
