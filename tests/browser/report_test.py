@@ -180,6 +180,8 @@ class Quick(Page):
         self.run_script("W.choose('set', 1)")
         pages.settle(self.driver)
         self.assertEqual(self.one("#case-switch select").get_attribute("value"), "1")
+        self.assertEqual(self.one(".outputs caption").get_attribute("textContent"), "Outputs of ambient")
+        self.assertIn("results/mock/ambient", self.run_script("W.choose('motion', 1); return document.querySelector('#wing .command').textContent"))
         self.run_script("W.choose('split', 'case')")
         pages.settle(self.driver)
         self.assertEqual(len(self.all(".histogram .outline")), 3)
