@@ -13,6 +13,8 @@
 #include "studies/peers/plain_odeint.hpp"
 #include "studies/support/pack_kernel.hpp"
 #include "studies/support/study.hpp"
+#include "studies/support/whole_campaigns.hpp"
+#include "studies/support/wing_runs.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,10 +22,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <map>
-#include <random>
 #include <thread>
 
 using namespace wingspread;
@@ -31,103 +31,6 @@ using namespace wingspread::study;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-double thread_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double wall_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// Units of a wing: springs ±5 %, masses and inertias ±2 %.
-class Units {
-public:
-  explicit Units(Scene drawing) : drawing_(std::move(drawing)) {}
-
-  /// Sets the numbers of unit k. @pre scene is the drawing but for them
-  void set(Scene& scene, long k) const {
-    std::minstd_rand engine(static_cast<unsigned>(k + 1));
-    std::uniform_real_distribution<double> one(-1, 1);
-    (void)one(engine);
-    for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
-      const double share = 1 + 0.05 * one(engine);
-      scene.hinges[i].spring.torque_stowed = share * drawing_.hinges[i].spring.torque_stowed;
-      scene.hinges[i].spring.torque_latched = share * drawing_.hinges[i].spring.torque_latched;
-    }
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const double share = 1 + 0.02 * one(engine);
-      scene.bodies[i].mass = share * drawing_.bodies[i].mass;
-      scene.bodies[i].inertia = share * drawing_.bodies[i].inertia;
-    }
-  }
-  [[nodiscard]] const Scene& drawing() const { return drawing_; }
-
-private:
-  Scene drawing_;
-};
-
-struct What {
-  const char* name;
-  Goal goal;
-  double t_end = 60;
-};
-const What all_outputs{"all outputs", {.audit = false}};
-const What moments_too{"latches, peak moments", {.peak_force = false, .audit = false}};
-const What latches_only{"to the last latch",
-                        {.peak_moment = false, .peak_force = false, .audit = false}};
-const What first_latch{
-    "A: to the first latch",
-    {.peak_moment = false, .peak_force = false, .audit = false, .first_latch_only = true}};
-const What early_stop{"B: with the early stop", moments_too.goal};
-const What whole_run{
-    "B: whole run to 12 s", {.peak_force = false, .audit = false, .to_t_end = true}, seed_t_end};
-
-Integration within(double rtol, const What& what) {
-  Integration how;
-  how.rtol = rtol, how.atol = 1e-2 * rtol, how.t_end = what.t_end;
-  return how;
-}
-
-struct Made {
-  double us = 0; ///< of processor time a run, one thread
-  double steps = 0, evaluations = 0;
-  Occupancy lanes;
-  std::vector<Outcome> outcomes;
-};
-
-/// Makes the first `count` units, thrice; the least time counts.
-Made make(const Units& units, InstructionSet set, const Integration& how, const Goal& goal,
-          long count, int times = 3) {
-  Made made;
-  made.us = 1e30;
-  for (int time = 0; time < times; ++time) {
-    made.outcomes.assign(static_cast<std::size_t>(count), {});
-    long next = 0;
-    DeploymentPack pack(set, how, goal);
-    const double start = thread_seconds();
-    made.lanes = pack.run(
-        units.drawing(),
-        [&](Scene& scene) -> std::optional<long> {
-          if (next == count) return std::nullopt;
-          units.set(scene, next);
-          return next++;
-        },
-        [&](long k, Outcome&& out) {
-          made.outcomes[static_cast<std::size_t>(k)] = std::move(out);
-        });
-    made.us = std::min(made.us, 1e6 * (thread_seconds() - start) / static_cast<double>(count));
-  }
-  for (const Outcome& out : made.outcomes) {
-    made.steps += static_cast<double>(out.work.steps) / static_cast<double>(count);
-    made.evaluations += static_cast<double>(out.work.rhs_evaluations) / static_cast<double>(count);
-  }
-  return made;
-}
 
 bool same(const Outcome& a, const Outcome& b) {
   bool same = a.status == b.status && a.t_end == b.t_end && a.latches.size() == b.latches.size() &&
@@ -196,6 +99,8 @@ public:
     against_tolerance();
     against_bodies();
     threads();
+    json_["campaigns"] = campaign_rates(options_);
+    json_["panels"] = panel_rates(options_);
     std::ofstream(options_.folder / "throughput.json") << json_.dump(2) << '\n';
   }
 
@@ -227,7 +132,7 @@ private:
     Table table({"what", "set", "us", "ratio", "lanes full", "steps", "evaluations", "looks",
                  "scalar steps"});
     Json rows = Json::array();
-    for (const What& what : {all_outputs, moments_too, latches_only, first_latch, whole_run}) {
+    for (const What& what : {every_output, moments_too, latches_only, first_latch, whole_run}) {
       const Integration how = within(1e-8, what);
       const long count = runs(2000);
       Made scalar;
@@ -328,7 +233,7 @@ private:
       fmt::print("  rtol {:<8.0e}", rtol);
       for (const InstructionSet set : instruction_sets()) {
         const Made made =
-            make(seed_, set, within(rtol, all_outputs), all_outputs.goal, runs(300), 2);
+            make(seed_, set, within(rtol, every_output), every_output.goal, runs(300), 2);
         table.add({rtol, std::string(to_string(set)), 1e6 / made.us, made.evaluations});
         fmt::print("{:>12.0f}", 1e6 / made.us);
       }

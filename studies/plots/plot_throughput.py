@@ -2,8 +2,8 @@
 
     /usr/bin/python3 studies/plots/plot_throughput.py results/throughput
 
-To the folder: throughput.png and .svg: runs a second against tolerance, threads and packs, and the
-cost of an evaluation against the number of bodies.
+To the folder: throughput.png and .svg: runs a second against tolerance, threads and packs, the cost of an
+evaluation against the number of bodies, whole campaigns, and whole runs of chains of more and more panels.
 """
 
 import csv
@@ -33,8 +33,38 @@ def lines(axes, rows, x, y):
     axes.legend()
 
 
+def whole_campaigns(axes, rows):
+    """µs a run, alone and in packs, all outputs and to the first latch."""
+    names = [f"{row['campaign']}\n{row['what'].replace('A: ', '')}" for row in rows]
+    for shift, key, colour, label in ((-0.2, "scalar us", COLOURS["scalar"], "alone"), (0.2, "packs us", COLOURS["avx512"], "in packs")):
+        bars = axes.bar([i + shift for i in range(len(rows))], [number(row[key]) for row in rows], width=0.38, color=colour, label=label)
+        axes.bar_label(bars, [f"{number(row[key]):.0f}" for row in rows], fontsize=7)
+    axes.set_xticks(range(len(rows)), names, fontsize=7, rotation=30, ha="right")
+    axes.set(yscale="log", ylabel="µs a run of one core", title="whole campaigns as they stand")
+    axes.margins(y=0.2)
+    axes.legend(fontsize=8)
+
+
+def whole_runs(axes, rows):
+    """Evaluations of whole runs, and what they are made of: seconds of motion, and evaluations a second of it."""
+    n = [number(row["panels"]) for row in rows]
+    series = [("evaluations", [number(row["evaluations"]) for row in rows], "o-"),
+              ("µs in packs", [number(row["us"]) for row in rows], "s-"),
+              ("evaluations a second of motion", [number(row["evaluations"]) / number(row["end [s]"]) for row in rows], "^--"),
+              ("seconds to its end", [number(row["end [s]"]) for row in rows], "v--")]
+    for label, values, style in series:
+        axes.plot(n, values, style, label=label)
+    axes.set(xscale="log", yscale="log", xlabel="panels of the long chain", title="whole runs against the number of panels")
+    axes.set_xticks(n, [f"{each:g}" for each in n])
+    axes.margins(y=0.3)
+    axes.grid(True, alpha=0.3)
+    axes.legend(fontsize=8, ncols=2)
+
+
 def main(folder):
-    figure, ((tolerance, bodies), (packs, threads)) = plt.subplots(2, 2, figsize=(12, 8.5), layout="constrained")
+    figure, ((tolerance, bodies), (packs, threads), (campaigns, panels)) = plt.subplots(3, 2, figsize=(12, 12.5), layout="constrained")
+    whole_campaigns(campaigns, read(folder / "campaigns.csv"))
+    whole_runs(panels, read(folder / "panels.csv"))
     lines(tolerance, read(folder / "tolerance.csv"), "rtol", "runs a second")
     tolerance.set(xlabel="rtol", ylabel="runs a second of one core", title="seed wing, all outputs, against tolerance")
     lines(bodies, read(folder / "bodies.csv"), "bodies", "ns an evaluation")
