@@ -8,7 +8,9 @@
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/formats/number_text.hpp"
+#include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/machine/live_histogram.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/machine/team.hpp"
 #include "montecarlo/notices/examine.hpp"
@@ -90,12 +92,25 @@ void count(const Results& results, Tally& tally) {
   tally.done = std::ssize(results.runs);
   tally.invalid = std::ranges::count(results.status, Status::invalid);
   tally.failed = std::ranges::count(results.status, Status::failed);
+  tally.stalled = std::ranges::count(results.status, Status::stalled);
+  tally.timed_out = std::ranges::count(results.status, Status::timed_out);
 }
 
 void count(const Batch& batch, Tally& tally) {
   tally.done += std::ssize(batch.rows);
   tally.invalid += std::ranges::count(batch.rows, Status::invalid, &ResultRow::status);
   tally.failed += std::ranges::count(batch.rows, Status::failed, &ResultRow::status);
+  tally.stalled += std::ranges::count(batch.rows, Status::stalled, &ResultRow::status);
+  tally.timed_out += std::ranges::count(batch.rows, Status::timed_out, &ResultRow::status);
+}
+
+/// The column of outputs that is drawn as runs are made: the first that is required, else the deployment time.
+std::size_t watched_output(const RunPlan& plan) {
+  const std::vector<std::string>& outputs = plan.names().outputs;
+  for (const Requirement& requirement : plan.campaign().requirements)
+    if (const auto found = std::ranges::find(outputs, requirement.output); found != outputs.end())
+      return static_cast<std::size_t>(found - outputs.begin());
+  return outputs.size() - 1;
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
@@ -104,11 +119,16 @@ bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew,
   Tally tally{.total = folder.stored().runs().size()};
   count(folder.results(), tally);
   tally.before = tally.done;
+  const std::size_t watched = watched_output(plan);
+  const std::string& name = plan.names().outputs[watched];
+  LiveHistogram histogram(name, parse_output_name(name).unit);
   Progress progress(stderr);
   progress.show(tally);
   const auto keep = [&](const Batch& batch) {
     folder.add(batch);
     count(batch, tally);
+    for (const ResultRow& row : batch.rows) histogram.add(row.outputs[watched]);
+    tally.picture = histogram.text();
     progress.show(tally);
   };
   ThreadEvaluator evaluator(crew, interrupt.flag());

@@ -37,6 +37,8 @@ std::string progress_line(const Tally& tally, double seconds) {
     if (tally.done < tally.total)
       text += " · " + duration(static_cast<double>(tally.total - tally.done) / rate) + " left";
   }
+  if (tally.stalled > 0) text += fmt::format(" · {} stalled", tally.stalled);
+  if (tally.timed_out > 0) text += fmt::format(" · {} timed out", tally.timed_out);
   if (tally.invalid > 0) text += fmt::format(" · {} invalid", tally.invalid);
   if (tally.failed > 0) text += fmt::format(" · {} failed", tally.failed);
   return text;
@@ -45,7 +47,7 @@ std::string progress_line(const Tally& tally, double seconds) {
 Progress::Progress(std::FILE* stream) : stream_(is_terminal(stream) ? stream : nullptr) {}
 
 Progress::~Progress() {
-  if (shown_) std::fputc('\n', stream_);
+  if (shown_) fmt::print(stream_, "{}", pictured_ ? "\n\n" : "\n");
 }
 
 double Progress::seconds() const {
@@ -59,6 +61,10 @@ void Progress::show(const Tally& tally) {
   last_ = now;
   shown_ = true;
   fmt::print(stream_, "\r{}\x1b[K", progress_line(tally, seconds())); // \x1b[K: clear what is left
+  if (!tally.picture.empty()) {
+    fmt::print(stream_, "\n{}\x1b[K\x1b[A", tally.picture); // \x1b[A: up again
+    pictured_ = true;
+  }
   std::fflush(stream_);
 }
 

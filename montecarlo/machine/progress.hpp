@@ -13,13 +13,15 @@ struct Tally {
   long before = 0;  ///< of those done, how many an earlier session had made
   long invalid = 0; ///< runs with an unphysical draw
   long failed = 0;  ///< runs whose integration could not go on
+  long stalled = 0, timed_out = 0;
+  std::string picture{}; ///< a line below it; may be empty
 };
 
-/// One line: a bar, done of total, runs a second, the time left, what went wrong so far.
+/// One line: a bar, done of total, runs a second, the time left, what else became of runs so far.
 /// @param seconds since this session began
 [[nodiscard]] std::string progress_line(const Tally& tally, double seconds);
 
-/// Keeps that line up to date. Writes nothing at all when the stream is not a terminal.
+/// Keeps that line and the picture up to date. Writes nothing at all when the stream is not a terminal.
 class Progress {
 public:
   explicit Progress(std::FILE* stream);
@@ -37,7 +39,7 @@ private:
 
   std::FILE* stream_; ///< null when there is no one to look
   Clock::time_point start_ = Clock::now(), last_{};
-  bool shown_ = false;
+  bool shown_ = false, pictured_ = false;
 };
 
 /// Whether a stream is a terminal.

@@ -28,6 +28,11 @@ TEST_CASE("invalid and failed runs are counted in sight") {
         "████████████████████████ 24/24 runs · 24 runs/s · 3 invalid · 1 failed");
 }
 
+TEST_CASE("runs that did not deploy are counted in sight") {
+  CHECK(progress_line({.done = 24, .total = 24, .stalled = 5, .timed_out = 2}, 1) ==
+        "████████████████████████ 24/24 runs · 24 runs/s · 5 stalled · 2 timed out");
+}
+
 TEST_CASE("nothing is written to what is no terminal") {
   std::FILE* file = std::tmpfile();
   REQUIRE(file);
