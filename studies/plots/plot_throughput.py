@@ -2,8 +2,8 @@
 
     /usr/bin/python3 studies/plots/plot_throughput.py results/throughput
 
-To the folder: throughput.png and .svg: runs a second against tolerance, threads and packs, the cost of an
-evaluation against the number of bodies, whole campaigns, and whole runs of chains of more and more panels.
+To the folder: throughput.png and .svg: runs a second against tolerance, threads and packs, and the cost of an evaluation against
+the number of bodies; throughput_campaigns.png and .svg: whole campaigns, and whole runs of chains of more and more panels.
 """
 
 import csv
@@ -62,9 +62,12 @@ def whole_runs(axes, rows):
 
 
 def main(folder):
-    figure, ((tolerance, bodies), (packs, threads), (campaigns, panels)) = plt.subplots(3, 2, figsize=(12, 12.5), layout="constrained")
+    figure, (campaigns, panels) = plt.subplots(1, 2, figsize=(12, 4.8), layout="constrained")
     whole_campaigns(campaigns, read(folder / "campaigns.csv"))
     whole_runs(panels, read(folder / "panels.csv"))
+    save(figure, folder / "throughput_campaigns")
+
+    figure, ((tolerance, bodies), (packs, threads)) = plt.subplots(2, 2, figsize=(12, 8.5), layout="constrained")
     lines(tolerance, read(folder / "tolerance.csv"), "rtol", "runs a second")
     tolerance.set(xlabel="rtol", ylabel="runs a second of one core", title="seed wing, all outputs, against tolerance")
     lines(bodies, read(folder / "bodies.csv"), "bodies", "ns an evaluation")
