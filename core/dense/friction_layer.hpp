@@ -24,6 +24,9 @@ namespace wingspread {
 
 /// How far the rate of a hinge with regularized friction may change in a step, times d.
 inline constexpr double longest_leap = 3;
+/// What a step is planned to leave of a rate that goes towards the layer, and how far it may go inside,
+/// times ω_s: by measurement, so that few tries are refused.
+inline constexpr double kept_inward = 0.35, reach_inside = 1.2;
 
 template <class T> struct LayerLimits {
   T cut;  ///< the factor to a shorter try of a step that leaps; > 1 where none does
@@ -32,12 +35,11 @@ template <class T> struct LayerLimits {
 
 namespace detail {
 
-/// By how much a rate of this size may change towards zero: to a quarter of it, while the layer is
+/// By how much a rate of this size may change towards zero: to a third of it, while the layer is
 /// far; into and through the layer then.
 template <class T> [[nodiscard]] T reach_inward(const T& size, const T& slip_rate) {
-  const T kept = larger(slip_rate, T(size * T(1 / (longest_leap + 1))));
-  return select(size > T(longest_leap) * slip_rate, T(size - kept),
-                T(T(0.9 * longest_leap) * slip_rate));
+  const T kept = larger(slip_rate, T(size * T(kept_inward)));
+  return select(size > T(longest_leap) * slip_rate, T(size - kept), T(T(reach_inside) * slip_rate));
 }
 
 } // namespace detail

@@ -72,8 +72,8 @@ LayerLimits<double> limits(double v0, double v1, double a, double coulomb = 0.1)
 } // namespace
 
 TEST_CASE("a step that leaps over the layer of a friction is cut, one that samples it is not") {
-  CHECK(limits(0.5, -0.5, -100).cut == Approx(0.375)); // to a quarter of the rate
-  CHECK(limits(0.5, 0.1, -40).cut == Approx(0.9375));  // the same, without a crossing
+  CHECK(limits(0.5, -0.5, -100).cut == Approx(0.325)); // to 0.35 of the rate
+  CHECK(limits(0.5, 0.1, -40).cut == Approx(0.8125));  // the same, without a crossing
   CHECK(limits(2e-3, -9e-3, -1.1).cut < 0.3);          // in the layer
   CHECK(limits(1e-3, 0.1, 10).cut < 0.05);             // out of it
   CHECK(limits(0.5, 0.2, -30).cut > 1);
@@ -81,7 +81,7 @@ TEST_CASE("a step that leaps over the layer of a friction is cut, one that sampl
   CHECK(limits(1e-5, 1.1e-5, 1e-4).cut > 1);                // a hinge that creeps
   CHECK(limits(0.5, -0.5, -100, 0).cut > 1);                // no friction
   CHECK(limits(0.5, -0.5, -100, 1e-7).cut > 1);             // none that could matter
-  CHECK(limits(0.8, 0.5, -30).next == Approx(0.375 / 0.3)); // towards zero
+  CHECK(limits(0.8, 0.5, -30).next == Approx(0.325 / 0.3)); // towards zero
   CHECK(limits(0.5, 0.8, 30).next == Approx(3 * 0.8 / 0.3).epsilon(1e-5));
 }
 
