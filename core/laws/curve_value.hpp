@@ -134,24 +134,29 @@ template <class T>
   return range;
 }
 
-/// Of a curve's slope over a range of x, that of one number: of each cubic at its ends and where its
-/// bend turns.
+/// Of a curve's slope over a range of x: at its ends, on both sides of the knots inside, and where the
+/// bend of a cubic turns.
 template <class T>
 [[nodiscard]] ValueRange<T> range_of_slope(const Curve& curve, const ValueRange<T>& x) {
-  const std::size_t first = detail::piece_number(curve, x.low),
-                    last = detail::piece_number(curve, x.high);
-  ValueRange<T> range{slope(curve, x.low), slope(curve, x.low)};
-  for (std::size_t k = first; k <= last; ++k) {
-    const auto at = [&](const T& where) {
-      range.include(slope(detail::piece_at(curve.pieces()[k], detail::knot_of(curve, k), where)));
-    };
-    const T from = k == first ? x.low : T(detail::knot_of(curve, k));
-    const T to = k == last ? x.high : T(curve.knots()[k]);
-    at(from), at(to);
+  const T first = slope(curve, x.low), last = slope(curve, x.high);
+  ValueRange<T> range{smaller(first, last), larger(first, last)};
+  const std::vector<double>& knots = curve.knots();
+  const auto include = [&](std::size_t piece, double where, const auto& inside) {
+    const T there =
+        slope(detail::piece_at(curve.pieces()[piece], detail::knot_of(curve, piece), T(where)));
+    range.low = select(inside, smaller(range.low, there), range.low);
+    range.high = select(inside, larger(range.high, there), range.high);
+  };
+  for (std::size_t k = 0; k <= knots.size(); ++k) {
+    if (k < knots.size()) {
+      const auto inside = x.low <= T(knots[k]) && T(knots[k]) <= x.high;
+      include(k, knots[k], inside), include(k + 1, knots[k], inside);
+    }
     const Curve::Piece& piece = curve.pieces()[k];
     if (piece.c[3] == 0) continue;
-    const T turn = T(detail::knot_of(curve, k)) - T(piece.c[2]) / (T(3) * T(piece.c[3]));
-    if (from < turn && turn < to) at(turn);
+    const double turn = detail::knot_of(curve, k) - piece.c[2] / (3 * piece.c[3]);
+    if ((k == 0 || knots[k - 1] < turn) && (k == knots.size() || turn < knots[k]))
+      include(k, turn, x.low < T(turn) && T(turn) < x.high);
   }
   return range;
 }

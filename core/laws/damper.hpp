@@ -109,11 +109,12 @@ template <class T>
   if (damper.law == DamperLaw::viscous) return range;
   using std::abs;
   // beyond w it rises or falls with |v|, below it is constant, and at w it jumps
-  if (v.low < T(0) && v.high > T(0)) range.include(damper.near_zero);
-  const T least = v.low < T(0) && v.high > T(0) ? T(0) : smaller(T(abs(v.low)), T(abs(v.high)));
-  const T most = larger(T(abs(v.low)), T(abs(v.high)));
-  if (least <= damper.rate && damper.rate <= most)
-    range.include(damper.near_zero), range.include(damper.exponent * damper.near_zero);
+  const auto turns = v.low < T(0) && v.high > T(0);
+  const T slow = smaller(T(abs(v.low)), T(abs(v.high)));
+  const T least = select(turns, T(0), slow), most = larger(T(abs(v.low)), T(abs(v.high)));
+  const auto jumps = least <= damper.rate && damper.rate <= most;
+  range.include(select(turns || jumps, damper.near_zero, first));
+  range.include(select(jumps, T(damper.exponent * damper.near_zero), first));
   return range;
 }
 

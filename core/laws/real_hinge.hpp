@@ -204,25 +204,37 @@ template <class T>
   return range;
 }
 
-/// dM/dt over ranges of angle, rate and acceleration; none where its laws have no smooth bound here:
+/// A range, and where it is known.
+template <class T> struct KnownRange {
+  using Mask = decltype(T(0) < T(0));
+  ValueRange<T> range{T(0), T(0)};
+  Mask known = T(0) <= T(0);
+
+  void add(const ValueRange<T>& more) { range = range + more; }
+};
+
+/// dM/dt over ranges of angle, rate and acceleration; unknown where its laws have no smooth bound here:
 /// regularized friction by a test, an eddy-current damper, a stop in contact.
 template <class T>
-[[nodiscard]] std::optional<ValueRange<T>>
-real_change(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, const ValueRange<T>& angle,
-            const ValueRange<T>& rate, const ValueRange<T>& acceleration) {
-  const bool braked = hinge.has_damper && mode.damper_acts != T(0);
-  if ((hinge.friction && hinge.regularized) || mode.in_contact != T(0) ||
-      (braked && hinge.damper.law == DamperLaw::eddy_current))
-    return std::nullopt;
-  if (hinge.friction && !(range_of(*hinge.friction, angle).low > T(0))) return std::nullopt;
+[[nodiscard]] KnownRange<T> real_change(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
+                                        const ValueRange<T>& angle, const ValueRange<T>& rate,
+                                        const ValueRange<T>& acceleration) {
+  KnownRange<T> change;
+  if (hinge.has_stop) change.known = !(mode.in_contact > T(0));
+  if (hinge.friction && hinge.regularized) change.known = T(0) < T(0);
+  if (hinge.has_damper && hinge.damper.law == DamperLaw::eddy_current)
+    change.known = change.known && !(mode.damper_acts > T(0));
+  if (hinge.friction) change.known = change.known && range_of(*hinge.friction, angle).low > T(0);
+  if (!any(change.known)) return change;
   ValueRange<T> slopes{T(0), T(0)};
   const auto add = [&](const Curve* curve, const T& weight) {
     if (curve) slopes = slopes + scaled(weight, range_of_slope(*curve, angle));
   };
   add(hinge.spring, hinge.spring_weight), add(hinge.harness, hinge.harness_weight);
   add(hinge.friction, T(-(mode.sliding * hinge.friction_weight)));
-  ValueRange<T> change = slopes * rate;
-  if (braked) change = change + scaled(T(-1), damping_range(hinge.damper, rate)) * acceleration;
+  change.add(slopes * rate);
+  if (hinge.has_damper && hinge.damper.law != DamperLaw::eddy_current)
+    change.add(scaled(T(-mode.damper_acts), damping_range(hinge.damper, rate)) * acceleration);
   return change;
 }
 

@@ -58,7 +58,7 @@ public:
   /// @param forces whether they are asked for
   void hand_back(int lane, const Place& place, bool forces) const {
     get_lane(lane, by_method_, place.x1), get_lane(lane, slope_by_method_, place.dxdt1);
-    if (forces) get_lane(lane, forces_by_method_, place.forces);
+    if (forces) get_lane(lane, forces_by_method_, place.forces_at_end);
     get_lane(lane, base_, place.base);
   }
 

@@ -9,11 +9,10 @@
 #include "core/methods/runge_kutta.hpp"
 #include "core/packs/fields.hpp"
 #include "core/packs/free_bases.hpp"
+#include "core/packs/lane_peaks.hpp"
 #include "core/packs/pack_engine.hpp"
 #include "core/packs/structure.hpp"
-#include "core/peaks/moment_peaks.hpp"
 #include "core/peaks/overtravel.hpp"
-#include "core/peaks/reaction_bound.hpp"
 
 #include <array>
 #include <optional>
@@ -28,21 +27,19 @@ class PackStepper : public PackEngine {
 
 public:
   PackStepper(const Wing<double>& wing, const PackShape& shape)
-      : shape_(shape), system_(make(wing), std::nullopt, work_), at_(system_.layout()) {
+      : shape_(shape), system_(make(wing), std::nullopt, work_), at_(system_.layout()),
+        peaks_(shape) {
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
       x->assign(at_.size(), none);
-    for (std::vector<P>* v :
-         {&waits_, &moments_, &forces_, &force_before_, &force_after_, &overtravel_, &slides_})
-      v->assign(at_.bodies + 1, none);
+    for (std::vector<P>* v : {&waits_, &overtravel_, &slides_}) v->assign(at_.bodies + 1, none);
     for (std::vector<P>& ways : ways_) ways.assign(wing_.real.size(), none);
     rtol_ = atol_ = tolerance_of_dense_ = P(1.0);
     step_.t = step_.h = error_size_ = busy_ = t_end_ = none;
-    begun_ = look_ = evaluations_before_ = none;
+    begun_ = look_ = last_step_ = evaluations_before_ = none;
     pace_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
-    levers_.assign(at_.bodies + 1, {none, none, {none, none}, none});
-    bound_.resize(at_.bodies);
+    peaks_.resize(at_);
   }
 
   [[nodiscard]] int width() const override { return W; }
@@ -52,7 +49,7 @@ public:
     set_lane(lane, wing_, wing);
     if (!shape_.forces) return;
     set_levers(wing, system_.topology(), levers_of_wing_);
-    set_lane(lane, levers_, levers_of_wing_);
+    set_lane(lane, peaks_.levers(), levers_of_wing_);
   }
 
   void carry(int lane, const Handover& run) override {
@@ -67,15 +64,14 @@ public:
       overtravel_[i].v[lane] = run.overtravel[i];
       slides_[i].v[lane] = static_cast<double>(run.work.contact[i]);
       waits_[i].v[lane] = run.work.engaged[i] ? 0 : 1;
-      moments_[i].v[lane] = run.moments ? run.moments[i].value : 0;
-      forces_[i].v[lane] = run.forces ? run.forces[i].value : 0;
-      force_before_[i].v[lane] = run.force_before ? run.force_before[i] : 0;
     }
+    peaks_.carry(lane, run);
     if constexpr (M == BaseMotion::free) free_.carry(lane, run);
     rtol_.v[lane] = run.tolerance.rtol, atol_.v[lane] = run.tolerance.atol;
     tolerance_of_dense_.v[lane] = run.tolerance_of_dense;
     t_end_.v[lane] = run.t_end;
     begun_.v[lane] = now, look_.v[lane] = now + static_cast<double>(run.tries);
+    last_step_.v[lane] = run.pace.steps + static_cast<double>(run.steps);
     evaluations_before_.v[lane] = static_cast<double>(run.evaluations) - now * Formula::evaluations;
     busy_.v[lane] = 1;
   }
@@ -87,17 +83,16 @@ public:
     if (tries > 0) {
       place.step.t = step_.t.v[lane], place.step.h = step_.h.v[lane];
       get_lane(lane, step_.x, place.step.x), get_lane(lane, step_.dxdt, place.step.dxdt);
-      if (shape_.forces) get_lane(lane, force_before_, place.force_before);
+      for (int i = 1; i <= at_.bodies; ++i) place.overtravel[i] = overtravel_[i].v[lane];
     }
+    get_lane(lane, step_.x1, place.x1), get_lane(lane, step_.dxdt1, place.dxdt1);
+    peaks_.hand_back(lane, place, tries > 0);
+    long evaluations = (tries + 1) * Formula::evaluations + peaks_.evaluations(lane);
     if constexpr (M == BaseMotion::free) {
       free_.hand_back(lane, place, shape_.forces);
-    } else {
-      get_lane(lane, step_.x1, place.x1), get_lane(lane, step_.dxdt1, place.dxdt1);
-      if (shape_.forces) get_lane(lane, work_.forces, place.forces);
+      evaluations += static_cast<long>(free_.projections().v[lane]);
     }
-    Carried carried{tries, (tries + 1) * Formula::evaluations, error_size_.v[lane], {}};
-    if constexpr (M == BaseMotion::free)
-      carried.evaluations += static_cast<long>(free_.projections().v[lane]);
+    Carried carried{tries, evaluations, error_size_.v[lane], {}};
     get_lane(lane, pace_, carried.pace);
     return carried;
   }
@@ -108,7 +103,7 @@ public:
       formula_.estimate(system_, from, step_.h, step_.x1, step_.dxdt1, error_);
       ++round_;
       const Judgement judgement = judge();
-      const Mask asks = busy_ > P(0.0) && must_ask(judgement);
+      const Mask asks = must_ask(judgement);
       go_on(judgement, !asks);
       if (const LaneSet asking = set_of(asks); asking != 0) return asking;
     }
@@ -187,15 +182,19 @@ private:
 
   /// Which lanes' runs must be told of the step: what follows from it is not a plain step.
   [[nodiscard]] Mask must_ask(const Judgement& judgement) {
-    const Mask& accepted = judgement.accepted;
     const P& next = judgement.next;
+    const Mask busy = busy_ > P(0.0), accepted = busy && judgement.accepted;
     const P end = step_.t + step_.h, now = select(accepted, end, step_.t);
     const Mask late = look_ < P(static_cast<double>(round_));
     const Mask at_an_end = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
     const Mask may_leave = pace_.held_back.may_leave(step_.h, P(pace_.steps + P(1.0)));
-    const Mask event = an_event_may_be_near();
+    const Mask due = pace_.steps >= last_step_;
+    Mask asks = busy && (late || at_an_end);
+    asks = asks || (accepted && (due || may_leave || an_event_may_be_near()));
     if constexpr (M == BaseMotion::free) free_.restore_momenta(system_, step_);
-    return late || at_an_end || (accepted && (may_leave || event || a_peak_may_rise()));
+    peaks_.end_step(system_);
+    asks = asks || (accepted && may_turn_further());
+    return asks || peaks_.over_step(system_, step_, accepted && !asks);
   }
 
   /// Accepts, or tries again, in these lanes.
@@ -205,9 +204,11 @@ private:
       step_.x[k] = select(accepted, step_.x1[k], step_.x[k]);
       step_.dxdt[k] = select(accepted, step_.dxdt1[k], step_.dxdt[k]);
     }
-    if (shape_.forces)
-      for (int i = 1; i <= at_.bodies; ++i)
-        force_before_[i] = select(accepted, force_after_[i], force_before_[i]);
+    for (int i = 1; i <= at_.bodies; ++i) {
+      const P beyond = beyond_stowed(wing_.hinges[i], step_.x[at_.angle(i)]);
+      overtravel_[i] = select(accepted, larger(overtravel_[i], beyond), overtravel_[i]);
+    }
+    evaluations_before_ = evaluations_before_ + peaks_.go_on(accepted);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
     keep_pace(accepted, these);
     step_.h = select(these, judgement.next, step_.h);
@@ -230,8 +231,8 @@ private:
     assign_where(accepted, pace_.memory, after);
   }
 
-  /// Lanes in which an event or an angle past bounds may lie inside the step: all tests, these and
-  /// those for peaks, are those that the run itself begins with.
+  /// Lanes in which an event may lie inside the step: all tests, these and those for peaks, are those
+  /// that the run itself begins with.
   [[nodiscard]] Mask an_event_may_be_near() {
     Mask look{};
     for (int i = 1; i <= at_.bodies; ++i) {
@@ -243,32 +244,17 @@ private:
     return look;
   }
 
-  [[nodiscard]] Mask a_peak_may_rise() {
+  /// A base that turns further inside the step than at its ends, a hinge that turns back beyond its
+  /// stowed angle, or past bounds. In air, forces are the run's.
+  [[nodiscard]] Mask may_turn_further() {
     Mask look{};
     if constexpr (M == BaseMotion::free) look = free_.may_swing_further(at_, step_);
+    if (shape_.forces && !wing_.plates.empty()) return !Mask{};
     for (int i = 1; i <= at_.bodies; ++i) {
       look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
-      look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]) ||
-             beyond_stowed(wing_.hinges[i], step_.x1[at_.angle(i)]) > overtravel_[i];
-      if (shape_.moments) {
-        const MomentOverStep<P, AnySystem> moment(system_, step_, i);
-        look = look || !(moment.most() <= moments_[i]);
-      }
-      if (!shape_.forces) continue;
-      const Vec2<P>& force = work_.forces[i];
-      force_after_[i] = sqrt(dot(force, force));
+      look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
     }
-    if (!shape_.forces) return look;
-    return wing_.plates.empty() ? look || a_force_may_rise() : !Mask{};
-  }
-
-  [[nodiscard]] Mask a_force_may_rise() {
-    bound_.over_step(system_, levers_, step_);
-    Mask any{};
-    for (int i = 1; i <= at_.bodies; ++i)
-      any = any || !(fused(P(1.0), bound_.rise(i), larger(force_before_[i], force_after_[i])) <=
-                     forces_[i]);
-    return any;
+    return look;
   }
 
   [[nodiscard]] Mask may_engage(int i) const {
@@ -318,18 +304,17 @@ private:
   Step<P> step_;
   State<P> error_;
   P rtol_, atol_, tolerance_of_dense_, error_size_, t_end_;
-  std::vector<P> waits_, moments_, forces_, force_before_, force_after_;
-  std::vector<P> overtravel_;
+  std::vector<P> waits_, overtravel_;
   std::vector<P> slides_; ///< sense in which a hinge slides against exact friction; 0: it does not
   std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1 to be passed upwards, −1 downwards
-  std::vector<Lever<P>> levers_;
-  std::vector<Lever<double>> levers_of_wing_; ///< scratch
-  ReactionBound<P> bound_;
+  std::vector<Lever<double>> levers_of_wing_;       ///< scratch
+  LanePeaks<P, AnySystem> peaks_;
   FreeBases<W> free_; ///< where bases are free
   Pace<P> pace_;
   P busy_; ///< 1 where a lane has a run, else 0
   /// Rounds, counted as numbers: when the run was taken, and after which it must know.
   P begun_, look_;
+  P last_step_;          ///< of the phase, after which the run must know
   P evaluations_before_; ///< of the run, less those of all rounds before it was taken
   long round_ = 0;
 };

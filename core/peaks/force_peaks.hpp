@@ -3,9 +3,9 @@
 
 #include "core/dense/step.hpp"
 #include "core/number/planar.hpp"
+#include "core/peaks/force_samples.hpp"
 #include "core/peaks/maximum.hpp"
 #include "core/peaks/peak.hpp"
-#include "core/peaks/reaction_bound.hpp"
 
 #include <array>
 #include <optional>
@@ -25,9 +25,8 @@ public:
     const int bodies = system.layout().bodies;
     peaks.assign(bodies + 1, {});
     before_.assign(bodies + 1, T(0));
-    inner_.assign(bodies + 1, {});
     set_levers(system.wing(), system.topology(), levers_);
-    bound_.resize(bodies);
+    samples_.resize(bodies);
     doubts_.clear();
   }
 
@@ -44,21 +43,17 @@ public:
 
   /// The last evaluation was at the step's end. What lies inside the step is left in doubt.
   void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
-    bound_.over_step(system, levers_, step);
-    bool promising = !system.wing().plates.empty(); // the bound knows nothing of the air
+    samples_.begin(system, levers_, step);
+    samples_.take(system, samples_.last);
     for (std::size_t i = 1; i < peaks.size(); ++i) {
-      const T end = magnitude(system, static_cast<int>(i));
-      inner_[i] = {before_[i], T(0), T(0), T(0), end};
-      before_[i] = end;
-      promising = promising || may_rise(i, inner_[i][0], inner_[i][4], T(1));
+      std::array<T, 5>& f = samples_.of(static_cast<int>(i));
+      f[0] = before_[i];
+      before_[i] = f[4];
     }
-    if (!promising) return;
-    sample(system, step, 2, x, dxdt);
-    promising = !system.wing().plates.empty();
-    for (std::size_t i = 1; i < peaks.size(); ++i)
-      for (const std::size_t end : {0, 4})
-        promising = promising || may_rise(i, inner_[i][end], inner_[i][2], T(1) / T(4));
-    if (!promising) return;
+    const bool in_air = !system.wing().plates.empty(); // the bound knows nothing of the air
+    if (!in_air && !samples_.may_rise(peaks)) return;
+    sample(system, step, samples_.middle, x, dxdt);
+    if (!in_air && !samples_.may_rise_in_a_half(peaks)) return;
     for (const int k : {1, 3}) sample(system, step, k, x, dxdt);
     for (std::size_t i = 1; i < peaks.size(); ++i)
       raise(system, step, static_cast<int>(i), x, dxdt);
@@ -85,22 +80,13 @@ private:
   };
 
   [[nodiscard]] static T magnitude(const AnySystem& system, int i) {
-    using std::sqrt;
-    const Vec2<T>& f = system.work().forces[i];
-    return sqrt(dot(f, f));
-  }
-
-  /// Whether |reaction| i may exceed its peak between points where it is a and b.
-  /// @param part of the rise over the whole step
-  [[nodiscard]] bool may_rise(std::size_t i, const T& a, const T& b, const T& part) const {
-    return !(fused(part, bound_.rise(static_cast<int>(i)), larger(a, b)) <= peaks[i].value);
+    return ForceSamples<T>::magnitude(system.work().forces[i]);
   }
 
   /// At k quarters of the step.
   void sample(AnySystem& system, const Step<T>& step, int k, State<T>& x, State<T>& dxdt) {
     evaluate(system, step, T(k) / T(4), x, dxdt);
-    for (std::size_t i = 1; i < peaks.size(); ++i)
-      inner_[i][k] = magnitude(system, static_cast<int>(i));
+    samples_.take(system, k);
   }
 
   static void evaluate(AnySystem& system, const Step<T>& step, const T& s, State<T>& x,
@@ -111,14 +97,11 @@ private:
 
   /// Given all five samples.
   void raise(AnySystem& system, const Step<T>& step, int i, State<T>& x, State<T>& dxdt) {
-    const std::array<T, 5>& f = inner_[i];
-    peaks[i].raise(f[0], step.t);
-    peaks[i].raise(f[4], step.t + step.h);
+    samples_.raise_to_ends(i, step, peaks[i]);
     T highest = peaks[i].value;
-    for (std::size_t k = 0; k <= 4; ++k) {
-      const bool crest = (k == 0 || f[k] >= f[k - 1]) && (k == 4 || f[k] >= f[k + 1]);
-      if (!crest || !may_rise(i, f[k], f[k], T(1) / T(16)) || at_an_end_for_sure(f, k)) continue;
-      const auto [found, vertex] = maximum_near(f, k, [&](const T& s) {
+    for (int k = 0; k <= samples_.last; ++k) {
+      if (!samples_.wants_search(i, k, peaks[i])) continue;
+      const auto [found, vertex] = maximum_near(samples_.of(i), k, [&](const T& s) {
         evaluate(system, step, s, x, dxdt);
         return magnitude(system, i);
       });
@@ -128,21 +111,9 @@ private:
     }
   }
 
-  /// The samples rise or fall towards an end so steeply that a parabola through the last three has
-  /// its vertex well outside the step.
-  [[nodiscard]] static bool at_an_end_for_sure(const std::array<T, 5>& f, std::size_t best) {
-    using std::abs;
-    if (best != 0 && best != 4) return false;
-    const T a = best == 0 ? f[0] : f[4], b = best == 0 ? f[1] : f[3], c = f[2];
-    const T slope = T(3) * a - T(4) * b + c; // towards the end, times 2 spacings
-    const T curvature = a - T(2) * b + c;
-    return slope > T(2) * abs(curvature);
-  }
-
   std::vector<Lever<T>> levers_; ///< 0 … n
-  ReactionBound<T> bound_;
+  ForceSamples<T> samples_;
   std::vector<T> before_;
-  std::vector<std::array<T, 5>> inner_;
   std::vector<Doubt> doubts_; ///< last in, first out
 };
 

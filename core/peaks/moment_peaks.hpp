@@ -58,25 +58,24 @@ public:
   }
 
   /// Whether it only rises or only falls over the step, by the hulls of what it is made of: then it
-  /// is largest at an end. Not asked where friction is regularized or the latch smoothed.
-  [[nodiscard]] bool keeps_direction() const {
-    if (hinge_.regularized_friction > T(0) || smoothed_) return false;
-    ValueRange<T> change = hull(derivative(linear_, step_.h));
+  /// is largest at an end. Not asked where the latch is smoothed. For a pack: in which lanes.
+  [[nodiscard]] auto keeps_direction() const {
+    KnownRange<T> change;
+    change.range = hull(derivative(linear_, step_.h));
     const Wing<T>& wing = system_.wing();
+    if (wing.has_regularized_friction) change.add(change_of_friction());
     if (!wing.real.empty()) {
-      const std::optional<ValueRange<T>> own =
-          real_change(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_),
-                      hull(derivative(rate_, step_.h)));
-      if (!own) return false;
-      change = change + *own;
+      const KnownRange<T> own = real_change(wing.real[i_], system_.work().modes[i_], hull(angle_),
+                                            hull(rate_), hull(derivative(rate_, step_.h)));
+      change.known = own.known, change.add(own.range);
     }
-    for (const LoopTerms<T>& loop : wing.loops) {
-      if (loop.first != i_ && loop.second != i_) continue;
-      const std::optional<ValueRange<T>> own = change_of(loop);
-      if (!own) return false;
-      change = change + *own;
-    }
-    return change.low > T(0) || change.high < T(0);
+    for (const LoopTerms<T>& loop : wing.loops)
+      if (any(change.known) && (loop.first == i_ || loop.second == i_)) {
+        const KnownRange<T> own = change_of(loop);
+        change.known = change.known && own.known, change.add(own.range);
+      }
+    if (smoothed_) change.known = T(0) < T(0);
+    return change.known && (change.range.low > T(0) || change.range.high < T(0));
   }
 
   /// d²/dt² at s, by differences.
@@ -88,7 +87,7 @@ public:
 
   [[nodiscard]] T operator()(const T& s) const {
     T m = value(linear_, s);
-    if (hinge_.regularized_friction > T(0))
+    if (any(hinge_.regularized_friction > T(0)))
       m = m + regularized_friction_moment(hinge_, value(rate_, s));
     if (smoothed_) m = m - smooth_step(step_.cubic(latch_state_, s) / epsilon_) * value(latch_, s);
     if (!system_.wing().is_real()) return m;
@@ -113,22 +112,38 @@ private:
            loop_torque(loop, state);
   }
 
-  /// d/dt of what a loop does; none where a strand goes slack, or its gear is a table's.
-  [[nodiscard]] std::optional<ValueRange<T>> change_of(const LoopTerms<T>& loop) const {
-    if (loop.table) return std::nullopt;
+  /// d/dt of regularized friction, which is a damping that falls with the rate.
+  [[nodiscard]] ValueRange<T> change_of_friction() const {
+    using std::abs;
+    const ValueRange<T> rate = hull(rate_);
+    const T size = smaller(T(abs(rate.low)), T(abs(rate.high)));
+    const T least = select(rate.low < T(0) && rate.high > T(0), T(0), size);
+    const T most = larger(T(abs(rate.low)), T(abs(rate.high)));
+    const ValueRange<T> resistance{-regularized_friction_damping(hinge_, least),
+                                   -regularized_friction_damping(hinge_, most)};
+    return resistance * hull(derivative(rate_, step_.h));
+  }
+
+  /// d/dt of what a loop does; unknown where a strand goes slack, or its gear is a table's.
+  [[nodiscard]] KnownRange<T> change_of(const LoopTerms<T>& loop) const {
+    KnownRange<T> change;
+    change.known = T(0) < T(0);
+    if (loop.table) return change;
     const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
     Quintic<T> elastic;
     for (int k = 0; k < 6; ++k)
       elastic[k] = loop_state(loop, a[k], T(0), b[k], T(0)).elastic; // K e is a polynomial too
     const ValueRange<T> carried = hull(elastic);
-    if (carried.high > loop.slack_beyond || carried.low < -loop.slack_beyond) return std::nullopt;
+    const auto elastic_too = loop.stiffness > T(0);
+    change.known = carried.high <= loop.slack_beyond && carried.low >= -loop.slack_beyond &&
+                   (elastic_too || !(loop.damping > T(0)));
     const Quintic<T> rise = derivative(elastic, step_.h), bend = derivative(rise, step_.h);
-    const T time = loop.stiffness > T(0) ? loop.damping / loop.stiffness : T(0);
-    if (!(loop.stiffness > T(0)) && loop.damping > T(0)) return std::nullopt;
-    Quintic<T> change;
-    for (int k = 0; k < 6; ++k) change[k] = fused(time, bend[k], rise[k]);
+    const T time = select(elastic_too, T(loop.damping / loop.stiffness), T(0));
+    Quintic<T> rate;
+    for (int k = 0; k < 6; ++k) rate[k] = fused(time, bend[k], rise[k]);
     const T on = loop.first == i_ ? on_first(loop, T(loop.ratio)) : on_second(loop);
-    return scaled(on, hull(change));
+    change.range = scaled(on, hull(rate));
+    return change;
   }
 
   /// What a loop may do over the step: K e and D ė as polynomials, about the table's slope at the
@@ -230,6 +245,15 @@ template <class T, class AnySystem>
   return change;
 }
 
+/// Raises `peak` to the |moment| at both ends of the step.
+template <class T, class AnySystem>
+void raise_to_ends(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
+                   const Step<T>& step) {
+  using std::abs;
+  peak.raise(T(abs(moment(T(0)))), step.t);
+  peak.raise(T(abs(moment(T(1)))), step.t + step.h);
+}
+
 /// A maximum of |moment| inside a step, known by the dense output alone.
 template <class T> struct DoubtfulMoment {
   T s;    ///< fraction of the step
@@ -244,12 +268,10 @@ template <class T> struct DoubtfulMoment {
 template <class T, class AnySystem>
 [[nodiscard]] std::optional<DoubtfulMoment<T>>
 raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i) {
-  using std::abs;
   const MomentOverStep<T, AnySystem> moment(system, step, i);
   if (!(moment.most() > peak.value)) return std::nullopt;
   if (moment.keeps_direction()) {
-    peak.raise(T(abs(moment(T(0)))), step.t);
-    peak.raise(T(abs(moment(T(1)))), step.t + step.h);
+    raise_to_ends(peak, moment, step);
     return std::nullopt;
   }
   PeakOf<T> candidate = peak;
@@ -261,8 +283,7 @@ raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int 
     peak = candidate;
     return std::nullopt;
   }
-  peak.raise(T(abs(moment(T(0)))), step.t);
-  peak.raise(T(abs(moment(T(1)))), step.t + step.h);
+  raise_to_ends(peak, moment, step);
   return DoubtfulMoment<T>{s, moment.bend(s)};
 }
 

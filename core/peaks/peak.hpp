@@ -5,14 +5,15 @@
 
 namespace wingspread {
 
-/// In the run's own numbers; `Peak` of the outcome is what is told of it.
+/// In the run's own numbers, or in packs of runs; `Peak` of the outcome is what is told of it.
 template <class T> struct PeakOf {
   T value = T(0);
   T time = T(0);
 
   void raise(const T& candidate, const T& when) {
-    if (candidate > value && is_finite(candidate))
-      value = candidate, time = when; // what overflows fails the run
+    const auto higher = candidate > value && candidate - candidate == T(0);
+    value = select(higher, candidate, value); // what overflows fails the run
+    time = select(higher, when, time);
   }
 };
 

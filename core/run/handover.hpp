@@ -42,6 +42,7 @@ struct Handover {
   const BaseExcursion<double>& base; ///< of a free one, so far
   double t_end; ///< where a step has to end, s; one from which the next may reach it is the run's
   long tries;   ///< that may be made before one is the run's
+  long steps;   ///< that may be accepted before one is the run's
   long evaluations; ///< so far
   Pace<double> pace;
 };
@@ -50,9 +51,11 @@ struct Handover {
 struct Place {
   Step<double>& step;                ///< t, h, x and dxdt, if the run was carried
   std::vector<double>& force_before; ///< 1 … n: at its start, where forces are asked for
-  State<double>&x1, &dxdt1;          ///< the end of the step made last
-  std::vector<Vec2<double>>& forces; ///< 1 … n: there, where they are asked for
-  BaseExcursion<double>& base;       ///< of a free one, up to the step's start
+  std::vector<PeakOf<double>>&moments, &forces; ///< 1 … n: up to there, those asked for
+  std::vector<double>& overtravel;              ///< 1 … n: up to there
+  State<double>&x1, &dxdt1;                     ///< the end of the step made last
+  std::vector<Vec2<double>>& forces_at_end;     ///< 1 … n: there, where they are asked for
+  BaseExcursion<double>& base;                  ///< of a free one, up to the step's start
 };
 
 /// How far a run was carried, without the step made last.

@@ -76,17 +76,17 @@ public:
             .kept = kept_,
             .base = peaks_.base(),
             .t_end = static_cast<double>(stepping_.end_of_stretch()),
-            .tries = tries_to_look(),
+            .tries = asks_for_plain_step() ? stepping_.tries_left() : 0,
+            .steps = std::min(stepping_.steps_to_look(), ending_.steps_to_look()),
             .evaluations = run_.system.work().evaluations,
             .pace = stepping_.pace()};
   }
 
   [[nodiscard]] Place place() {
-    return {run_.step,
-            peaks_.force_before(),
-            *asked_.x1,
-            *asked_.dxdt1,
-            run_.system.made_elsewhere().forces,
+    return {run_.step,           peaks_.force_before(),
+            peaks_.moments(),    peaks_.forces(),
+            peaks_.overtravel(), *asked_.x1,
+            *asked_.dxdt1,       run_.system.made_elsewhere().forces,
             peaks_.base()};
   }
 
@@ -268,10 +268,9 @@ private:
     ended_ = true;
   }
 
-  /// Tries that an engine may make before the run must know.
-  [[nodiscard]] long tries_to_look() const {
-    if (asked_.stage != Stage::step || stepping_.is_last()) return 0;
-    return std::min(stepping_.tries_to_look(), ending_.steps_to_look());
+  /// Whether the step asked for is one that an engine can judge.
+  [[nodiscard]] bool asks_for_plain_step() const {
+    return asked_.stage == Stage::step && !stepping_.is_last();
   }
 
   [[nodiscard]] static bool all_finite(const State<T>& x) {

@@ -20,6 +20,9 @@ public:
 
   [[nodiscard]] const std::vector<PeakOf<T>>& moments() const { return moments_; }
   [[nodiscard]] const std::vector<PeakOf<T>>& forces() const { return forces_.peaks; }
+  /// Where an engine leaves those of the steps that it has made.
+  [[nodiscard]] std::vector<PeakOf<T>>& moments() { return moments_; }
+  [[nodiscard]] std::vector<PeakOf<T>>& forces() { return forces_.peaks; }
   /// Forces where the step starts, 1 … n, N; only where they are asked for.
   [[nodiscard]] std::vector<T>& force_before() { return forces_.before(); }
 

@@ -139,10 +139,10 @@ public:
 
   // ---- steps made elsewhere
 
-  /// Tries that the run need not know, if no event, peak or proof is due.
-  [[nodiscard]] long tries_to_look() const {
-    return std::min(run_.how.max_steps - tried_ - 1, choice_.steps_to_radius());
-  }
+  /// Tries that the run need not know, if no event, peak or proof is due, and how many of them may be
+  /// accepted.
+  [[nodiscard]] long tries_left() const { return run_.how.max_steps - tried_ - 1; }
+  [[nodiscard]] long steps_to_look() const { return choice_.steps_to_radius(); }
   [[nodiscard]] Pace<double> pace() {
     return {static_cast<double>(choice_.steps()), memory(), choice_.held_back()};
   }

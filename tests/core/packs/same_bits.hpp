@@ -28,6 +28,7 @@ inline std::string bits_of(const Outcome& outcome) {
   }
   for (const auto* peaks : {&outcome.peak_moment, &outcome.peak_force})
     for (const Peak& peak : *peaks) add(peak.value), add(peak.time);
+  for (const double beyond : outcome.overtravel) add(beyond);
   for (const Phase& phase : outcome.phases) all += phase.method, add(phase.from), add(phase.to);
   for (const auto* v : {&outcome.final.angles, &outcome.final.rates})
     for (const double x : *v) add(x);

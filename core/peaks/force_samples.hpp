@@ -1,0 +1,96 @@
+/// Samples of hinge forces at quarters of a step, and what they leave possible between them.
+///
+/// For one number or for a pack of them: the lanes of packs ask by these expressions what a run alone
+/// asks, and answers are masks there.
+#pragma once
+
+#include "core/peaks/peak.hpp"
+#include "core/peaks/reaction_bound.hpp"
+
+#include <array>
+#include <vector>
+
+namespace wingspread {
+
+template <class T> class ForceSamples {
+public:
+  static constexpr int middle = 2, last = 4;
+
+  void resize(int bodies) {
+    samples_.assign(bodies + 1, {T(0), T(0), T(0), T(0), T(0)});
+    bound_.resize(bodies);
+  }
+
+  /// A step is looked at. @param levers of its wing, 0 … n
+  template <class AnySystem>
+  void begin(const AnySystem& system, const std::vector<Lever<T>>& levers, const Step<T>& step) {
+    bound_.over_step(system, levers, step);
+  }
+
+  /// |reaction| of hinge i at quarters of the step, N.
+  [[nodiscard]] std::array<T, 5>& of(int i) { return samples_[i]; }
+  [[nodiscard]] const std::array<T, 5>& of(int i) const { return samples_[i]; }
+
+  /// The system's last evaluation was at k quarters of the step.
+  template <class AnySystem> void take(const AnySystem& system, int k) {
+    for (int i = 1; i < static_cast<int>(samples_.size()); ++i)
+      samples_[i][k] = magnitude(system.work().forces[i]);
+  }
+  [[nodiscard]] static T magnitude(const Vec2<T>& force) {
+    using std::sqrt;
+    return sqrt(dot(force, force));
+  }
+
+  /// Whether any may exceed its peak between the step's ends.
+  [[nodiscard]] auto may_rise(const std::vector<PeakOf<T>>& peaks) const {
+    auto may = T(0) < T(0);
+    for (int i = 1; i < static_cast<int>(samples_.size()); ++i)
+      may = may || may_rise(i, samples_[i][0], samples_[i][last], T(1), peaks[i]);
+    return may;
+  }
+  /// The same, given what it is in the middle.
+  [[nodiscard]] auto may_rise_in_a_half(const std::vector<PeakOf<T>>& peaks) const {
+    auto may = T(0) < T(0);
+    for (int i = 1; i < static_cast<int>(samples_.size()); ++i)
+      for (const int end : {0, last})
+        may = may || may_rise(i, samples_[i][end], samples_[i][middle], T(1) / T(4), peaks[i]);
+    return may;
+  }
+
+  /// Given all samples: raises a peak to those at the ends.
+  void raise_to_ends(int i, const Step<T>& step, PeakOf<T>& peak) const {
+    peak.raise(samples_[i][0], step.t);
+    peak.raise(samples_[i][last], step.t + step.h);
+  }
+  /// Whether a maximum above the peak is to be sought beside sample k.
+  [[nodiscard]] auto wants_search(int i, int k, const PeakOf<T>& peak) const {
+    const std::array<T, 5>& f = samples_[i];
+    auto crest = T(0) <= T(0);
+    if (k > 0) crest = crest && f[k] >= f[k - 1];
+    if (k < last) crest = crest && f[k] >= f[k + 1];
+    crest = crest && may_rise(i, f[k], f[k], T(1) / T(16), peak);
+    return k == 0 || k == last ? crest && !at_an_end_for_sure(f, k) : crest;
+  }
+
+private:
+  /// @param part of the rise over the whole step
+  [[nodiscard]] auto may_rise(int i, const T& a, const T& b, const T& part,
+                              const PeakOf<T>& peak) const {
+    return !(fused(part, bound_.rise(i), larger(a, b)) <= peak.value);
+  }
+
+  /// The samples rise or fall towards an end so steeply that a parabola through the last three has
+  /// its vertex well outside the step.
+  [[nodiscard]] static auto at_an_end_for_sure(const std::array<T, 5>& f, int end) {
+    using std::abs;
+    const T a = end == 0 ? f[0] : f[4], b = end == 0 ? f[1] : f[3], c = f[2];
+    const T slope = T(3) * a - T(4) * b + c; // towards the end, times 2 spacings
+    const T curvature = a - T(2) * b + c;
+    return slope > T(2) * abs(curvature);
+  }
+
+  ReactionBound<T> bound_;
+  std::vector<std::array<T, 5>> samples_; ///< 0 … n
+};
+
+} // namespace wingspread
