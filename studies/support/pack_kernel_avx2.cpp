@@ -3,7 +3,7 @@
 
 namespace wingspread::study {
 
-double avx2_evaluation(int bodies) {
+KernelTimes avx2_evaluation(int bodies) {
   return bodies == 3 ? time_evaluation<Pack<4>, 3>() : time_evaluation<Pack<4>, 10>();
 }
 

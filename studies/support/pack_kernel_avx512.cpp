@@ -3,7 +3,7 @@
 
 namespace wingspread::study {
 
-double avx512_evaluation(int bodies) {
+KernelTimes avx512_evaluation(int bodies) {
   return bodies == 3 ? time_evaluation<Pack<8>, 3>() : time_evaluation<Pack<8>, 10>();
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/mechanics/hinge_moment.hpp"
 #include "core/mechanics/recursion.hpp"
+#include "studies/support/pack_kernel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,22 +48,35 @@ template <class P, int N> struct PackKernel {
       accelerations[i - 1] = accelerate<BaseMotion::fixed>(chain, frames, i);
     });
   }
+
+  /// The next evaluation waits for this one, and is where it was.
+  void depend() {
+    for (int i = 0; i < N; ++i) angles[i] = fused(P(1e-30), accelerations[i], angles[i]);
+  }
 };
 
-template <class P, int N> [[nodiscard]] double time_evaluation() {
+/// Of so many packs in turn.
+template <class P, int N, int packs, bool dependent> [[nodiscard]] double time_of_packs() {
   using Clock = std::chrono::steady_clock;
-  PackKernel<P, N> kernel;
+  std::array<PackKernel<P, N>, packs> kernels;
   double best = 1e30;
   constexpr int count = 1000;
-  for (int round = 0; round < 1500; ++round) {
+  for (int round = 0; round < 500; ++round) {
     const auto start = Clock::now();
-    for (int k = 0; k < count; ++k) {
-      kernel.evaluate();
-      asm volatile("" ::"r"(&kernel) : "memory");
-    }
+    for (int k = 0; k < count; ++k)
+      for (PackKernel<P, N>& kernel : kernels) {
+        kernel.evaluate();
+        if (dependent) kernel.depend();
+        asm volatile("" ::"r"(&kernel) : "memory");
+      }
     best = std::min(best, std::chrono::duration<double, std::nano>(Clock::now() - start).count());
   }
-  return best / count / P::width;
+  return best / count / packs / P::width;
+}
+
+template <class P, int N> [[nodiscard]] KernelTimes time_evaluation() {
+  return {time_of_packs<P, N, 1, false>(), time_of_packs<P, N, 1, true>(),
+          time_of_packs<P, N, 2, true>()};
 }
 
 } // namespace wingspread::study
