@@ -4,7 +4,10 @@
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/cases_folder.hpp"
+#include "montecarlo/folder/folder_writer.hpp"
+#include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
+#include "montecarlo/machine/folder_lock.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/rare/rare_report.hpp"
@@ -22,7 +25,7 @@ namespace {
 constexpr long most_samples = 10'000'000, most_repeats = 1000;
 
 struct RareCommandOptions {
-  std::filesystem::path campaign;
+  std::filesystem::path campaign, out;
   std::string output, of_case;
   std::optional<double> above, below;
   std::optional<std::uint64_t> seed;
@@ -67,6 +70,16 @@ void warn_if_doubtful(const RareResult& result) {
                        "more --samples\n");
 }
 
+void refuse_other_files(const std::filesystem::path& folder) {
+  std::error_code unknown;
+  const std::filesystem::directory_iterator files(folder, unknown);
+  const bool used = !unknown && std::ranges::any_of(files, [](const auto& entry) {
+    const std::string name = entry.path().filename().string();
+    return name != lock_file && !name.ends_with(part_suffix);
+  });
+  if (used) refuse_used_folder(folder, "a new or an empty folder");
+}
+
 int rare(const RareCommandOptions& given) {
   RareOptions options = given.rare;
   options.event = event_of(given);
@@ -78,6 +91,11 @@ int rare(const RareCommandOptions& given) {
   if (given.confidence) settings["confidence"] = *given.confidence;
   override_settings(settings, [&](const JsonCursor& at) { read_statistics(at, spec); });
   options.confidence = spec.confidence;
+  std::optional<FolderLock> lock;
+  if (!given.out.empty()) {
+    refuse_other_files(given.out);
+    lock.emplace(given.out);
+  }
   const Interrupt interrupt;
   ThreadEvaluator evaluator(crew_of(given.crew), interrupt.flag());
   Progress progress(stderr);
@@ -86,8 +104,9 @@ int rare(const RareCommandOptions& given) {
       progress.show({.done = made, .total = made + 1});
     });
     const Json about = stamp_json(stamp_of(campaign, {}));
-    fmt::print("{}", given.json ? json_text(rare_json(result, options, campaign, about))
-                                : rare_text(result, options, campaign));
+    const std::string json = json_text(rare_json(result, options, campaign, about));
+    if (lock) write_file(given.out / rare_json_file, json);
+    fmt::print("{}", given.json ? json : rare_text(result, options, campaign));
     warn_if_doubtful(result);
     return warn_of_failures(result);
   } catch (const Stopped&) {
@@ -118,6 +137,8 @@ void add_rare(CLI::App& app, Action& action) {
   command->add_option("--repeats", options->rare.repeats, "Independent ones; 5 if left out")
       ->check(CLI::Range(1L, most_repeats).description(""))
       ->type_name("R");
+  command->add_option("--out", options->out,
+                      "A folder for rare.json, which `report` draws: new, or empty");
   add_seed_option(*command, options->seed);
   add_case_option(*command, options->of_case);
   command->add_option("--confidence", options->confidence, "Of the bounds, e.g. 0.99");
@@ -136,7 +157,7 @@ A run that has no such output (it stalled before, or failed) counts as the event
 
 Example:
   wingspread rare campaign.json
-  wingspread rare campaign.json --output root.peak_moment --above 400 --samples 4000 --json)");
+  wingspread rare campaign.json --output root.peak_moment --above 400 --samples 4000 --out results/rare)");
   command->callback([options, &action] { action = [options] { return rare(*options); }; });
 }
 

@@ -27,13 +27,16 @@ Json estimate_json(const SubsetEstimate& estimate, const RareEvent& event) {
 }
 
 Json likeliest_json(const LikeliestRun& run, const Campaign& campaign) {
-  Json draws = Json::object();
-  for (std::size_t i = 0; i < run.draws.size(); ++i)
+  Json draws = Json::object(), z = Json::object();
+  for (std::size_t i = 0; i < run.draws.size(); ++i) {
     draws[campaign.dispersions[i].name] = json_number(run.draws[i]);
+    z[campaign.dispersions[i].name] = json_number(run.z[i]);
+  }
   return {{"distance", run.distance},
           {"status", to_string(run.status)},
           {"reason", run.reason},
-          {"draws", draws}};
+          {"draws", draws},
+          {"z", z}};
 }
 
 std::string repeats_text(const RareResult& result, const RareOptions& options) {

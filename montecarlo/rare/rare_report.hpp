@@ -9,6 +9,9 @@
 
 namespace wingspread {
 
+/// What `rare` leaves in its folder.
+inline constexpr const char* rare_json_file = "rare.json";
+
 /// @param about the value of "wingspread"
 [[nodiscard]] Json rare_json(const RareResult& result, const RareOptions& options,
                              const Campaign& campaign, const Json& about);

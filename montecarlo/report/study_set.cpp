@@ -6,6 +6,7 @@
 #include "montecarlo/margin/margin_report.hpp"
 #include "montecarlo/page_data/page_numbers.hpp"
 #include "montecarlo/page_data/wing_json.hpp"
+#include "montecarlo/rare/rare_report.hpp"
 #include "montecarlo/report/static_margins_json.hpp"
 #include "montecarlo/sensitivity/design_folder.hpp"
 #include "montecarlo/statistics/binomial_bounds.hpp"
@@ -20,8 +21,6 @@
 
 namespace wingspread {
 namespace {
-
-constexpr const char* rare_json_file = "rare.json";
 
 /// A set without runs.
 Json empty_set(const std::filesystem::path& folder, const std::string& label, const Json& about) {
@@ -230,11 +229,13 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
   Json likeliest = nullptr;
   if (const Json& run = study.at("likeliest"); !run.is_null()) {
-    likeliest = {{"distance", run["distance"]}, {"draws", Json::array()}};
+    std::vector<Json> draws; // the furthest out first
     for (const auto& [name, value] : run["draws"].items())
-      likeliest["draws"].push_back({{"name", name},
-                                    {"value", value},
-                                    {"sigma", run.contains("z") ? run["z"][name] : Json(nullptr)}});
+      draws.push_back({{"name", name}, {"value", value}, {"sigma", run.at("z").at(name)}});
+    std::ranges::stable_sort(draws, std::ranges::greater{}, [](const Json& draw) {
+      return std::abs(draw["sigma"].get<double>());
+    });
+    likeliest = {{"distance", run["distance"]}, {"draws", draws}};
   }
   const Json& repeats = study.at("repeats");
   set["rare"] = {{"text", study.at("event")},

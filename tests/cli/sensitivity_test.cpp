@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -87,11 +89,25 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   CHECK(found["repeats"].size() == 2);
   CHECK(found["lower"] <= found["probability"]);
   CHECK(found["probability"] <= found["upper"]);
+  double square = 0;
+  for (const auto& [name, z] : found["likeliest"]["z"].items())
+    square += std::pow(z.get<double>(), 2);
+  CHECK(std::sqrt(square) == Approx(found["likeliest"]["distance"].get<double>()));
   const auto text = run_program(folder, {"rare", file, "--output", "root.latch_time", "--above",
                                          "5", "--samples", "100", "--repeats", "2"});
   CHECK(text.code == 0);
   CHECK(text.out.find("P(root.latch_time > 5) = ") != std::string::npos);
   CHECK(text.out.find("Plain sampling would have been enough") != std::string::npos);
+
+  const std::string kept = folder.path() / "rare";
+  CHECK(with({"--out", kept}).out == one.out);
+  CHECK(read_text(folder.path() / "rare" / "rare.json").value() == one.out);
+  const auto again = with({"--out", kept});
+  CHECK(again.code == 2);
+  CHECK_THAT(again.error, Catch::Contains("a new or an empty folder"));
+  CHECK(run_program(folder, {"report", kept}).code == 0);
+  CHECK(read_text(folder.path() / "rare" / "report.html").value().find("root.latch_time > 6") !=
+        std::string::npos);
 }
 
 TEST_CASE("rare refuses half an event, and an odd number of samples") {
