@@ -40,6 +40,8 @@ public:
       expect(false, path, text(number), "a finite number");
     else if (range == Range::positive)
       expect(number > 0, path, text(number), "> 0");
+    else if (range == Range::shape)
+      expect(number > 0 && number <= largest_shape, path, text(number), "> 0 and ≤ 1e6");
     else if (range == Range::non_negative)
       expect(number >= 0, path, text(number), "≥ 0");
   }

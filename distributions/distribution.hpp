@@ -15,7 +15,10 @@
 
 namespace wingspread {
 
-enum class Range { finite, positive, non_negative };
+/// `shape`: of a gamma or beta law, > 0 and no larger than what the inverse of its distribution function is
+/// good for; such a law has a spread of a thousandth.
+enum class Range { finite, positive, non_negative, shape };
+inline constexpr double largest_shape = 1e6;
 
 /// A parameter of a law: its name in a campaign's file, where it lives, and what it may be.
 template <class Law, class Value> struct LawParameter {
@@ -83,25 +86,25 @@ struct Weibull {
 };
 
 struct Gamma {
-  double shape = 1; ///< > 0
+  double shape = 1; ///< > 0, ≤ largest_shape
   double scale = 1; ///< > 0
   static constexpr std::string_view type = "gamma";
   static constexpr auto parameters() {
-    return std::array{LawParameter{"shape", &Gamma::shape, Range::positive},
+    return std::array{LawParameter{"shape", &Gamma::shape, Range::shape},
                       LawParameter{"scale", &Gamma::scale, Range::positive}};
   }
 };
 
 /// Density ∝ (x − lower)^(alpha − 1) (upper − x)^(beta − 1).
 struct Beta {
-  double alpha = 1; ///< > 0
-  double beta = 1;  ///< > 0
+  double alpha = 1; ///< > 0, ≤ largest_shape
+  double beta = 1;  ///< > 0, ≤ largest_shape
   double lower = 0;
   double upper = 1; ///< > lower
   static constexpr std::string_view type = "beta";
   static constexpr auto parameters() {
-    return std::array{LawParameter{"alpha", &Beta::alpha, Range::positive},
-                      LawParameter{"beta", &Beta::beta, Range::positive},
+    return std::array{LawParameter{"alpha", &Beta::alpha, Range::shape},
+                      LawParameter{"beta", &Beta::beta, Range::shape},
                       LawParameter{"lower", &Beta::lower}, LawParameter{"upper", &Beta::upper}};
   }
 };

@@ -31,6 +31,8 @@ std::string expected_of(double, Range range) {
     return "a number, > 0";
   case Range::non_negative:
     return "a number, ≥ 0";
+  case Range::shape:
+    return "a number, > 0 and ≤ 1e6";
   case Range::finite:
     break;
   }

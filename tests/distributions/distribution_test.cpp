@@ -47,15 +47,17 @@ TEST_CASE("what must be positive is") {
 
 TEST_CASE("all faults of a law are reported together") {
   CHECK(report(Weibull{-1, 0}) == "shape: -1, > 0\nscale: 0, > 0");
-  CHECK(report(Gamma{0, not_a_number}) == "shape: 0, > 0\nscale: nan, a finite number");
+  CHECK(report(Gamma{0, not_a_number}) == "shape: 0, > 0 and ≤ 1e6\nscale: nan, a finite number");
+  CHECK(report(Gamma{2e6, 1}) ==
+        "shape: 2e+06, > 0 and ≤ 1e6"); // inverses that Boost would not find
   CHECK(report(Beta{0, -1, infinity, 1}) ==
-        "alpha: 0, > 0\nbeta: -1, > 0\nlower: inf, a finite number");
+        "alpha: 0, > 0 and ≤ 1e6\nbeta: -1, > 0 and ≤ 1e6\nlower: inf, a finite number");
   CHECK(report(Normal{not_a_number, 0}, Truncation{2, 1}) ==
         "mean: nan, a finite number\nstd: 0, > 0\ntruncate/upper: 1, > lower (2)");
 }
 
 TEST_CASE("one fault does not hide another") {
-  CHECK(report(Beta{0, 1, 2, 1}) == "alpha: 0, > 0\nupper: 1, > lower (2)");
+  CHECK(report(Beta{0, 1, 2, 1}) == "alpha: 0, > 0 and ≤ 1e6\nupper: 1, > lower (2)");
   CHECK(report(Triangular{2, 0, 1}) == "upper: 1, > lower (2)"); // no mode would do
   CHECK(report(Discrete{{1, not_a_number}, {0, 0}}) ==
         "values/1: nan, a finite number\nweights: all zero, at least one > 0");

@@ -72,6 +72,10 @@ TEST_CASE("Each fault of a distribution is told", "[distribution_json]") {
         "/sigma: found the unknown key \"sigma\", expected \"type\", \"mean\", \"std\" or "
         "\"truncate\""},
        {R"({"type": "normal", "mean": 1, "std": -2})", "/std: found -2, expected > 0"},
+       {R"({"type": "beta", "alpha": 2, "beta": 1e19, "lower": 0, "upper": 1})",
+        "/beta: found 1e+19, expected > 0 and ≤ 1e6"},
+       {R"({"type": "beta", "alpha": 2, "lower": 0, "upper": 1})",
+        "/beta: found nothing, expected a number, > 0 and ≤ 1e6"},
        {R"({"type": "discrete", "values": [1, 2], "weights": [1, -1]})",
         "/weights/1: found -1, expected ≥ 0"},
        {R"({"type": "discrete", "values": [1, "a"], "weights": 1})",
