@@ -206,7 +206,7 @@ TEST_CASE("Numbers without a dimension, or with several, have no unit", "[disper
         "/0/distribution/value: found string \"2 kg\", expected a number"},
        {R"({"name": "m", "apply": "set", "each": "bodies.*.mass",
             "distribution": {"type": "gamma", "shape": "2 kg", "scale": "3 kg"}})",
-        "/0/distribution/shape: found string \"2 kg\", expected a number, > 0"},
+        "/0/distribution/shape: found string \"2 kg\", expected a number, > 0 and ≤ 1e6"},
        {R"({"name": "m", "apply": "set", "each": "bodies.*.mass",
             "distribution": {"type": "constant", "value": "2 m"}})",
         "/0/distribution/value: found string \"2 m\", expected a number, kg, or a string of a "
