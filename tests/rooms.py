@@ -42,6 +42,7 @@ montecarlo/folder
 montecarlo/sensitivity montecarlo/rare montecarlo/margin
 montecarlo/page_data
 montecarlo/report
+montecarlo/terminal
 montecarlo/commands
 montecarlo/main
 """

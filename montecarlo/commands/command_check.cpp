@@ -1,9 +1,9 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/campaign/describe.hpp"
-#include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/notices/examine.hpp"
 #include "montecarlo/notices/placement.hpp"
+#include "montecarlo/terminal/command_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

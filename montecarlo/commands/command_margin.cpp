@@ -1,8 +1,6 @@
 #include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
-#include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/results_folder.hpp"
 #include "montecarlo/formats/files.hpp"
@@ -12,6 +10,8 @@
 #include "montecarlo/margin/margin_report.hpp"
 #include "montecarlo/margin/margin_study.hpp"
 #include "montecarlo/margin/scaled_springs.hpp"
+#include "montecarlo/terminal/command_options.hpp"
+#include "montecarlo/terminal/results_display.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

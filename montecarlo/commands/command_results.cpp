@@ -1,12 +1,12 @@
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
-#include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/folder/merge.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/number_text.hpp"
 #include "montecarlo/machine/folder_lock.hpp"
+#include "montecarlo/terminal/command_options.hpp"
+#include "montecarlo/terminal/results_display.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,8 +1,6 @@
 #include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
-#include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/formats/files.hpp"
@@ -14,6 +12,8 @@
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/machine/team.hpp"
 #include "montecarlo/notices/examine.hpp"
+#include "montecarlo/terminal/command_options.hpp"
+#include "montecarlo/terminal/results_display.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/formats/csv.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/runs/run_plan.hpp"
+#include "montecarlo/terminal/command_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,8 +1,6 @@
 #include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
-#include "montecarlo/commands/results_display.hpp"
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
@@ -11,6 +9,8 @@
 #include "montecarlo/sensitivity/design_folder.hpp"
 #include "montecarlo/sensitivity/rank_report.hpp"
 #include "montecarlo/sensitivity/sobol_report.hpp"
+#include "montecarlo/terminal/command_options.hpp"
+#include "montecarlo/terminal/results_display.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

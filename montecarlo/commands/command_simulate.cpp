@@ -1,5 +1,4 @@
 #include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/commands/command_options.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/folder/replay.hpp"
@@ -9,6 +8,7 @@
 #include "montecarlo/report/outcome_report.hpp"
 #include "montecarlo/report/replay_report.hpp"
 #include "montecarlo/report/trajectory.hpp"
+#include "montecarlo/terminal/command_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 /// The commands. Each `add_` adds one to the command line, with its options and its help.
 #pragma once
 
-#include "montecarlo/machine/interrupt.hpp"
+#include "montecarlo/terminal/exit_code.hpp"
 
 #include <functional>
 #include <string>
@@ -11,16 +11,6 @@ class App;
 }
 
 namespace wingspread {
-
-/// What the program's exit status says.
-namespace exit_code {
-inline constexpr int done = 0;
-inline constexpr int not_met = 1;         ///< done, but a requirement is not shown to be met
-inline constexpr int bad_input = 2;       ///< nothing was done
-inline constexpr int failed_runs = 3;     ///< done, but some runs failed numerically
-inline constexpr int machine_refused = 4; ///< no room, memory or permission; what is done is kept
-inline constexpr int interrupted = interrupted_status; ///< what is done is kept, can be resumed
-} // namespace exit_code
 
 /// What is to be done once the command line is understood; returns the exit status.
 using Action = std::function<int()>;

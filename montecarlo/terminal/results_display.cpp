@@ -1,10 +1,10 @@
-#include "montecarlo/commands/results_display.hpp"
+#include "montecarlo/terminal/results_display.hpp"
 
-#include "montecarlo/commands/commands.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/summary/table.hpp"
+#include "montecarlo/terminal/exit_code.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

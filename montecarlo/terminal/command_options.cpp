@@ -1,4 +1,4 @@
-#include "montecarlo/commands/command_options.hpp"
+#include "montecarlo/terminal/command_options.hpp"
 
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/formats/number_text.hpp"
