@@ -1,0 +1,87 @@
+"""Reads the product's pages (*.md) as a newcomer would, and fails where they mislead.
+
+    /usr/bin/python3 tests/pages.py ROOT PROGRAM FOLDER      FOLDER is made anew, for the README's own files
+
+- every link within the repository leads to a file, and to a heading where it names one
+- every command line of the pages, `wingspread COMMAND … --option`, is one that the program's --help knows
+- README's scene and campaign, written to files under the names that its commands use, are accepted, run, and meet what
+  the campaign requires
+"""
+
+import functools
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+NAMES = {'{ "name": "one_panel"': "one_panel.json", '{ "scene": "one_panel.json"': "campaign.json"}
+
+
+def anchor(heading):
+    """What a heading is linked to by: lower case, without punctuation, spaces as hyphens."""
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def broken_links(page, root):
+    text = page.read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+        if re.match(r"[a-z]+:", target):
+            continue
+        name, _, place = target.partition("#")
+        file = page.parent / name if name else page
+        if not file.exists():
+            yield f"{page.relative_to(root)}: links to {target}, which is not there"
+        elif place and place not in map(anchor, re.findall(r"(?m)^#+ (.*)$", file.read_text(encoding="utf-8"))):
+            yield f"{page.relative_to(root)}: links to {target}, whose heading is not there"
+
+
+def unknown_options(page, root, program):
+    @functools.lru_cache(maxsize=None)
+    def help_of(command):
+        said = subprocess.run([program, command, "--help"], capture_output=True, text=True, check=False)
+        return said.stdout if said.returncode == 0 else None
+
+    for line in re.findall(r"(?m)^    (?:mpirun .*)?wingspread ([a-z].*)$", page.read_text(encoding="utf-8")):
+        words = line.split("#")[0].split()
+        for command in words[0].split("|"):
+            if (known := help_of(command)) is None:
+                yield f"{page.relative_to(root)}: {line}: there is no command {command}"
+                continue
+            for option in (word.strip("[]").split("=")[0] for word in words if word.strip("[").startswith("--")):
+                if not re.search(re.escape(option) + r"\b", known):
+                    yield f"{page.relative_to(root)}: {line}: {command} has no {option}"
+
+
+def unmet_readme(root, program, folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    found = []
+    for block in re.findall(r"(?m)((?:^    .*\n)+)", (root / "README.md").read_text(encoding="utf-8")):
+        text = re.sub(r"(?m)^    ", "", block)
+        for start, name in NAMES.items():
+            if text.startswith(start):
+                (folder / name).write_text(text, encoding="utf-8")
+                found.append(name)
+    if sorted(found) != sorted(NAMES.values()):
+        yield f"README.md: has {found}, and not each of {sorted(NAMES.values())} once"
+        return
+    for words in (["check", "one_panel.json", "--strict"], ["simulate", "one_panel.json"],
+                  ["check", "campaign.json", "--strict"], ["run", "campaign.json", "--out", "first", "--runs", "2500"]):
+        said = subprocess.run([program, *words], cwd=folder, capture_output=True, text=True, check=False)
+        if said.returncode != 0:
+            yield f"README.md: wingspread {' '.join(words)} ends with {said.returncode}: {said.stderr}"
+
+
+def main():
+    root, program, folder = pathlib.Path(sys.argv[1]).resolve(), str(pathlib.Path(sys.argv[2]).resolve()), pathlib.Path(sys.argv[3])
+    pages = [page for part in (".", "core", "distributions", "montecarlo", "studies", "tests")
+             for page in sorted((root / part).glob("*.md" if part == "." else "**/*.md"))]
+    faults = [fault for page in pages for fault in [*broken_links(page, root), *unknown_options(page, root, program)]]
+    faults += unmet_readme(root, program, folder)
+    print(f"{len(pages)} pages", *faults, sep="\n")
+    sys.exit(1 if faults or len(pages) < 30 else 0)
+
+
+if __name__ == "__main__":
+    main()
