@@ -40,6 +40,7 @@ montecarlo/accuracy
 montecarlo/summary
 montecarlo/folder
 montecarlo/sensitivity montecarlo/rare montecarlo/margin
+montecarlo/ranks
 montecarlo/page_data
 montecarlo/report
 montecarlo/terminal

@@ -10,6 +10,7 @@
 #include "montecarlo/margin/margin_report.hpp"
 #include "montecarlo/margin/margin_study.hpp"
 #include "montecarlo/margin/scaled_springs.hpp"
+#include "montecarlo/ranks/evaluator_of.hpp"
 #include "montecarlo/terminal/command_options.hpp"
 #include "montecarlo/terminal/results_display.hpp"
 
@@ -78,12 +79,12 @@ int margin(const MarginOptions& options) {
   refuse_used(options.out);
   const FolderLock lock(options.out);
   const Interrupt interrupt;
-  ThreadEvaluator evaluator(crew_of(options.crew), interrupt.flag());
+  const auto evaluator = evaluator_of(crew_of(options.crew), interrupt.flag());
   Progress progress(stderr);
   MarginResult result;
   try {
     find_margin(
-        campaign, evaluator, [&](long made) { progress.show({.done = made, .total = made + 1}); },
+        campaign, *evaluator, [&](long made) { progress.show({.done = made, .total = made + 1}); },
         result);
   } catch (const Stopped&) {
     make_folder(options.out);

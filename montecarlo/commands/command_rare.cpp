@@ -8,6 +8,7 @@
 #include "montecarlo/machine/folder_lock.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
+#include "montecarlo/ranks/evaluator_of.hpp"
 #include "montecarlo/rare/rare_report.hpp"
 #include "montecarlo/terminal/command_options.hpp"
 #include "montecarlo/terminal/results_display.hpp"
@@ -97,10 +98,10 @@ int rare(const RareCommandOptions& given) {
     lock.emplace(given.out);
   }
   const Interrupt interrupt;
-  ThreadEvaluator evaluator(crew_of(given.crew), interrupt.flag());
+  const auto evaluator = evaluator_of(crew_of(given.crew), interrupt.flag());
   Progress progress(stderr);
   try {
-    const RareResult result = estimate_rare_event(campaign, options, evaluator, [&](long made) {
+    const RareResult result = estimate_rare_event(campaign, options, *evaluator, [&](long made) {
       progress.show({.done = made, .total = made + 1});
     });
     const Json about = stamp_json(stamp_of(campaign, {}));

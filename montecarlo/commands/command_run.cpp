@@ -12,6 +12,7 @@
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/machine/team.hpp"
 #include "montecarlo/notices/examine.hpp"
+#include "montecarlo/ranks/evaluator_of.hpp"
 #include "montecarlo/terminal/command_options.hpp"
 #include "montecarlo/terminal/results_display.hpp"
 
@@ -131,16 +132,16 @@ bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew,
     tally.picture = histogram.text();
     progress.show(tally);
   };
-  ThreadEvaluator evaluator(crew, interrupt.flag());
+  const auto evaluator = evaluator_of(crew, interrupt.flag());
   bool interrupted = false;
   while (!interrupted) {
     const RunRange remaining = folder.remaining();
     if (remaining.size() == 0) break;
-    interrupted = evaluator.make(plan, remaining, {keep, true}) < remaining.size();
+    interrupted = evaluator->make(plan, remaining, {keep, true}) < remaining.size();
   }
   folder.finish();
   write_file(folder.stored().folder / timing_file,
-             timing_text(tally, progress.seconds(), crew, evaluator.occupancy(), interrupted));
+             timing_text(tally, progress.seconds(), crew, evaluator->occupancy(), interrupted));
   return interrupted;
 }
 

@@ -6,6 +6,7 @@
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
+#include "montecarlo/ranks/evaluator_of.hpp"
 #include "montecarlo/sensitivity/design_folder.hpp"
 #include "montecarlo/sensitivity/rank_report.hpp"
 #include "montecarlo/sensitivity/sobol_report.hpp"
@@ -120,7 +121,7 @@ bool make_runs_of(const RunPlan& plan, RunRange remaining, const Crew& crew,
     tally.done += std::ssize(batch.rows);
     progress.show(tally);
   };
-  return ThreadEvaluator(crew, interrupt.flag()).make(plan, remaining, {keep, sink.wants_csv}) <
+  return evaluator_of(crew, interrupt.flag())->make(plan, remaining, {keep, sink.wants_csv}) <
          remaining.size();
 }
 

@@ -43,6 +43,9 @@ public:
   /// @throws what the sink throws, and what a run does (out of memory); then too the sink has had
   ///   all batches up to there
   virtual long make(const RunPlan& plan, RunRange range, const BatchSink& sink) = 0;
+
+  /// How full the lanes were, in all that it has made.
+  [[nodiscard]] virtual const Occupancy& occupancy() const = 0;
 };
 
 /// How this machine makes them.
@@ -62,8 +65,7 @@ public:
 
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
 
-  /// How full the lanes were, in all that it has made.
-  [[nodiscard]] const Occupancy& occupancy() const { return occupancy_; }
+  [[nodiscard]] const Occupancy& occupancy() const override { return occupancy_; }
 
 private:
   Crew crew_;
