@@ -44,7 +44,8 @@ montecarlo/ranks
 montecarlo/page_data
 montecarlo/report
 montecarlo/terminal
-montecarlo/commands
+montecarlo/library
+montecarlo/commands montecarlo/python
 montecarlo/main
 """
 LEVEL = {room: level for level, line in enumerate(ORDER.split("\n")) for room in line.split()}

@@ -276,13 +276,25 @@ Scene read_scene_file(const std::filesystem::path& path) {
   return read_scene(parse_json_file(path), path.string());
 }
 
-std::variant<Scene, Campaign> read_file(const std::filesystem::path& path) {
-  const Json document = parse_json_file(path);
+namespace {
+
+std::variant<Scene, Campaign>
+read_either(const Json& document, const std::filesystem::path& directory, const std::string& file) {
   constexpr std::array campaign_keys{"scene", "dispersions", "sampling"};
   const auto has = [&](const char* key) { return document.contains(key); };
-  if (std::ranges::any_of(campaign_keys, has))
-    return read_document(document, path.parent_path(), path.string());
-  return read_scene(document, path.string());
+  if (std::ranges::any_of(campaign_keys, has)) return read_document(document, directory, file);
+  return read_scene(document, file);
+}
+
+} // namespace
+
+std::variant<Scene, Campaign> read_file(const std::filesystem::path& path) {
+  return read_either(parse_json_file(path), path.parent_path(), path.string());
+}
+
+std::variant<Scene, Campaign> read_scene_or_campaign(const std::string& text,
+                                                     const std::filesystem::path& directory) {
+  return read_either(parse_json(text), directory, "");
 }
 
 void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,

@@ -26,6 +26,9 @@ namespace wingspread {
 /// Reads either, told apart by their keys: a campaign has a scene, a scene has bodies.
 /// @throws SpecError with all that is wrong
 [[nodiscard]] std::variant<Scene, Campaign> read_file(const std::filesystem::path& path);
+/// The same of a text. @param directory that the files named in it are relative to
+[[nodiscard]] std::variant<Scene, Campaign>
+read_scene_or_campaign(const std::string& text, const std::filesystem::path& directory);
 
 /// Replaces the number of runs and the seed, where given; `resolved` follows. @pre runs ≥ 1
 /// @throws SpecError when the runs are fewer than the design's replicates

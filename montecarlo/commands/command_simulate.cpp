@@ -3,7 +3,7 @@
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/folder/replay.hpp"
 #include "montecarlo/formats/json.hpp"
-#include "montecarlo/formats/number_text.hpp"
+#include "montecarlo/library/single_run.hpp"
 #include "montecarlo/notices/examine.hpp"
 #include "montecarlo/report/outcome_report.hpp"
 #include "montecarlo/report/replay_report.hpp"
@@ -13,22 +13,17 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <limits>
 #include <memory>
 
 namespace wingspread {
 namespace {
 
-constexpr std::string_view smoothed_prefix = "smoothed:";
-
 struct SimulateOptions {
   std::filesystem::path scene, out;
-  std::vector<std::string> set;
-  std::string of_case;
+  api::Settings settings;
   bool json = false, strict = false;
-  std::optional<std::string> method, latch;
-  std::optional<double> step, rtol, atol, t_end, dt;
+  std::optional<double> dt;
 };
 
 struct ReplayOptions {
@@ -38,54 +33,9 @@ struct ReplayOptions {
   bool json = false;
 };
 
-/// A scene to be run by itself.
-struct Task {
-  Scene scene;
-  Integration integration;
-};
-
-Task read_task(const SimulateOptions& options) {
-  std::variant<Scene, Campaign> file = read_file(options.scene);
-  if (Campaign* campaign = std::get_if<Campaign>(&file)) {
-    change_scene(*campaign, options.set);
-    if (!options.of_case.empty()) *campaign = chosen_case(*campaign, options.of_case);
-    return {nominal_scene(*campaign), std::move(campaign->integration)};
-  }
-  if (!options.of_case.empty()) (void)chosen_case(Campaign(), options.of_case);
-  return {changed_scene(std::get<Scene>(std::move(file)), options.set), {}};
-}
-
-/// The ε of "smoothed:EPS"; nothing when it is not that.
-std::optional<double> parse_smoothed(std::string_view text) {
-  if (!text.starts_with(smoothed_prefix)) return std::nullopt;
-  text.remove_prefix(smoothed_prefix.size());
-  return parse_number<double>(text);
-}
-
 std::string refuse_auto(const std::string& text) {
   if (text != "auto") return "";
   return "found auto, expected a number: only a campaign has a sampling error to weigh errors by";
-}
-
-std::string refuse_latch(const std::string& text) {
-  if (text == "event" || parse_smoothed(text)) return "";
-  return fmt::format("found {}, expected event, or smoothed:EPS with EPS in rad, e.g. "
-                     "smoothed:1e-4",
-                     text);
-}
-
-void apply_options(const SimulateOptions& options, Integration& integration) {
-  Json given = Json::object();
-  if (options.method) given["method"] = *options.method;
-  if (options.step) given["step"] = *options.step;
-  if (options.rtol) given["rtol"] = *options.rtol;
-  if (options.atol) given["atol"] = *options.atol;
-  if (options.t_end) given["t_end"] = *options.t_end;
-  if (options.latch == "event")
-    given["latch"] = "event";
-  else if (options.latch)
-    given["latch"] = {{"smoothed", *parse_smoothed(*options.latch)}};
-  override_settings(given, [&](const JsonCursor& at) { read_integration(at, integration); });
 }
 
 /// Calls `run` with an observer that writes the trajectory, or with none when no file is named.
@@ -109,14 +59,12 @@ double interval_of(const SimulateOptions& options) {
   if (!options.dt) return 0;
   if (options.out.empty())
     throw SpecError({{"", "--dt", "no --out", "the trajectory's file, whose times it spaces"}});
-  if (!(*options.dt > 0) || !std::isfinite(*options.dt))
-    throw SpecError({{"", "--dt", fmt::format("{}", *options.dt), "a number, s, > 0"}});
+  check_interval(*options.dt);
   return *options.dt;
 }
 
 int simulate(const SimulateOptions& options) {
-  Task task = read_task(options);
-  apply_options(options, task.integration);
+  const Task task = task_of(read_file(options.scene), options.settings);
   heed(examine(task.scene, task.integration, options.scene), options.strict);
   Goal goal;
   goal.to_t_end = true;
@@ -151,19 +99,21 @@ void add_simulate(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("simulate", "Integrate one deployment to its t_end");
   command->add_option("scene", options->scene, "A scene, or a campaign for its nominal scene")
       ->required();
-  add_set_option(*command, options->set);
-  add_case_option(*command, options->of_case);
+  add_set_option(*command, options->settings.set);
+  add_case_option(*command, options->settings.of_case);
   command->add_flag("--json", options->json, "Print the outcome as JSON");
   command->add_option("--out", options->out, "Write the trajectory to this CSV file");
   add_strict_option(*command, options->strict);
   command->add_option("--dt", options->dt, "Rows at these intervals, s; else at every step")
       ->type_name("S");
-  command->add_option("--method", options->method, "See wingspread methods");
-  command->add_option("--step", options->step, "The step of a method with a fixed one, s");
-  command->add_option("--rtol", options->rtol, "Relative tolerance of a step")->check(refuse_auto);
-  command->add_option("--atol", options->atol, "Absolute tolerance of a step, rad and rad/s");
-  command->add_option("--t-end", options->t_end, "Where to stop, s");
-  command->add_option("--latch", options->latch, "event, or smoothed:EPS with EPS in rad")
+  command->add_option("--method", options->settings.method, "See wingspread methods");
+  command->add_option("--step", options->settings.step, "The step of a method with a fixed one, s");
+  command->add_option("--rtol", options->settings.rtol, "Relative tolerance of a step")
+      ->check(refuse_auto);
+  command->add_option("--atol", options->settings.atol,
+                      "Absolute tolerance of a step, rad and rad/s");
+  command->add_option("--t-end", options->settings.t_end, "Where to stop, s");
+  command->add_option("--latch", options->settings.latch, "event, or smoothed:EPS with EPS in rad")
       ->type_name("event|smoothed:EPS")
       ->check(refuse_latch);
   command->footer(

@@ -44,6 +44,7 @@ void examine_cases(const Campaign& campaign, const Notices& nominal, Notices& no
 } // namespace
 
 ScenePlace scene_place(const std::filesystem::path& file) {
+  if (file.empty()) return {};
   const Json document = parse_json_file(file);
   const auto scene = document.find("scene");
   if (scene == document.end()) return {file.string()};

@@ -10,6 +10,7 @@
 namespace wingspread {
 
 /// Where the scene stands that a file is or holds: in itself, under "/scene", or in the file that it names.
+/// @param file empty where the input was a text: then the scene stands in itself
 /// @pre the file was read without a problem
 [[nodiscard]] ScenePlace scene_place(const std::filesystem::path& file);
 

@@ -11,14 +11,25 @@ constexpr std::size_t trajectory_block = 1 << 16; // bytes
 
 } // namespace
 
-TrajectoryWriter::TrajectoryWriter(std::filesystem::path path, const Scene& scene)
-    : out_(std::move(path)), base_(scene.base.motion), block_("t") {
+std::vector<std::string> trajectory_columns(const Scene& scene) {
+  std::vector<std::string> columns{"t"};
   for (const Hinge& hinge : scene.hinges)
     for (const char* quantity : {".angle", ".rate", ".moment"})
-      append_csv_cells(block_, hinge.name + quantity);
-  block_ += ",kinetic,potential,total";
-  if (base_ != BaseMotion::fixed) block_ += ",base.angle,base.rate";
-  if (base_ == BaseMotion::free) block_ += ",base.position.0,base.position.1";
+      columns.push_back(hinge.name + quantity);
+  columns.insert(columns.end(), {"kinetic", "potential", "total"});
+  if (scene.base.motion != BaseMotion::fixed)
+    columns.insert(columns.end(), {"base.angle", "base.rate"});
+  if (scene.base.motion == BaseMotion::free)
+    columns.insert(columns.end(), {"base.position.0", "base.position.1"});
+  return columns;
+}
+
+TrajectoryWriter::TrajectoryWriter(std::filesystem::path path, const Scene& scene)
+    : out_(std::move(path)), base_(scene.base.motion) {
+  for (const std::string& column : trajectory_columns(scene)) {
+    if (!block_.empty()) block_ += ',';
+    append_csv_cell(block_, column);
+  }
   block_ += '\n';
 }
 
@@ -27,13 +38,11 @@ Observer TrajectoryWriter::observer() {
 }
 
 void TrajectoryWriter::write(const Sample& sample) {
-  append_csv_cell(block_, sample.t);
-  for (std::size_t i = 0; i < sample.angles.size(); ++i)
-    append_csv_cells(block_, sample.angles[i], sample.rates[i], sample.moments[i]);
-  append_csv_cells(block_, sample.kinetic, sample.potential, sample.kinetic + sample.potential);
-  if (base_ != BaseMotion::fixed) append_csv_cells(block_, sample.base_angle, sample.base_rate);
-  if (base_ == BaseMotion::free)
-    append_csv_cells(block_, sample.base_position[0], sample.base_position[1]);
+  const std::size_t before = block_.size();
+  take_sample(sample, base_, [&](double value) {
+    if (block_.size() > before) block_ += ',';
+    append_csv_cell(block_, value);
+  });
   block_ += '\n';
   if (block_.size() < trajectory_block) return;
   out_.write(block_);

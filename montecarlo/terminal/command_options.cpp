@@ -64,7 +64,6 @@ void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed) {
 }
 
 void add_crew_options(CLI::App& command, CrewOptions& options) {
-  constexpr int most_threads = 1024;
   command.add_option("--threads", options.threads, "How many threads; all processors if left out")
       ->check(CLI::Range(1, most_threads).description(""))
       ->type_name("N");

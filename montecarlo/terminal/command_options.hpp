@@ -38,6 +38,7 @@ struct CrewOptions {
   int lanes = 0;   ///< 0: as the instruction set has
   std::string isa; ///< none: the widest
 };
+inline constexpr int most_threads = 1024;
 void add_crew_options(CLI::App& command, CrewOptions& options);
 
 /// @throws CLI::ValidationError where this processor has not got what is asked for
