@@ -39,6 +39,7 @@ montecarlo/runs
 montecarlo/accuracy
 montecarlo/summary
 montecarlo/folder
+montecarlo/log
 montecarlo/sensitivity montecarlo/rare montecarlo/margin
 montecarlo/ranks
 montecarlo/page_data

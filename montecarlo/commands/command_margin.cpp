@@ -1,10 +1,10 @@
 #include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/commands.hpp"
-#include "montecarlo/folder/folder_writer.hpp"
-#include "montecarlo/folder/results_folder.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
+#include "montecarlo/log/logged_evaluator.hpp"
+#include "montecarlo/log/study_folder.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/margin/margin_report.hpp"
@@ -27,7 +27,7 @@ struct MarginOptions {
   std::filesystem::path campaign, out;
   SamplingOptions sampling;
   CrewOptions crew;
-  bool json = false;
+  bool resume = false, json = false;
 };
 
 /// The campaign with the recommended springs, ready to be run.
@@ -59,47 +59,60 @@ int conclude(const Campaign& campaign, const MarginResult& result) {
   return code != exit_code::done || is_met(result) ? code : exit_code::not_met;
 }
 
-/// A folder in which a study was cut off before its last file is as good as an empty one.
-void refuse_used(const std::filesystem::path& folder) {
-  const auto is_unfinished = [](const std::filesystem::directory_entry& entry) {
-    const std::string name = entry.path().filename().string();
-    return name == margin_csv_file || name == motorization_csv_file || name == recommended_file ||
-           name == lock_file || name.ends_with(part_suffix);
-  };
-  std::error_code unknown;
-  const std::filesystem::directory_iterator files(folder, unknown);
-  if (unknown || !std::ranges::all_of(files, is_unfinished))
-    refuse_used_folder(folder, "a new or an empty folder");
+/// Writes the files of a study that is finished. @return margin.json's text
+std::string write_files(const Campaign& campaign, const MarginResult& result,
+                        const MarginReport& report, const std::filesystem::path& out) {
+  std::string json = json_text(margin_json(report, stamp_json(stamp_of(campaign, {}))));
+  write_file(out / margin_csv_file, margin_csv(campaign, result));
+  write_file(out / motorization_csv_file, motorization_csv(campaign, report.motorization));
+  write_recommended(campaign, result, out);
+  write_file(out / margin_json_file, json); // the last: with it the folder is complete
+  return json;
+}
+
+/// What there is to say of a study that was finished before.
+int conclude_finished_margin(const Json& study) {
+  const int code = report_failed(study.value("runs_failed", 0L), study.value("runs", 0L),
+                                 ", and count against every requirement");
+  return code != exit_code::done || study.value("met", false) ? code : exit_code::not_met;
+}
+
+/// What was finished before it was stopped; the rest is in the log.
+int keep_unfinished(const Campaign& campaign, const MarginResult& result, LookLog& log,
+                    const std::filesystem::path& out) {
+  write_file(out / margin_csv_file, margin_csv(campaign, result));
+  log.sync();
+  fmt::print(stderr,
+             "interrupted: {} runs are kept; the same command with --resume goes on (the scales "
+             "that were finished are in {})\n",
+             log.rows(), (out / margin_csv_file).string());
+  return exit_code::interrupted;
 }
 
 int margin(const MarginOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   settle_tolerance(campaign, crew_of(options.crew));
-  refuse_used(options.out);
-  const FolderLock lock(options.out);
+  StudyFolder folder(options.out, {{stamp_key, stamp_json(stamp_of(campaign, {}))}},
+                     margin_json_file, options.resume);
+  if (folder.is_finished())
+    return conclude_finished_margin(show_finished(options.out / margin_json_file, options.json));
   const Interrupt interrupt;
-  const auto evaluator = evaluator_of(crew_of(options.crew), interrupt.flag());
+  const auto maker = evaluator_of(crew_of(options.crew), interrupt.flag());
+  LoggedEvaluator evaluator(*maker, folder.log(), interrupt.flag());
   Progress progress(stderr);
   MarginResult result;
   try {
     find_margin(
-        campaign, *evaluator, [&](long made) { progress.show({.done = made, .total = made + 1}); },
+        campaign, evaluator, [&](long made) { progress.show({.done = made, .total = made + 1}); },
         result);
   } catch (const Stopped&) {
-    make_folder(options.out);
-    write_file(options.out / margin_csv_file, margin_csv(campaign, result));
-    fmt::print(stderr, "interrupted: the scales that were finished are in {}\n",
-               (options.out / margin_csv_file).string());
-    return exit_code::interrupted;
+    return keep_unfinished(campaign, result, folder.log(), options.out);
   }
+  warn_if_damaged(folder.log(), options.out);
   const MarginReport report = margin_report(campaign, result);
-  const std::string json = json_text(margin_json(report, stamp_json(stamp_of(campaign, {}))));
-  make_folder(options.out);
-  write_file(options.out / margin_csv_file, margin_csv(campaign, result));
-  write_file(options.out / motorization_csv_file, motorization_csv(campaign, report.motorization));
-  write_recommended(campaign, result, options.out);
-  write_file(options.out / margin_json_file, json); // the last: with it the folder is complete
+  const std::string json = write_files(campaign, result, report, options.out);
+  folder.finish();
   fmt::print("{}", options.json ? json : margin_text(report));
   return conclude(campaign, result);
 }
@@ -115,6 +128,7 @@ void add_margin(CLI::App& app, Action& action) {
       ->required();
   add_sampling_options(*command, options->sampling);
   add_crew_options(*command, options->crew);
+  command->add_flag("--resume", options->resume, "Go on where an earlier one stopped");
   command->add_flag("--json", options->json, "Print JSON in place of the report");
   command->footer(
       R"(Scales what the campaign's "margin" names, runs the same draws at every scale, judges the
@@ -142,7 +156,8 @@ confidence; the report says what all of them and both edges come to together.
 
 The folder gets margin.json, margin.csv (all that was seen at every scale), motorization.csv (the
 static margins at every angle of the travel) and recommended.json, the campaign with the recommended
-springs. Exit code 0: there is a window, and in it a scale to recommend; 1: there is none, or the other
+springs. Until it is finished it has looks.log, all runs so far: after an interruption, a crash or a kill
+the same command with --resume goes on to the same bytes. Exit code 0: there is a window, and in it a scale to recommend; 1: there is none, or the other
 seed does not confirm it.
 
 Example:

@@ -2,10 +2,10 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/commands/commands.hpp"
 #include "montecarlo/folder/cases_folder.hpp"
-#include "montecarlo/folder/folder_writer.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
-#include "montecarlo/machine/folder_lock.hpp"
+#include "montecarlo/log/logged_evaluator.hpp"
+#include "montecarlo/log/study_folder.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/ranks/evaluator_of.hpp"
@@ -33,7 +33,7 @@ struct RareCommandOptions {
   std::optional<double> confidence;
   RareOptions rare;
   CrewOptions crew;
-  bool json = false;
+  bool resume = false, json = false;
 };
 
 /// @throws SpecError unless there is an output with one finite limit, or neither
@@ -71,14 +71,61 @@ void warn_if_doubtful(const RareResult& result) {
                        "more --samples\n");
 }
 
-void refuse_other_files(const std::filesystem::path& folder) {
-  std::error_code unknown;
-  const std::filesystem::directory_iterator files(folder, unknown);
-  const bool used = !unknown && std::ranges::any_of(files, [](const auto& entry) {
-    const std::string name = entry.path().filename().string();
-    return name != lock_file && !name.ends_with(part_suffix);
-  });
-  if (used) refuse_used_folder(folder, "a new or an empty folder");
+/// Whose study it is.
+Json about_study(const RareOptions& options, const Campaign& campaign) {
+  return {{stamp_key, stamp_json(stamp_of(campaign, {}))},
+          {"event", describe(options.event)},
+          {"confidence", options.confidence},
+          {"samples", options.samples},
+          {"repeats", options.repeats}};
+}
+
+/// Its folder, where there is one.
+std::unique_ptr<StudyFolder> open_folder(const RareCommandOptions& given,
+                                         const RareOptions& options, const Campaign& campaign) {
+  if (given.resume && given.out.empty())
+    throw SpecError({{"", "--resume", "no --out", "the folder to go on with"}});
+  if (given.out.empty()) return nullptr;
+  return std::make_unique<StudyFolder>(given.out, about_study(options, campaign), rare_json_file,
+                                       given.resume);
+}
+
+/// What there is to say of a study that was finished before.
+int conclude_finished_rare(const Json& study) {
+  return report_failed(study["statuses"].value("failed", 0L), study.value("runs", 0L),
+                       ", and count as the event");
+}
+
+int keep_unfinished(StudyFolder* folder) {
+  if (folder) folder->log().sync();
+  fmt::print(stderr, "interrupted: {}\n",
+             folder ? fmt::format("{} runs are kept; the same command with --resume goes on",
+                                  folder->log().rows())
+                    : "nothing is kept without --out");
+  return exit_code::interrupted;
+}
+
+/// What the options make of the campaign's own.
+double confidence_of(const RareCommandOptions& given, StatisticsSpec spec) {
+  Json settings = Json::object();
+  if (given.confidence) settings["confidence"] = *given.confidence;
+  override_settings(settings, [&](const JsonCursor& at) { read_statistics(at, spec); });
+  return spec.confidence;
+}
+
+/// Says what it came to, and finishes its folder.
+int conclude(const RareResult& result, const RareOptions& options, const Campaign& campaign,
+             const RareCommandOptions& given, StudyFolder* folder) {
+  const Json about = stamp_json(stamp_of(campaign, {}));
+  const std::string json = json_text(rare_json(result, options, campaign, about));
+  if (folder) {
+    warn_if_damaged(folder->log(), given.out);
+    write_file(given.out / rare_json_file, json);
+    folder->finish();
+  }
+  fmt::print("{}", given.json ? json : rare_text(result, options, campaign));
+  warn_if_doubtful(result);
+  return warn_of_failures(result);
 }
 
 int rare(const RareCommandOptions& given) {
@@ -87,32 +134,23 @@ int rare(const RareCommandOptions& given) {
   Campaign campaign = chosen_case(read_campaign_file(given.campaign), given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
   settle_tolerance(campaign, crew_of(given.crew));
-  StatisticsSpec spec = campaign.statistics;
-  Json settings = Json::object();
-  if (given.confidence) settings["confidence"] = *given.confidence;
-  override_settings(settings, [&](const JsonCursor& at) { read_statistics(at, spec); });
-  options.confidence = spec.confidence;
-  std::optional<FolderLock> lock;
-  if (!given.out.empty()) {
-    refuse_other_files(given.out);
-    lock.emplace(given.out);
-  }
+  options.confidence = confidence_of(given, campaign.statistics);
+  const auto folder = open_folder(given, options, campaign);
+  if (folder && folder->is_finished())
+    return conclude_finished_rare(show_finished(given.out / rare_json_file, given.json));
   const Interrupt interrupt;
-  const auto evaluator = evaluator_of(crew_of(given.crew), interrupt.flag());
+  const auto maker = evaluator_of(crew_of(given.crew), interrupt.flag());
+  std::optional<LoggedEvaluator> logged;
+  if (folder) logged.emplace(*maker, folder->log(), interrupt.flag());
+  Evaluator& evaluator = logged ? *logged : *maker;
   Progress progress(stderr);
   try {
-    const RareResult result = estimate_rare_event(campaign, options, *evaluator, [&](long made) {
+    const RareResult result = estimate_rare_event(campaign, options, evaluator, [&](long made) {
       progress.show({.done = made, .total = made + 1});
     });
-    const Json about = stamp_json(stamp_of(campaign, {}));
-    const std::string json = json_text(rare_json(result, options, campaign, about));
-    if (lock) write_file(given.out / rare_json_file, json);
-    fmt::print("{}", given.json ? json : rare_text(result, options, campaign));
-    warn_if_doubtful(result);
-    return warn_of_failures(result);
+    return conclude(result, options, campaign, given, folder.get());
   } catch (const Stopped&) {
-    fmt::print(stderr, "interrupted: nothing is kept\n");
-    return exit_code::interrupted;
+    return keep_unfinished(folder.get());
   }
 }
 
@@ -140,6 +178,8 @@ void add_rare(CLI::App& app, Action& action) {
       ->type_name("R");
   command->add_option("--out", options->out,
                       "A folder for rare.json, which `report` draws: new, or empty");
+  command->add_flag("--resume", options->resume,
+                    "Go on where an earlier one with the same --out stopped");
   add_seed_option(*command, options->seed);
   add_case_option(*command, options->of_case);
   command->add_option("--confidence", options->confidence, "Of the bounds, e.g. 0.99");
@@ -155,6 +195,9 @@ campaign's design. Where no way led to the event, what is printed is the estimat
 the last level: more than the event's, but no proof of it.
 
 A run that has no such output (it stalled before, or failed) counts as the event.
+
+With --out all runs so far are in the folder's looks.log until it is finished: after an interruption, a
+crash or a kill the same command with --resume goes on to the same bytes.
 
 Example:
   wingspread rare campaign.json

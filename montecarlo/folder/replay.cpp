@@ -99,10 +99,8 @@ std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run)
   }
 }
 
-void refuse_other_rows(const RunPlan& plan, const Results& results,
-                       const std::filesystem::path& file) {
-  if (results.size() == 0) return;
-  const ResultRow recorded = results.row(results.size() - 1);
+void refuse_other_row(const RunPlan& plan, const ResultRow& recorded,
+                      const std::filesystem::path& file) {
   std::vector<Problem> problems;
   for (std::string& difference :
        differences(plan.names(), recorded, Runner(plan).run(recorded.run)))
@@ -110,6 +108,11 @@ void refuse_other_rows(const RunPlan& plan, const Results& results,
                         "the same: all rows made by one program on one kind "
                         "of machine"});
   if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+void refuse_other_rows(const RunPlan& plan, const Results& results,
+                       const std::filesystem::path& file) {
+  if (results.size() > 0) refuse_other_row(plan, results.row(results.size() - 1), file);
 }
 
 ReplayRequest::ReplayRequest(const StoredCampaign& stored, long run) : stored_(&stored), run_(run) {

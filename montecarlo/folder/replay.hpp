@@ -40,10 +40,13 @@ private:
 [[nodiscard]] std::vector<std::string>
 differences(const ResultNames& names, const ResultRow& recorded, const ResultRow& computed);
 
-/// Makes the last of the rows again, before more are put behind them: on another machine, with another library of
-/// mathematics or by a program that was changed it may come out otherwise, and so may the next ones.
-/// @param file that the rows are from
+/// Makes a row again, before more are put behind it: on another machine, with another library of mathematics or by a
+/// program that was changed it may come out otherwise, and so may the next ones.
+/// @param file that the row is from
 /// @throws SpecError with each column that differs by as much as a bit
+void refuse_other_row(const RunPlan& plan, const ResultRow& recorded,
+                      const std::filesystem::path& file);
+/// The same of the last of the rows.
 void refuse_other_rows(const RunPlan& plan, const Results& results,
                        const std::filesystem::path& file);
 

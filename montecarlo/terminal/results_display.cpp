@@ -1,5 +1,6 @@
 #include "montecarlo/terminal/results_display.hpp"
 
+#include "montecarlo/formats/json_parse.hpp"
 #include "montecarlo/formats/output_name.hpp"
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/machine/progress.hpp"
@@ -116,6 +117,13 @@ void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cas
   fmt::print("{}\n{}\n", (whole.folder / campaign_file).string(),
              (whole.folder / cases_file).string());
   for (const CaseSummary& each : cases) print_files(whole.folder / each.name);
+}
+
+Json show_finished(const std::filesystem::path& file, bool whole) {
+  Json study = parse_json_file(file);
+  fmt::print("{}", whole ? json_text(study) : file.string() + '\n');
+  fmt::print(stderr, "note: the study is finished: nothing was left to do\n");
+  return study;
 }
 
 int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display) {

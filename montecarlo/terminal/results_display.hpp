@@ -44,6 +44,9 @@ int judge_results(const StoredCampaign& stored, const Summary& summary);
 void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
                 const Display& display);
 
+/// Of a study in whose folder nothing is left to do: its last file, or the path of it. @return what is in it
+[[nodiscard]] Json show_finished(const std::filesystem::path& file, bool whole);
+
 /// Shows the results, the table or the paths of their files, and says what judge_results says. @return its exit status
 int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display);
 

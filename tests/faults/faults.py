@@ -34,7 +34,8 @@ KINDS = [  # how a call fails, and whether those after it do too: a full disk st
     ("read", "EINTR", False), ("read", "SHORT", False), ("fsync", "EIO", False), ("fsync", "EINTR", False),
     ("close", "EIO", False), ("rename", "ENOSPC", False), ("truncate", "EIO", False), ("flock", "EIO", False),
     ("allocate", "ENOSPC", True), ("mmap", "ENOMEM", False),
-    ("write", "KILL", False), ("fsync", "KILL", False), ("rename", "KILL", False), ("truncate", "KILL", False)]
+    ("write", "KILL", False), ("fsync", "KILL", False), ("rename", "KILL", False), ("truncate", "KILL", False),
+    ("unlink", "KILL", False)]
 SCENE = {
     "name": "two", "base": {"motion": "fixed"},
     "bodies": [{"name": name, "mass": 10, "inertia": 0.5} for name in ("inner", "outer")],
@@ -71,10 +72,15 @@ class Scenario:
 RUN = ["run", "{}/campaign.json", "--out", "{}/r", "--threads", "1"]
 HALVES = [RUN[:3] + [f"{{}}/{part}", "--threads", "1", "--shard", f"{i}/2"] for i, part in ((1, "a"), (2, "b"))]
 SOBOL = ["sensitivity", "{}/campaign.json", "--samples", "4", "--resamples", "20", "--threads", "1", "--out", "{}/s"]
+MARGIN = ["margin", "{}/campaign.json", "--out", "{}/m", "--threads", "1"]
+RARE = ["rare", "{}/campaign.json", "--out", "{}/p", "--threads", "1", "--samples", "100", "--repeats", "1",
+        "--output", "root.latch_time", "--above", "4.6"]
 SCENARIOS = [
     Scenario("run", RUN, again=RUN + ["--resume"]),
     Scenario("resume", RUN + ["--resume"], given=[RUN, "cut {}/r/runs.csv"]),
-    Scenario("margin", ["margin", "{}/campaign.json", "--out", "{}/m", "--threads", "1"]),
+    Scenario("margin", MARGIN, again=MARGIN + ["--resume"]),
+    Scenario("margin resumed", MARGIN + ["--resume"], given=["kill"]),
+    Scenario("rare", RARE, again=RARE + ["--resume"]),
     Scenario("merge", ["merge", "{}/a", "{}/b", "--out", "{}/r"], given=HALVES),
     Scenario("analyze", ["analyze", "{}/r"], given=[RUN]),
     Scenario("sensitivity", ["sensitivity", "{}/r"], given=[RUN]),
@@ -127,6 +133,8 @@ class Bench:
         for command in scenario.given:
             if command == "lengthen":
                 lengthen(self.here)
+            elif command == "kill":
+                self.kill()
             elif isinstance(command, str):
                 cut(command.split()[1].format(self.here))
             elif (ended := self.do(command)).code != 0:
@@ -134,6 +142,13 @@ class Bench:
         self.template = self.folder / "given"
         shutil.copytree(self.here, self.template)
         self.before = contents(self.template, scenario.ignored)
+
+    def kill(self):
+        """Kills the command when it has its last look, and cuts off the end of the log."""
+        self.do(self.scenario.command, CALLS="rename", ERROR="KILL", AT=2)
+        log = self.here / "m" / "looks.log"
+        log.write_bytes(log.read_bytes()[:-1000])
+        (log.parent / "margin.csv.part").unlink()
 
     def renew(self):
         shutil.rmtree(self.here)
@@ -161,7 +176,8 @@ class Bench:
         """What is wrong after a fault; an empty list if nothing is."""
         whole, files, _ = reference
         path = pathlib.Path(call[1])
-        may_pass = path.is_dir() or path.name.startswith(".lock")  # no row and no number hangs on it
+        no_more_of_use = call[0] == "close" and path.name == "looks.log"  # the study's files are there
+        may_pass = path.is_dir() or path.name.startswith(".lock") or no_more_of_use  # no row, no number hangs on it
         faults = []
         left = contents(self.here, self.scenario.ignored)
         if error in HARMLESS or (ended.code == whole.code and may_pass):
@@ -189,7 +205,10 @@ class Bench:
     def look_at_rows(self, left, files):
         """Rows there were before are there still, and what there is of them are the first ones."""
         faults = [f"{name} is changed" for name in self.before
-                  if name not in files and left.get(name) != self.before[name]]
+                  if name not in files and left.get(name) != self.before[name] and not name.endswith("looks.log")]
+        for name, log in self.before.items():  # goes on, and goes with the study's last file
+            if name.endswith("looks.log") and not left.get(name, log).startswith(log[:-1000]):
+                faults.append(f"{name}: its looks are not the first ones of the whole")
         for name, bytes_left in left.items():
             if name.endswith("runs.csv") and name in files:
                 complete = bytes_left[:bytes_left.rfind(b"\n") + 1]
