@@ -89,7 +89,8 @@ std::span<const Command> all_commands() {
       {"check", add_check},     {"sample", add_sample},     {"analyze", add_analyze},
       {"merge", add_merge},     {"size", add_size},         {"sensitivity", add_sensitivity},
       {"rare", add_rare},       {"margin", add_margin},     {"report", add_report},
-      {"methods", add_methods}, {"version", add_version}};
+      {"methods", add_methods}, {"version", add_version},   {"completion", add_completion},
+      {"man", add_man}};
   return all;
 }
 

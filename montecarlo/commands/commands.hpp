@@ -29,6 +29,9 @@ void add_margin(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_methods(CLI::App& app, Action& action);
 void add_version(CLI::App& app, Action& action);
+// For packages; --help does not list them.
+void add_completion(CLI::App& app, Action& action);
+void add_man(CLI::App& app, Action& action);
 
 /// "wingspread 0.1.0".
 [[nodiscard]] std::string version_text();

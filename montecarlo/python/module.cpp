@@ -108,7 +108,7 @@ void add_errors(py::module_& module) {
   machine_error = py::exception<MachineError>(module, "MachineError", PyExc_OSError).release();
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      std::rethrow_exception(thrown);
+      std::rethrow_exception(std::move(thrown));
     } catch (const SpecError& error) {
       py::list problems;
       for (const auto& [file, pointer, found, expected] : error.problems())

@@ -1,0 +1,229 @@
+"""What a package has beside the program: completions that complete in their shells, pages that man reads without a
+complaint, and Debian packages that unpack to a program that runs on its own.
+
+    /usr/bin/python3 tests/package/package_test.py build/release
+"""
+
+import gzip
+import os
+import pathlib
+import pty
+import re
+import select
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).parent.parent.parent
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+PROGRAM = BUILD / "wingspread"
+
+
+def output_of(*words, **options):
+    return subprocess.run([str(word) for word in words], check=True, capture_output=True, text=True, **options).stdout
+
+
+def commands():
+    """Those that --help lists."""
+    return re.findall(r"(?m)^  ([a-z]+) ", output_of(PROGRAM, "--help").split("Subcommands:\n")[1].split("\n\n")[0])
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        self.held = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.held.name)
+
+    def tearDown(self):
+        self.held.cleanup()
+
+
+class Completions(InFolder):
+    """The same questions to each shell."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "my wing.json").write_text("{}")
+        (self.folder / "here").mkdir()
+
+    def bash(self, line):
+        words = line.split(" ")
+        script = (f"source <({PROGRAM} completion bash); COMP_WORDS=({' '.join(words) or ''}"
+                  f"{' ' + chr(39) * 2 if words[-1] == '' else ''}); COMP_CWORD={len(words) - 1}; _wingspread; "
+                  "for word in \"${COMPREPLY[@]}\"; do echo \"$word\"; done")
+        return output_of("bash", "--norc", "-c", script, cwd=self.folder).splitlines()
+
+    def fish(self, line):
+        script = f"{PROGRAM} completion fish | source; complete -C '{line}'"
+        home = {**os.environ, "HOME": str(self.folder), "XDG_CONFIG_HOME": str(self.folder / "here")}
+        said = output_of("fish", "--no-config", "-c", script, cwd=self.folder, env=home)
+        return [candidate.split("\t")[0].rstrip("/") for candidate in said.splitlines()]
+
+    def zsh(self, line):
+        """What the line becomes when the tabulator key is pressed, in a terminal."""
+        (self.folder / "here/_wingspread").write_text(output_of(PROGRAM, "completion", "zsh"))
+        child, terminal = pty.fork()
+        if child == 0:
+            os.chdir(self.folder)
+            os.execvpe("zsh", ["zsh", "-f", "-i"], {**os.environ, "TERM": "dumb", "PS1": "", "COLUMNS": "200"})
+        said = ""
+
+        def until(mark, seconds=20):
+            nonlocal said
+            end = time.monotonic() + seconds
+            while mark not in said and time.monotonic() < end:
+                if select.select([terminal], [], [], 0.1)[0]:
+                    said += os.read(terminal, 65536).decode(errors="replace")
+            return said
+
+        os.write(terminal, b"unsetopt zle; PS1=; fpath=($PWD/here $fpath); autoload -U compinit; compinit -D -u; "
+                           b"setopt zle; unsetopt beep; bindkey '^I' complete-word; LISTMAX=1000; echo rea''dy\n")
+        until("ready\r\n")
+        said = ""
+        # what is completed is printed by the shell itself, not read off its drawing
+        os.write(terminal, b"show() { print -r -- \"<$BUFFER>\" }; zle -N show; bindkey '^X' show\n")
+        os.write(terminal, line.encode() + b"\t\x18")
+        until(">\r\n")
+        os.write(terminal, b"\x03exit\n")
+        os.close(terminal)
+        os.waitpid(child, 0)
+        found = re.findall(r"<(wingspread [^>]*)>", said)
+        return found[-1].rstrip() if found else said
+
+    def test_bash(self):
+        self.assertEqual(self.bash("wingspread s"), ["simulate", "sample", "size", "sensitivity"])
+        self.assertEqual(self.bash("wingspread run --re"), ["--resume"])
+        self.assertEqual(self.bash("wingspread simulate --latch "), ["event"])
+        self.assertEqual(self.bash("wingspread run --runs "), [])
+        self.assertIn("here", self.bash("wingspread run x.json --out he"))
+        self.assertEqual(set(self.bash("wingspread ")), {*commands(), "-h", "--help", "--version"})
+        self.assertEqual(self.bash("wingspread report "), ["here", "my wing.json"])
+
+    def test_fish(self):
+        if not shutil.which("fish"):
+            self.skipTest("no fish")
+        self.assertEqual(sorted(self.fish("wingspread s")), ["sample", "sensitivity", "simulate", "size"])
+        self.assertEqual(self.fish("wingspread run --re"), ["--resume"])
+        self.assertEqual(self.fish("wingspread simulate --latch "), ["event"])
+        self.assertEqual(self.fish("wingspread run --out he"), ["here"])
+        self.assertEqual(set(self.fish("wingspread ")), set(commands()))
+
+    def test_zsh(self):
+        if not shutil.which("zsh"):
+            self.skipTest("no zsh")
+        self.assertEqual(self.zsh("wingspread sim"), "wingspread simulate")
+        self.assertEqual(self.zsh("wingspread run --res"), "wingspread run --resume")
+        self.assertEqual(self.zsh("wingspread simulate --latch e"), "wingspread simulate --latch event")
+        self.assertEqual(self.zsh("wingspread run --out he"), "wingspread run --out here/")
+
+    def test_every_option_of_help_is_known_to_every_shell(self):
+        scripts = {shell: output_of(PROGRAM, "completion", shell) for shell in ("bash", "zsh", "fish")}
+        for command in commands():
+            for option in re.findall(r"(?m)^  (?:-h,)?--([a-z-]+)", output_of(PROGRAM, command, "--help")):
+                self.assertRegex(scripts["bash"], rf"(?s)  {command}\)\n    options=\"[^\"]*--{option}[ \"]")
+                self.assertRegex(scripts["zsh"], rf"(?s)    {command}\)\n(?:(?!;;).)*--{option}\[")
+                self.assertRegex(scripts["fish"], rf"from {command}'[^\n]* -l {option}[ \n]")
+
+
+class Pages(InFolder):
+    def test_man_reads_every_page_without_a_complaint(self):
+        pages = sorted((BUILD / "package/man").iterdir())
+        self.assertEqual([page.name for page in pages],
+                         sorted(["wingspread.1.gz"] + [f"wingspread-{command}.1.gz" for command in commands()]))
+        for page in pages:
+            done = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", page], capture_output=True, text=True,
+                                  check=True, env={**os.environ, "MANWIDTH": "100", "LC_ALL": "C.UTF-8"})
+            self.assertEqual(done.stderr, "")
+            self.assertIn("wingspread", done.stdout)
+            said = re.sub(r"\s+|.\b", "", done.stdout)
+            self.assertGreater(len(said), 100)
+
+    def test_a_page_says_what_help_says(self):
+        for command in commands():
+            with gzip.open(BUILD / f"package/man/wingspread-{command}.1.gz", "rt", encoding="utf-8") as file:
+                page = file.read().replace("\\-", "-").replace("\\&", "").replace("\\e", "\\")
+            shown = output_of(PROGRAM, command, "--help")
+            for option in re.findall(r"(?m)^  (?:-h,)?(--[a-z-]+)", shown):
+                self.assertIn(f"\\fB{option}\\fR", page)
+            example = shown.split("Example:\n")[1].rstrip()
+            self.assertIn(example, page)
+
+    def test_a_page_of_no_command_is_refused(self):
+        done = subprocess.run([PROGRAM, "man", "--of", "rnu"], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("rnu", done.stderr)
+
+
+@unittest.skipUnless(shutil.which("dpkg-deb") and shutil.which("dpkg-shlibdeps"), "no Debian")
+class Packages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.held = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.held.name)
+        output_of("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / "made",
+                  "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip")
+        cls.packages = {path.name.split("_")[0]: path for path in (cls.folder / "made").glob("*.deb")}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.held.cleanup()
+
+    def field(self, package, name):
+        return output_of("dpkg-deb", "--field", self.packages[package], name).strip()
+
+    def test_the_program_needs_little_and_runs_where_it_is_unpacked(self):
+        needed = {word.split()[0] for word in self.field("wingspread", "Depends").split(",")}
+        self.assertEqual(needed, {"libc6", "libfmt9", "libgcc-s1", "libgomp1", "libstdc++6"})
+        root = self.folder / "root"
+        output_of("dpkg-deb", "--extract", self.packages["wingspread"], root)
+        examples = root / "usr/share/doc/wingspread/examples"
+        bare = {"PATH": "", "HOME": str(self.folder)}
+        checked = 0
+        for file in sorted(examples.rglob("*.json")):
+            if file.with_suffix(".csv").exists() or "work_precision" not in file.name:
+                output_of(root / "usr/bin/wingspread", "check", file, env=bare)
+                checked += 1
+        self.assertGreater(checked, 10)
+        done = subprocess.run([root / "usr/bin/wingspread", "run", examples / "campaigns/seed.json", "--out",
+                               self.folder / "out", "--runs", "40"], env=bare, capture_output=True, check=False)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        output_of(root / "usr/bin/wingspread", "report", self.folder / "out", env=bare)
+
+    def test_it_has_what_debian_expects(self):
+        names = {line.split()[-1] for line in output_of("dpkg-deb", "--contents",
+                                                        self.packages["wingspread"]).splitlines()}
+        for name in ("bin/wingspread", "share/man/man1/wingspread.1.gz", "share/man/man1/wingspread-run.1.gz",
+                     "share/bash-completion/completions/wingspread", "share/zsh/vendor-completions/_wingspread",
+                     "share/fish/vendor_completions.d/wingspread.fish", "share/doc/wingspread/copyright",
+                     "share/doc/wingspread/changelog.gz", "share/doc/wingspread/changelog.Debian.gz", "share/doc/wingspread/examples/scenes/three_panel.json",
+                     "share/doc/wingspread/examples/campaigns/seed.json"):
+            self.assertIn("./usr/" + name, names)
+        rights = output_of("dpkg-deb", "--fsys-tarfile", self.packages["wingspread"], encoding="latin-1")
+        for holder in ("The wingspread authors", "Mike Bostock", "Niels Lohmann"):
+            self.assertIn(holder, rights)
+        if shutil.which("lintian"):
+            for name in ("wingspread", "python3-wingspread"):  # it reads long in the library
+                package = self.packages.get(name, self.packages["wingspread"])
+                # whoever makes the package puts his address there: -DWINGSPREAD_MAINTAINER
+                done = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", "--suppress-tags",
+                                       "bogus-mail-host,bogus-mail-host-in-debian-changelog", package],
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_the_others_are_the_library_and_the_module(self):
+        library = output_of("dpkg-deb", "--contents", self.packages["libwingspread-dev"])
+        self.assertIn("./usr/include/wingspread/wingspread.hpp", library)
+        self.assertIn("libwingspread.a", library)
+        self.assertIn("libfmt-dev", self.field("libwingspread-dev", "Depends"))
+        if "python3-wingspread" not in self.packages:
+            self.skipTest("the module is not built")
+        output_of("dpkg-deb", "--extract", self.packages["python3-wingspread"], self.folder / "python")
+        said = output_of("/usr/bin/python3", "-c", "import wingspread; print(wingspread.__version__, wingspread.__file__)",
+                         env={"PYTHONPATH": str(self.folder / "python/usr/lib/python3/dist-packages")})
+        self.assertTrue(said.split()[1].startswith(str(self.folder)))
+
+
+if __name__ == "__main__":
+    unittest.main()
