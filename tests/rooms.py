@@ -47,7 +47,7 @@ montecarlo/report
 montecarlo/terminal
 montecarlo/library montecarlo/package
 montecarlo/commands montecarlo/python
-montecarlo/main
+montecarlo/main montecarlo/mpi_main
 """
 LEVEL = {room: level for level, line in enumerate(ORDER.split("\n")) for room in line.split()}
 MOST_LINES = 400  # of a file

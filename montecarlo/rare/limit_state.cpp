@@ -92,6 +92,19 @@ LimitState::LimitState(const Campaign& campaign, RareEvent event)
   time_ = campaign.integration.t_end - nominal.t_end;
 }
 
+RareEvent event_of(const std::string& recipe) {
+  const Json json = parse_json(recipe, "");
+  return {json.at("output").get<std::string>(), json.at("limit").get<double>(),
+          json.at("above").get<bool>()};
+}
+
+Measure LimitState::measure() const {
+  const Json event{{"output", event_.output}, {"limit", event_.limit}, {"above", event_.above}};
+  return {"g", goal_,
+          [this](const Scene& scene, const Outcome& outcome) { return of(scene, outcome); },
+          event.dump()};
+}
+
 double LimitState::of_deployed(const Scene& scene, const Outcome& outcome) const {
   const double time = (campaign_->integration.t_end - outcome.t_end) / time_;
   double least = std::min(outcome.energy.final / energy_, time);

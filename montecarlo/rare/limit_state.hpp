@@ -27,6 +27,7 @@
 
 #include "montecarlo/campaign/campaign.hpp"
 #include "montecarlo/campaign/outputs.hpp"
+#include "montecarlo/runs/run_plan.hpp"
 
 #include <optional>
 #include <string>
@@ -46,6 +47,9 @@ struct RareEvent {
 /// Where the output stands that has this g; g itself for an event without one.
 [[nodiscard]] double level_of(const RareEvent& event, double g);
 
+/// The event that a measure's recipe is of. @pre the recipe is from LimitState::measure
+[[nodiscard]] RareEvent event_of(const std::string& recipe);
+
 /// The measure of an event in a campaign's runs. Immutable, so one object serves all threads.
 class LimitState {
 public:
@@ -59,6 +63,8 @@ public:
   [[nodiscard]] const Goal& goal() const { return goal_; }
   /// g. NaN where an output is missing: the event.
   [[nodiscard]] double of(const Scene& scene, const Outcome& outcome) const;
+  /// It as what is taken of a run, with the event as the recipe. @pre the limit state outlives it
+  [[nodiscard]] Measure measure() const;
 
 private:
   [[nodiscard]] double of_deployed(const Scene& scene, const Outcome& outcome) const;

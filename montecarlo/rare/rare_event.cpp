@@ -32,13 +32,12 @@ class NormalRuns {
 public:
   NormalRuns(const Campaign& campaign, const LimitState& limit_state, Evaluator& evaluator)
       : evaluator_(evaluator),
-        plan_(campaign,
-              [this](long k, std::span<Tails> u) {
-                std::ranges::transform(points_[static_cast<std::size_t>(k)], u.begin(), unit_point);
-              },
-              {"g", limit_state.goal(), [&limit_state](const Scene& scene, const Outcome& outcome) {
-                 return limit_state.of(scene, outcome);
-               }}) {}
+        plan_(
+            campaign,
+            [this](long k, std::span<Tails> u) {
+              std::ranges::transform(points_[static_cast<std::size_t>(k)], u.begin(), unit_point);
+            },
+            limit_state.measure()) {}
   NormalRuns(const NormalRuns&) = delete;
   NormalRuns& operator=(const NormalRuns&) = delete;
   ~NormalRuns() = default;

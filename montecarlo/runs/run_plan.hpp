@@ -27,6 +27,7 @@ struct Measure {
   Goal goal; ///< what a run has to compute for it
   /// Of the scene that was run; pure. Kept as it is, NaN and infinity too.
   std::function<double(const Scene&, const Outcome&)> of;
+  std::string recipe{}; ///< what another process makes it of; empty: none can
 };
 
 /// Immutable, so one plan serves all threads.
@@ -51,10 +52,12 @@ public:
   /// @param draws as many as the campaign has dispersions
   void draw(long k, std::span<double> draws) const;
 
-private:
-  /// A run's point of the unit cube. @param u as many as there are dispersions
+  /// Whether its points are others than those of the campaign's design.
+  [[nodiscard]] bool has_own_points() const { return bool(points_); }
+  /// Run k's point of the unit cube. Pure. @param u as many as there are dispersions
   void place(long k, std::span<Tails> u) const;
 
+private:
   const Campaign* campaign_;
   std::vector<OutputColumn> columns_;
   std::optional<Measure> measure_;

@@ -1,0 +1,215 @@
+#include "montecarlo/ranks/serve.hpp"
+
+#include "montecarlo/machine/team.hpp"
+#include "montecarlo/ranks/plan_copy.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <new>
+#include <thread>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+using std::chrono::microseconds;
+
+/// How long to wait before the next look at the wire: while threads make runs they are not to be disturbed, and have
+/// chunks in store; while they have nothing to do, an answer is wanted.
+constexpr microseconds while_busy{1000}, while_idle{50};
+
+/// The chunks that a rank has in store, and those that its team has finished.
+class StoreDesk final : public ChunkDesk {
+public:
+  explicit StoreDesk(const std::atomic<bool>& stop) : stop_(stop) {}
+
+  [[nodiscard]] std::optional<Chunk> claim() override {
+    const std::lock_guard lock(mutex_);
+    if (stopped() || store_.empty()) return std::nullopt;
+    const Chunk chunk = store_.front();
+    store_.pop_front();
+    changed_.notify_all(); // more is wanted
+    return chunk;
+  }
+  [[nodiscard]] bool wait_for_more() override {
+    std::unique_lock lock(mutex_);
+    ++idle_;
+    const auto over = [&] { return stopped() || ended_ || !store_.empty(); };
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(100), over)) {
+    }
+    --idle_;
+    return !stopped() && !store_.empty();
+  }
+  [[nodiscard]] bool stopped() const override { return stop_.load() || broken_.load(); }
+  void finish(const Chunk& chunk, Batch&& batch, bool complete) override {
+    const std::lock_guard lock(mutex_);
+    finished_.push_back({chunk, std::move(batch), complete});
+    changed_.notify_all();
+  }
+  void break_off() override {
+    broken_ = true;
+    changed_.notify_all();
+  }
+
+  void add(const Chunk& chunk) {
+    const std::lock_guard lock(mutex_);
+    store_.push_back(chunk);
+    changed_.notify_all();
+  }
+  /// No more chunks will come.
+  void end() {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+  }
+  [[nodiscard]] long in_store() const {
+    const std::lock_guard lock(mutex_);
+    return std::ssize(store_);
+  }
+  [[nodiscard]] std::vector<FinishedChunk> take_finished() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(finished_, {});
+  }
+  /// Waits a while for something to change.
+  void pause() {
+    std::unique_lock lock(mutex_);
+    if (!finished_.empty()) return;
+    changed_.wait_for(lock, idle_ > 0 ? while_idle : while_busy);
+  }
+
+private:
+  const std::atomic<bool>& stop_;
+  std::atomic<bool> broken_ = false;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Chunk> store_;
+  std::vector<FinishedChunk> finished_;
+  int idle_ = 0; ///< threads without a run
+  bool ended_ = false;
+};
+
+/// One plan, from its opening to its closing. This thread is on the wire, a team beside it makes the runs.
+class Session {
+public:
+  Session(Wire& wire, PlanCopy& copy, const std::atomic<bool>& stop)
+      : wire_(wire), copy_(copy), stop_(stop), desk_(stop),
+        in_store_(2L * team_size(copy.crew().threads)) {}
+
+  void run() {
+    std::thread team([this] { work(); });
+    while (!team_done_) {
+      while (const auto message = wire_.receive()) heed(Unpacker(message->bytes));
+      report();
+      if (!team_done_) desk_.pause();
+    }
+    team.join();
+    report();
+    while (!closing_) { // it ended by itself: a signal, an exception
+      if (const auto message = wire_.receive())
+        heed(Unpacker(message->bytes));
+      else
+        std::this_thread::sleep_for(while_idle);
+    }
+    wire_.send(0, closed_message(end_));
+  }
+
+private:
+  void work() noexcept {
+    try {
+      end_.occupancy =
+          make_chunks(copy_.plan(), copy_.crew(), copy_.description().wants_csv, desk_);
+    } catch (const std::bad_alloc&) {
+      end_.failure = "found no memory left, expected more of it";
+    } catch (const std::exception& error) {
+      end_.failure = error.what();
+    }
+    team_done_ = true;
+    desk_.break_off();
+  }
+
+  void heed(Unpacker message) {
+    switch (kind_of(message)) {
+    case Told::chunk: {
+      const Chunk chunk = take_chunk(message);
+      copy_.expect(chunk, message);
+      desk_.add(chunk);
+      --asked_;
+      break;
+    }
+    case Told::stop:
+      desk_.break_off();
+      break;
+    case Told::close:
+      closing_ = true;
+      desk_.end();
+      break;
+    default:
+      break;
+    }
+  }
+
+  /// Tells what is finished, and asks for as many chunks as the store lacks.
+  void report() {
+    Report report{.finished = desk_.take_finished()};
+    for (const FinishedChunk& each : report.finished) copy_.forget(each.chunk);
+    const bool over = closing_ || team_done_ || desk_.stopped();
+    if (!over) report.wanted = std::max(0L, in_store_ - desk_.in_store() - asked_);
+    report.stopped = (stop_ || team_done_) && !closing_ && !std::exchange(told_, true);
+    if (report.finished.empty() && report.wanted == 0 && !report.stopped) return;
+    asked_ += report.wanted;
+    wire_.send(0, report_message(report));
+  }
+
+  Wire& wire_;
+  PlanCopy& copy_;
+  const std::atomic<bool>& stop_;
+  StoreDesk desk_;
+  const long in_store_; ///< chunks to have in store: a team is not to wait for a message's way
+  long asked_ = 0;      ///< chunks that were asked for and have not come
+  bool closing_ = false, told_ = false;
+  Closing end_{};
+  std::atomic<bool> team_done_ = false;
+};
+
+/// Says what is wrong with a plan, and waits until rank 0 closes it.
+void refuse(Wire& wire, const std::string& why) {
+  wire.send(0, report_message({.stopped = true}));
+  while (true) {
+    const auto message = wire.receive();
+    if (!message) {
+      std::this_thread::sleep_for(while_idle);
+    } else if (Unpacker bytes(message->bytes); kind_of(bytes) == Told::close) {
+      return wire.send(0, closed_message({.failure = why}));
+    }
+  }
+}
+
+} // namespace
+
+void serve(Wire& wire, const std::atomic<bool>& stop) {
+  std::optional<PlanCopy> copy; // of the last plan, which often comes again
+  while (true) {
+    const auto message = wire.receive();
+    if (!message) {
+      std::this_thread::sleep_for(while_idle);
+      continue;
+    }
+    Unpacker bytes(message->bytes);
+    const Told kind = kind_of(bytes);
+    if (kind == Told::leave) return;
+    if (kind != Told::open) continue;
+    PlanDescription description = take_description(bytes);
+    try {
+      if (!copy || copy->description() != description) copy.emplace(std::move(description));
+    } catch (const std::exception& error) {
+      copy.reset();
+      refuse(wire, error.what());
+      continue;
+    }
+    Session(wire, *copy, stop).run();
+  }
+}
+
+} // namespace wingspread
