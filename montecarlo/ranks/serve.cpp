@@ -18,7 +18,7 @@ using std::chrono::microseconds;
 
 /// How long to wait before the next look at the wire: while threads make runs they are not to be disturbed, and have
 /// chunks in store; while they have nothing to do, an answer is wanted.
-constexpr microseconds while_busy{1000}, while_idle{50};
+constexpr microseconds while_busy{2000}, while_idle{50};
 
 /// The chunks that a rank has in store, and those that its team has finished.
 class StoreDesk final : public ChunkDesk {
@@ -95,7 +95,7 @@ class Session {
 public:
   Session(Wire& wire, PlanCopy& copy, const std::atomic<bool>& stop)
       : wire_(wire), copy_(copy), stop_(stop), desk_(stop),
-        in_store_(2L * team_size(copy.crew().threads)) {}
+        in_store_(4L * team_size(copy.crew().threads)) {}
 
   void run() {
     std::thread team([this] { work(); });

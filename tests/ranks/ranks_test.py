@@ -202,6 +202,26 @@ class Ranks(unittest.TestCase):
         self.assertIn("interrupted: ", error)
         self.go_on_and_compare()
 
+    def test_a_study_goes_on_with_another_number_of_ranks(self):
+        of = campaign(3000, requirements=[{"output": "deployed", "probability": 0.97, "confidence": 0.9},
+                                          {"output": "root.latch_rate", "min": -1, "probability": 0.97, "confidence": 0.9}],
+                      margin={"scale": SPRING, "range": [0.7, 1.4], "points": 3, "widest": [0.7, 1.4]})
+        file, out, alone = self.write(of), self.folder / "out", self.folder / "alone"
+        process = self.start(2, "margin", file, "--out", out)
+        end = time.monotonic() + 60
+        while not (out / "looks.log").exists() or (out / "looks.log").stat().st_size < 100000:
+            self.assertIsNone(process.poll(), "it ended by itself")
+            self.assertLess(time.monotonic(), end, "there is no log")
+            time.sleep(0.02)
+        os.kill(self.workers(process)[1], signal.SIGKILL)
+        code, _, error = self.finish(process, 20)
+        self.assertNotEqual(code, 0, error)
+        expected, _, error = self.run_program(0, "margin", file, "--out", alone)
+        self.assertIn(expected, (0, 1), error)
+        code, _, error = self.run_program(3, "margin", file, "--out", out, "--resume")
+        self.assertEqual(code, expected, error)
+        self.assertEqual(contents(out), contents(alone))
+
 
 if __name__ == "__main__":
     unittest.main()
