@@ -84,13 +84,23 @@ int carry_out(const Action& action) {
 }
 
 std::span<const Command> all_commands() {
-  static constexpr Command all[] = {
-      {"run", add_run},         {"simulate", add_simulate}, {"replay", add_replay},
-      {"check", add_check},     {"sample", add_sample},     {"analyze", add_analyze},
-      {"merge", add_merge},     {"size", add_size},         {"sensitivity", add_sensitivity},
-      {"rare", add_rare},       {"margin", add_margin},     {"report", add_report},
-      {"methods", add_methods}, {"version", add_version},   {"completion", add_completion},
-      {"man", add_man}};
+  static constexpr Command all[] = {{"run", add_run},
+                                    {"simulate", add_simulate},
+                                    {"replay", add_replay},
+                                    {"check", add_check},
+                                    {"sample", add_sample},
+                                    {"analyze", add_analyze},
+                                    {"merge", add_merge},
+                                    {"size", add_size},
+                                    {"sensitivity", add_sensitivity},
+                                    {"rare", add_rare},
+                                    {"margin", add_margin},
+                                    {"report", add_report},
+                                    {"export", add_export},
+                                    {"methods", add_methods},
+                                    {"version", add_version},
+                                    {"completion", add_completion},
+                                    {"man", add_man}};
   return all;
 }
 

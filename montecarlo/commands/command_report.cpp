@@ -1,6 +1,8 @@
 #include "montecarlo/commands/commands.hpp"
+#include "montecarlo/export/hdf5_export.hpp"
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/report/html_page.hpp"
 #include "montecarlo/report/study_set.hpp"
 
@@ -43,6 +45,18 @@ int report(const ReportOptions& options) {
   return exit_code::done;
 }
 
+struct ExportOptions {
+  std::filesystem::path folder, out;
+};
+
+int export_folder(const ExportOptions& options) {
+  Interrupt interrupt;
+  interrupt.end_at_once("interrupted: nothing is written\n");
+  export_hdf5(options.folder, options.out);
+  fmt::print("{}\n", options.out.string());
+  return exit_code::done;
+}
+
 } // namespace
 
 void add_report(CLI::App& app, Action& action) {
@@ -65,6 +79,26 @@ Example:
   wingspread report results/first
   wingspread report results/before results/after --out change.html)");
   command->callback([options, &action] { action = [options] { return report(*options); }; });
+}
+
+void add_export(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<ExportOptions>();
+  CLI::App* command =
+      app.add_subcommand("export", "A folder's rows as HDF5, for h5py, pandas, MATLAB and Octave");
+  command->add_option("folder", options->folder, "The results folder")->required();
+  command->add_option("--out", options->out, "The file; one that is there is replaced")
+      ->type_name("FILE.h5")
+      ->required();
+  command->footer(
+      R"(One dataset a column, by its name in runs.csv, with its unit and description as attributes; numbers
+bit for bit, NaN where a quantity did not happen. Of a campaign with cases there is a group for each.
+The campaign, its seed and its hash are attributes of the file. The same folder gives the same bytes.
+Where wingspread was built without HDF5 (Debian: libhdf5-dev) it says so, with exit code 4.
+
+Example:
+  wingspread export results/first --out first.h5
+  python3 -c 'import h5py; print(list(h5py.File("first.h5")))')");
+  command->callback([options, &action] { action = [options] { return export_folder(*options); }; });
 }
 
 } // namespace wingspread

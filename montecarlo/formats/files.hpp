@@ -26,6 +26,8 @@ public:
   WholeFile& operator=(const WholeFile&) = delete;
 
   void write(std::string_view text) { part_.write(text); }
+  /// Where it is until then, for a library that writes files by their names.
+  [[nodiscard]] const std::filesystem::path& part() const { return part_.path(); }
   /// Moves it to its place. Once, and as the last.
   void finish();
 
