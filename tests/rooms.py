@@ -45,7 +45,7 @@ montecarlo/ranks
 montecarlo/page_data
 montecarlo/report
 montecarlo/terminal
-montecarlo/library montecarlo/package
+montecarlo/library montecarlo/package montecarlo/schema
 montecarlo/commands montecarlo/python
 montecarlo/main montecarlo/mpi_main
 """

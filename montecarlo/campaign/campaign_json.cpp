@@ -88,7 +88,9 @@ GuaranteeReader guarantee_reader(const Campaign& campaign) {
 /// A scene that stands in the campaign, or in the file that is named there.
 Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& directory) {
   if (!at.value().is_string()) return read_scene(at);
-  const std::filesystem::path path = directory / at.value().get<std::string>();
+  std::string name;
+  at.read(name, expected_scene);
+  const std::filesystem::path path = directory / name;
   const auto text = read_text(path);
   try {
     if (text) {
@@ -137,9 +139,10 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
 /// Reads a campaign part by part: what comes later is looked up only in what was sound before.
 class CampaignReader {
 public:
-  CampaignReader(const Json& document, std::filesystem::path directory, const std::string& file)
+  CampaignReader(const Json& document, std::filesystem::path directory, const std::string& file,
+                 std::vector<Question>* questions = nullptr)
       : directory_(std::move(directory)),
-        object_(JsonCursor(document, file, problems_), "a campaign: an object"),
+        object_(JsonCursor(document, file, problems_, questions), "a campaign: an object"),
         was_run_(document.is_object() && document.contains(stamp_key)) {}
 
   /// @throws SpecError with all that is wrong
@@ -266,6 +269,10 @@ Campaign read_document(const Json& document, const std::filesystem::path& direct
 Campaign read_campaign(const std::string& text, const std::filesystem::path& directory,
                        const std::string& file) {
   return read_document(parse_json(text, file), directory, file);
+}
+
+Campaign read_campaign(const Json& document, std::vector<Question>& questions) {
+  return CampaignReader(document, {}, "", &questions).read();
 }
 
 Campaign read_campaign_file(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/formats/json_reader.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,6 +19,9 @@ namespace wingspread {
 [[nodiscard]] Campaign read_campaign(const std::string& text,
                                      const std::filesystem::path& directory,
                                      const std::string& file = "");
+
+/// The same, with all that is asked of the document on the way. @param questions has it, whatever is thrown
+[[nodiscard]] Campaign read_campaign(const Json& document, std::vector<Question>& questions);
 
 /// @throws SpecError with all that is wrong
 [[nodiscard]] Campaign read_campaign_file(const std::filesystem::path& path);

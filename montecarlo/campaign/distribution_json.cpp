@@ -143,7 +143,9 @@ Distribution read_distribution(const JsonCursor& at, const std::filesystem::path
                                std::string_view unit) {
   const std::size_t before = at.problems().size();
   Distribution distribution;
-  JsonObject object(at, "a distribution: an object with its type");
+  constexpr std::string_view what = "a distribution: an object with its type";
+  at.note(Question::What::object, what, "distribution");
+  JsonObject object(at, what);
   std::size_t type = 0;
   if (!object.required_choice("type", type, type_names) || !object.is_object()) return distribution;
   distribution.law = default_law(type, every_law);

@@ -98,6 +98,7 @@ std::span<const Command> all_commands() {
                                     {"report", add_report},
                                     {"export", add_export},
                                     {"methods", add_methods},
+                                    {"schema", add_schema},
                                     {"version", add_version},
                                     {"completion", add_completion},
                                     {"man", add_man}};

@@ -2,6 +2,7 @@
 #include "montecarlo/folder/version.hpp"
 #include "montecarlo/package/completion.hpp"
 #include "montecarlo/package/man_page.hpp"
+#include "montecarlo/schema/schema.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -30,7 +31,29 @@ std::string page_of(const std::vector<CommandEntry>& table, const std::string& n
 
 } // namespace
 
-// What they print is made while the command line is understood, for it is the command line.
+void add_schema(CLI::App& app, Action& action) {
+  const auto what = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("schema", "The JSON Schema of scenes or campaigns, for editors");
+  command->add_option("of", *what, "Of which: scene or campaign")
+      ->required()
+      ->check(CLI::IsMember({"scene", "campaign"}));
+  command->footer(
+      R"(Made of what the readers themselves ask for: an editor that has it completes keys, says what each
+is for, and marks what is unknown or of a wrong type. What holds between values `wingspread check`
+knows.
+
+Example:
+  wingspread schema scene > scene.schema.json)");
+  command->callback([what, &action] {
+    action = [what] {
+      fmt::print("{}", json_text((*what == "scene" ? scene_schema() : campaign_schema()).schema));
+      return exit_code::done;
+    };
+  });
+}
+
+// What these print is made while the command line is understood, for it is the command line.
 
 void add_completion(CLI::App& app, Action& action) {
   const auto shell = std::make_shared<std::string>();

@@ -30,6 +30,7 @@ void add_report(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_methods(CLI::App& app, Action& action);
 void add_version(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
 // For packages; --help does not list them.
 void add_completion(CLI::App& app, Action& action);
 void add_man(CLI::App& app, Action& action);

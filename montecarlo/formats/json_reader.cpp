@@ -77,8 +77,9 @@ std::string quoted_list(std::span<const std::string_view> words) {
   return list;
 }
 
-JsonCursor::JsonCursor(const Json& document, std::string file, std::vector<Problem>& problems)
-    : value_(&document), file_(std::move(file)), problems_(&problems) {}
+JsonCursor::JsonCursor(const Json& document, std::string file, std::vector<Problem>& problems,
+                       std::vector<Question>* questions)
+    : value_(&document), file_(std::move(file)), problems_(&problems), questions_(questions) {}
 
 JsonCursor JsonCursor::member(std::string_view key) const {
   JsonCursor at = *this;
@@ -125,20 +126,24 @@ bool JsonCursor::refuse_repeated(std::string_view what, std::string_view expecte
 }
 
 bool JsonCursor::read(double& out, std::string_view expected) const {
+  note(Question::What::number, expected);
   if (!value_->is_number() || !std::isfinite(value_->get<double>())) return refuse(expected);
   out = value_->get<double>();
   return true;
 }
 
 bool JsonCursor::read(std::int64_t& out, std::string_view expected) const {
+  note(Question::What::integer, expected);
   return read_integer(*this, out, expected);
 }
 
 bool JsonCursor::read(std::uint64_t& out, std::string_view expected) const {
+  note(Question::What::integer, expected);
   return read_integer(*this, out, expected);
 }
 
 bool JsonCursor::read(std::string& out, std::string_view expected) const {
+  note(Question::What::text, expected);
   if (!value_->is_string()) return refuse(expected);
   out = value_->get<std::string>();
   return true;
@@ -150,6 +155,7 @@ bool JsonCursor::read(std::vector<double>& out, std::string_view expected) const
 }
 
 bool JsonCursor::read(double& out, const Dimension& dimension) const {
+  if (questions_) note(Question::What::quantity, expected_quantity(dimension));
   if (!value_->is_string()) return read(out, expected_number(dimension));
   const auto value = in_unit(value_->get_ref<const std::string&>(), dimension.unit);
   if (!value) return refuse(expected_quantity(dimension));
@@ -158,6 +164,7 @@ bool JsonCursor::read(double& out, const Dimension& dimension) const {
 }
 
 bool JsonCursor::read(Eigen::Vector2d& out, const Dimension& dimension) const {
+  if (questions_) note(Question::What::pair, expected_numbers(dimension, 2));
   if (!value_->is_array() || value_->size() != 2) return refuse(expected_numbers(dimension, 2));
   std::vector<double> both;
   if (!read_each(*this, both, dimension)) return false;
@@ -171,6 +178,8 @@ bool JsonCursor::read(std::vector<double>& out, const Dimension& dimension) cons
 }
 
 std::optional<std::size_t> JsonCursor::choice(std::span<const std::string_view> words) const {
+  note(Question::What::choice, quoted_list(words));
+  if (questions_) questions_->back().words.assign(words.begin(), words.end());
   if (value_->is_string()) {
     const auto found = std::ranges::find(words, value_->get_ref<const std::string&>());
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
@@ -180,16 +189,19 @@ std::optional<std::size_t> JsonCursor::choice(std::span<const std::string_view> 
 }
 
 JsonObject::JsonObject(const JsonCursor& at, std::string_view what) : at_(at) {
+  at_.note(Question::What::object, what);
   if (!is_object()) at_.refuse(what);
 }
 
 std::optional<JsonCursor> JsonObject::find(std::string_view key) {
+  at_.note(Question::What::key, "", key);
   if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   if (!is_object() || !at_.value().contains(std::string(key))) return std::nullopt;
   return at_.member(key);
 }
 
 std::optional<JsonCursor> JsonObject::require(std::string_view key, std::string_view expected) {
+  at_.note(Question::What::required_key, expected, key);
   auto found = find(key);
   if (!found && is_object()) at_.refuse("nothing", expected, pointer_token(key));
   return found;

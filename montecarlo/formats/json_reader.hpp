@@ -34,11 +34,34 @@ inline constexpr std::size_t most_elements = 1000;
 /// `"a", "b" or "c"`.
 [[nodiscard]] std::string quoted_list(std::span<const std::string_view> words);
 
+/// Something that a reader has asked of a document: what schemas are made of (schema/).
+struct Question {
+  enum class What {
+    object,
+    names,
+    key,
+    required_key,
+    number,
+    integer,
+    text,
+    quantity,
+    pair,
+    choice
+  };
+  What what;
+  std::string pointer;              ///< of the value that was asked
+  std::string expected;             ///< for people; may be empty
+  std::string key{};                ///< of an object, or the name of its kind
+  std::vector<std::string> words{}; ///< of a choice
+};
+
 /// A value of the document and its place. Problems found there go to the list it was made with.
 class JsonCursor {
 public:
-  /// The whole document. @pre both outlive the cursor and all that are made from it
-  JsonCursor(const Json& document, std::string file, std::vector<Problem>& problems);
+  /// The whole document. @pre all outlive the cursor and all that are made from it
+  /// @param questions gets all that is asked of the document, in its order; null: nobody wants to know
+  JsonCursor(const Json& document, std::string file, std::vector<Problem>& problems,
+             std::vector<Question>* questions = nullptr);
 
   [[nodiscard]] const Json& value() const { return *value_; }
   [[nodiscard]] const std::string& file() const { return file_; }
@@ -77,10 +100,17 @@ public:
   /// The index of the word that stands here; a problem and nothing when it is none of them.
   [[nodiscard]] std::optional<std::size_t> choice(std::span<const std::string_view> words) const;
 
+  /// Notes that something is asked here.
+  void note(Question::What what, std::string_view expected, std::string_view key = "") const {
+    if (questions_)
+      questions_->push_back({what, pointer_, std::string(expected), std::string(key)});
+  }
+
 private:
   const Json* value_;
   std::string file_, pointer_;
   std::vector<Problem>* problems_;
+  std::vector<Question>* questions_;
 };
 
 // What numbers have to hold, for JsonObject below.
@@ -146,6 +176,9 @@ public:
     const auto at = find(key);
     return at ? choose(*at, out, words) : true;
   }
+
+  /// Says that its keys are names from elsewhere, and not those of a format.
+  void keys_are_names() const { at_.note(Question::What::names, ""); }
 
   /// Notes a problem for each key that was not asked for, with the known one nearest to it.
   void refuse_others() const;

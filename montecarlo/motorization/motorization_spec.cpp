@@ -96,6 +96,7 @@ Json phase_json(MarginPhase phase, const PhaseFactors& factors) {
 void read_torques(const JsonCursor& at, const Scene* scene,
                   std::vector<MotorizationTerms>& torques) {
   JsonObject hinges(at, "an object with the torques of hinges by their names");
+  hinges.keys_are_names();
   if (!scene) return;
   for (std::size_t i = 0; i < scene->hinges.size(); ++i)
     if (const auto hinge = hinges.find(scene->hinges[i].name)) {
@@ -109,6 +110,7 @@ void read_torques(const JsonCursor& at, const Scene* scene,
 
 void read_rates(const JsonCursor& at, const Scene* scene, std::vector<double>& rates) {
   JsonObject hinges(at, "an object with the rates of hinges by their names");
+  hinges.keys_are_names();
   if (!scene) return;
   for (std::size_t i = 0; i < scene->hinges.size(); ++i)
     read_size(hinges, scene->hinges[i].name, "rad/s", rates[i]);
@@ -125,7 +127,9 @@ MotorizationSpec default_motorization(const Scene& scene) {
 }
 
 void read_motorization(const JsonCursor& at, const Scene* scene, MotorizationSpec& spec) {
-  JsonObject object(at, "an object with the static margins' factors");
+  constexpr std::string_view what = "an object with the static margins' factors";
+  at.note(Question::What::object, what, "motorization");
+  JsonObject object(at, what);
   if (const auto ecss = object.find("ecss")) read_ecss(*ecss, spec);
   if (const auto nasa = object.find("nasa")) read_nasa(*nasa, spec);
   if (const auto gevs = object.find("gevs")) read_phase(*gevs, spec.gevs_phase, spec.gevs);

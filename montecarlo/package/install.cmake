@@ -1,11 +1,11 @@
-# What a package has beside the program and the library: man pages and completions, which the program prints itself,
-# the scenes and campaigns as examples, and who holds which rights.
+# What a package has beside the program and the library: man pages, completions and schemas, which the program prints
+# itself, the scenes and campaigns as examples, and who holds which rights.
 include(GNUInstallDirs)
 set(made ${PROJECT_BINARY_DIR}/package)
 find_program(WINGSPREAD_GZIP gzip)
 set(WINGSPREAD_MAINTAINER "The wingspread authors <wingspread@localhost>" CACHE STRING "Who makes the packages")
 
-if(WINGSPREAD_GZIP AND NOT CMAKE_CROSSCOMPILING AND NOT WINGSPREAD_SANITIZE)
+if(WINGSPREAD_GZIP AND NOT CMAKE_CROSSCOMPILING AND NOT WINGSPREAD_SANITIZE AND NOT WINGSPREAD_MPI)
   add_custom_command(OUTPUT ${made}/made COMMENT "Man pages and completions" VERBATIM
     COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:wingspread> -DOUT=${made} -DGZIP=${WINGSPREAD_GZIP}
             -DCHANGELOG=${PROJECT_SOURCE_DIR}/CHANGELOG.md -DVERSION=${PROJECT_VERSION}-1
@@ -16,6 +16,7 @@ if(WINGSPREAD_GZIP AND NOT CMAKE_CROSSCOMPILING AND NOT WINGSPREAD_SANITIZE)
   install(FILES ${made}/wingspread.bash DESTINATION share/bash-completion/completions RENAME wingspread COMPONENT program)
   install(FILES ${made}/wingspread.zsh DESTINATION share/zsh/vendor-completions RENAME _wingspread COMPONENT program)
   install(FILES ${made}/wingspread.fish DESTINATION share/fish/vendor_completions.d COMPONENT program)
+  install(FILES ${made}/scene.schema.json ${made}/campaign.schema.json DESTINATION share/wingspread COMPONENT program)
   foreach(package "program wingspread" "development libwingspread-dev" "python python3-wingspread")
     separate_arguments(package)
     list(POP_FRONT package component name)

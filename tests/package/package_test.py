@@ -93,7 +93,8 @@ class Completions(InFolder):
         return found[-1].rstrip() if found else said
 
     def test_bash(self):
-        self.assertEqual(self.bash("wingspread s"), ["simulate", "sample", "size", "sensitivity"])
+        self.assertEqual(self.bash("wingspread s"), ["simulate", "sample", "size", "sensitivity", "schema"])
+        self.assertEqual(self.bash("wingspread schema "), ["scene", "campaign"])
         self.assertEqual(self.bash("wingspread run --re"), ["--resume"])
         self.assertEqual(self.bash("wingspread simulate --latch "), ["event"])
         self.assertEqual(self.bash("wingspread run --runs "), [])
@@ -104,7 +105,7 @@ class Completions(InFolder):
     def test_fish(self):
         if not shutil.which("fish"):
             self.skipTest("no fish")
-        self.assertEqual(sorted(self.fish("wingspread s")), ["sample", "sensitivity", "simulate", "size"])
+        self.assertEqual(sorted(self.fish("wingspread s")), ["sample", "schema", "sensitivity", "simulate", "size"])
         self.assertEqual(self.fish("wingspread run --re"), ["--resume"])
         self.assertEqual(self.fish("wingspread simulate --latch "), ["event"])
         self.assertEqual(self.fish("wingspread run --out he"), ["here"])
@@ -197,6 +198,7 @@ class Packages(unittest.TestCase):
         for name in ("bin/wingspread", "share/man/man1/wingspread.1.gz", "share/man/man1/wingspread-run.1.gz",
                      "share/bash-completion/completions/wingspread", "share/zsh/vendor-completions/_wingspread",
                      "share/fish/vendor_completions.d/wingspread.fish", "share/doc/wingspread/copyright",
+                     "share/wingspread/scene.schema.json", "share/wingspread/campaign.schema.json",
                      "share/doc/wingspread/changelog.gz", "share/doc/wingspread/changelog.Debian.gz", "share/doc/wingspread/examples/scenes/three_panel.json",
                      "share/doc/wingspread/examples/campaigns/seed.json"):
             self.assertIn("./usr/" + name, names)
