@@ -22,9 +22,10 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wingspread)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Monte Carlo deployment of spacecraft solar wings
- How far the deployment of a spacecraft's solar wing may stray from the drawing:
- rigid panels, hinges with springs, friction, dampers and latches; a campaign over
- what varies in them, its statistics and the requirements that it has to meet.")
+ How far the deployment of a spacecraft's solar wing may stray from the
+ drawing: rigid panels, hinges with springs, friction, dampers and latches;
+ a campaign over what varies in them, its statistics, and the requirements
+ that it has to meet.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwingspread-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

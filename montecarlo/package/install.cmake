@@ -31,7 +31,8 @@ file(READ ${PROJECT_SOURCE_DIR}/LICENSE rights)
 string(PREPEND rights "wingspread\n\n")
 string(APPEND rights "\nThe program holds code of the following, and the report's page d3.\n")
 foreach(file ${WINGSPREAD_D3_LICENCE} /usr/share/doc/nlohmann-json3-dev/copyright /usr/share/doc/libcli11-dev/copyright
-             /usr/share/doc/libeigen3-dev/copyright /usr/share/doc/librandom123-dev/copyright)
+             /usr/share/doc/libeigen3-dev/copyright /usr/share/doc/librandom123-dev/copyright
+             /usr/share/doc/libhdf5-dev/copyright /usr/share/doc/zlib1g-dev/copyright)
   if(EXISTS ${file})
     file(READ ${file} text)
     string(APPEND rights "\n----------------------------------------------------------------\n${file}\n\n${text}")
