@@ -19,7 +19,7 @@ using std::chrono::microseconds;
 
 /// Between looks at the wire when nothing came: while this rank's threads make runs they are not to be disturbed, and
 /// the others have chunks in store; when they have none left, an answer is wanted.
-constexpr microseconds between_looks{1000}, at_the_end{50};
+constexpr microseconds between_looks{4000}, at_the_end{50};
 
 /// One plan's chunks, handed out to the ranks that ask for them.
 class Dispatch {

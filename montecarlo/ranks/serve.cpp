@@ -3,6 +3,7 @@
 #include "montecarlo/machine/team.hpp"
 #include "montecarlo/ranks/plan_copy.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -16,9 +17,23 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// How long to wait before the next look at the wire: while threads make runs they are not to be disturbed, and have
-/// chunks in store; while they have nothing to do, an answer is wanted.
-constexpr microseconds while_busy{2000}, while_idle{50};
+/// How long to wait before the next look at the wire, which takes some 25 µs of the processor: while threads make runs
+/// they are not to be disturbed, and whenever one takes a chunk from the store there is a look besides; while they have
+/// nothing to do, an answer is wanted.
+constexpr microseconds while_busy{8000}, while_idle{50};
+
+/// Chunks in store for a thread, at first and at most: as many as it takes not to wait for a message's way, which
+/// depends on how long runs take.
+constexpr long first_store = 4, most_store = 64;
+
+/// Waits for a message: the longer, the longer none has come. Then an answer is had at once where messages follow each
+/// other, and a rank that has nothing to do while rank 0 works out statistics leaves the processor to it.
+Message next_message(Wire& wire) {
+  for (microseconds wait = while_idle;; wait = std::min(2 * wait, while_busy)) {
+    if (auto message = wire.receive()) return std::move(*message);
+    std::this_thread::sleep_for(wait);
+  }
+}
 
 /// The chunks that a rank has in store, and those that its team has finished.
 class StoreDesk final : public ChunkDesk {
@@ -30,6 +45,7 @@ public:
     if (stopped() || store_.empty()) return std::nullopt;
     const Chunk chunk = store_.front();
     store_.pop_front();
+    has_claimed_ = true;
     changed_.notify_all(); // more is wanted
     return chunk;
   }
@@ -55,6 +71,7 @@ public:
 
   void add(const Chunk& chunk) {
     const std::lock_guard lock(mutex_);
+    if (idle_ > 0 && has_claimed_) was_short_ = true;
     store_.push_back(chunk);
     changed_.notify_all();
   }
@@ -67,6 +84,11 @@ public:
   [[nodiscard]] long in_store() const {
     const std::lock_guard lock(mutex_);
     return std::ssize(store_);
+  }
+  /// Whether a thread has waited for a chunk since this was last asked.
+  [[nodiscard]] bool was_short() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(was_short_, false);
   }
   [[nodiscard]] std::vector<FinishedChunk> take_finished() {
     const std::lock_guard lock(mutex_);
@@ -87,7 +109,7 @@ private:
   std::deque<Chunk> store_;
   std::vector<FinishedChunk> finished_;
   int idle_ = 0; ///< threads without a run
-  bool ended_ = false;
+  bool ended_ = false, has_claimed_ = false, was_short_ = false;
 };
 
 /// One plan, from its opening to its closing. This thread is on the wire, a team beside it makes the runs.
@@ -95,7 +117,7 @@ class Session {
 public:
   Session(Wire& wire, PlanCopy& copy, const std::atomic<bool>& stop)
       : wire_(wire), copy_(copy), stop_(stop), desk_(stop),
-        in_store_(4L * team_size(copy.crew().threads)) {}
+        threads_(team_size(copy.crew().threads)) {}
 
   void run() {
     std::thread team([this] { work(); });
@@ -107,10 +129,8 @@ public:
     team.join();
     report();
     while (!closing_) { // it ended by itself: a signal, an exception
-      if (const auto message = wire_.receive())
-        heed(Unpacker(message->bytes));
-      else
-        std::this_thread::sleep_for(while_idle);
+      const Message message = next_message(wire_);
+      heed(Unpacker(message.bytes));
     }
     wire_.send(0, closed_message(end_));
   }
@@ -155,7 +175,8 @@ private:
     Report report{.finished = desk_.take_finished()};
     for (const FinishedChunk& each : report.finished) copy_.forget(each.chunk);
     const bool over = closing_ || team_done_ || desk_.stopped();
-    if (!over) report.wanted = std::max(0L, in_store_ - desk_.in_store() - asked_);
+    if (desk_.was_short()) store_each_ = std::min(2 * store_each_, most_store);
+    if (!over) report.wanted = std::max(0L, threads_ * store_each_ - desk_.in_store() - asked_);
     report.stopped = (stop_ || team_done_) && !closing_ && !std::exchange(told_, true);
     if (report.finished.empty() && report.wanted == 0 && !report.stopped) return;
     asked_ += report.wanted;
@@ -166,8 +187,9 @@ private:
   PlanCopy& copy_;
   const std::atomic<bool>& stop_;
   StoreDesk desk_;
-  const long in_store_; ///< chunks to have in store: a team is not to wait for a message's way
-  long asked_ = 0;      ///< chunks that were asked for and have not come
+  const long threads_;
+  long store_each_ = first_store;
+  long asked_ = 0; ///< chunks that were asked for and have not come
   bool closing_ = false, told_ = false;
   Closing end_{};
   std::atomic<bool> team_done_ = false;
@@ -177,12 +199,9 @@ private:
 void refuse(Wire& wire, const std::string& why) {
   wire.send(0, report_message({.stopped = true}));
   while (true) {
-    const auto message = wire.receive();
-    if (!message) {
-      std::this_thread::sleep_for(while_idle);
-    } else if (Unpacker bytes(message->bytes); kind_of(bytes) == Told::close) {
-      return wire.send(0, closed_message({.failure = why}));
-    }
+    const Message message = next_message(wire);
+    Unpacker bytes(message.bytes);
+    if (kind_of(bytes) == Told::close) return wire.send(0, closed_message({.failure = why}));
   }
 }
 
@@ -191,12 +210,8 @@ void refuse(Wire& wire, const std::string& why) {
 void serve(Wire& wire, const std::atomic<bool>& stop) {
   std::optional<PlanCopy> copy; // of the last plan, which often comes again
   while (true) {
-    const auto message = wire.receive();
-    if (!message) {
-      std::this_thread::sleep_for(while_idle);
-      continue;
-    }
-    Unpacker bytes(message->bytes);
+    const Message message = next_message(wire);
+    Unpacker bytes(message.bytes);
     const Told kind = kind_of(bytes);
     if (kind == Told::leave) return;
     if (kind != Told::open) continue;

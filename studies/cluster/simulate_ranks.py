@@ -3,10 +3,10 @@
     /usr/bin/python3 studies/cluster/simulate_ranks.py [--costs DIR] [--out DIR] [--figure FILE]
 
 DIR holds what `rank_costs` measures: the times of single runs, with the slow ones (run_times.csv), and rank 0's costs of
-a message and of a row (costs.csv). Every rank has one thread, and two chunks in store beside the one that it makes; when
+a message and of a row (costs.csv). Every rank has one thread, and four chunks in store beside the one that it makes; when
 it begins a chunk it asks for another, with what it has finished, as montecarlo/ranks does. Rank 0 takes messages in one
-after the other, each at its cost, and sends the answer. The network's latency and bandwidth are those of a usual cluster,
-and may be given. Prints a table, writes simulation.csv, draws the chart.
+after the other, each at its cost, and sends the answer. What MPI itself takes of it, and the network's latency and
+bandwidth, are those of a usual cluster, and may be given. Prints a table, writes simulation.csv, draws the chart.
 """
 
 import argparse
@@ -20,7 +20,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "plots"))
 
 RANKS = (64, 1024, 16384)
 CHUNKS = (1, 4, 32, 256)
-IN_STORE = 2  # chunks a rank has beside the one that it makes
+IN_STORE = 4  # chunks a rank has beside the one that it makes
 
 
 def read_costs(folder):
@@ -93,9 +93,11 @@ def main():
     parser.add_argument("--figure", type=pathlib.Path, default=pathlib.Path("studies/figures/ranks.png"))
     parser.add_argument("--latency", type=float, default=2e-6, help="of a message, s")
     parser.add_argument("--bandwidth", type=float, default=1e10, help="bytes a second")
+    parser.add_argument("--mpi", type=float, default=3e-6, help="rank 0's time in MPI for a message and its answer, s")
     parser.add_argument("--chunks-each", type=int, default=20, help="chunks that each rank makes")
     options = parser.parse_args()
     costs, times = read_costs(options.costs)
+    costs["message_s"] += options.mpi
     run = sum(times) / len(times)
     rows = []
     print(f"a run takes {1e6 * run:.1f} us, the slowest of {len(times)} {max(times) / run:.1f} times as long; "
@@ -133,7 +135,7 @@ def draw(rows, figure_file):
         for size, colour, marker in zip(distinct("chunk"), TAB10, "osD^"):
             those = [row for row in rows if row["run_s"] == run and row["chunk"] == size]
             panel.plot([row["ranks"] for row in those], [100 * row["efficiency"] for row in those], marker=marker,
-                       color=colour, label=f"{size} runs a chunk")
+                       color=colour, label="1 run a chunk" if size == 1 else f"{size} runs a chunk")
         limit = max(row["limit_ranks"] for row in rows if row["run_s"] == run)
         panel.axvline(limit, color="0.5", linestyle=":", linewidth=1)
         panel.set_xscale("log", base=2)
