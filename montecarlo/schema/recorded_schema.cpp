@@ -243,7 +243,7 @@ private:
     for (const Shape& shape : shapes)
       everywhere.insert(everywhere.end(), shape.instances.begin(), shape.instances.end());
     for (const std::string& key : deciding)
-      check_words(with_key(everywhere, key), place + "/" + key);
+      check_words(with_key(everywhere, key), fmt::format("{}/{}", place, key));
     for (const Shape& shape : shapes) {
       Json part{{"type", "object"}, {"properties", Json::object()}};
       Json required = Json::array();
@@ -254,8 +254,9 @@ private:
           values = with_key(everywhere, key);
         if (values.empty())
           gaps.push_back(fmt::format("{}/{}: a key that no specimen has", place, key));
-        part["properties"][key] =
-            deciding.contains(key) ? words_schema(values) : schema_of(values, place + "/" + key);
+        part["properties"][key] = deciding.contains(key)
+                                      ? words_schema(values)
+                                      : schema_of(values, fmt::format("{}/{}", place, key));
         if (is_required(shape.instances, key)) required.push_back(key);
       }
       if (!required.empty()) part["required"] = std::move(required);
