@@ -40,7 +40,7 @@ montecarlo/accuracy
 montecarlo/summary
 montecarlo/folder
 montecarlo/log
-montecarlo/sensitivity montecarlo/rare montecarlo/margin montecarlo/export
+montecarlo/sensitivity montecarlo/rare montecarlo/margin montecarlo/export montecarlo/rowless
 montecarlo/ranks
 montecarlo/page_data
 montecarlo/report

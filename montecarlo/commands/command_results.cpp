@@ -5,6 +5,7 @@
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/number_text.hpp"
 #include "montecarlo/machine/folder_lock.hpp"
+#include "montecarlo/rowless/rowless_folder.hpp"
 #include "montecarlo/terminal/command_options.hpp"
 #include "montecarlo/terminal/results_display.hpp"
 
@@ -49,7 +50,9 @@ int merge(const MergeOptions& options) {
     const std::vector<CaseSummary> cases = merge_cases(options.folders, options.out);
     return show_all(read_stored_campaign(options.out), cases, options.display);
   }
-  const Summary summary = merge_folders(options.folders, options.out);
+  const Summary summary = is_rowless(options.folders.front())
+                              ? merge_rowless(options.folders, options.out)
+                              : merge_folders(options.folders, options.out);
   return show_results(read_stored_campaign(options.out), summary, options.display);
 }
 
@@ -68,10 +71,14 @@ Summary summarize_again(const StoredCampaign& stored, const AnalyzeOptions& opti
   if (options.confidence) given["confidence"] = *options.confidence;
   if (!options.bins.empty()) given["bins"] = bins_given(options.bins);
   override_settings(given, [&](const JsonCursor& at) { read_statistics(at, spec); });
-  const Results results = read_stored_results(stored).results;
   StoredCampaign there = stored;
   there.folder = to;
   make_folder(to);
+  if (is_rowless(stored.folder)) {
+    if (!options.requirements.empty()) refuse_rowless(stored.folder);
+    return write_tally_statistics(there, read_tally(stored).tally, spec);
+  }
+  const Results results = read_stored_results(stored).results;
   return write_statistics(there, results, spec);
 }
 

@@ -13,6 +13,7 @@
 #include "montecarlo/machine/team.hpp"
 #include "montecarlo/notices/examine.hpp"
 #include "montecarlo/ranks/evaluator_of.hpp"
+#include "montecarlo/rowless/rowless_folder.hpp"
 #include "montecarlo/terminal/command_options.hpp"
 #include "montecarlo/terminal/results_display.hpp"
 
@@ -35,7 +36,7 @@ struct RunOptions {
   std::filesystem::path campaign, out;
   SamplingOptions sampling;
   CrewOptions crew;
-  bool resume = false, strict = false;
+  bool resume = false, strict = false, no_rows = false;
   std::string shard;
   std::vector<std::string> until, set, cases;
   Display display;
@@ -114,11 +115,29 @@ std::size_t watched_output(const RunPlan& plan) {
   return outputs.size() - 1;
 }
 
-/// Makes the runs that are left. @return whether it was interrupted
-bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew,
-                    const Interrupt& interrupt) {
-  Tally tally{.total = folder.stored().runs().size()};
+/// What there is before the first run is made. @return false when it was stopped in the pilot
+bool begin(const FolderWriter& folder, Evaluator& /*evaluator*/, Tally& tally) {
   count(folder.results(), tally);
+  return true;
+}
+bool begin(RowlessFolder& folder, Evaluator& evaluator, Tally& tally) {
+  if (!folder.begin(evaluator)) return false;
+  const RunTally& made = folder.tally();
+  tally.done = made.runs();
+  tally.invalid = made.count_of(Status::invalid);
+  tally.failed = made.count_of(Status::failed);
+  tally.stalled = made.count_of(Status::stalled);
+  tally.timed_out = made.count_of(Status::timed_out);
+  return true;
+}
+
+/// Makes the runs that are left. @return whether it was interrupted
+template <class Folder>
+bool make_remaining(Folder& folder, const RunPlan& plan, const Crew& crew,
+                    const Interrupt& interrupt) {
+  const auto evaluator = evaluator_of(crew, interrupt.flag());
+  Tally tally{.total = folder.stored().runs().size()};
+  if (!begin(folder, *evaluator, tally)) return true;
   tally.before = tally.done;
   const std::size_t watched = watched_output(plan);
   const std::string& name = plan.names().outputs[watched];
@@ -132,12 +151,11 @@ bool make_remaining(FolderWriter& folder, const RunPlan& plan, const Crew& crew,
     tally.picture = histogram.text();
     progress.show(tally);
   };
-  const auto evaluator = evaluator_of(crew, interrupt.flag());
   bool interrupted = false;
   while (!interrupted) {
     const RunRange remaining = folder.remaining();
     if (remaining.size() == 0) break;
-    interrupted = evaluator->make(plan, remaining, {keep, true}) < remaining.size();
+    interrupted = evaluator->make(plan, remaining, {keep, Folder::wants_csv}) < remaining.size();
   }
   folder.finish();
   write_file(folder.stored().folder / timing_file,
@@ -175,6 +193,11 @@ Summary write_summary(const FolderWriter& folder, int threads, const std::string
   }
 }
 
+Summary write_summary(const RowlessFolder& folder, int /*threads*/, const std::string& /*kept*/) {
+  return write_tally_statistics(folder.stored(), folder.tally(),
+                                folder.stored().campaign.statistics);
+}
+
 /// Adds to timing.json what it took to know the accuracy.
 void note_accuracy(const std::filesystem::path& folder, const Summary& summary) {
   if (!summary.accuracy) return;
@@ -185,11 +208,11 @@ void note_accuracy(const std::filesystem::path& folder, const Summary& summary) 
 
 /// Makes a campaign's runs into a folder, and shows what they come to.
 /// @param show takes the results and returns the exit status
-template <class Show>
+template <class Folder, class Show>
 int run_into(const Campaign& campaign, const std::filesystem::path& out, const RunOptions& options,
              const Show& show) {
   const RunPlan plan(campaign);
-  FolderWriter folder(out, plan, parse_shard(options.shard), options.resume);
+  Folder folder(out, plan, parse_shard(options.shard), options.resume);
   std::string interruption; // outlives the interrupt that says it
   Interrupt interrupt;
   const bool interrupted = make_remaining(folder, plan, crew_of(options.crew), interrupt);
@@ -198,7 +221,7 @@ int run_into(const Campaign& campaign, const std::filesystem::path& out, const R
                                        folder.stored().runs().size(), of_case);
   interruption = fmt::format("interrupted: {}; the same command with --resume goes on\n", kept);
   interrupt.end_at_once(interruption.c_str());
-  if (!interrupt.is_urgent()) {
+  if (!interrupt.is_urgent() && !(interrupted && folder.count() == 0)) {
     Summary summary = write_summary(folder, options.crew.threads, kept);
     note_accuracy(out, summary);
     const int code = show(folder.stored(), std::move(summary));
@@ -222,8 +245,8 @@ int run_cases(const Campaign& campaign, const RunOptions& options) {
       made.push_back(case_summary(stored, std::move(summary)));
       return code;
     };
-    const int code =
-        run_into(campaign_of_case(campaign, spec), options.out / spec.name, options, show);
+    const int code = run_into<FolderWriter>(campaign_of_case(campaign, spec),
+                                            options.out / spec.name, options, show);
     if (code == exit_code::interrupted) return code;
     worst = std::max(worst, code);
   }
@@ -269,12 +292,13 @@ int run(const RunOptions& options) {
   override_until(campaign, options.until);
   heed(examine(campaign, options.campaign), options.strict);
   settle(campaign, options);
-  if (!campaign.cases.empty()) return run_cases(campaign, options);
-  (void)chosen_cases(campaign, options.cases); // there are none
-  return run_into(campaign, options.out, options,
-                  [&](const StoredCampaign& stored, const Summary& summary) {
-                    return show_results(stored, summary, options.display);
-                  });
+  if (!options.no_rows && !campaign.cases.empty()) return run_cases(campaign, options);
+  if (campaign.cases.empty()) (void)chosen_cases(campaign, options.cases); // there are none
+  const auto show = [&](const StoredCampaign& stored, const Summary& summary) {
+    return show_results(stored, summary, options.display);
+  };
+  return options.no_rows ? run_into<RowlessFolder>(campaign, options.out, options, show)
+                         : run_into<FolderWriter>(campaign, options.out, options, show);
 }
 
 } // namespace
@@ -297,6 +321,8 @@ void add_run(CLI::App& app, Action& action) {
       ->type_name("GOAL")
       ->allow_extra_args(false)
       ->check(refuse_until);
+  command->add_flag("--no-rows", options->no_rows,
+                    "Keep no rows but those of broken runs: for very many runs (see below)");
   add_set_option(*command, options->set);
   command
       ->add_option("--case", options->cases,
@@ -328,6 +354,12 @@ A verdict that fell short is not mended by more runs of the same draws: whoever 
 passes is misled more often than it says. State it in --until, or begin anew with another --seed and
 a number of runs fixed beforehand. --resume with more --runs is counted as another look, and the
 verdicts are held to that.
+
+With --no-rows there is no runs.csv, and memory and disk do not grow with the number of runs: counts,
+moments, the 4096 largest and smallest values of every output with their runs, and verdicts are those
+of all rows; other quantiles say how far off they may be. The rows of runs that did not deploy or
+break a requirement are kept, in broken_runs.csv. --resume, --shard, merge, replay and analyze work
+on such a folder; what takes rows (report, sensitivity, export, --until) refuses it.
 
 Example:
   wingspread run campaign.json --out results/first --runs 2000 --threads 4

@@ -11,6 +11,8 @@ namespace wingspread {
 /// any moment, by a signal or a crash, can be opened again to be continued.
 class FolderWriter {
 public:
+  static constexpr bool wants_csv = true; ///< of the batches that it takes
+
   /// Opens the folder, and makes it with its campaign.json if it is not there. No other process may open it as
   /// long as this is not destroyed.
   ///

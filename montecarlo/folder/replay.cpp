@@ -47,9 +47,10 @@ std::size_t place_before(InputFile& in, long run, std::size_t header_bytes) {
 
 /// The run's row, if the reader comes to it.
 std::optional<ResultRow> find_row(RowReader& reader, long run) {
-  while (reader.next() && reader.row().run < run) {
-  }
-  return reader.row().run == run ? std::optional(reader.row()) : std::nullopt;
+  while (reader.next())
+    if (reader.row().run >= run)
+      return reader.row().run == run ? std::optional(reader.row()) : std::nullopt;
+  return std::nullopt;
 }
 
 } // namespace
@@ -84,7 +85,8 @@ std::vector<std::string> differences(const ResultNames& names, const ResultRow& 
 }
 
 std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run) {
-  const std::filesystem::path path = stored.folder / runs_file;
+  const std::filesystem::path path =
+      stored.folder / (is_rowless(stored.folder) ? broken_runs_file : runs_file);
   if (!std::filesystem::exists(path)) return std::nullopt;
   const ResultNames names = RunPlan(stored.campaign).names();
   try {

@@ -67,16 +67,6 @@ void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, lo
   }
 }
 
-/// The nominal run and its outputs, which this program makes: of another tool's rows it would say nothing.
-void add_nominal(const Campaign& campaign, Summary& summary) {
-  const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
-                                           goal_of(campaign.outputs), Observer{});
-  summary.nominal = {outcome.status, latch_order(campaign.scene, outcome), outcome.reason};
-  const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    summary.outputs[i].nominal = output_of(columns[i], outcome);
-}
-
 /// Another tool's rows may do without what is recorded here, asked for or not, unless their campaign asks for it.
 void match_recorded(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
   std::string header;
@@ -131,6 +121,26 @@ bool is_complete(const StoredCampaign& stored, const Results& results) {
   return is_checkpoint(done, runs) && goals_are_met(stored.campaign, results);
 }
 
+void add_nominal(const Campaign& campaign, Summary& summary) {
+  const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
+                                           goal_of(campaign.outputs), Observer{});
+  summary.nominal = {outcome.status, latch_order(campaign.scene, outcome), outcome.reason};
+  const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    summary.outputs[i].nominal = output_of(columns[i], outcome);
+}
+
+bool is_rowless(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / statistics_file);
+}
+
+void refuse_rowless(const std::filesystem::path& folder) {
+  if (is_rowless(folder))
+    throw SpecError(
+        {{folder.string(), "", "a campaign that was run with --no-rows",
+          fmt::format("one with {}: what is asked for takes every run's row", runs_file)}});
+}
+
 StoredCampaign read_stored_campaign(const std::filesystem::path& folder) {
   return read_campaign_of(folder, false);
 }
@@ -142,6 +152,7 @@ StoredCampaign read_any_campaign(const std::filesystem::path& folder) {
 RowsRead for_each_stored_row(const StoredCampaign& stored,
                              const std::function<void(const ResultRow&)>& take) {
   const std::filesystem::path path = stored.folder / runs_file;
+  refuse_rowless(stored.folder);
   if (!std::filesystem::exists(path)) return {};
   InputFile in(path);
   RowReader reader(in, path.string(), RunPlan(stored.campaign).names(),
@@ -200,13 +211,17 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
   return summary;
 }
 
-Summary write_statistics(const StoredCampaign& stored, const Results& results,
-                         const StatisticsSpec& spec, int threads) {
-  Summary summary = stored_summary(stored, results, spec, threads);
+void write_summary_files(const StoredCampaign& stored, const Summary& summary) {
   write_file(stored.folder / summary_file,
              json_text(summary_json(summary, about(stored, summary))));
   write_file(stored.folder / histograms_json_file, json_text(histograms_json(summary)));
   write_file(stored.folder / histograms_csv_file, histograms_csv(summary));
+}
+
+Summary write_statistics(const StoredCampaign& stored, const Results& results,
+                         const StatisticsSpec& spec, int threads) {
+  Summary summary = stored_summary(stored, results, spec, threads);
+  write_summary_files(stored, summary);
   return summary;
 }
 

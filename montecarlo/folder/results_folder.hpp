@@ -26,6 +26,10 @@ inline constexpr const char* timing_file = "timing.json";
 inline constexpr const char* summary_file = "summary.json";
 inline constexpr const char* histograms_json_file = "histograms.json";
 inline constexpr const char* histograms_csv_file = "histograms.csv";
+/// Of a campaign that was run without rows (rowless/), in place of runs.csv: what its statistics are worked out of, and the
+/// rows of the runs that did not deploy or break a requirement.
+inline constexpr const char* statistics_file = "statistics.bin";
+inline constexpr const char* broken_runs_file = "broken_runs.csv";
 
 /// campaign.json's text.
 [[nodiscard]] std::string campaign_text(const Campaign& campaign, const Stamp& stamp);
@@ -51,6 +55,11 @@ struct StoredCampaign {
 /// @throws SpecError as read_stored_campaign does, less for the stamp that is not there
 [[nodiscard]] StoredCampaign read_any_campaign(const std::filesystem::path& folder);
 
+/// Whether the folder's runs were made without keeping their rows.
+[[nodiscard]] bool is_rowless(const std::filesystem::path& folder);
+/// @throws SpecError when they were
+void refuse_rowless(const std::filesystem::path& folder);
+
 /// How a file of rows ends.
 struct RowsRead {
   std::size_t complete_bytes = 0; ///< its length up to its last complete line; 0: no header
@@ -73,6 +82,12 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
 /// @param threads as of team_size (team.hpp)
 [[nodiscard]] Summary stored_summary(const StoredCampaign& stored, const Results& results,
                                      const StatisticsSpec& spec, int threads = 0);
+
+/// The nominal run and its outputs, which this program makes: of another tool's rows it would say nothing.
+void add_nominal(const Campaign& campaign, Summary& summary);
+
+/// Writes the three files of a summary.
+void write_summary_files(const StoredCampaign& stored, const Summary& summary);
 
 /// Works out the statistics of the rows and writes the three files of them. Results that lack some
 /// of the folder's runs are labelled so: "partial" in summary.json's stamp. Of all of this program's own runs (not

@@ -29,7 +29,7 @@ Json moments_json(const OutputSummary& output) {
 
 Json quantiles_json(const OutputSummary& output) {
   Json json = Json::array();
-  for (const auto& [p, value, bounds] : output.quantiles) {
+  for (const auto& [p, value, bounds, error] : output.quantiles) {
     json.push_back({{"p", p}, {"value", page_number(value)}});
     add_bounds(json.back(), bounds);
   }

@@ -130,7 +130,7 @@ std::string requirement_lines(const std::vector<CaseSummary>& all, Cases cases) 
     });
     text += line("", cases, [&](const CaseSummary& each) {
       const auto& allowed = verdict(each).allowed;
-      return fmt::format("{} (may {})", verdict(each).broken.size(),
+      return fmt::format("{} (may {})", verdict(each).failures(),
                          allowed ? std::to_string(*allowed) : "–");
     });
   }

@@ -46,10 +46,17 @@ struct LatchOrderCount {
   long count = 0;
 };
 
+/// How far off a quantile may be that is taken from counts, where rows are not kept.
+struct QuantileError {
+  long rank;           ///< the value's own rank is at most so far from the quantile's
+  double lower, upper; ///< the quantile is within these
+};
+
 struct QuantileEstimate {
   double p;
   double value; ///< NaN without values
   Bounds bounds;
+  std::optional<QuantileError> error{}; ///< none of rows
 };
 
 struct ToleranceLimitEstimate {
@@ -111,6 +118,7 @@ struct Summary {
   std::vector<GoalFound> until{};        ///< what decides when it stops
   bool stopped = false;                  ///< they did, before all runs were made
   long looks = 1;                        ///< at growing data: each bound's α is shared among them
+  bool without_rows = false;             ///< worked out of counts and sums (rowless/)
   std::vector<long> looked_at{}; ///< numbers of runs before the campaign was extended: looks too
 };
 

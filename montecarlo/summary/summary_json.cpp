@@ -64,6 +64,15 @@ Json definitions(const Summary& summary) {
   if (summary.nominal)
     json["nominal"] =
         "of the run with nothing dispersed; what drives others by tables is at its median";
+  if (summary.without_rows) {
+    json["quantile"] = "order statistic of rank ceil(n p): exact among the extremes that are kept, "
+                       "else by counts: within `within`, its rank off by rank_error at most";
+    json["quantile_bounds"] =
+        "order statistics, binomial, two-sided, at the outer edges of the bins "
+        "that they lie in";
+    json["spearman"] = "none: ranks take the rows";
+    json["histograms"] = "edges where the number of values below is known exactly";
+  }
   if (summary.requirements.size() > 1)
     json["joint_confidence"] =
         "at least this for all that pass together: 1 - the sum of (1 - c) over all requirements";
@@ -145,11 +154,15 @@ std::string missing_bound(const Summary& summary, const OutputSummary& output) {
 
 Json quantiles_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
-  for (const auto& [p, value, bounds] : output.quantiles) {
+  for (const auto& [p, value, bounds, error] : output.quantiles) {
     Json entry{{"p", p},
                {"value", json_number(value)},
                {"lower", json_number(bounds.lower)},
                {"upper", json_number(bounds.upper)}};
+    if (error) {
+      entry["rank_error"] = error->rank;
+      entry["within"] = {error->lower, error->upper};
+    }
     if (!bounds.lower || !bounds.upper) entry["note"] = missing_bound(summary, output);
     json.push_back(std::move(entry));
   }
@@ -205,7 +218,7 @@ void add_broken(Json& json, const Verdict& verdict) {
   const auto& broken = verdict.broken;
   const auto shown = static_cast<std::ptrdiff_t>(std::min(broken.size(), most_broken));
   json["broken"] = std::vector<long>(broken.begin(), broken.begin() + shown);
-  json["broken_omitted"] = std::ssize(broken) - shown;
+  json["broken_omitted"] = verdict.failures() - shown;
   if (!broken.empty()) json["replay"] = replay_command("DIR", broken.front());
 }
 

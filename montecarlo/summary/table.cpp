@@ -226,7 +226,7 @@ std::string requirements(const Summary& summary, std::string_view folder) {
     const bool share = verdict.requirement.output == deployed_output;
     text += fmt::format(
         "{}{:<10}{:>8}{:>8}{:>13}{:>13}\n", in_column("  " + to_string(verdict.requirement), 46),
-        to_string(verdict.decision), verdict.broken.size(),
+        to_string(verdict.decision), verdict.failures(),
         verdict.allowed ? std::to_string(*verdict.allowed) : "–",
         share ? percent(verdict.share) : in_digits_if_any(verdict.observed),
         share ? percent(verdict.guaranteed_share) : in_digits_if_any(verdict.guaranteed));
@@ -262,10 +262,10 @@ std::string stopping(const Summary& summary) {
   return text;
 }
 
-std::string files(std::string_view folder) {
+std::string files(const Summary& summary, std::string_view folder) {
   if (folder.empty()) return "";
-  return fmt::format("\nFILES  {}: runs.csv, summary.json, histograms.json, histograms.csv\n",
-                     folder);
+  return fmt::format("\nFILES  {}: {}, summary.json, histograms.json, histograms.csv\n", folder,
+                     summary.without_rows ? "broken_runs.csv, extremes.csv" : "runs.csv");
 }
 
 /// Neighbouring bins put together, so that at most `most` are left.
@@ -297,7 +297,7 @@ std::string bar(long eighths) {
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
   return std::string(title) + '\n' + outcomes(summary) + reasons(summary) + latch_orders(summary) +
          outputs(summary) + accuracy(summary) + tolerance(summary) + requirements(summary, folder) +
-         stopping(summary) + warning_lines(summary) + files(folder);
+         stopping(summary) + warning_lines(summary) + files(summary, folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

@@ -94,18 +94,8 @@ Spilled<long> breaking(const Requirement& requirement, const Results& results, c
 
 Decision decide(const Verdict& verdict) {
   if (verdict.allowed)
-    return std::ssize(verdict.broken) <= *verdict.allowed ? Decision::pass : Decision::fail;
+    return verdict.failures() <= *verdict.allowed ? Decision::pass : Decision::fail;
   return verdict.disproved ? Decision::fail : Decision::undecided;
-}
-
-/// The ends of the values, where the limit lies on the other side of zero from all of them.
-std::optional<std::array<double, 2>> beyond_zero(const RankedOutput& output,
-                                                 const Requirement& requirement) {
-  const auto numbers = output.numbers();
-  const double limit = requirement.max ? *requirement.max : requirement.min.value_or(0);
-  if (numbers.empty()) return std::nullopt;
-  const bool apart = (limit > 0 && numbers.back() < 0) || (limit < 0 && numbers.front() > 0);
-  return apart ? std::optional(std::array{numbers.front(), numbers.back()}) : std::nullopt;
 }
 
 /// Fills in what is said of the output's own values.
@@ -123,7 +113,9 @@ void add_values(const RankedOutput& output, Verdict& verdict) {
   if (verdict.allowed) verdict.guaranteed = value_at(*verdict.allowed);
   if (verdict.guaranteed)
     verdict.margin = limit_of(requirement) - sign_of(requirement) * *verdict.guaranteed;
-  verdict.beyond_zero = beyond_zero(output, requirement);
+  const auto numbers = output.numbers();
+  if (!numbers.empty())
+    verdict.beyond_zero = beyond_zero(numbers.front(), numbers.back(), requirement);
 }
 
 /// @param ranks      the output's; null for "deployed"
@@ -133,21 +125,12 @@ Verdict judge_one(const Requirement& requirement, const Results& results, const 
   Verdict verdict;
   verdict.requirement = requirement;
   verdict.runs = static_cast<long>(results.size());
-  verdict.confidence_alone = confidence;
-  verdict.confidence = at_each_of(confidence, looks);
   verdict.broken = breaking(requirement, results, column, verdict.cut);
-  const double p = requirement.probability, c = verdict.confidence;
-  const long n = verdict.runs, broken = std::ssize(verdict.broken);
-  verdict.allowed = allowed_failures(n, p, c);
-  verdict.least_runs = runs_to_show(p, c, 0);
-  verdict.disproved = is_disproved(n, p, c, broken);
-  verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
-  verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
-  verdict.decision = decide(verdict);
+  conclude(confidence, looks, verdict);
   if (ranks)
     add_values(*ranks, verdict);
   else if (verdict.allowed)
-    verdict.margin = verdict.guaranteed_share - p;
+    verdict.margin = verdict.guaranteed_share - requirement.probability;
   return verdict;
 }
 
@@ -163,6 +146,26 @@ std::string_view to_string(Decision decision) {
     break;
   }
   return "undecided";
+}
+
+void conclude(double confidence, long looks, Verdict& verdict) {
+  verdict.confidence_alone = confidence;
+  verdict.confidence = at_each_of(confidence, looks);
+  const double p = verdict.requirement.probability, c = verdict.confidence;
+  const long n = verdict.runs, broken = verdict.failures();
+  verdict.allowed = allowed_failures(n, p, c);
+  verdict.least_runs = runs_to_show(p, c, 0);
+  verdict.disproved = is_disproved(n, p, c, broken);
+  verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
+  verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
+  verdict.decision = decide(verdict);
+}
+
+std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
+                                                 const Requirement& requirement) {
+  const double limit = requirement.max ? *requirement.max : requirement.min.value_or(0);
+  const bool apart = (limit > 0 && largest < 0) || (limit < 0 && least > 0);
+  return apart ? std::optional(std::array{least, largest}) : std::nullopt;
 }
 
 RankedOutput::RankedOutput(const Results& results, const Column& output, bool absolute) {
@@ -235,7 +238,7 @@ std::vector<GroupVerdict> judge_groups(std::span<const Verdict> verdicts) {
 }
 
 std::string evidence(const Verdict& verdict) {
-  const long broken = std::ssize(verdict.broken);
+  const long broken = verdict.failures();
   std::string found =
       fmt::format("{} of {} {} {} it", broken, verdict.runs, verdict.runs == 1 ? "run" : "runs",
                   broken == 1 ? "breaks" : "break");

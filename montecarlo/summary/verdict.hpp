@@ -36,6 +36,7 @@ struct Verdict {
       0; ///< what has to be shown at: the same, or more when there were several looks
   std::optional<long> allowed;    ///< most runs that may break it; nothing when n decides nothing
   Spilled<long> broken;           ///< numbers of the runs that do, the worst first
+  long not_listed = 0;            ///< runs that do and are not among those: where rows are not kept
   std::optional<long> least_runs; ///< that could show it, if none broke it
   bool disproved = false;         ///< P < p is shown, at the same confidence
   long cut = 0;                   ///< of those that break it, deployed runs whose peak t_end cut
@@ -50,7 +51,19 @@ struct Verdict {
   /// From the guaranteed value to the limit, in the output's unit; of "deployed", from p to the
   /// guaranteed share. At least 0 for a pass, and for no other.
   std::optional<double> margin;
+
+  /// How many runs break it.
+  [[nodiscard]] long failures() const { return static_cast<long>(broken.size()) + not_listed; }
 };
+
+/// Concludes from the runs that break it: all of a verdict but what is said of values.
+/// @param confidence to be shown at by itself, were there one look
+/// @pre requirement, runs, broken, not_listed and cut are known
+void conclude(double confidence, long looks, Verdict& verdict);
+
+/// The ends of the values, where the limit lies on the other side of zero from all of them.
+[[nodiscard]] std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
+                                                               const Requirement& requirement);
 
 /// An output's values over all runs, sorted once for all that is required of it. A run that did not deploy, and
 /// one without a value, is worse than any number: at whichever end is the wrong one.

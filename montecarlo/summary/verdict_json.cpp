@@ -4,7 +4,7 @@ namespace wingspread {
 
 Json evidence_json(const Verdict& verdict) {
   Json json{{"failures",
-             {{"seen", verdict.broken.size()},
+             {{"seen", verdict.failures()},
               {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)}}}};
   json["observed"] = {{"share", json_number(verdict.share)}};
   json["guaranteed"] = {{"share", json_number(verdict.guaranteed_share)}};

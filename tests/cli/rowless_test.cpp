@@ -1,0 +1,189 @@
+// run --no-rows, as a user has it.
+#include "montecarlo/rowless/rowless_folder.hpp"
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// Some runs are invalid, some time out, some break the requirement.
+Json rowless_campaign(int runs) {
+  Json json = quick_campaign(runs);
+  json["integration"]["t_end"] = 6.75;
+  json["requirements"] = parse_json(
+      R"([{ "output": "root.latch_time", "max": 5, "probability": 0.5, "confidence": 0.9 }])");
+  return json;
+}
+
+struct Rowless {
+  Folder folder{};
+  std::string campaign, rows = folder.path() / "rows", none = folder.path() / "none";
+
+  explicit Rowless(int runs) : campaign(folder.write("c.json", rowless_campaign(runs).dump())) {}
+
+  [[nodiscard]] Finished program(const std::vector<std::string>& arguments) const {
+    return run_program(folder, arguments);
+  }
+  [[nodiscard]] Finished run(const std::string& out, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"run", campaign, "--out", out, "--no-rows"});
+    return program(more);
+  }
+};
+
+} // namespace
+
+TEST_CASE("run --no-rows says what run says, and keeps the rows of broken runs alone",
+          "[parallel]") {
+  const Rowless made(10'000);
+  const auto rows = made.program({"run", made.campaign, "--out", made.rows});
+  const auto none = made.run(made.none);
+  CHECK(none.code == rows.code);
+  CHECK(none.error == rows.error);
+  const std::filesystem::path folder = made.none;
+  CHECK_FALSE(std::filesystem::exists(folder / runs_file));
+  const Json full = parse_json_file(std::filesystem::path(made.rows) / summary_file),
+             found = parse_json_file(folder / summary_file);
+  for (const char* key : {"runs", "status", "reasons", "latch_order", "nominal"})
+    CHECK(found[key] == full[key]);
+  CHECK(found["requirements"][0]["failures"] == full["requirements"][0]["failures"]);
+  CHECK(found["requirements"][0]["broken"] == full["requirements"][0]["broken"]);
+  for (const auto& [name, output] : full["outputs"].items()) {
+    CAPTURE(name);
+    const Json& mine = found["outputs"][name];
+    for (const char* key : {"unit", "count", "missing", "min", "max"})
+      CHECK(mine[key] == output[key]);
+    CHECK(mine["mean"].get<double>() == Approx(output["mean"].get<double>()).epsilon(1e-13));
+    for (std::size_t q = 0; q < output["quantiles"].size(); ++q) {
+      const Json &a = mine["quantiles"][q], &b = output["quantiles"][q];
+      CHECK(a["within"][0] <= b["value"]);
+      CHECK(b["value"] <= a["within"][1]);
+      CHECK(a["lower"] <= b["lower"]);
+      CHECK(b["upper"] <= a["upper"]);
+    }
+  }
+  // The rows that are kept are those of runs.csv, and each run that is missing there did deploy and kept to it.
+  const StoredCampaign stored = read_stored_campaign(made.rows);
+  std::string expected;
+  append_header(expected, RunPlan(stored.campaign).names());
+  (void)for_each_stored_row(stored, [&](const ResultRow& row) {
+    if (row.status != Status::deployed || !(row.outputs[0] <= 5)) append_row(expected, row);
+  });
+  CHECK(read_text(folder / broken_runs_file) == expected);
+  CHECK(lines_of(expected).size() > 100);
+}
+
+TEST_CASE(
+    "run --no-rows gives the same bytes on any threads, resumed after any end, and from shards",
+    "[parallel]") {
+  const Rowless made(9'000);
+  REQUIRE(made.run(made.none, {"--threads", "1"}).code <= 1);
+  const auto whole = contents(made.none);
+  REQUIRE(made.run(made.rows, {"--threads", "2", "--lanes", "1"}).code <= 1);
+  CHECK(contents(made.rows) == whole);
+
+  // Interrupted, and killed: what is behind the last state of the statistics is made again.
+  const std::string cut = made.folder.path() / "cut";
+  {
+    const Program program(made.folder, {"run", made.campaign, "--out", cut, "--no-rows"});
+    const auto state = std::filesystem::path(cut) / broken_runs_file;
+    for (int i = 0; i < 2000 && !std::filesystem::exists(state); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    program.send(SIGINT);
+    const int code = program.finish().code;
+    CHECK((code == 130 || code <= 1)); // it may have been faster
+  }
+  std::ofstream(std::filesystem::path(cut) / broken_runs_file, std::ios::app)
+      << "8999,stalled,cut o";
+  REQUIRE(made.run(cut, {"--resume"}).code <= 1);
+  CHECK(contents(cut) == whole);
+
+  const std::string a = made.folder.path() / "a", b = made.folder.path() / "b",
+                    c = made.folder.path() / "c", out = made.folder.path() / "out";
+  REQUIRE(made.run(a, {"--shard", "1/3"}).code == 0);
+  REQUIRE(made.run(b, {"--shard", "2/3"}).code == 0);
+  REQUIRE(made.run(c, {"--shard", "3/3"}).code == 0);
+  CHECK(made.program({"merge", a, c, "--out", out}).error ==
+        "error: " + c + ": found runs from 6000, expected run 3000: each run in one folder\n");
+  CHECK(made.program({"merge", c, a, b, "--out", out}).code <= 1);
+  CHECK(contents(out) == whole);
+}
+
+TEST_CASE("what takes every row refuses a folder without rows; the rest works on it") {
+  const Rowless made(300);
+  REQUIRE(made.run(made.none).code <= 1);
+  const auto before = contents(made.none);
+  CHECK(made.program({"analyze", made.none}).code <= 1);
+  CHECK(contents(made.none) == before);
+  CHECK(made.program({"analyze", made.none, "--quantiles", "0.25"}).code <= 1);
+  CHECK(parse_json_file(std::filesystem::path(made.none) /
+                        summary_file)["outputs"]["root.latch_time"]["quantiles"][0]["p"] == 0.25);
+  CHECK(made.program({"replay", made.none, "--run", "17"}).code == 0);
+  const std::string refusal = "error: " + made.none +
+                              ": found a campaign that was run with --no-rows, expected one with "
+                              "runs.csv: what is asked for "
+                              "takes every run's row\n";
+  const std::vector<std::vector<std::string>> commands{
+      {"report", made.none},
+      {"sensitivity", made.none},
+      {"run", made.campaign, "--out", made.none, "--resume"}};
+  for (const auto& command : commands) {
+    CAPTURE(command);
+    const auto [code, out, error] = made.program(command);
+    CHECK(code == 2);
+    CHECK(error == refusal);
+  }
+}
+
+TEST_CASE("run --no-rows refuses what takes rows, and folders that have them") {
+  const Folder folder;
+  const auto refusal = [&](const Json& json, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"run", folder.write("c.json", json.dump()), "--out",
+                               folder.path() / "r", "--no-rows"});
+    const auto [code, out, error] = run_program(folder, more);
+    CHECK(code == 2);
+    return error;
+  };
+  Json json = quick_campaign(64);
+  json["sampling"]["design"] = "sobol";
+  CHECK_THAT(
+      refusal(json),
+      Catch::Contains("error: --no-rows: found draws that depend on each other, expected the "
+                      "design \"random\": bounds from replicates take the rows\n"));
+  CHECK(
+      refusal(quick_campaign(64), {"--until", "deployed 0.1"}) ==
+      "error: --no-rows: found goals to stop at, expected none: they are looked at in the rows\n");
+  json = quick_campaign(64);
+  json["cases"] = parse_json(R"([{ "name": "hot" }])");
+  CHECK(refusal(json) ==
+        "error: --no-rows: found a campaign with cases, expected one without: run each "
+        "case's campaign by itself\n");
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "r"));
+
+  const std::string campaign = folder.write("c.json", quick_campaign(64).dump()),
+                    rows = folder.path() / "rows", none = folder.path() / "none";
+  REQUIRE(run_program(folder, {"run", campaign, "--out", rows}).code == 0);
+  REQUIRE(run_program(folder, {"run", campaign, "--out", none, "--no-rows"}).code == 0);
+  CHECK(run_program(folder, {"run", campaign, "--out", rows, "--no-rows", "--resume"}).error ==
+        "error: " + rows +
+            ": found a folder of a campaign that keeps its rows, expected one that was "
+            "begun with --no-rows\n");
+  CHECK(
+      run_program(folder, {"run", campaign, "--out", none, "--no-rows", "--resume", "--runs", "99"})
+          .error == "error: " + none +
+                        "/campaign.json: /sampling/runs: found 64, expected 99: without rows no "
+                        "runs are added to those that were asked for\n");
+  std::string state = read_text(std::filesystem::path(none) / statistics_file).value();
+  state[state.size() / 2] = static_cast<char>(state[state.size() / 2] ^ 4);
+  std::ofstream(std::filesystem::path(none) / statistics_file, std::ios::binary) << state;
+  CHECK(run_program(folder, {"analyze", none}).error ==
+        "error: " + none +
+            "/statistics.bin: found a damaged file, expected statistics that `run "
+            "--no-rows` wrote: what its sum says\n");
+}
