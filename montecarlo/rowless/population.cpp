@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 namespace wingspread {
 
@@ -51,6 +52,8 @@ OrderStatistic RankedPopulation::at(long rank) const {
   const double upper = std::min(holds->upper, highest_.back().value);
   const double part =
       (static_cast<double>(rank - holds->below) - 0.5) / static_cast<double>(holds->count);
+  if (holds->lower == 0 && holds->upper == std::numeric_limits<double>::denorm_min())
+    return exact(0); // the bin of zeros
   const double value = std::clamp(std::lerp(holds->lower, holds->upper, part), lower, upper);
   return {value, lower, upper, std::max(rank - holds->below, holds->below + holds->count - rank)};
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -116,6 +117,7 @@ std::int64_t& ValueCounts::page_of(std::int64_t index) {
 }
 
 void ValueCounts::add(const ValueCounts& other) {
+  zeros_ += other.zeros_;
   for (std::size_t p = 0; p < pages_.size(); ++p) {
     if (!other.pages_[p]) continue;
     if (!pages_[p]) pages_[p] = std::make_unique<Page>();
@@ -125,21 +127,33 @@ void ValueCounts::add(const ValueCounts& other) {
 
 std::vector<ValueCounts::Bin> ValueCounts::bins() const {
   std::vector<Bin> found;
-  long below = 0;
+  long below = 0, zeros = zeros_;
+  const auto add = [&](double lower, double upper, long count) {
+    if (count > 0) found.push_back({lower, upper, below, count});
+    below += count;
+  };
+  // 0 is an edge unless it lies so far out that bins are wide: then zeros are among the others of theirs.
+  constexpr double above_zero = std::numeric_limits<double>::denorm_min();
+  const auto add_zeros = [&] { add(0, above_zero, std::exchange(zeros, 0)); };
   for (std::size_t p = 0; p < pages_.size(); ++p)
     for (std::size_t i = 0; pages_[p] && i < page_size; ++i) {
       const long count = (*pages_[p])[i];
       if (count == 0) continue;
       const auto index = static_cast<std::int64_t>(p * page_size + i);
-      found.push_back({lower_edge(index), lower_edge(index + 1), below, count});
-      below += count;
+      const double lower = lower_edge(index), upper = lower_edge(index + 1);
+      if (lower >= 0) add_zeros();
+      const bool straddles = lower < 0 && upper > 0;
+      add(lower == 0 ? above_zero : lower, upper,
+          count + (straddles ? std::exchange(zeros, 0) : 0));
     }
+  add_zeros();
   return found;
 }
 
 void ValueCounts::write(StateWriter& to) const {
   to.put(static_cast<std::int32_t>(grid_.exponent));
   to.put(grid_.origin);
+  to.put(zeros_);
   to.put(static_cast<std::uint64_t>(
       std::ranges::count_if(pages_, [](const auto& page) { return page != nullptr; })));
   for (std::size_t p = 0; p < pages_.size(); ++p) {
@@ -154,6 +168,7 @@ void ValueCounts::read(StateReader& from) {
   grid.exponent = from.get<std::int32_t>();
   grid.origin = from.get<double>();
   *this = ValueCounts(grid);
+  zeros_ = from.get<std::int64_t>();
   for (std::size_t left = from.get_count(sizeof(Page)); left > 0; --left) {
     const std::size_t p = from.get<std::uint32_t>();
     if (p >= pages_.size() || pages_[p]) throw from.broken("pages of counts");

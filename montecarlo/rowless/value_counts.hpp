@@ -37,7 +37,7 @@ class ValueCounts {
 public:
   explicit ValueCounts(const Grid& grid);
 
-  void add(double value) { ++page_of(index_of(value)); }
+  void add(double value) { ++(value == 0 ? zeros_ : page_of(index_of(value))); }
   /// @pre of the same grid
   void add(const ValueCounts& other);
 
@@ -64,6 +64,7 @@ private:
   Grid grid_;
   double per_width_; ///< 1/w
   std::vector<std::unique_ptr<Page>> pages_;
+  std::int64_t zeros_ = 0; ///< counted apart: what does not happen is often a 0
 };
 
 } // namespace wingspread

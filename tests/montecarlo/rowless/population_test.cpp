@@ -92,6 +92,13 @@ TEST_CASE("population: bins are narrow where values are dense") {
   }
 }
 
+TEST_CASE("population: zeros are counted apart, so that a quantile among them is one") {
+  const Sample sample = sample_of(laws[5].second, 100'000); // nine of ten are 0
+  const OrderStatistic found = RankedPopulation(sample.population).at(50'000);
+  CHECK(found.value == 0);
+  CHECK(found.rank_error == 0);
+}
+
 TEST_CASE("population: the same in any order and however it is shared out") {
   for (const auto& [name, law] : laws) {
     CAPTURE(name);
