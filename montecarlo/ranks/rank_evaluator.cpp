@@ -24,8 +24,9 @@ constexpr microseconds between_looks{4000}, at_the_end{50};
 /// One plan's chunks, handed out to the ranks that ask for them.
 class Dispatch {
 public:
-  Dispatch(Wire& wire, const RunPlan& plan, RangeDesk& desk)
-      : wire_(wire), plan_(plan), desk_(desk), others_(static_cast<std::size_t>(wire.size())) {}
+  Dispatch(Wire& wire, const RunPlan& plan, RunRange range, RangeDesk& desk)
+      : wire_(wire), plan_(plan), range_(range), desk_(desk), left_(range.size()),
+        others_(static_cast<std::size_t>(wire.size())) {}
 
   /// @param ranks of the others, how many; the first of them
   void open(const PlanDescription& description, long ranks) {
@@ -60,6 +61,7 @@ public:
 private:
   struct Other {
     long wanted = 0;      ///< chunks that it waits for
+    long held = 0;        ///< runs that it has been given and not reported
     bool is_open = false; ///< it has not said that it has closed
     bool told_close = false, told_stop = false;
   };
@@ -75,6 +77,7 @@ private:
   void take_in(int from, Report&& report) {
     other(from).wanted += report.wanted;
     if (report.stopped) desk_.break_off();
+    for (const FinishedChunk& each : report.finished) other(from).held -= each.chunk.runs.size();
     try {
       for (FinishedChunk& each : report.finished)
         desk_.finish(each.chunk, std::move(each.batch), each.complete);
@@ -92,17 +95,20 @@ private:
       failure_ = fmt::format("rank {}: {}", from, closing.failure);
   }
 
-  /// One chunk to each in turn, as long as there are chunks and ranks that want them.
+  /// One chunk to each in turn, as long as there are chunks and ranks that want them. Towards the end none may hold more
+  /// than its share of what is left, lest the others wait for it.
   void hand_out() {
     const bool over = desk_.stopped() || desk_.is_exhausted();
     bool handed = !over;
     while (handed) {
       handed = false;
       for (std::size_t i = 1; i < others_.size(); ++i) {
-        if (others_[i].wanted == 0) continue;
+        if (others_[i].wanted == 0 || others_[i].held > left_ / std::ssize(others_)) continue;
         const std::optional<Chunk> chunk = desk_.claim();
         if (!chunk) break;
         --others_[i].wanted;
+        others_[i].held += chunk->runs.size();
+        left_ = range_.last - chunk->runs.last;
         wire_.send(static_cast<int>(i), chunk_message(*chunk, plan_));
         handed = true;
       }
@@ -123,7 +129,9 @@ private:
 
   Wire& wire_;
   const RunPlan& plan_;
+  const RunRange range_;
   RangeDesk& desk_;
+  long left_;                 ///< runs that were not claimed when a chunk was last handed out
   std::vector<Other> others_; ///< by rank; the first is this one
   long open_ = 0;
   Occupancy occupancy_{};
@@ -139,7 +147,7 @@ long RankEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& s
   // As many ranks as there can be chunks for, and this one.
   const long ranks = description ? std::min<long>(wire_->size() - 1, range.size() / team) : 0;
   RangeDesk desk(range, static_cast<int>((ranks + 1) * team), sink, stop_);
-  Dispatch dispatch(*wire_, plan, desk);
+  Dispatch dispatch(*wire_, plan, range, desk);
   if (ranks > 0) dispatch.open(*description, ranks);
   std::exception_ptr thrown;
   std::atomic<bool> own_done = false;
