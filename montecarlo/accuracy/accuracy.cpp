@@ -6,7 +6,9 @@
 #include "montecarlo/statistics/statistics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <iterator>
@@ -20,6 +22,16 @@ constexpr double tightest_explicit = 1e-13; ///< below it round-off says what a 
 constexpr double tightest_implicit = 1e-12; ///< seulex takes ten times the steps below it
 constexpr double loosest = 1e-10;
 constexpr long times_the_steps = 100, least_steps = 20'000;
+
+/// The nearest number of three decimal digits: 1e-11, where a product is 1.0000000000000001e-11.
+double in_three_digits(double x) {
+  std::array<char, 32> text{};
+  char* const first = text.data();
+  const auto written =
+      std::to_chars(first, first + text.size(), x, std::chars_format::scientific, 2);
+  std::from_chars(first, written.ptr, x);
+  return x;
+}
 
 /// Tolerances together: atol keeps its ratio to rtol.
 Integration with_tolerance(Integration integration, std::string method, double rtol) {
@@ -68,7 +80,7 @@ long steps_allowed(const Campaign& campaign, std::span<const long> runs) {
 std::vector<Integration> references_of(const Integration& integration) {
   const double rtol = integration.rtol;
   const auto at = [&](const char* method, double tightest) {
-    const double wanted = std::clamp(rtol * tighter, tightest, loosest);
+    const double wanted = in_three_digits(std::clamp(rtol * tighter, tightest, loosest));
     return with_tolerance(integration, method, std::min(wanted, rtol));
   };
   const bool is_dopri5 = integration.method == "dopri5", is_seulex = integration.method == "seulex";
