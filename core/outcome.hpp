@@ -28,6 +28,7 @@ struct Goal {
   bool peak_moment = true;
   bool peak_force = true;
   bool audit = true;             ///< watch the energy up to the first latch
+  bool end_state = true;         ///< tell the final configuration and the energies
   bool to_t_end = false;         ///< integrate to t_end whatever happens
   bool first_latch_only = false; ///< end at the first latch
   /// The observer is shown the multiples of it, by dense output, in place of every step; s, 0: every step.
@@ -107,8 +108,8 @@ struct Outcome {
   /// `t_end` cut them: they may still rise, or there is no proof, on a base that turns faster and
   /// faster and where a hinge has neither a latch that holds it nor a spring towards a rest.
   bool peaks_final = false;
-  Configuration final;
-  EnergyAudit energy;
+  Configuration final; ///< nothing, and zeros, where the end's state is not asked for
+  EnergyAudit energy;  ///< zeros
   Work work;
 };
 

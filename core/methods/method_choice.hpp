@@ -7,7 +7,8 @@
 /// where it does not.
 ///
 /// Whether stability holds a step back is seen from h·ρ, ρ the spectral radius of the linear model
-/// [0 E2; −M⁻¹K −M⁻¹D] of springs, latches and friction at the present configuration.
+/// [0 E2; −M⁻¹K −M⁻¹D] of springs, latches and friction at the present configuration; a bound of it that
+/// costs nothing decides first, and it is measured once that says that steps may be held back.
 #pragma once
 
 #include "core/methods/held_back_steps.hpp"
@@ -35,28 +36,43 @@ public:
   [[nodiscard]] Method active() const { return active_; }
   [[nodiscard]] bool automatic() const { return automatic_; }
 
-  /// A phase begins. ρ counts as 0 until it is measured.
-  void restart(double time, long evaluations) {
+  /// A phase begins.
+  /// @param most ρ in it is no larger; infinity: nothing bounds it, and it counts as 0 until measured
+  void restart(double time, long evaluations, double most) {
     active_ = explicit_;
     steps_ = 0;
     held_back_.last_free = mark(time, evaluations);
     held_back_.wait_until = 0;
-    set_radius(0);
+    measured_ = !std::isfinite(most);
+    wants_first_ = false;
+    keep_radius(measured_ ? 0 : most);
     patience_ = first_patience;
     pause_ = first_pause;
   }
 
   /// Whether ρ should be measured anew before the next step.
   [[nodiscard]] bool wants_radius() const {
-    return automatic_ && steps_ % radius_interval == first_radius;
+    return automatic_ && (measured_ ? steps_ % radius_interval == first_radius : wants_first_);
   }
-  void set_radius(double radius) {
+  /// @param time, evaluations of the run
+  void set_radius(double radius, double time, long evaluations) {
+    if (!measured_) { // steps count as held back from here on, and those that the bound alone has asked for
+      held_back_.last_free = mark(time, evaluations);
+      held_back_.last_free.steps -= HeldBackSteps<double>::enough - first_radius;
+      measured_ = true;
+    }
+    keep_radius(radius);
+  }
+
+private:
+  void keep_radius(double radius) {
     const double limit = explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
                                                      : DormandPrince5<double>::stable_real;
     stable_step_ = radius > 0 ? limit / radius : 1e300;
     held_back_.shortest = held_back_share * stable_step_;
   }
 
+public:
   /// Whether after a step of h another method may have to be thought of: `after_step` then needs to
   /// know how quickly things change.
   [[nodiscard]] bool may_leave(double h) const {
@@ -85,7 +101,7 @@ public:
   [[nodiscard]] long steps() const { return steps_; } ///< of this phase
   /// Steps that may be accepted before ρ is due.
   [[nodiscard]] long steps_to_radius() const {
-    if (!automatic_) return std::numeric_limits<long>::max();
+    if (!automatic_ || !measured_) return std::numeric_limits<long>::max();
     return (radius_interval + first_radius - 1 - steps_ % radius_interval) % radius_interval;
   }
   [[nodiscard]] const HeldBackSteps<double>& held_back() const { return held_back_; }
@@ -106,7 +122,7 @@ private:
   static constexpr double break_even_smoothed = 5e-4;
   static constexpr int radius_interval = 128; // steps between two measurements of ρ
   static constexpr int first_radius = 7;      // steps to the first: short phases need none
-  static constexpr int long_enough = 400;     // to try without promise
+  static constexpr int long_enough = 1600;    // to try without promise
   /// Steps until it is thought of again where there was no promise; doubled each time.
   static constexpr int first_pause = 10, longest_pause = 80;
   static constexpr double held_back_share = 0.4; // of the stable step: that of one held back
@@ -116,10 +132,11 @@ private:
   static constexpr int trial = 5; // steps that the implicit method has to get going
   static constexpr int first_patience =
       64; // steps before it is tried again, doubled each time up to
-  static constexpr int longest_patience = 512;
-  /// Cost of an evaluation with the solves that go with it, in those of an explicit method
-  /// (measured).
-  static constexpr double implicit_cost = 1.5;
+  static constexpr int longest_patience = 4096;
+  /// Cost of an evaluation with the solves that go with it, in those of an explicit method (measured):
+  /// 1.5 where both run alone. But explicit steps are made in packs, where an evaluation costs a third
+  /// (20 panels) to a sixth (3) of one alone; and what a run does must not depend on where it is made.
+  static constexpr double implicit_cost = 6;
 
   /// Time integrated per evaluation.
   [[nodiscard]] static double speed(const Mark& from, const Mark& now) {
@@ -129,6 +146,8 @@ private:
   [[nodiscard]] bool leave_explicit(double h, const Mark& now, double quickness) {
     held_back_.accepted(true, h, now);
     if (!held_back_.may_leave(h, now.steps)) return false;
+    wants_first_ = !measured_;
+    if (wants_first_) return false;
     const bool promising = stable_step_ * quickness < worth_trying;
     if (!promising && now.steps < held_back_.last_free.steps + long_enough) {
       held_back_.wait_until = now.steps + pause_;
@@ -156,6 +175,8 @@ private:
   }
 
   bool automatic_;
+  bool measured_ = true;     ///< ρ is, or nothing bounds it; else that bound is in its place
+  bool wants_first_ = false; ///< the bound does not tell
   Method explicit_ = Method::dopri5, active_ = Method::dopri5;
   double stable_step_ = 0, explicit_speed_ = 0;
   long steps_ = 0;

@@ -67,10 +67,19 @@ public:
 private:
   using Vector = Eigen::VectorXd;
   using Matrix = Eigen::MatrixXd;
-  using Complex = Eigen::MatrixXcd;
+  using Products = Eigen::Ref<const Matrix>;
+  /// A real one, or one of a conjugate pair, whose real and imaginary part have columns of their own.
+  struct Mode {
+    int column;
+    bool is_pair;
+  };
 
-  void keep(const Eigen::VectorXcd& lambda, const Complex& W, const Complex& P,
-            const Complex& residual);
+  void keep(const Matrix& V, const Matrix& residual);
+  void keep_columns(const Matrix& V, const Vector& quick);
+  void keep_rows(const Vector& time);
+  [[nodiscard]] Matrix sizes_of_rows(const Products& products) const;
+  [[nodiscard]] Matrix sizes_of_columns(const Products& products) const;
+  [[nodiscard]] static double size_of_residual(const Matrix& E, const Mode& of, const Mode& by);
   bool find_box(const std::optional<double>& energy, double spin);
   void follow();
   void cap_modes(double energy);
@@ -79,11 +88,11 @@ private:
   [[nodiscard]] bool below(const double* moments, const double* forces) const;
 
   const RestModel* model_ = nullptr;
-  int n_ = 0, modes_ = 0;
+  int n_ = 0;
   Matrix inverse_; ///< M_0⁻¹
   Eigen::EigenSolver<Matrix> solver_;
-  Complex P_;                           ///< rows of the modes kept: one of each conjugate pair
-  Vector decay_;                        ///< α
+  std::vector<Mode> modes_; ///< those kept: one of each conjugate pair
+  Matrix rows_; ///< V⁻¹, V having the columns v of a real mode, and v, v' of a pair v ± iv'
   Matrix way_, rate_of_, turn_, swing_; ///< |W_u|, |W_v|, |S W_v|, |S W_v Λ|, pairs counted twice
   Matrix by_turns_, by_hinges_, rounding_;  ///< of (5), divided by α
   Matrix swing_by_turns_, swing_by_hinges_; ///< of (6)

@@ -26,7 +26,7 @@ public:
     phases_.clear();
     largest_drift_ = 0;
     samples_ = 0;
-    initial_energy_ = energy();
+    initial_energy_ = run_.goal.end_state || run_.goal.audit ? energy() : 0;
   }
 
   /// Those that have engaged, in order of time.
@@ -91,6 +91,7 @@ public:
                         static_cast<double>(peaks.base().rate)};
     out.peaks_final = peaks_final;
     out.work = work;
+    if (!run_.goal.end_state) return;
     out.final = configuration_at(run_.system, run_.step.x, run_.step.t);
     out.energy = {initial_energy_, energy(), largest_drift_};
   }

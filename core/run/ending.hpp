@@ -55,6 +55,7 @@ public:
   /// Of a run that has come to its end.
   [[nodiscard]] Status status() {
     if (!latches_left()) return diary_.any_latch() ? Status::deployed : Status::timed_out;
+    if (run_.goal.first_latch_only && diary_.any_latch()) return Status::timed_out; // nobody asks
     return rests_for_ever() || lacks_energy() ? Status::stalled : Status::timed_out;
   }
   [[nodiscard]] const std::string& why_stalled() const { return why_stalled_; }

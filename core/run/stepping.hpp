@@ -23,18 +23,21 @@ namespace wingspread {
 /// The methods of a run: makes and judges steps, chooses the next one's size and what makes it.
 template <class T, class AnySystem> class Stepping {
 public:
-  explicit Stepping(Underway<T, AnySystem>& run) : run_(run), choice_(first_choice()) {}
+  explicit Stepping(Underway<T, AnySystem>& run)
+      : run_(run), first_choice_(run.how.method, run.how.rtol, run.how.smoothing.has_value()),
+        choice_(first_choice_) {}
 
   /// A run begins.
   void start() {
     tried_ = steps_ = rejected_ = 0;
-    choice_ = first_choice();
+    choice_ = first_choice_;
   }
 
   /// The right-hand side has changed, or is new. @param any_latch whether one has engaged
   void restart(bool any_latch) {
     any_latch_ = any_latch;
-    choice_.restart(static_cast<double>(run_.step.t), run_.system.work().evaluations);
+    choice_.restart(static_cast<double>(run_.step.t), run_.system.work().evaluations,
+                    spectral_radius_bound<T>(run_.system));
     begin_with_method();
     h_ = T(-1);
   }
@@ -133,7 +136,8 @@ public:
       h_ = T(choice_.first_step(static_cast<double>(h_)));
     }
     if (choice_.wants_radius())
-      choice_.set_radius(radius_.estimate(run_.system, run_.step.x, run_.step.t));
+      choice_.set_radius(radius_.estimate(run_.system, run_.step.x, run_.step.t),
+                         static_cast<double>(run_.step.t), run_.system.work().evaluations);
     return changes;
   }
 
@@ -165,10 +169,6 @@ public:
   }
 
 private:
-  [[nodiscard]] MethodChoice first_choice() const {
-    return {run_.how.method, run_.how.rtol, run_.how.smoothing.has_value()};
-  }
-
   void begin_with_method() {
     steppers_.with(method(), [&](auto& stepper) {
       stepper.restart(tolerance());
@@ -239,6 +239,7 @@ private:
   }
 
   Underway<T, AnySystem>& run_;
+  const MethodChoice first_choice_;
   MethodChoice choice_;
   SpectralRadius<T> radius_;
   Steppers<T> steppers_;

@@ -16,9 +16,15 @@ struct Owner {
 /// Collects faults; formats names and values only when it finds one.
 class Inspector {
 public:
-  void require(bool holds, double value, const Owner& owner, const char* field,
-               const char* expected) {
-    if (holds && std::isfinite(value)) return;
+  [[gnu::always_inline]] void require(bool holds, double value, const Owner& owner,
+                                      const char* field, const char* expected) {
+    if (!(holds && std::isfinite(value))) report(value, owner, field, expected);
+  }
+  std::vector<Fault> faults;
+
+private:
+  [[gnu::noinline]] void report(double value, const Owner& owner, const char* field,
+                                const char* expected) {
     std::ostringstream found;
     found.precision(17);
     found << value;
@@ -26,7 +32,6 @@ public:
         {owner.kind + (owner.name.empty() ? "" : "." + std::string(owner.name)) + "." + field,
          found.str(), std::isfinite(value) ? expected : "a finite number"});
   }
-  std::vector<Fault> faults;
 };
 
 void inspect(const Base& base, Inspector& check) {

@@ -22,7 +22,7 @@ ResultRow Runner::run(long k) { return make(k, plan_->goal(), {}).row; }
 
 Runner::Replay Runner::replay(long k, const Observer& observer) {
   Goal goal = plan_->goal();
-  goal.audit = true;
+  goal.audit = goal.end_state = true;
   return make(k, goal, observer);
 }
 

@@ -32,16 +32,23 @@ struct What {
   Goal goal;
   double t_end = 60;
 };
-inline const What every_output{"all outputs", {.audit = false}};
-inline const What moments_too{"latches, peak moments", {.peak_force = false, .audit = false}};
-inline const What latches_only{"to the last latch",
-                               {.peak_moment = false, .peak_force = false, .audit = false}};
-inline const What first_latch{
-    "A: to the first latch",
-    {.peak_moment = false, .peak_force = false, .audit = false, .first_latch_only = true}};
+inline const What every_output{"all outputs", {.audit = false, .end_state = false}};
+inline const What moments_too{"latches, peak moments",
+                              {.peak_force = false, .audit = false, .end_state = false}};
+inline const What latches_only{
+    "to the last latch",
+    {.peak_moment = false, .peak_force = false, .audit = false, .end_state = false}};
+inline const What first_latch{"A: to the first latch",
+                              {.peak_moment = false,
+                               .peak_force = false,
+                               .audit = false,
+                               .end_state = false,
+                               .first_latch_only = true}};
 inline const What early_stop{"B: with the early stop", moments_too.goal};
 inline const What whole_run{
-    "B: whole run to 12 s", {.peak_force = false, .audit = false, .to_t_end = true}, seed_t_end};
+    "B: whole run to 12 s",
+    {.peak_force = false, .audit = false, .end_state = false, .to_t_end = true},
+    seed_t_end};
 
 [[nodiscard]] Integration within(double rtol, const What& what);
 

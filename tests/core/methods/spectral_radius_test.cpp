@@ -1,6 +1,8 @@
 #include "core/methods/spectral_radius.hpp"
 #include "tests/support/closed_forms.hpp"
+#include "tests/support/random_scenes.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 using namespace wingspread;
@@ -25,4 +27,65 @@ TEST_CASE("the spectral radius is found within a fifth") {
     CAPTURE(stiffness, damping);
     CHECK(radius.estimate(system, x, 0.0) == Approx(exact).epsilon(0.2));
   }
+}
+
+namespace {
+
+/// ρ over its bound, at a random configuration with all latches engaged and no rates: friction resists most there.
+template <BaseMotion M> double share_of_bound(const Scene& scene, Draws& draws) {
+  Wing<double> wing = make_wing<double>(scene, outward_order(scene));
+  set_parameters(wing, scene);
+  Workspace<double> work;
+  System<double, Tree, M> system(wing, std::nullopt, work);
+  State<double> x;
+  system.start(x);
+  const Layout& at = system.layout();
+  const int n = at.bodies, base = at.freedoms() - n;
+  for (int i = 1; i <= n; ++i) {
+    system.engage(i);
+    x[at.angle(i)] = draws.uniform(-3, 3), x[at.rate(i)] = 0;
+  }
+  LinearSolve<double> solve;
+  solve.factorize(system, x, 0.0, [](int) { return 0.0; });
+  Eigen::MatrixXd model = Eigen::MatrixXd::Zero(2 * n, 2 * n); // [0 E2; −M⁻¹K −M⁻¹D] of the hinges
+  model.topRightCorner(n, n).setIdentity();
+  State<double> column(at.freedoms());
+  for (int i = 1; i <= n; ++i) {
+    solve.solve(
+        system, [&](int k) { return k == i ? 1.0 : 0.0; }, column.data());
+    const Resistance<double> hinge = resistance(system, x, i);
+    for (int k = 0; k < n; ++k) {
+      model(n + k, i - 1) = -column[base + k] * hinge.stiffness;
+      model(n + k, n + i - 1) = -column[base + k] * hinge.damping;
+    }
+  }
+  return model.eigenvalues().cwiseAbs().maxCoeff() / spectral_radius_bound<double>(system);
+}
+
+} // namespace
+
+TEST_CASE("no wing's spectral radius exceeds what its inertias allow, and one attains it") {
+  double most = 0, least = 1;
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    Draws draws(seed);
+    RandomScene options;
+    options.bodies = 1 + draws.below(6);
+    options.motion = seed % 2 == 0 ? BaseMotion::fixed : BaseMotion::free;
+    options.friction = seed % 3 == 0;
+    const Scene scene = random_scene(seed, options);
+    const double share = seed % 2 == 0 ? share_of_bound<BaseMotion::fixed>(scene, draws)
+                                       : share_of_bound<BaseMotion::free>(scene, draws);
+    CAPTURE(seed, share);
+    CHECK(share < 1 + 1e-9);
+    most = std::max(most, share), least = std::min(least, share);
+  }
+  CHECK(most > 0.7); // it says something
+  WARN("shares of the bound from " << least << " to " << most);
+
+  Scene wheel =
+      latching_panel(); // hinged where its centre of mass is: all of (1) and (2) is attained
+  wheel.hinges[0].child_point = {0, 0};
+  wheel.hinges[0].latch = Latch{1e4, 0};
+  Draws draws(1);
+  CHECK(share_of_bound<BaseMotion::fixed>(wheel, draws) == Approx(1));
 }
