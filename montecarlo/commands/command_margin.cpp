@@ -4,6 +4,7 @@
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/json.hpp"
 #include "montecarlo/log/logged_evaluator.hpp"
+#include "montecarlo/log/shard_looks.hpp"
 #include "montecarlo/log/study_folder.hpp"
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/machine/progress.hpp"
@@ -27,6 +28,8 @@ struct MarginOptions {
   std::filesystem::path campaign, out;
   SamplingOptions sampling;
   CrewOptions crew;
+  std::string shard;
+  std::vector<std::filesystem::path> from;
   bool resume = false, json = false;
 };
 
@@ -89,23 +92,74 @@ int keep_unfinished(const Campaign& campaign, const MarginResult& result, LookLo
   return exit_code::interrupted;
 }
 
-int margin(const MarginOptions& options) {
-  Campaign campaign = read_campaign_file(options.campaign);
-  override_sampling(campaign, options.sampling.runs, options.sampling.seed);
-  settle_tolerance(campaign, crew_of(options.crew));
-  StudyFolder folder(options.out, {{stamp_key, stamp_json(stamp_of(campaign, {}))}},
-                     margin_json_file, options.resume);
-  if (folder.is_finished())
-    return conclude_finished_margin(show_finished(options.out / margin_json_file, options.json));
+Json about_study(const Campaign& campaign, const std::optional<Shard>& shard) {
+  return {{stamp_key, stamp_json(stamp_of(campaign, shard))}};
+}
+
+/// What makes a shard of the study.
+ShardMaker maker_of(const MarginOptions& options) {
+  ShardMaker maker{"wingspread margin " + shell_word(options.campaign.string()), ""};
+  if (options.sampling.runs) maker.more += fmt::format(" --runs {}", *options.sampling.runs);
+  if (options.sampling.seed) maker.more += fmt::format(" --seed {}", *options.sampling.seed);
+  return maker;
+}
+
+/// A part of the runs of the looks that do not depend on others.
+int margin_shard(const Campaign& campaign, const MarginOptions& options, const Shard& shard) {
+  if (!options.from.empty())
+    throw SpecError(
+        {{"", "--from", "it with --shard", "one of them: shards are made, then taken"}});
+  const Json about = about_study(campaign, shard);
+  StudyFolder folder(options.out, about, shard_file, options.resume);
   const Interrupt interrupt;
   const auto maker = evaluator_of(crew_of(options.crew), interrupt.flag());
   LoggedEvaluator evaluator(*maker, folder.log(), interrupt.flag());
   Progress progress(stderr);
+  try {
+    const long runs =
+        make_first_looks(campaign, shard, evaluator, [&](const StudyProgress& so_far) {
+          progress.show(tally_of(so_far, folder.log().read()));
+        });
+    warn_if_damaged(folder.log(), options.out);
+    folder.log().sync();
+    Json study = about;
+    study["runs"] = runs;
+    write_file(options.out / shard_file, json_text(study));
+  } catch (const Stopped&) {
+    folder.log().sync();
+    fmt::print(stderr, "interrupted: {} runs are kept; the same command with --resume goes on\n",
+               folder.log().rows());
+    return exit_code::interrupted;
+  }
+  fmt::print("{}\n", (options.out / shard_file).string());
+  fmt::print(stderr,
+             "note: {} of the first looks: --from, with the folders of all shards, goes on\n",
+             describe(shard));
+  return exit_code::done;
+}
+
+/// @throws MissingRuns when shards that it is to go on from are missing
+int margin_study(const MarginOptions& options) {
+  Campaign campaign = read_campaign_file(options.campaign);
+  override_sampling(campaign, options.sampling.runs, options.sampling.seed);
+  settle_tolerance(campaign, crew_of(options.crew));
+  if (const auto shard = parse_shard(options.shard)) return margin_shard(campaign, options, *shard);
+  const Json about = about_study(campaign, std::nullopt);
+  StudyFolder folder(options.out, about, margin_json_file, options.resume);
+  if (folder.is_finished())
+    return conclude_finished_margin(show_finished(options.out / margin_json_file, options.json));
+  const Interrupt interrupt;
+  const auto maker = evaluator_of(crew_of(options.crew), interrupt.flag());
+  LoggedEvaluator logged(*maker, folder.log(), interrupt.flag());
+  ShardLooks evaluator(options.from, about, campaign.sampling.runs, maker_of(options), logged,
+                       interrupt.flag());
+  Progress progress(stderr);
   MarginResult result;
   try {
-    find_margin(
-        campaign, evaluator, [&](long made) { progress.show({.done = made, .total = made + 1}); },
-        result);
+    const auto show = [&](const StudyProgress& so_far) {
+      progress.show(tally_of(so_far, folder.log().read() + evaluator.read()));
+    };
+    find_margin(campaign, evaluator, show, result);
   } catch (const Stopped&) {
     return keep_unfinished(campaign, result, folder.log(), options.out);
   }
@@ -115,6 +169,14 @@ int margin(const MarginOptions& options) {
   folder.finish();
   fmt::print("{}", options.json ? json : margin_text(report));
   return conclude(campaign, result);
+}
+
+int margin(const MarginOptions& options) {
+  try {
+    return margin_study(options);
+  } catch (const MissingRuns& missing) {
+    return refuse_missing(missing, "");
+  }
 }
 
 } // namespace
@@ -129,6 +191,13 @@ void add_margin(CLI::App& app, Action& action) {
   add_sampling_options(*command, options->sampling);
   add_crew_options(*command, options->crew);
   command->add_flag("--resume", options->resume, "Go on where an earlier one stopped");
+  command
+      ->add_option("--shard", options->shard,
+                   "Only part I of N of the runs at the first scales, e.g. 2/5 (see below)")
+      ->type_name("I/N")
+      ->check(refuse_shard);
+  command->add_option("--from", options->from, "The folders of all shards, made before")
+      ->type_name("DIR…");
   command->add_flag("--json", options->json, "Print JSON in place of the report");
   command->footer(
       R"(Scales what the campaign's "margin" names, runs the same draws at every scale, judges the
@@ -157,12 +226,20 @@ confidence; the report says what all of them and both edges come to together.
 The folder gets margin.json, margin.csv (all that was seen at every scale), motorization.csv (the
 static margins at every angle of the travel) and recommended.json, the campaign with the recommended
 springs. Until it is finished it has looks.log, all runs so far: after an interruption, a crash or a kill
-the same command with --resume goes on to the same bytes. Exit code 0: there is a window, and in it a scale to recommend; 1: there is none, or the other
+the same command with --resume goes on to the same bytes.
+
+What the first scales (the grid, and 1) come to decides where it looks next; they themselves depend on
+nothing, and are most of a study. So they can be made in shards, on machines that know nothing of each
+other, each with its part of the runs at every one of them; --from then goes on from all shards, to the
+bytes of one process. Exit code 0: there is a window, and in it a scale to recommend; 1: there is none, or the other
 seed does not confirm it.
 
 Example:
   wingspread margin campaign.json --out results/margin
-  wingspread run results/margin/recommended.json --out results/resized)");
+  wingspread run results/margin/recommended.json --out results/resized
+  wingspread margin campaign.json --shard 1/2 --out results/part1
+  wingspread margin campaign.json --shard 2/2 --out results/part2
+  wingspread margin campaign.json --from results/part1 results/part2 --out results/margin)");
   command->callback([options, &action] { action = [options] { return margin(*options); }; });
 }
 

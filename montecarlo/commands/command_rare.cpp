@@ -145,9 +145,10 @@ int rare(const RareCommandOptions& given) {
   Evaluator& evaluator = logged ? *logged : *maker;
   Progress progress(stderr);
   try {
-    const RareResult result = estimate_rare_event(campaign, options, evaluator, [&](long made) {
-      progress.show({.done = made, .total = made + 1});
-    });
+    const auto show = [&](const StudyProgress& so_far) {
+      progress.show(tally_of(so_far, folder ? folder->log().read() : 0));
+    };
+    const RareResult result = estimate_rare_event(campaign, options, evaluator, show);
     return conclude(result, options, campaign, given, folder.get());
   } catch (const Stopped&) {
     return keep_unfinished(folder.get());

@@ -5,6 +5,7 @@
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/report/html_page.hpp"
 #include "montecarlo/report/study_set.hpp"
+#include "montecarlo/terminal/results_display.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -36,6 +37,7 @@ int report(const ReportOptions& options) {
   for (const std::filesystem::path& folder : options.folders) {
     if (!is_study_folder(folder)) (void)read_any_campaign(folder); // there is one to be locked
     locks.emplace_back(folder);
+    if (!is_study_folder(folder)) warn_of_preview(read_any_campaign(folder));
   }
   const std::filesystem::path out =
       options.out.empty() ? options.folders.front() / report_file : options.out;
@@ -52,6 +54,8 @@ struct ExportOptions {
 int export_folder(const ExportOptions& options) {
   Interrupt interrupt;
   interrupt.end_at_once("interrupted: nothing is written\n");
+  if (std::filesystem::exists(options.folder / campaign_file))
+    warn_of_preview(read_any_campaign(options.folder));
   export_hdf5(options.folder, options.out);
   fmt::print("{}\n", options.out.string());
   return exit_code::done;

@@ -4,8 +4,10 @@
 #include "montecarlo/folder/merge.hpp"
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/formats/number_text.hpp"
+#include "montecarlo/log/shard_looks.hpp"
 #include "montecarlo/machine/folder_lock.hpp"
 #include "montecarlo/rowless/rowless_folder.hpp"
+#include "montecarlo/sensitivity/design_merge.hpp"
 #include "montecarlo/terminal/command_options.hpp"
 #include "montecarlo/terminal/results_display.hpp"
 
@@ -22,6 +24,7 @@ namespace {
 struct MergeOptions {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path out;
+  bool preview = false;
   Display display;
 };
 
@@ -45,15 +48,42 @@ int show_all(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
   return worst;
 }
 
+/// The shards of a design for Sobol' indices.
+int merge_into_design(const MergeOptions& options) {
+  if (options.preview)
+    throw SpecError({{options.folders.front().string(), "", "--preview of a design's shards",
+                      "it of a campaign's: without all of its points a design has no indices"}});
+  merge_designs(options.folders, options.out);
+  return show_design(options.out);
+}
+
+/// The shards of a campaign without rows.
+Summary merge_without_rows(const MergeOptions& options) {
+  if (options.preview)
+    throw SpecError({{options.folders.front().string(), "", "--preview of shards without rows",
+                      "it of shards with rows"}});
+  return merge_rowless(options.folders, options.out);
+}
+
 int merge(const MergeOptions& options) {
-  if (is_cases_folder(options.folders.front())) {
-    const std::vector<CaseSummary> cases = merge_cases(options.folders, options.out);
-    return show_all(read_stored_campaign(options.out), cases, options.display);
+  const MergeKind kind = options.preview ? MergeKind::preview : MergeKind::whole;
+  if (is_shard_folder(options.folders.front()))
+    throw SpecError({{options.folders.front().string(), "", "a shard of a margin study",
+                      "results of `run` or `sensitivity`: `wingspread margin CAMPAIGN.json --from "
+                      "DIR… --out DIR` goes on from such shards"}});
+  try {
+    if (is_design_folder(options.folders.front())) return merge_into_design(options);
+    if (is_cases_folder(options.folders.front())) {
+      const auto cases = merge_cases(options.folders, options.out, kind);
+      return show_all(read_stored_campaign(options.out), cases, options.display);
+    }
+    const Summary summary = is_rowless(options.folders.front())
+                                ? merge_without_rows(options)
+                                : merge_folders(options.folders, options.out, kind);
+    return show_results(read_stored_campaign(options.out), summary, options.display);
+  } catch (const MissingRuns& missing) {
+    return refuse_missing(missing, ", or do without: --preview shows what is there");
   }
-  const Summary summary = is_rowless(options.folders.front())
-                              ? merge_rowless(options.folders, options.out)
-                              : merge_folders(options.folders, options.out);
-  return show_results(read_stored_campaign(options.out), summary, options.display);
 }
 
 /// A whole number as such, so that it is read as one; anything else as text, to be refused.
@@ -126,14 +156,26 @@ void add_merge(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("merge", "Put the shards of a campaign together");
   command->add_option("folders", options->folders, "The shards' results folders, in any order")
       ->required();
-  command->add_option("--out", options->out, "The results folder to write: new, or empty")
+  command
+      ->add_option("--out", options->out,
+                   "The results folder to write: new, empty, or an earlier preview")
       ->required();
+  command->add_flag("--preview", options->preview,
+                    "Of any of the shards, finished or not: a look at the runs that there are");
   add_display_options(*command, options->display);
   command->footer(std::string("The result is what running the campaign in one go gives, byte for "
                               "byte.\n") +
                   display_help + R"(
+Where shards or runs of them are missing nothing is written: standard error lists them, and behind two
+spaces the command that makes each. With --preview the runs that there are go into the folder all the
+same, which says that it is a preview wherever it is read: it has no verdict (exit code 1 where the
+campaign has requirements), it cannot be resumed or merged, and a later merge may take its place.
+
+The shards of a design for Sobol' indices (`sensitivity --shard`) are merged alike.
+
 Example:
-  wingspread merge results/part1 results/part2 --out results/whole)");
+  wingspread merge results/part1 results/part2 --out results/whole
+  wingspread merge results/part* --out results/so_far --preview --table)");
   command->callback([options, &action] { action = [options] { return merge(*options); }; });
 }
 

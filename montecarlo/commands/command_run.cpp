@@ -15,12 +15,14 @@
 #include "montecarlo/ranks/evaluator_of.hpp"
 #include "montecarlo/rowless/rowless_folder.hpp"
 #include "montecarlo/terminal/command_options.hpp"
+#include "montecarlo/terminal/overall_progress.hpp"
 #include "montecarlo/terminal/results_display.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <thread>
 #include <unistd.h>
@@ -41,20 +43,6 @@ struct RunOptions {
   std::vector<std::string> until, set, cases;
   Display display;
 };
-
-/// "2/5"; nothing when it is no shard.
-std::optional<Shard> parse_shard(std::string_view text) {
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto index = parse_number<long>(text.substr(0, slash));
-  const auto of = parse_number<long>(text.substr(std::min(slash + 1, text.size())));
-  if (!index || !of || *index < 1 || *index > *of || *of > most_shards) return std::nullopt;
-  return Shard{*index, *of};
-}
-
-std::string refuse_shard(const std::string& text) {
-  if (parse_shard(text)) return "";
-  return fmt::format("found {}, expected I/N with whole numbers 1 ≤ I ≤ N ≤ {}", text, most_shards);
-}
 
 std::string host_name() {
   char name[256] = {};
@@ -134,7 +122,8 @@ bool begin(RowlessFolder& folder, Evaluator& evaluator, Tally& tally) {
 /// Makes the runs that are left. @return whether it was interrupted
 template <class Folder>
 bool make_remaining(Folder& folder, const RunPlan& plan, const Crew& crew,
-                    const Interrupt& interrupt) {
+                    const Interrupt& interrupt, OverallProgress& progress) {
+  const auto start = std::chrono::steady_clock::now();
   const auto evaluator = evaluator_of(crew, interrupt.flag());
   Tally tally{.total = folder.stored().runs().size()};
   if (!begin(folder, *evaluator, tally)) return true;
@@ -142,7 +131,6 @@ bool make_remaining(Folder& folder, const RunPlan& plan, const Crew& crew,
   const std::size_t watched = watched_output(plan);
   const std::string& name = plan.names().outputs[watched];
   LiveHistogram histogram(name, parse_output_name(name).unit);
-  Progress progress(stderr);
   progress.show(tally);
   const auto keep = [&](const Batch& batch) {
     folder.add(batch);
@@ -158,8 +146,10 @@ bool make_remaining(Folder& folder, const RunPlan& plan, const Crew& crew,
     interrupted = evaluator->make(plan, remaining, {keep, Folder::wants_csv}) < remaining.size();
   }
   folder.finish();
+  if (!interrupted) progress.close(tally);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   write_file(folder.stored().folder / timing_file,
-             timing_text(tally, progress.seconds(), crew, evaluator->occupancy(), interrupted));
+             timing_text(tally, seconds.count(), crew, evaluator->occupancy(), interrupted));
   return interrupted;
 }
 
@@ -210,12 +200,13 @@ void note_accuracy(const std::filesystem::path& folder, const Summary& summary) 
 /// @param show takes the results and returns the exit status
 template <class Folder, class Show>
 int run_into(const Campaign& campaign, const std::filesystem::path& out, const RunOptions& options,
-             const Show& show) {
+             OverallProgress& progress, const Show& show) {
   const RunPlan plan(campaign);
   Folder folder(out, plan, parse_shard(options.shard), options.resume);
   std::string interruption; // outlives the interrupt that says it
   Interrupt interrupt;
-  const bool interrupted = make_remaining(folder, plan, crew_of(options.crew), interrupt);
+  const bool interrupted = make_remaining(folder, plan, crew_of(options.crew), interrupt, progress);
+  if (interrupted) progress.pause();
   const std::string of_case = campaign.of_case.empty() ? "" : " of case " + campaign.of_case;
   const std::string kept = fmt::format("{} of {} runs{} are kept", folder.count(),
                                        folder.stored().runs().size(), of_case);
@@ -236,20 +227,34 @@ int run_cases(const Campaign& campaign, const RunOptions& options) {
   const std::vector<CaseSpec> chosen = chosen_cases(campaign, options.cases);
   const CasesFolder folder(options.out, campaign, parse_shard(options.shard), options.resume);
   std::filesystem::remove(options.out / cases_file); // it will be of other runs
+  OverallProgress progress(std::ssize(chosen) *
+                           shard_runs(campaign.sampling.runs, parse_shard(options.shard)).size());
   std::vector<CaseSummary> made;
-  int worst = exit_code::done;
+  std::vector<StoredCampaign> folders; // of each
+  const auto judge_all = [&] {         // when nothing is to be shown in one line any more
+    progress.pause();
+    int worst = exit_code::done;
+    for (std::size_t i = 0; i < made.size(); ++i)
+      worst = std::max(worst, judge_results(folders[i], made[i].summary));
+    return worst;
+  };
   for (const CaseSpec& spec : chosen) {
     const auto show = [&](const StoredCampaign& stored, Summary&& summary) {
-      if (options.display.histograms) show_table(stored, summary, options.display);
-      const int code = judge_results(stored, summary);
+      if (options.display.histograms) {
+        progress.pause();
+        show_table(stored, summary, options.display);
+      }
+      folders.push_back(stored);
       made.push_back(case_summary(stored, std::move(summary)));
-      return code;
+      return exit_code::done;
     };
     const int code = run_into<FolderWriter>(campaign_of_case(campaign, spec),
-                                            options.out / spec.name, options, show);
-    if (code == exit_code::interrupted) return code;
-    worst = std::max(worst, code);
+                                            options.out / spec.name, options, progress, show);
+    if (code != exit_code::interrupted) continue;
+    (void)judge_all();
+    return code;
   }
+  const int worst = judge_all();
   const std::vector<CaseSummary> all = complete_cases(folder.stored(), std::move(made));
   write_cases_file(folder.stored(), all, options.out);
   show_cases(folder.stored(), all, options.display);
@@ -294,11 +299,13 @@ int run(const RunOptions& options) {
   settle(campaign, options);
   if (!options.no_rows && !campaign.cases.empty()) return run_cases(campaign, options);
   if (campaign.cases.empty()) (void)chosen_cases(campaign, options.cases); // there are none
+  OverallProgress progress(shard_runs(campaign.sampling.runs, parse_shard(options.shard)).size());
   const auto show = [&](const StoredCampaign& stored, const Summary& summary) {
+    progress.pause();
     return show_results(stored, summary, options.display);
   };
-  return options.no_rows ? run_into<RowlessFolder>(campaign, options.out, options, show)
-                         : run_into<FolderWriter>(campaign, options.out, options, show);
+  return options.no_rows ? run_into<RowlessFolder>(campaign, options.out, options, progress, show)
+                         : run_into<FolderWriter>(campaign, options.out, options, progress, show);
 }
 
 } // namespace

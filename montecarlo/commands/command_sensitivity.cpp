@@ -29,6 +29,7 @@ struct SensitivityOptions {
   std::optional<long> samples;
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
+  std::string shard;
   long resamples = 1000;
   CrewOptions crew;
   bool resume = false, json = false;
@@ -47,6 +48,7 @@ void refuse_run_options(const SensitivityOptions& options) {
   refuse(options.seed.has_value(), "--seed");
   refuse(!options.out.empty(), "--out");
   refuse(options.resume, "--resume");
+  refuse(!options.shard.empty(), "--shard");
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
@@ -78,6 +80,7 @@ int rank(const SensitivityOptions& options) {
   const double confidence = confidence_of(options, stored.campaign.statistics);
   Stamp stamp = stored.stamp;
   stamp.shard.reset();
+  warn_of_preview(stored);
   const RunsMade made{replication_of(stored.campaign.sampling, results),
                       count_looks(stored.campaign)};
   show(rank_sensitivity(results, confidence, made), stamp_json(stamp),
@@ -105,17 +108,21 @@ int sobol(const SaltelliDesign& design, const Results& results, const Sensitivit
 int sobol_again(const SensitivityOptions& options) {
   refuse_run_options(options);
   const SaltelliDesign design = read_design(options.from);
+  if (design.shard)
+    throw SpecError({{options.from.string(), "", describe(design.shard) + " of a design",
+                      "all of its runs: `wingspread merge` puts shards together"}});
   const FolderLock lock(options.from);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   return sobol(design, read_design_runs(options.from, plan).results, options, options.from);
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
-bool make_runs_of(const RunPlan& plan, RunRange remaining, const Crew& crew,
+bool make_runs_of(const RunPlan& plan, RunRange own, RunRange remaining, const Crew& crew,
                   const BatchSink& sink) {
   const Interrupt interrupt;
   Progress progress(stderr);
-  Tally tally{.done = remaining.first, .total = remaining.last, .before = remaining.first};
+  const long before = remaining.first - own.first;
+  Tally tally{.done = before, .total = own.size(), .before = before};
   const auto keep = [&](const Batch& batch) {
     sink.take(batch);
     tally.done += std::ssize(batch.rows);
@@ -125,12 +132,44 @@ bool make_runs_of(const RunPlan& plan, RunRange remaining, const Crew& crew,
          remaining.size();
 }
 
-int sobol_new(const SensitivityOptions& options) {
-  const Crew crew = crew_of(options.crew);
+/// A design that a folder has, another part of which is to be made.
+SaltelliDesign design_again(const SensitivityOptions& options) {
+  if (options.samples || options.seed || !options.of_case.empty())
+    throw SpecError({{options.from.string(), "", "a design's file with --samples, --seed or --case",
+                      "it without them: the design has its own"}});
+  return read_design_file(options.from);
+}
+
+SaltelliDesign new_design(const SensitivityOptions& options, const Crew& crew) {
   SaltelliDesign design{chosen_case(read_campaign_file(options.from), options.of_case),
-                        options.samples.value_or(1000)};
+                        options.samples.value_or(1000), std::nullopt};
   override_sampling(design.campaign, std::nullopt, options.seed);
   settle_tolerance(design.campaign, crew);
+  return design;
+}
+
+SaltelliDesign design_of(const SensitivityOptions& options, const Crew& crew) {
+  if (!options.shard.empty() && options.out.empty())
+    throw SpecError({{"", "--shard", "no --out", "the folder for its runs"}});
+  SaltelliDesign design =
+      is_design_file(options.from) ? design_again(options) : new_design(options, crew);
+  design.shard = parse_shard(options.shard);
+  return design;
+}
+
+/// What a shard comes to: its runs.
+int show_shard(const SaltelliDesign& design, const Results& results,
+               const std::filesystem::path& folder) {
+  fmt::print("{}\n{}\n", (folder / design_file).string(), (folder / design_runs_file).string());
+  fmt::print(stderr, "note: {} of the design's runs: `wingspread merge` puts all shards together\n",
+             describe(design.shard));
+  return report_failed(std::ranges::count(results.status, Status::failed),
+                       std::ssize(results.runs));
+}
+
+int sobol_new(const SensitivityOptions& options) {
+  const Crew crew = crew_of(options.crew);
+  const SaltelliDesign design = design_of(options, crew);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
   if (runs > most_runs)
@@ -138,23 +177,25 @@ int sobol_new(const SensitivityOptions& options) {
                       fmt::format("at most {} runs", most_runs)}});
   std::optional<DesignFolderWriter> folder;
   if (!options.out.empty()) folder.emplace(options.out, design, plan, options.resume);
-  Results own(plan.names());
+  Results kept(plan.names());
   const auto keep = [&](const Batch& batch) {
     if (folder) return folder->add(batch);
-    for (const ResultRow& row : batch.rows) own.append(row);
+    for (const ResultRow& row : batch.rows) kept.append(row);
   };
-  const RunRange remaining{folder ? folder->count() : 0, runs};
-  const bool interrupted = make_runs_of(plan, remaining, crew, {keep, folder.has_value()});
+  const RunRange own = runs_of(design);
+  const RunRange remaining{own.first + (folder ? folder->count() : 0), own.last};
+  const bool interrupted = make_runs_of(plan, own, remaining, crew, {keep, folder.has_value()});
   if (folder) folder->finish();
   if (interrupted) {
     fmt::print(stderr, "interrupted: {}\n",
                folder
                    ? fmt::format("{} of {} runs are kept; the same command with --resume goes on",
-                                 folder->count(), runs)
+                                 folder->count(), own.size())
                    : "nothing is kept without --out");
     return exit_code::interrupted;
   }
-  return sobol(design, folder ? folder->results() : own, options, options.out);
+  if (design.shard) return show_shard(design, folder->results(), options.out);
+  return sobol(design, folder ? folder->results() : kept, options, options.out);
 }
 
 int sensitivity(const SensitivityOptions& given) {
@@ -167,11 +208,20 @@ int sensitivity(const SensitivityOptions& given) {
 
 } // namespace
 
+int show_design(const std::filesystem::path& folder) {
+  SensitivityOptions options;
+  options.from = folder;
+  return sobol_again(options);
+}
+
 void add_sensitivity(CLI::App& app, Action& action) {
   const auto options = std::make_shared<SensitivityOptions>();
   CLI::App* command =
       app.add_subcommand("sensitivity", "Which dispersions move which outputs, and how much");
-  command->add_option("from", options->from, "A results folder, or a campaign's file")->required();
+  command
+      ->add_option("from", options->from,
+                   "A results folder, or a campaign's file (or a design.json)")
+      ->required();
   command
       ->add_option("--samples", options->samples,
                    "Of a campaign's file: rows of the design, 1000 if left out; each takes a "
@@ -187,6 +237,11 @@ void add_sensitivity(CLI::App& app, Action& action) {
   command->add_option("--out", options->out,
                       "Of a campaign's file: the folder to keep its runs in");
   command->add_flag("--resume", options->resume, "Go on where an earlier run into it stopped");
+  command
+      ->add_option("--shard", options->shard,
+                   "Of a campaign's file: only part I of N of the design's runs, e.g. 2/5")
+      ->type_name("I/N")
+      ->check(refuse_shard);
   add_crew_options(*command, options->crew);
   command->add_flag("--json", options->json, "Print JSON in place of the table");
   command->footer(
@@ -200,6 +255,9 @@ alone, the total index the share that it has a part in. With the sobol design, t
 Bounds of draws that depend on each other (latin_hypercube, sobol) come from the design's
 replicates, and there are none with one. An output that did not happen at some point of a design
 has no Sobol' indices.
+
+The runs of a design can be made in shards, each with --out and --shard; `wingspread merge` makes of
+their folders the one that making all at once gives, byte for byte.
 
 In both, what matters most stands first; sensitivity.json and sensitivity.csv, in the folder if there
 is one, have all of it. A dispersion that moves no output is named on standard error.

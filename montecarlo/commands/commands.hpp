@@ -3,6 +3,7 @@
 
 #include "montecarlo/terminal/exit_code.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -34,6 +35,10 @@ void add_schema(CLI::App& app, Action& action);
 // For packages; --help does not list them.
 void add_completion(CLI::App& app, Action& action);
 void add_man(CLI::App& app, Action& action);
+
+/// Shows the Sobol' indices of a design whose runs are all in the folder, and writes their files, as making the runs
+/// does. @return the exit status
+int show_design(const std::filesystem::path& folder);
 
 /// "wingspread 0.1.0".
 [[nodiscard]] std::string version_text();

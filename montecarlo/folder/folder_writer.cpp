@@ -75,6 +75,10 @@ void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, co
   compare("hash", there.stamp.hash, campaign_hash(same.resolved));
   compare("shard", describe(there.stamp.shard), describe(stamp.shard));
   compare("version", there.stamp.version, stamp.version);
+  if (there.stamp.preview)
+    problems.push_back({(there.folder / campaign_file).string(), "/wingspread/preview",
+                        describe(*there.stamp.preview),
+                        "a folder that runs are made into: go on with the shards, and merge them"});
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 

@@ -2,6 +2,7 @@
 
 #include "montecarlo/folder/cases_folder.hpp"
 #include "montecarlo/folder/folder_writer.hpp"
+#include "montecarlo/folder/parts.hpp"
 #include "montecarlo/formats/files.hpp"
 
 #include <fmt/format.h>
@@ -12,56 +13,6 @@
 
 namespace wingspread {
 namespace {
-
-/// A folder, and the runs that it has: one range, unless it is broken.
-struct Part {
-  std::filesystem::path folder;
-  Stamp stamp;
-  RunRange own; ///< that it should have
-  std::vector<RunRange> present{};
-};
-
-/// "runs 3 to 5, 8": for messages.
-class RunList {
-public:
-  void add(const RunRange& range) {
-    if (range.size() > 0 && ranges_.size() <= most)
-      ranges_.push_back(range); // one more than are shown
-  }
-  [[nodiscard]] bool empty() const { return ranges_.empty(); }
-  [[nodiscard]] std::string text() const {
-    std::string text;
-    for (std::size_t i = 0; i < ranges_.size() && i < most; ++i) {
-      const auto& [first, last] = ranges_[i];
-      text += i == 0 ? "" : ", ";
-      text +=
-          last - first == 1 ? fmt::format("{}", first) : fmt::format("{} to {}", first, last - 1);
-    }
-    if (ranges_.size() > most) text += ", …";
-    return text;
-  }
-
-private:
-  static constexpr std::size_t most = 5;
-  std::vector<RunRange> ranges_;
-};
-
-/// A problem for each folder that is not of the first one's campaign, seed and version.
-void refuse_strangers(const std::vector<Part>& parts) {
-  const Part& first = parts.front();
-  std::vector<Problem> problems;
-  for (const Part& part : parts) {
-    const auto compare = [&](const char* key, const std::string& found, const std::string& ours) {
-      if (found != ours)
-        problems.push_back({(part.folder / campaign_file).string(),
-                            fmt::format("/wingspread/{}", key), found,
-                            fmt::format("{}, as in {}", ours, first.folder.string())});
-    };
-    compare("hash", part.stamp.hash, first.stamp.hash);
-    compare("version", part.stamp.version, first.stamp.version);
-  }
-  if (!problems.empty()) throw SpecError(std::move(problems));
-}
 
 void refuse_stopping(const StoredCampaign& stored) {
   if (!stored.campaign.until.empty())
@@ -78,65 +29,8 @@ StoredCampaign stored_in(const Part& part, const StoredCampaign& whole) {
 }
 
 void find_present(Part& part, const StoredCampaign& whole) {
-  const auto take = [&](const ResultRow& row) {
-    if (part.present.empty() || part.present.back().last != row.run)
-      part.present.push_back({row.run, row.run});
-    ++part.present.back().last;
-  };
-  (void)for_each_stored_row(stored_in(part, whole), take);
-}
-
-RunRange common(const RunRange& a, const RunRange& b) {
-  return {std::max(a.first, b.first), std::min(a.last, b.last)};
-}
-
-/// A problem for each folder that has runs of those before it.
-void find_doubles(const std::vector<Part>& parts, std::vector<Problem>& problems) {
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    RunList twice;
-    std::string other;
-    for (std::size_t q = 0; q < p; ++q)
-      for (const RunRange& here : parts[p].present)
-        for (const RunRange& there : parts[q].present)
-          if (const RunRange both = common(here, there); both.size() > 0) {
-            twice.add(both);
-            other = parts[q].folder.string();
-          }
-    if (!twice.empty())
-      problems.push_back({parts[p].folder.string(), "",
-                          fmt::format("runs {}, which {} has too", twice.text(), other),
-                          "each run in one folder"});
-  }
-}
-
-/// What is left of the range.
-/// @param present in order
-RunList missing_in(const RunRange& range, const std::vector<RunRange>& present) {
-  RunList missing;
-  long next = range.first;
-  for (const RunRange& there : present) {
-    missing.add({next, std::min(there.first, range.last)});
-    next = std::max(next, there.last);
-  }
-  missing.add({next, range.last});
-  return missing;
-}
-
-/// A problem for each folder that lacks runs of its own, and one for runs that no folder should
-/// have had.
-void find_missing(const std::vector<Part>& parts, long runs, std::vector<Problem>& problems) {
-  std::vector<RunRange> somebodys;
-  for (const Part& part : parts) {
-    somebodys.push_back(part.own);
-    if (const RunList missing = missing_in(part.own, part.present); !missing.empty())
-      problems.push_back(
-          {part.folder.string(), "", fmt::format("no runs {}", missing.text()),
-           fmt::format("{} complete (run it again with --resume)", describe(part.stamp.shard))});
-  }
-  std::ranges::sort(somebodys, {}, &RunRange::first);
-  if (const RunList nobodys = missing_in({0, runs}, somebodys); !nobodys.empty())
-    problems.push_back({"", "", fmt::format("no folder with runs {}", nobodys.text()),
-                        fmt::format("folders with all of the campaign's {} runs", runs)});
+  (void)for_each_stored_row(stored_in(part, whole),
+                            [&](const ResultRow& row) { part.add(row.run); });
 }
 
 /// Writes the rows in the order of their runs.
@@ -158,9 +52,10 @@ void write_in_order(std::vector<Part> parts, const StoredCampaign& whole) {
   out.finish();
 }
 
-/// An earlier merging of the same folders may have been cut off: it is done again.
+/// An earlier merging of the same folders may have been cut off: it is done again. An earlier preview makes room.
 void refuse_other_folder(const std::filesystem::path& out, const std::string& text) {
-  if (read_text(out / campaign_file) != text)
+  const auto there = read_text(out / campaign_file);
+  if (there != text && !(there && read_stored_campaign(out).stamp.preview))
     refuse_used_folder(out, "a new or an empty folder for the merged results");
 }
 
@@ -171,71 +66,131 @@ struct Merging {
   std::string campaign; ///< campaign.json's text
 };
 
-/// @throws SpecError with all that keeps the folders from being merged
-Merging check_parts(const std::vector<std::filesystem::path>& folders,
-                    const std::filesystem::path& out) {
+/// The cases that are in any of the folders, in the campaign's order.
+std::vector<CaseSpec> cases_in(const std::vector<std::filesystem::path>& folders) {
+  std::vector<CaseSpec> cases;
+  for (const CaseSpec& spec : read_stored_campaign(folders.front()).campaign.cases)
+    if (std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
+          return std::filesystem::exists(folder / spec.name / campaign_file);
+        }))
+      cases.push_back(spec);
+  return cases;
+}
+
+/// What makes the shards of a campaign again, as the first folder has it.
+ShardMaker maker_of(const std::vector<std::filesystem::path>& folders) {
+  const std::filesystem::path campaign = folders.front() / campaign_file;
+  ShardMaker maker{"wingspread run " + shell_word(campaign.string()), ""};
+  const std::vector<CaseSpec> made = cases_in(folders);
+  if (made.size() < read_stored_campaign(folders.front()).campaign.cases.size())
+    for (const CaseSpec& spec : made) maker.more += " --case " + shell_word(spec.name);
+  return maker;
+}
+
+/// Takes for a preview what is there of the runs, if some are missing.
+void preview(Merging& merging, PartFaults& faults) {
+  const long of = merging.whole.campaign.sampling.runs;
+  long there = 0;
+  for (const Part& part : merging.parts) there += part.count();
+  if (there == 0)
+    faults.add(Problem{merging.parts.front().folder.string(), "", "no runs", "at least one"});
+  if (there < of) merging.whole.stamp.preview = Preview{there, of};
+}
+
+/// Looks at the folders of a campaign, or of one of its cases, and notes what keeps them from being merged.
+/// @param of_case empty: the folders are those that were named; else the case's are in them
+/// @throws SpecError when they are no folders of one campaign
+Merging look_at(const std::vector<std::filesystem::path>& folders, const std::string& of_case,
+                const std::filesystem::path& out, MergeKind kind, PartFaults& faults) {
   Merging merging;
   auto& [whole, parts, text] = merging;
-  for (const auto& folder : folders) {
-    StoredCampaign stored = read_stored_campaign(folder);
-    parts.push_back({folder, stored.stamp, stored.runs()});
+  std::vector<Part> not_begun;
+  for (const std::filesystem::path& folder : folders) {
+    const std::filesystem::path its = of_case.empty() ? folder : folder / of_case;
+    if (!of_case.empty() && !std::filesystem::exists(its / campaign_file)) {
+      not_begun.push_back({its, folder, read_stored_campaign(folder).stamp, {}});
+      continue;
+    }
+    StoredCampaign stored = read_stored_campaign(its);
+    parts.push_back({its, folder, stored.stamp, stored.runs()});
     if (parts.size() == 1) whole = std::move(stored);
   }
-  refuse_strangers(parts);
+  refuse_strangers(parts, campaign_file);
   refuse_stopping(whole);
+  for (Part& part : not_begun) {
+    part.own = shard_runs(whole.campaign.sampling.runs, part.stamp.shard);
+    parts.push_back(std::move(part));
+  }
   whole.folder = out;
   whole.stamp.shard.reset();
+  for (Part& part : parts) find_present(part, whole);
+  find_doubles(parts, faults);
+  if (kind == MergeKind::preview)
+    preview(merging, faults);
+  else
+    find_missing(parts, whole.campaign.sampling.runs, maker_of(folders), faults);
   text = campaign_text(whole.campaign, whole.stamp);
   refuse_other_folder(out, text);
-  std::vector<Problem> problems;
-  for (Part& part : parts) find_present(part, whole);
-  find_doubles(parts, problems);
-  find_missing(parts, whole.campaign.sampling.runs, problems);
-  if (!problems.empty()) throw SpecError(std::move(problems));
   return merging;
 }
 
-/// The folders of one case.
-std::vector<std::filesystem::path> of_case(const std::vector<std::filesystem::path>& folders,
-                                           const CaseSpec& spec) {
-  std::vector<std::filesystem::path> its;
-  for (const auto& folder : folders) its.push_back(folder / spec.name);
-  return its;
+/// What was made of an earlier preview, and what was made of that.
+void drop_preview(const std::filesystem::path& folder) {
+  for (const char* file : {summary_file, histograms_json_file, histograms_csv_file, runs_file,
+                           "sensitivity.json", "sensitivity.csv", "report.html"})
+    std::filesystem::remove(folder / file);
+}
+
+/// @pre nothing speaks against it
+Summary write_merged(Merging&& merging) {
+  auto& [whole, parts, text] = merging;
+  const FolderLock lock(whole.folder);
+  refuse_other_folder(whole.folder, text);
+  if (read_text(whole.folder / campaign_file) != text) drop_preview(whole.folder);
+  write_file(whole.folder / campaign_file, text);
+  write_in_order(std::move(parts), whole);
+  return write_statistics(whole, read_stored_results(whole).results, whole.campaign.statistics);
 }
 
 } // namespace
 
 Summary merge_folders(const std::vector<std::filesystem::path>& folders,
-                      const std::filesystem::path& out) {
-  auto [whole, parts, text] = check_parts(folders, out);
-  const FolderLock lock(out);
-  refuse_other_folder(out, text);
-  write_file(out / campaign_file, text);
-  write_in_order(std::move(parts), whole);
-  return write_statistics(whole, read_stored_results(whole).results, whole.campaign.statistics);
+                      const std::filesystem::path& out, MergeKind kind) {
+  PartFaults faults;
+  Merging merging = look_at(folders, "", out, kind, faults);
+  faults.refuse();
+  return write_merged(std::move(merging));
 }
 
 std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& folders,
-                                     const std::filesystem::path& out) {
-  std::vector<Part> parts;
+                                     const std::filesystem::path& out, MergeKind kind) {
+  std::vector<Part> tops;
   for (const auto& folder : folders)
-    parts.push_back({folder, read_stored_campaign(folder).stamp, {}});
-  refuse_strangers(parts);
+    tops.push_back({folder, folder, read_stored_campaign(folder).stamp, {}, {}});
+  refuse_strangers(tops, campaign_file);
   StoredCampaign whole = read_stored_campaign(folders.front());
-  const std::vector<CaseSpec> made = made_cases(whole);
+  PartFaults faults;
+  std::vector<Merging> mergings; // all are looked at before anything is written
+  Preview all;
+  for (const CaseSpec& spec : cases_in(folders)) {
+    mergings.push_back(look_at(folders, spec.name, out / spec.name, kind, faults));
+    const Stamp& stamp = mergings.back().whole.stamp;
+    all.of += whole.campaign.sampling.runs;
+    all.runs += stamp.preview ? stamp.preview->runs : whole.campaign.sampling.runs;
+  }
+  faults.refuse();
   whole.folder = out;
   whole.stamp.shard.reset();
+  if (all.runs < all.of) whole.stamp.preview = all;
   const std::string text = campaign_text(whole.campaign, whole.stamp);
   refuse_other_folder(out, text);
-  for (const CaseSpec& spec : made)
-    (void)check_parts(of_case(folders, spec), out / spec.name); // all before anything is written
   const FolderLock lock(out);
   refuse_other_folder(out, text);
   write_file(out / campaign_file, text);
   std::vector<CaseSummary> cases;
-  for (const CaseSpec& spec : made) {
-    Summary summary = merge_folders(of_case(folders, spec), out / spec.name);
-    cases.push_back(case_summary(read_stored_campaign(out / spec.name), std::move(summary)));
+  for (Merging& merging : mergings) {
+    const StoredCampaign stored = merging.whole;
+    cases.push_back(case_summary(stored, write_merged(std::move(merging))));
   }
   write_cases_file(whole, cases, out);
   return cases;

@@ -22,12 +22,19 @@ inline constexpr long most_shards = 1'000'000;
 /// @pre 1 ≤ index ≤ of ≤ most_shards
 [[nodiscard]] RunRange shard_runs(long runs, const std::optional<Shard>& shard);
 
+/// Results that some runs of the campaign are missing from, anywhere: a look at what there is so far, and no more.
+struct Preview {
+  long runs = 0, of = 0;
+  bool operator==(const Preview&) const = default;
+};
+
 /// What identifies a file of results and its folder: the value of its key "wingspread".
 struct Stamp {
   std::string version; ///< of the program
   std::uint64_t seed = 0;
   std::string hash; ///< of the campaign; the same for all of its shards
   std::optional<Shard> shard;
+  std::optional<Preview> preview{};
   bool operator==(const Stamp&) const = default;
 };
 
@@ -36,6 +43,8 @@ struct Stamp {
 
 /// "shard 2/5", or "all runs".
 [[nodiscard]] std::string describe(const std::optional<Shard>& shard);
+/// "a preview of 300 of 1000 runs".
+[[nodiscard]] std::string describe(const Preview& preview);
 
 [[nodiscard]] Json stamp_json(const Stamp& stamp);
 

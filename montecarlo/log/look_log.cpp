@@ -14,6 +14,14 @@ namespace {
 
 constexpr char look_mark = 'L';
 
+/// What the first record says.
+Json about_in(RecordReader& in, const std::filesystem::path& file) {
+  if (!in.next())
+    throw SpecError({{file.string(), "", "a log whose first record is damaged",
+                      "one that says whose it is (it is of no use: take it away to begin anew)"}});
+  return parse_json(in.record(), file.string());
+}
+
 } // namespace
 
 void refuse_other_study(const std::filesystem::path& file, const Json& there, const Json& ours) {
@@ -30,14 +38,16 @@ void refuse_other_study(const std::filesystem::path& file, const Json& there, co
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
+Json about_of_log(const std::filesystem::path& file) {
+  RecordReader in(file);
+  return about_in(in, file);
+}
+
 LookLog::LookLog(std::filesystem::path file, Json about)
     : file_(std::move(file)), about_(std::move(about)) {
   if (!std::filesystem::exists(file_)) return;
   in_.emplace(file_);
-  if (!in_->next())
-    throw SpecError({{file_.string(), "", "a log whose first record is damaged",
-                      "one that says whose it is (it is of no use: take it away to begin anew)"}});
-  const Json there = parse_json(in_->record(), file_.string());
+  const Json there = about_in(*in_, file_);
   refuse_other_study(file_, there, about_);
   refuse_other_study(file_, about_, there); // what there is, and is not ours
   read_ahead();
@@ -56,7 +66,12 @@ SpecError LookLog::other_look(const std::string& id) const {
   return SpecError(
       {{file_.string(), "",
         fmt::format("look {}: {}", looks_, has(look_mark) ? in_->record().substr(1) : "cut short"),
-        id + ": what this study asks for"}});
+        id + ": what this study asks for (shards that it was given with --from are to be given "
+             "again)"}});
+}
+
+bool LookLog::has_next(const RunPlan& plan, RunRange range) const {
+  return in_ && in_->record() == look_mark + look_id(plan, range);
 }
 
 void LookLog::begin(const std::string& id) {

@@ -21,6 +21,9 @@ namespace wingspread {
 /// @throws SpecError with each of our values that differs from it
 void refuse_other_study(const std::filesystem::path& file, const Json& there, const Json& ours);
 
+/// What a log says of whose it is. @throws SpecError when it does not
+[[nodiscard]] Json about_of_log(const std::filesystem::path& file);
+
 class LookLog {
 public:
   /// Opens the file, if it is there; it is made with the first look.
@@ -35,6 +38,9 @@ public:
   long enter(const RunPlan& plan, RunRange range, const BatchSink& sink,
              const std::atomic<bool>& stop);
 
+  /// Whether the next look in it is this one.
+  [[nodiscard]] bool has_next(const RunPlan& plan, RunRange range) const;
+
   /// Adds the next rows of the look. Every five seconds it sees to it that they are on the device.
   /// @pre all that there was of it was handed on
   /// @throws as refuse_path (machine_error.hpp) does when they cannot be written
@@ -43,6 +49,7 @@ public:
   /// Sees to it that all is on the device.
   void sync();
 
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   /// How many rows were read so far, and how many are in it.
   [[nodiscard]] long read() const { return read_; }
   [[nodiscard]] long rows() const { return rows_; }

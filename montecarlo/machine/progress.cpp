@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unistd.h>
 
@@ -25,16 +26,35 @@ std::string bar(double share) {
 
 } // namespace
 
+namespace {
+
+/// From 0 to 1.
+double share_of(const Tally& tally) {
+  if (tally.total == 0) return 1;
+  return std::min(1.0, static_cast<double>(tally.done) / static_cast<double>(tally.total));
+}
+
+} // namespace
+
 bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) == 1; }
 
+Tally tally_of(const StudyProgress& progress, long before) {
+  Tally tally{.done = progress.runs, .total = progress.most_runs, .before = before};
+  tally.look = progress.look;
+  tally.looks = progress.most_looks;
+  tally.at_most = true;
+  return tally;
+}
+
 std::string progress_line(const Tally& tally, double seconds) {
-  const double share =
-      tally.total == 0 ? 1 : static_cast<double>(tally.done) / static_cast<double>(tally.total);
-  std::string text = fmt::format("{} {}/{} runs", bar(share), tally.done, tally.total);
+  std::string text = bar(share_of(tally));
+  if (tally.looks > 0) text += fmt::format(" look {} of at most {} ·", tally.look, tally.looks);
+  text += tally.at_most ? fmt::format(" {} of at most {} runs", tally.done, tally.total)
+                        : fmt::format(" {}/{} runs", tally.done, tally.total);
   const double rate = static_cast<double>(tally.done - tally.before) / seconds;
   if (rate > 0 && std::isfinite(rate)) {
     text += fmt::format(" · {:.0f} runs/s", rate);
-    if (tally.done < tally.total)
+    if (tally.done < tally.total && !tally.at_most)
       text += " · " + duration(static_cast<double>(tally.total - tally.done) / rate) + " left";
   }
   if (tally.stalled > 0) text += fmt::format(" · {} stalled", tally.stalled);
@@ -46,8 +66,11 @@ std::string progress_line(const Tally& tally, double seconds) {
 
 Progress::Progress(std::FILE* stream) : stream_(is_terminal(stream) ? stream : nullptr) {}
 
-Progress::~Progress() {
+Progress::~Progress() { pause(); }
+
+void Progress::pause() {
   if (shown_) fmt::print(stream_, "{}", pictured_ ? "\n\n" : "\n");
+  shown_ = pictured_ = false;
 }
 
 double Progress::seconds() const {
@@ -58,6 +81,8 @@ void Progress::show(const Tally& tally) {
   if (!stream_) return;
   const auto now = Clock::now();
   if (shown_ && tally.done < tally.total && now - last_ < std::chrono::milliseconds(100)) return;
+  if (share_of(tally) < share_) return;
+  share_ = share_of(tally);
   last_ = now;
   shown_ = true;
   fmt::print(stream_, "\r{}\x1b[K", progress_line(tally, seconds())); // \x1b[K: clear what is left

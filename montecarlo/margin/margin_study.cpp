@@ -87,61 +87,106 @@ double quantile_over_runs(const Requirement& requirement, const Results& results
   return quantile(values, requirement.min ? 1 - requirement.probability : requirement.probability);
 }
 
+/// What a case's runs at a scale came to.
+CaseLook look_of(const Campaign& campaign, const MarginCase& which, const Results& results) {
+  CaseLook look;
+  for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
+  look.verdicts = judge_campaign(campaign, results);
+  std::erase_if(look.verdicts,
+                [&](const Verdict& verdict) { return !applies(verdict.requirement, which); });
+  for (const Verdict& verdict : look.verdicts)
+    look.quantiles.push_back(quantile_over_runs(verdict.requirement, results));
+  return look;
+}
+
 /// Makes the runs that a search asks for.
 class Looking {
 public:
-  Looking(Evaluator& evaluator, const std::function<void(long)>& progress, MarginResult& result)
+  Looking(Evaluator& evaluator, const std::function<void(const StudyProgress&)>& progress,
+          MarginResult& result)
       : campaigns_(result.campaigns), evaluator_(evaluator), progress_(progress), result_(result) {
     for (Campaign& campaign : campaigns_) campaign.outputs = outputs_for(campaign.requirements);
   }
 
+  /// From now on there will be no more looks than so many in all.
+  void expect(long looks) {
+    most_ = std::max(looks_ + 1, most_ == 0 ? looks : std::min(most_, looks));
+  }
+
   [[nodiscard]] ScaleLook at(const std::vector<SceneParameter>& parameters, double scale) {
-    std::vector<Campaign> sized;
-    for (const Campaign& campaign : campaigns_)
-      sized.push_back(scaled(campaign, parameters, scale));
     ScaleLook look;
-    for (const MarginCase& each : result_.cases) {
-      const Campaign& campaign = sized[each.campaign];
-      const double springs = static_cast<double>(campaign.motorization.springs_per_hinge);
-      look.push_back(each.weakened.empty()
-                         ? runs_of(campaign, each)
-                         : runs_of(scaled(campaign, each.weakened, (springs - 1) / springs), each));
-    }
+    for_each_case(parameters, scale, [&](const Campaign& campaign, const MarginCase& which) {
+      look.push_back(runs_of(campaign, which));
+    });
+    ++looks_;
     return look;
   }
+
+  /// Makes a part of the runs, and looks at none.
+  void make(const std::vector<SceneParameter>& parameters, double scale, const Shard& shard) {
+    for_each_case(parameters, scale, [&](const Campaign& campaign, const MarginCase&) {
+      const RunRange part = part_of_look({0, campaign.sampling.runs}, shard);
+      make(RunPlan(campaign), part, part.size(), [](const Batch&) {});
+    });
+    ++looks_;
+  }
+
+  /// How many were taken.
+  [[nodiscard]] long looks() const { return looks_; }
 
   void use_seed(std::uint64_t seed) {
     for (Campaign& campaign : campaigns_) override_sampling(campaign, std::nullopt, seed);
   }
 
 private:
+  /// @param take the case's campaign at the scale, and the case
+  template <class Take>
+  void for_each_case(const std::vector<SceneParameter>& parameters, double scale,
+                     const Take& take) {
+    std::vector<Campaign> sized;
+    for (const Campaign& campaign : campaigns_)
+      sized.push_back(scaled(campaign, parameters, scale));
+    for (const MarginCase& each : result_.cases) {
+      const Campaign& campaign = sized[each.campaign];
+      const double springs = static_cast<double>(campaign.motorization.springs_per_hinge);
+      if (each.weakened.empty())
+        take(campaign, each);
+      else
+        take(scaled(campaign, each.weakened, (springs - 1) / springs), each);
+    }
+  }
+
   [[nodiscard]] CaseLook runs_of(const Campaign& campaign, const MarginCase& which) {
     const RunPlan plan(campaign);
     Results results(plan.names());
-    const RunRange range{0, campaign.sampling.runs};
-    const long before = result_.runs;
-    const auto keep = [&](const Batch& batch) {
+    make(plan, {0, campaign.sampling.runs}, campaign.sampling.runs, [&](const Batch& batch) {
       for (const ResultRow& row : batch.rows) results.append(row);
-      progress_(before + std::ssize(results.runs));
+    });
+    CaseLook look = look_of(campaign, which, results);
+    result_.failed += look.statuses[static_cast<std::size_t>(Status::failed)];
+    return look;
+  }
+
+  /// @param runs of each case in a look
+  void make(const RunPlan& plan, RunRange range, long runs,
+            const std::function<void(const Batch&)>& take) {
+    const long cases = std::ssize(result_.cases);
+    long done = result_.runs;
+    const auto keep = [&](const Batch& batch) {
+      take(batch);
+      done += std::ssize(batch.rows);
+      progress_({looks_ + 1, most_, done, most_ * cases * runs});
     };
     const long made = evaluator_.make(plan, range, {keep});
     result_.runs += made;
     if (made < range.size()) throw Stopped{};
-    CaseLook look;
-    for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
-    result_.failed += look.statuses[static_cast<std::size_t>(Status::failed)];
-    look.verdicts = judge_campaign(campaign, results);
-    std::erase_if(look.verdicts,
-                  [&](const Verdict& verdict) { return !applies(verdict.requirement, which); });
-    for (const Verdict& verdict : look.verdicts)
-      look.quantiles.push_back(quantile_over_runs(verdict.requirement, results));
-    return look;
   }
 
   std::vector<Campaign> campaigns_; ///< with the outputs that the requirements need
   Evaluator& evaluator_;
-  const std::function<void(long)>& progress_;
+  const std::function<void(const StudyProgress&)>& progress_;
   MarginResult& result_;
+  long looks_ = 0, most_ = 0;
 };
 
 /// Then these bound the window, and no others speak against weaker springs.
@@ -156,6 +201,27 @@ SearchRange range_of(const MarginSpec& spec) {
           spec.edge_tolerance, spec.lowest, spec.highest};
 }
 
+/// What is looked at, before anything is.
+MarginResult prepared(const Campaign& campaign) {
+  refuse_unsuitable(campaign);
+  MarginResult result;
+  result.campaigns = campaigns_of(campaign);
+  for (std::size_t k = 0; k < result.campaigns.size(); ++k)
+    add_cases(result.campaigns[k], k, result.cases);
+  result.searches = searches_of(*campaign.margin, campaign.scene);
+  result.confirmation_seed = confirmation_seed(campaign.sampling.seed);
+  return result;
+}
+
+/// No more looks than this, when one of the searches is under way and those behind it are to come: each is confirmed.
+long most_looks_of(const std::vector<MarginSearch>& searches, const MarginSearch& current,
+                   const SearchRange& range) {
+  long most = std::ssize(searches);
+  for (const MarginSearch& search : searches)
+    most += &search < &current ? std::ssize(search.seen) : most_looks(looks_of(search), range);
+  return most;
+}
+
 } // namespace
 
 std::uint64_t confirmation_seed(std::uint64_t seed) {
@@ -165,19 +231,17 @@ std::uint64_t confirmation_seed(std::uint64_t seed) {
 }
 
 void find_margin(const Campaign& campaign, Evaluator& evaluator,
-                 const std::function<void(long)>& progress, MarginResult& result) {
-  refuse_unsuitable(campaign);
+                 const std::function<void(const StudyProgress&)>& progress, MarginResult& result) {
+  result = prepared(campaign);
   const MarginSpec& spec = *campaign.margin;
-  result = {};
-  result.campaigns = campaigns_of(campaign);
-  for (std::size_t k = 0; k < result.campaigns.size(); ++k)
-    add_cases(result.campaigns[k], k, result.cases);
-  result.searches = searches_of(spec, campaign.scene);
-  result.confirmation_seed = confirmation_seed(campaign.sampling.seed);
+  const SearchRange range = range_of(spec);
   Looking looking(evaluator, progress, result);
   for (MarginSearch& search : result.searches) {
-    const auto look = [&](double scale) { search.seen[scale] = looking.at(search.scaled, scale); };
-    (void)search_window(range_of(spec), [&](double scale) {
+    const auto look = [&](double scale) {
+      looking.expect(most_looks_of(result.searches, search, range));
+      search.seen[scale] = looking.at(search.scaled, scale);
+    };
+    (void)search_window(range, [&](double scale) {
       look(scale);
       return failing(search.seen.at(scale));
     });
@@ -188,8 +252,24 @@ void find_margin(const Campaign& campaign, Evaluator& evaluator,
     recommend({spec.edge_tolerance, look, shortfall}, search);
   }
   looking.use_seed(result.confirmation_seed);
+  long left = std::ranges::count_if(
+      result.searches, [](const MarginSearch& search) { return search.recommended.has_value(); });
   for (MarginSearch& search : result.searches)
-    if (search.recommended) search.confirmation = looking.at(search.scaled, *search.recommended);
+    if (search.recommended) {
+      looking.expect(looking.looks() + left--);
+      search.confirmation = looking.at(search.scaled, *search.recommended);
+    }
+}
+
+long make_first_looks(const Campaign& campaign, const Shard& shard, Evaluator& evaluator,
+                      const std::function<void(const StudyProgress&)>& progress) {
+  MarginResult result = prepared(campaign);
+  const std::vector<double> scales = first_scales(range_of(*campaign.margin));
+  Looking looking(evaluator, progress, result);
+  looking.expect(std::ssize(result.searches) * std::ssize(scales));
+  for (const MarginSearch& search : result.searches)
+    for (const double scale : scales) looking.make(search.scaled, scale, shard);
+  return result.runs;
 }
 
 } // namespace wingspread

@@ -33,6 +33,8 @@
 #pragma once
 
 #include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/log/shard_looks.hpp"
+#include "montecarlo/machine/progress.hpp"
 #include "montecarlo/margin/margin_result.hpp"
 #include "montecarlo/runs/evaluator.hpp"
 
@@ -44,11 +46,19 @@ namespace wingspread {
 [[nodiscard]] std::uint64_t confirmation_seed(std::uint64_t seed);
 
 /// Finds the window, or those of every hinge.
-/// @param progress told how many runs there have been, one call at a time
+/// @param progress told how far it has come, one call at a time
 /// @param result   filled as it goes on: when stopped it has the scales that were finished
 /// @throws SpecError when the campaign asks for no margin or has no requirements, or when so few
 ///   runs cannot show one; Stopped when the evaluator makes fewer than it is asked for
 void find_margin(const Campaign& campaign, Evaluator& evaluator,
-                 const std::function<void(long)>& progress, MarginResult& result);
+                 const std::function<void(const StudyProgress&)>& progress, MarginResult& result);
+
+/// Makes a part of the runs of those looks that do not depend on what others came to: every search's first scales in
+/// all cases. What they come to nobody asks: it is for a log, out of which `find_margin` has them again.
+/// @param shard which part of each look's runs (part_of_look, shard_looks.hpp)
+/// @return how many runs were made
+/// @throws as find_margin does
+long make_first_looks(const Campaign& campaign, const Shard& shard, Evaluator& evaluator,
+                      const std::function<void(const StudyProgress&)>& progress);
 
 } // namespace wingspread

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <set>
 
 namespace wingspread {
 namespace {
@@ -25,6 +26,43 @@ bool may_hold_edge(const Failing& a, const Failing& b) {
 
 bool differ(const Failing& a, const Failing& b) { return a != b; }
 
+/// (2)
+bool is_open(const Looks& looks, const Failing& at_end) {
+  return std::ranges::none_of(at_end, [&](std::size_t condition) {
+    return std::ranges::any_of(looks,
+                               [&](const auto& look) { return !look.second.contains(condition); });
+  });
+}
+
+double further_down(double end, const SearchRange& range) {
+  return std::max(rounded_scale(end / std::numbers::sqrt2, range.tolerance), range.lowest);
+}
+
+double further_up(double end, const SearchRange& range) {
+  return std::min(rounded_scale(end * std::numbers::sqrt2, range.tolerance), range.highest);
+}
+
+/// Looks that it takes to halve a cell, and all that comes of it, down to the tolerance.
+long most_halvings(double a, double b, double tolerance) {
+  constexpr double for_rounding = 0.01; // of scales to few digits: halves are not quite equal
+  const double wide = std::log(b / a) / std::log1p(tolerance);
+  return wide <= 1 ? 0 : (1L << static_cast<int>(std::ceil(std::log2(wide) + for_rounding))) - 1;
+}
+
+/// The scales that there are or may come, but for those within cells.
+std::vector<double> all_ends(const Looks& looks, const SearchRange& range) {
+  std::set<double> scales;
+  for (const auto& [scale, failing] : looks) scales.insert(scale);
+  const std::size_t seen = scales.size();
+  for (const double scale : first_scales(range)) scales.insert(scale);
+  const bool all_seen = scales.size() == seen;
+  if (!all_seen || is_open(looks, looks.begin()->second))
+    while (*scales.begin() > range.lowest) scales.insert(further_down(*scales.begin(), range));
+  if (!all_seen || is_open(looks, looks.rbegin()->second))
+    while (*scales.rbegin() < range.highest) scales.insert(further_up(*scales.rbegin(), range));
+  return {scales.begin(), scales.end()};
+}
+
 /// The search as it goes on.
 class Search {
 public:
@@ -40,37 +78,19 @@ public:
 
 private:
   void look_at_grid() {
-    const double cells = static_cast<double>(range_.points - 1);
-    for (long k = 0; k < range_.points - 1; ++k)
-      look(k == 0 ? range_.lower
-                  : rounded_scale(range_.lower * std::pow(range_.upper / range_.lower,
-                                                          static_cast<double>(k) / cells),
-                                  range_.tolerance));
-    look(range_.upper);
-    look(1);
+    for (const double scale : first_scales(range_)) look(scale);
   }
 
   /// Beyond ends that are no edges.
   void widen() {
-    constexpr double step = std::numbers::sqrt2;
     for (std::size_t before = 0;
          before != looks_.size();) { // what holds at one end matters at the other
       before = looks_.size();
-      while (looks_.begin()->first > range_.lowest && is_open(looks_.begin()->second))
-        look(
-            std::max(rounded_scale(looks_.begin()->first / step, range_.tolerance), range_.lowest));
-      while (looks_.rbegin()->first < range_.highest && is_open(looks_.rbegin()->second))
-        look(std::min(rounded_scale(looks_.rbegin()->first * step, range_.tolerance),
-                      range_.highest));
+      while (looks_.begin()->first > range_.lowest && is_open(looks_, looks_.begin()->second))
+        look(further_down(looks_.begin()->first, range_));
+      while (looks_.rbegin()->first < range_.highest && is_open(looks_, looks_.rbegin()->second))
+        look(further_up(looks_.rbegin()->first, range_));
     }
-  }
-
-  /// (2)
-  [[nodiscard]] bool is_open(const Failing& at_end) const {
-    return std::ranges::none_of(at_end, [&](std::size_t condition) {
-      return std::ranges::any_of(
-          looks_, [&](const auto& look) { return !look.second.contains(condition); });
-    });
   }
 
   void look(double scale) {
@@ -110,6 +130,37 @@ Failing ever_failing(const Looks& looks) {
 }
 
 } // namespace
+
+std::vector<double> first_scales(const SearchRange& range) {
+  std::vector<double> scales;
+  const auto add = [&](double scale) {
+    if (std::ranges::find(scales, scale) == scales.end()) scales.push_back(scale);
+  };
+  const double cells = static_cast<double>(range.points - 1);
+  for (long k = 0; k < range.points - 1; ++k)
+    add(k == 0 ? range.lower
+               : rounded_scale(range.lower * std::pow(range.upper / range.lower,
+                                                      static_cast<double>(k) / cells),
+                               range.tolerance));
+  add(range.upper);
+  add(1);
+  return scales;
+}
+
+long most_looks(const Looks& looks, const SearchRange& range) {
+  constexpr long middles = 2; // of a stretch of scales that are equally good
+  const bool has_window = !windows_of(looks).empty();
+  const std::vector<double> ends = all_ends(looks, range);
+  long most = std::ssize(ends) + middles;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const auto a = looks.find(ends[k]), b = looks.find(ends[k + 1]);
+    const bool is_ruled_out = a != looks.end() && b != looks.end() &&
+                              share_any(a->second, b->second) &&
+                              (has_window || a->second == b->second);
+    if (!is_ruled_out) most += most_halvings(ends[k], ends[k + 1], range.tolerance);
+  }
+  return most;
+}
 
 Looks search_window(const SearchRange& range, const std::function<Failing(double)>& judge) {
   return Search(range, judge).run();

@@ -56,6 +56,14 @@ struct Window {
 [[nodiscard]] Looks search_window(const SearchRange& range,
                                   const std::function<Failing(double)>& judge);
 
+/// The scales that are looked at whatever they come to, in their order: the grid and 1.
+[[nodiscard]] std::vector<double> first_scales(const SearchRange& range);
+
+/// No more scales than this will have been looked at in all, with those that a recommendation takes: every cell that
+/// may still be halved taken down to the tolerance. It falls as looks are taken.
+/// @param looks so far, the first scales first
+[[nodiscard]] long most_looks(const Looks& looks, const SearchRange& range);
+
 /// The windows at whose scales `passes` holds, upwards.
 [[nodiscard]] std::vector<Window> windows_where(const Looks& looks,
                                                 const std::function<bool(const Failing&)>& passes);

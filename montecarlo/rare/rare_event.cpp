@@ -48,12 +48,15 @@ public:
   };
 
   /// What the runs at the points come to, in their order. @throws Stopped
-  [[nodiscard]] std::vector<Judged> judge(std::span<const NormalPoint> points) {
+  /// @param told how many there have been of them
+  [[nodiscard]] std::vector<Judged> judge(std::span<const NormalPoint> points,
+                                          const std::function<void(long)>& told) {
     points_ = points;
     const RunRange all{0, std::ssize(points)};
     std::vector<Judged> judged;
     const auto keep = [&](const Batch& batch) {
       for (const ResultRow& row : batch.rows) judged.push_back({row.outputs.front(), row.status});
+      told(std::ssize(judged));
     };
     if (evaluator_.make(plan_, all, {keep}) < all.size()) throw Stopped{};
     return judged;
@@ -87,27 +90,30 @@ std::optional<LikeliestRun> likeliest_of(const std::vector<SubsetEstimate>& esti
 } // namespace
 
 RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& options,
-                               Evaluator& evaluator, const std::function<void(long)>& progress) {
+                               Evaluator& evaluator,
+                               const std::function<void(const StudyProgress&)>& progress) {
   if (campaign.dispersions.empty())
     throw SpecError({{"", "/dispersions", "none", "at least one: there is nothing to vary"}});
   const LimitState limit_state(campaign, options.event);
   NormalRuns runs(campaign, limit_state, evaluator);
   RareResult result;
-  long made = 0;
+  long made = 0, most = 0;
+  const auto told = [&](long now) { progress({0, 0, made + now, std::max(most, made + now)}); };
   const LimitStateFunction g = [&](std::span<const NormalPoint> points) {
     std::vector<double> values;
-    for (const auto& [value, status] : runs.judge(points)) {
+    for (const auto& [value, status] : runs.judge(points, told)) {
       values.push_back(value);
       ++result.statuses[static_cast<std::size_t>(status)];
     }
-    progress(made += std::ssize(points));
+    made += std::ssize(points);
     return values;
   };
-  for (long k = 0; k < options.repeats; ++k)
-    result.estimates.push_back(
-        subset_simulation(g, campaign.dispersions.size(),
-                          {options.samples, options.smallest, campaign.sampling.seed,
-                           static_cast<std::uint64_t>(k)}));
+  for (long k = 0; k < options.repeats; ++k) {
+    const SubsetOptions subset{options.samples, options.smallest, campaign.sampling.seed,
+                               static_cast<std::uint64_t>(k)};
+    most = made + (options.repeats - k) * most_evaluations(subset); // less once one ends early
+    result.estimates.push_back(subset_simulation(g, campaign.dispersions.size(), subset));
+  }
   result.estimate = combined(result.estimates, options.confidence);
   result.likeliest = likeliest_of(result.estimates, runs);
   for (SubsetEstimate& estimate : result.estimates) estimate.inside.clear();

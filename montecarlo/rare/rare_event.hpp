@@ -3,6 +3,7 @@
 ///   z → u = Φ(z), with 1 − u → copula, quantiles → draws → run → g (limit_state.hpp)
 #pragma once
 
+#include "montecarlo/machine/progress.hpp"
 #include "montecarlo/rare/limit_state.hpp"
 #include "montecarlo/rare/subset_simulation.hpp"
 #include "montecarlo/runs/evaluator.hpp"
@@ -38,11 +39,11 @@ struct RareResult {
   std::optional<LikeliestRun> likeliest; ///< none when the event was not met
 };
 
-/// @param progress told how many runs there have been, on the calling thread
+/// @param progress told how far it has come, one call at a time
 /// @throws SpecError for an event that there is not in the campaign, or one without dispersions;
 ///   Stopped when the evaluator makes fewer runs than it is asked for
-[[nodiscard]] RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& options,
-                                             Evaluator& evaluator,
-                                             const std::function<void(long)>& progress);
+[[nodiscard]] RareResult
+estimate_rare_event(const Campaign& campaign, const RareOptions& options, Evaluator& evaluator,
+                    const std::function<void(const StudyProgress&)>& progress);
 
 } // namespace wingspread

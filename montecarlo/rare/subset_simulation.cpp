@@ -236,6 +236,11 @@ SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimens
   return SubsetSimulation(g, dimensions, options).run();
 }
 
+long most_evaluations(const SubsetOptions& options) {
+  const auto levels = static_cast<long>(std::ceil(-std::log10(options.smallest))); // each a tenth
+  return options.samples + levels * (options.samples - options.samples / chain_length);
+}
+
 RareEstimate combined(std::span<const SubsetEstimate> estimates, double confidence) {
   assert(!estimates.empty());
   RareEstimate all;

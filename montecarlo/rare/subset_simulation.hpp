@@ -87,6 +87,9 @@ struct SubsetEstimate {
 [[nodiscard]] SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
                                                const SubsetOptions& options);
 
+/// No more evaluations than this, unless many points have the very same g.
+[[nodiscard]] long most_evaluations(const SubsetOptions& options);
+
 /// Independent repetitions taken together.
 struct RareEstimate {
   double probability = 0; ///< their mean

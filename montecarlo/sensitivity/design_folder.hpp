@@ -13,7 +13,9 @@
 #include "montecarlo/sensitivity/saltelli.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 
 namespace wingspread {
 
@@ -25,21 +27,38 @@ inline constexpr const char* sensitivity_csv_file = "sensitivity.csv";
 /// What there is to know of a design.
 struct SaltelliDesign {
   Campaign campaign;
-  long rows = 0; ///< N
+  long rows = 0;              ///< N
+  std::optional<Shard> shard; ///< the part of its runs that is meant; none: all of them
 };
+
+/// Those runs. @throws SpecError when there are more than can be counted
+[[nodiscard]] RunRange runs_of(const SaltelliDesign& design);
 
 /// Whether the folder holds a design, and no campaign's results.
 [[nodiscard]] bool is_design_folder(const std::filesystem::path& folder);
 
+/// design.json's text.
+[[nodiscard]] std::string design_text(const SaltelliDesign& design);
+
+/// Whether the file is a design's, and not a campaign's.
+[[nodiscard]] bool is_design_file(const std::filesystem::path& path);
+
 /// Reads design.json. @throws SpecError when it is broken, or not what its hash says
+[[nodiscard]] SaltelliDesign read_design_file(const std::filesystem::path& path);
 [[nodiscard]] SaltelliDesign read_design(const std::filesystem::path& folder);
 
 /// Reads the runs that are there, less a last line that was cut off.
+/// @param first of them
 /// @throws SpecError when the file is broken, or has a gap
-[[nodiscard]] ResultsFile read_design_runs(const std::filesystem::path& folder,
-                                           const RunPlan& plan);
+[[nodiscard]] ResultsFile read_design_runs(const std::filesystem::path& folder, const RunPlan& plan,
+                                           long first = 0);
 
-/// What identifies a design: version, seed and hash.
+/// Hands them on one after another. @param own the runs that the folder may have
+/// @throws SpecError when the file is broken, or has another run
+void for_each_design_row(const std::filesystem::path& folder, const RunPlan& plan, RunRange own,
+                         const std::function<void(const ResultRow&)>& take);
+
+/// What identifies a design: version, seed, hash and shard; the hash is that of all of its shards.
 [[nodiscard]] Stamp stamp_of(const SaltelliDesign& design);
 
 /// Grows design_runs.csv; a folder left at any moment can be opened again to go on.

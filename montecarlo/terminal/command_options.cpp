@@ -83,6 +83,19 @@ Crew crew_of(const CrewOptions& options) {
   return {options.threads, instruction_set(options.isa, options.lanes)};
 }
 
+std::optional<Shard> parse_shard(std::string_view text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = parse_number<long>(text.substr(0, slash));
+  const auto of = parse_number<long>(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !of || *index < 1 || *index > *of || *of > most_shards) return std::nullopt;
+  return Shard{*index, *of};
+}
+
+std::string refuse_shard(const std::string& text) {
+  if (parse_shard(text)) return "";
+  return fmt::format("found {}, expected I/N with whole numbers 1 ≤ I ≤ N ≤ {}", text, most_shards);
+}
+
 void add_set_option(CLI::App& command, std::vector<std::string>& changes) {
   command
       .add_option("--set", changes, "Change the nominal scene, e.g. hinges.root.spring.scale=0.9")

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "montecarlo/campaign/campaign.hpp"
+#include "montecarlo/folder/stamp.hpp"
 #include "montecarlo/formats/json_reader.hpp"
 #include "montecarlo/notices/notice.hpp"
 #include "montecarlo/runs/evaluator.hpp"
@@ -10,6 +11,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -43,6 +45,11 @@ void add_crew_options(CLI::App& command, CrewOptions& options);
 
 /// @throws CLI::ValidationError where this processor has not got what is asked for
 [[nodiscard]] Crew crew_of(const CrewOptions& options);
+
+/// "2/5"; nothing when it is no shard.
+[[nodiscard]] std::optional<Shard> parse_shard(std::string_view text);
+/// Why the text is none; empty when it is one.
+[[nodiscard]] std::string refuse_shard(const std::string& text);
 
 /// --strict: what is noticed is an error.
 void add_strict_option(CLI::App& command, bool& strict);

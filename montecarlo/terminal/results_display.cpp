@@ -2,6 +2,7 @@
 
 #include "montecarlo/formats/json_parse.hpp"
 #include "montecarlo/formats/output_name.hpp"
+#include "montecarlo/formats/printable.hpp"
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/machine/progress.hpp"
 #include "montecarlo/summary/table.hpp"
@@ -26,7 +27,10 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
   if (!summary.looked_at.empty())
     text += fmt::format(" · look {}, after {}", summary.looks, fmt::join(summary.looked_at, ", "));
-  if (summary.stopped)
+  if (const auto& preview = stored.stamp.preview)
+    text += fmt::format(" · PREVIEW: {} of {} runs, {} missing", preview->runs, preview->of,
+                        preview->of - preview->runs);
+  else if (summary.stopped)
     text += fmt::format(" · stopped, of {} at most", stored.runs().size());
   else if (summary.runs < stored.runs().size())
     text += fmt::format(" · partial, of {} runs", stored.runs().size());
@@ -87,15 +91,40 @@ void print_files(const std::filesystem::path& folder) {
 
 } // namespace
 
+int refuse_missing(const MissingRuns& missing, std::string_view otherwise) {
+  constexpr std::size_t most = 1000;
+  for (const Problem& problem : missing.problems())
+    fmt::print(stderr, "error: {}\n", printable(to_string(problem)));
+  const std::vector<std::string>& commands = missing.commands();
+  fmt::print(stderr, "made by ({}){}\n", counted(std::ssize(commands), "command", "commands"),
+             otherwise.empty() ? ":" : otherwise);
+  for (std::size_t i = 0; i < std::min(commands.size(), most); ++i)
+    fmt::print(stderr, "  {}\n", commands[i]);
+  if (commands.size() > most) fmt::print(stderr, "  … and {} more\n", commands.size() - most);
+  return exit_code::bad_input;
+}
+
 void show_table(const StoredCampaign& stored, const Summary& summary, const Display& display) {
   fmt::print("{}", summary_table(summary, title(stored, summary), stored.folder.string()));
   if (display.histograms) print_histograms(summary);
 }
 
+void warn_of_preview(const StoredCampaign& stored) {
+  if (const auto& preview = stored.stamp.preview)
+    fmt::print(stderr,
+               "warning: {} is a PREVIEW: {} of the campaign's {} runs; {} are missing, and what "
+               "they will change is not known\n",
+               stored.folder.string(), preview->runs, preview->of, preview->of - preview->runs);
+}
+
 int judge_results(const StoredCampaign& stored, const Summary& summary) {
   const std::string& name = stored.campaign.of_case;
-  const bool met =
-      stored.stamp.shard || report_requirements(summary, name.empty() ? "" : name + ": ");
+  warn_of_preview(stored);
+  bool met = stored.stamp.shard || report_requirements(summary, name.empty() ? "" : name + ": ");
+  if (stored.stamp.preview && !summary.requirements.empty()) {
+    fmt::print(stderr, "not met: a preview shows no requirement to be met\n");
+    met = false;
+  }
   const auto failed = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
   const int code =
       report_failed(failed->count, summary.runs,

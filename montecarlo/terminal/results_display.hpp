@@ -2,6 +2,7 @@
 #pragma once
 
 #include "montecarlo/folder/cases_folder.hpp"
+#include "montecarlo/folder/parts.hpp"
 
 #include <string_view>
 
@@ -28,15 +29,23 @@ inline constexpr const char* display_help =
 /// @return the exit status
 int report_failed(long failed, long runs, std::string_view consequence = "");
 
+/// Says on standard error what is missing and then, each on a line of its own, the commands that make it.
+/// @param otherwise what can be done without, behind "made by"; empty: nothing
+/// @return the exit status
+int refuse_missing(const MissingRuns& missing, std::string_view otherwise);
+
 /// Whether it is the table, and not the paths of files.
 [[nodiscard]] bool wants_table(const Display& display);
 
 /// The table of the results on standard output, and the histograms below it where they are wanted.
 void show_table(const StoredCampaign& stored, const Summary& summary, const Display& display);
 
+/// Says on standard error that a folder is a preview, if it is one.
+void warn_of_preview(const StoredCampaign& stored);
+
 /// Says on standard error when runs failed and requirements are not met.
 /// @return the exit status: that runs failed numerically comes before a requirement that is not
-///   met, and a shard alone is not held to those
+///   met, a shard alone is not held to those, and a preview meets none
 int judge_results(const StoredCampaign& stored, const Summary& summary);
 
 /// The cases of a campaign side by side, or the paths of their files.

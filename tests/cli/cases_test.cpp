@@ -3,6 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
+#include <sstream>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -113,7 +116,11 @@ TEST_CASE("Cases can be made one by one, stopped, shared out and extended, to th
   const auto early = cases.program({"merge", a, "--out", merged});
   CHECK(early.code == 2);
   CHECK(early.error == "error: found no folder with runs 12 to 23, expected folders with all of "
-                       "the campaign's 24 runs\n");
+                       "the campaign's 24 runs\n"
+                       "made by (1 command), or do without: --preview shows what is there\n"
+                       "  wingspread run " +
+                           a + "/campaign.json --out " + cases.folder.path().string() +
+                           "/shard_2_of_2 --shard 2/2\n");
   CHECK(!std::filesystem::exists(merged));
   CHECK(cases.program({"run", cases.file, "--out", b, "--shard", "2/2"}).code == 0);
   CHECK(cases.program({"merge", b, a, "--out", merged}).code == 1);
@@ -228,4 +235,64 @@ TEST_CASE("Each fault of --set is told", "[cases]") {
       "each parameter once\n");
   CHECK(run_program(folder, {"check", file, "--set", "bodies.panel_1.inertia=-1"}).error ==
         "error: --set: found bodies.panel_1.inertia of -1, expected > 0\n");
+}
+
+TEST_CASE("shards of cases: what is missing of any case, a preview, and the whole", "[cases]") {
+  const Cases cases(12);
+  const auto part = [&](int i) {
+    return (cases.folder.path() / ("part" + std::to_string(i))).string();
+  };
+  for (const int i : {1, 2})
+    CHECK(cases.program({"run", cases.file, "--out", part(i), "--shard", std::to_string(i) + "/2"})
+              .code == 0);
+  (void)cases.program({"run", cases.file, "--out", cases.out});
+  std::filesystem::remove_all(part(2) + "/heavy"); // it was not begun
+  std::filesystem::remove(part(2) + "/cases.json");
+  const std::string out = cases.folder.path() / "out";
+  const auto refused = cases.program({"merge", part(2), part(1), "--out", out});
+  CHECK(refused.code == 2);
+  CHECK(refused.error == "error: " + part(2) +
+                             "/heavy: found no runs 6 to 11, expected shard 2/2 complete (run it "
+                             "again with --resume)\n"
+                             "made by (1 command), or do without: --preview shows what is there\n"
+                             "  wingspread run " +
+                             part(2) + "/campaign.json --out " + part(2) +
+                             " --shard 2/2 --resume\n");
+  CHECK_FALSE(std::filesystem::exists(out));
+  const auto preview = cases.program({"merge", part(1), part(2), "--out", out, "--preview"});
+  CHECK(preview.code == 1);
+  CHECK_THAT(preview.error,
+             Catch::Contains(out + "/heavy is a PREVIEW: 6 of the campaign's 12 runs"));
+  CHECK(parse_json_file(out + "/campaign.json")["wingspread"]["preview"] ==
+        Json{{"runs", 30}, {"of", 36}});
+  CHECK(parse_json_file(out + "/cases.json")["cases"]["heavy"]["partial"] == true);
+  CHECK_FALSE(parse_json_file(out + "/cases.json")["cases"]["cold"].contains("partial"));
+  CHECK(cases
+            .program(
+                {"run", part(2) + "/campaign.json", "--out", part(2), "--shard", "2/2", "--resume"})
+            .code == 0);
+  CHECK(cases.program({"merge", part(2), part(1), "--out", out}).code == 1);
+  CHECK(all_contents(out) == all_contents(cases.out));
+}
+
+TEST_CASE("on a terminal one line tells of all cases, and does not run backwards", "[cases]") {
+  const Cases cases(40);
+  const std::string typed = cases.folder.path() / "typed";
+  const std::string command = std::string("script -qec '") + WINGSPREAD_BINARY + " run " +
+                              cases.file + " --out " + cases.out + " --threads 1' " + typed +
+                              " > /dev/null";
+  (void)std::system(command.c_str());
+  std::istringstream text(read_text(typed).value());
+  long last = 0, lines = 0;
+  for (std::string line; std::getline(text, line, '\r');) {
+    const std::size_t of = line.find("/120 runs");
+    if (of == std::string::npos) continue;
+    const long done = std::stol(line.substr(line.rfind(' ', of) + 1));
+    CHECK(done >= last);
+    last = done;
+    ++lines;
+  }
+  CHECK(last == 120);
+  CHECK(lines >= 3); // a beginning and two cases at least
+  CHECK(read_text(typed).value().find("/40 runs") == std::string::npos);
 }

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <sstream>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -18,6 +20,18 @@ struct Done {
   }
 };
 
+/// What the program names on lines of their own, run as it stands.
+void run_named(const Folder& folder, const std::string& text) {
+  for (const std::string& line : lines_of(text)) {
+    if (!line.starts_with("  wingspread ")) continue;
+    std::vector<std::string> words;
+    std::istringstream in(line);
+    for (std::string word; in >> word;) words.push_back(word);
+    words.erase(words.begin());
+    CHECK(run_program(folder, words).code <= 1);
+  }
+}
+
 } // namespace
 
 TEST_CASE("merge puts shards together, and says where the files are") {
@@ -29,7 +43,11 @@ TEST_CASE("merge puts shards together, and says where the files are") {
   const auto refused = run_program(folder, {"merge", a, "--out", out});
   CHECK(refused.code == 2);
   CHECK(refused.error == "error: found no folder with runs 10 to 19, expected folders with all of "
-                         "the campaign's 20 runs\n");
+                         "the campaign's 20 runs\n"
+                         "made by (1 command), or do without: --preview shows what is there\n"
+                         "  wingspread run " +
+                             a + "/campaign.json --out " + folder.path().string() +
+                             "/shard_2_of_2 --shard 2/2\n");
   const auto [code, text, error] = run_program(folder, {"merge", b, a, "--out", out});
   CHECK(code == 0);
   CHECK(error.empty());
@@ -152,4 +170,50 @@ TEST_CASE("replay of a run that is not there") {
   CHECK(parse_json(
             run_program(folder, {"replay", path, "--run", "3", "--json"}).out)["same_as_recorded"]
             .is_null());
+}
+
+TEST_CASE("the commands that merge names make what is missing, and then it merges to the whole") {
+  const Folder folder;
+  Json json = quick_campaign(20);
+  json["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.5, "confidence": 0.5 }])");
+  const Campaign campaign = campaign_of(json);
+  const auto part = [&](int i) { return (folder.path() / ("part" + std::to_string(i))).string(); };
+  const std::string out = folder.path() / "out";
+  (void)run_into(part(3), campaign, {.shard = Shard{3, 4}});
+  (void)run_into(part(2), campaign, {.shard = Shard{2, 4}});
+  const auto rows = read_text(part(2) + "/runs.csv").value(); // cut off within run 7
+  std::ofstream(part(2) + "/runs.csv") << rows.substr(0, rows.find("\n7,") + 9);
+  const auto refused = run_program(folder, {"merge", part(3), part(2), "--out", out});
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.error, Catch::Contains("made by (3 commands)") &&
+                                Catch::Contains(" --out " + part(2) + " --shard 2/4 --resume\n") &&
+                                Catch::Contains(" --out " + part(1) + " --shard 1/4\n") &&
+                                Catch::Contains(" --out " + part(4) + " --shard 4/4\n"));
+  const auto preview =
+      run_program(folder, {"merge", part(3), part(2), "--out", out, "--preview", "--table"});
+  const long there = parse_json_file(out + "/summary.json")["runs"];
+  REQUIRE(there < 20);
+  const std::string warning = "warning: " + out + " is a PREVIEW: " + std::to_string(there) +
+                              " of the campaign's 20 runs; " + std::to_string(20 - there) +
+                              " are missing, and what they will change is not known\n";
+  CHECK(preview.code == 1); // it meets no requirement
+  CHECK(preview.error == warning + "not met: a preview shows no requirement to be met\n");
+  CHECK_THAT(preview.out, Catch::Contains(" · PREVIEW: " + std::to_string(there) + " of 20 runs, " +
+                                          std::to_string(20 - there) + " missing"));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"analyze", out}, {"sensitivity", out}, {"report", out}}) {
+    CAPTURE(command.front());
+    const auto read = run_program(folder, command);
+    CHECK_THAT(read.error, Catch::Contains(warning));
+    CHECK(read.code == (command.front() == "analyze" ? 1 : 0));
+  }
+  CHECK_THAT(read_text(out + "/report.html").value(), Catch::Contains("\"partial\":true"));
+  run_named(folder, refused.error);
+  const auto merged =
+      run_program(folder, {"merge", part(1), part(2), part(3), part(4), "--out", out});
+  CHECK(merged.code == 0);
+  CHECK(merged.error.empty());
+  (void)run_into(folder.path() / "whole", campaign);
+  CHECK(contents(out) == contents(folder.path() / "whole"));
 }

@@ -131,3 +131,60 @@ TEST_CASE("rare refuses half an event, and an odd number of samples") {
     CHECK(error.starts_with("error: "));
   }
 }
+
+TEST_CASE("shards of a design are merged to the folder that one process makes, byte for byte",
+          "[parallel]") {
+  const Folder folder;
+  const std::string file = folder.write("c.json", quick_campaign(10).dump());
+  const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
+  const auto make = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"sensitivity", file, "--samples", "7", "--out", at(name)};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(folder, words);
+  };
+  const auto whole = make("whole", {"--threads", "2"});
+  CHECK(whole.code == 0);
+  const auto shard = make("part2", {"--shard", "2/3"}); // the design's rows are cut through
+  CHECK(shard.code == 0);
+  CHECK(shard.out == at("part2") + "/design.json\n" + at("part2") + "/design_runs.csv\n");
+  CHECK(shard.error ==
+        "note: shard 2/3 of the design's runs: `wingspread merge` puts all shards together\n");
+  CHECK(make("part1", {"--shard", "1/3"}).code == 0);
+  CHECK(run_program(folder, {"sensitivity", at("part1")}).error ==
+        "error: " + at("part1") +
+            ": found shard 1/3 of a design, expected all of its runs: `wingspread merge` puts "
+            "shards together\n");
+  const auto missing = run_program(folder, {"merge", at("part2"), at("part1"), "--out", at("out")});
+  CHECK(missing.code == 2);
+  const std::string command =
+      "sensitivity " + at("part2") + "/design.json --out " + at("part3") + " --shard 3/3\n";
+  CHECK_THAT(
+      missing.error,
+      Catch::StartsWith("error: found no folder with runs 28 to 41, expected folders with all of "
+                        "the campaign's 42 runs\n") &&
+          Catch::EndsWith("  wingspread " + command));
+  CHECK(run_program(folder, {"merge", at("part2"), at("part1"), "--out", at("out"), "--preview"})
+            .code == 2);
+  CHECK(run_program(folder, {"sensitivity", at("part2") + "/design.json", "--out", at("part3"),
+                             "--shard", "3/3"})
+            .code == 0);
+  const auto rows =
+      read_text(folder.path() / "part1" / design_runs_file).value(); // and one that was cut off
+  std::ofstream(folder.path() / "part1" / design_runs_file) << rows.substr(0, rows.size() / 2);
+  const auto cut =
+      run_program(folder, {"merge", at("part3"), at("part2"), at("part1"), "--out", at("out")});
+  CHECK_THAT(cut.error, Catch::EndsWith(" --out " + at("part1") + " --shard 1/3 --resume\n"));
+  CHECK_FALSE(std::filesystem::exists(at("out")));
+  CHECK(make("part1", {"--shard", "1/3", "--resume"}).code == 0);
+  CHECK(make("part1", {"--shard", "1/2", "--resume"}).code == 2);
+  const auto merged =
+      run_program(folder, {"merge", at("part3"), at("part2"), at("part1"), "--out", at("out")});
+  CHECK(merged.code == 0);
+  CHECK(merged.out == whole.out);
+  CHECK(contents(at("out")) == contents(at("whole")));
+  CHECK(run_program(folder, {"merge", at("part1"), at("part1"), "--out", at("o2")}).code == 2);
+  CHECK(run_program(folder, {"sensitivity", file, "--shard", "1/2"}).error ==
+        "error: --shard: found no --out, expected the folder for its runs\n");
+  CHECK(run_program(folder, {"sensitivity", at("part2") + "/design.json", "--samples", "9"}).code ==
+        2);
+}

@@ -63,7 +63,7 @@ inline MarginResult margin_of(const Campaign& campaign, int threads = 2) {
   MarginResult result;
   ThreadEvaluator evaluator({.threads = threads}, never);
   find_margin(
-      campaign, evaluator, [](long) {}, result);
+      campaign, evaluator, [](const StudyProgress&) {}, result);
   return result;
 }
 

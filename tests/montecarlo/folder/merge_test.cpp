@@ -1,4 +1,5 @@
 #include "montecarlo/folder/merge.hpp"
+#include "montecarlo/folder/parts.hpp"
 #include "montecarlo/folder/version.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
@@ -23,12 +24,34 @@ struct Shards {
     }
   }
   [[nodiscard]] std::string refusal(const std::vector<std::filesystem::path>& folders) const {
-    std::string message = message_of([&] { return merge_folders(folders, out); });
+    const std::string message = message_of([&] { return merge_folders(folders, out); });
     CHECK_FALSE(std::filesystem::exists(out));
+    return shortened(message);
+  }
+  /// The commands that make what is missing.
+  [[nodiscard]] std::vector<std::string>
+  commands(const std::vector<std::filesystem::path>& folders) const {
+    try {
+      (void)merge_folders(folders, out);
+    } catch (const MissingRuns& missing) {
+      std::vector<std::string> all;
+      for (const std::string& command : missing.commands()) all.push_back(shortened(command));
+      return all;
+    }
+    return {};
+  }
+  [[nodiscard]] std::string shortened(std::string message) const {
     const std::string here = folder.path().string() + "/";
     for (std::size_t at; (at = message.find(here)) != std::string::npos;)
       message.erase(at, here.size());
     return message;
+  }
+  /// Takes away a shard's rows from that run on.
+  void cut(std::size_t part, long run) const {
+    const auto file = parts[part] / runs_file;
+    const std::string text = read_text(file).value();
+    std::ofstream(file, std::ios::binary)
+        << text.substr(0, text.find('\n' + std::to_string(run) + ',') + 1);
   }
 };
 
@@ -116,4 +139,78 @@ TEST_CASE("a campaign that stops at a width is not merged") {
             ": /until: found a campaign that may stop early, expected "
             "one that can have shards");
   CHECK_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST_CASE("the commands that make what is missing are the ones to type") {
+  using Commands = std::vector<std::string>;
+  Shards shards;
+  const auto& parts = shards.parts;
+  CHECK(
+      shards.commands({parts[1]}) ==
+      Commands{"wingspread run part2/campaign.json --out part1 --shard 1/3 --resume", // it is there
+               "wingspread run part2/campaign.json --out part3 --shard 3/3 --resume"});
+  shards.cut(1, 5);
+  CHECK(shards.commands(parts) ==
+        Commands{"wingspread run part1/campaign.json --out part2 --shard 2/3 --resume"});
+  std::filesystem::remove_all(parts[2]);
+  CHECK(shards.commands({parts[0], parts[1]}) ==
+        Commands{"wingspread run part1/campaign.json --out part2 --shard 2/3 --resume",
+                 "wingspread run part1/campaign.json --out part3 --shard 3/3"});
+  // a shard of another division, which leaves runs that are a shard of neither
+  const auto odd = shards.folder.path() / "two halves";
+  (void)run_into(odd, shards.campaign, {.shard = Shard{2, 2}});
+  CHECK(shards.commands({odd}) ==
+        Commands{"wingspread run 'two halves/campaign.json' --out shard_1_of_2 --shard 1/2"});
+  CHECK(shards.refusal({odd, parts[0]}) == "found no folder with runs 3 to 4, expected folders "
+                                           "with all of the campaign's 10 runs");
+  CHECK(shell_word("it's") == R"('it'\''s')");
+  CHECK(shell_word("") == "''");
+}
+
+TEST_CASE("a preview has the rows that there are, says so, and is taken for nothing else") {
+  Shards shards;
+  shards.cut(2, 8);
+  const std::vector<std::filesystem::path> some{shards.parts[2], shards.parts[0]};
+  const Summary summary = merge_folders(some, shards.out, MergeKind::preview);
+  CHECK(summary.runs == 5); // 0 to 2, 6 and 7
+  const StoredCampaign stored = read_stored_campaign(shards.out);
+  CHECK(stored.stamp.preview == Preview{5, 10});
+  std::vector<long> runs;
+  for_each_stored_row(stored, [&](const ResultRow& row) { runs.push_back(row.run); });
+  CHECK(runs == std::vector<long>{0, 1, 2, 6, 7});
+  const Json about = parse_json_file(shards.out / summary_file)["wingspread"];
+  CHECK(about["preview"] == Json{{"runs", 5}, {"of", 10}});
+  CHECK(about["partial"] == Json{{"done", 5}, {"of", 10}});
+  CHECK(message_of([&] { return run_into(shards.out, shards.campaign, {.resume = true}); }) ==
+        (shards.out / campaign_file).string() +
+            ": /wingspread/preview: found a preview of 5 of 10 runs, expected a folder that runs "
+            "are made into: go on with the shards, and merge them");
+  CHECK(message_of([&] { return merge_folders({shards.out}, shards.folder.path() / "o2"); }) ==
+        (shards.out / campaign_file).string() +
+            ": /wingspread/preview: found a preview of 5 of 10 runs, expected shards: what is "
+            "merged has each run once");
+  // the next preview takes its place, and so does the whole
+  (void)merge_folders({shards.parts[0], shards.parts[1], shards.parts[2]}, shards.out,
+                      MergeKind::preview);
+  CHECK(read_stored_campaign(shards.out).stamp.preview == Preview{8, 10});
+  (void)run_into(shards.parts[2], shards.campaign, {.shard = Shard{3, 3}, .resume = true});
+  (void)merge_folders(shards.parts, shards.out);
+  const auto whole = shards.folder.path() / "whole";
+  (void)run_into(whole, shards.campaign);
+  CHECK(contents(shards.out) == contents(whole));
+  const auto at_once = shards.folder.path() / "at_once"; // nothing is missing: it is no preview
+  (void)merge_folders(shards.parts, at_once, MergeKind::preview);
+  CHECK(contents(at_once) == contents(whole));
+}
+
+TEST_CASE("a preview too refuses runs that two folders have, and wants one run") {
+  Shards shards;
+  CHECK(message_of([&] {
+          return merge_folders({shards.parts[0], shards.parts[0]}, shards.out, MergeKind::preview);
+        }).ends_with("expected each run in one folder"));
+  shards.cut(0, 0);
+  CHECK(shards.shortened(message_of([&] {
+    return merge_folders({shards.parts[0]}, shards.out, MergeKind::preview);
+  })) == "part1: found no runs, expected at least one");
+  CHECK_FALSE(std::filesystem::exists(shards.out));
 }

@@ -213,12 +213,83 @@ TEST_CASE("a campaign without a margin, requirements or runs enough is refused, 
         "/requirements: found none, expected at least one: it is they that make a window");
 }
 
+TEST_CASE("its progress never runs backwards nor beyond the end, and ends there", "[margin]") {
+  Json json = one_panel_margin(100);
+  json["cases"] = parse_json(R"([
+    { "name": "ambient", "scale": { "hinges.root.latch.stiffness": 1 } },
+    { "name": "cold", "scale": { "hinges.root.friction.coulomb": 1.02,
+                                 "hinges.root.friction.static": 1.02 } } ])");
+  const Campaign campaign = campaign_of(json);
+  MarginResult result;
+  ThreadEvaluator evaluator({.threads = 1}, never);
+  StudyProgress last;
+  double share = 0;
+  bool falls = true;
+  find_margin(
+      campaign, evaluator,
+      [&](const StudyProgress& now) {
+        falls = falls && (last.look == 0 || now.most_looks <= last.most_looks);
+        CHECK(now.runs <= now.most_runs);
+        CHECK(now.look <= now.most_looks);
+        CHECK(now.most_runs == now.most_looks * 2 * 100);
+        const double its = static_cast<double>(now.runs) / static_cast<double>(now.most_runs);
+        CHECK(its >= share);
+        share = its;
+        last = now;
+      },
+      result);
+  CHECK(falls);
+  CHECK(share == 1);
+  CHECK(last.runs == result.runs);
+  CHECK(last.look == std::ssize(result.searches[0].seen) + 1); // and the confirmation
+}
+
+TEST_CASE("the first looks in shards are those that the study takes first, run for run",
+          "[margin]") {
+  struct Spy final : Evaluator {
+    std::map<std::string, std::vector<ResultRow>> looks; // by the scale and the case
+    ThreadEvaluator threads{{.threads = 1}, never};
+    long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override {
+      const auto keep = [&](const Batch& batch) {
+        auto& rows = looks[plan.campaign().resolved.dump()];
+        rows.insert(rows.end(), batch.rows.begin(), batch.rows.end());
+        sink.take(batch);
+      };
+      return threads.make(plan, range, {keep});
+    }
+    [[nodiscard]] const Occupancy& occupancy() const override { return threads.occupancy(); }
+  } whole, parts;
+  const Campaign campaign = campaign_of(one_panel_margin(100));
+  MarginResult result;
+  find_margin(
+      campaign, whole, [](const StudyProgress&) {}, result);
+  long runs = 0;
+  for (long i = 1; i <= 3; ++i)
+    runs += make_first_looks(campaign, {i, 3}, parts, [&](const StudyProgress& now) {
+      CHECK(now.most_looks == 13);
+      CHECK(now.look <= 13);
+    });
+  CHECK(runs == 13 * 100); // the scales of the grid, among them 1
+  CHECK(parts.looks.size() == 13);
+  for (const auto& [look, rows] : parts.looks) {
+    REQUIRE(whole.looks.contains(look));
+    const auto& theirs = whole.looks[look];
+    REQUIRE(rows.size() == theirs.size());
+    const auto text = [](const std::vector<ResultRow>& all) {
+      std::string lines;
+      for (const ResultRow& row : all) append_row(lines, row);
+      return lines;
+    };
+    CHECK(text(rows) == text(theirs));
+  }
+}
+
 TEST_CASE("an interruption ends it, and keeps the scales that were finished", "[margin]") {
   const Campaign campaign = campaign_of(one_panel_margin(200));
   std::atomic<bool> stop = false;
   MarginResult result;
   ThreadEvaluator evaluator({.threads = 1}, stop);
-  const auto watch = [&](long made) { stop = made >= 500; };
+  const auto watch = [&](const StudyProgress& so_far) { stop = so_far.runs >= 500; };
   CHECK_THROWS_AS(find_margin(campaign, evaluator, watch, result), Stopped);
   const MarginSearch& search = result.searches.front();
   CHECK(search.seen.size() == 2);

@@ -148,3 +148,33 @@ TEST_CASE("scales have few digits, and 1 is among them", "[window]") {
 TEST_CASE("a judge that throws ends the search", "[window]") {
   CHECK_THROWS_AS(search_window(range, [](double) -> Failing { throw 1; }), int);
 }
+
+TEST_CASE("the bound of how many looks there will be falls, and is kept to") {
+  const SearchRange range{0.5, 2, 13, 0.01, 0.125, 8};
+  CHECK(first_scales(range).size() == 13); // 1 is the middle one
+  CHECK(first_scales({0.7, 2, 13, 0.01}).size() == 14);
+  const auto between = [](double lower, double upper) {
+    return [=](double scale) {
+      Failing failing;
+      if (scale < lower) failing.insert(0);
+      if (scale > upper) failing.insert(1);
+      if (scale > 0.9 && scale < 0.91) failing.insert(2); // comes and goes
+      return failing;
+    };
+  };
+  for (const auto& [lower, upper] :
+       {std::pair(0.8, 1.7), {0.01, 1.2}, {0.3, 100.0}, {1.4, 1.3}, {0.905, 0.92}}) {
+    const auto judge = between(lower, upper);
+    Looks seen;
+    long bound = most_looks({}, range);
+    const Looks all = search_window(range, [&](double scale) {
+      const long now = most_looks(seen, range);
+      CHECK(now <= bound);
+      CHECK(now > std::ssize(seen));
+      bound = now;
+      return seen[scale] = judge(scale);
+    });
+    CHECK(std::ssize(all) <= most_looks(all, range));
+    CHECK(most_looks(all, range) <= bound);
+  }
+}

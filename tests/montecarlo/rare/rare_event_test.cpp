@@ -12,7 +12,7 @@ using namespace wingspread::test;
 
 namespace {
 
-const auto untold = [](long) {};
+const auto untold = [](const StudyProgress&) {};
 
 /// One panel, whose spring pulls 2 N·m at first and 0.2 at last against friction of `coulomb`: it
 /// starts, and is at its latch if the mean of 1.1 N·m, scaled, exceeds the friction all the way.
@@ -217,4 +217,22 @@ TEST_CASE("an interruption ends it, and bad events are refused") {
   CHECK_THROWS_WITH(estimate(json, {}), Catch::Contains("none with a latch"));
   CHECK(describe(RareEvent{}) == "not deployed");
   CHECK(describe(RareEvent{"root.peak_moment", 400, true}) == "root.peak_moment > 400");
+}
+
+TEST_CASE("the progress of subset simulations never runs backwards nor beyond the end") {
+  ThreadEvaluator evaluator({.threads = 1}, never);
+  StudyProgress last;
+  double share = 0;
+  const RareResult result =
+      estimate_rare_event(campaign_of(one_panel(3)), {.samples = 200, .repeats = 3}, evaluator,
+                          [&](const StudyProgress& now) {
+                            CHECK(now.runs <= now.most_runs);
+                            const double its =
+                                static_cast<double>(now.runs) / static_cast<double>(now.most_runs);
+                            CHECK(its >= share);
+                            share = its;
+                            last = now;
+                          });
+  CHECK(last.runs == result.estimate.evaluations);
+  CHECK(most_evaluations({.samples = 200}) == 200 + 10 * 180);
 }

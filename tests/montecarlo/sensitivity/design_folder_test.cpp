@@ -10,7 +10,7 @@ namespace {
 
 constexpr long rows = 6;
 
-SaltelliDesign design_of(const Json& json) { return {campaign_of(json), rows}; }
+SaltelliDesign design_of(const Json& json) { return {campaign_of(json), rows, {}}; }
 
 /// Makes what is left of a design in a folder, and stops after about that many runs.
 void make(const std::filesystem::path& path, const SaltelliDesign& design, bool resume,
@@ -58,7 +58,7 @@ TEST_CASE("a folder of another design, or of anything else, is left alone") {
   other["sampling"]["seed"] = 8;
   CHECK_THROWS_WITH(make(path, design_of(other), true),
                     Catch::Contains("design.json: found another design or version"));
-  CHECK_THROWS_WITH(make(path, {campaign_of(quick_campaign(10)), rows + 1}, true),
+  CHECK_THROWS_WITH(make(path, {campaign_of(quick_campaign(10)), rows + 1, {}}, true),
                     Catch::Contains("found another design"));
   CHECK(contents(path) == before);
 }
