@@ -91,10 +91,12 @@ TEST_CASE("a rare event is estimated by several ranks as by one", "[parallel]") 
   for (const RareEvent& event : {RareEvent{"deployment_time", 7.125, true}, RareEvent{}}) {
     const RareOptions options{.event = event, .samples = 200, .repeats = 1};
     ThreadEvaluator threads({.threads = 2}, never);
-    const RareResult expected = estimate_rare_event(campaign, options, threads, [](long) {});
+    const RareResult expected =
+        estimate_rare_event(campaign, options, threads, [](const StudyProgress&) {});
     Job job(3);
     RankEvaluator ranks = job.evaluator(1);
-    const RareResult found = estimate_rare_event(campaign, options, ranks, [](long) {});
+    const RareResult found =
+        estimate_rare_event(campaign, options, ranks, [](const StudyProgress&) {});
     CHECK(found.estimate.probability == expected.estimate.probability);
     CHECK(found.statuses == expected.statuses);
     CHECK(found.estimate.evaluations == expected.estimate.evaluations);
@@ -107,7 +109,7 @@ TEST_CASE("margins are found by several ranks as by one", "[parallel]") {
   Job job(3);
   RankEvaluator ranks = job.evaluator(1);
   find_margin(
-      campaign, ranks, [](long) {}, found);
+      campaign, ranks, [](const StudyProgress&) {}, found);
   CHECK(margin_csv(campaign, found) == margin_csv(campaign, margin_of(campaign)));
 }
 
