@@ -74,6 +74,8 @@ def unmet_readme(root, program, folder):
 
 
 def main():
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
     root, program, folder = pathlib.Path(sys.argv[1]).resolve(), str(pathlib.Path(sys.argv[2]).resolve()), pathlib.Path(sys.argv[3])
     pages = [page for part in (".", "core", "distributions", "montecarlo", "studies", "tests")
              for page in sorted((root / part).glob("*.md" if part == "." else "**/*.md"))]
