@@ -201,17 +201,18 @@ void add_margin(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "Print JSON in place of the report");
   command->footer(
       R"(Scales what the campaign's "margin" names, runs the same draws at every scale, judges the
-campaign's requirements there, and finds the scales between which all of them are met: each edge to
-1 % ("tolerance"), with the requirement that sets it and how many runs break it on either side.
-An end of the range is no edge: where nothing fails there, it is widened until something does, or to
-the limits in "widest"; without both edges nothing is recommended. The recommended scale is the one
-at which the requirement that is worst off is best off, by the share of runs that break it over the
-share that may; what it gives up against the present springs is said, and it is run again with a
-seed of its own. Weaker springs are not advised where static margins of the nominal wing would be
-negative. Where no scale will do, it says which requirements rule that out. All runs are made: "until" is of no account here. They
-go only as far as the requirements need: where none is about a peak, a run that fails after its last
-latch has deployed here, and has failed in wingspread run. Each verdict holds with its requirement's
-confidence; the report says what all of them and both edges come to together.
+campaign's requirements there, and finds the scales between which all of them are met: each edge
+to 1 % ("tolerance"), with the requirement that sets it and how many runs break it on either side.
+An end of the range is no edge: where nothing fails there, it is widened until something does, or
+to the limits in "widest"; without both edges nothing is recommended. The recommended scale is the
+one at which the requirement that is worst off is best off, by the share of runs that break it
+over the share that may; what it gives up against the present springs is said, and it is run again
+with a seed of its own. Weaker springs are not advised where static margins of the nominal wing
+would be negative. Where no scale will do, it says which requirements rule that out. All runs are
+made: "until" is of no account here. They go only as far as the requirements need: where none is
+about a peak, a run that fails after its last latch has deployed here, and has failed in
+wingspread run. Each verdict holds with its requirement's confidence; the report says what all of
+them and both edges come to together.
 
   "margin": { "scale": ["hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"],
               "range": [0.5, 2] }
@@ -224,15 +225,15 @@ confidence; the report says what all of them and both edges come to together.
   motorization        factors of the static margins, by ECSS, NASA, GEVS and AIAA
 
 The folder gets margin.json, margin.csv (all that was seen at every scale), motorization.csv (the
-static margins at every angle of the travel) and recommended.json, the campaign with the recommended
-springs. Until it is finished it has looks.log, all runs so far: after an interruption, a crash or a kill
-the same command with --resume goes on to the same bytes.
+static margins at every angle of the travel) and recommended.json, the campaign with the
+recommended springs. Until it is finished it has looks.log, all runs so far: after an
+interruption, a crash or a kill the same command with --resume goes on to the same bytes.
 
-What the first scales (the grid, and 1) come to decides where it looks next; they themselves depend on
-nothing, and are most of a study. So they can be made in shards, on machines that know nothing of each
-other, each with its part of the runs at every one of them; --from then goes on from all shards, to the
-bytes of one process. Exit code 0: there is a window, and in it a scale to recommend; 1: there is none, or the other
-seed does not confirm it.
+What the first scales (the grid, and 1) come to decides where it looks next; they themselves
+depend on nothing, and are most of a study. So they can be made in shards, on machines that know
+nothing of each other, each with its part of the runs at every one of them; --from then goes on
+from all shards, to the bytes of one process. Exit code 0: there is a window, and in it a scale to
+recommend; 1: there is none, or the other seed does not confirm it.
 
 Example:
   wingspread margin campaign.json --out results/margin

@@ -197,12 +197,12 @@ the last level: more than the event's, but no proof of it.
 
 A run that has no such output (it stalled before, or failed) counts as the event.
 
-With --out all runs so far are in the folder's looks.log until it is finished: after an interruption, a
-crash or a kill the same command with --resume goes on to the same bytes.
+With --out all runs so far are in the folder's looks.log until it is finished: after an
+interruption, a crash or a kill the same command with --resume goes on to the same bytes.
 
 Example:
   wingspread rare campaign.json
-  wingspread rare campaign.json --output root.peak_moment --above 400 --samples 4000 --out results/rare)");
+  wingspread rare campaign.json --output root.peak_moment --above 400 --samples 4000 --out rare)");
   command->callback([options, &action] { action = [options] { return rare(*options); }; });
 }
 

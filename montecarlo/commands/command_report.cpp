@@ -94,10 +94,11 @@ void add_export(CLI::App& app, Action& action) {
       ->type_name("FILE.h5")
       ->required();
   command->footer(
-      R"(One dataset a column, by its name in runs.csv, with its unit and description as attributes; numbers
-bit for bit, NaN where a quantity did not happen. Of a campaign with cases there is a group for each.
-The campaign, its seed and its hash are attributes of the file. The same folder gives the same bytes.
-Where wingspread was built without HDF5 (Debian: libhdf5-dev) it says so, with exit code 4.
+      R"(One dataset a column, by its name in runs.csv, with its unit and description as attributes;
+numbers bit for bit, NaN where a quantity did not happen. Of a campaign with cases there is a
+group for each. The campaign, its seed and its hash are attributes of the file. The same folder
+gives the same bytes. Where wingspread was built without HDF5 (Debian: libhdf5-dev) it says so,
+with exit code 4.
 
 Example:
   wingspread export results/first --out first.h5

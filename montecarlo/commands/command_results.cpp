@@ -161,15 +161,17 @@ void add_merge(CLI::App& app, Action& action) {
                    "The results folder to write: new, empty, or an earlier preview")
       ->required();
   command->add_flag("--preview", options->preview,
-                    "Of any of the shards, finished or not: a look at the runs that there are");
+                    "Of any of the shards, finished or not: the runs that there are");
   add_display_options(*command, options->display);
-  command->footer(std::string("The result is what running the campaign in one go gives, byte for "
-                              "byte.\n") +
-                  display_help + R"(
-Where shards or runs of them are missing nothing is written: standard error lists them, and behind two
-spaces the command that makes each. With --preview the runs that there are go into the folder all the
-same, which says that it is a preview wherever it is read: it has no verdict (exit code 1 where the
-campaign has requirements), it cannot be resumed or merged, and a later merge may take its place.
+  command->footer(
+      std::string("The result is what running the campaign in one go gives, byte for "
+                  "byte.\n") +
+      display_help +
+      R"( Where shards or runs of them are missing nothing is written: standard error lists them, and
+behind two spaces the command that makes each. With --preview the runs that there are go into the
+folder all the same, which says that it is a preview wherever it is read: it has no verdict (exit
+code 1 where the campaign has requirements), it cannot be resumed or merged, and a later merge may
+take its place.
 
 The shards of a design for Sobol' indices (`sensitivity --shard`) are merged alike.
 

@@ -362,11 +362,11 @@ passes is misled more often than it says. State it in --until, or begin anew wit
 a number of runs fixed beforehand. --resume with more --runs is counted as another look, and the
 verdicts are held to that.
 
-With --no-rows there is no runs.csv, and memory and disk do not grow with the number of runs: counts,
-moments, the 4096 largest and smallest values of every output with their runs, and verdicts are those
-of all rows; other quantiles say how far off they may be. The rows of runs that did not deploy or
-break a requirement are kept, in broken_runs.csv. --resume, --shard, merge, replay and analyze work
-on such a folder; what takes rows (report, sensitivity, export, --until) refuses it.
+With --no-rows there is no runs.csv, and memory and disk do not grow with the number of runs:
+counts, moments, the 4096 largest and smallest values of every output with their runs, and verdicts
+are those of all rows; other quantiles say how far off they may be. The rows of runs that did not
+deploy or break a requirement are kept, in broken_runs.csv. --resume, --shard, merge, replay and
+analyze work on such a folder; what takes rows (report, sensitivity, export, --until) refuses it.
 
 Example:
   wingspread run campaign.json --out results/first --runs 2000 --threads 4

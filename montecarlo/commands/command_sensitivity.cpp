@@ -224,8 +224,7 @@ void add_sensitivity(CLI::App& app, Action& action) {
       ->required();
   command
       ->add_option("--samples", options->samples,
-                   "Of a campaign's file: rows of the design, 1000 if left out; each takes a "
-                   "run for every dispersion, and two")
+                   "Of a campaign's file: rows of the design, 1000 if left out (see below)")
       ->check(CLI::Range(2L, long{most_runs}).description(""))
       ->type_name("N");
   add_seed_option(*command, options->seed);
@@ -250,7 +249,8 @@ dispersion, over the runs that have the output. They show what rises or falls wi
 
 From a campaign's file: Sobol' indices, by runs of their own (a Saltelli design, drawn as the
 campaign is). The first-order index is the share of an output's variance that a dispersion is behind
-alone, the total index the share that it has a part in. With the sobol design, take a power of two.
+alone, the total index the share that it has a part in. N samples take N (d + 2) runs for d
+dispersions. With the sobol design, take a power of two.
 
 Bounds of draws that depend on each other (latin_hypercube, sobol) come from the design's
 replicates, and there are none with one. An output that did not happen at some point of a design
@@ -259,8 +259,8 @@ has no Sobol' indices.
 The runs of a design can be made in shards, each with --out and --shard; `wingspread merge` makes of
 their folders the one that making all at once gives, byte for byte.
 
-In both, what matters most stands first; sensitivity.json and sensitivity.csv, in the folder if there
-is one, have all of it. A dispersion that moves no output is named on standard error.
+In both, what matters most stands first; sensitivity.json and sensitivity.csv, in the folder if
+there is one, have all of it. A dispersion that moves no output is named on standard error.
 
 Example:
   wingspread sensitivity results/first

@@ -276,7 +276,7 @@ TEST_CASE("shards of cases: what is missing of any case, a preview, and the whol
 }
 
 TEST_CASE("on a terminal one line tells of all cases, and does not run backwards", "[cases]") {
-  const Cases cases(40);
+  const Cases cases(2000);
   const std::string typed = cases.folder.path() / "typed";
   const std::string command = std::string("script -qec '") + WINGSPREAD_BINARY + " run " +
                               cases.file + " --out " + cases.out + " --threads 1' " + typed +
@@ -285,14 +285,14 @@ TEST_CASE("on a terminal one line tells of all cases, and does not run backwards
   std::istringstream text(read_text(typed).value());
   long last = 0, lines = 0;
   for (std::string line; std::getline(text, line, '\r');) {
-    const std::size_t of = line.find("/120 runs");
+    const std::size_t of = line.find("/6000 runs");
     if (of == std::string::npos) continue;
     const long done = std::stol(line.substr(line.rfind(' ', of) + 1));
     CHECK(done >= last);
     last = done;
     ++lines;
   }
-  CHECK(last == 120);
+  CHECK(last == 6000);
   CHECK(lines >= 3); // a beginning and two cases at least
-  CHECK(read_text(typed).value().find("/40 runs") == std::string::npos);
+  CHECK(read_text(typed).value().find("/2000 runs") == std::string::npos);
 }
