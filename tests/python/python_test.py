@@ -277,13 +277,18 @@ class Manners(unittest.TestCase):
     def test_others_run_while_it_computes(self):
         model = wingspread.Model(SCENE, ["hinges.*.spring.scale"])
         for rows in (200, 2000):  # in this thread, and in one of its own
-            thread = threading.Thread(target=model, args=(np.linspace(0.8, 1.2, rows)[:, None],), kwargs={"threads": 1})
-            thread.start()
-            turns = 0
-            while thread.is_alive():
-                turns += 1
-                time.sleep(0.001)
-            self.assertGreater(turns, 3)
+            # The best of some, for the machine may be busy; a call that held the lock would let none have turns.
+            self.assertGreater(max(self.turns_beside(model, rows) for _ in range(20)), 4)
+
+    @staticmethod
+    def turns_beside(model, rows):
+        thread = threading.Thread(target=model, args=(np.linspace(0.8, 1.2, rows)[:, None],), kwargs={"threads": 1})
+        thread.start()
+        turns = 0
+        while thread.is_alive():
+            turns += 1
+            time.sleep(0.001)
+        return turns
 
     def test_the_stubs_say_what_the_module_has(self):
         tree = ast.parse((pathlib.Path(wingspread.__file__).parent / "_native.pyi").read_text(encoding="utf-8"))
