@@ -28,6 +28,7 @@ int main(int, char** argv) {
   try {
     (void)ws::simulate(ws::from_text("{\"bodies\": 3}"));
   } catch (const wingspread::SpecError& error) {
-    std::printf("%zu problems: %s\n", error.problems().size(), error.problems()[0].expected.c_str());
+    std::printf("%zu problems: %s\n", error.problems().size(),
+                error.problems()[0].expected.c_str());
   }
 }
