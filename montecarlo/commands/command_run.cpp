@@ -60,11 +60,13 @@ std::string math_library() {
 
 /// timing.json: what this session did and on what.
 std::string timing_text(const Tally& tally, double seconds, const Crew& crew,
-                        const Occupancy& lanes, bool interrupted) {
+                        const Evaluator& evaluator, bool interrupted) {
   const long made = tally.done - tally.before;
+  const Occupancy& lanes = evaluator.occupancy();
   return json_text({{"host", host_name()},
                     {"math_library", math_library()},
                     {"processors", std::thread::hardware_concurrency()},
+                    {"ranks", evaluator.ranks()},
                     {"threads", team_size(crew.threads)},
                     {"instruction_set", to_string(crew.set)},
                     {"lanes", lanes_of(crew.set)},
@@ -149,7 +151,7 @@ bool make_remaining(Folder& folder, const RunPlan& plan, const Crew& crew,
   if (!interrupted) progress.close(tally);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   write_file(folder.stored().folder / timing_file,
-             timing_text(tally, seconds.count(), crew, evaluator->occupancy(), interrupted));
+             timing_text(tally, seconds.count(), crew, *evaluator, interrupted));
   return interrupted;
 }
 

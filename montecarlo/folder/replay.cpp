@@ -85,8 +85,7 @@ std::vector<std::string> differences(const ResultNames& names, const ResultRow& 
 }
 
 std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run) {
-  const std::filesystem::path path =
-      stored.folder / (is_rowless(stored.folder) ? broken_runs_file : runs_file);
+  const std::filesystem::path path = stored.folder / rows_file(stored.folder);
   if (!std::filesystem::exists(path)) return std::nullopt;
   const ResultNames names = RunPlan(stored.campaign).names();
   try {
@@ -128,7 +127,8 @@ ReplayRequest::ReplayRequest(const StoredCampaign& stored, long run) : stored_(&
 Replayed ReplayRequest::replay(const Observer& observer) const {
   const RunPlan plan(stored_->campaign);
   auto [outcome, row] = Runner(plan).replay(run_, observer);
-  Replayed replayed{std::move(outcome), std::move(row), plan.names(), recorded_.has_value(), {}};
+  Replayed replayed{std::move(outcome),         std::move(row),        plan.names(),
+                    rows_file(stored_->folder), recorded_.has_value(), {}};
   if (recorded_) replayed.differences = differences(plan.names(), *recorded_, replayed.row);
   return replayed;
 }

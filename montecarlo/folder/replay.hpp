@@ -11,12 +11,14 @@ struct Replayed {
   Outcome outcome;
   ResultRow row;
   ResultNames names;
-  bool recorded = false; ///< whether runs.csv has the run
+  std::string
+      file; ///< whose rows it is compared with: runs.csv or, of a folder without rows, broken_runs.csv
+  bool recorded = false; ///< whether that has the run
   /// A line for each column in which the recorded row differs from this one by as much as a bit.
   std::vector<std::string> differences;
 };
 
-/// Run k's row of runs.csv, if it is there. Cost: of a logarithm of the file's length, in time and memory.
+/// Run k's row of rows_file(), if it is there. Cost: of a logarithm of the file's length, in time and memory.
 /// @throws SpecError when what is read of it is broken
 [[nodiscard]] std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run);
 

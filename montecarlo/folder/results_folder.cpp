@@ -134,6 +134,10 @@ bool is_rowless(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / statistics_file);
 }
 
+std::string rows_file(const std::filesystem::path& folder) {
+  return is_rowless(folder) ? broken_runs_file : runs_file;
+}
+
 void refuse_rowless(const std::filesystem::path& folder) {
   if (is_rowless(folder))
     throw SpecError(

@@ -57,6 +57,8 @@ struct StoredCampaign {
 
 /// Whether the folder's runs were made without keeping their rows.
 [[nodiscard]] bool is_rowless(const std::filesystem::path& folder);
+/// The file of the folder's rows: of all runs or, where these were not kept, of those that went wrong.
+[[nodiscard]] std::string rows_file(const std::filesystem::path& folder);
 /// @throws SpecError when they were
 void refuse_rowless(const std::filesystem::path& folder);
 

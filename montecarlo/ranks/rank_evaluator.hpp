@@ -20,6 +20,7 @@ public:
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
 
   [[nodiscard]] const Occupancy& occupancy() const override { return occupancy_; }
+  [[nodiscard]] int ranks() const override { return wire_->size(); }
 
 private:
   std::unique_ptr<Wire> wire_;

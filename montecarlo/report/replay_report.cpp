@@ -23,9 +23,10 @@ std::string replay_text(const Replayed& replayed, const Scene& scene) {
     text += fmt::format("  {:<40}{:>24.17g}\n", replayed.names.draws[i], replayed.row.draws[i]);
   if (!replayed.recorded)
     text += fmt::format("\nRun {} is not in {}: there is nothing to compare it with.\n",
-                        replayed.row.run, runs_file);
+                        replayed.row.run, replayed.file);
   else if (replayed.differences.empty())
-    text += fmt::format("\nRun {} is the one in {}, bit for bit.\n", replayed.row.run, runs_file);
+    text +=
+        fmt::format("\nRun {} is the one in {}, bit for bit.\n", replayed.row.run, replayed.file);
   return text;
 }
 

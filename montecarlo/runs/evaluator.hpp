@@ -46,6 +46,9 @@ public:
 
   /// How full the lanes were, in all that it has made.
   [[nodiscard]] virtual const Occupancy& occupancy() const = 0;
+
+  /// How many processes make them.
+  [[nodiscard]] virtual int ranks() const { return 1; }
 };
 
 /// How this machine makes them.

@@ -1,6 +1,6 @@
 """How much memory a campaign holds, against its number of runs.
 
-    /usr/bin/python3 studies/drivers/memory.py            some ten minutes; results/memory takes 8 GB while it lasts,
+    /usr/bin/python3 studies/drivers/memory.py            some fifteen minutes; results/memory takes 10 GB while it lasts,
                                                   and temporary files 5 GB
     /usr/bin/python3 studies/drivers/memory.py --quick    seconds; fails where memory grows faster than it may
 
@@ -8,11 +8,13 @@ Measurements of whole programs on two threads, by the most memory that each ever
 is resident of mapped files):
 
     run       of the seed wing without friction to its last latch
+    resume    of such runs whose last twentieth is cut off
     merge     of ten shards of such runs
     replay    of one run of them
     analyze   of rows with all of the seed campaign's columns: those of a shorter run again and again, under new
               numbers
     judge     the same with a hundred requirements, on four outputs
+    export    of such rows to HDF5
     margin    of the wing of `run`, which is not given the time to deploy, at three scales; and its static margins at 21
               places of the travel of each hinge, draw by draw
 
@@ -62,6 +64,13 @@ def measure_run(program, folder, runs):
     return measure(program, "run", write_cheap_campaign(folder), "--runs", runs, "--out", folder / "run")
 
 
+def measure_resume(program, folder, runs):
+    measure_run(program, folder, runs)
+    rows = folder / "run" / "runs.csv"
+    os.truncate(rows, rows.stat().st_size * 19 // 20)
+    return measure(program, "run", folder / "campaign.json", "--runs", runs, "--out", folder / "run", "--resume")
+
+
 def measure_merge(program, folder, runs):
     file = write_cheap_campaign(folder)
     shards = [folder / f"shard{i}" for i in range(1, 11)]
@@ -102,6 +111,11 @@ def measure_analyze(program, folder, runs, *options):
     return measure(program, "analyze", repeated, *options)
 
 
+def measure_export(program, folder, runs):
+    measure_analyze(program, folder, runs)
+    return measure(program, "export", folder / "repeated", "--out", folder / "repeated" / "runs.h5")
+
+
 def measure_judge(program, folder, runs):
     """Requirements that from one run in ten down to none breaks."""
     requirements = [{"output": output, "max": low + (high - low) * k / 24, "probability": 0.9, "confidence": 0.9}
@@ -139,10 +153,12 @@ def main():
     table, growths = [("command", "runs", "runs.csv [MB]", "time [s]", "memory [MiB]")], []
     print("command        runs  runs.csv, MB    time, s  memory, MiB")
     for name, measured, part, sizes in (("run", measure_run, "run", run_sizes),
+                                        ("resume", measure_resume, "run", run_sizes),
                                         ("merge", measure_merge, "run", run_sizes),
                                         ("replay", measure_replay, "run", run_sizes),
                                         ("analyze", measure_analyze, "repeated", analyze_sizes),
                                         ("judge", measure_judge, "repeated", analyze_sizes),
+                                        ("export", measure_export, "repeated", analyze_sizes),
                                         ("margin", measure_margin, "margin", margin_sizes)):
         held = []
         for runs in sizes:

@@ -54,6 +54,7 @@ TEST_CASE("a run writes its folder, and its paths to a pipe", "[parallel]") {
   (void)run_into(direct, campaign_of(quick_campaign(40)));
   CHECK(contents(setting.out) == contents(direct));
   const Json timing = parse_json_file(setting.folder.path() / "r" / timing_file);
+  CHECK(timing["ranks"] == 1);
   CHECK(timing["threads"] == 2);
   CHECK(timing["runs"] == 40);
   CHECK(timing["interrupted"] == false);

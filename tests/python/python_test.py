@@ -197,6 +197,33 @@ class Deployments(InFolder):
         # without friction and from rest times go with the root of the torques, but for the latches' ringing
         self.assertAlmostEqual(scale, 1 / 0.8**2, delta=0.08)
 
+    def test_openturns_drives_it_to_the_programs_sobol_indices(self):
+        try:
+            import openturns
+        except ImportError:
+            self.skipTest("python3-openturns is not installed")
+        names, samples = ["root", "mid", "tip"], 1000
+        law = {"type": "normal", "mean": 1, "std": 0.05}
+        file = self.folder / "campaign.json"
+        file.write_text(json.dumps(small(dispersions=[{"name": name, "distribution": law, "apply": "scale",
+                                                       "to": [f"hinges.{name}.spring.scale"]} for name in names])))
+        answer = program("sensitivity", file, "--samples", samples, "--confidence", 0.99, "--json")
+        ours = json.loads(answer.stdout)["outputs"]["mid.latch_time"]["dispersions"]
+
+        model = wingspread.Model(SCENE, [f"hinges.{name}.spring.scale" for name in names], ["mid.latch_time"])
+        openturns.RandomGenerator.SetSeed(1)
+        springs = openturns.ComposedDistribution([openturns.Normal(1, 0.05)] * 3)
+        x = openturns.SobolIndicesExperiment(springs, samples, False).generate()
+        y = openturns.PythonFunction(3, 1, func_sample=model)(x)
+        self.same(y, model(np.asarray(x)))
+        found = openturns.JansenSensitivityAlgorithm(x, y, samples)
+        found.setConfidenceLevel(0.99)
+        interval = found.getTotalOrderIndicesInterval()
+        for name, lower, upper in zip(names, interval.getLowerBound(), interval.getUpperBound()):
+            # of runs of their own, each with 99 % of its own: that the two miss each other is as unlikely
+            self.assertLess(max(lower, ours[name]["total"]["lower"]), min(upper, ours[name]["total"]["upper"]), name)
+            self.assertLess(upper - lower, 0.35)
+
 
 class Errors(InFolder):
     def texts(self, *words):

@@ -95,6 +95,11 @@ class Ranks(unittest.TestCase):
         of = campaign(20000, requirements=[{"output": "deployed", "probability": 0.95, "confidence": 0.9}])
         self.same("run", of, "--until", "requirement deployed", ranks=(3,))
 
+    def test_run_without_rows(self):
+        self.same("run", campaign(5000), "--no-rows", ranks=(2, 3))
+        timing = json.loads((self.folder / "of_3" / "timing.json").read_text(encoding="utf-8"))
+        self.assertEqual((timing["ranks"], timing["threads"]), (3, 1))
+
     def test_sobol_points_and_a_shard(self):
         of = campaign(256)
         of["sampling"] |= {"design": "sobol", "replicates": 4}
