@@ -97,11 +97,21 @@ template <class T> [[nodiscard, gnu::always_inline]] inline T bound(const Quinti
   return largest;
 }
 
+/// p where `these` hold, else q: of numbers one or the other, of packs in which lanes.
+template <class Mask, class T>
+[[nodiscard, gnu::always_inline]] inline Quintic<T> chosen(const Mask& these, const Quintic<T>& p,
+                                                           const Quintic<T>& q) {
+  Quintic<T> either;
+  for (int k = 0; k < 6; ++k) either[k] = select(these, p[k], q[k]);
+  return either;
+}
+
 /// p without its root at s = 0: p/s, or p/s² where p/s is zero there but for rounding.
 template <class T> [[nodiscard]] Quintic<T> without_root_at_start(const Quintic<T>& p) {
   using std::abs;
   const Quintic<T> once = divided_by_s(p);
-  return abs(once[0]) > T(1e-8) * bound(once) ? once : divided_by_s(once);
+  const auto single = abs(once[0]) > T(1e-8) * bound(once);
+  return any(!single) ? chosen(single, once, divided_by_s(once)) : once;
 }
 
 template <class T> [[nodiscard]] bool all_negative(const Quintic<T>& p) {

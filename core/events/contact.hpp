@@ -110,23 +110,40 @@ void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T
   }
 }
 
-/// The first s in [0, 1] at which hinge i, which slides, comes to rest in the step; none if it does
-/// not. A hinge that has just set out is at rest at s = 0, which does not count; one let go at its
-/// limit with τ_s = τ_c has no acceleration there either.
-template <class T, class AnySystem>
-[[nodiscard]] std::optional<T> first_rest(const AnySystem& system, const Step<T>& step, int i) {
-  const Layout& at = system.layout();
-  const T against(-sliding_sense(system, i));
+/// What is negative over the step for as long as hinge i, which slides, has not come to rest: its
+/// rate, against the sense in which it slides. A hinge that has just set out is at rest at s = 0,
+/// which does not count; one let go at its limit with τ_s = τ_c has no acceleration there either.
+/// For one number or for a pack of them: where the coefficients are negative the lanes of packs know
+/// as much as the run alone.
+/// @param against the sense in which it would turn back: −1 or 1
+template <class T>
+[[nodiscard]] Quintic<T> way_to_rest(const Layout& at, const Step<T>& step, int i,
+                                     const T& against) {
   using std::abs;
   Quintic<T> rate = derivative(step.coordinate(at.angle(i), at.freedoms()), step.h);
   const int r = at.rate(i);
   const T angle = larger(T(abs(step.x[at.angle(i)])), T(abs(step.x1[at.angle(i)])));
   const T moved = step.h * larger(T(abs(step.x[r])), T(abs(step.x1[r])));
-  if (T(64 * epsilon_of<T>) * angle > T(1e-6) * moved) // the angle's rounding would drown it
-    rate = cubic_hermite(step.h, step.x[r], step.dxdt[r], step.x1[r], step.dxdt1[r]);
+  const auto drowned = T(64 * epsilon_of<T>) * angle > T(1e-6) * moved; // by the angle's rounding
+  if (any(drowned))
+    rate = chosen(drowned,
+                  cubic_hermite(step.h, step.x[r], step.dxdt[r], step.x1[r], step.dxdt1[r]), rate);
   for (T& c : rate) c = against * c;
-  if (step.x[at.rate(i)] == T(0)) rate = without_root_at_start(rate);
-  return first_nonnegative(rate);
+  const auto sets_out = step.x[r] == T(0);
+  return any(sets_out) ? chosen(sets_out, without_root_at_start(rate), rate) : rate;
+}
+
+/// Whether a hinge has come to rest at t, or does at the same instant.
+/// @param rate, slope φ̇ and φ̈, against the sense in which it slides
+template <class T> [[nodiscard]] auto rests_at(const T& t, const T& rate, const T& slope) {
+  return rate > T(0) || (slope > T(0) && rate + one_instant(t) * slope >= T(0));
+}
+
+/// The first s in [0, 1] at which hinge i, which slides, comes to rest in the step; none if it does
+/// not.
+template <class T, class AnySystem>
+[[nodiscard]] std::optional<T> first_rest(const AnySystem& system, const Step<T>& step, int i) {
+  return first_nonnegative(way_to_rest(system.layout(), step, i, T(-sliding_sense(system, i))));
 }
 
 /// At the start of a step: brings to rest the hinge that was due (0: none), and every other that
@@ -134,14 +151,12 @@ template <class T, class AnySystem>
 template <class T, class AnySystem>
 bool rest_those_there(const AnySystem& system, int due, Step<T>& step) {
   const Layout& at = system.layout();
-  const T instant = one_instant(step.t);
   bool any = false;
   for (int i = 1; i <= at.bodies; ++i) {
     const T against(-sliding_sense(system, i));
     if (against == T(0)) continue;
     const T rate = against * step.x[at.rate(i)], slope = against * step.dxdt[at.rate(i)];
-    const bool there = rate > T(0) || (slope > T(0) && rate + instant * slope >= T(0));
-    if (i != due && !there) continue;
+    if (i != due && !rests_at(step.t, rate, slope)) continue;
     step.x[at.rate(i)] = T(0);
     any = true;
   }

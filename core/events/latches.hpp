@@ -22,6 +22,12 @@ template <class T>
   return event;
 }
 
+/// Whether a waiting latch engages at t, or does at the same instant.
+/// @param gap, rate its signed distance past the latched angle, rad; that distance's rate, rad/s
+template <class T> [[nodiscard]] auto engages_at(const T& t, const T& gap, const T& rate) {
+  return gap + one_instant(t) * larger(rate, T(0)) >= T(0);
+}
+
 /// The latches of one run that have not engaged yet.
 template <class T, class AnySystem> class Latches {
 public:
@@ -62,12 +68,10 @@ public:
   /// @param latches those that engage are added
   /// @return whether there was any
   bool engage_those_there(int due, const Step<T>& step, std::vector<LatchEvent>& latches) {
-    const T instant = one_instant(step.t);
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
       if (!may_engage(i)) continue;
-      const T soon = gap(step.x, i) + instant * larger(gap_rate(step.x, i), T(0));
-      if (i != due && !(soon >= T(0))) continue;
+      if (i != due && !engages_at(step.t, gap(step.x, i), gap_rate(step.x, i))) continue;
       system_.engage(i);
       --left_;
       latches.push_back(latch_event(system_.wing(), at_, step.x, step.t, i));

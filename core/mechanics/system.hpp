@@ -40,8 +40,7 @@ public:
     work_.engaged.assign(layout_.bodies + 1, false);
     work_.contact.assign(layout_.bodies + 1, Contact::none);
     work_.holding.assign(layout_.bodies + 1, T(0));
-    work_.stuck = 0;
-    work_.evaluations = 0;
+    work_.stuck = 0, work_.evaluations = 0;
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
     if constexpr (is_one_number<T>)
       if (has_table()) work_.driven = first_piece(wing_.base);
@@ -179,7 +178,7 @@ public:
   /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
   void operator()(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<true>(x, dxdt, t); }
 
-  /// The same inside a step, where nobody asks for the forces.
+  /// The same inside a step, where nobody asks for the forces, nor for what holds hinges that stick.
   void stage(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<false>(x, dxdt, t); }
 
   /// Whether evaluations leave the hinge forces in the workspace.
@@ -190,7 +189,7 @@ private:
   [[gnu::always_inline]] void evaluate(const State<T>& x, State<T>& dxdt, const T& t) {
     ++work_.evaluations;
     if (work_.stuck > 0) {
-      evaluate_stuck(x, dxdt, t);
+      evaluate_stuck<forces>(x, dxdt, t);
     } else if (!wing_.plates.empty()) {
       evaluate_in_air(x, dxdt, t);
     } else if constexpr (is_static<Topology>) {
@@ -228,7 +227,8 @@ private:
     return side_of_backlash(wing_.real[i], work_.above[i]);
   }
 
-  /// The right-hand side with hinges locked by friction; leaves what holds them in the workspace.
+  /// The right-hand side with hinges locked by friction. @param held leaves what holds them
+  template <bool held>
   [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
     Augmented<T>& parts = work_.held;
     place_base<M>(wing_, layout_, work_.driven, parts.frames[0], x, t);
@@ -244,12 +244,13 @@ private:
     if constexpr (M == BaseMotion::free) copy_base(parts.bodies[0], dxdt);
     topology().outward([&](int i) {
       dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology(), parts.frames, parts.bodies, i);
+      if constexpr (!held) return;
       const T& parents = parts.bodies[topology().parent_of(i)].angular_acceleration;
       work_.holding[i] = axis_moment(parts.bodies[i], parents);
       if (!wing_.plates.empty()) work_.holding[i] = work_.holding[i] - work_.air_moments[i];
       if (wants_forces_) work_.forces[i] = augmented_force(parts.bodies[i], parents);
     });
-    if (wants_forces_) take_air_from_forces();
+    if (held && wants_forces_) take_air_from_forces();
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
   }
@@ -358,8 +359,7 @@ private:
 
   /// The hinges need not push what the air does.
   void take_air_from_forces() {
-    if (wing_.plates.empty()) return;
-    for (int i = 1; i <= layout_.bodies; ++i)
+    for (int i = 1; i < static_cast<int>(wing_.plates.size()); ++i)
       work_.forces[i] = work_.forces[i] - work_.air_forces[i];
   }
 

@@ -142,7 +142,7 @@ private:
   void stage(System& system, const Start<T>& from, const T& h, State<T>& x) {
     for (std::size_t c = 0; c < x.size(); ++c)
       x[c] = fused(h, weighted(dop853::a[I], c), from.x[c]);
-    k_[I].resize(x.size());
+    if (k_[I].size() != x.size()) k_[I].resize(x.size());
     const T t = from.t + T(dop853::nodes[I]) * h;
     if constexpr (requires { system.stage(x, k_[I], t); })
       system.stage(x, k_[I], t);

@@ -71,6 +71,8 @@ template <int W>
   return mask.bits ? a.v : b.v;
 }
 
+template <int W> inline constexpr double epsilon_of<Pack<W>> = epsilon_of<double>;
+
 /// Whether it holds in any lane.
 template <class Mask>
 requires requires(Mask mask) { mask.bits; }

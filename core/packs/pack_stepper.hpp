@@ -4,6 +4,8 @@
 
 #include "core/dense/friction_layer.hpp"
 #include "core/dense/roughness.hpp"
+#include "core/events/contact.hpp"
+#include "core/events/latches.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
 #include "core/methods/runge_kutta.hpp"
@@ -239,13 +241,14 @@ private:
       const HingeTerms<P>& hinge = wing_.hinges[i];
       if (hinge.has_latch) look = look || (waits_[i] > P(0.0) && may_engage(i));
       if (!wing_.real.empty()) look = look || may_pass_edge(i);
-      if (wing_.can_stick) look = look || may_come_to_rest(i);
+      if (wing_.can_stick) look = look || (slides(i) && may_come_to_rest(i));
     }
     return look;
   }
 
   /// A base that turns further inside the step than at its ends, a hinge that turns back beyond its
-  /// stowed angle, or past bounds. In air, forces are the run's.
+  /// stowed angle, or past bounds, or that latches or comes to rest at the step's very end, which a
+  /// free base's momenta may have moved. In air, forces are the run's.
   [[nodiscard]] Mask may_turn_further() {
     Mask look{};
     if constexpr (M == BaseMotion::free) look = free_.may_swing_further(at_, step_);
@@ -253,6 +256,8 @@ private:
     for (int i = 1; i <= at_.bodies; ++i) {
       look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
       look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
+      if (wing_.hinges[i].has_latch) look = look || (waits_[i] > P(0.0) && engages_at_end(i));
+      if (wing_.can_stick) look = look || (slides(i) && rests_at_end(i));
     }
     return look;
   }
@@ -281,18 +286,27 @@ private:
     return any;
   }
 
-  /// A hinge that slides against exact friction may turn back.
+  /// Where hinge i slides against exact friction.
+  [[nodiscard]] Mask slides(int i) const { return !(slides_[i] == P(0.0)); }
+
+  /// A hinge that slides may turn back: as first_rest begins.
   [[nodiscard]] Mask may_come_to_rest(int i) const {
     Mask any{};
-    for (const P& c : derivative(step_.coordinate(at_.angle(i), at_.freedoms()), step_.h))
-      any = any || !(slides_[i] * c > P(0.0));
-    const P first = slides_[i] * step_.x[at_.rate(i)], last = slides_[i] * step_.x1[at_.rate(i)];
-    any = any || !(first > P(0.0)) || !(last > P(0.0));
-    // first_rest takes another way where the angle's rounding would drown the rate
-    const P angle = larger(abs(step_.x[at_.angle(i)]), abs(step_.x1[at_.angle(i)]));
-    const P moved = step_.h * larger(abs(first), abs(last));
-    any = any || P(64 * epsilon_of<double>) * angle > P(1e-6) * moved;
-    return any && !(slides_[i] == P(0.0));
+    for (const P& c : way_to_rest(at_, step_, i, -slides_[i])) any = any || !(c < P(0.0));
+    return any;
+  }
+
+  /// As Latches::engage_those_there.
+  [[nodiscard]] Mask engages_at_end(int i) const {
+    const HingeTerms<P>& hinge = wing_.hinges[i];
+    const P gap = hinge.sense * (step_.x1[at_.angle(i)] - hinge.latched);
+    return engages_at(P(step_.t + step_.h), gap, P(hinge.sense * step_.x1[at_.rate(i)]));
+  }
+
+  /// As rest_those_there.
+  [[nodiscard]] Mask rests_at_end(int i) const {
+    const P rate = -(slides_[i] * step_.x1[at_.rate(i)]);
+    return rests_at(P(step_.t + step_.h), rate, P(-(slides_[i] * step_.dxdt1[at_.rate(i)])));
   }
 
   PackShape shape_;

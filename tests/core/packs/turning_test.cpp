@@ -1,0 +1,145 @@
+// Hinges that nearly come to rest under exact friction, or have just set out: a run in a lane sees
+// every turn that the run alone sees, and is not asked for the others.
+#include "core/events/contact.hpp"
+#include "tests/core/events/rubbed_wings.hpp"
+#include "tests/core/packs/same_bits.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+const Goal all{.audit = false};
+
+/// A panel on its way over the crest of an unstable equilibrium, where it comes to rest if the rate
+/// with which it sets out is less than `share` 1 of what it takes.
+Scene over_a_crest(double friction, double share) {
+  Scene scene = latching_panel();
+  Hinge& hinge = scene.hinges[0];
+  hinge.stowed = -1, hinge.latched = 1;
+  pull_towards(hinge, 0, -panel_inertia); // φ̈ = φ − friction
+  rub(hinge, friction * panel_inertia);
+  hinge.initial_rate = share * (1 + friction);
+  return scene;
+}
+
+/// Two discs that swing as one until the second is let go, with next to no acceleration: what it
+/// bears, 2 φ̈, is √5 at most [grazing_release_test.cpp].
+Scene let_go_at_the_limit(double limit, double kinetic) {
+  Scene scene = coaxial_discs(3, 2);
+  scene.hinges[0].stowed = 1, scene.hinges[0].latched = -50, scene.hinges[0].initial_rate = 0.5;
+  pull_towards(scene.hinges[0], 0, 5);
+  rub(scene.hinges[1], kinetic, limit);
+  return scene;
+}
+
+/// Units of the seed wing whose hinges turn some forty times a run.
+std::vector<Scene> rubbed_units(int count) {
+  std::vector<Scene> scenes;
+  for (int k = 0; k < count; ++k) {
+    Draws draws(7000 + k);
+    scenes.push_back(rubbed_seed(draws.uniform(0.05, 0.15), draws.uniform(0.02, 0.06),
+                                 draws.uniform(0.01, 0.03)));
+  }
+  return scenes;
+}
+
+/// A step of one hinge, no two like: some begin at rest, some of these without acceleration, and
+/// some stand at angles beside which the way that they go is nothing.
+Step<double> any_step(Draws& draws) {
+  Step<double> step{0, draws.log_uniform(1e-6, 1), {}, {}, {}, {}};
+  const bool rests = draws.uniform(0, 1) < 0.3, still = draws.uniform(0, 1) < 0.3;
+  const double rate = rests ? 0 : draws.uniform(-0.2, 1);
+  const double slope = rests && still ? 0 : draws.uniform(-1, 1) / step.h;
+  const double angle = draws.uniform(0, 1) < 0.1 ? 1e9 : draws.uniform(-2, 2);
+  step.x = {angle, rate}, step.dxdt = {rate, slope};
+  const double end = draws.uniform(-0.2, 1.5);
+  const double way = step.h * (0.5 * (rate + end) + draws.uniform(-0.1, 0.1));
+  step.x1 = {angle + way, end}, step.dxdt1 = {end, draws.uniform(-1, 1) / step.h};
+  return step;
+}
+
+/// The rate over the step, as the run alone has it.
+Quintic<double> rate_over(const Layout& at, const Step<double>& step) {
+  const double angle = std::max(std::abs(step.x[0]), std::abs(step.x1[0]));
+  const double way = step.h * std::max(std::abs(step.x[1]), std::abs(step.x1[1]));
+  if (64 * epsilon_of<double> * angle > 1e-6 * way)
+    return cubic_hermite(step.h, step.x[1], step.dxdt[1], step.x1[1], step.dxdt1[1]);
+  return derivative(step.coordinate(at.angle(1), at.freedoms()), step.h);
+}
+
+} // namespace
+
+TEST_CASE("where the way to rest is negative no hinge turns inside the step") {
+  const Layout at{0, 1, false};
+  Draws draws(1);
+  int stay = 0, set_out = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Step<double> step = any_step(draws);
+    if (!all_negative(way_to_rest(at, step, 1, -1.0))) continue;
+    const Quintic<double> rate = rate_over(at, step);
+    ++(step.x[1] == 0 ? set_out : stay);
+    CAPTURE(k, step.h, step.x[0]);
+    for (int s = 1; s <= 256; ++s)
+      REQUIRE(value(rate, s / 256.0) > -1e-12 * bound(rate)); // both are rounded
+  }
+  CHECK((stay > 2000 && set_out > 500));
+}
+
+TEST_CASE("a run in a lane has the bits of the run alone: hinges that nearly come to rest") {
+  std::vector<Scene> scenes;
+  for (int k = 0; k < 120; ++k) {
+    Draws draws(5000 + k);
+    const double off = draws.log_uniform(1e-12, 1e-1);
+    scenes.push_back(over_a_crest(draws.uniform(0.01, 0.5), k % 2 ? 1 + off : 1 - off));
+  }
+  for (const double rtol : {1e-3, 1e-6, 1e-9}) {
+    const Integration how = within(rtol, 40);
+    CAPTURE(rtol);
+    long latched = 0;
+    for (const Scene& scene : scenes) latched += !Deployment().run(scene, how, all).latches.empty();
+    CHECK(
+        (latched > 40 && latched < 80)); // half of them turn, but for what a loose tolerance blurs
+    require_equal_bits(scenes, how, all);
+  }
+}
+
+TEST_CASE(
+    "a run in a lane has the bits of the run alone: hinges that set out with no acceleration") {
+  std::vector<Scene> scenes;
+  for (int k = 0; k < 80; ++k) {
+    Draws draws(6000 + k);
+    const double limit = std::sqrt(5) * (1 - draws.log_uniform(1e-8, 0.2));
+    scenes.push_back(let_go_at_the_limit(limit, k % 2 ? limit : limit * draws.uniform(0.2, 1)));
+  }
+  for (const double rtol : {1e-3, 1e-6, 1e-9}) {
+    CAPTURE(rtol);
+    require_equal_bits(scenes, within(rtol, 6), all);
+  }
+}
+
+TEST_CASE("runs are asked where a hinge turns, and not at every step that begins at rest") {
+  const std::vector<Scene> scenes = rubbed_units(100);
+  require_equal_bits(scenes, {}, all);
+  for (const InstructionSet set : instruction_sets()) {
+    if (set == InstructionSet::scalar) continue;
+    long next = 0;
+    DeploymentPack pack(set, {}, all);
+    const Occupancy lanes = pack.run(
+        scenes.front(),
+        [&](Scene& scene) -> std::optional<long> {
+          if (next == std::ssize(scenes)) return std::nullopt;
+          scene = scenes[next];
+          return next++;
+        },
+        [](long, Outcome&&) {});
+    CAPTURE(to_string(set));
+    CHECK(lanes.looks <
+          150 * std::ssize(scenes)); // 171 a run where every step that begins at rest asks
+  }
+}
