@@ -7,6 +7,12 @@
 #include "core/packs/structure.hpp"
 #include "core/run/integrator.hpp"
 
+// Runs and what is common to all instruction sets hand each other Eigen's matrices. Aligned to 16 bytes these are malloc's
+// own, beyond that they are not: one level that has it otherwise than the rest frees what was never allocated.
+#ifdef __x86_64__
+static_assert(EIGEN_DEFAULT_ALIGN_BYTES >= 32, "core/CMakeLists.txt sets EIGEN_MAX_ALIGN_BYTES");
+#endif
+
 namespace wingspread::detail {
 
 inline void set_numbers(Wing<double>& wing, const Scene& scene) { set_parameters(wing, scene); }

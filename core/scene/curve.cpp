@@ -139,4 +139,23 @@ void Curve::find_slopes() {
   }
 }
 
+std::size_t Curve::piece_at(double x) const {
+  return static_cast<std::size_t>(std::upper_bound(knots_.begin(), knots_.end(), x) -
+                                  knots_.begin());
+}
+
+double Curve::value_at(double x) const {
+  const std::size_t k = piece_at(x);
+  const auto& c = pieces_[k].c;
+  const double u = x - knots_[k > 0 ? k - 1 : 0];
+  return std::fma(u, std::fma(u, std::fma(u, c[3], c[2]), c[1]), c[0]);
+}
+
+double Curve::slope_at(double x) const {
+  const std::size_t k = piece_at(x);
+  const auto& c = pieces_[k].c;
+  const double u = x - knots_[k > 0 ? k - 1 : 0];
+  return std::fma(u, std::fma(u, 3 * c[3], 2 * c[2]), c[1]);
+}
+
 } // namespace wingspread

@@ -40,6 +40,11 @@ public:
   /// a·f + b·g of two curves with the same knots.
   [[nodiscard]] static Curve sum(double a, const Curve& f, double b, const Curve& g);
 
+  /// Value and slope at x, with one rounding for each product and sum on every processor, whatever it has: the value to
+  /// the last bit that curve_value.hpp gives where products and sums are made at once.
+  [[nodiscard]] double value_at(double x) const;
+  [[nodiscard]] double slope_at(double x) const;
+
   /// Pieces by ascending x: one before the first knot, one between each pair, one after the last.
   /// The piece at x is the last one that begins at or before x; the first begins at −∞, and its
   /// polynomial is in powers of x − x_0.
@@ -56,6 +61,7 @@ public:
   [[nodiscard]] double overshoot() const { return overshoot_; }
 
 private:
+  [[nodiscard]] std::size_t piece_at(double x) const;
   void add_ends(Beyond beyond);
   void integrate();
   void find_slopes();

@@ -1,6 +1,6 @@
 #include "montecarlo/campaign/campaign.hpp"
 
-#include "core/laws/curve_value.hpp"
+#include "core/scene/curve.hpp"
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
 
@@ -31,7 +31,7 @@ void apply(const Campaign& campaign, std::span<const double> draws, const Scene&
   for (std::size_t i = 0; i < draws.size(); ++i)
     for_each_effect(campaign.dispersions[i],
                     [&](Apply how, const auto& targets, const Curve* table) {
-                      const double effect = table ? value(*table, draws[i]) : draws[i];
+                      const double effect = table ? table->value_at(draws[i]) : draws[i];
                       for (const SceneParameter& target : targets)
                         apply_to(target.in(run_scene), how, effect);
                     });
@@ -44,7 +44,7 @@ Scene nominal_scene(const Campaign& campaign) {
     const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
     for (const Driven& driven : dispersion.through)
       for (const SceneParameter& target : driven.targets)
-        apply_to(target.in(scene), driven.apply, value(driven.table, median));
+        apply_to(target.in(scene), driven.apply, driven.table.value_at(median));
   }
   return scene;
 }

@@ -1,6 +1,6 @@
 #include "montecarlo/motorization/drive.hpp"
 
-#include "core/laws/curve_value.hpp"
+#include "core/scene/curve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,11 +25,11 @@ double share_of(const Hinge& hinge, double travel) {
 }
 
 double given(const Synchronisation& loop, double travel) {
-  return loop.table ? value(*loop.table, travel) : loop.ratio * travel;
+  return loop.table ? loop.table->value_at(travel) : loop.ratio * travel;
 }
 
 double slope_of(const Synchronisation& loop, double travel) {
-  return loop.table ? slope(*loop.table, travel) : loop.ratio;
+  return loop.table ? loop.table->slope_at(travel) : loop.ratio;
 }
 
 /// The travel of a loop's first hinge at which it gives this to the second.

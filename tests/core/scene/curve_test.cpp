@@ -53,6 +53,17 @@ template <class Check> void for_random_tables(const Check& check) {
 
 } // namespace
 
+TEST_CASE("a curve alone has the values that the kernel computes, to the last bit") {
+  for_random_tables([](const RandomTable& table, Interpolation how, Beyond beyond) {
+    const Curve curve(table.x, table.y, how, beyond);
+    for (const double x : table.probes(3)) {
+      CAPTURE(x);
+      CHECK(curve.value_at(x) == value(curve, x));
+      CHECK(curve.slope_at(x) == slope(curve, x));
+    }
+  });
+}
+
 TEST_CASE("a curve's values, slopes and integrals are those of Hermite's basis") {
   for_random_tables([](const RandomTable& table, Interpolation how, Beyond beyond) {
     const Curve curve(table.x, table.y, how, beyond);
