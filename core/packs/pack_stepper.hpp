@@ -247,8 +247,8 @@ private:
   }
 
   /// A base that turns further inside the step than at its ends, a hinge that turns back beyond its
-  /// stowed angle, or past bounds, or that latches or comes to rest at the step's very end, which a
-  /// free base's momenta may have moved. In air, forces are the run's.
+  /// stowed angle, or past bounds, or that latches or comes to rest within an instant of the step's
+  /// end, by the accelerations that a free base has there. In air, forces are the run's.
   [[nodiscard]] Mask may_turn_further() {
     Mask look{};
     if constexpr (M == BaseMotion::free) look = free_.may_swing_further(at_, step_);
