@@ -21,8 +21,11 @@ public:
   std::vector<PeakOf<T>> peaks; ///< 1 … n
 
   /// A run of the system begins.
-  void start(const AnySystem& system) {
+  /// @param worth_a_step what a further step of the method to a maximum must gain, relative
+  void start(const AnySystem& system, double worth_a_step = 1) {
     const int bodies = system.layout().bodies;
+    worth_a_step_ = T(worth_a_step);
+    for (State<T>* state : {&beside_, &slope_}) state->resize(system.layout().size());
     peaks.assign(bodies + 1, {});
     before_.assign(bodies + 1, T(0));
     set_levers(system.wing(), system.topology(), levers_);
@@ -66,17 +69,28 @@ public:
     return doubts_.back().s;
   }
 
-  /// That step has been made, and its last evaluation was there.
-  void confirm(const AnySystem& system) {
-    const Doubt doubt = doubts_.back();
+  /// That step has been made to (x, dxdt), and its last evaluation was there: raises the peak, and
+  /// corrects the instant by Newton's method where that is worth another step. dxdt is overwritten.
+  void confirm(AnySystem& system, const Step<T>& step, const State<T>& x, State<T>& dxdt) {
+    Doubt doubt = doubts_.back();
     doubts_.pop_back();
-    peaks[doubt.hinge].raise(magnitude(system, doubt.hinge), doubt.time);
+    const T force = magnitude(system, doubt.hinge);
+    peaks[doubt.hinge].raise(force, step.t + doubt.s * step.h);
+    if (!may_be_off(doubt, force)) return;
+    const T late = step.h * change(system, step, doubt, x, dxdt) / doubt.bend;
+    const T gain = T(-0.5) * late * late * doubt.bend;
+    doubt.s = doubt.s - late, ++doubt.corrections;
+    if (gain > worth_a_step_ * force && late * late < T(0.01) && doubt.s > T(0) && doubt.s < T(1))
+      doubts_.push_back(doubt);
   }
 
 private:
   struct Doubt {
     int hinge;
-    T s, time;
+    T s;     ///< fraction of the step
+    T force; ///< there, by the dense output, N
+    T bend;  ///< its d²/ds², N
+    int corrections = 0;
   };
 
   [[nodiscard]] static T magnitude(const AnySystem& system, int i) {
@@ -107,14 +121,40 @@ private:
       });
       if (!(found.value > highest)) continue;
       highest = found.value;
-      doubts_.push_back({i, vertex, T(step.t + vertex * step.h)});
+      doubts_.push_back({i, vertex, found.value, samples_.bend(i, k)});
     }
+  }
+
+  /// Whether the dense output is so far from the force that its maximum may stand elsewhere. Their
+  /// difference goes with s (1 − s) (1 − 5s + 5s²), a derivative of the quintic's own error: in a
+  /// step its slope is 10 times as large, and 100 times but for the neighbourhood of its zeros.
+  [[nodiscard]] bool may_be_off(const Doubt& doubt, const T& force) const {
+    const T slope = T(100) * (force - doubt.force);
+    return doubt.corrections < 2 && doubt.bend < T(0) &&
+           slope * slope > T(-2) * doubt.bend * worth_a_step_ * force;
+  }
+
+  /// d|reaction|/dt at a state and its derivative, by a difference along the tangent, N/s.
+  [[nodiscard]] T change(AnySystem& system, const Step<T>& step, const Doubt& doubt,
+                         const State<T>& x, State<T>& dxdt) {
+    const T way = step.h / T(1024); // errors of its square, times that of a swing's rate
+    const T t = step.t + doubt.s * step.h;
+    slope_ = dxdt;
+    const auto beside = [&](const T& dt) {
+      for (std::size_t c = 0; c < x.size(); ++c) beside_[c] = fused(dt, slope_[c], x[c]);
+      system(beside_, dxdt, t + dt);
+      return magnitude(system, doubt.hinge);
+    };
+    const T after = beside(way);
+    return (after - beside(-way)) / (T(2) * way);
   }
 
   std::vector<Lever<T>> levers_; ///< 0 … n
   ForceSamples<T> samples_;
   std::vector<T> before_;
   std::vector<Doubt> doubts_; ///< last in, first out
+  T worth_a_step_ = T(0);
+  State<T> beside_, slope_; ///< scratch
 };
 
 } // namespace wingspread

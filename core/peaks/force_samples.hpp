@@ -72,6 +72,13 @@ public:
     return k == 0 || k == last ? crest && !at_an_end_for_sure(f, k) : crest;
   }
 
+  /// d²/ds² by the samples about the k-th, N.
+  [[nodiscard]] T bend(int i, int k) const {
+    const std::array<T, 5>& f = samples_[i];
+    const int m = k == 0 ? 1 : k == last ? last - 1 : k;
+    return T(16) * (f[m - 1] - T(2) * f[m] + f[m + 1]);
+  }
+
 private:
   /// @param part of the rise over the whole step
   [[nodiscard]] auto may_rise(int i, const T& a, const T& b, const T& part,

@@ -129,7 +129,8 @@ private:
     case Stage::landing:
       return take_landing(verdict);
     case Stage::doubt:
-      if (!verdict.accepted()) run_.evaluate_at(T(asked_.h / run_.step.h)); // no better than that
+      if (!verdict.accepted() && !stepping_.reach(asked_.h, *asked_.x1, *asked_.dxdt1))
+        run_.evaluate_at(T(asked_.h / run_.step.h)); // no better than that
       return make_sure(peaks_.resolve_doubt());
     case Stage::repeat:
       return finish_step();

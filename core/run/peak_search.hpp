@@ -7,6 +7,7 @@
 #include "core/peaks/overtravel.hpp"
 #include "core/run/underway.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -39,7 +40,7 @@ public:
     base_.start(run_.at, run_.step.x);
     moments_.assign(run_.at.bodies + 1, {});
     overtravel_.assign(run_.at.bodies + 1, T(0));
-    if (run_.goal.peak_force) forces_.start(run_.system);
+    if (run_.goal.peak_force) forces_.start(run_.system, worth_a_step());
     samples_.renew();
   }
 
@@ -71,7 +72,7 @@ public:
     if (held_at_)
       confirm_held_moment();
     else if (!doubt_)
-      forces_.confirm(run_.system);
+      forces_.confirm(run_.system, run_.step, run_.x, run_.dxdt);
     else if (confirm_moment(*doubt_, moments_[hinge_], run_.system, run_.step, hinge_, run_.x,
                             run_.dxdt))
       return doubt_->s;
@@ -84,6 +85,12 @@ public:
   [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
 private:
+  /// What a further step to a force's maximum must gain. Extrapolation's steps alone are so long that
+  /// the dense output's maximum stands elsewhere.
+  [[nodiscard]] double worth_a_step() const {
+    return run_.how.method == "bulirsch_stoer" ? std::max(1e-12, run_.how.rtol) : 1;
+  }
+
   /// Forces first, then the moments of hinge after hinge.
   [[nodiscard]] std::optional<T> next_doubt() {
     std::optional<T> s;

@@ -25,7 +25,7 @@ template <class T, class AnySystem> class Stepping {
 public:
   explicit Stepping(Underway<T, AnySystem>& run)
       : run_(run), first_choice_(run.how.method, run.how.rtol, run.how.smoothing.has_value()),
-        choice_(first_choice_) {}
+        choice_(first_choice_), between_{run.step.x, run.step.dxdt} {}
 
   /// A run begins.
   void start() {
@@ -85,6 +85,29 @@ public:
       const Step<T>& step = run_.step;
       return stepper.attempt(run_.system, Start<T>{step.t, step.x, step.dxdt}, h, x1, dxdt1);
     });
+  }
+
+  /// The same in shorter steps, where one over h is refused: extrapolation chooses its order as it
+  /// goes along, and begins with a low one. The system's last evaluation is at the end.
+  /// @return whether they lead there; Adams' method cannot, whose memory belongs to the start
+  [[nodiscard]] bool reach(const T& h, State<T>& x1, State<T>& dxdt1) {
+    if (method() == Method::adams_bashforth_moulton) return false;
+    between_.x = run_.step.x, between_.dxdt = run_.step.dxdt;
+    T rest = h, part = T(0.5) * h;
+    for (int tries = 0; tries < 64; ++tries) {
+      const Verdict verdict = steppers_.with(method(), [&](auto& stepper) {
+        const T t = run_.step.t + (h - rest);
+        return stepper.attempt(run_.system, {t, between_.x, between_.dxdt}, part, x1, dxdt1);
+      });
+      if (verdict.accepted()) {
+        if (!(part < rest)) return true;
+        rest = rest - part;
+        std::swap(between_.x, x1), std::swap(between_.dxdt, dxdt1);
+      }
+      part = part * T(verdict.accepted() ? verdict.factor : std::min(verdict.factor, 0.7));
+      if (part > T(0.5) * rest) part = part < rest ? T(0.5) * rest : rest;
+    }
+    return false;
   }
 
   /// The step under way was tried, with this verdict of the method. @return whether it is accepted
@@ -243,6 +266,9 @@ private:
   MethodChoice choice_;
   SpectralRadius<T> radius_;
   Steppers<T> steppers_;
+  struct {
+    State<T> x, dxdt;
+  } between_;              ///< where shorter steps lead from
   Verdict verdict_{0, 1};  ///< on the step last tried
   T h_ = T(0);             ///< of the next step, s; negative: to be chosen
   bool last_ = false;      ///< the step planned ends at the end of its stretch
