@@ -10,7 +10,8 @@
 // Runs and what is common to all instruction sets hand each other Eigen's matrices. Aligned to 16 bytes these are malloc's
 // own, beyond that they are not: one level that has it otherwise than the rest frees what was never allocated.
 #ifdef __x86_64__
-static_assert(EIGEN_DEFAULT_ALIGN_BYTES >= 32, "the first CMakeLists.txt sets EIGEN_MAX_ALIGN_BYTES");
+static_assert(EIGEN_DEFAULT_ALIGN_BYTES >= 32,
+              "the first CMakeLists.txt sets EIGEN_MAX_ALIGN_BYTES");
 #endif
 
 namespace wingspread::detail {
