@@ -122,7 +122,8 @@ Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
     return {};
   }
   const Wing<double> structure = make_wing<double>(scene, outward_order(scene));
-  const PackShape shape{method == Method::dop853, goal_.peak_force, goal_.peak_moment};
+  const PackShape shape{method == Method::dop853, goal_.peak_force, goal_.peak_moment,
+                        goal_.overtravel};
   const std::unique_ptr<PackEngine> engine = make_engine(set_, structure, shape);
   const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
     while (const std::optional<long> name = next(scene)) {

@@ -27,6 +27,7 @@ struct Integration {
 struct Goal {
   bool peak_moment = true;
   bool peak_force = true;
+  bool overtravel = true;        ///< watch how far hinges turn beyond their stowed angles
   bool audit = true;             ///< watch the energy up to the first latch
   bool end_state = true;         ///< tell the final configuration and the energies
   bool to_t_end = false;         ///< integrate to t_end whatever happens

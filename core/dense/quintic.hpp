@@ -138,19 +138,23 @@ template <class T> [[nodiscard]] bool changes_sign_once(const Quintic<T>& p) {
 }
 
 /// The zero of p, which has one and rises through it, in [0, 1] to round-off: Newton's method kept
-/// in a bracket.
+/// in a bracket. It squares its error: after two moves Δ₁, Δ₂ the next would be Δ₂ (Δ₂/Δ₁)², and is not
+/// made where that is below round-off.
 template <class T> [[nodiscard]] T only_zero(const Quintic<T>& p) {
   using std::abs;
   std::array<T, 5> slope;
   for (int k = 0; k < 5; ++k) slope[k] = T(5) * (p[k + 1] - p[k]);
-  T lower(0), upper(1), s = p[0] / (p[0] - p[5]);
+  T lower(0), upper(1), s = p[0] / (p[0] - p[5]), before(0);
   for (int pass = 0; pass < std::numeric_limits<T>::digits; ++pass) {
     const T f = value(p, s);
     if (f == T(0)) return s;
     (f < T(0) ? lower : upper) = s;
     T next = s - f / bernstein(slope, s);
-    if (!(next > lower && next < upper)) next = T(0.5) * (lower + upper);
-    if (abs(next - s) <= std::numeric_limits<T>::epsilon() * s) return next;
+    const bool bisects = !(next > lower && next < upper);
+    if (bisects) next = T(0.5) * (lower + upper);
+    const T move = abs(next - s), finest = std::numeric_limits<T>::epsilon() * s;
+    if (move <= finest || move * move * move <= finest * (before * before)) return next;
+    before = bisects ? T(0) : move;
     s = next;
   }
   return upper;
@@ -161,6 +165,9 @@ template <class T> [[nodiscard]] T only_zero(const Quintic<T>& p) {
 /// even one that comes back inside the step. Cost: a comparison for most steps, a few
 /// evaluations for a crossing.
 template <class T> [[nodiscard]] std::optional<T> first_nonnegative(const Quintic<T>& p) {
+  if (all_negative(p)) return std::nullopt;
+  if (p[0] >= T(0)) return T(0);
+  if (changes_sign_once(p)) return only_zero(p);
   struct Piece {
     Quintic<T> p;
     T lower, width;

@@ -116,14 +116,15 @@ template <class T> [[nodiscard]] T linear_part(const HingeTorque& torque, double
   return torque.table ? T(torque.offset) : T(torque.scale) * T(law) + T(torque.offset);
 }
 
-template <class T> [[nodiscard]] HingeTerms<T> hinge_terms(const Hinge& hinge) {
+/// Written where they stand, as all numbers of a wing are: a copy of what has just been written in
+/// parts waits for these.
+template <class T> void set_hinge(HingeTerms<T>& terms, const Hinge& hinge) {
   const T travel = T(hinge.latched) - T(hinge.stowed);
   const T sense = select(travel > T(0), T(1), T(-1));
   const T at_stowed = linear_part<T>(hinge.spring, hinge.spring.torque_stowed) -
                       linear_part<T>(hinge.harness, hinge.harness.torque_stowed);
   const T at_latched = linear_part<T>(hinge.spring, hinge.spring.torque_latched) -
                        linear_part<T>(hinge.harness, hinge.harness.torque_latched);
-  HingeTerms<T> terms{};
   terms.stowed = T(hinge.stowed);
   terms.latched = T(hinge.latched);
   terms.sense = sense;
@@ -137,18 +138,36 @@ template <class T> [[nodiscard]] HingeTerms<T> hinge_terms(const Hinge& hinge) {
       exact ? scale * T(hinge.friction.static_level.value_or(hinge.friction.coulomb)) : T(0);
   terms.viscous = scale * T(hinge.friction.viscous);
   terms.slip_rate = T(hinge.friction.regularization_rate);
+  terms.more_regularized = terms.more_exact = T(0);
   terms.has_latch = hinge.latch.has_value();
   terms.stiffness = T(hinge.latch ? hinge.latch->stiffness : 0);
   terms.damping = T(hinge.latch ? hinge.latch->damping : 0);
-  return terms;
 }
 
 template <class T>
-[[nodiscard]] BodyTerms<T> body_terms(double mass, double inertia, const Vec2<T>& center,
-                                      const Vec2<T>& arm) {
+void set_body(BodyTerms<T>& terms, double mass, double inertia, const Vec2<T>& center,
+              const Vec2<T>& arm) {
   const T about_hinge = fused(T(mass), dot(center, center), T(inertia));
-  return {T(mass), about_hinge, scaled(T(mass), center), arm,
-          center,  T(inertia),  T(-1) / about_hinge};
+  terms.mass = T(mass), terms.inertia = about_hinge;
+  terms.mass_moment.x = T(mass) * center.x, terms.mass_moment.y = T(mass) * center.y;
+  terms.arm.x = arm.x, terms.arm.y = arm.y;
+  terms.center.x = center.x, terms.center.y = center.y;
+  terms.central_inertia = T(inertia), terms.minus_inverse = T(-1) / about_hinge;
+}
+
+template <class T> void set_base(BaseTerms<T>& terms, const Scene& scene) {
+  const Base& base = scene.base;
+  const bool moves = base.motion != BaseMotion::fixed;
+  const auto set = [](Vec2<T>& to, const Eigen::Vector2d& from) {
+    to.x = T(from.x()), to.y = T(from.y());
+  };
+  terms.motion = motion_of_base(scene);
+  set(terms.acceleration, moves ? base.acceleration : Eigen::Vector2d(0, 0));
+  set(terms.gravity, scene.environment.gravity);
+  terms.angular_acceleration = T(moves ? base.angular_acceleration : 0);
+  terms.angle = T(moves ? base.angle : 0), terms.rate = T(moves ? base.rate : 0);
+  set(terms.position, base.position), set(terms.velocity, base.velocity);
+  terms.table = table_of_base(scene), terms.table_scale = T(base.table_scale);
 }
 
 } // namespace detail
@@ -226,22 +245,8 @@ template <class T> [[nodiscard]] bool has_room(const Wing<T>& wing, const Scene&
 template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
   using detail::vec2;
   const Base& base = scene.base;
-  wing.base = {detail::motion_of_base(scene),
-               {T(0), T(0)},
-               vec2<T>(scene.environment.gravity),
-               T(0),
-               T(0),
-               T(0),
-               vec2<T>(base.position),
-               vec2<T>(base.velocity),
-               detail::table_of_base(scene),
-               T(base.table_scale)};
-  if (base.motion != BaseMotion::fixed) {
-    wing.base.acceleration = vec2<T>(base.acceleration);
-    wing.base.angular_acceleration = T(base.angular_acceleration);
-    wing.base.angle = T(base.angle), wing.base.rate = T(base.rate);
-  }
-  wing.bodies[0] = detail::body_terms<T>(base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
+  detail::set_base(wing.base, scene);
+  detail::set_body(wing.bodies[0], base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
   wing.has_regularized_friction = wing.can_stick = false;
   for (int i = 1; i <= wing.size(); ++i) {
     const Hinge& hinge = scene.hinges[wing.hinge_of[i]];
@@ -250,8 +255,8 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
     // the parent's centre of mass lies at `center` from its hinge; the base's own at its origin
     const Vec2<T> arm = vec2<T>(hinge.parent_point) + wing.bodies[p].center;
     const Vec2<T> center = scaled(T(-1), vec2<T>(hinge.child_point));
-    wing.bodies[i] = detail::body_terms<T>(body.mass, body.inertia, center, arm);
-    wing.hinges[i] = detail::hinge_terms<T>(hinge);
+    detail::set_body(wing.bodies[i], body.mass, body.inertia, center, arm);
+    detail::set_hinge(wing.hinges[i], hinge);
     wing.initial_rates[i] = T(hinge.initial_rate);
     if (!wing.real.empty()) detail::set_real(wing.hinges[i], wing.real[i], hinge);
     if (!wing.plates.empty())

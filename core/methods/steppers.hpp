@@ -78,6 +78,10 @@ private:
   Seulex<T> seulex_;
 };
 
+[[nodiscard]] constexpr bool is_implicit(Method method) {
+  return method == Method::rosenbrock_w || method == Method::seulex;
+}
+
 /// Steps of these grow so long that the quintic through a step's ends may miss what happens inside.
 [[nodiscard]] constexpr bool takes_long_steps(Method method) {
   return method == Method::fehlberg78 || method == Method::dop853 ||

@@ -52,6 +52,7 @@ struct PackShape {
   bool eighth_order = true; ///< dop853, else dopri5
   bool forces = false;      ///< peak forces are watched
   bool moments = false;     ///< peak moments are
+  bool overtravel = true;   ///< and how far hinges turn beyond their stowed angles
 };
 
 /// An engine for wings of this structure; none for `scalar`. @pre the processor has the set

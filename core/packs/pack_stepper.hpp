@@ -37,7 +37,7 @@ public:
     for (std::vector<P>* v : {&waits_, &overtravel_, &slides_}) v->assign(at_.bodies + 1, none);
     for (std::vector<P>& ways : ways_) ways.assign(wing_.real.size(), none);
     rtol_ = atol_ = tolerance_of_dense_ = P(1.0);
-    step_.t = step_.h = error_size_ = busy_ = t_end_ = none;
+    step_.t = step_.h = error_size_ = judged_ = factor_ = busy_ = t_end_ = none;
     begun_ = look_ = last_step_ = evaluations_before_ = none;
     pace_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
@@ -94,7 +94,8 @@ public:
       free_.hand_back(lane, place, shape_.forces);
       evaluations += static_cast<long>(free_.projections().v[lane]);
     }
-    Carried carried{tries, evaluations, error_size_.v[lane], {}};
+    Carried carried{
+        tries, evaluations, error_size_.v[lane], {judged_.v[lane], factor_.v[lane]}, {}};
     get_lane(lane, pace_, carried.pace);
     return carried;
   }
@@ -179,6 +180,8 @@ private:
       factor = select(accepted, select(too_rough, most, smaller(factor, most)), factor);
       accepted = accepted && !too_rough;
     }
+    const P refused = select(error_size_ <= P(1.0), P(2.0), error_size_);
+    judged_ = select(accepted, error_size_, refused), factor_ = factor;
     return {accepted, step_.h * factor};
   }
 
@@ -206,7 +209,7 @@ private:
       step_.x[k] = select(accepted, step_.x1[k], step_.x[k]);
       step_.dxdt[k] = select(accepted, step_.dxdt1[k], step_.dxdt[k]);
     }
-    for (int i = 1; i <= at_.bodies; ++i) {
+    for (int i = 1; shape_.overtravel && i <= at_.bodies; ++i) {
       const P beyond = beyond_stowed(wing_.hinges[i], step_.x[at_.angle(i)]);
       overtravel_[i] = select(accepted, larger(overtravel_[i], beyond), overtravel_[i]);
     }
@@ -255,7 +258,7 @@ private:
     if (shape_.forces && !wing_.plates.empty()) return !Mask{};
     for (int i = 1; i <= at_.bodies; ++i) {
       look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
-      look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
+      if (shape_.overtravel) look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
       if (wing_.hinges[i].has_latch) look = look || (waits_[i] > P(0.0) && engages_at_end(i));
       if (wing_.can_stick) look = look || (slides(i) && rests_at_end(i));
     }
@@ -317,7 +320,8 @@ private:
   Formula formula_;
   Step<P> step_;
   State<P> error_;
-  P rtol_, atol_, tolerance_of_dense_, error_size_, t_end_;
+  P rtol_, atol_, tolerance_of_dense_, t_end_;
+  P error_size_, judged_, factor_; ///< of the step last tried: as in Carried
   std::vector<P> waits_, overtravel_;
   std::vector<P> slides_; ///< sense in which a hinge slides against exact friction; 0: it does not
   std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1 to be passed upwards, −1 downwards

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,11 +20,10 @@ template <class T, class AnySystem> class Diary {
 public:
   Diary(Underway<T, AnySystem>& run, const Observer& observer) : run_(run), observer_(observer) {}
 
-  /// A run begins.
+  /// A run begins. What is told of the last one stays until `close` tells all of this one.
   void start() {
-    outcome_ = {};
-    latches_.clear();
-    phases_.clear();
+    keep_storage(outcome_.latches, latches_);
+    keep_storage(outcome_.phases, phases_);
     largest_drift_ = 0;
     samples_ = 0;
     initial_energy_ = run_.goal.end_state || run_.goal.audit ? energy() : 0;
@@ -35,11 +35,14 @@ public:
 
   /// A method goes on from where the run stands. @param steps accepted so far
   void begin_phase(Method method, long steps) {
-    const std::string name = name_of(method);
+    const std::string_view name = method_names[static_cast<std::size_t>(method)];
     if (!phases_.empty() && phases_.back().method == name) return;
     end_phase(steps);
-    phases_.push_back({name, static_cast<double>(run_.step.t), 0, -steps});
+    phases_.push_back({std::string(name), static_cast<double>(run_.step.t), 0, -steps});
   }
+
+  /// Whether there is somebody to be shown the run as it goes.
+  [[nodiscard]] bool is_watched() const { return static_cast<bool>(observer_); }
 
   void watch_energy() {
     if (run_.goal.audit && !any_latch())
@@ -83,8 +86,8 @@ public:
     out.latches = std::move(latches_);
     if (run_.goal.peak_moment) out.peak_moment = in_scene_order(wing, peaks.moments());
     if (run_.goal.peak_force) out.peak_force = in_scene_order(wing, peaks.forces());
-    out.overtravel.resize(wing.size());
-    for (int i = 1; i <= wing.size(); ++i)
+    if (run_.goal.overtravel) out.overtravel.resize(wing.size());
+    for (int i = 1; run_.goal.overtravel && i <= wing.size(); ++i)
       out.overtravel[wing.hinge_of[i]] = static_cast<double>(peaks.overtravel()[i]);
     if (run_.at.base > 0)
       out.base_peaks = {static_cast<double>(peaks.base().angle),
@@ -98,6 +101,12 @@ public:
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
 
 private:
+  /// What nobody has taken of the last outcome holds what this one brings.
+  template <class Items> static void keep_storage(Items& last, Items& next) {
+    if (next.capacity() == 0) next = std::move(last);
+    next.clear();
+  }
+
   [[nodiscard]] bool on_grid() const { return run_.goal.sample_interval > 0; }
   [[nodiscard]] double time_of_sample() const {
     return static_cast<double>(samples_) * run_.goal.sample_interval;

@@ -52,6 +52,13 @@ public:
     return !wants_peaks() || no_peak_can_rise();
   }
 
+  /// Whether a latch has engaged that ends the run, whatever the right-hand side is from there on, and no
+  /// peak at t⁺ is asked for.
+  [[nodiscard]] bool is_certain() const {
+    if (wants_peaks() || !diary_.any_latch()) return false;
+    return run_.goal.first_latch_only || (!latches_left() && !run_.goal.to_t_end);
+  }
+
   /// Of a run that has come to its end.
   [[nodiscard]] Status status() {
     if (!latches_left()) return diary_.any_latch() ? Status::deployed : Status::timed_out;

@@ -63,6 +63,7 @@ struct Carried {
   long tries;       ///< 0: the step made last is the one that the run asked for
   long evaluations; ///< of these, and of that step
   double error;     ///< of that step, as in Verdict
+  Verdict judged;   ///< on it, by all that a step must satisfy
   Pace<double> pace;
 };
 

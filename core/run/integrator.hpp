@@ -52,7 +52,10 @@ public:
   [[nodiscard]] Outcome&& outcome() { return diary_.outcome(); }
 
   /// Makes the step that is asked for, and takes it.
-  void go() { take(stepping_.attempt(asked_.h, *asked_.x1, *asked_.dxdt1)); }
+  void go() {
+    const Verdict verdict = stepping_.attempt(asked_.h, *asked_.x1, *asked_.dxdt1);
+    take(asks_for_whole_step() ? stepping_.judged(verdict) : verdict);
+  }
 
   // ---- the same where an engine makes steps, several runs at once
 
@@ -97,7 +100,7 @@ public:
       ending_.pass(stepping_.resume(carried));
       asked_.h = run_.step.h;
     }
-    take(stepping_.verdict_of(carried.error, asked_.h));
+    take(asks_for_whole_step() ? carried.judged : Verdict{carried.error, 1});
   }
 
 private:
@@ -122,6 +125,7 @@ private:
   }
 
   /// The step asked for has been made, and the system's last evaluation was at its end.
+  /// @param verdict on a whole step by all that it must satisfy, else the method's own
   void take(const Verdict& verdict) {
     switch (asked_.stage) {
     case Stage::step:
@@ -203,7 +207,7 @@ private:
 
   void take_landing(const Verdict& verdict) {
     if (!stepping_.accepts(verdict)) return try_step(stepping_.cut());
-    if (landing_.misses_event()) return ask_to_end(Stage::landing);
+    if (landing_.misses_event(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
     accept();
   }
 
@@ -235,7 +239,7 @@ private:
     diary_.notify();
     const bool at_knot = run_.system.enter_piece(step.t);
     if (landing_.happens(diary_.latches())) {
-      restart(landing_.let_go());
+      if (!ends_with_event()) restart(landing_.let_go());
     } else {
       if (stepping_.changes_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
       if (at_knot) pass_knot();
@@ -267,6 +271,17 @@ private:
   void end(Status status, const std::string& reason, bool peaks_final = false) {
     diary_.close(status, reason, stepping_.work(), peaks_, peaks_final);
     ended_ = true;
+  }
+
+  /// Whether nobody asks for what follows the event at which the run stands, the new right-hand side at
+  /// t⁺ included.
+  [[nodiscard]] bool ends_with_event() const {
+    return ending_.is_certain() && !diary_.is_watched();
+  }
+
+  /// Whether the step asked for ends the step under way: its verdict is more than the method's own.
+  [[nodiscard]] bool asks_for_whole_step() const {
+    return asked_.stage == Stage::step || asked_.stage == Stage::landing;
   }
 
   /// Whether the step asked for is one that an engine can judge.

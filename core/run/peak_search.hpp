@@ -27,7 +27,7 @@ public:
   /// Forces where the step starts, 1 … n, N; only where they are asked for.
   [[nodiscard]] std::vector<T>& force_before() { return forces_.before(); }
 
-  /// Furthest beyond the stowed angle, 1 … n, rad.
+  /// Furthest beyond the stowed angle, 1 … n, rad; zeros where nobody asks.
   [[nodiscard]] std::vector<T>& overtravel() { return overtravel_; }
   [[nodiscard]] const std::vector<T>& overtravel() const { return overtravel_; }
 
@@ -48,7 +48,7 @@ public:
   void include_start() {
     using std::abs;
     const Step<T>& step = run_.step;
-    for (int i = 1; i <= run_.at.bodies; ++i)
+    for (int i = 1; run_.goal.peak_moment && i <= run_.at.bodies; ++i)
       moments_[i].raise(T(abs(run_.system.moment(step.x, i))), step.t);
     if (run_.goal.peak_force) forces_.sample(run_.system, step.t);
   }
@@ -61,7 +61,7 @@ public:
     hinge_ = 0;
     doubt_.reset(), held_at_.reset();
     base_.over_step(run_.at, run_.step);
-    for (int i = 1; i <= run_.at.bodies; ++i)
+    for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
       raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
     if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
     return next_doubt();

@@ -57,6 +57,12 @@ public:
     return {run_.how.rtol / finer, run_.how.atol / finer};
   }
 
+  /// To which events are landed on; 0 where an implicit method steps over what is fast, so that
+  /// accelerations at a step's end tell little of what comes next.
+  [[nodiscard]] double rtol_of_landing() const {
+    return is_implicit(method()) ? 0 : tolerance().rtol;
+  }
+
   // ---- a step: planned, made, judged
 
   /// Chooses the step to try next. @return why there is none, if so
@@ -110,10 +116,27 @@ public:
     return false;
   }
 
-  /// The step under way was tried, with this verdict of the method. @return whether it is accepted
-  [[nodiscard]] bool accepts(const Verdict& given) {
+  /// Adds what else a step must satisfy: it leaps over no layer of friction, and where the method
+  /// takes long ones, its dense output shows what happens inside.
+  [[nodiscard]] Verdict judged(Verdict verdict) const {
+    if (verdict.accepted() && run_.system.wing().has_regularized_friction) limit_by_layers(verdict);
+    if (!verdict.accepted() || !takes_long_steps(method())) return verdict;
+    // whether a hinge that grazes its latch reaches it is the interpolant's word
+    const double finer = method() == Method::bulirsch_stoer ? 10 : 1;
+    const Step<T>& step = run_.step;
+    const T rough = roughness(run_.at, step, T(run_.how.atol));
+    limit_roughness(finer * static_cast<double>(rough), verdict);
+    if (!verdict.accepted() || method() != Method::fehlberg78 || !run_.at.smoothed) return verdict;
+    const double quadrature = quadrature_error<T>(run_.system, step, tolerance());
+    if (quadrature > 1)
+      verdict = {quadrature, std::max(0.2, 0.8 * power_roughly(quadrature, -1.0 / 6))};
+    return verdict;
+  }
+
+  /// The step under way was tried, and judged so. @return whether it is accepted
+  [[nodiscard]] bool accepts(const Verdict& judged) {
     ++tried_;
-    verdict_ = judged(given);
+    verdict_ = judged;
     return verdict_.accepted();
   }
 
@@ -183,13 +206,6 @@ public:
     choice_.resume(static_cast<long>(carried.pace.steps), carried.pace.held_back);
     return steps;
   }
-  /// The method's verdict on a step of h with this scaled error.
-  [[nodiscard]] Verdict verdict_of(double error, double h) {
-    return steppers_.with(method(), [&](auto& stepper) -> Verdict {
-      if constexpr (requires { stepper.verdict(error, h); }) return stepper.verdict(error, h);
-      return {error, 1};
-    });
-  }
 
 private:
   void begin_with_method() {
@@ -217,23 +233,6 @@ private:
       return smaller(
           h_, time_of_base(run_.system.wing().base, run_.system.work().driven, run_.step.t, rest));
     return h_;
-  }
-
-  /// Adds what else a step must satisfy: it leaps over no layer of friction, and where the method
-  /// takes long ones, its dense output shows what happens inside.
-  [[nodiscard]] Verdict judged(Verdict verdict) const {
-    if (verdict.accepted() && run_.system.wing().has_regularized_friction) limit_by_layers(verdict);
-    if (!verdict.accepted() || !takes_long_steps(method())) return verdict;
-    // whether a hinge that grazes its latch reaches it is the interpolant's word
-    const double finer = method() == Method::bulirsch_stoer ? 10 : 1;
-    const Step<T>& step = run_.step;
-    const T rough = roughness(run_.at, step, T(run_.how.atol));
-    limit_roughness(finer * static_cast<double>(rough), verdict);
-    if (!verdict.accepted() || method() != Method::fehlberg78 || !run_.at.smoothed) return verdict;
-    const double quadrature = quadrature_error<T>(run_.system, step, tolerance());
-    if (quadrature > 1)
-      verdict = {quadrature, std::max(0.2, 0.8 * power_roughly(quadrature, -1.0 / 6))};
-    return verdict;
   }
 
   void limit_by_layers(Verdict& verdict) const {

@@ -148,6 +148,7 @@ Goal goal_of(const Outputs& outputs) {
   Goal goal;
   goal.peak_moment = outputs.contains(OutputFamily::peak_moment);
   goal.peak_force = outputs.contains(OutputFamily::peak_force);
+  goal.overtravel = outputs.contains(OutputFamily::overtravel);
   goal.audit = goal.end_state = false;
   goal.to_t_end = outputs.contains(OutputFamily::base_motion);
   return goal;

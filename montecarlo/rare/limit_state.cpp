@@ -29,6 +29,7 @@ Goal goal_for(const std::optional<OutputColumn>& column) {
   goal.audit = false;
   goal.peak_moment = column && column->quantity == OutputColumn::Quantity::peak_moment;
   goal.peak_force = column && column->quantity == OutputColumn::Quantity::peak_force;
+  goal.overtravel = column && column->quantity == OutputColumn::Quantity::overtravel;
   return goal;
 }
 

@@ -35,12 +35,16 @@ struct What {
 inline const What every_output{"all outputs", {.audit = false, .end_state = false}};
 inline const What moments_too{"latches, peak moments",
                               {.peak_force = false, .audit = false, .end_state = false}};
-inline const What latches_only{
-    "to the last latch",
-    {.peak_moment = false, .peak_force = false, .audit = false, .end_state = false}};
+inline const What latches_only{"to the last latch",
+                               {.peak_moment = false,
+                                .peak_force = false,
+                                .overtravel = false,
+                                .audit = false,
+                                .end_state = false}};
 inline const What first_latch{"A: to the first latch",
                               {.peak_moment = false,
                                .peak_force = false,
+                               .overtravel = false,
                                .audit = false,
                                .end_state = false,
                                .first_latch_only = true}};
@@ -62,7 +66,8 @@ struct Made {
 /// Sets the scene to that of run k. @pre it is the drawing, or as this left it
 using SetScene = std::function<void(Scene&, long)>;
 
-/// Makes the runs 0 … count − 1, several times; the least time counts.
+/// Makes the runs 0 … count − 1, several times; the least time counts. Outcomes are kept of the last time
+/// alone: a campaign, and the peer, drop each once it is read.
 [[nodiscard]] Made make(const Scene& drawing, const SetScene& set_scene, InstructionSet set,
                         const Integration& how, const Goal& goal, long count, int times = 3);
 [[nodiscard]] Made make(const Units& units, InstructionSet set, const Integration& how,

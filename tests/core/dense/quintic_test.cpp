@@ -121,3 +121,22 @@ TEST_CASE("a root at the start does not count, be it simple or double") {
     CHECK(*s == Approx(0.3).epsilon(1e-13));
   }
 }
+
+TEST_CASE("the only zero of a quintic is found to round-off in a few passes, steep, flat or near "
+          "an end") {
+  // (s − r) q(s) with q > 0: one zero, at r
+  oracle::Draws draws(7);
+  for (int trial = 0; trial < 500; ++trial) {
+    std::array<double, 5> q;
+    for (double& c : q) c = draws.log_uniform(1e-3, 1e3);
+    const double r = trial % 3 == 0 ? draws.log_uniform(1e-9, 0.5) : draws.uniform(0.01, 0.99);
+    Quintic<double> p;
+    for (int k = 0; k < 6; ++k)
+      p[k] = (k > 0 ? k / 5.0 * (1 - r) * q[k - 1] : 0) - (k < 5 ? (5 - k) / 5.0 * r * q[k] : 0);
+    if (!changes_sign_once(p)) continue;
+    CAPTURE(trial, r);
+    // what rounding of coefficients as large as p's makes of so flat a crossing
+    const double slope = bernstein(q, r), rounding = 1e-15 * bound(p) / slope;
+    CHECK(std::abs(only_zero(p) - r) <= 4e-16 * r + 8 * rounding);
+  }
+}

@@ -16,7 +16,9 @@ Hinge hinge(double stowed, double latched) {
   return h;
 }
 HingeTerms<double> terms(double stowed, double latched) {
-  return detail::hinge_terms<double>(hinge(stowed, latched));
+  HingeTerms<double> terms;
+  detail::set_hinge(terms, hinge(stowed, latched));
+  return terms;
 }
 } // namespace
 

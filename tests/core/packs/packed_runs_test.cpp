@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,12 @@ std::vector<Scene> units(const Scene& drawing, int count) {
 
 const Goal all{.audit = false};
 const Goal latches{.peak_moment = false, .peak_force = false, .audit = false};
+const Goal first_latch{.peak_moment = false,
+                       .peak_force = false,
+                       .overtravel = false,
+                       .audit = false,
+                       .end_state = false,
+                       .first_latch_only = true};
 const Goal moments_to_the_end{.peak_force = false, .audit = false, .to_t_end = true};
 
 } // namespace
@@ -39,7 +46,7 @@ const Goal moments_to_the_end{.peak_force = false, .audit = false, .to_t_end = t
 TEST_CASE("a run in a lane has the bits of the run alone: the seed wing") {
   for (const char* method : {"auto", "dopri5", "dop853"})
     for (const double rtol : {1e-3, 1e-6, 1e-9})
-      for (const Goal& goal : {all, latches, moments_to_the_end}) {
+      for (const Goal& goal : {all, latches, first_latch, moments_to_the_end}) {
         CAPTURE(method, rtol, goal.peak_force, goal.to_t_end);
         Integration how;
         how.method = method, how.rtol = rtol, how.atol = 1e-2 * rtol;
@@ -93,6 +100,7 @@ TEST_CASE(
   how.rtol = 1e-6, how.atol = 1e-8;
   require_equal_bits(scenes, how, all);
   require_equal_bits(scenes, how, latches);
+  require_equal_bits(scenes, how, first_latch);
   how.max_steps = 100;
   require_equal_bits(scenes, how, all);
 }
@@ -114,4 +122,42 @@ TEST_CASE("lanes stay full: each takes the next run at once") {
         [](long, Outcome&&) {});
     REQUIRE(static_cast<double>(lanes.busy) > 0.97 * static_cast<double>(lanes.tries));
   }
+}
+
+TEST_CASE("overtravel that nobody asks for is not looked for, and nothing else changes") {
+  Scene swinging = oracle::seed_scene();
+  swinging.hinges[1].initial_rate = -0.5; // beyond where it was stowed
+  for (const Scene& scene : units(swinging, 5))
+    for (const Goal& goal : {all, latches, moments_to_the_end}) {
+      Goal less = goal;
+      less.overtravel = false;
+      Integration how;
+      how.t_end = 12;
+      Outcome watched = Deployment().run(scene, how, goal);
+      const Outcome unwatched = Deployment().run(scene, how, less);
+      CHECK(*std::ranges::max_element(watched.overtravel) > 0.01);
+      CHECK(unwatched.overtravel.empty());
+      watched.overtravel.clear();
+      CHECK((oracle::bits_of(watched) == oracle::bits_of(unwatched)));
+    }
+  const auto looks = [](const Goal& goal) {
+    const std::vector<Scene> scenes = units(oracle::seed_scene(), 64);
+    long next = 0;
+    DeploymentPack pack(instruction_sets().back(), {}, goal);
+    return pack
+        .run(
+            scenes.front(),
+            [&](Scene& scene) -> std::optional<long> {
+              if (next == std::ssize(scenes)) return std::nullopt;
+              scene = scenes[next];
+              return next++;
+            },
+            [](long, Outcome&&) {})
+        .looks;
+  };
+  if (instruction_sets().size() == 1) return; // no lanes
+  CHECK(looks(first_latch) <= 2 * 64 + 8);    // the step with the latch, and that to it
+  Goal watched = first_latch;
+  watched.overtravel = true;
+  CHECK(looks(watched) > looks(first_latch) + 16);
 }

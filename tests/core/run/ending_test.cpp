@@ -228,3 +228,38 @@ TEST_CASE("a tolerance below round-off is met as far as it goes, or refused; it 
   }
   CHECK(judged >= 8);
 }
+
+TEST_CASE("a run that its latch ends asks nothing of what follows, unless it is watched or has "
+          "peaks to tell") {
+  const Goal none{.peak_moment = false,
+                  .peak_force = false,
+                  .overtravel = false,
+                  .audit = false,
+                  .end_state = false};
+  for (const bool first_only : {true, false}) {
+    Goal goal = none;
+    goal.first_latch_only = first_only;
+    CAPTURE(first_only);
+    const Outcome out = Deployment().run(seed_scene(), within(1e-8, 60), goal);
+    long shown = 0;
+    const auto see = [&](const Sample& sample) { shown += sample.t == out.t_end; };
+    const Outcome watched = Deployment().run(seed_scene(), within(1e-8, 60), goal, see);
+    CHECK(shown == 2); // both sides of the engagement
+    CHECK(watched.work.rhs_evaluations == out.work.rhs_evaluations + 1);
+    CHECK(out.status == (first_only ? Status::timed_out : Status::deployed));
+    CHECK(watched.status == out.status);
+    REQUIRE(out.latches.size() == (first_only ? 1 : 3));
+    for (std::size_t k = 0; k < out.latches.size(); ++k) {
+      CHECK(out.latches[k].time == watched.latches[k].time);
+      CHECK(out.latches[k].rates == watched.latches[k].rates);
+    }
+    CHECK(out.t_end == out.latches.back().time);
+    // a latch's shock is at t⁺
+    goal.peak_moment = true;
+    const Outcome peaks = Deployment().run(seed_scene(), within(1e-8, 60), goal);
+    const int last = out.latches.front().hinge;
+    if (first_only)
+      CHECK(peaks.peak_moment[last].value ==
+            Approx(100 * std::abs(out.latches[0].rates[last])).epsilon(0.02)); // and the spring
+  }
+}

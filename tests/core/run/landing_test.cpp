@@ -4,6 +4,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 using namespace wingspread;
 using namespace wingspread::oracle;
 
@@ -29,9 +33,9 @@ struct Arriving {
     return {0.00571 - 1.14 * h + 0.5 * a * h * h, -1.14 + a * h};
   }
 
-  /// Makes the step cut to its event, a little too long. @return how much, s
-  double overshoot() {
-    const double late = 0.5e-7 * run.step.h;
+  /// Makes the step cut to its event, too long by this share. @return how much, s
+  double overshoot(double share = 0.5e-7) {
+    const double late = share * run.step.h;
     run.step.h += late;
     run.step.x1 = state_after(run.step.h);
     system(run.step.x1, run.step.dxdt1, run.step.t + run.step.h);
@@ -61,7 +65,7 @@ TEST_CASE("a step that ends a little late is moved back to its event with all th
   REQUIRE(late > 1e-10);
   const double beyond = at.run.step.x1[0];
   CHECK(beyond < -1e-11);
-  CHECK_FALSE(at.landing.misses_event()); // it is not made again
+  CHECK_FALSE(at.landing.misses_event(1e-8)); // it is not made again
   CHECK(at.landing.at_event());
   CHECK(at.run.step.h == Approx(exact).margin(1e-15));
   CHECK(std::abs(at.run.step.x1[0]) < 1e-16);
@@ -77,7 +81,7 @@ TEST_CASE("where nobody asks for peaks, a step is moved to its event without an 
   REQUIRE(at.landing.finds_event());
   at.overshoot();
   const long before = at.work.evaluations;
-  CHECK_FALSE(at.landing.misses_event());
+  CHECK_FALSE(at.landing.misses_event(1e-8));
   CHECK(at.work.evaluations == before);
   CHECK(std::abs(at.run.step.x1[0]) < 1e-16);
 }
@@ -88,6 +92,50 @@ TEST_CASE("a step that ends much too late is made again") {
   const double exact = at.run.step.h;
   at.run.step.h *= 1.001;
   at.run.step.x1 = at.state_after(at.run.step.h);
-  CHECK(at.landing.misses_event());
+  CHECK(at.landing.misses_event(1e-8));
   CHECK(at.run.step.h == Approx(exact).epsilon(1e-6));
+}
+
+TEST_CASE("how far a step may be moved to its event depends on the tolerance, if accelerations are "
+          "known") {
+  // the square of the way is a hundredth of rtol: up to 1e-4 steps at 1e-6
+  for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10, 1e-13, 0.0}) {
+    const double most = std::max(0.1 * std::sqrt(rtol), 1e-7);
+    for (const double share : {0.9 * most, 1.1 * most}) {
+      CAPTURE(rtol, share);
+      Arriving at(latches_only);
+      REQUIRE(at.landing.finds_event());
+      at.overshoot(share);
+      CHECK(at.landing.misses_event(rtol) == (share > most));
+    }
+  }
+}
+
+TEST_CASE(
+    "a step is moved along a bent way: accelerations change on it, and the state is the motion's") {
+  // where springs turn a panel, φ̈ = −ω² (φ − c) with ω = 8: exact states on both sides of the latch
+  constexpr double omega = 8, c = 0.3, h = 0.1;
+  const auto state = [&](double t) { // at the latched angle, 0, for t = 0, at −2 rad/s
+    const double p = std::atan2(0.25, -0.3), r = std::hypot(0.25, 0.3);
+    return std::array{c + r * std::cos(omega * t + p), -r * omega * std::sin(omega * t + p),
+                      -omega * omega * r * std::cos(omega * t + p)};
+  };
+  REQUIRE(std::abs(state(0)[0]) < 1e-15);
+  REQUIRE(state(0)[1] == Approx(-2));
+  for (const double share : {-1e-4, 1e-4, 1e-6}) {
+    CAPTURE(share);
+    Arriving at(latches_only);
+    REQUIRE(at.landing.finds_event());
+    Step<double>& step = at.run.step;
+    const auto first = state(-h), last = state(share * h);
+    step.h = h * (1 + share);
+    step.x = {first[0], first[1]}, step.dxdt = {first[1], first[2]};
+    step.x1 = {last[0], last[1]}, step.dxdt1 = {last[1], last[2]};
+    CHECK_FALSE(at.landing.misses_event(1e-4));
+    // to first order alone: ½ ω² way² = 1.6e-9 off in the angle
+    CHECK(std::abs(step.x1[0]) < 1e-12);
+    CHECK(step.x1[1] == Approx(state(0)[1]).epsilon(1e-10)); // 3e-9
+    CHECK(step.dxdt1[0] == step.x1[1]);
+    CHECK(step.dxdt1[1] == Approx(state(0)[2]).epsilon(1e-6));
+  }
 }
