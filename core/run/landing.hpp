@@ -39,12 +39,13 @@ public:
     const auto at = events_.indicator(*due_, step);
     const T late = at.value / at.slope, size = larger(late, T(-late));
     if (!(at.slope > T(0) && is_near(at, size) && corrections_ < 4)) return false;
-    if (size > nearest(rtol) * step.h) {
+    const bool bent = !keeps_slope(at, size);
+    if (size > (bent ? T(round_off) : nearest(rtol)) * step.h) {
       ++corrections_;
       cut(step.h - late);
       return true;
     }
-    const T way = -late * fused(T(0.5) * late, at.bend / at.slope, T(1));
+    const T way = bent ? T(-late) : T(-late * fused(T(0.5) * late, at.bend / at.slope, T(1)));
     shift_end(way);
     step.h = smaller(T(step.h + way), longest_);
     if (run_.goal.peak_moment || run_.goal.peak_force)
@@ -84,10 +85,15 @@ private:
   /// off by much of a long step.
   [[nodiscard]] bool is_near(const typename Events<T, AnySystem>::Indicator& at,
                              const T& size) const {
-    using std::abs;
     if (size < T(1e-2) * run_.step.h) return true;
-    return size < T(0.5) * run_.step.h && size * abs(at.bend) < T(0.1) * at.slope &&
-           at.bend != T(0);
+    return size < T(0.5) * run_.step.h && keeps_slope(at, size) && at.bend != T(0);
+  }
+
+  /// Whether the slope is much the same all the way to the event; a hinge that grazes its latch loses it.
+  [[nodiscard]] static bool keeps_slope(const typename Events<T, AnySystem>::Indicator& at,
+                                        const T& size) {
+    using std::abs;
+    return size * abs(at.bend) < T(0.1) * at.slope;
   }
 
   void cut(const T& h) {
@@ -97,7 +103,10 @@ private:
 
   /// From how small a miss on, in steps, the interpolant takes the end to its event: the square of so
   /// short a way is a hundredth of the tolerance, and what a quintic gets wrong of it less than that.
-  [[nodiscard]] static T nearest(double rtol) { return T(std::max(1e-7, 0.1 * std::sqrt(rtol))); }
+  [[nodiscard]] static T nearest(double rtol) {
+    return larger(T(0.1 * std::sqrt(rtol)), T(round_off));
+  }
+  static constexpr double round_off = 1e-7; ///< the square of so many steps is below it
 
   /// Moves the step's end by dt, along the interpolant. With D, V, A what the step adds to a coordinate, to
   /// h times its rate and to h² times its acceleration beyond its jet at the start (Step::interpolate),

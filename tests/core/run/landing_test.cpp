@@ -139,3 +139,23 @@ TEST_CASE(
     CHECK(step.dxdt1[1] == Approx(state(0)[2]).epsilon(1e-6));
   }
 }
+
+TEST_CASE(
+    "a hinge that hardly comes to its latch has no way to it along the end's slope: the step is "
+    "made again") {
+  // past the latch by 1 nrad, at 20 µrad/s, and turning back at 1 rad/s²: the slope is lost within the way
+  Arriving at(latches_only);
+  REQUIRE(at.landing.finds_event());
+  Step<double>& step = at.run.step;
+  const auto arrives = [&step](double rate) {
+    step.h = 1;
+    step.x = {0.5 + rate - 1e-9, -1 - rate}, step.dxdt = {-1 - rate, 1};
+    step.x1 = {-1e-9, -rate}, step.dxdt1 = {-rate, 1};
+  };
+  constexpr double slow = 2e-5, quick = 2e-4; // rad/s; the ways take 5e-5 and 5e-6 s
+  arrives(slow);
+  CHECK(at.landing.misses_event(1e-6));
+  arrives(quick);
+  CHECK_FALSE(at.landing.misses_event(1e-6));
+  CHECK(std::abs(step.x1[0]) < 1e-12);
+}
