@@ -20,7 +20,7 @@ Json requiring(std::initializer_list<double> limits) {
 }
 
 /// A place to run campaigns and look at what came of them.
-struct Place {
+struct RequirementsPlace {
   Folder folder{};
   std::string out = (folder.path() / "r").string();
 
@@ -38,7 +38,7 @@ struct Place {
 } // namespace
 
 TEST_CASE("size answers the table's questions") {
-  const Place program;
+  const RequirementsPlace program;
   const auto size = [&](std::vector<std::string> options) {
     options.insert(options.begin(), "size");
     return program(options);
@@ -73,7 +73,7 @@ TEST_CASE("size refuses what it cannot answer") {
     std::vector<std::string> options;
     const char* error;
   };
-  const Place program;
+  const RequirementsPlace program;
   for (auto& [options, error] : std::vector<Case>{
            {{"--confidence", ".9"}, "found neither --probability nor --width, expected one"},
            {{"--probability", ".9"}, "--confidence is required"},
@@ -94,7 +94,7 @@ TEST_CASE("size refuses what it cannot answer") {
 }
 
 TEST_CASE("a requirement that is met, one that is not, and one that cannot be decided") {
-  const Place program;
+  const RequirementsPlace program;
   CHECK(program({"run", program.file(requiring({6})), "--out", program.out}).code == 0);
   CHECK(program.summary()["requirements"][0]["verdict"] == "pass");
 
@@ -114,7 +114,7 @@ TEST_CASE("a requirement that is met, one that is not, and one that cannot be de
 }
 
 TEST_CASE("the run that a verdict names can be replayed as it says") {
-  const Place program;
+  const RequirementsPlace program;
   CHECK(program({"run", program.file(requiring({1})), "--out", program.out}).code == 1);
   const Json worst = program.summary()["requirements"][0]["broken"][0];
   const auto replay = program({"replay", program.out, "--run", worst.dump(), "--json"});
@@ -123,7 +123,7 @@ TEST_CASE("the run that a verdict names can be replayed as it says") {
 }
 
 TEST_CASE("runs that stall count against a requirement that their values keep to") {
-  const Place program;
+  const RequirementsPlace program;
   Json json = requiring({});
   for (Json& hinge : json["scene"]["hinges"])
     hinge["friction"] = {{"model", "exact"}, {"coulomb", 2.5}, {"static", 3}};
@@ -138,7 +138,7 @@ TEST_CASE("runs that stall count against a requirement that their values keep to
 }
 
 TEST_CASE("analyze judges again, by the campaign's requirements or by others") {
-  const Place program;
+  const RequirementsPlace program;
   CHECK(program({"run", program.file(requiring({6})), "--out", program.out}).code == 0);
   const auto before = contents(program.out);
   CHECK(program({"analyze", program.out}).code == 0);
@@ -153,7 +153,7 @@ TEST_CASE("analyze judges again, by the campaign's requirements or by others") {
 }
 
 TEST_CASE("analyze takes the runs of another tool, with a campaign beside them") {
-  const Place program;
+  const RequirementsPlace program;
   std::filesystem::create_directory(program.out);
   const std::filesystem::path there = program.out;
   Json json = requiring({6});
@@ -183,7 +183,7 @@ TEST_CASE("analyze takes the runs of another tool, with a campaign beside them")
 }
 
 TEST_CASE("a shard is not held to requirements, and what is merged of them is") {
-  const Place program;
+  const RequirementsPlace program;
   const std::string campaign = program.file(requiring({1}));
   const std::string a = program.folder.path() / "a", b = program.folder.path() / "b";
   CHECK(program({"run", campaign, "--out", a, "--shard", "1/2"}).code == 0);
@@ -194,7 +194,7 @@ TEST_CASE("a shard is not held to requirements, and what is merged of them is") 
 }
 
 TEST_CASE("runs that fail numerically come before a requirement that is not met") {
-  const Place program;
+  const RequirementsPlace program;
   Json json = requiring({1});
   json["integration"]["max_steps"] = 10;
   const auto finished = program({"run", program.file(json), "--out", program.out});
@@ -204,7 +204,7 @@ TEST_CASE("runs that fail numerically come before a requirement that is not met"
 }
 
 TEST_CASE("a bad requirement is refused with its place, and nothing is written") {
-  const Place program;
+  const RequirementsPlace program;
   Json json = requiring({6, 7});
   json["requirements"][1]["probability"] = 1.5;
   const std::string campaign = program.file(json);
@@ -216,7 +216,7 @@ TEST_CASE("a bad requirement is refused with its place, and nothing is written")
 }
 
 TEST_CASE("run --until stops at a checkpoint, the same when it was interrupted", "[parallel]") {
-  const Place program;
+  const RequirementsPlace program;
   Json json = quick_campaign(2000);
   json["outputs"] = {"latch_time"};
   const std::string campaign = program.file(json);
@@ -247,7 +247,7 @@ TEST_CASE("run --until stops at a checkpoint, the same when it was interrupted",
 }
 
 TEST_CASE("run --until refuses what cannot be reached for, by its option") {
-  const Place program;
+  const RequirementsPlace program;
   const std::string campaign = program.file(quick_campaign(20));
   const auto refusal = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"run", campaign, "--out", program.out});
@@ -270,7 +270,7 @@ TEST_CASE("run --until refuses what cannot be reached for, by its option") {
 
 TEST_CASE(
     "run makes runs until a requirement is decided, and says what to do of one that is open") {
-  const Place program;
+  const RequirementsPlace program;
   Json json = quick_campaign(1200);
   json["outputs"] = {"latch_time"};
   json["integration"]["t_end"] = 7; // some do not come to it
@@ -308,7 +308,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what holds for independent draws is refused with Sobol' points, by its place") {
-  const Place program;
+  const RequirementsPlace program;
   Json json = quick_campaign(64);
   json["sampling"].update({{"design", "sobol"}, {"replicates", 4}});
   json["correlations"] =

@@ -10,10 +10,10 @@ using namespace wingspread::test;
 namespace {
 
 /// A finished campaign in a folder.
-struct Done {
+struct DoneCampaign {
   Folder folder{};
   std::filesystem::path path = folder.path() / "r";
-  explicit Done(const Json& json) { (void)run_into(path, campaign_of(json)); }
+  explicit DoneCampaign(const Json& json) { (void)run_into(path, campaign_of(json)); }
 
   [[nodiscard]] Finished program(const std::vector<std::string>& arguments) const {
     return run_program(folder, arguments);
@@ -58,7 +58,7 @@ TEST_CASE("merge puts shards together, and says where the files are") {
 }
 
 TEST_CASE("analyze leaves an untouched folder as it is, and takes other settings") {
-  const Done done(full_campaign(30));
+  const DoneCampaign done(full_campaign(30));
   const auto before = contents(done.path);
   const auto [code, out, error] = done.program({"analyze", done.path});
   CHECK(code == 0);
@@ -77,7 +77,7 @@ TEST_CASE("analyze leaves an untouched folder as it is, and takes other settings
 }
 
 TEST_CASE("analyze counts what stalled with its reason, and takes it for no failure") {
-  const Done done(quick_campaign(6));
+  const DoneCampaign done(quick_campaign(6));
   const StoredCampaign stored = read_stored_campaign(done.path);
   const Results results = read_stored_results(stored).results;
   std::string csv;
@@ -99,7 +99,7 @@ TEST_CASE("analyze counts what stalled with its reason, and takes it for no fail
 }
 
 TEST_CASE("analyze refuses settings by their options") {
-  const Done done(quick_campaign(5));
+  const DoneCampaign done(quick_campaign(5));
   const auto before = contents(done.path);
   const auto [code, out, error] = done.program(
       {"analyze", done.path, "--quantiles", "0.5,1.5", "--confidence", "2", "--bins", "few"});
@@ -113,7 +113,7 @@ TEST_CASE("analyze refuses settings by their options") {
 }
 
 TEST_CASE("replay makes a run again and finds it the same") {
-  const Done done(full_campaign(12));
+  const DoneCampaign done(full_campaign(12));
   const Results results = read_stored_results(read_stored_campaign(done.path)).results;
   for (std::size_t k = 0; k < 12; ++k) {
     const auto [code, out, error] =
@@ -134,7 +134,7 @@ TEST_CASE("replay makes a run again and finds it the same") {
 }
 
 TEST_CASE("replay in words, and its trajectory") {
-  const Done done(quick_campaign(4));
+  const DoneCampaign done(quick_campaign(4));
   const auto file = done.folder.path() / "trajectory.csv";
   const auto [code, out, error] = done.program({"replay", done.path, "--run", "2", "--out", file});
   CHECK(code == 0);
@@ -145,7 +145,7 @@ TEST_CASE("replay in words, and its trajectory") {
 }
 
 TEST_CASE("replay names what differs from the record") {
-  const Done done(quick_campaign(4));
+  const DoneCampaign done(quick_campaign(4));
   const auto file = done.path / runs_file;
   std::string text = read_text(file).value();
   const std::size_t at = text.find("\n2,deployed,") + 12;

@@ -23,7 +23,7 @@ struct Resumable {
   const char* last;                 ///< and the one that it writes last
 };
 
-struct Place {
+struct ResumedPlace {
   Folder folder{};
 
   [[nodiscard]] Finished run(const Resumable& study, const std::string& out,
@@ -85,7 +85,7 @@ Resumable sobol_of(const Folder& folder) {
 
 TEST_CASE("margin, rare and sensitivity go on after kill -9 at several moments to the same bytes",
           "[parallel]") {
-  const Place place;
+  const ResumedPlace place;
   for (const Resumable& study :
        {margin_of(place.folder), rare_of(place.folder), sobol_of(place.folder)}) {
     CAPTURE(study.command.front());
@@ -115,7 +115,7 @@ TEST_CASE("margin, rare and sensitivity go on after kill -9 at several moments t
 
 TEST_CASE("margin and rare interrupted say so, are refused without --resume, and go on with it",
           "[parallel]") {
-  const Place place;
+  const ResumedPlace place;
   const int signal = GENERATE(SIGINT, SIGTERM);
   for (const Resumable& study : {margin_of(place.folder), rare_of(place.folder)}) {
     const Finished whole = place.run(study, "whole_" + study.command.front());
@@ -155,7 +155,7 @@ TEST_CASE("margin and rare interrupted say so, are refused without --resume, and
 
 TEST_CASE("a byte of a study's log that was changed is seen, said, and costs runs and no result",
           "[parallel]") {
-  const Place place;
+  const ResumedPlace place;
   const Resumable study = rare_of(place.folder);
   const Finished whole = place.run(study, "whole");
   Finished finished;
@@ -175,7 +175,7 @@ TEST_CASE("a byte of a study's log that was changed is seen, said, and costs run
 }
 
 TEST_CASE("rare without a folder keeps nothing, and has nothing to go on with") {
-  const Place place;
+  const ResumedPlace place;
   std::vector<std::string> command = rare_of(place.folder).command;
   command.push_back("--resume");
   const Finished refused = run_program(place.folder, command);

@@ -12,12 +12,12 @@ using namespace wingspread::test;
 namespace {
 
 /// A campaign's file and a place for its results.
-struct Setting {
+struct RunSetting {
   Folder folder{};
   std::string campaign{};
   std::string out = (folder.path() / "r").string();
 
-  explicit Setting(const Json& json) : campaign(folder.write("campaign.json", json.dump())) {}
+  explicit RunSetting(const Json& json) : campaign(folder.write("campaign.json", json.dump())) {}
 
   [[nodiscard]] Finished run(const std::string& to, std::vector<std::string> options = {}) const {
     options.insert(options.begin(), {"run", campaign, "--out", to});
@@ -45,7 +45,7 @@ bool wait_for_lines(const std::filesystem::path& file, long lines) {
 } // namespace
 
 TEST_CASE("a run writes its folder, and its paths to a pipe", "[parallel]") {
-  const Setting setting(quick_campaign(40));
+  const RunSetting setting(quick_campaign(40));
   const auto [code, out, error] = setting.run(setting.out, {"--threads", "2"});
   CHECK(code == 0);
   CHECK(error.empty());
@@ -61,7 +61,7 @@ TEST_CASE("a run writes its folder, and its paths to a pipe", "[parallel]") {
 }
 
 TEST_CASE("the table and the histograms, when asked for") {
-  const Setting setting(quick_campaign(20));
+  const RunSetting setting(quick_campaign(20));
   const auto [code, out, error] = setting.run(setting.out, {"--histograms"});
   CHECK(code == 0);
   CHECK(error.empty());
@@ -73,7 +73,7 @@ TEST_CASE("the table and the histograms, when asked for") {
 }
 
 TEST_CASE("the number of runs and the seed can be given") {
-  const Setting setting(quick_campaign(20));
+  const RunSetting setting(quick_campaign(20));
   CHECK(setting.run(setting.out, {"--runs", "5", "--seed", "99"}).code == 0);
   const StoredCampaign stored = read_stored_campaign(setting.out);
   CHECK(stored.campaign.sampling.runs == 5);
@@ -85,7 +85,7 @@ TEST_CASE("a bad campaign is refused with all of its problems, and nothing is wr
   Json json = quick_campaign(20);
   json["sampling"]["runs"] = 0;
   json["scene"]["bodies"][1]["mass"] = -1;
-  const Setting setting(json);
+  const RunSetting setting(json);
   const auto [code, out, error] = setting.run(setting.out);
   CHECK(code == 2);
   CHECK(out.empty());
@@ -96,7 +96,7 @@ TEST_CASE("a bad campaign is refused with all of its problems, and nothing is wr
 }
 
 TEST_CASE("a folder in use is refused, and one that cannot be made") {
-  const Setting setting(quick_campaign(5));
+  const RunSetting setting(quick_campaign(5));
   CHECK(setting.run(setting.out).code == 0);
   const auto [code, out, error] = setting.run(setting.out);
   CHECK(code == 2);
@@ -114,7 +114,7 @@ TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
   Json json = full_campaign(30);
   json["integration"]["max_steps"] = 300;
   json["integration"]["method"] = "dopri5"; // others need fewer
-  const Setting setting(json);
+  const RunSetting setting(json);
   const auto [code, out, error] = setting.run(setting.out);
   CHECK(code == 3);
   CHECK(out == paths(setting.out));
@@ -136,7 +136,7 @@ TEST_CASE("runs that stall are counted with their reasons, and are no failures")
   Json json = quick_campaign(12);
   for (Json& hinge : json["scene"]["hinges"])
     hinge["friction"] = {{"model", "exact"}, {"coulomb", 2.5}, {"static", 3}};
-  const Setting setting(json);
+  const RunSetting setting(json);
   const auto [code, out, error] = setting.run(setting.out);
   CHECK(code == 0);
   CHECK(lines_of(error).size() == 3); // told of each hinge before it is run
@@ -152,7 +152,7 @@ TEST_CASE("runs that stall are counted with their reasons, and are no failures")
 }
 
 TEST_CASE("an interrupted run keeps what is done, and resuming completes it", "[parallel]") {
-  const Setting setting(quick_campaign(4000));
+  const RunSetting setting(quick_campaign(4000));
   const auto path = setting.folder.path() / "r";
   const int signal = GENERATE(SIGINT, SIGTERM);
   const bool urgent = signal == SIGTERM; // it ends at once: the statistics can be made later
@@ -189,7 +189,7 @@ TEST_CASE("an interrupted run keeps what is done, and resuming completes it", "[
 }
 
 TEST_CASE("a run that was killed can be resumed", "[parallel]") {
-  const Setting setting(quick_campaign(1000));
+  const RunSetting setting(quick_campaign(1000));
   const auto path = setting.folder.path() / "r";
   const Program program(setting.folder,
                         {"run", setting.campaign, "--out", setting.out, "--threads", "2"});
@@ -203,7 +203,7 @@ TEST_CASE("a run that was killed can be resumed", "[parallel]") {
 }
 
 TEST_CASE("resuming what is complete changes nothing") {
-  const Setting setting(quick_campaign(10));
+  const RunSetting setting(quick_campaign(10));
   CHECK(setting.run(setting.out).code == 0);
   const auto before = contents(setting.out);
   CHECK(setting.run(setting.out, {"--resume"}).code == 0);

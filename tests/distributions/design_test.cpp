@@ -15,31 +15,31 @@ using namespace wingspread;
 
 namespace {
 
-constexpr std::size_t runs = 100000;
-const std::array<std::string, 6> names{"root_spring",  "mid_spring",   "mass.panel_1",
-                                       "mass.panel_2", "mass.panel_3", "a"};
+constexpr std::size_t design_runs = 100000;
+const std::array<std::string, 6> input_names{"root_spring",  "mid_spring",   "mass.panel_1",
+                                             "mass.panel_2", "mass.panel_3", "a"};
 
 std::vector<double> column(const Design& design, const std::string& name, std::uint64_t first = 0) {
   const PreparedDesign prepared(design, {name});
-  std::vector<double> u(runs);
-  for (std::size_t k = 0; k < runs; ++k) u[k] = prepared.uniform(first + k, 0);
+  std::vector<double> u(design_runs);
+  for (std::size_t k = 0; k < design_runs; ++k) u[k] = prepared.uniform(first + k, 0);
   return u;
 }
 
 std::vector<double> column(const std::string& name, std::uint64_t seed = 1,
                            std::uint64_t first = 0) {
-  return column(Design{DesignKind::random, seed, runs}, name, first);
+  return column(Design{DesignKind::random, seed, design_runs}, name, first);
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
-  for (std::size_t k = 0; k < runs; ++k) sum += (a[k] - 0.5) * (b[k] - 0.5);
-  return 12 * sum / static_cast<double>(runs); // a uniform's variance is 1/12
+  for (std::size_t k = 0; k < design_runs; ++k) sum += (a[k] - 0.5) * (b[k] - 0.5);
+  return 12 * sum / static_cast<double>(design_runs); // a uniform's variance is 1/12
 }
 
 // Distance of Pearson's statistic from its mean, in its standard deviations, for equal bins.
 double chi_square_sigmas(const std::vector<std::size_t>& counts) {
-  const double expected = static_cast<double>(runs) / static_cast<double>(counts.size());
+  const double expected = static_cast<double>(design_runs) / static_cast<double>(counts.size());
   double statistic = 0;
   for (const std::size_t count : counts)
     statistic += std::pow(static_cast<double>(count) - expected, 2) / expected;
@@ -50,15 +50,15 @@ double chi_square_sigmas(const std::vector<std::size_t>& counts) {
 double pair_grid_sigmas(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<std::size_t> counts(16 * 16);
   const auto cell = [](double u) { return static_cast<std::size_t>(16 * u); };
-  for (std::size_t k = 0; k < runs; ++k) ++counts[16 * cell(a[k]) + cell(b[k])];
+  for (std::size_t k = 0; k < design_runs; ++k) ++counts[16 * cell(a[k]) + cell(b[k])];
   return chi_square_sigmas(counts);
 }
 
 double kolmogorov_statistic(std::vector<double> u) {
   std::ranges::sort(u);
-  const double n = static_cast<double>(runs);
+  const double n = static_cast<double>(design_runs);
   double distance = 0;
-  for (std::size_t k = 0; k < runs; ++k) {
+  for (std::size_t k = 0; k < design_runs; ++k) {
     const double rank = static_cast<double>(k);
     distance = std::max({distance, u[k] - rank / n, (rank + 1) / n - u[k]});
   }
@@ -68,14 +68,14 @@ double kolmogorov_statistic(std::vector<double> u) {
 // No correlation, and no cell of the unit square preferred: 5 sigmas, in either direction for the
 // chi-square (too even is as wrong as too uneven).
 void check_independent(const std::vector<double>& a, const std::vector<double>& b) {
-  CHECK(std::abs(correlation(a, b)) < 5 / std::sqrt(static_cast<double>(runs)));
+  CHECK(std::abs(correlation(a, b)) < 5 / std::sqrt(static_cast<double>(design_runs)));
   CHECK(std::abs(pair_grid_sigmas(a, b)) < 5);
 }
 
 } // namespace
 
 TEST_CASE("each name's draws are uniform") {
-  for (const std::string& name : names) {
+  for (const std::string& name : input_names) {
     const std::vector<double> u = column(name);
     std::vector<std::size_t> counts(256);
     for (const double value : u) ++counts[static_cast<std::size_t>(256 * value)];
@@ -86,8 +86,8 @@ TEST_CASE("each name's draws are uniform") {
 
 TEST_CASE("the draws of different names are independent") {
   std::vector<std::vector<double>> columns;
-  for (const std::string& name : names) columns.push_back(column(name));
-  for (std::size_t i = 0; i < names.size(); ++i)
+  for (const std::string& name : input_names) columns.push_back(column(name));
+  for (std::size_t i = 0; i < input_names.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) check_independent(columns[i], columns[j]);
 }
 
@@ -100,14 +100,14 @@ TEST_CASE("the draws of neighbouring runs and neighbouring seeds are independent
 TEST_CASE("the checks of uniformity and independence can fail") {
   const std::vector<double> u = column("a");
   const std::vector<double> v = column("b");
-  std::vector<double> mixed(runs);
-  std::vector<double> bent(runs);
-  for (std::size_t k = 0; k < runs; ++k) {
+  std::vector<double> mixed(design_runs);
+  std::vector<double> bent(design_runs);
+  for (std::size_t k = 0; k < design_runs; ++k) {
     mixed[k] = u[k] < 0.05 ? u[k] : v[k];
     bent[k] = std::pow(u[k], 1.03);
   }
   CHECK(pair_grid_sigmas(u, mixed) > 5);
-  CHECK(correlation(u, mixed) > 5 / std::sqrt(static_cast<double>(runs)));
+  CHECK(correlation(u, mixed) > 5 / std::sqrt(static_cast<double>(design_runs)));
   CHECK(kolmogorov_statistic(bent) > 2.23);
 }
 
@@ -207,12 +207,14 @@ TEST_CASE("scrambled Sobol' points are still a net in each replicate") {
 
 TEST_CASE("over seeds, a stratified design's points are uniform and its names independent") {
   for (const DesignKind kind : {DesignKind::latin_hypercube, DesignKind::sobol}) {
-    std::vector<double> one_a(runs), one_b(runs), next(runs);
-    const PreparedDesign prepared({kind, 1, 5 * runs, runs}, {"a", "b"}); // five runs each
-    for (std::size_t r = 0; r < runs; ++r) {
-      one_a[r] = prepared.uniform(3 * runs + r, 0);
-      one_b[r] = prepared.uniform(3 * runs + r, 1);
-      next[r] = prepared.uniform(3 * runs + (r + 1) % runs, 0); // of the next replicate
+    std::vector<double> one_a(design_runs), one_b(design_runs), next(design_runs);
+    const PreparedDesign prepared({kind, 1, 5 * design_runs, design_runs},
+                                  {"a", "b"}); // five runs each
+    for (std::size_t r = 0; r < design_runs; ++r) {
+      one_a[r] = prepared.uniform(3 * design_runs + r, 0);
+      one_b[r] = prepared.uniform(3 * design_runs + r, 1);
+      next[r] =
+          prepared.uniform(3 * design_runs + (r + 1) % design_runs, 0); // of the next replicate
     }
     CHECK(kolmogorov_statistic(one_a) < 2.23);
     CHECK(kolmogorov_statistic(one_b) < 2.23);

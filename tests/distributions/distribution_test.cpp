@@ -9,7 +9,7 @@ using namespace wingspread;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 // All faults of a distribution, one a line: "path: found, expected".
@@ -35,7 +35,7 @@ TEST_CASE("laws that are sound have no faults") {
   CHECK(report(Discrete{{1, 2}, {0, 3}}) == "");
   CHECK(report(Empirical{{1, 1}}) == "");
   CHECK(report(Constant{0}) == "");
-  CHECK(report(Normal{1, 0.05}, Truncation{0.9, infinity}) == "");
+  CHECK(report(Normal{1, 0.05}, Truncation{0.9, unbounded}) == "");
   CHECK(report(Normal{}, Truncation{}) == "");
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("all faults of a law are reported together") {
   CHECK(report(Gamma{0, not_a_number}) == "shape: 0, > 0 and ≤ 1e6\nscale: nan, a finite number");
   CHECK(report(Gamma{2e6, 1}) ==
         "shape: 2e+06, > 0 and ≤ 1e6"); // inverses that Boost would not find
-  CHECK(report(Beta{0, -1, infinity, 1}) ==
+  CHECK(report(Beta{0, -1, unbounded, 1}) ==
         "alpha: 0, > 0 and ≤ 1e6\nbeta: -1, > 0 and ≤ 1e6\nlower: inf, a finite number");
   CHECK(report(Normal{not_a_number, 0}, Truncation{2, 1}) ==
         "mean: nan, a finite number\nstd: 0, > 0\ntruncate/upper: 1, > lower (2)");
@@ -62,11 +62,11 @@ TEST_CASE("one fault does not hide another") {
   CHECK(report(Discrete{{1, not_a_number}, {0, 0}}) ==
         "values/1: nan, a finite number\nweights: all zero, at least one > 0");
   CHECK(report(Discrete{{1, 2}, {}}) == "weights: none, at least one");
-  CHECK(report(Discrete{{1, 2}, {infinity, 1}}) == "weights/0: inf, a finite number");
+  CHECK(report(Discrete{{1, 2}, {unbounded, 1}}) == "weights/0: inf, a finite number");
 }
 
 TEST_CASE("what must be finite is") {
-  CHECK(report(Constant{-infinity}) == "value: -inf, a finite number");
+  CHECK(report(Constant{-unbounded}) == "value: -inf, a finite number");
   CHECK(report(Uniform{not_a_number, 1}) == "lower: nan, a finite number");
   CHECK(report(Empirical{{1, not_a_number}}) == "values/1: nan, a finite number");
 }
@@ -92,7 +92,7 @@ TEST_CASE("a truncation is an interval of a continuous law that holds some proba
   CHECK(report(Normal{}, Truncation{1, 1}) == "truncate/upper: 1, > lower (1)");
   CHECK(report(Normal{}, Truncation{not_a_number, 1}) == "truncate/lower: nan, a number");
   CHECK(report(Normal{}, Truncation{0, not_a_number}) == "truncate/upper: nan, a number");
-  CHECK(report(Normal{}, Truncation{infinity, infinity}) == "truncate/upper: inf, > lower (inf)");
+  CHECK(report(Normal{}, Truncation{unbounded, unbounded}) == "truncate/upper: inf, > lower (inf)");
   CHECK(report(Normal{}, Truncation{40, 41}) == "truncate: [40, 41]" + none);
   CHECK(report(Uniform{0, 1}, Truncation{-2, -1}) == "truncate: [-2, -1]" + none);
   CHECK(report(Uniform{0, 1}, Truncation{-2, 0}) == "truncate: [-2, 0]" + none);

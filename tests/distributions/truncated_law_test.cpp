@@ -12,7 +12,7 @@ using namespace wingspread::test;
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double round_off = std::numeric_limits<double>::epsilon();
 
 struct Case {
   ContinuousLaw law;
@@ -43,7 +43,7 @@ std::vector<Case> cases() {
 
 } // namespace
 
-// Doubles cannot do better than t·epsilon where a tail falls like exp(−t), and t is up to 722 here.
+// Doubles cannot do better than t·round_off where a tail falls like exp(−t), and t is up to 722 here.
 TEST_CASE("probabilities in far tails are right to 1e-12") {
   for (const auto& [law, interval] : cases()) {
     const TruncatedLaw t = truncated(law, interval);
@@ -71,7 +71,7 @@ TEST_CASE("a truncated quantile has the probability asked for below it") {
       const double y = quantile_complement(t, u);
       // what 4 ulp of the point are worth in probability
       const auto slack = [&](double at) {
-        return 4 * epsilon * std::abs(at) * density(law, at) / mass;
+        return 4 * round_off * std::abs(at) * density(law, at) / mass;
       };
       CHECK(std::abs(probability(law, interval.lower, x) / mass - u) < 1e-12 * u + slack(x));
       CHECK(std::abs(probability(law, y, interval.upper) / mass - u) < 1e-12 * u + slack(y));
@@ -119,7 +119,7 @@ TEST_CASE("an interval wider than the support ends where the support does") {
   CHECK(t.bounds.lower == 0);
   CHECK(quantile(t, 0) == 0);
   CHECK(quantile(t, 0.5) > 0);
-  CHECK(t.mass == Approx(-std::expm1(-0.25)).epsilon(4 * epsilon));
+  CHECK(t.mass == Approx(-std::expm1(-0.25)).epsilon(4 * round_off));
 }
 
 TEST_CASE("without probability there is no mass") {

@@ -1,16 +1,31 @@
 /// Samples for tests of statistics, and what chance allows them.
 #pragma once
 
+#include <catch2/catch.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
 namespace wingspread::test {
 
+/// Of a run that has no such number.
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
 inline double uniform(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+inline std::vector<double> uniforms(std::uint64_t seed, int n) {
+  std::mt19937_64 random(seed);
+  std::vector<double> values;
+  for (int i = 0; i < n; ++i) values.push_back(uniform(random));
+  return values;
 }
 
 inline std::vector<double> sorted_sample(int n, std::mt19937_64& random) {
@@ -18,6 +33,10 @@ inline std::vector<double> sorted_sample(int n, std::mt19937_64& random) {
   std::ranges::generate(sample, [&] { return uniform(random); });
   std::ranges::sort(sample);
   return sample;
+}
+
+inline Approx within(double value, double relative) {
+  return Approx(value).epsilon(relative).margin(1e-300);
 }
 
 /// Five standard errors of a share seen in `trials`: chance leaves this band once in a million

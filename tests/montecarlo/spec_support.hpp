@@ -150,4 +150,9 @@ private:
   std::filesystem::path path_;
 };
 
+inline std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 } // namespace wingspread::test

@@ -11,7 +11,7 @@ using namespace wingspread::oracle;
 
 namespace {
 
-ReferenceOutcome extended(const Scene& scene, double t_end) {
+ReferenceOutcome dry_extended(const Scene& scene, double t_end) {
   ReferenceOptions options;
   options.rtol = 1e-16, options.atol = 1e-17, options.t_end = t_end;
   return high_precision_run<long double>(scene, options);
@@ -31,7 +31,7 @@ TEST_CASE("the oracle's hinge slides, turns and stops as the closed form says") 
     rub(scene.hinges[0], c.kinetic, c.static_level);
     scene.hinges[0].friction.viscous = c.viscous;
     for (const double t : {1., 4., 7., 40.}) {
-      const ReferenceOutcome out = extended(scene, t);
+      const ReferenceOutcome out = dry_extended(scene, t);
       CAPTURE(c.viscous, c.u, t, exact.stop_time());
       // the closed form is in double
       CHECK(std::abs(out.final.angles(0) - exact.at(t).u) < 3e-14);
@@ -47,11 +47,11 @@ TEST_CASE(
   scene.hinges[0].stowed = 1, scene.hinges[0].latched = -50, scene.hinges[0].initial_rate = 0.5;
   pull_towards(scene.hinges[0], 0, 5);
   rub(scene.hinges[1], 10);
-  const ReferenceOutcome held = extended(scene, 4);
+  const ReferenceOutcome held = dry_extended(scene, 4);
   CHECK(held.peak_moment[1].value == Approx(std::sqrt(5)).epsilon(1e-15));
   CHECK(held.final.rates(1) == 0);
   rub(scene.hinges[1], 1, 2.23605);
   const double release = std::atan(0.5) - std::acos(2.23605 / std::sqrt(5));
-  CHECK(extended(scene, release - 1e-6).final.rates(1) == 0);
-  CHECK(std::abs(extended(scene, release + 1e-3).final.rates(1)) > 1e-4);
+  CHECK(dry_extended(scene, release - 1e-6).final.rates(1) == 0);
+  CHECK(std::abs(dry_extended(scene, release + 1e-3).final.rates(1)) > 1e-4);
 }

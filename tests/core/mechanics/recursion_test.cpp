@@ -13,8 +13,8 @@ namespace {
 
 /// Largest deviation of accelerations and of forces, each relative to the largest of its kind.
 template <class T, class Reference>
-std::pair<double, double> deviation(const Evaluated<T>& got,
-                                    const WingResponse<Reference>& expected) {
+std::pair<double, double> largest_deviations(const Evaluated<T>& got,
+                                             const WingResponse<Reference>& expected) {
   return {acceleration_deviation(got, expected), force_deviation(got, expected)};
 }
 
@@ -34,10 +34,11 @@ TEST_CASE("accelerations and hinge forces agree with a dense solve over random t
     // quad costs milliseconds for a small wing, and most scenes are small enough
     const auto [acceleration, force] =
         options.bodies <= 12
-            ? deviation(evaluate<double>(scene, state),
-                        oracle::DenseWing<Quad>(scene).respond(state.cast<Quad>()))
-            : deviation(evaluate<double>(scene, state),
-                        oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
+            ? largest_deviations(evaluate<double>(scene, state),
+                                 oracle::DenseWing<Quad>(scene).respond(state.cast<Quad>()))
+            : largest_deviations(
+                  evaluate<double>(scene, state),
+                  oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
     worst = std::max(worst, acceleration);
     worst_force = std::max(worst_force, force);
     CAPTURE(seed, options.bodies);
@@ -55,9 +56,9 @@ TEST_CASE("a thousand bodies agree with a dense solve") {
     options.mass_lower = 1, options.mass_upper = 10;
     const Scene scene = oracle::random_scene(7, options);
     const auto state = oracle::random_state(8, scene);
-    const auto [acceleration, force] =
-        deviation(evaluate<double>(scene, state),
-                  oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
+    const auto [acceleration, force] = largest_deviations(
+        evaluate<double>(scene, state),
+        oracle::DenseWing<long double>(scene).respond(state.cast<long double>()));
     CAPTURE(branching, acceleration, force);
     CHECK(acceleration < 1e-10);
     CHECK(force < 1e-10);
@@ -72,8 +73,8 @@ TEST_CASE("the same kernel serves double, long double and quad") {
     const auto state = oracle::random_state(seed + 500, scene);
     const auto exact = oracle::DenseWing<Quad>(scene).respond(state.cast<Quad>());
     CAPTURE(seed);
-    CHECK(deviation(evaluate<double>(scene, state), exact).first < 1e-12);
-    CHECK(deviation(evaluate<long double>(scene, state), exact).first < 1e-15);
+    CHECK(largest_deviations(evaluate<double>(scene, state), exact).first < 1e-12);
+    CHECK(largest_deviations(evaluate<long double>(scene, state), exact).first < 1e-15);
     // quad against quad, compared in quad
     const auto quad = evaluate<Quad>(scene, state);
     Quad worst = 0, largest = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 using namespace wingspread;
+using namespace wingspread::oracle;
 using oracle::require_equal_bits;
 
 namespace {
@@ -31,8 +32,6 @@ std::vector<Scene> units(const Scene& drawing, int count) {
   return scenes;
 }
 
-const Goal all{.audit = false};
-const Goal latches{.peak_moment = false, .peak_force = false, .audit = false};
 const Goal first_latch{.peak_moment = false,
                        .peak_force = false,
                        .overtravel = false,
@@ -46,7 +45,7 @@ const Goal moments_to_the_end{.peak_force = false, .audit = false, .to_t_end = t
 TEST_CASE("a run in a lane has the bits of the run alone: the seed wing") {
   for (const char* method : {"auto", "dopri5", "dop853"})
     for (const double rtol : {1e-3, 1e-6, 1e-9})
-      for (const Goal& goal : {all, latches, first_latch, moments_to_the_end}) {
+      for (const Goal& goal : {every_peak, latches_alone, first_latch, moments_to_the_end}) {
         CAPTURE(method, rtol, goal.peak_force, goal.to_t_end);
         Integration how;
         how.method = method, how.rtol = rtol, how.atol = 1e-2 * rtol;
@@ -76,7 +75,7 @@ TEST_CASE("a run in a lane has the bits of the run alone: random wings on every 
     Integration how;
     how.rtol = 1e-6, how.atol = 1e-8, how.t_end = 2;
     how.max_steps = 3000;
-    require_equal_bits(units(oracle::random_scene(500 + k, options), 10), how, all);
+    require_equal_bits(units(oracle::random_scene(500 + k, options), 10), how, every_peak);
   }
 }
 
@@ -98,11 +97,11 @@ TEST_CASE(
   scenes[8].hinges[2].latched = scenes[8].hinges[2].stowed + 1e-9;
   Integration how;
   how.rtol = 1e-6, how.atol = 1e-8;
-  require_equal_bits(scenes, how, all);
-  require_equal_bits(scenes, how, latches);
+  require_equal_bits(scenes, how, every_peak);
+  require_equal_bits(scenes, how, latches_alone);
   require_equal_bits(scenes, how, first_latch);
   how.max_steps = 100;
-  require_equal_bits(scenes, how, all);
+  require_equal_bits(scenes, how, every_peak);
 }
 
 TEST_CASE("lanes stay full: each takes the next run at once") {
@@ -111,7 +110,7 @@ TEST_CASE("lanes stay full: each takes the next run at once") {
     if (set == InstructionSet::scalar) continue;
     CAPTURE(to_string(set));
     long next = 0;
-    DeploymentPack pack(set, {}, latches);
+    DeploymentPack pack(set, {}, latches_alone);
     const Occupancy lanes = pack.run(
         scenes.front(),
         [&](Scene& scene) -> std::optional<long> {
@@ -128,7 +127,7 @@ TEST_CASE("overtravel that nobody asks for is not looked for, and nothing else c
   Scene swinging = oracle::seed_scene();
   swinging.hinges[1].initial_rate = -0.5; // beyond where it was stowed
   for (const Scene& scene : units(swinging, 5))
-    for (const Goal& goal : {all, latches, moments_to_the_end}) {
+    for (const Goal& goal : {every_peak, latches_alone, moments_to_the_end}) {
       Goal less = goal;
       less.overtravel = false;
       Integration how;

@@ -14,6 +14,10 @@
 
 namespace wingspread::oracle {
 
+/// What is asked of runs here: every peak, or latches alone.
+inline const Goal every_peak{.audit = false};
+inline const Goal latches_alone{.peak_moment = false, .peak_force = false, .audit = false};
+
 /// All of an outcome, in a form in which equal means equal bits.
 inline std::string bits_of(const Outcome& outcome) {
   std::string all = std::string(to_string(outcome.status)) + outcome.reason;

@@ -16,8 +16,6 @@ using namespace wingspread::oracle;
 
 namespace {
 
-const Goal all{.audit = false};
-
 /// A panel on its way over the crest of an unstable equilibrium, where it comes to rest if the rate
 /// with which it sets out is less than `share` 1 of what it takes.
 Scene over_a_crest(double friction, double share) {
@@ -115,10 +113,11 @@ TEST_CASE("a run in a lane has the bits of the run alone: hinges that nearly com
     const Integration how = within(rtol, 40);
     CAPTURE(rtol);
     long latched = 0;
-    for (const Scene& scene : scenes) latched += !Deployment().run(scene, how, all).latches.empty();
+    for (const Scene& scene : scenes)
+      latched += !Deployment().run(scene, how, every_peak).latches.empty();
     CHECK(
         (latched > 40 && latched < 80)); // half of them turn, but for what a loose tolerance blurs
-    require_equal_bits(scenes, how, all);
+    require_equal_bits(scenes, how, every_peak);
   }
 }
 
@@ -132,7 +131,7 @@ TEST_CASE(
   }
   for (const double rtol : {1e-3, 1e-6, 1e-9}) {
     CAPTURE(rtol);
-    require_equal_bits(scenes, within(rtol, 6), all);
+    require_equal_bits(scenes, within(rtol, 6), every_peak);
   }
 }
 
@@ -145,17 +144,17 @@ TEST_CASE(
   }
   for (const double rtol : {1e-3, 1e-5}) { // one of them each, when this was written
     CAPTURE(rtol);
-    require_equal_bits(scenes, within(rtol, 1e9 + 20), all);
+    require_equal_bits(scenes, within(rtol, 1e9 + 20), every_peak);
   }
 }
 
 TEST_CASE("runs are asked where a hinge turns, and not at every step that begins at rest") {
   const std::vector<Scene> scenes = rubbed_units(100);
-  require_equal_bits(scenes, {}, all);
+  require_equal_bits(scenes, {}, every_peak);
   for (const InstructionSet set : instruction_sets()) {
     if (set == InstructionSet::scalar) continue;
     long next = 0;
-    DeploymentPack pack(set, {}, all);
+    DeploymentPack pack(set, {}, every_peak);
     const Occupancy lanes = pack.run(
         scenes.front(),
         [&](Scene& scene) -> std::optional<long> {

@@ -11,9 +11,9 @@ using namespace wingspread;
 namespace {
 
 /// A wing with all latches engaged that it has.
-template <BaseMotion M = BaseMotion::fixed> struct Latched {
+template <BaseMotion M = BaseMotion::fixed> struct LatchedWing {
   /// @param stuck hinges that stick when the bounds are prepared, and slip afterwards
-  explicit Latched(const Scene& scene, const std::vector<int>& stuck = {})
+  explicit LatchedWing(const Scene& scene, const std::vector<int>& stuck = {})
       : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
     for (int i = 1; i <= at.bodies; ++i)
       if (wing.hinges[i].has_latch) system.engage(i);
@@ -79,12 +79,13 @@ private:
     return made;
   }
 };
-using Shares = Latched<>::Shares;
+using PeakShares = LatchedWing<>::Shares;
 
 /// Climbs from random states towards the largest share of the bounds.
 template <BaseMotion M>
-Shares sought(Latched<M>& wing, double energy, oracle::Draws& draws, int starts, double t = 0) {
-  Shares worst;
+PeakShares sought(LatchedWing<M>& wing, double energy, oracle::Draws& draws, int starts,
+                  double t = 0) {
+  PeakShares worst;
   for (const bool forces : {false, true})
     for (int start = 0; start < starts; ++start) {
       State<double> way(wing.at.size());
@@ -116,10 +117,10 @@ Shares sought(Latched<M>& wing, double energy, oracle::Draws& draws, int starts,
 
 TEST_CASE(
     "no state with the energy breaks the bounds on peaks, and some come near: the seed wing") {
-  Latched<> wing(oracle::seed_scene());
+  LatchedWing<> wing(oracle::seed_scene());
   oracle::Draws draws(1);
   for (const double energy : {1e-6, 1e-3, 0.03, 1.0, 30.0}) {
-    const Shares worst = sought(wing, energy, draws, 6);
+    const PeakShares worst = sought(wing, energy, draws, 6);
     CAPTURE(energy, worst.moment, worst.force);
     CHECK(worst.moment <= 1);
     CHECK(worst.force <= 1);
@@ -142,9 +143,9 @@ TEST_CASE("no state with the energy breaks the bounds on peaks: random wings") {
       hinge.latch = Latch{draws.log_uniform(1e3, 1e6), draws.log_uniform(1, 1e3)};
       if (k % 3 == 0) hinge.friction.coulomb = draws.uniform(0, 0.5);
     }
-    Latched<> wing(scene);
+    LatchedWing<> wing(scene);
     const double energy = draws.log_uniform(1e-6, 1);
-    const Shares worst = sought(wing, energy, draws, 2);
+    const PeakShares worst = sought(wing, energy, draws, 2);
     CAPTURE(k, energy, worst.moment, worst.force);
     CHECK(worst.moment <= 1);
     CHECK(worst.force <= 1);
@@ -160,9 +161,9 @@ TEST_CASE("bounds made while hinges stick hold once they slip") {
     }
     for (const auto& stuck :
          {std::vector{1}, std::vector{2}, std::vector{3}, std::vector{1, 2, 3}}) {
-      Latched<> wing(scene, stuck);
+      LatchedWing<> wing(scene, stuck);
       oracle::Draws draws(3);
-      const Shares worst = sought(wing, 1e-3, draws, 6);
+      const PeakShares worst = sought(wing, 1e-3, draws, 6);
       CAPTURE(damping, stuck.front(), stuck.size(), worst.moment, worst.force);
       CHECK(worst.moment <= 1); // up to 1.9, and 16 at d = 1000, with what sticks frozen
       CHECK(worst.force <= 1);
@@ -183,7 +184,7 @@ TEST_CASE("friction of either model may be seen where no energy is left") {
         hinge.friction = {};
         hinge.friction.coulomb = 0.7, hinge.friction.model = model;
       }
-      Latched<> wing(scene);
+      LatchedWing<> wing(scene);
       wing.bounds.bound(wing.system, wing.prospects, 0.0);
       for (int i = 1; i <= panels; ++i) CHECK(wing.bounds.moment[i] == Approx(0.7).epsilon(1e-8));
     }
@@ -206,10 +207,10 @@ TEST_CASE("no state with the energy breaks the bounds on peaks: bases that turn 
   oracle::Draws draws(4);
   for (const auto& [rate, push] :
        {std::pair{0., 0.02}, {0., 1.}, {0.035, 0.}, {0.5, 0.}, {0.035, 0.02}, {-0.3, 0.2}}) {
-    Latched<BaseMotion::prescribed> wing(carried_seed(rate, push));
+    LatchedWing<BaseMotion::prescribed> wing(carried_seed(rate, push));
     const double least = wing.energy(wing.rest, 2);
     for (const double more : {1e-5, 1e-3, 0.03, 1.0}) {
-      const Shares worst = sought(wing, least + more, draws, 4, 2);
+      const PeakShares worst = sought(wing, least + more, draws, 4, 2);
       CAPTURE(rate, push, least, more, worst.moment, worst.force);
       CHECK(worst.moment <= 1);
       CHECK(worst.force <= 1);
@@ -225,9 +226,9 @@ TEST_CASE("no state with the energy breaks the bounds on peaks: hinges without l
   for (const int without : {0, 1, 2}) {
     Scene scene = oracle::seed_scene(); // its springs weaken on the way: they pull towards a rest
     scene.hinges[without].latch.reset();
-    Latched<> wing(scene);
+    LatchedWing<> wing(scene);
     for (const double energy : {1e-4, 0.1, 2.0}) {
-      const Shares worst = sought(wing, energy, draws, 4);
+      const PeakShares worst = sought(wing, energy, draws, 4);
       CAPTURE(without, energy, worst.moment, worst.force);
       CHECK(worst.moment <= 1);
       CHECK(worst.force <= 1);
@@ -267,7 +268,7 @@ Scene two_in_line(double l, double c1, double c2) {
 
 TEST_CASE("the sharp bounds of one panel are (5) to (8)") {
   for (const double tau : {0.0, 2.0}) {
-    Latched<> wing(slanted_panel(tau));
+    LatchedWing<> wing(slanted_panel(tau));
     const double m = 10, c = 0.5, I = 0.5 + m * c * c, kappa = wing.prospects.stiffness(1),
                  delta = wing.prospects.damping(1);
     CHECK(kappa == Approx(1e4 + 2 / (0.5 * 3.14159265358979324)));
@@ -289,7 +290,7 @@ TEST_CASE("the sharp bounds of one panel are (5) to (8)") {
 
 TEST_CASE("the sharp bounds hold up to where (5) says") {
   const double l = 1.5, c1 = 0.7, c2 = 0.4;
-  Latched<> wing(two_in_line(l, c1, c2));
+  LatchedWing<> wing(two_in_line(l, c1, c2));
   // in absolute rates; ρ_1 = 1/√κ_1, ρ_2 = ρ_1 + 1/√κ_2
   const double m11 = 0.5 + 10 * c1 * c1 + 4 * l * l, m12 = 4 * l * c2, m22 = 0.2 + 4 * c2 * c2;
   const double det = m11 * m22 - m12 * m12, rho1 = 1 / std::sqrt(1e4),
@@ -307,7 +308,7 @@ TEST_CASE("the sharp bounds hold up to where (5) says") {
 
 TEST_CASE("the coarse bounds are (2) to (4)") {
   const double l = 1.5, c1 = 0.7, c2 = 0.4, J1 = 0.5, J2 = 0.2;
-  Latched<> wing(two_in_line(l, c1, c2));
+  LatchedWing<> wing(two_in_line(l, c1, c2));
   const double E = 100; // far beyond what the sharp ones are for
   wing.bounds.bound(wing.system, wing.prospects, E);
   const double M1 = std::sqrt(2 * E * (1e4 + 10 * 10 / J1));

@@ -2,6 +2,7 @@
 #include "montecarlo/accuracy/chosen_runs.hpp"
 #include "montecarlo/runs/runner.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 #include "tests/support/reference_run.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,8 +14,6 @@ using namespace wingspread;
 using namespace wingspread::test;
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 ResultRow row_of(long run, std::vector<double> outputs, Status status = Status::deployed,
                  const char* order = "a>b") {

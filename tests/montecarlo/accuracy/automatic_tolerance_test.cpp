@@ -1,5 +1,6 @@
 #include "montecarlo/accuracy/automatic_tolerance.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -11,8 +12,6 @@ using namespace wingspread;
 using namespace wingspread::test;
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Nearly nothing dispersed, so that the sampling error is small and tolerances differ.
 Json narrow_campaign(long runs) {

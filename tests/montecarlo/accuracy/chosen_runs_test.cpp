@@ -1,6 +1,7 @@
 #include "montecarlo/accuracy/chosen_runs.hpp"
 #include "montecarlo/runs/run_plan.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +12,6 @@ using namespace wingspread::test;
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* usual = "root>mid>tip";
 
 /// A campaign whose rows are written by hand: run k latches root at 4 + k/100, mid at 5 + k/50, tip at 7 + 3k/100.

@@ -11,14 +11,14 @@ namespace {
 
 constexpr const char* law = R"("distribution": {"type": "constant", "value": 1})";
 
-struct Reading {
+struct ReadDispersions {
   Dispersions dispersions;
   std::string problems;
 };
 
-Reading read(const Json& list) {
+ReadDispersions read_list(const Json& list) {
   const Scene scene = read_scene(test::small_scene());
-  Reading reading;
+  ReadDispersions reading;
   reading.problems = test::problems_of(
       list, [&](const JsonCursor& at) { reading.dispersions = read_dispersions(at, &scene, ""); });
   return reading;
@@ -29,13 +29,13 @@ Json dispersion(const std::string& name, const std::string& members) {
   return parse_json("{\"name\": \"" + name + "\", " + law + ", " + members + "}");
 }
 
-std::string problems(const std::vector<Json>& list) { return read(Json(list)).problems; }
+std::string list_problems(const std::vector<Json>& list) { return read_list(Json(list)).problems; }
 
 } // namespace
 
 TEST_CASE("`to` is one draw for all of its targets", "[dispersion]") {
   const Scene scene = read_scene(test::small_scene());
-  const auto [dispersions, problems] = read(Json::array(
+  const auto [dispersions, problems] = read_list(Json::array(
       {dispersion("m", R"("apply": "scale", "to": ["bodies.*.mass", "bodies.outer.inertia"])")}));
   CHECK(problems.empty());
   REQUIRE(dispersions.list.size() == 1);
@@ -50,7 +50,7 @@ TEST_CASE("`to` is one draw for all of its targets", "[dispersion]") {
 
 TEST_CASE("`each` is a draw of its own per match, named after it", "[dispersion]") {
   const Scene scene = read_scene(test::small_scene());
-  const auto [dispersions, problems] = read(
+  const auto [dispersions, problems] = read_list(
       Json::array({dispersion("m", R"("apply": "set", "each": "bodies.*.mass")"),
                    dispersion("m.x", R"("apply": "add", "each": "hinges.root.initial_rate")")}));
   CHECK(problems.empty());
@@ -65,7 +65,7 @@ TEST_CASE("`each` is a draw of its own per match, named after it", "[dispersion]
 TEST_CASE("An `each` of several paths has one draw for what they match of one thing",
           "[dispersion]") {
   const Scene scene = read_scene(test::small_scene());
-  const auto [dispersions, problems] = read(Json::array({dispersion(
+  const auto [dispersions, problems] = read_list(Json::array({dispersion(
       "lot",
       R"("apply": "scale", "each": ["hinges.*.spring.scale", "hinges.r*t.latch.stiffness"])")}));
   CHECK(problems.empty());
@@ -91,7 +91,7 @@ constexpr const char* temperature = R"({ "name": "temperature",
 
 TEST_CASE("`through` is one draw for several effects, each by a table of its own", "[dispersion]") {
   const Scene scene = read_scene(test::small_scene());
-  const auto [dispersions, problems] = read(Json::array({parse_json(temperature)}));
+  const auto [dispersions, problems] = read_list(Json::array({parse_json(temperature)}));
   CHECK(problems.empty());
   REQUIRE(dispersions.list.size() == 1);
   const Dispersion& draw = dispersions.list[0];
@@ -106,7 +106,7 @@ TEST_CASE("`through` is one draw for several effects, each by a table of its own
   CHECK(draw.through[1].table.pieces()[1].c[0] == 0.3); // SI
   const Json& resolved = dispersions.resolved[0]["through"];
   CHECK(resolved[1]["table"].dump() == R"({"at":[-100.0,60.0],"value":[0.3,0.0]})");
-  CHECK(read(dispersions.resolved).dispersions.resolved == dispersions.resolved);
+  CHECK(read_list(dispersions.resolved).dispersions.resolved == dispersions.resolved);
 }
 
 TEST_CASE("Each fault of a `through` is told", "[dispersion]") {
@@ -143,12 +143,12 @@ TEST_CASE("Each fault of a `through` is told", "[dispersion]") {
         "/0/through/0/table: found a curve too steep for numbers, expected draws further apart, or "
         "smaller values"}}));
   CAPTURE(pointer, value);
-  CHECK(problems({test::spoil(parse_json(temperature), {pointer, value, ""})}) == message);
+  CHECK(list_problems({test::spoil(parse_json(temperature), {pointer, value, ""})}) == message);
 }
 
 TEST_CASE("Parameters that several draws change are told, with the order", "[dispersion]") {
   const Scene scene = read_scene(test::small_scene());
-  const auto [dispersions, problems] = read(
+  const auto [dispersions, problems] = read_list(
       Json::array({parse_json(temperature),
                    dispersion("s", R"("apply": "scale", "each": "hinges.*.spring.scale")"),
                    dispersion("m", R"("apply": "set", "to": ["hinges.root.spring.torque_stowed"])"),
@@ -167,7 +167,7 @@ TEST_CASE("The resolved list is not expanded, and its laws are in full", "[dispe
   const Json list =
       Json::array({dispersion("m", R"("apply": "set", "each": "bodies.*.mass")"),
                    dispersion("r", R"("apply": "add", "to": ["hinges.root.initial_rate"])")});
-  CHECK(read(list).dispersions.resolved.dump() ==
+  CHECK(read_list(list).dispersions.resolved.dump() ==
         R"([{"name":"m","distribution":{"type":"constant","value":1.0},"apply":"set",)"
         R"("each":"bodies.*.mass"},{"name":"r","distribution":{"type":"constant","value":1.0},)"
         R"("apply":"add","to":["hinges.root.initial_rate"]}])");
@@ -175,7 +175,7 @@ TEST_CASE("The resolved list is not expanded, and its laws are in full", "[dispe
 
 TEST_CASE("Numbers of a law that sets or adds may have the unit of their target", "[dispersion]") {
   const auto law_of = [](const char* json) {
-    const auto [dispersions, problems] = read(Json::array({parse_json(json)}));
+    const auto [dispersions, problems] = read_list(Json::array({parse_json(json)}));
     CHECK(problems.empty());
     CHECK(dispersions.resolved[0]["distribution"] ==
           write_distribution(dispersions.list[0].distribution)); // SI
@@ -211,7 +211,7 @@ TEST_CASE("Numbers without a dimension, or with several, have no unit", "[disper
             "distribution": {"type": "constant", "value": "2 m"}})",
         "/0/distribution/value: found string \"2 m\", expected a number, kg, or a string of a "
         "number and its unit: \"kg\", \"g\" or \"lb\""}}));
-  CHECK(problems({parse_json(json)}) == message);
+  CHECK(list_problems({parse_json(json)}) == message);
 }
 
 TEST_CASE("Each fault of a dispersion is told", "[dispersion]") {
@@ -232,7 +232,7 @@ TEST_CASE("Each fault of a dispersion is told", "[dispersion]") {
         "/0: found neither \"to\" nor \"each\" nor \"through\", expected one of them\n"
         "/0/too: found the unknown key \"too\", expected \"name\", \"distribution\", \"to\", "
         "\"each\", \"through\" or \"apply\" (did you mean \"to\"?)"}}));
-  CHECK(problems({parse_json(json)}) == message);
+  CHECK(list_problems({parse_json(json)}) == message);
 }
 
 TEST_CASE("Each fault of a dispersion's targets is told", "[dispersion]") {
@@ -274,7 +274,8 @@ TEST_CASE("Each fault of a dispersion's targets is told", "[dispersion]") {
         "/0/each/1: found bodies.inner.mass a second time, expected each parameter once"},
        {R"("each": "base.mass")",
         "/0/each: found string \"base.mass\", expected a base whose motion is \"free\""}}));
-  CHECK(problems({dispersion("m", R"("apply": "scale", )" + std::string(targets))}) == message);
+  CHECK(list_problems({dispersion("m", R"("apply": "scale", )" + std::string(targets))}) ==
+        message);
 }
 
 TEST_CASE("`each` needs a name to call its draws by", "[dispersion]") {
@@ -298,30 +299,30 @@ TEST_CASE("A dispersion's name heads a column of its own", "[dispersion]") {
   const std::string rest = R"("apply": "scale", "to": ["bodies.inner.mass"])";
   for (const char* name : {"", "a,b", "a\\\"b", "a\\nb", "a\\rb"})
     CHECK_THAT(
-        problems({dispersion(name, rest)}),
+        list_problems({dispersion(name, rest)}),
         Catch::StartsWith("/0/name: found string \"") &&
             Catch::EndsWith("expected a string, not empty, without commas, quotes and control "
                             "characters"));
   for (const std::string name :
        {"run", "status", "latch_order", "reason", "deployed", "deployment_time", "root.latch_time",
         "root.latch_rate", "mid.peak_moment", "mid.peak_force", "root.rate_at.mid"})
-    CHECK(problems({dispersion(name, rest)}) ==
+    CHECK(list_problems({dispersion(name, rest)}) ==
           "/0/name: found \"" + name +
               "\", the name of a column of the results, expected another name");
   for (const char* name : {"spring", "root.spring", "Masse ü", "run 2", "a.b.c"})
-    CHECK(problems({dispersion(name, rest)}).empty());
+    CHECK(list_problems({dispersion(name, rest)}).empty());
 }
 
 TEST_CASE("No two draws share a name, expanded ones included", "[dispersion]") {
   CHECK(
-      problems({dispersion("m.outer", R"("apply": "scale", "to": ["bodies.inner.inertia"])"),
-                dispersion("m", R"("apply": "scale", "each": "bodies.*.mass")")}) ==
+      list_problems({dispersion("m.outer", R"("apply": "scale", "to": ["bodies.inner.inertia"])"),
+                     dispersion("m", R"("apply": "scale", "each": "bodies.*.mass")")}) ==
       "/1/name: found \"m.outer\", the name of another dispersion too, expected a name of its own");
 }
 
 TEST_CASE("No two draws share a random stream", "[dispersion]") {
   // A known collision of FNV-1a, 64 bits, which names the streams.
-  CHECK(problems(
+  CHECK(list_problems(
             {dispersion("8yn0iYCKYHlIj4-BwPqk", R"("apply": "scale", "to": ["bodies.inner.mass"])"),
              dispersion("GReLUrM4wMqfg9yzV3KQ",
                         R"("apply": "scale", "to": ["bodies.inner.mass"])")}) ==
@@ -348,7 +349,7 @@ TEST_CASE("A draw is not lost to a later one that sets its target", "[dispersion
                       "\"apply\": \"" + std::string(how) + "\", \"to\": [\"bodies.inner.mass\"]");
   };
   CAPTURE(first, second);
-  CHECK(problems({of("a", first), of("b", second)}) ==
+  CHECK(list_problems({of("a", first), of("b", second)}) ==
         (sound ? ""
                : "/1/apply: found \"set\" of bodies.inner.mass, which \"a\" has written before, "
                  "expected "
@@ -358,12 +359,13 @@ TEST_CASE("A draw is not lost to a later one that sets its target", "[dispersion
 TEST_CASE("Nor is one to a later table that sets its target", "[dispersion]") {
   Json draw = parse_json(temperature);
   draw["through"][0]["apply"] = "set";
-  CHECK(
-      problems({dispersion("s", R"("apply": "scale", "to": ["hinges.mid.spring.scale"])"), draw}) ==
-      "/1/through: found \"set\" of hinges.mid.spring.scale, which \"s\" has written before, "
-      "expected nothing before a \"set\", which would undo it");
+  CHECK(list_problems(
+            {dispersion("s", R"("apply": "scale", "to": ["hinges.mid.spring.scale"])"), draw}) ==
+        "/1/through: found \"set\" of hinges.mid.spring.scale, which \"s\" has written before, "
+        "expected nothing before a \"set\", which would undo it");
 }
 
 TEST_CASE("The list of dispersions is an array", "[dispersion]") {
-  CHECK(read(parse_json("{}")).problems == "found an object, expected an array of dispersions");
+  CHECK(read_list(parse_json("{}")).problems ==
+        "found an object, expected an array of dispersions");
 }

@@ -8,15 +8,15 @@ using namespace wingspread;
 namespace {
 
 /// What came of a distribution, and of a CSV file "data.csv" beside it.
-struct Reading {
+struct ReadDistribution {
   Distribution distribution;
   std::string problems;
 };
 
-Reading read(const std::string& json, const std::string& csv = "") {
+ReadDistribution read_law(const std::string& json, const std::string& csv = "") {
   const test::Folder folder;
   folder.write("data.csv", csv);
-  Reading reading;
+  ReadDistribution reading;
   reading.problems = test::problems_of(parse_json(json), [&](const JsonCursor& at) {
     reading.distribution = read_distribution(at, folder.path());
   });
@@ -46,7 +46,7 @@ TEST_CASE("Every law is written as it was read", "[distribution_json]") {
       R"({"type":"empirical","values":[3.0,1.0,2.0]})", R"({"type":"constant","value":7.0})",
       R"({"type":"normal","mean":0.0,"std":1.0,"truncate":{"lower":-3.0,"upper":3.0}})",
       R"({"type":"exponential","rate":1.0,"truncate":{"upper":3.0}})");
-  const auto [distribution, problems] = read(json);
+  const auto [distribution, problems] = read_law(json);
   CHECK(problems.empty());
   CHECK(write_distribution(distribution).dump() == json);
   CHECK(type_of(distribution.law) == parse_json(json)["type"]);
@@ -104,13 +104,13 @@ TEST_CASE("Each fault of a distribution is told", "[distribution_json]") {
         "found both values and a file, expected either of them\n"
         "/file: found no file that can be read at \"none.csv\", expected a CSV file"}}));
   CAPTURE(json);
-  CHECK(read(json).problems == message);
+  CHECK(read_law(json).problems == message);
 }
 
 TEST_CASE("An empirical law takes a column of a CSV file", "[distribution_json]") {
   const char* csv =
       GENERATE("x,y\n1,0\n-2.5e-3,0\n3,0\n", "y,\"x\"\r\n0,1\r\n0,-0.0025\r\n\r\n0,3");
-  const auto [distribution, problems] = read(from_file, csv);
+  const auto [distribution, problems] = read_law(from_file, csv);
   CHECK(problems.empty());
   CHECK(std::get<Empirical>(distribution.law).values == std::vector<double>{1, -0.0025, 3});
 }
@@ -131,5 +131,5 @@ TEST_CASE("Each fault of the CSV file is told with its line", "[distribution_jso
        {"x,y\n,2\n", "data.csv: line 2, column 'x': found '', expected a finite number"},
        {"x\n", "/values: found none, expected at least one"}}));
   CAPTURE(csv);
-  CHECK(read(from_file, csv).problems == message);
+  CHECK(read_law(from_file, csv).problems == message);
 }

@@ -15,20 +15,20 @@ Json small_margin() {
                          "range": [0.5, 2] })");
 }
 
-Campaign read(const Json& margin) {
+Campaign read_margin(const Json& margin) {
   Json campaign = test::small_campaign();
   campaign["margin"] = margin;
   return read_campaign(campaign.dump(), "");
 }
 
-std::string problems(const test::Spoiled& change) {
-  return test::message_of([&] { return read(test::spoil(small_margin(), change)); });
+std::string margin_problems(const test::Spoiled& change) {
+  return test::message_of([&] { return read_margin(test::spoil(small_margin(), change)); });
 }
 
 } // namespace
 
 TEST_CASE("A margin is read with its defaults, and written in full", "[margin]") {
-  const Campaign campaign = read(small_margin());
+  const Campaign campaign = read_margin(small_margin());
   const MarginSpec& margin = campaign.margin.value();
   REQUIRE(margin.scaled.size() == 3);
   CHECK(path_of(campaign.scene, margin.scaled[2]) == "hinges.root.spring.torque_latched");
@@ -76,7 +76,7 @@ TEST_CASE("What a margin sets otherwise is read too", "[margin]") {
                       "aiaa": { "phase": "preliminary_design", "known": 1.25 },
                       "torques": { "mid": { "hysteresis": "250 N*mm" } },
                       "rates": { "mid": "180 deg/s" } } })"));
-  const Campaign campaign = read(json);
+  const Campaign campaign = read_margin(json);
   const MarginSpec& margin = *campaign.margin;
   CHECK((margin.lowest == 0.5 && margin.highest == 3));
   CHECK((margin.mode == MarginMode::each && !margin.nominal && margin.one_spring_out));
@@ -156,7 +156,7 @@ TEST_CASE("Each fault of a margin is told", "[margin]") {
        {"/motorization", R"({"points": 1})",
         "/margin/motorization/points: found 1, expected an integer from 2 to 1000"}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(problems(change) == change.message);
+  CHECK(margin_problems(change) == change.message);
 }
 
 TEST_CASE("What does not go with the sized parameters is refused", "[margin]") {
@@ -164,7 +164,7 @@ TEST_CASE("What does not go with the sized parameters is refused", "[margin]") {
   json["scale"] = {"bodies.*.mass"};
   json["mode"] = "each";
   json["cases"] = {"nominal", "one_spring_out"};
-  CHECK(test::message_of([&] { return read(json); }) ==
+  CHECK(test::message_of([&] { return read_margin(json); }) ==
         "/margin/mode: found \"each\" with a parameter that is not a hinge's, expected parameters "
         "of hinges\n"
         "/margin/cases: found \"one_spring_out\" with no spring's torque in \"scale\", expected a "

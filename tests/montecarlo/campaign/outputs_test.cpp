@@ -1,5 +1,6 @@
 #include "montecarlo/campaign/outputs.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -11,11 +12,9 @@ using namespace wingspread::test;
 
 namespace {
 
-struct Case {
+struct OutputsCase {
   const char *json, *message;
 };
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> column_names(const Scene& scene, const Outputs& outputs) {
   std::vector<std::string> names;
@@ -64,7 +63,7 @@ TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_setting
   CHECK(problems.empty());
   CHECK(outputs == Outputs{OutputFamily::latch_time, OutputFamily::rate_at});
   CHECK(read("[]", default_outputs(), read_outputs).settings.empty());
-  const auto [json, message] = GENERATE(values<Case>(
+  const auto [json, message] = GENERATE(values<OutputsCase>(
       {{"\"latch_time\"", "found string \"latch_time\", expected an array of output families"},
        {R"(["latch_times"])", "/0: found string \"latch_times\", expected \"latch_time\", "
                               "\"latch_rate\", \"peak_moment\", \"peak_force\", \"rate_at\", "

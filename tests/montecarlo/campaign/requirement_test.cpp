@@ -7,14 +7,14 @@ using namespace wingspread;
 
 namespace {
 
-const std::vector<std::string> outputs{"root.peak_moment", "root.latch_rate", "deployment_time"};
-const std::vector<std::string> all_outputs{"root.peak_moment", "root.latch_rate", "root.peak_force",
+const std::vector<std::string> columns{"root.peak_moment", "root.latch_rate", "deployment_time"};
+const std::vector<std::string> all_columns{"root.peak_moment", "root.latch_rate", "root.peak_force",
                                            "deployment_time"};
 
-std::vector<Requirement> read(const Json& document) {
+std::vector<Requirement> read_list_of_requirements(const Json& document) {
   std::vector<Requirement> requirements;
   CHECK(test::problems_of(document, [&](const JsonCursor& at) {
-          read_requirements(at, &outputs, all_outputs, requirements);
+          read_requirements(at, &columns, all_columns, requirements);
         }).empty());
   return requirements;
 }
@@ -29,7 +29,7 @@ Json two() {
 } // namespace
 
 TEST_CASE("Requirements are read, written in full and said in words", "[requirement]") {
-  const std::vector<Requirement> requirements = read(two());
+  const std::vector<Requirement> requirements = read_list_of_requirements(two());
   REQUIRE(requirements.size() == 2);
   CHECK((requirements[0].max == 400 && !requirements[0].min));
   CHECK((requirements[1].min == -1.5 && requirements[1].confidence == 0.95));
@@ -38,15 +38,15 @@ TEST_CASE("Requirements are read, written in full and said in words", "[requirem
   CHECK(to_string(requirements[1]) == "M-12: root.latch_rate ≥ -1.5 rad/s, 99 % at 95 %");
   const Json deployed =
       parse_json(R"([{ "output": "deployed", "probability": 0.999, "confidence": 0.9 }])");
-  CHECK(to_string(read(deployed)[0]) == "deployed, 99.9 % at 90 %");
-  CHECK(write_requirements(read(deployed)) == deployed);
+  CHECK(to_string(read_list_of_requirements(deployed)[0]) == "deployed, 99.9 % at 90 %");
+  CHECK(write_requirements(read_list_of_requirements(deployed)) == deployed);
 }
 
 TEST_CASE("A limit may have its unit", "[requirement]") {
   const Json given = parse_json(R"([
     { "output": "root.peak_moment", "max": "4 kN*m", "probability": 0.99, "confidence": 0.9 },
     { "output": "deployment_time", "min": "0.5 min", "probability": 0.99, "confidence": 0.9 }])");
-  const std::vector<Requirement> requirements = read(given);
+  const std::vector<Requirement> requirements = read_list_of_requirements(given);
   CHECK(requirements[0].max == 4000);
   CHECK(requirements[1].min == 30);
   CHECK(write_requirements(requirements)[0]["max"] == 4000);
@@ -89,7 +89,7 @@ TEST_CASE("Each fault of a requirement is told", "[requirement]") {
   CAPTURE(change.pointer, change.value);
   std::vector<Requirement> requirements;
   CHECK(test::problems_of(test::spoil(two(), change), [&](const JsonCursor& at) {
-          read_requirements(at, &outputs, all_outputs, requirements);
+          read_requirements(at, &columns, all_columns, requirements);
         }) == change.message);
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("A limit may be on the magnitude, and requirements may share a confide
   document[0]["group"] = "A";
   document.push_back(
       parse_json(R"({ "output": "deployed", "probability": 0.99, "confidence": 0.95 })"));
-  const std::vector<Requirement> requirements = read(document);
+  const std::vector<Requirement> requirements = read_list_of_requirements(document);
   CHECK((requirements[1].absolute && requirements[1].group == "A"));
   CHECK(write_requirements(requirements) == document);
   CHECK(to_string(requirements[1]) == "|root.latch_rate| ≤ 1.5 rad/s, 99 % at 90 % in group A");
@@ -125,7 +125,7 @@ TEST_CASE("A group has one confidence, and deployment no magnitude", "[requireme
   std::vector<Requirement> requirements;
   CHECK(test::problems_of(document,
                           [&](const JsonCursor& at) {
-                            read_requirements(at, &outputs, all_outputs, requirements);
+                            read_requirements(at, &columns, all_columns, requirements);
                           }) ==
         "/2/abs: found true, expected an output with a limit: a run has deployed or has not\n"
         "/1/confidence: found 0.95, expected 0.9, as of the others of the group \"loads\": it is "
@@ -136,7 +136,7 @@ TEST_CASE("A limit on a time beyond the end of every run is refused", "[requirem
   Json document = two();
   document[0]["output"] = "deployment_time";
   const double t_end = GENERATE(399.5, 400.); // s
-  const std::vector<Requirement> requirements = read(document);
+  const std::vector<Requirement> requirements = read_list_of_requirements(document);
   CHECK(test::problems_of(
             document, [&](const JsonCursor& at) { refuse_late_limits(at, requirements, t_end); }) ==
         (t_end == 400 ? ""
@@ -159,7 +159,7 @@ Scene sprung() {
 std::string margin_problems(const Json& document, std::vector<Requirement>& requirements) {
   const Scene scene = sprung();
   return test::problems_of(document, [&](const JsonCursor& at) {
-    read_requirements(at, &outputs, all_outputs, requirements, &scene);
+    read_requirements(at, &columns, all_columns, requirements, &scene);
   });
 }
 

@@ -15,18 +15,18 @@ Json with_integration(const char* integration) {
   return campaign;
 }
 
-Campaign read(const char* integration) {
+Campaign read_integrated(const char* integration) {
   return read_campaign(with_integration(integration).dump(), "");
 }
 
-struct Case {
+struct IntegrationCase {
   const char *integration, *message;
 };
 
 } // namespace
 
 TEST_CASE("a tolerance can be left to a pilot", "[tolerance_choice]") {
-  const Campaign campaign = read(R"({"rtol": "auto"})");
+  const Campaign campaign = read_integrated(R"({"rtol": "auto"})");
   REQUIRE(campaign.tolerance);
   CHECK(campaign.tolerance->share == 0.01);
   CHECK_FALSE(campaign.tolerance->has_atol);
@@ -35,12 +35,12 @@ TEST_CASE("a tolerance can be left to a pilot", "[tolerance_choice]") {
         R"({"method":"auto","rtol":"auto","latch":"event","t_end":60.0,"max_steps":1000000,)"
         R"("rtol_share":0.01})");
   CHECK(read_campaign(campaign.resolved.dump(), "").resolved == campaign.resolved);
-  const Campaign given = read(R"({"rtol": "auto", "atol": 1e-9, "rtol_share": 0.1})");
+  const Campaign given = read_integrated(R"({"rtol": "auto", "atol": 1e-9, "rtol_share": 0.1})");
   CHECK(given.tolerance->share == 0.1);
   CHECK(given.tolerance->has_atol);
   CHECK(given.resolved["integration"]["atol"] == 1e-9);
-  CHECK_FALSE(read(R"({"rtol": 1e-6})").tolerance);
-  CHECK_FALSE(read(R"({})").tolerance);
+  CHECK_FALSE(read_integrated(R"({"rtol": 1e-6})").tolerance);
+  CHECK_FALSE(read_integrated(R"({})").tolerance);
 }
 
 TEST_CASE("what a pilot has chosen is read as it was written", "[tolerance_choice]") {
@@ -48,7 +48,7 @@ TEST_CASE("what a pilot has chosen is read as it was written", "[tolerance_choic
       R"({"method":"auto","rtol":1e-07,"atol":1e-09,"latch":"event","t_end":60.0,)"
       R"("max_steps":1000000,"rtol_share":0.01,"rtol_pilot":{"seed":18446744073709551615,)"
       R"("runs":32,"for_runs":100,"repeated":[0,5,31],"not_reached":true}})";
-  const Campaign campaign = read(integration);
+  const Campaign campaign = read_integrated(integration);
   CHECK(campaign.integration.rtol == 1e-7);
   CHECK(campaign.integration.atol == 1e-9);
   REQUIRE(campaign.tolerance);
@@ -58,7 +58,7 @@ TEST_CASE("what a pilot has chosen is read as it was written", "[tolerance_choic
 }
 
 TEST_CASE("each fault of a tolerance left to a pilot is told", "[tolerance_choice]") {
-  const auto [integration, message] = GENERATE(values<Case>(
+  const auto [integration, message] = GENERATE(values<IntegrationCase>(
       {{R"({"rtol": "automatic"})", "/integration/rtol: found string \"automatic\", expected a "
                                     "number, > 0 and < 1, or \"auto\""},
        {R"({"rtol": 1e-6, "rtol_share": 0.1})",
@@ -75,5 +75,5 @@ TEST_CASE("each fault of a tolerance left to a pilot is told", "[tolerance_choic
         "than the next"},
        {R"({"rtol_pilot": {"seed": 1, "runs": 1, "for_runs": 1, "repeated": [0], "not_reached": false}})",
         "/integration/rtol_pilot/not_reached: found false, expected true, or no such key"}}));
-  CHECK(message_of([&] { return read(integration); }) == message);
+  CHECK(message_of([&] { return read_integrated(integration); }) == message);
 }

@@ -19,10 +19,12 @@ Json with_correlations(const std::string& text) {
   return campaign;
 }
 
-Campaign read(const std::string& text) { return read_campaign(with_correlations(text).dump(), ""); }
+Campaign read_correlated(const std::string& text) {
+  return read_campaign(with_correlations(text).dump(), "");
+}
 
-std::string problems(const std::string& text) {
-  return test::message_of([&] { return read(text); });
+std::string correlation_problems(const std::string& text) {
+  return test::message_of([&] { return read_correlated(text); });
 }
 
 Json pair(const char* first, const char* second, double spearman) {
@@ -44,15 +46,15 @@ std::string triple(double a, double b, double c) {
 } // namespace
 
 TEST_CASE("Correlations are read by the names of the dispersions", "[correlations]") {
-  const Campaign campaign = read(list({pair("mass.outer", "spring", 0.6)}));
+  const Campaign campaign = read_correlated(list({pair("mass.outer", "spring", 0.6)}));
   REQUIRE(campaign.wanted_correlations.size() == 1);
   const auto [first, second, spearman] = campaign.wanted_correlations[0];
   CHECK((first == 0 && second == 2 && spearman == 0.6));
   CHECK(campaign.resolved["correlations"].dump() ==
         R"([{"between":["spring","mass.outer"],"spearman":0.6}])");
   CHECK(read_campaign(campaign.resolved.dump(), "").resolved == campaign.resolved);
-  CHECK_FALSE(read("[]").resolved.contains("correlations"));
-  CHECK(campaign_hash(read("[]").resolved) ==
+  CHECK_FALSE(read_correlated("[]").resolved.contains("correlations"));
+  CHECK(campaign_hash(read_correlated("[]").resolved) ==
         campaign_hash(read_campaign(test::small_campaign().dump(), "").resolved));
 }
 
@@ -85,7 +87,7 @@ TEST_CASE("Each fault of the correlations is told", "[correlations]") {
       {R"([{"between": ["spring", "mass.inner"], "spearman": 0.5, "pearson": 0.5}])",
        "/correlations/0/pearson: found the unknown key \"pearson\", expected \"between\" or "
        "\"spearman\" (did you mean \"spearman\"?)"}};
-  for (const auto& [text, message] : cases) CHECK(problems(text) == message);
+  for (const auto& [text, message] : cases) CHECK(correlation_problems(text) == message);
 }
 
 TEST_CASE("Names are not looked up in dispersions that have problems of their own",
@@ -101,15 +103,15 @@ TEST_CASE("Names are not looked up in dispersions that have problems of their ow
 TEST_CASE("Impossible correlations are refused, and the nearest possible ones named",
           "[correlations]") {
   CHECK(
-      problems(triple(0.9, 0.9, -0.9)) ==
+      correlation_problems(triple(0.9, 0.9, -0.9)) ==
       "/correlations: found coefficients that cannot hold together (the smallest eigenvalue of "
       "their matrix is -0.82), expected a positive definite matrix; the nearest has \"spring\" and "
       "\"mass.inner\" 0.4824, \"spring\" and \"mass.outer\" 0.4824, \"mass.inner\" and "
       "\"mass.outer\" -0.4824");
-  CHECK(problems(triple(0.9, 0.9, 0.9)).empty());
-  CHECK_THAT(
-      problems(list({pair("spring", "mass.inner", 0.99), pair("spring", "mass.outer", 0.99)})),
-      Catch::Contains("\"mass.inner\" and \"mass.outer\" 0.")); // one that was not named
+  CHECK(correlation_problems(triple(0.9, 0.9, 0.9)).empty());
+  CHECK_THAT(correlation_problems(
+                 list({pair("spring", "mass.inner", 0.99), pair("spring", "mass.outer", 0.99)})),
+             Catch::Contains("\"mass.inner\" and \"mass.outer\" 0.")); // one that was not named
 }
 
 // 1 − 2 · 0.25 = ½ is the cosine of the sum of two angles whose cosine is √¾: a matrix on the edge.
@@ -119,7 +121,7 @@ TEST_CASE("Correlations on the very edge are refused, in whatever order they are
                high = 6 / std::acos(-1.) * std::asin(r / 2);
   for (const auto& given :
        {std::array{half, high, high}, std::array{high, half, high}, std::array{high, high, half}})
-    CHECK_THAT(problems(triple(given[0], given[1], given[2])),
+    CHECK_THAT(correlation_problems(triple(given[0], given[1], given[2])),
                Catch::StartsWith("/correlations: found coefficients that cannot hold together"));
 }
 
@@ -127,21 +129,21 @@ TEST_CASE("The coefficients that a refusal names are accepted", "[correlations]"
   const std::regex number(R"( (-?[0-9]\.[0-9]{4}))");
   for (const auto& given : {std::array{0.9, 0.9, -0.9}, std::array{0.99, -0.99, 0.99},
                             std::array{-0.6, -0.6, -0.6}, std::array{0.5, 0.5, -0.52}}) {
-    const std::string message = problems(triple(given[0], given[1], given[2]));
+    const std::string message = correlation_problems(triple(given[0], given[1], given[2]));
     std::vector<double> named;
     for (std::sregex_iterator at(message.begin(), message.end(), number), end; at != end; ++at)
       named.push_back(std::stod((*at)[1]));
     CAPTURE(message);
     REQUIRE(named.size() == 3);
-    CHECK(problems(triple(named[0], named[1], named[2])).empty());
+    CHECK(correlation_problems(triple(named[0], named[1], named[2])).empty());
     for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(named[i] - given[i]) < 0.7);
   }
 }
 
 TEST_CASE("Correlations couple the draws, and leave those of the first as they were",
           "[correlations]") {
-  const Campaign coupled = read(list({pair("spring", "mass.outer", 0.9)}));
-  const Campaign loose = read("[]");
+  const Campaign coupled = read_correlated(list({pair("spring", "mass.outer", 0.9)}));
+  const Campaign loose = read_correlated("[]");
   const RunPlan coupled_plan(coupled), loose_plan(loose);
   std::vector<double> with(3), without(3);
   int same_side = 0;

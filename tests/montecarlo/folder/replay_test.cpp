@@ -1,5 +1,6 @@
 #include "montecarlo/folder/replay.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -75,7 +76,6 @@ TEST_CASE("a broken file is refused with its line, wherever the search began") {
 }
 
 TEST_CASE("every difference is named with its column") {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const ResultNames names{{"k"}, {"a", "b", "c"}};
   const ResultRow row{4, Status::deployed, {1}, {2, none, 0.0}, "root", ""};
   CHECK(differences(names, row, row).empty());

@@ -14,11 +14,6 @@ using namespace wingspread::test;
 
 namespace {
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A study of three looks, each of which depends on what the one before came to: its rows, one behind the other.
 class Study {
 public:

@@ -12,11 +12,6 @@ namespace {
 
 const std::vector<std::string> written{"first", "", std::string(300, 'x'), "last\n\0\xFF"};
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 void put_bytes(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }

@@ -8,13 +8,13 @@ using namespace wingspread::test;
 
 namespace {
 
-constexpr long runs = 100;
+constexpr long runs_of_case = 100;
 
 /// A verdict of which so many runs break the requirement, and 5 may.
 Verdict verdict(const char* output, long broken) {
   Verdict made;
   made.requirement.output = output;
-  made.runs = runs;
+  made.runs = runs_of_case;
   made.allowed = 5;
   made.decision = broken <= 5 ? Decision::pass : Decision::fail;
   for (long run = 0; run < broken; ++run) made.broken.push_back(run);
@@ -24,7 +24,7 @@ Verdict verdict(const char* output, long broken) {
 /// A case in which so many runs did not deploy.
 CaseLook case_of(long stalled, std::vector<Verdict> verdicts) {
   CaseLook look;
-  look.statuses[static_cast<std::size_t>(Status::deployed)] = runs - stalled;
+  look.statuses[static_cast<std::size_t>(Status::deployed)] = runs_of_case - stalled;
   look.statuses[static_cast<std::size_t>(Status::stalled)] = stalled;
   look.verdicts = std::move(verdicts);
   return look;

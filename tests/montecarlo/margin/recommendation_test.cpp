@@ -8,13 +8,13 @@ using namespace wingspread;
 
 namespace {
 
-constexpr long runs = 1000;
+constexpr long runs_of_look = 1000;
 
 /// A requirement of which so many of 1000 runs break it, and 10 may.
 Verdict verdict(double broken) {
   Verdict made;
   made.requirement.probability = 0.99;
-  made.runs = runs;
+  made.runs = runs_of_look;
   made.allowed = 10;
   for (long run = 0; run < std::lround(broken); ++run) made.broken.push_back(run);
   made.decision = made.broken.size() <= 10 ? Decision::pass : Decision::fail;

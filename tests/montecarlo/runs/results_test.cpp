@@ -1,4 +1,5 @@
 #include "montecarlo/runs/results.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,10 +10,10 @@
 #include <sstream>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 const ResultNames names{{"k", "mass, panel"}, {"root.latch_time", "deployment_time"}};
 
 ResultsFile read(const std::string& text, const ResultNames& columns,

@@ -7,7 +7,7 @@ using namespace wingspread;
 
 namespace {
 
-std::string spoilt_scene(const test::Spoiled& change) {
+std::string spoilt_hinge(const test::Spoiled& change) {
   return test::message_of([&] { return read_scene(test::spoil(test::real_scene(), change)); });
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("Each fault of what acts across a hinge is told", "[hinge_json]") {
         "\"dissipation\" or \"gap\""},
        {"/hinges/0/latch/backlash", "-1", "/hinges/0/latch/backlash: found -1, expected >= 0"}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(spoilt_scene(change) == change.message);
+  CHECK(spoilt_hinge(change) == change.message);
 }
 
 TEST_CASE("What real hinges have is written in full", "[hinge_json]") {

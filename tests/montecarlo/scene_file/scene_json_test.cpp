@@ -7,7 +7,7 @@ using namespace wingspread;
 
 namespace {
 
-std::string spoilt_scene(const test::Spoiled& change) {
+std::string spoilt_small_scene(const test::Spoiled& change) {
   return test::message_of([&] { return read_scene(test::spoil(test::small_scene(), change)); });
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
         "/hinges/0/latch/damping: found nothing, expected a number, N·m·s/rad, ≥ 0"},
        {"/hinges/0/latch/stiffness", "-1", "/hinges/0/latch/stiffness: found -1, expected >= 0"}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(spoilt_scene(change) == change.message);
+  CHECK(spoilt_small_scene(change) == change.message);
 }
 
 TEST_CASE("All faults of a scene are told together, under the name of its file", "[scene_json]") {

@@ -7,7 +7,7 @@ using namespace wingspread;
 
 namespace {
 
-std::string spoilt_scene(const test::Spoiled& change) {
+std::string spoilt_synchronisation(const test::Spoiled& change) {
   return test::message_of([&] { return read_scene(test::spoil(test::real_scene(), change)); });
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("Each fault of a loop is told", "[synchronisation]") {
         "\"between\", \"ratio\", \"stiffness\", \"damping\" or \"preload\" (did you mean "
         "\"preload\"?)"}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(spoilt_scene(change) == change.message);
+  CHECK(spoilt_synchronisation(change) == change.message);
 }
 
 TEST_CASE("Loops are written in full, and not at all where there are none", "[synchronisation]") {

@@ -7,7 +7,7 @@ using namespace wingspread;
 
 namespace {
 
-std::string spoilt_scene(const test::Spoiled& change) {
+std::string spoilt_torque(const test::Spoiled& change) {
   return test::message_of([&] { return read_scene(test::spoil(test::real_scene(), change)); });
 }
 
@@ -126,11 +126,11 @@ TEST_CASE("Each fault of a torque is told with place, found and expected", "[tor
         "between 0.5 and 1 rad, expected one that nowhere does: more knots there, or "
         "\"interpolation\": \"linear\""}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(spoilt_scene(change) == change.message);
+  CHECK(spoilt_torque(change) == change.message);
 }
 
 TEST_CASE("Angles of a table run either way where the hinge's are not known", "[torque_json]") {
-  CHECK(spoilt_scene({"/hinges/0/angle/latched", "null", ""}) ==
+  CHECK(spoilt_torque({"/hinges/0/angle/latched", "null", ""}) ==
         "/hinges/0/angle/latched: found null, expected a number, rad, different from stowed");
 }
 

@@ -8,9 +8,9 @@ using namespace wingspread::test;
 
 namespace {
 
-constexpr long rows = 6;
+constexpr long design_rows = 6;
 
-SaltelliDesign design_of(const Json& json) { return {campaign_of(json), rows, {}}; }
+SaltelliDesign design_of(const Json& json) { return {campaign_of(json), design_rows, {}}; }
 
 /// Makes what is left of a design in a folder, and stops after about that many runs.
 void make(const std::filesystem::path& path, const SaltelliDesign& design, bool resume,
@@ -39,12 +39,12 @@ TEST_CASE("a design that was broken off goes on to the same bytes", "[parallel]"
   CHECK(contents(folder.path() / "parts") == contents(folder.path() / "whole"));
 
   const SaltelliDesign read = read_design(folder.path() / "whole");
-  CHECK(read.rows == rows);
+  CHECK(read.rows == design_rows);
   CHECK(stamp_of(read) == stamp_of(design));
   CHECK(is_design_folder(folder.path() / "whole"));
   CHECK(!is_design_folder(folder.path()));
   const RunPlan plan = saltelli_plan(read.campaign, read.rows);
-  CHECK(read_design_runs(folder.path() / "whole", plan).results.size() == rows * 6);
+  CHECK(read_design_runs(folder.path() / "whole", plan).results.size() == design_rows * 6);
 }
 
 TEST_CASE("a folder of another design, or of anything else, is left alone") {
@@ -58,7 +58,7 @@ TEST_CASE("a folder of another design, or of anything else, is left alone") {
   other["sampling"]["seed"] = 8;
   CHECK_THROWS_WITH(make(path, design_of(other), true),
                     Catch::Contains("design.json: found another design or version"));
-  CHECK_THROWS_WITH(make(path, {campaign_of(quick_campaign(10)), rows + 1, {}}, true),
+  CHECK_THROWS_WITH(make(path, {campaign_of(quick_campaign(10)), design_rows + 1, {}}, true),
                     Catch::Contains("found another design"));
   CHECK(contents(path) == before);
 }

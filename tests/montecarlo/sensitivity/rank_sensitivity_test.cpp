@@ -5,6 +5,7 @@
 #include "montecarlo/sensitivity/rank_sensitivity.hpp"
 #include "montecarlo/statistics/ranked_column.hpp"
 #include "montecarlo/statistics/statistics.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -12,11 +13,11 @@
 #include <cmath>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
 
 using Columns = std::vector<std::vector<double>>;
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Standard normal columns.
 Columns normal_columns(std::size_t columns, std::size_t n, std::uint64_t seed) {

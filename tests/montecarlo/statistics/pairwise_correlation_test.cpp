@@ -1,5 +1,6 @@
 #include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,24 +10,9 @@
 #include <random>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-Approx within(double value, double relative) {
-  return Approx(value).epsilon(relative).margin(1e-300);
-}
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-std::vector<double> uniforms(std::uint64_t seed, int n) {
-  std::mt19937_64 random(seed);
-  std::vector<double> values;
-  for (int i = 0; i < n; ++i) values.push_back(uniform(random));
-  return values;
-}
 
 using Columns = std::vector<Spilled<double>>;
 

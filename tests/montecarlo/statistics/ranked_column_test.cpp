@@ -1,16 +1,12 @@
 #include "montecarlo/statistics/ranked_column.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <limits>
 
 using namespace wingspread;
-
-namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-} // namespace
+using namespace wingspread::test;
 
 TEST_CASE("tied values share the mean of their ranks, and what is missing has none") {
   const Spilled<double> values{2, none, 1, 2, 5};

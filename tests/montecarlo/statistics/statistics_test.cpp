@@ -1,4 +1,5 @@
 #include "montecarlo/statistics/statistics.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,29 +9,14 @@
 #include <random>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-Approx within(double value, double relative) {
-  return Approx(value).epsilon(relative).margin(1e-300);
-}
 
 /// NIST's NumAcc: `centre`, then centre − 0.1 and centre + 0.1 alternating, 1001 values.
 std::vector<double> numacc(double centre, double below, double above) {
   std::vector<double> values{centre};
   for (int i = 0; i < 500; ++i) values.insert(values.end(), {below, above});
-  return values;
-}
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-std::vector<double> uniforms(std::uint64_t seed, int n) {
-  std::mt19937_64 random(seed);
-  std::vector<double> values;
-  for (int i = 0; i < n; ++i) values.push_back(uniform(random));
   return values;
 }
 

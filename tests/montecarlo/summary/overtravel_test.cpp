@@ -16,7 +16,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 /// Four runs of the small wing: root is thrown back in three of them, one by just what is allowed.
-Results some_results() {
+Results some_overtravel() {
   Results results(ResultNames{{}, {"root.overtravel", "mid.overtravel", "deployment_time"}});
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   for (const double root : {40 * degree, most_overtravel, 2 * degree, unknown})
@@ -28,7 +28,7 @@ Results some_results() {
 
 TEST_CASE("hinges without a stop that turn through their stowed angle are found") {
   const Scene scene = read_scene(test::small_scene());
-  const std::vector<Overtravel> found = overtravels(scene, some_results());
+  const std::vector<Overtravel> found = overtravels(scene, some_overtravel());
   REQUIRE(found.size() == 1);
   CHECK(found[0].hinge == "root");
   CHECK(found[0].runs == 2);
@@ -41,7 +41,7 @@ TEST_CASE("a hinge with a stop is not warned of, nor one whose overtravel is not
   Scene scene = read_scene(test::small_scene());
   CHECK(overtravels(scene, Results(ResultNames{{}, {"deployment_time"}})).empty());
   scene.hinges[0].stop = Stop{100, 0, 0};
-  CHECK(overtravels(scene, some_results()).empty());
+  CHECK(overtravels(scene, some_overtravel()).empty());
 }
 
 TEST_CASE("one run's overtravel is warned of") {
@@ -57,7 +57,7 @@ TEST_CASE("one run's overtravel is warned of") {
 }
 
 TEST_CASE("the table and summary.json warn of overtravel, where there is any") {
-  const Results results = some_results();
+  const Results results = some_overtravel();
   Summary summary = summarize(results, {});
   CHECK(summary_table(summary, "t", "").find("WARNING") == std::string::npos);
   CHECK_FALSE(summary_json(summary, nullptr).contains("warnings"));

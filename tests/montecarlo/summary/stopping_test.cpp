@@ -4,6 +4,7 @@
 #include "montecarlo/statistics/wilks.hpp"
 #include "montecarlo/summary/stopping.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -25,8 +26,6 @@ Campaign stopping_campaign(const char* goal) {
   json["until"] = Json{parse_stopping_goal(goal).value()};
   return campaign_of(json);
 }
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 } // namespace
 

@@ -1,5 +1,6 @@
 #include "montecarlo/statistics/binomial_bounds.hpp"
 #include "montecarlo/summary/summary_json.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,11 +9,8 @@
 #include <sstream>
 
 using namespace wingspread;
+using namespace wingspread::test;
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 /// Runs of which every third stalls; `never` never happens, `fixed` never varies.
 Summary some_summary(int runs, int threads = 0) {

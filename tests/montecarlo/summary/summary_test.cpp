@@ -1,5 +1,6 @@
 #include "montecarlo/statistics/binomial_bounds.hpp"
 #include "montecarlo/summary/summary.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -7,10 +8,9 @@
 #include <limits>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Ten runs: k and the latch time rise together; runs 8 and 9 stall, and run 7 latches tip first.
 Results ten_runs() {

@@ -1,5 +1,6 @@
 #include "montecarlo/formats/text_layout.hpp"
 #include "montecarlo/summary/table.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,10 +9,9 @@
 #include <sstream>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> lines(const std::string& text) {
   std::istringstream in(text);

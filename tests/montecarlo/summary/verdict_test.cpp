@@ -1,5 +1,6 @@
 #include "montecarlo/statistics/binomial_bounds.hpp"
 #include "montecarlo/summary/verdict.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <catch2/catch.hpp>
@@ -14,10 +15,9 @@
 #include <vector>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Runs 0, 1, … whose output "x" is 1, 2, …; all deployed.
 Results counting(long runs) {
