@@ -28,14 +28,14 @@ bool ModalBounds::prepare(const RestModel& model) {
   L.bottomLeftCorner(n_, n_) = -product(inverse_, model.stiffness);
   L.bottomRightCorner(n_, n_) = -product(inverse_, model.damping);
   if (!L.allFinite()) return false;
-  solver_.compute(L);
-  if (solver_.info() != Eigen::Success) return false;
-  if (!(solver_.eigenvalues().real().maxCoeff() < 0)) return false;
-  const Matrix& V = solver_.pseudoEigenvectors();
+  if (!found_.find(model, L)) return false;
+  const auto decays = [](const std::complex<double>& value) { return value.real() < 0; };
+  if (!std::ranges::all_of(found_.values(), decays)) return false;
+  const Matrix& V = found_.columns();
   rows_ = V.partialPivLu().inverse();
   if (!rows_.allFinite()) return false;
   const Matrix changes = product(L, V);
-  keep(V, product(rows_, changes) - solver_.pseudoEigenvalueMatrix());
+  keep(V, product(rows_, changes) - found_.blocks());
   return true;
 }
 
@@ -88,15 +88,15 @@ double ModalBounds::size_of_residual(const Matrix& E, const Mode& of, const Mode
 }
 
 void ModalBounds::keep(const Matrix& V, const Matrix& residual) {
-  const auto& lambda = solver_.eigenvalues();
+  const std::vector<std::complex<double>>& lambda = found_.values();
   modes_.clear();
   for (int j = 0; j < 2 * n_; ++j)
-    if (lambda(j).imag() >= 0) modes_.push_back({j, lambda(j).imag() > 0});
+    if (lambda[j].imag() >= 0) modes_.push_back({j, lambda[j].imag() > 0});
   const auto count = static_cast<Eigen::Index>(modes_.size());
   Vector time(count), quick(count);
   rounding_.resize(count, count);
   for (int m = 0; m < count; ++m) {
-    const std::complex<double> own = lambda(modes_[m].column);
+    const std::complex<double> own = lambda[modes_[m].column];
     time(m) = -1 / own.real(), quick(m) = size_of(own.real(), own.imag());
     for (int k = 0; k < count; ++k)
       rounding_(m, k) = time(m) * size_of_residual(residual, modes_[m], modes_[k]);

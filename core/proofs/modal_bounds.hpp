@@ -30,6 +30,7 @@
 /// a run may then end a look earlier or later, but no peak depends on when a run ends.
 #pragma once
 
+#include "core/proofs/modes.hpp"
 #include "core/proofs/rest_model.hpp"
 
 #include <Eigen/Dense>
@@ -90,7 +91,7 @@ private:
   const RestModel* model_ = nullptr;
   int n_ = 0;
   Matrix inverse_; ///< M_0⁻¹
-  Eigen::EigenSolver<Matrix> solver_;
+  Modes found_;
   std::vector<Mode> modes_; ///< those kept: one of each conjugate pair
   Matrix rows_; ///< V⁻¹, V having the columns v of a real mode, and v, v' of a pair v ± iv'
   Matrix way_, rate_of_, turn_, swing_; ///< |W_u|, |W_v|, |S W_v|, |S W_v Λ|, pairs counted twice

@@ -1,0 +1,156 @@
+#include "core/proofs/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+using Complex = Modes::Complex;
+
+constexpr int few_bodies = 8; // beyond, all at once are found as quickly
+
+double size_of(const Complex& z) { return std::abs(z.real()) + std::abs(z.imag()); }
+
+/// a·b of finite numbers: std::complex asks whether the product is.
+Complex times(const Complex& a, const Complex& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+Complex over(const Complex& a, const Complex& b) {
+  const double size = b.real() * b.real() + b.imag() * b.imag();
+  return {(a.real() * b.real() + a.imag() * b.imag()) / size,
+          (a.imag() * b.real() - a.real() * b.imag()) / size};
+}
+
+} // namespace
+
+bool Modes::find(const RestModel& model, const Matrix& first_order) {
+  return (model.size() <= few_bodies && find_one_by_one(model)) || find_at_once(first_order);
+}
+
+bool Modes::find_at_once(const Matrix& first_order) {
+  at_once_.compute(first_order);
+  if (at_once_.info() != Eigen::Success) return false;
+  const auto& values = at_once_.eigenvalues();
+  values_.assign(values.begin(), values.end());
+  columns_ = at_once_.pseudoEigenvectors();
+  return true;
+}
+
+bool Modes::find_one_by_one(const RestModel& model) {
+  const int n = model.size();
+  undamped_.compute(model.stiffness, model.mass);
+  if (undamped_.info() != Eigen::Success) return false;
+  values_.resize(2UL * n), columns_.resize(2L * n, 2L * n), Q_.resize(n, n), right_.resize(n);
+  for (int j = 0; j < n; ++j) {
+    const std::optional<Complex> first = start(model, undamped_.eigenvectors().col(j));
+    const std::optional<Complex> value = first ? settle(model, *first) : std::nullopt;
+    if (!value) return false;
+    keep_pair(2 * j, *value);
+  }
+  return are_apart();
+}
+
+/// By the motion in this shape alone. @return none if it does not swing
+std::optional<Complex> Modes::start(const RestModel& model, const Eigen::VectorXd& shape) {
+  x_ = shape.cast<Complex>();
+  const double mass = shape.dot(model.mass.lazyProduct(shape));
+  const double rate = -0.5 * shape.dot(model.damping.lazyProduct(shape)) / mass;
+  const double square = shape.dot(model.stiffness.lazyProduct(shape)) / mass - rate * rate;
+  if (!(square > 0)) return std::nullopt;
+  return Complex(rate, std::sqrt(square));
+}
+
+/// The eigenvalue to which λ and x come; none if that is no swinging mode's.
+std::optional<Complex> Modes::settle(const RestModel& model, Complex value) {
+  constexpr int passes = 8;
+  constexpr double settled = 1e-9; // what is left of a pass's step is its square and less
+  for (int k = 0; k < passes; ++k) {
+    const Complex before = value;
+    pass(model, value);
+    if (size_of(value - before) <= settled * size_of(value))
+      return value.imag() > settled * size_of(value) ? std::optional(value) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void Modes::pass(const RestModel& model, Complex& value) {
+  const int n = model.size();
+  const Complex square = times(value, value), twice = 2.0 * value;
+  const auto slope = [&](int i, int k) { return twice * model.mass(i, k) + model.damping(i, k); };
+  for (int i = 0; i < n; ++i) {
+    right_(i) = 0;
+    for (int k = 0; k < n; ++k) {
+      Q_(i, k) = square * model.mass(i, k) + value * model.damping(i, k) + model.stiffness(i, k);
+      right_(i) += times(slope(i, k), x_(k));
+    }
+  }
+  y_ = right_;
+  solve();
+  Complex above(0), below(0);
+  for (int i = 0; i < n; ++i) {
+    above += times(y_(i), right_(i));
+    for (int k = 0; k < n; ++k) below += times(times(y_(i), slope(i, k)), y_(k));
+  }
+  value -= over(above, below);
+  double largest = 0;
+  for (int i = 0; i < n; ++i) largest = std::max(largest, size_of(y_(i)));
+  x_ = y_ / largest;
+}
+
+/// y ← Q⁻¹ y, by elimination. Near an eigenvalue Q is nearly singular, which makes y long and no less right.
+void Modes::solve() {
+  const auto n = static_cast<int>(y_.size());
+  for (int k = 0; k < n; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < n; ++i)
+      if (size_of(Q_(i, k)) > size_of(Q_(pivot, k))) pivot = i;
+    for (int c = k; pivot != k && c < n; ++c) std::swap(Q_(k, c), Q_(pivot, c));
+    std::swap(y_(k), y_(pivot));
+    if (size_of(Q_(k, k)) == 0) Q_(k, k) = std::numeric_limits<double>::epsilon();
+    for (int i = k + 1; i < n; ++i) {
+      const Complex share = over(Q_(i, k), Q_(k, k));
+      for (int c = k + 1; c < n; ++c) Q_(i, c) -= times(share, Q_(k, c));
+      y_(i) -= times(share, y_(k));
+    }
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    for (int c = k + 1; c < n; ++c) y_(k) -= times(Q_(k, c), y_(c));
+    y_(k) = over(y_(k), Q_(k, k));
+  }
+}
+
+void Modes::keep_pair(int column, const Complex& value) {
+  const auto n = static_cast<int>(x_.size());
+  for (int i = 0; i < n; ++i) {
+    const Complex rate = times(value, x_(i));
+    columns_(i, column) = x_(i).real(), columns_(i, column + 1) = x_(i).imag();
+    columns_(n + i, column) = rate.real(), columns_(n + i, column + 1) = rate.imag();
+  }
+  values_[column] = value, values_[column + 1] = std::conj(value);
+}
+
+/// Of as many eigenvalues that differ as there are, each is another mode's.
+bool Modes::are_apart() const {
+  constexpr double apart = 1e-4;
+  for (std::size_t j = 0; j < values_.size(); j += 2)
+    for (std::size_t k = 0; k < j; k += 2)
+      if (!(size_of(values_[j] - values_[k]) > apart * size_of(values_[j]))) return false;
+  return true;
+}
+
+Eigen::MatrixXd Modes::blocks() const {
+  const auto states = static_cast<Eigen::Index>(values_.size());
+  Matrix blocks = Matrix::Zero(states, states);
+  for (Eigen::Index j = 0; j < states; ++j) {
+    const Complex& value = values_[j];
+    blocks(j, j) = value.real();
+    if (value.imag() > 0) blocks(j, j + 1) = value.imag(), blocks(j + 1, j) = -value.imag();
+  }
+  return blocks;
+}
+
+} // namespace wingspread

@@ -1,0 +1,62 @@
+/// The modes of the linear model of a latched wing, M ü + C u̇ + K u = 0.
+///
+/// Where every one of them swings and few bodies take part they are found one by one, each from that
+/// without damping: with Q(λ) = λ² M + λ C + K, x the mode and λ its eigenvalue so far,
+///
+///     Q(λ) y = Q'(λ) x,   λ ← λ − yᵀQ'(λ)x / yᵀQ'(λ)y,   x ← y                                  (1)
+///
+/// which is Newton's way to a root of yᵀQ(λ)y. Of symmetric matrices that root is off by the square of
+/// what y is off, so that two or three passes reach round-off [Lancaster, Lambda-matrices and vibrating systems, 1966]. Else, and where two
+/// of them come to the same, a library's QR algorithm finds all at once. What follows from the modes
+/// holds them against the model (modal_bounds.hpp): nothing here is believed.
+#pragma once
+
+#include "core/proofs/rest_model.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+namespace wingspread {
+
+class Modes {
+public:
+  using Matrix = Eigen::MatrixXd;
+  using Complex = std::complex<double>;
+
+  /// @param first_order L of ż = L z, z = (u, u̇)
+  /// @return whether they could be found
+  [[nodiscard]] bool find(const RestModel& model, const Matrix& first_order);
+
+  /// (1) alone, whatever the number of bodies.
+  [[nodiscard]] bool find_one_by_one(const RestModel& model);
+
+  /// λ of every column: of a pair that with the positive imaginary part comes first.
+  [[nodiscard]] const std::vector<Complex>& values() const { return values_; }
+  /// V: v of a real mode, v and v' of a pair v ± iv'.
+  [[nodiscard]] const Matrix& columns() const { return columns_; }
+  /// Λ of L V = V Λ: of a pair two rows.
+  [[nodiscard]] Matrix blocks() const;
+
+private:
+  using Vector = Eigen::VectorXcd;
+
+  [[nodiscard]] bool find_at_once(const Matrix& first_order);
+  [[nodiscard]] std::optional<Complex> start(const RestModel& model, const Eigen::VectorXd& shape);
+  [[nodiscard]] std::optional<Complex> settle(const RestModel& model, Complex value);
+  void pass(const RestModel& model, Complex& value);
+  void solve();
+  void keep_pair(int column, const Complex& value);
+  [[nodiscard]] bool are_apart() const;
+
+  Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> undamped_;
+  Eigen::EigenSolver<Matrix> at_once_;
+  Eigen::MatrixXcd Q_;
+  Vector x_, y_, right_; ///< of (1)
+  std::vector<Complex> values_;
+  Matrix columns_;
+};
+
+} // namespace wingspread
