@@ -19,9 +19,10 @@ const std::vector<MethodInfo>& methods() {
       quintic + "; steps limited to about a quarter of what oscillates";
   static const std::vector<MethodInfo> list{
       {"auto", "chooses by itself", 0, 0, 0, "that of the method active",
-       "the default: dopri5 or, below rtol 5e-3 (5e-4 with smoothed latches), dop853 until "
-       "stability holds its steps back, then "
-       "seulex where that gets further; the outcome's phases say what was used"},
+       "the default: dopri5 or, below rtol 5e-3 (5e-4 with smoothed latches), dop853, or, below "
+       "5e-9 where there are series, taylor, "
+       "until stability holds its steps back, then seulex where that gets further; the outcome's "
+       "phases say what was used"},
       {"runge_kutta4", "explicit Runge-Kutta, fixed step", 4, RungeKutta4<double>::stable_real,
        RungeKutta4<double>::stable_imaginary, quintic,
        "takes the step given; fails where it misses the tolerance, by comparison with one of twice "
@@ -53,6 +54,12 @@ const std::vector<MethodInfo>& methods() {
        quintic_of_long_steps,
        "linearly implicit Euler with n = 2, 3, 4, … substeps, orders 3 to 12, the same solve; "
        "L-stable but for 0.2° beside the imaginary axis, where it grows by up to 2 % a step"},
+      {"taylor", "power series, adaptive", TaylorSeries<double>::order,
+       TaylorSeries<double>::stable_real, TaylorSeries<double>::stable_imaginary,
+       quintic_of_long_steps,
+       "for wings of up to four panels in a row on a fixed base, without gravity, air, friction "
+       "and real hinges, and with "
+       "event latches: dop853 takes its place elsewhere"},
   };
   return list;
 }
@@ -113,20 +120,23 @@ DeploymentPack::DeploymentPack(DeploymentPack&&) noexcept = default;
 DeploymentPack& DeploymentPack::operator=(DeploymentPack&&) noexcept = default;
 
 Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
-  const Method method = MethodChoice(how_.method, how_.rtol, how_.smoothing.has_value()).active();
-  const bool in_packs = set_ != InstructionSet::scalar && !how_.smoothing && !goal_.audit &&
-                        (method == Method::dopri5 || method == Method::dop853);
+  const Wing<double> structure = make_wing<double>(scene, outward_order(scene));
+  std::optional<long> first = next(scene); // runs of other methods than its own are made alone
+  Wing<double> wing_of_first = structure;
+  if (first && has_room(structure, scene)) runs().set_parameters(wing_of_first, scene);
+  const Method method = MethodChoice(how_, has_series(wing_of_first)).active();
+  const auto next_run = [&] { return first ? std::exchange(first, std::nullopt) : next(scene); };
+  const bool in_packs =
+      set_ != InstructionSet::scalar && !how_.smoothing && !goal_.audit && has_lanes(method);
   if (!in_packs) {
-    while (const std::optional<long> name = next(scene))
+    while (const std::optional<long> name = next_run())
       done(*name, alone_->run(scene, how_, goal_));
     return {};
   }
-  const Wing<double> structure = make_wing<double>(scene, outward_order(scene));
-  const PackShape shape{method == Method::dop853, goal_.peak_force, goal_.peak_moment,
-                        goal_.overtravel};
+  const PackShape shape{method, goal_.peak_force, goal_.peak_moment, goal_.overtravel};
   const std::unique_ptr<PackEngine> engine = make_engine(set_, structure, shape);
   const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
-    while (const std::optional<long> name = next(scene)) {
+    while (const std::optional<long> name = next_run()) {
       const std::vector<Fault> faults = unphysical(scene);
       if (faults.empty() && has_room(structure, scene)) {
         runs().set_parameters(wing, scene);

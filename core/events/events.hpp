@@ -39,6 +39,9 @@ public:
   /// Latches that have not engaged.
   [[nodiscard]] int latches_left() const { return latches_.left(); }
 
+  /// Whether hinge i may latch yet.
+  [[nodiscard]] bool may_latch(int i) const { return latches_.may_engage(i); }
+
   /// The last evaluation was at x, where the next step starts.
   void begin_step(const State<T>& x) {
     if (system_.work().stuck > 0) holding_.begin_step(system_, x);

@@ -66,6 +66,7 @@ public:
     return {error, step_factor(Formula::error_order, error, h, memory_)};
   }
   [[nodiscard]] StepMemory<double>& memory() { return memory_; }
+  [[nodiscard]] Formula& formula() { return formula_; }
 
   void accepted(const Verdict& verdict, double h) { memory_.accepted(verdict.error, h); }
   void rejected() { memory_.rejected(); }

@@ -1,7 +1,7 @@
 /// `auto`: which method integrates, chosen anew while the run goes on.
 ///
 /// A phase begins with an explicit method, which resolves the shock of a latch best: of order 5,
-/// or, below a tolerance measured to be the break-even, of order 8. Once what is fast has died out
+/// or, below tolerances measured to be the break-even, of order 8, or by power series where the motion has them. Once what is fast has died out
 /// and its steps are held back by stability and no longer by accuracy, the linearly implicit
 /// extrapolation is tried; it keeps the work where it gets further for its cost, and gives it back
 /// where it does not.
@@ -13,8 +13,10 @@
 
 #include "core/methods/held_back_steps.hpp"
 #include "core/methods/steppers.hpp"
+#include "core/outcome.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -23,13 +25,16 @@ namespace wingspread {
 /// Which method is active, and when that changes.
 class MethodChoice {
 public:
-  /// @param asked a name from `methods()`
-  /// @param smoothed whether latches are: order 8 then pays at tighter tolerances only
-  MethodChoice(const std::string& asked, double rtol, bool smoothed) : automatic_(asked == "auto") {
-    const double limit = smoothed ? break_even_smoothed : break_even;
-    explicit_ = rtol < limit ? Method::dop853 : Method::dopri5;
+  /// @param how its method: a name from `methods()`
+  /// @param series whether the wing's motion has them: where not, dop853 is in their place
+  MethodChoice(const Integration& how, bool series) : automatic_(how.method == "auto") {
+    // where latches are smoothed, order 8 pays at tighter tolerances only
+    const double limit = how.smoothing ? break_even_smoothed : break_even;
+    explicit_ = how.rtol < limit ? Method::dop853 : Method::dopri5;
+    if (series && how.rtol < break_even_series) explicit_ = Method::taylor;
     for (std::size_t k = 0; k < method_names.size(); ++k)
-      if (method_names[k] == asked) explicit_ = static_cast<Method>(k);
+      if (method_names[k] == how.method) explicit_ = static_cast<Method>(k);
+    if (explicit_ == Method::taylor && (!series || how.smoothing)) explicit_ = Method::dop853;
     active_ = explicit_;
   }
 
@@ -66,8 +71,9 @@ public:
 
 private:
   void keep_radius(double radius) {
-    const double limit = explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
-                                                     : DormandPrince5<double>::stable_real;
+    const double limit = explicit_ == Method::taylor   ? TaylorSeries<double>::stable_real
+                         : explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
+                                                       : DormandPrince5<double>::stable_real;
     stable_step_ = radius > 0 ? limit / radius : 1e300;
     held_back_.shortest = held_back_share * stable_step_;
   }
@@ -120,6 +126,7 @@ private:
 
   static constexpr double break_even = 5e-3; // rtol; see the work-precision study
   static constexpr double break_even_smoothed = 5e-4;
+  static constexpr double break_even_series = 5e-9;
   static constexpr int radius_interval = 128; // steps between two measurements of ρ
   static constexpr int first_radius = 7;      // steps to the first: short phases need none
   static constexpr int long_enough = 1600;    // to try without promise
@@ -184,5 +191,11 @@ private:
   Mark implicit_from_{};              ///< from where the implicit method is measured
   int tried_ = 0, patience_ = first_patience, pause_ = first_pause;
 };
+
+/// What a run begins with: where its wing's motion has no series, and where it has.
+using FirstChoices = std::array<MethodChoice, 2>;
+[[nodiscard]] inline FirstChoices first_choices(const Integration& how) {
+  return {MethodChoice(how, false), MethodChoice(how, true)};
+}
 
 } // namespace wingspread

@@ -1,11 +1,13 @@
 /// The methods by name, and the one place that knows them all.
 #pragma once
 
+#include "core/dense/roughness.hpp"
 #include "core/methods/adams_bashforth_moulton.hpp"
 #include "core/methods/bulirsch_stoer.hpp"
 #include "core/methods/dop853.hpp"
 #include "core/methods/runge_kutta.hpp"
 #include "core/methods/seulex.hpp"
+#include "core/methods/taylor.hpp"
 
 #include <array>
 #include <string>
@@ -22,17 +24,19 @@ enum class Method {
   bulirsch_stoer,
   adams_bashforth_moulton,
   rosenbrock_w,
-  seulex
+  seulex,
+  taylor
 };
-inline constexpr std::array<std::string_view, 9> method_names{"runge_kutta4",
-                                                              "cash_karp54",
-                                                              "dopri5",
-                                                              "fehlberg78",
-                                                              "dop853",
-                                                              "bulirsch_stoer",
-                                                              "adams_bashforth_moulton",
-                                                              "rosenbrock_w",
-                                                              "seulex"};
+inline constexpr std::array<std::string_view, 10> method_names{"runge_kutta4",
+                                                               "cash_karp54",
+                                                               "dopri5",
+                                                               "fehlberg78",
+                                                               "dop853",
+                                                               "bulirsch_stoer",
+                                                               "adams_bashforth_moulton",
+                                                               "rosenbrock_w",
+                                                               "seulex",
+                                                               "taylor"};
 
 [[nodiscard]] inline std::string name_of(Method method) {
   return std::string(method_names[static_cast<std::size_t>(method)]);
@@ -60,11 +64,15 @@ public:
       return visit(rosenbrock_w_);
     case Method::seulex:
       return visit(seulex_);
+    case Method::taylor:
+      return visit(taylor_);
     case Method::dopri5:
       break;
     }
     return visit(dopri5_);
   }
+
+  [[nodiscard]] Adaptive<T, TaylorSeries<T>>& taylor() { return taylor_; }
 
 private:
   RungeKutta4<T> runge_kutta4_;
@@ -76,17 +84,54 @@ private:
   AdamsBashforthMoulton<T> adams_bashforth_moulton_;
   Adaptive<T, RosenbrockW<T>> rosenbrock_w_;
   Seulex<T> seulex_;
+  Adaptive<T, TaylorSeries<T>> taylor_;
 };
 
 [[nodiscard]] constexpr bool is_implicit(Method method) {
   return method == Method::rosenbrock_w || method == Method::seulex;
 }
 
+/// Whether an engine has it.
+[[nodiscard]] constexpr bool has_lanes(Method method) {
+  return method == Method::dopri5 || method == Method::dop853 || method == Method::taylor;
+}
+
 /// Steps of these grow so long that the quintic through a step's ends may miss what happens inside.
 [[nodiscard]] constexpr bool takes_long_steps(Method method) {
   return method == Method::fehlberg78 || method == Method::dop853 ||
          method == Method::bulirsch_stoer || method == Method::adams_bashforth_moulton ||
-         method == Method::seulex;
+         method == Method::seulex || method == Method::taylor;
+}
+
+/// Makes a verdict obey the roughness of its step.
+inline void limit_roughness(double rough, Verdict& verdict) {
+  const double factor = factor_by_roughness(rough);
+  verdict =
+      rough > 1 ? Verdict{2, factor} : Verdict{verdict.error, std::min(verdict.factor, factor)};
+}
+
+/// The error of Fehlberg's quadrature of a smoothed latch's state (Fehlberg78 is blind to it), in
+/// units of the tolerance: against Boole's rule on the dense output.
+template <class T, class AnySystem>
+[[nodiscard]] double quadrature_error(const AnySystem& system, const Step<T>& step,
+                                      const Tolerance& tolerance) {
+  using std::abs;
+  const Layout& at = system.layout();
+  double worst = 0;
+  for (int i = 1; i <= at.bodies; ++i) {
+    const HingeTerms<T>& hinge = system.wing().hinges[i];
+    if (!hinge.has_latch) continue;
+    const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
+    const auto f = [&](double s) {
+      return engagement_rate(hinge, value(angle, T(s)), system.epsilon());
+    };
+    const T boole =
+        step.h / T(90) * (T(7) * (f(0) + f(1)) + T(32) * (f(0.25) + f(0.75)) + T(12) * f(0.5));
+    const T S = step.x1[at.latch(i)], gained = S - step.x[at.latch(i)];
+    worst = std::max(worst, static_cast<double>(T(abs(gained - boole))) /
+                                (tolerance.atol + tolerance.rtol * static_cast<double>(S)));
+  }
+  return worst;
 }
 
 } // namespace wingspread

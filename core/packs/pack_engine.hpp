@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/mechanics/wing.hpp"
+#include "core/methods/steppers.hpp"
 #include "core/packs/instruction_set.hpp"
 #include "core/run/handover.hpp"
 
@@ -49,7 +50,7 @@ public:
 
 /// What an engine is made for.
 struct PackShape {
-  bool eighth_order = true; ///< dop853, else dopri5
+  Method method = Method::dop853; ///< one that has_lanes
   bool forces = false;      ///< peak forces are watched
   bool moments = false;     ///< peak moments are
   bool overtravel = true;   ///< and how far hinges turn beyond their stowed angles

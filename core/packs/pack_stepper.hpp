@@ -6,9 +6,11 @@
 #include "core/dense/roughness.hpp"
 #include "core/events/contact.hpp"
 #include "core/events/latches.hpp"
+#include "core/events/turning.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
 #include "core/methods/runge_kutta.hpp"
+#include "core/methods/taylor.hpp"
 #include "core/packs/fields.hpp"
 #include "core/packs/free_bases.hpp"
 #include "core/packs/lane_peaks.hpp"
@@ -258,6 +260,8 @@ private:
     if (shape_.forces && !wing_.plates.empty()) return !Mask{};
     for (int i = 1; i <= at_.bodies; ++i) {
       look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
+      if constexpr (Formula::order > 8)
+        look = look || turns_where_it_counts(wing_, at_, step_, i, waits_[i] > P(0.0));
       if (shape_.overtravel) look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
       if (wing_.hinges[i].has_latch) look = look || (waits_[i] > P(0.0) && engages_at_end(i));
       if (wing_.can_stick) look = look || (slides(i) && rests_at_end(i));
@@ -345,8 +349,10 @@ template <int W>
     const auto make = [&]<class Formula>() -> std::unique_ptr<PackEngine> {
       return std::make_unique<PackStepper<W, Topology, M, Formula>>(wing, shape);
     };
-    return shape.eighth_order ? make.template operator()<DormandPrince853<Pack<W>>>()
-                              : make.template operator()<DormandPrince5<Pack<W>>>();
+    if constexpr (M == BaseMotion::fixed && is_static<Topology>)
+      if (shape.method == Method::taylor) return make.template operator()<TaylorSeries<Pack<W>>>();
+    return shape.method == Method::dop853 ? make.template operator()<DormandPrince853<Pack<W>>>()
+                                          : make.template operator()<DormandPrince5<Pack<W>>>();
   });
 }
 

@@ -57,7 +57,8 @@ public:
   }
 
   /// A step was accepted: shows the observer the multiples of its interval inside, by dense output.
-  void notify_inside() {
+  /// @param by_method by_method(s) leaves the state there in the run's x, if the method itself can tell
+  template <class ByMethod> void notify_inside(ByMethod&& by_method) {
     if (!observer_ || !on_grid()) return;
     const Step<T>& step = run_.step;
     const double end = static_cast<double>(T(step.t + step.h));
@@ -66,7 +67,7 @@ public:
       const T s = smaller(T(1), T((T(t) - step.t) / step.h));
       if (run_.system.work().stuck > 0)
         run_.evaluate_at(s); // the moments that hold hinges
-      else
+      else if (!(s < T(1) && by_method(s)))
         step.interpolate(run_.at, s, run_.x);
       observer_(sample_at(run_.system, run_.x, T(t)));
       ++samples_;

@@ -199,7 +199,7 @@ private:
   }
 
   void take_step(const Verdict& verdict) {
-    if (!stepping_.accepts(verdict)) return try_step(stepping_.cut());
+    if (!stepping_.accepts(stepping_.turns(verdict, events_))) return try_step(stepping_.cut());
     stepping_.foresee();
     if (landing_.finds_event()) return ask_to_end(Stage::landing);
     accept();
@@ -228,7 +228,7 @@ private:
 
   /// Goes on to the step's end, and to what it brings about.
   void finish_step() {
-    diary_.notify_inside();
+    diary_.notify_inside([this](const T& s) { return stepping_.looks_inside(s); });
     stepping_.advance(landing_.at_event());
     Step<T>& step = run_.step;
     diary_.watch_energy();

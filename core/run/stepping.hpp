@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/dense/friction_layer.hpp"
-#include "core/methods/long_steps.hpp"
+#include "core/events/turning.hpp"
 #include "core/methods/method_choice.hpp"
 #include "core/methods/spectral_radius.hpp"
 #include "core/methods/steppers.hpp"
@@ -24,13 +24,13 @@ namespace wingspread {
 template <class T, class AnySystem> class Stepping {
 public:
   explicit Stepping(Underway<T, AnySystem>& run)
-      : run_(run), first_choice_(run.how.method, run.how.rtol, run.how.smoothing.has_value()),
-        choice_(first_choice_), between_{run.step.x, run.step.dxdt} {}
+      : run_(run), first_choices_(first_choices(run.how)),
+        choice_(first_choices_[0]), between_{run.step.x, run.step.dxdt} {}
 
   /// A run begins.
   void start() {
     tried_ = steps_ = rejected_ = 0;
-    choice_ = first_choice_;
+    choice_ = first_choices_[has_series(run_.system.wing()) ? 1 : 0];
   }
 
   /// The right-hand side has changed, or is new. @param any_latch whether one has engaged
@@ -131,6 +131,28 @@ public:
     if (quadrature > 1)
       verdict = {quadrature, std::max(0.2, 0.8 * power_roughly(quadrature, -1.0 / 6))};
     return verdict;
+  }
+
+  /// A verdict on the step under way that makes a step by series end where a hinge turns back and that counts: its interpolant
+  /// would not tell there how far the hinge comes.
+  template <class AnyEvents>
+  [[nodiscard]] Verdict turns(const Verdict& verdict, const AnyEvents& events) const {
+    if (!verdict.accepted() || method() != Method::taylor) return verdict;
+    T first(1);
+    for (int i = 1; i <= run_.at.bodies; ++i)
+      if (turns_where_it_counts(run_.system.wing(), run_.at, run_.step, i, events.may_latch(i)))
+        if (const std::optional<T> s = turning_point(run_.at, run_.step, i))
+          first = smaller(first, *s);
+    return first < T(1) ? Verdict{2, static_cast<double>(first)} : verdict;
+  }
+
+  /// Whether the method has a state of its own at s inside the step under way; then it is in the run's x.
+  [[nodiscard]] bool looks_inside(const T& s) {
+    if (method() != Method::taylor) return false;
+    const Step<T>& step = run_.step;
+    steppers_.taylor().formula().inside(run_.system, {step.t, step.x, step.dxdt}, T(s * step.h),
+                                        run_.x);
+    return true;
   }
 
   /// The step under way was tried, and judged so. @return whether it is accepted
@@ -261,7 +283,7 @@ private:
   }
 
   Underway<T, AnySystem>& run_;
-  const MethodChoice first_choice_;
+  const FirstChoices first_choices_;
   MethodChoice choice_;
   SpectralRadius<T> radius_;
   Steppers<T> steppers_;

@@ -63,7 +63,7 @@ Outcome run(const Scene& scene, double rtol, const std::string& method = "auto")
 TEST_CASE("auto begins with dop853, at loose tolerances with dopri5") {
   for (const double rtol : {1e-1, 1e-2, 6e-3})
     CHECK(method_at(run(seed_scene(), rtol), 0) == "dopri5");
-  for (const double rtol : {4e-3, 1e-3, 1e-6, 1e-8, 1e-12})
+  for (const double rtol : {4e-3, 1e-3, 1e-6, 1e-8, 6e-9})
     CHECK(method_at(run(seed_scene(), rtol), 0) == "dop853");
   for (const double rtol : {1e-3, 1e-4}) { // later where latches are smoothed
     Integration how = within(rtol, 1, 1e-4);
@@ -71,6 +71,33 @@ TEST_CASE("auto begins with dop853, at loose tolerances with dopri5") {
     CHECK(methods_used(Deployment().run(seed_scene(), how, {})) ==
           (rtol < 5e-4 ? "dop853" : "dopri5"));
   }
+}
+
+TEST_CASE(
+    "at tight tolerances auto begins with taylor where the motion has series and no friction") {
+  for (const double rtol : {4e-9, 1e-12}) {
+    CHECK(methods_used(run(seed_scene(), rtol)) == "taylor");
+    Scene rubs = seed_scene();
+    rubs.hinges[1].friction.coulomb = 0.1;
+    CHECK(method_at(run(rubs, rtol), 0) == "dop853");
+    rubs.hinges[1].friction.model = FrictionModel::exact;
+    CHECK(method_at(run(rubs, rtol), 0) == "dop853");
+    Scene weighs = seed_scene();
+    weighs.environment.gravity = {0, -1e-3};
+    CHECK(method_at(run(weighs, rtol), 0) == "dop853");
+    Integration how = within(rtol, 1, 1e-4);
+    how.smoothing = 1e-3;
+    CHECK(methods_used(Deployment().run(seed_scene(), how, {})) == "dop853");
+  }
+}
+
+TEST_CASE("taylor asked for is dop853 where there are no series") {
+  Integration how = within(1e-8, 5);
+  how.method = "taylor";
+  Scene scene = seed_scene();
+  CHECK(methods_used(Deployment().run(scene, how, {})) == "taylor");
+  scene.hinges[1].stop = Stop{500, 0.2, 0};
+  CHECK(methods_used(Deployment().run(scene, how, {})) == "dop853");
 }
 
 TEST_CASE("where nothing is stiff auto stays with the method that it begins with") {

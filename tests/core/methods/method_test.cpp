@@ -72,7 +72,10 @@ TEST_CASE("a number that is none, at any evaluation of a step, rejects that step
       auto sound = run.stepper;
       REQUIRE(run.at.attempt(sound, counting, run.h).accepted());
       const int evaluations = std::numeric_limits<int>::max() - counting.left;
-      REQUIRE(evaluations >= (method_names[m] == "adams_bashforth_moulton" ? 2 : 4));
+      const bool by_series = method_names[m] == "taylor"; // evaluates at the step's end alone
+      REQUIRE(evaluations >= (by_series                                      ? 1
+                              : method_names[m] == "adams_bashforth_moulton" ? 2
+                                                                             : 4));
 
       for (const double what :
            {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})

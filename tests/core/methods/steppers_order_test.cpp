@@ -23,7 +23,7 @@ struct OneStep {
   bool decimal = false; ///< its coefficients are known to the digits of a double
 };
 
-/// visit(stepper, what it is) with all but the multistep method.
+/// visit(stepper, what it is) with all but the multistep method, and series, whose order is too high for the reference.
 template <class T, class Visit> void with_one_step_methods(const Visit& visit) {
   visit(RungeKutta4<T>(), OneStep{"runge_kutta4", 4, 4, any_error});
   visit(Adaptive<T, CashKarp54<T>>(), OneStep{"cash_karp54", 5, 4, any_error});

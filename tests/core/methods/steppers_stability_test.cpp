@@ -101,6 +101,7 @@ TEST_CASE("a one-step method's stability limits are those that it states") {
   check_limits("dopri5", Adaptive<Real, DormandPrince5<Real>>());
   check_limits("fehlberg78", Adaptive<Real, Fehlberg78<Real>>());
   check_limits("dop853", Adaptive<Real, DormandPrince853<Real>>());
+  check_limits("taylor", Adaptive<Real, TaylorSeries<Real>>());
   check_limits("rosenbrock_w", Adaptive<Real, RosenbrockW<Real>>());
 }
 

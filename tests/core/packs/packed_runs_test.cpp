@@ -43,7 +43,7 @@ const Goal moments_to_the_end{.peak_force = false, .audit = false, .to_t_end = t
 } // namespace
 
 TEST_CASE("a run in a lane has the bits of the run alone: the seed wing") {
-  for (const char* method : {"auto", "dopri5", "dop853"})
+  for (const char* method : {"auto", "dopri5", "dop853", "taylor"})
     for (const double rtol : {1e-3, 1e-6, 1e-9})
       for (const Goal& goal : {every_peak, latches_alone, first_latch, moments_to_the_end}) {
         CAPTURE(method, rtol, goal.peak_force, goal.to_t_end);
@@ -52,6 +52,28 @@ TEST_CASE("a run in a lane has the bits of the run alone: the seed wing") {
         if (goal.to_t_end) how.t_end = 8;
         require_equal_bits(units(oracle::seed_scene(), 19), how, goal);
       }
+}
+
+TEST_CASE("a run by series in a lane has the bits of the run alone: chains, and "
+          "in turn with runs that have none") {
+  for (int k = 0; k < 16; ++k) {
+    oracle::RandomScene options;
+    options.bodies = 1 + k % 4, options.branching = false, options.motion = BaseMotion::fixed;
+    options.friction = false;
+    CAPTURE(k, options.bodies);
+    Integration how;
+    how.method = "taylor", how.t_end = 10;
+    how.rtol = k % 3 == 0 ? 1e-6 : 1e-10, how.atol = 1e-2 * how.rtol;
+    require_equal_bits(units(oracle::random_scene(900 + k, options), 11), how, every_peak);
+  }
+  std::vector<Scene> mixed = units(oracle::seed_scene(), 12);
+  for (std::size_t k = 0; k < mixed.size(); k += 3) mixed[k].hinges[0].friction.coulomb = 0.1;
+  for (const std::size_t without : {0, 1}) { // a run of either begins
+    if (without == 1) std::swap(mixed[0], mixed[1]);
+    Integration how;
+    how.rtol = 1e-9, how.atol = 1e-11;
+    require_equal_bits(mixed, how, every_peak);
+  }
 }
 
 TEST_CASE("a run whose energy is audited has the bits of the run alone, its drift with them") {

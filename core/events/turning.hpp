@@ -1,0 +1,47 @@
+/// Steps that end where a hinge turns back.
+///
+/// A method of high order takes steps over which the interpolant is right to five digits only, but at their ends to all: where a
+/// hinge turns back near an angle that it may pass by a hair, a step ends there.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/wing.hpp"
+
+#include <optional>
+
+namespace wingspread {
+
+/// Whether hinge i turns inside the step where that tells how far it comes: back towards its latch, beyond its stowed angle or not
+/// further from it than the step's own way; or, where it waits to latch, away from the latched angle, as near to that or beyond.
+template <class T, class Mask>
+[[nodiscard]] auto turns_where_it_counts(const Wing<T>& wing, const Layout& at, const Step<T>& step,
+                                         int i, const Mask& waits) {
+  const HingeTerms<T>& hinge = wing.hinges[i];
+  const T before = hinge.sense * step.x[at.rate(i)], after = hinge.sense * step.x1[at.rate(i)];
+  const auto turns = before * after < T(0);
+  if (!any(turns)) return turns;
+  const Quintic<T> angle = step.coordinate(at.angle(i), at.freedoms());
+  T least = hinge.sense * (angle[0] - hinge.stowed), most = least; // travel
+  for (const T& c : angle) {
+    const T travel = hinge.sense * (c - hinge.stowed);
+    least = smaller(least, travel), most = larger(most, travel);
+  }
+  const T way = most - least, whole = hinge.sense * (hinge.latched - hinge.stowed);
+  const auto at_stowed =
+      before < T(0) && least<way, at_latched = before> T(0) && most > whole - way;
+  return turns && (at_stowed || (at_latched && waits));
+}
+
+/// Where hinge i, which turns back inside the step, does so: a fraction of the step; none so near to one of its ends that
+/// the interpolant is right there.
+template <class T>
+[[nodiscard]] std::optional<T> turning_point(const Layout& at, const Step<T>& step, int i) {
+  constexpr double beside_an_end = 1e-3; // the interpolant's error grows with the third power of it
+  Quintic<T> rate = derivative(step.coordinate(at.angle(i), at.freedoms()), step.h);
+  if (step.x[at.rate(i)] > T(0))
+    for (T& c : rate) c = -c;
+  const std::optional<T> s = first_nonnegative(rate);
+  return s && *s > T(beside_an_end) && *s < T(1 - beside_an_end) ? s : std::nullopt;
+}
+
+} // namespace wingspread

@@ -1,0 +1,283 @@
+/// Power series of a wing's motion on a base that does not move: a Taylor method.
+///
+/// Every coefficient follows from those before it by sums of products. In absolute angles θ_j, with z = e^(iθ) and
+/// vectors of the plane as complex numbers, Newton and Euler about each hinge read
+///
+///     J_j α_j + Re( conj(i z_j) S_j ) = τ_j − Σ τ_c                                          (1)
+///     S_j = conj(B_j) a_j + Σ conj(l_c) R_c       over the children c of j                   (2)
+///     a_j = a_p + l_j z̈_p,  R_j = B_j z̈_j + Σ R_c                                            (3)
+///     ż = i ω z,  ω̇ = α                                                                      (4)
+///
+/// | symbol | meaning                                                                   | unit   |
+/// |--------|---------------------------------------------------------------------------|--------|
+/// | l_j    | the way from the parent's hinge to hinge j, in the parent's frame          | m      |
+/// | B_j    | Σ mass times way from hinge j, of j and of what hangs on it at l_c, own frame | kg·m |
+/// | J_j    | inertia of that about hinge j                                             | kg·m²  |
+/// | a_j    | acceleration of hinge j's point                                           | m/s²   |
+/// | R_j    | mass times acceleration, summed over j's subtree, beyond a_j's part       | N      |
+///
+/// (2) and (3) are linear with constant coefficients; what is left are four sums of products a body and order: two
+/// for z, two for (1). In the coefficient of order k of z̈ all but i z_0 α_k is known, which makes (1) a linear
+/// system of one matrix for all orders [Jorba & Zou, A software package for the numerical integration of ODEs by
+/// means of high-order Taylor methods, 2005].
+///
+/// Hinge moments are linear laws.
+#pragma once
+
+#include "core/mechanics/system.hpp"
+#include "core/methods/method.hpp"
+
+#include <array>
+
+namespace wingspread {
+
+/// Whether a wing's motion has such series: what bends, touches, locks or blows in it has none, and with friction, even
+/// regularized, the last terms do not tell what the others would add.
+template <class T> [[nodiscard]] bool has_series(const Wing<T>& wing) {
+  return wing.base.motion == BaseMotion::fixed && wing.size() <= longest_static_chain &&
+         is_chain(wing.tree) && !wing.is_nonlinear() && wing.plates.empty() && !wing.can_stick;
+}
+
+template <class T> class TaylorSeries {
+public:
+  static constexpr int order = 16, error_order = 15;
+  static constexpr int evaluations = order + 1; ///< a coefficient of all rates counts as one
+  static constexpr double stable_real = 6.080, stable_imaginary = 3.325;
+
+  TaylorSeries() {
+    for (int k = 0; k < static_cast<int>(inverse_of_.size()); ++k)
+      number_[k] = T(k), inverse_of_[k] = T(1) / T(k);
+  }
+
+  /// @param error of the rates, and of the angles: the larger of the last two terms, as those of odd or of even
+  ///              order may vanish
+  /// @pre has_series(system.wing()), and latches are not smoothed
+  template <class AnySystem>
+  void estimate(AnySystem& system, const Start<T>& from, const T& h, State<T>& x1, State<T>& dxdt1,
+                State<T>& error) {
+    if constexpr (AnySystem::base_motion == BaseMotion::fixed) {
+      expand(system, from);
+      sum(system, from.x, h, x1, error);
+      system.made_elsewhere().evaluations += order;
+    }
+    system(x1, dxdt1, from.t + h);
+  }
+
+  /// The state after h, no further than a step accepted from there.
+  template <class AnySystem>
+  void inside(const AnySystem& system, const Start<T>& from, const T& h, State<T>& x) {
+    if constexpr (AnySystem::base_motion == BaseMotion::fixed) {
+      expand(system, from);
+      error_.resize(from.x.size());
+      sum(system, from.x, h, x, error_);
+    }
+  }
+
+private:
+  /// Of one body; coefficients of t^0, t^1, …
+  struct Series {
+    std::array<T, order + 2> cosine, sine;
+    std::array<T, order + 1> rate;       ///< ω
+    std::array<T, order + 1> relative;   ///< φ̇
+    std::array<T, order> pull_x, pull_y; ///< S
+    std::array<T, order> square,
+        root; ///< r² + ω_s² and its power −1/2, of the friction at its hinge
+  };
+
+  /// What all orders have in common: (1)'s matrix, inverted, and S = Σ_m W_jm z̈_m, of which i W_jm z_m0 α_m comes last.
+  template <int N> struct Constants {
+    std::array<std::array<T, N>, N> inverse;
+    std::array<std::array<Vec2<T>, N>, N> W, by_alpha;
+  };
+
+  template <class AnySystem> void expand(const AnySystem& system, const Start<T>& from) {
+    with_length(system.topology(), [&]<int N>() {
+      Constants<N> constant;
+      place<N>(system, from);
+      prepare(system.wing(), constant);
+      for (int k = 0; k < order; ++k) go_on(system, constant, from, k);
+    });
+  }
+
+  /// visit.operator()<N>() with the chain's length.
+  template <int N, class Visit> static void with_length(const Chain<N>& /*tree*/, Visit&& visit) {
+    visit.template operator()<N>();
+  }
+  template <int N = 1, class Visit> static void with_length(const Tree& tree, Visit&& visit) {
+    if (tree.bodies() == N) return visit.template operator()<N>();
+    if constexpr (N < longest_static_chain) with_length<N + 1>(tree, visit);
+  }
+
+  /// Order 0, and z of order 1.
+  template <int N, class AnySystem> void place(const AnySystem& system, const Start<T>& from) {
+    const Layout& at = system.layout();
+    T angle(0), rate(0);
+    for (int j = 0; j < N; ++j) {
+      Series& own = bodies_[j];
+      own.relative[0] = from.x[at.rate(j + 1)];
+      angle = j == 0 ? from.x[at.angle(1)] : T(angle + from.x[at.angle(j + 1)]);
+      rate = j == 0 ? own.relative[0] : T(rate + own.relative[0]);
+      own.rate[0] = rate;
+      const SineCosine<T> start = sine_cosine(angle);
+      own.cosine[0] = start.cosine, own.sine[0] = start.sine;
+      own.cosine[1] = -(rate * start.sine), own.sine[1] = rate * start.cosine;
+    }
+  }
+
+  /// W_jm = conj(l_(j+1)) B_m where m hangs on j, and conj(W_mj). The matrix of (1) is Re(conj(z_j) W_jm z_m) beside
+  /// J, positive definite.
+  template <int N> void prepare(const Wing<T>& wing, Constants<N>& constant) const {
+    T mass(0);
+    Vec2<T> moment{T(0), T(0)}; // of what hangs on a body, and its own
+    std::array<std::array<T, N>, N>& m = constant.inverse;
+    for (int j = N - 1; j >= 0; --j) {
+      const BodyTerms<T>& own = wing.bodies[j + 1];
+      m[j][j] = own.inertia;
+      moment = own.mass_moment;
+      if (j + 1 < N) {
+        const Vec2<T>& arm = wing.bodies[j + 2].arm;
+        moment = fused(mass, arm, moment);
+        m[j][j] = fused(mass, dot(arm, arm), m[j][j]);
+      }
+      mass = mass + own.mass;
+      for (int i = 0; i < j; ++i) {
+        const Vec2<T>& arm = wing.bodies[i + 2].arm;
+        const Vec2<T> w = conjugate_times(arm, moment, {T(0), T(0)});
+        constant.W[i][j] = w, constant.W[j][i] = {w.x, -w.y};
+      }
+    }
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) {
+        if (i == j) continue;
+        const Series &of = bodies_[i], &on = bodies_[j];
+        const Vec2<T> turned_by = times(constant.W[j][i], {of.cosine[0], of.sine[0]}, {T(0), T(0)});
+        constant.by_alpha[j][i] = {-turned_by.y, turned_by.x};
+        m[j][i] = fused(on.cosine[0], turned_by.x, on.sine[0] * turned_by.y);
+      }
+    invert(m);
+  }
+
+  /// Gauss and Jordan, in place.
+  template <std::size_t N> static void invert(std::array<std::array<T, N>, N>& m) {
+    for (std::size_t p = 0; p < N; ++p) {
+      const T scale = T(1) / m[p][p];
+      m[p][p] = T(1);
+      for (T& v : m[p]) v = v * scale;
+      for (std::size_t r = 0; r < N; ++r) {
+        if (r == p) continue;
+        const T f = -m[r][p];
+        m[r][p] = T(0);
+        for (std::size_t c = 0; c < N; ++c) m[r][c] = fused(f, m[p][c], m[r][c]);
+      }
+    }
+  }
+
+  /// Order k of S, from which order k + 1 of ω and k + 2 of z follow.
+  template <class AnySystem, int N>
+  [[gnu::always_inline]] void go_on(const AnySystem& system, const Constants<N>& constant,
+                                    const Start<T>& from, int k) {
+    Series* const body = bodies_.data();
+    std::array<T, N> x, y, load, torque, alpha; // x, y: of ω times z, without ω_(k+1)
+    std::array<Vec2<T>, N> bent, pull;          // z̈ of order k, without α_k
+#pragma GCC unroll 4
+    for (int j = 0; j < N; ++j) x[j] = y[j] = load[j] = T(0);
+    for (int l = 0; l < k; ++l)
+#pragma GCC unroll 4
+      for (int j = 0; j < N; ++j) {
+        const Series& own = body[j];
+        x[j] = fused(own.rate[l], own.sine[k + 1 - l], x[j]);
+        y[j] = fused(own.rate[l], own.cosine[k + 1 - l], y[j]);
+        load[j] = fused(own.sine[k - l], own.pull_x[l], load[j]);
+        load[j] = fused(T(-own.cosine[k - l]), own.pull_y[l], load[j]);
+      }
+#pragma GCC unroll 4
+    for (int j = 0; j < N; ++j) {
+      const Series& own = body[j];
+      x[j] = fused(own.rate[k], own.sine[1], x[j]), y[j] = fused(own.rate[k], own.cosine[1], y[j]);
+      bent[j] = {-(number_[k + 1] * x[j]), number_[k + 1] * y[j]};
+      torque[j] = torque_of(system, from, j, k);
+    }
+#pragma GCC unroll 4
+    for (int j = 0; j < N; ++j) {
+      const Series& own = body[j];
+      pull[j] = {T(0), T(0)};
+#pragma GCC unroll 4
+      for (int m = 0; m < N; ++m)
+        if (m != j) pull[j] = times(constant.W[j][m], bent[m], pull[j]);
+      load[j] = fused(own.sine[0], pull[j].x,
+                      fused(T(-own.cosine[0]), pull[j].y, T(load[j] + torque[j])));
+      if (j > 0) load[j - 1] = load[j - 1] - torque[j];
+    }
+#pragma GCC unroll 4
+    for (int j = 0; j < N; ++j) {
+      alpha[j] = constant.inverse[j][0] * load[0];
+#pragma GCC unroll 4
+      for (int m = 1; m < N; ++m) alpha[j] = fused(constant.inverse[j][m], load[m], alpha[j]);
+    }
+#pragma GCC unroll 4
+    for (int j = 0; j < N; ++j) {
+      Series& own = body[j];
+#pragma GCC unroll 4
+      for (int m = 0; m < N; ++m)
+        if (m != j) pull[j] = fused(alpha[m], constant.by_alpha[j][m], pull[j]);
+      own.pull_x[k] = pull[j].x, own.pull_y[k] = pull[j].y;
+      const T rate = alpha[j] * inverse_of_[k + 1];
+      own.rate[k + 1] = rate;
+      own.relative[k + 1] = j == 0 ? rate : T((alpha[j] - alpha[j - 1]) * inverse_of_[k + 1]);
+      own.cosine[k + 2] = -(fused(rate, own.sine[0], x[j]) * inverse_of_[k + 2]);
+      own.sine[k + 2] = fused(rate, own.cosine[0], y[j]) * inverse_of_[k + 2];
+    }
+  }
+
+  /// What hinge j brings, order k.
+  template <class AnySystem>
+  [[nodiscard, gnu::always_inline]] T torque_of(const AnySystem& system, const Start<T>& from,
+                                                int j, int k) {
+    const LinearLaw<T>& law = system.work().laws[j + 1];
+    const Series& own = bodies_[j];
+    if (k == 0) return linear_moment(law, from.x[system.layout().angle(j + 1)], own.relative[0]);
+    return -fused(law.stiffness, T(own.relative[k - 1] * inverse_of_[k]),
+                  law.damping * own.relative[k]);
+  }
+
+  /// a·b + c of complex numbers.
+  [[nodiscard, gnu::always_inline]] static Vec2<T> times(const Vec2<T>& a, const Vec2<T>& b,
+                                                         const Vec2<T>& c) {
+    return {fused(a.x, b.x, fused(T(-a.y), b.y, c.x)), fused(a.x, b.y, fused(a.y, b.x, c.y))};
+  }
+  /// conj(a)·b + c.
+  [[nodiscard, gnu::always_inline]] static Vec2<T>
+  conjugate_times(const Vec2<T>& a, const Vec2<T>& b, const Vec2<T>& c) {
+    return {fused(a.x, b.x, fused(a.y, b.y, c.x)), fused(a.x, b.y, fused(T(-a.y), b.x, c.y))};
+  }
+
+  /// The state after h.
+  template <class AnySystem>
+  [[gnu::always_inline]] void sum(const AnySystem& system, const State<T>& x, const T& h,
+                                  State<T>& x1, State<T>& error) const {
+    using std::abs;
+    const Layout& at = system.layout();
+    const T h2 = h * h, h4 = h2 * h2, h8 = h4 * h4;
+    const T last = h8 * h8, before = h8 * h4 * h2 * h;
+    for (int i = 1; i <= at.bodies; ++i) {
+      const auto& r = bodies_[i - 1].relative;
+      T angle = r[order] * inverse_of_[order + 1], rate = r[order];
+      for (int k = order - 1; k >= 0; --k) {
+        rate = fused(rate, h, r[k]);
+        angle = fused(angle, h, r[k] * inverse_of_[k + 1]);
+      }
+      const T term = larger(T(abs(r[order]) * last), T(abs(r[order - 1]) * before));
+      x1[at.rate(i)] = rate, x1[at.angle(i)] = fused(h, angle, x[at.angle(i)]);
+      error[at.rate(i)] = term * T(margin);
+      error[at.angle(i)] = term * (h * T(margin / order));
+    }
+  }
+
+  static constexpr double margin = 2; ///< the terms left out may be as large as the last two
+
+  std::array<T, order + 3> number_, inverse_of_; ///< k, 1/k
+  std::array<Series, longest_static_chain> bodies_;
+  State<T> error_; ///< scratch
+};
+
+} // namespace wingspread

@@ -1,0 +1,90 @@
+// Power series of a wing's motion against another method in extended precision.
+#include "core/methods/steppers.hpp"
+#include "tests/support/stepping.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+RandomScene chain_of(int bodies) {
+  RandomScene options;
+  options.bodies = bodies, options.branching = false, options.motion = BaseMotion::fixed;
+  options.friction = false, options.mass_lower = 1;
+  return options;
+}
+
+/// A wing of the scene in a random state, latches open or all engaged.
+template <class T> struct RandomWing : TestWing<T> {
+  RandomWing(std::uint64_t seed, const Scene& scene, bool engaged) : TestWing<T>(scene) {
+    if (engaged) this->engage_all();
+    const Layout& at = this->system.layout();
+    const WingState<double> state = random_state(seed, scene);
+    for (int i = 1; i <= at.bodies; ++i) {
+      const int hinge = this->wing.hinge_of[i];
+      this->start[at.angle(i)] =
+          engaged ? T(0.01 * i) + this->wing.hinges[i].latched : T(state.angles[hinge]);
+      this->start[at.rate(i)] = T(state.rates[hinge]);
+    }
+  }
+};
+
+/// The largest error of a step that series find just within the tolerance, in units of it.
+double error_of_longest_step(std::uint64_t seed, const Scene& scene, bool engaged,
+                             double tolerance) {
+  RandomWing<double> wing(seed, scene, engaged);
+  Adaptive<double, TaylorSeries<double>> series;
+  series.restart({tolerance, tolerance});
+  Stepping<double> at(wing.system, wing.start);
+  double h = 1;
+  for (int tries = 0; tries < 200; ++tries) {
+    const Verdict verdict = at.attempt(series, wing.system, h);
+    if (verdict.accepted() && verdict.error > 0.3) break;
+    h *= verdict.accepted() ? std::min(verdict.factor, 1.1) : verdict.factor;
+  }
+  RandomWing<long double> exact(seed, scene, engaged);
+  Adaptive<long double, DormandPrince853<long double>> reference;
+  const State<long double> there = after_steps<long double>(reference, exact, h / 512.L, 512);
+  double worst = 0;
+  for (std::size_t k = 0; k < there.size(); ++k)
+    worst = std::max(worst, std::abs(static_cast<double>(at.x1[k] - there[k])) /
+                                (tolerance * (1 + std::abs(at.x1[k]))));
+  return worst;
+}
+
+} // namespace
+
+TEST_CASE("a step by series as long as the tolerance allows keeps it: chains, latched and not") {
+  double worst = 0;
+  for (int k = 0; k < 48; ++k) {
+    const bool engaged = k / 4 % 2 == 1;
+    const Scene scene = random_scene(700 + k, chain_of(1 + k % 4));
+    for (const double tolerance : {1e-6, 1e-9, 1e-11}) {
+      CAPTURE(k, engaged, tolerance);
+      const double error = error_of_longest_step(k, scene, engaged, tolerance);
+      CHECK(error < 1);
+      worst = std::max(worst, error);
+    }
+  }
+  CHECK(worst > 1e-3); // and tolerances are made use of
+}
+
+TEST_CASE("halving a step by series divides its error by two to the seventeenth") {
+  const Scene scene = random_scene(731, chain_of(4));
+  std::vector<double> errors;
+  for (const double h : {0.02, 0.01}) {
+    RandomWing<Quad> wing(5, scene, false), exact(5, scene, false);
+    Adaptive<Quad, TaylorSeries<Quad>> series;
+    Adaptive<Quad, Fehlberg78<Quad>> reference;
+    const State<Quad> there = after_steps<Quad>(reference, exact, Quad(h) / 512, 512);
+    errors.push_back(
+        static_cast<double>(apart(after_steps<Quad>(series, wing, Quad(h), 1), there)));
+  }
+  CAPTURE(errors[0], errors[1]);
+  CHECK(errors[1] > 1e-30);
+  CHECK(std::log2(errors[0] / errors[1]) == Approx(17).margin(0.7));
+}
