@@ -4,7 +4,10 @@
 #include "montecarlo/margin/margin_study.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
+#include <catch2/catch.hpp>
+
 #include <cmath>
+#include <vector>
 
 namespace wingspread::test {
 
@@ -65,6 +68,12 @@ inline MarginResult margin_of(const Campaign& campaign, int threads = 2) {
   find_margin(
       campaign, evaluator, [](const StudyProgress&) {}, result);
   return result;
+}
+
+/// @pre what outlives it has just one
+inline const Window& only_window(const std::vector<Window>& windows) {
+  REQUIRE(windows.size() == 1);
+  return windows.front();
 }
 
 } // namespace wingspread::test
