@@ -53,6 +53,10 @@ struct Shift {
 
 int team_size(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
 
+int team_for(int wanted, double operations) {
+  return operations < operations_worth_a_team ? 1 : team_size(wanted);
+}
+
 namespace {
 
 [[gnu::no_sanitize_thread]] void start_and_join(int threads, Shift& shift) {

@@ -10,6 +10,16 @@ namespace wingspread {
 /// (OMP_NUM_THREADS, or the processor's).
 [[nodiscard]] int team_size(int wanted);
 
+/// Below so many operations one thread does the work of a team sooner. An operation is a term of a compensated sum, or
+/// as much: some 6 ns. Where other threads want the processors too, a team waits until the last of its threads has had
+/// its turn, and spins meanwhile. `studies/drivers/team_costs.cpp` on two processors that two other threads and other
+/// programs wanted (23 November 2026): 2¹⁶ operations took 0.51 ms on one thread and 6.8 ms on two, 2²² 28 ms and 29 ms,
+/// 2²⁴ 206 ms and 85 ms.
+inline constexpr double operations_worth_a_team = 1 << 22;
+
+/// How many threads there will be for `wanted` and work of so many operations in all: team_size's, or one.
+[[nodiscard]] int team_for(int wanted, double operations);
+
 /// Calls `work` once on each thread of a team of up to that many, and returns when all are done.
 /// The first exception that leaves a call is kept off the team, and thrown again from here.
 /// @param on_exception called at once when one is caught, to make the other calls come to an end

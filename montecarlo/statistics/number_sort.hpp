@@ -32,6 +32,11 @@ using Counts = std::array<std::array<std::uint32_t, digit_values>, digits>;
 }
 } // namespace radix
 
+/// What it takes to sort so many, and to make something of each, in the operations of team.hpp.
+[[nodiscard]] constexpr double sorting_operations(std::size_t items) {
+  return 16 * static_cast<double>(items);
+}
+
 /// Sorts by a number of each item, smallest first; equal ones keep their order. Cost O(n), and n items of memory; fewer
 /// than a few thousand by comparisons.
 /// @param number of an item: a double, no NaN

@@ -102,7 +102,10 @@ std::vector<KeptColumn> keep_columns(std::span<const RankedColumn> columns,
                                      int threads) {
   std::vector<std::optional<KeptColumn>> kept(which.size());
   const std::size_t bytes = 32 * columns.front().values().size(); // 20 of vectors, 12 mapped
-  for_each_task(team_within(threads, bytes), which.size(),
+  constexpr double operations = 8; // of a row: two standards, and what is kept
+  const double all =
+      operations * static_cast<double>(which.size() * columns.front().values().size());
+  for_each_task(team_within(team_for(threads, all), bytes), which.size(),
                 [&](std::size_t i) { kept[i].emplace(columns[which[i]], keep); });
   std::vector<KeptColumn> result;
   for (auto& column : kept) result.push_back(std::move(*column));
@@ -186,9 +189,10 @@ Correlation correlation_of(const KeptColumn& x, const KeptColumn& y, const Produ
 /// By x and then y.
 std::vector<Correlation> correlate(const ColumnGroup& group, int threads) {
   const std::size_t pairs = group.x.size() * group.y.size();
-  const auto parts = std::min<std::size_t>(pairs, static_cast<std::size_t>(team_size(threads)));
+  const int team = team_for(threads, 2 * static_cast<double>(pairs * group.x.front().size()));
+  const auto parts = std::min<std::size_t>(pairs, static_cast<std::size_t>(team));
   std::vector<Correlation> result(pairs);
-  for_each_task(threads, parts, [&](std::size_t part) {
+  for_each_task(team, parts, [&](std::size_t part) {
     const std::size_t first = part * pairs / parts, last = (part + 1) * pairs / parts;
     PairSums sums(group, first, last);
     sums.add_all_rows();

@@ -56,7 +56,9 @@ PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& col
       standards.push_back(*standard);
     }
   Matrix correlations = Matrix::Identity(index(varying_.size()), index(varying_.size()));
-  for_each_task(threads, varying_.size(), [&](std::size_t i) {
+  const auto pairs = static_cast<double>(varying_.size() * varying_.size()) / 2;
+  const int team = team_for(threads, pairs * static_cast<double>(rows_));
+  for_each_task(team, varying_.size(), [&](std::size_t i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double products =
           sum_of_products(columns[varying_[i]], standards[i], columns[varying_[j]], standards[j]);

@@ -69,8 +69,10 @@ std::vector<double> RankedColumn::ranks_where(const std::vector<bool>& keep) con
 std::vector<RankedColumn> rank_columns(std::span<const Spilled<double>* const> columns,
                                        int threads) {
   std::vector<std::optional<RankedColumn>> ranked(columns.size());
-  const std::size_t bytes = columns.empty() ? 0 : 44 * columns.front()->size(); // 36 of vectors
-  for_each_task(team_within(threads, bytes), columns.size(),
+  const std::size_t rows = columns.empty() ? 0 : columns.front()->size();
+  const std::size_t bytes = 44 * rows; // 36 of vectors
+  const double operations = sorting_operations(rows) * static_cast<double>(columns.size());
+  for_each_task(team_within(team_for(threads, operations), bytes), columns.size(),
                 [&](std::size_t i) { ranked[i].emplace(*columns[i]); });
   std::vector<RankedColumn> result;
   for (auto& column : ranked) result.push_back(std::move(*column));

@@ -2,6 +2,7 @@
 
 #include "montecarlo/machine/team.hpp"
 #include "montecarlo/statistics/binomial_bounds.hpp"
+#include "montecarlo/statistics/number_sort.hpp"
 #include "montecarlo/statistics/replicate_bounds.hpp"
 #include "montecarlo/summary/reason_pattern.hpp"
 
@@ -136,7 +137,10 @@ void summarize_columns(const Results& results, const StatisticsSpec& spec,
                        const Replication& replication, int threads, Summary& summary) {
   const std::size_t bytes = (replication.replicates > 0 ? 56 : 16) * results.size();
   summary.outputs.resize(results.outputs.size());
-  for_each_task(team_within(threads, bytes), 1 + results.outputs.size(), [&](std::size_t task) {
+  const std::size_t tasks = 1 + results.outputs.size();
+  const int team =
+      team_for(threads, sorting_operations(results.size()) * static_cast<double>(tasks));
+  for_each_task(team_within(team, bytes), tasks, [&](std::size_t task) {
     if (task == 0)
       summary.reasons = count_reasons(results);
     else

@@ -44,6 +44,12 @@ TEST_CASE("each task is done once, and what one throws comes out", "[parallel]")
                     "no more memory");
 }
 
+TEST_CASE("little work is one thread's") {
+  CHECK(team_for(8, 1000) == 1);
+  CHECK(team_for(8, operations_worth_a_team) == 8);
+  CHECK(team_for(0, operations_worth_a_team) == team_size(0));
+}
+
 TEST_CASE("a team is as large as its memory allows") {
   CHECK(team_within(4, 1000) == 4);
   CHECK(team_within(4, std::size_t{1} << 29) == 2);

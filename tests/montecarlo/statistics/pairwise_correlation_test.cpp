@@ -1,9 +1,11 @@
+#include "montecarlo/machine/team.hpp"
 #include "montecarlo/statistics/pairwise_correlation.hpp"
 #include "montecarlo/statistics/statistics.hpp"
 #include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -130,6 +132,18 @@ TEST_CASE("many columns at once have each pair's bits, on any number of threads"
       for (std::size_t pair = 0; pair < found.size(); ++pair)
         all = all && same(found[pair], expected(x[pair / y.size()], y[pair % y.size()]));
       CHECK(all);
+    }
+  }
+}
+
+TEST_CASE("where there is work for a team it has the bits of one thread", "[parallel]") {
+  const std::size_t enough = 1 + static_cast<std::size_t>(operations_worth_a_team) / (2 * 3 * 3);
+  for (const std::size_t rows : {enough - 2, enough}) { // below and above, of the complete pairs
+    const Columns x = with_gaps(21, rows, {0, 3, 0, 0}), y = with_gaps(22, rows, {0, 0, 5, 0});
+    const auto alone = pairwise_correlations(ranked(x), ranked(y));
+    for (const int threads : {2, 5}) {
+      const auto found = pairwise_correlations(ranked(x, threads), ranked(y, threads), threads);
+      CHECK(std::ranges::equal(found, alone, same));
     }
   }
 }

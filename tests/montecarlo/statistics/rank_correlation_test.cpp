@@ -1,10 +1,13 @@
+#include "montecarlo/machine/team.hpp"
 #include "montecarlo/statistics/rank_correlation.hpp"
+#include "tests/montecarlo/sample_support.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
 using namespace wingspread;
+using namespace wingspread::test;
 
 // Python 3.11, math: tanh(atanh(r) ∓ 1.959963984540054 √((1 + r²/2)/(n − 3))).
 TEST_CASE("bounds of Spearman's coefficient: worked by hand") {
@@ -49,4 +52,21 @@ TEST_CASE("how far a column follows from the others") {
   CHECK(explained[1] == Approx(0.04).epsilon(1e-12));
   CHECK(std::isnan(explained[2]));
   CHECK(std::isnan(PartialCorrelations({{1, 2, 3, 4}, {8, 6, 4, 2}}).explained()[0]));
+}
+
+TEST_CASE("partial coefficients have the same bits for any number of threads", "[parallel]") {
+  constexpr std::size_t columns = 12, pairs = columns * columns / 2;
+  const auto enough = static_cast<std::size_t>(operations_worth_a_team) / pairs;
+  for (const std::size_t rows : {std::size_t{100}, enough - 1, enough + 1}) {
+    std::vector<Spilled<double>> drawn;
+    for (std::size_t j = 0; j < columns; ++j)
+      drawn.emplace_back(uniforms(40 + j, static_cast<int>(rows)));
+    const std::vector<double> plain(columns, 0.1);
+    const PartialCorrelations alone(drawn, 1);
+    for (const int threads : {2, 3, 8}) {
+      const PartialCorrelations together(drawn, threads);
+      CHECK(together.given(plain) == alone.given(plain));
+      CHECK(together.explained() == alone.explained());
+    }
+  }
 }

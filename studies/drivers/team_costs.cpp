@@ -1,0 +1,87 @@
+// What a team of threads costs and gives by the work that there is for it, with the processors free and with as many
+// other threads that want them all. Means, as it is the slow ones that are waited for. What comes of it is
+// `operations_worth_a_team` (montecarlo/machine/team.hpp).
+//
+//   build/release/studies/team_costs
+
+#include "montecarlo/machine/team.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+using namespace wingspread;
+
+namespace {
+
+constexpr std::size_t tasks = 8; // as many as a campaign has dispersions, say
+
+/// Threads that leave no processor idle for as long as this lives.
+class Others {
+public:
+  explicit Others(int count) {
+    for (int k = 0; k < count; ++k)
+      threads_.emplace_back([this] {
+        while (!done_) {
+        }
+      });
+  }
+  ~Others() {
+    done_ = true;
+    for (std::thread& each : threads_) each.join();
+  }
+  Others(const Others&) = delete;
+  Others& operator=(const Others&) = delete;
+
+private:
+  std::atomic<bool> done_ = false;
+  std::vector<std::thread> threads_;
+};
+
+/// Σ x², compensated: what most statistics are made of. An operation is one such term.
+double work(const std::vector<double>& x) {
+  double sum = 0, rest = 0;
+  for (const double each : x) {
+    const double term = each * each - rest, next = sum + term;
+    rest = (next - sum) - term;
+    sum = next;
+  }
+  return sum;
+}
+
+/// Of all tasks on so many threads, µs.
+double mean_time(int threads, std::size_t operations, double seconds) {
+  const std::vector<double> x(operations / tasks, 1.1);
+  std::vector<double> sums(tasks);
+  using Clock = std::chrono::steady_clock;
+  const auto since = [start = Clock::now()] {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  long calls = 0;
+  for (; since() < seconds; ++calls)
+    for_each_task(threads, tasks, [&](std::size_t i) { sums[i] = work(x); });
+  return 1e6 * since() / static_cast<double>(calls);
+}
+
+} // namespace
+
+int main() {
+  const int all = team_size(0);
+  fmt::print("{:>12}{:>24}{:>24}\n", "", "processors free, µs", "all wanted, µs");
+  fmt::print("{:>12}{:>12}{:>12}{:>12}{:>12}\n", "operations", "1 thread", fmt::format("{}", all),
+             "1 thread", fmt::format("{}", all));
+  for (std::size_t operations = 1 << 10; operations <= 1 << 26; operations *= 4) {
+    fmt::print("{:12}", operations);
+    for (const int others : {0, all}) {
+      const Others busy(others);
+      for (const int threads : {1, all})
+        fmt::print("{:12.1f}", mean_time(threads, operations, 1.0));
+    }
+    fmt::print("\n");
+  }
+  return EXIT_SUCCESS;
+}
