@@ -49,16 +49,19 @@ long most_halvings(double a, double b, double tolerance) {
   return wide <= 1 ? 0 : (1L << static_cast<int>(std::ceil(std::log2(wide) + for_rounding))) - 1;
 }
 
-/// The scales that there are or may come, but for those within cells.
+/// The scales that there are or may come, but for those within cells. An end that is seen not to be open stays so, for
+/// more looks only add to what holds somewhere: so nothing comes beyond it, even while the grid is being made.
 std::vector<double> all_ends(const Looks& looks, const SearchRange& range) {
   std::set<double> scales;
   for (const auto& [scale, failing] : looks) scales.insert(scale);
-  const std::size_t seen = scales.size();
   for (const double scale : first_scales(range)) scales.insert(scale);
-  const bool all_seen = scales.size() == seen;
-  if (!all_seen || is_open(looks, looks.begin()->second))
+  const auto may_go_on = [&](double end) {
+    const auto look = looks.find(end);
+    return look == looks.end() || is_open(looks, look->second);
+  };
+  if (may_go_on(*scales.begin()))
     while (*scales.begin() > range.lowest) scales.insert(further_down(*scales.begin(), range));
-  if (!all_seen || is_open(looks, looks.rbegin()->second))
+  if (may_go_on(*scales.rbegin()))
     while (*scales.rbegin() < range.highest) scales.insert(further_up(*scales.rbegin(), range));
   return {scales.begin(), scales.end()};
 }

@@ -178,3 +178,15 @@ TEST_CASE("the bound of how many looks there will be falls, and is kept to") {
     CHECK(most_looks(all, range) <= bound);
   }
 }
+
+TEST_CASE("the bound leaves out what lies beyond an end that is an edge's side, from the second "
+          "look on") {
+  const SearchRange range{0.5, 2, 13, 0.01, 0.0625, 16}, as_it_is{0.5, 2, 13, 0.01};
+  const double second = first_scales(range)[1];
+  const long one_cell = 63, cells = 6; // of a ratio of √2 each, down to 1 %
+  CHECK(most_looks({}, range) > most_looks({}, as_it_is) + 12 * one_cell);
+  const Looks holds_further_in{{0.5, {0}}, {second, {}}};
+  CHECK(most_looks({{0.5, {0}}}, range) == most_looks({}, range)); // it may fail everywhere
+  CHECK(most_looks(holds_further_in, range) ==
+        most_looks({{0.5, {0}}}, range) - cells * (one_cell + 1));
+}
