@@ -5,6 +5,7 @@
 #include "montecarlo/machine/interrupt.hpp"
 #include "montecarlo/report/html_page.hpp"
 #include "montecarlo/report/study_set.hpp"
+#include "montecarlo/terminal/output_file.hpp"
 #include "montecarlo/terminal/results_display.hpp"
 
 #include <CLI/CLI.hpp>
@@ -33,6 +34,7 @@ std::string command_of(const ReportOptions& options) {
 }
 
 int report(const ReportOptions& options) {
+  refuse_overwriting(options.out, options.folders);
   std::deque<FolderLock> locks;
   for (const std::filesystem::path& folder : options.folders) {
     if (!is_study_folder(folder)) (void)read_any_campaign(folder); // there is one to be locked
@@ -52,6 +54,7 @@ struct ExportOptions {
 };
 
 int export_folder(const ExportOptions& options) {
+  refuse_overwriting(options.out, {options.folder});
   Interrupt interrupt;
   interrupt.end_at_once("interrupted: nothing is written\n");
   if (std::filesystem::exists(options.folder / campaign_file))

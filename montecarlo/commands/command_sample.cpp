@@ -5,6 +5,7 @@
 #include "montecarlo/formats/files.hpp"
 #include "montecarlo/runs/run_plan.hpp"
 #include "montecarlo/terminal/command_options.hpp"
+#include "montecarlo/terminal/output_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -41,6 +42,7 @@ void write_draws(const RunPlan& plan, const std::function<void(std::string_view)
 }
 
 int sample(const SampleOptions& options) {
+  refuse_overwriting(options.out, {options.campaign});
   Campaign campaign = read_campaign_file(options.campaign);
   if (!options.of_case.empty()) campaign = chosen_case(campaign, options.of_case);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);

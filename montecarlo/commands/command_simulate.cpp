@@ -9,6 +9,7 @@
 #include "montecarlo/report/replay_report.hpp"
 #include "montecarlo/report/trajectory.hpp"
 #include "montecarlo/terminal/command_options.hpp"
+#include "montecarlo/terminal/output_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -55,20 +56,26 @@ int status_code(const Outcome& outcome) {
 }
 
 /// Of the trajectory's times; 0: every step.
-double interval_of(const SimulateOptions& options) {
+double interval_of(const SimulateOptions& options, double t_end) {
+  constexpr double most_rows = 1e8; // some 10 GB of them
   if (!options.dt) return 0;
   if (options.out.empty())
     throw SpecError({{"", "--dt", "no --out", "the trajectory's file, whose times it spaces"}});
   check_interval(*options.dt);
+  if (t_end / *options.dt > most_rows)
+    throw SpecError({{"", "--dt", fmt::format("{:g}", *options.dt),
+                      fmt::format("at least {:g}: that is {:g} rows to {:g} s", t_end / most_rows,
+                                  most_rows, t_end)}});
   return *options.dt;
 }
 
 int simulate(const SimulateOptions& options) {
+  refuse_overwriting(options.out, {options.scene});
   const Task task = task_of(read_file(options.scene), options.settings);
   heed(examine(task.scene, task.integration, options.scene), options.strict);
   Goal goal;
   goal.to_t_end = true;
-  goal.sample_interval = interval_of(options);
+  goal.sample_interval = interval_of(options, task.integration.t_end);
   const Outcome outcome = write_trajectory(options.out, task.scene, [&](const Observer& observer) {
     return Deployment().run(task.scene, task.integration, goal, observer);
   });
@@ -78,6 +85,7 @@ int simulate(const SimulateOptions& options) {
 }
 
 int replay(const ReplayOptions& options) {
+  refuse_overwriting(options.out, {options.folder});
   const StoredCampaign stored =
       read_stored_campaign(folder_of_case(options.folder, options.of_case));
   const ReplayRequest request(stored, options.run);

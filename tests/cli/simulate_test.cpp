@@ -179,3 +179,49 @@ TEST_CASE("sample prints the draws that the runs apply") {
   CHECK(run_program(folder, {"sample", file, "--seed", "8"}).out != expected);
   CHECK(run_program(folder, {"sample", file, "--out", folder.path() / "no" / "d.csv"}).code == 2);
 }
+
+TEST_CASE("what is read, and any JSON file, is not written over") {
+  const Folder folder;
+  const std::string text = read_text(three_panel_file()).value();
+  const std::string scene = folder.write("scene", text), other = folder.write("o.json", "{}");
+  const auto same =
+      run_program(folder, {"simulate", scene, "--out", folder.path() / "." / "scene"});
+  CHECK(same.code == 2);
+  CHECK(same.error.starts_with("error: --out: found \""));
+  CHECK(same.error.ends_with("scene\", which is read, expected another file: it would be lost\n"));
+  CHECK(run_program(folder, {"simulate", scene, "--out", other}).code == 2);
+  CHECK(read_text(scene).value() == text);
+  CHECK(read_text(other).value() == "{}");
+}
+
+TEST_CASE("no command writes over a results folder's own files") {
+  const Folder folder;
+  const std::string campaign = folder.write("campaign.json", quick_campaign(5).dump());
+  const auto results = folder.path() / "r";
+  REQUIRE(run_program(folder, {"run", campaign, "--out", results}).code == 0);
+  const std::string rows = read_text(results / "runs.csv").value();
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"replay", results, "--run", "1"},
+        {"report", results},
+        {"export", results}})
+    for (const char* file : {"runs.csv", "campaign.json"}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--out", results / file});
+      const Finished done = run_program(folder, words);
+      CHECK(done.code == 2);
+      CHECK(done.error.starts_with("error: --out: found \""));
+    }
+  CHECK(run_program(folder, {"sample", campaign, "--out", campaign}).code == 2);
+  CHECK(read_text(results / "runs.csv").value() == rows);
+  CHECK(run_program(folder, {"replay", results, "--run", "1", "--out", results / "t.csv"}).code ==
+        0);
+}
+
+TEST_CASE("a trajectory of more rows than a disk holds is refused") {
+  const Folder folder;
+  const auto done = run_program(folder, {"simulate", three_panel_file(), "--out",
+                                         folder.path() / "t.csv", "--dt", "1e-12", "--t-end", "8"});
+  CHECK(done.code == 2);
+  CHECK(done.error ==
+        "error: --dt: found 1e-12, expected at least 8e-08: that is 1e+08 rows to 8 s\n");
+}
