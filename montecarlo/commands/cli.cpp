@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <fcntl.h>
@@ -127,6 +128,8 @@ Understood understand(int argc, const char* const* argv, std::span<const Command
 
 int command_line(int argc, const char* const* argv) {
   hold_standard_files();
+  // a file that may grow no more (ulimit -f, which some clusters set) is then an error like a full disk, and no silent end
+  (void)std::signal(SIGXFSZ, SIG_IGN);
   const Understood understood = understand(argc, argv);
   return after_output(understood.action ? carry_out(understood.action) : understood.code);
 }

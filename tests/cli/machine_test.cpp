@@ -4,6 +4,7 @@
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 using namespace wingspread;
@@ -69,6 +70,34 @@ TEST_CASE("a file on a full device is the machine's refusal") {
     CHECK(error ==
           "error: /dev/full: found No space left on device, expected a file that can be written\n");
   }
+}
+
+TEST_CASE("a file that may grow no more is the machine's refusal, and what is done is kept") {
+  const Folder folder;
+  const std::string campaign = folder.write("c.json", quick_campaign(100).dump());
+  const auto whole = folder.path() / "whole", cut = folder.path() / "cut";
+  REQUIRE(run_program(folder, {"run", campaign, "--out", whole}).code == 0);
+  struct Limit { // for the programs that are started while this lives
+    explicit Limit(rlim_t bytes) {
+      getrlimit(RLIMIT_FSIZE, &before);
+      const rlimit lower{bytes, before.rlim_max};
+      setrlimit(RLIMIT_FSIZE, &lower);
+    }
+    ~Limit() { setrlimit(RLIMIT_FSIZE, &before); }
+    rlimit before{};
+  };
+  {
+    const Limit limit(6000);
+    const auto [code, out, error] = run_program(folder, {"run", campaign, "--out", cut});
+    CHECK(code == 4);
+    CHECK_THAT(error, Catch::Contains("File too large"));
+    CHECK_THAT(error, Catch::Contains(cut.string()));
+  }
+  const bool has_campaign = std::filesystem::exists(cut / campaign_file);
+  std::vector<std::string> again{"run", campaign, "--out", cut};
+  if (has_campaign) again.emplace_back("--resume");
+  CHECK(run_program(folder, again).code == 0);
+  CHECK(read_text(cut / runs_file) == read_text(whole / runs_file));
 }
 
 TEST_CASE("a folder in which a process is at work is refused by all that write to it") {
