@@ -208,9 +208,14 @@ class Packages(unittest.TestCase):
         if shutil.which("lintian"):
             for name in ("wingspread", "python3-wingspread"):  # it reads long in the library
                 package = self.packages.get(name, self.packages["wingspread"])
-                # whoever makes the package puts his address there: -DWINGSPREAD_MAINTAINER; HDF5 is linked with its zlib
-                done = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", "--suppress-tags",
-                                       "bogus-mail-host,bogus-mail-host-in-debian-changelog,embedded-library", package],
+                # whoever makes the package puts his address there: -DWINGSPREAD_MAINTAINER, and it closes no bug of
+                # Debian's; HDF5 is linked with its zlib, and its texts are misspelt; cpack leaves compilers' names in
+                # the file; the module calls nothing that -D_FORTIFY_SOURCE knows
+                rightly = ["bogus-mail-host", "bogus-mail-host-in-debian-changelog", "initial-upload-closes-no-bugs",
+                           "embedded-library", "spelling-error-in-binary", "binary-has-unneeded-section",
+                           "hardening-no-fortify-functions"]
+                done = subprocess.run(["lintian", "--allow-root", "--display-info", "--fail-on", "error,warning,info",
+                                       "--suppress-tags", ",".join(rightly), package],
                                       capture_output=True, text=True, check=False)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
