@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -59,7 +60,7 @@ TEST_CASE("stopping hands on what is done without a gap", "[parallel]") {
     CHECK(made < 4000);
     CHECK(whole.starts_with(text));
     CHECK(std::ranges::count(text, '\n') == made);
-    CHECK(text + lines(plan, {made, 4000}, 2) == whole);
+    CHECK(whole.starts_with(text + lines(plan, {made, std::min(made + 300, 4000L)}, 2)));
   }
 }
 
