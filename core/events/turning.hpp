@@ -27,8 +27,8 @@ template <class T, class Mask>
     least = smaller(least, travel), most = larger(most, travel);
   }
   const T way = most - least, whole = hinge.sense * (hinge.latched - hinge.stowed);
-  const auto at_stowed =
-      before < T(0) && least<way, at_latched = before> T(0) && most > whole - way;
+  const auto at_stowed = before < T(0) && least < way;
+  const auto at_latched = before > T(0) && most > whole - way;
   return turns && (at_stowed || (at_latched && waits));
 }
 
