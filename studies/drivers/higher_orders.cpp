@@ -1,12 +1,13 @@
 // Would a formula of higher order than dop853's 8, or a Taylor series, make tight runs cheaper?
-// The seed wing without friction, from latch to latch, by dop853, Verner's pairs 9(8) and 8(7) and
-// Taylor series of the chain, alone and in packs of four: work at equal error.
+// The seed wing without friction, from latch to latch, by dop853, Verner's pairs 9(8) and 8(7), the
+// method taylor and Taylor series of the chain by pairs, alone and in packs of four: work at equal error.
 //
 //   build/release/studies/higher_orders [--quick]        # seconds; a table and higher_orders.csv
 
 #include "core/deployment.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
+#include "core/methods/taylor.hpp"
 #include "core/packs/fields.hpp"
 #include "studies/support/study.hpp"
 #include "studies/support/taylor_chain.hpp"
@@ -221,7 +222,8 @@ std::vector<Method> all_methods() {
   std::vector<Method> all{
       {"dop853", 0, &walk<double, DormandPrince853>, &walk<Pack<4>, DormandPrince853>},
       {"verner98", 0, &walk<double, Verner98Formula>, &walk<Pack<4>, Verner98Formula>},
-      {"verner87", 0, &walk<double, Verner87Formula>, &walk<Pack<4>, Verner87Formula>}};
+      {"verner87", 0, &walk<double, Verner87Formula>, &walk<Pack<4>, Verner87Formula>},
+      {"taylor", 0, &walk<double, TaylorSeries>, &walk<Pack<4>, TaylorSeries>}}; // the method
   for (const int order : {10, 12, 14, 16, 18, 20, 24, 28})
     all.push_back(
         {fmt::format("taylor{}", order), order, &walk_by_series<double>, &walk_by_series<Pack<4>>});
