@@ -51,9 +51,9 @@ public:
 /// What an engine is made for.
 struct PackShape {
   Method method = Method::dop853; ///< one that has_lanes
-  bool forces = false;      ///< peak forces are watched
-  bool moments = false;     ///< peak moments are
-  bool overtravel = true;   ///< and how far hinges turn beyond their stowed angles
+  bool forces = false;            ///< peak forces are watched
+  bool moments = false;           ///< peak moments are
+  bool overtravel = true;         ///< and how far hinges turn beyond their stowed angles
 };
 
 /// An engine for wings of this structure; none for `scalar`. @pre the processor has the set
