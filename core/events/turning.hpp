@@ -1,7 +1,7 @@
 /// Steps that end where a hinge turns back.
 ///
-/// A method of high order takes steps over which the interpolant is right to five digits only, but at their ends to all: where a
-/// hinge turns back near an angle that it may pass by a hair, a step ends there.
+/// Series take steps inside which the interpolant is further off than the tolerance, though not at their ends: where a hinge
+/// turns back near an angle that it may pass by a hair, a step ends there.
 #pragma once
 
 #include "core/dense/step.hpp"

@@ -1,25 +1,24 @@
 /// Power series of a wing's motion on a base that does not move: a Taylor method.
 ///
-/// Every coefficient follows from those before it by sums of products. In absolute angles θ_j, with z = e^(iθ) and
+/// Every coefficient follows from those before it by sums of products. In absolute angles θ_j of a chain, with z = e^(iθ) and
 /// vectors of the plane as complex numbers, Newton and Euler about each hinge read
 ///
-///     J_j α_j + Re( conj(i z_j) S_j ) = τ_j − Σ τ_c                                          (1)
-///     S_j = conj(B_j) a_j + Σ conj(l_c) R_c       over the children c of j                   (2)
-///     a_j = a_p + l_j z̈_p,  R_j = B_j z̈_j + Σ R_c                                            (3)
+///     J_j α_j + Re( conj(i z_j) S_j ) = τ_j − τ_(j+1)                                        (1)
+///     S_j = Σ_m W_jm z̈_m  over all other bodies m                                            (2)
+///     W_jm = conj(l_(j+1)) B_m where m is beyond j,  W_mj = conj(W_jm)                       (3)
 ///     ż = i ω z,  ω̇ = α                                                                      (4)
 ///
-/// | symbol | meaning                                                                   | unit   |
-/// |--------|---------------------------------------------------------------------------|--------|
-/// | l_j    | the way from the parent's hinge to hinge j, in the parent's frame          | m      |
-/// | B_j    | Σ mass times way from hinge j, of j and of what hangs on it at l_c, own frame | kg·m |
-/// | J_j    | inertia of that about hinge j                                             | kg·m²  |
-/// | a_j    | acceleration of hinge j's point                                           | m/s²   |
-/// | R_j    | mass times acceleration, summed over j's subtree, beyond a_j's part       | N      |
+/// | symbol | meaning                                                                       | unit  |
+/// |--------|-------------------------------------------------------------------------------|-------|
+/// | l_j    | the way from the parent's hinge to hinge j, in the parent's frame             | m     |
+/// | B_j    | Σ mass times way from hinge j, of j and, at l_(j+1), of all beyond; own frame | kg·m  |
+/// | J_j    | inertia of that about hinge j                                                 | kg·m² |
+/// | τ_j    | moment of hinge j                                                             | N·m   |
 ///
-/// (2) and (3) are linear with constant coefficients; what is left are four sums of products a body and order: two
-/// for z, two for (1). In the coefficient of order k of z̈ all but i z_0 α_k is known, which makes (1) a linear
-/// system of one matrix for all orders [Jorba & Zou, A software package for the numerical integration of ODEs by
-/// means of high-order Taylor methods, 2005].
+/// (2) is linear with constant coefficients; what is left are four sums of products a body and order: two for z, two
+/// for (1). In the coefficient of order k of z̈ all but i z_0 α_k is known, which makes (1) a linear system of one
+/// matrix for all orders [Jorba & Zou, A software package for the numerical integration of ODEs by means of high-order
+/// Taylor methods, 2005].
 ///
 /// Hinge moments are linear laws.
 #pragma once

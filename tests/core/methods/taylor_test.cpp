@@ -4,7 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include <string>
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
