@@ -1,5 +1,7 @@
 // Power series of a wing's motion against another method in extended precision.
+#include "core/deployment.hpp"
 #include "core/methods/steppers.hpp"
+#include "tests/support/closed_forms.hpp"
 #include "tests/support/stepping.hpp"
 
 #include <catch2/catch.hpp>
@@ -89,4 +91,22 @@ TEST_CASE("halving a step by series divides its error by two to the seventeenth"
   CAPTURE(errors[0], errors[1]);
   CHECK(errors[1] > 1e-30);
   CHECK(std::log2(errors[0] / errors[1]) == Approx(17).margin(0.7));
+}
+
+TEST_CASE("what an observer is shown inside a step by series has the accuracy of the series") {
+  Integration how;
+  how.method = "taylor", how.rtol = 1e-11, how.atol = 1e-13, how.t_end = 10;
+  double worst = 0;
+  int shown = 0;
+  const Outcome out = Deployment().run(
+      unit_oscillator(1, 0.5), how, {.to_t_end = true, .sample_interval = 0.05},
+      [&](const Sample& at) {
+        ++shown;
+        const double angle = std::cos(at.t) + 0.5 * std::sin(at.t);
+        const double rate = -std::sin(at.t) + 0.5 * std::cos(at.t);
+        worst = std::max({worst, std::abs(at.angles[0] - angle), std::abs(at.rates[0] - rate)});
+      });
+  CHECK(out.work.steps < shown / 3);
+  CHECK(shown == 201);
+  CHECK(worst < 1e-11); // the quintic is 5e-7 off
 }
