@@ -20,7 +20,7 @@ const std::vector<MethodInfo>& methods() {
   static const std::vector<MethodInfo> list{
       {"auto", "chooses by itself", 0, 0, 0, "that of the method active",
        "the default: dopri5 or, below rtol 5e-3 (5e-4 with smoothed latches), dop853, or, below "
-       "5e-9 where there are series, taylor, "
+       "5e-5 where there are series, taylor, "
        "until stability holds its steps back, then seulex where that gets further; the outcome's "
        "phases say what was used"},
       {"runge_kutta4", "explicit Runge-Kutta, fixed step", 4, RungeKutta4<double>::stable_real,
@@ -114,39 +114,101 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
 }
 
 DeploymentPack::DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal)
-    : set_(set), how_(integration), goal_(goal), alone_(std::make_unique<Deployment>()) {}
-DeploymentPack::~DeploymentPack() = default;
-DeploymentPack::DeploymentPack(DeploymentPack&&) noexcept = default;
-DeploymentPack& DeploymentPack::operator=(DeploymentPack&&) noexcept = default;
+    : set_(set), how_(integration), goal_(goal) {}
 
-Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
-  const Wing<double> structure = make_wing<double>(scene, outward_order(scene));
-  std::optional<long> first = next(scene); // runs of other methods than its own are made alone
-  Wing<double> wing_of_first = structure;
-  if (first && has_room(structure, scene)) runs().set_parameters(wing_of_first, scene);
-  const Method method = MethodChoice(how_, has_series(wing_of_first)).active();
-  const auto next_run = [&] { return first ? std::exchange(first, std::nullopt) : next(scene); };
-  const bool in_packs =
-      set_ != InstructionSet::scalar && !how_.smoothing && !goal_.audit && has_lanes(method);
-  if (!in_packs) {
-    while (const std::optional<long> name = next_run())
-      done(*name, alone_->run(scene, how_, goal_));
-    return {};
+namespace {
+
+/// Runs of a campaign whose wings call for one method or the other, friction or none: each goes through the engine of
+/// its own. Those that are not the engine's wait, until it has made all others or they are many.
+class Sorted {
+public:
+  Sorted(const Integration& how, const Goal& goal, InstructionSet set, Scene& scene,
+         const DeploymentPack::Next& next, const DeploymentPack::Done& done)
+      : choices_(first_choices(how)), how_(how), goal_(goal), set_(set), scene_(scene),
+        structure_(make_wing<double>(scene, outward_order(scene))), next_(next), done_(done) {}
+
+  [[nodiscard]] Occupancy run() {
+    Occupancy all{};
+    for (;;) {
+      if (waiting_.empty()) {
+        Wing<double> first = structure_;
+        const std::optional<long> name = draw(first);
+        if (!name) return all;
+        waiting_.emplace_back(*name, first);
+      }
+      all += run_those_like(waiting_.front().second);
+    }
   }
-  const PackShape shape{method, goal_.peak_force, goal_.peak_moment, goal_.overtravel};
-  const std::unique_ptr<PackEngine> engine = make_engine(set_, structure, shape);
-  const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
-    while (const std::optional<long> name = next_run()) {
-      const std::vector<Fault> faults = unphysical(scene);
-      if (faults.empty() && has_room(structure, scene)) {
-        runs().set_parameters(wing, scene);
+
+private:
+  static constexpr std::size_t many =
+      64; ///< packs enough that a last one with empty lanes does not count
+
+  [[nodiscard]] Method method_of(const Wing<double>& wing) const {
+    return choices_[has_series(wing) ? 1 : 0].active();
+  }
+
+  /// Those that wait, which are alike, and what is drawn until too many others wait.
+  [[nodiscard]] Occupancy run_those_like(const Wing<double>& first) {
+    const Method method = method_of(first);
+    std::vector<std::pair<long, Wing<double>>> these = std::exchange(waiting_, {});
+    const PackShape shape{method, goal_.peak_force, goal_.peak_moment, goal_.overtravel};
+    const std::unique_ptr<PackEngine> engine = make_engine(set_, structure_, shape);
+    const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
+      if (!these.empty()) {
+        const long name = these.back().first;
+        wing = these.back().second;
+        these.pop_back();
         return name;
       }
-      done(*name, faults.empty() ? alone_->run(scene, how_, goal_) : invalid(faults));
+      while (waiting_.size() < many) {
+        const std::optional<long> name = draw(wing);
+        if (!name || method_of(wing) == method) return name;
+        waiting_.emplace_back(*name, wing);
+      }
+      return std::nullopt;
+    };
+    return runs().in_lanes(structure_, *engine, method, how_, goal_, next_wing, done_);
+  }
+
+  /// Sets the wing to that of the next run that an engine can make and returns its name; none when there are no more.
+  [[nodiscard]] std::optional<long> draw(Wing<double>& wing) {
+    while (!exhausted_) {
+      const std::optional<long> name = next_(scene_);
+      exhausted_ = !name;
+      if (!name) break;
+      const std::vector<Fault> faults = unphysical(scene_);
+      if (faults.empty() && has_room(structure_, scene_)) {
+        runs().set_parameters(wing, scene_);
+        return name;
+      }
+      done_(*name, faults.empty() ? alone_.run(scene_, how_, goal_) : invalid(faults));
     }
     return std::nullopt;
-  };
-  return runs().in_lanes(structure, *engine, method, how_, goal_, next_wing, done);
+  }
+
+  const FirstChoices choices_;
+  const Integration& how_;
+  const Goal& goal_;
+  const InstructionSet set_;
+  Scene& scene_;
+  const Wing<double> structure_;
+  const DeploymentPack::Next& next_;
+  const DeploymentPack::Done& done_;
+  Deployment alone_;
+  std::vector<std::pair<long, Wing<double>>> waiting_; ///< all of one method
+  bool exhausted_ = false;
+};
+
+} // namespace
+
+Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
+  const bool in_packs = set_ != InstructionSet::scalar && !how_.smoothing && !goal_.audit &&
+                        has_lanes(MethodChoice(how_, false).active());
+  if (in_packs) return Sorted(how_, goal_, set_, scene, next, done).run();
+  Deployment alone;
+  while (const std::optional<long> name = next(scene)) done(*name, alone.run(scene, how_, goal_));
+  return {};
 }
 
 } // namespace wingspread

@@ -57,9 +57,6 @@ public:
   using Done = std::function<void(long, Outcome&&)>;
 
   DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal);
-  ~DeploymentPack();
-  DeploymentPack(DeploymentPack&&) noexcept;
-  DeploymentPack& operator=(DeploymentPack&&) noexcept;
 
   /// @pre as of Deployment::run, for every scene; scene: the structure
   Occupancy run(Scene scene, const Next& next, const Done& done);
@@ -68,7 +65,6 @@ private:
   InstructionSet set_;
   Integration how_;
   Goal goal_;
-  std::unique_ptr<Deployment> alone_;
 };
 
 } // namespace wingspread

@@ -2,7 +2,8 @@
 ///
 ///     verdict = attempt(system, from, h, x1, dxdt1)
 ///
-/// from `from` (t, x, dxdt) to (x1, dxdt1) at t + h; nothing is kept of it until `accepted()`.
+/// from `from` (t, x, dxdt) to (x1, dxdt1) at t + h; nothing is kept of it until `accepted()`. A formula that knows
+/// before the step how long it may be makes h shorter.
 /// `restart(tolerance)` comes first, and again whenever the right-hand side or the tolerance has
 /// changed. Events, peaks and the reasons to stop are common to all methods (core/run).
 ///
@@ -40,6 +41,32 @@ template <class T> struct Start {
   const State<T>&x, &dxdt;
 };
 
+/// A formula that fits steps to the tolerance before it makes them.
+template <class Formula>
+concept FitsSteps = requires {
+  Formula::longest_growth;
+};
+
+/// Makes a step by a formula, and its error. @param h made shorter by a formula that fits steps
+template <class T, class Formula, class AnySystem>
+void estimate(Formula& formula, AnySystem& system, const Start<T>& from, T& h, State<T>& x1,
+              State<T>& dxdt1, State<T>& error, const T& rtol, const T& atol) {
+  if constexpr (FitsSteps<Formula>)
+    formula.estimate(system, from, h, x1, dxdt1, error, rtol, atol);
+  else
+    formula.estimate(system, from, h, x1, dxdt1, error);
+}
+
+/// `step_factor` of a formula.
+template <class Formula, class P>
+[[nodiscard]] P factor_of(const P& error, const P& h, const StepMemory<P>& memory) {
+  if constexpr (FitsSteps<Formula>)
+    return select(error <= P(1), P(Formula::longest_growth),
+                  select(error < P(1e100), P(0.5), P(0.1)));
+  else
+    return step_factor(Formula::error_order, error, h, memory);
+}
+
 /// A formula with step control.
 template <class T, class Formula> class Adaptive {
 public:
@@ -52,18 +79,18 @@ public:
   }
 
   template <class System>
-  [[nodiscard]] Verdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
+  [[nodiscard]] Verdict attempt(System& system, const Start<T>& from, T& h, State<T>& x1,
                                 State<T>& dxdt1) {
+    const T rtol(tolerance_.rtol), atol(tolerance_.atol);
     error_.resize(from.x.size());
-    formula_.estimate(system, from, h, x1, dxdt1, error_);
-    return verdict(static_cast<double>(scaled_error_of(formula_, from.x, x1, dxdt1, error_,
-                                                       T(tolerance_.rtol), T(tolerance_.atol))),
-                   static_cast<double>(h));
+    estimate(formula_, system, from, h, x1, dxdt1, error_, rtol, atol);
+    const T error = scaled_error_of(formula_, from.x, x1, dxdt1, error_, rtol, atol);
+    return verdict(static_cast<double>(error), static_cast<double>(h));
   }
 
   /// On a step over h of this scaled error.
   [[nodiscard]] Verdict verdict(double error, double h) const {
-    return {error, step_factor(Formula::error_order, error, h, memory_)};
+    return {error, factor_of<Formula>(error, h, memory_)};
   }
   [[nodiscard]] StepMemory<double>& memory() { return memory_; }
   [[nodiscard]] Formula& formula() { return formula_; }

@@ -1,7 +1,8 @@
 /// `auto`: which method integrates, chosen anew while the run goes on.
 ///
 /// A phase begins with an explicit method, which resolves the shock of a latch best: of order 5,
-/// or, below tolerances measured to be the break-even, of order 8, or by power series where the motion has them. Once what is fast has died out
+/// or, below tolerances measured to be the break-even, of order 8, or by power series where the
+/// motion has them. Once what is fast has died out
 /// and its steps are held back by stability and no longer by accuracy, the linearly implicit
 /// extrapolation is tried; it keeps the work where it gets further for its cost, and gives it back
 /// where it does not.
@@ -47,7 +48,7 @@ public:
     active_ = explicit_;
     steps_ = 0;
     held_back_.last_free = mark(time, evaluations);
-    held_back_.wait_until = 0;
+    held_back_.wait_until = explicit_ == Method::taylor ? first_thought_of_series : 0;
     measured_ = !std::isfinite(most);
     wants_first_ = false;
     keep_radius(measured_ ? 0 : most);
@@ -126,13 +127,16 @@ private:
 
   static constexpr double break_even = 5e-3; // rtol; see the work-precision study
   static constexpr double break_even_smoothed = 5e-4;
-  static constexpr double break_even_series = 5e-9;
+  static constexpr double break_even_series = 5e-5;
   static constexpr int radius_interval = 128; // steps between two measurements of ρ
   static constexpr int first_radius = 7;      // steps to the first: short phases need none
   static constexpr int long_enough = 1600;    // to try without promise
   /// Steps until it is thought of again where there was no promise; doubled each time.
   static constexpr int first_pause = 10, longest_pause = 80;
   static constexpr double held_back_share = 0.4; // of the stable step: that of one held back
+  /// Steps of a phase by series before another method is thought of: most phases are over by then, and what holds
+  /// back long steps of high order is accuracy.
+  static constexpr int first_thought_of_series = 100;
   /// An implicit step costs as much as about ten explicit ones, and cannot be much longer than the
   /// motion takes to change: where the stable step is a larger part of that, it cannot pay.
   static constexpr double worth_trying = 0.02;

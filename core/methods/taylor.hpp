@@ -25,6 +25,7 @@
 
 #include "core/mechanics/system.hpp"
 #include "core/methods/method.hpp"
+#include "core/number/power.hpp"
 
 #include <array>
 
@@ -41,21 +42,26 @@ template <class T> class TaylorSeries {
 public:
   static constexpr int order = 16, error_order = 15;
   static constexpr int evaluations = order + 1; ///< a coefficient of all rates counts as one
+  static constexpr double longest_growth = 4;   ///< from step to step
   static constexpr double stable_real = 6.080, stable_imaginary = 3.325;
 
   TaylorSeries() {
-    for (int k = 0; k < static_cast<int>(inverse_of_.size()); ++k)
+    for (int k = 0; k < static_cast<int>(inverse_of_.size()); ++k) {
       number_[k] = T(k), inverse_of_[k] = T(1) / T(k);
+      minus_number_[k] = -number_[k], minus_inverse_of_[k] = -inverse_of_[k];
+    }
   }
 
+  /// @param h the step to try; made shorter where the last terms would exceed the tolerance
   /// @param error of the rates, and of the angles: the larger of the last two terms, as those of odd or of even
   ///              order may vanish
   /// @pre has_series(system.wing()), and latches are not smoothed
   template <class AnySystem>
-  void estimate(AnySystem& system, const Start<T>& from, const T& h, State<T>& x1, State<T>& dxdt1,
-                State<T>& error) {
+  void estimate(AnySystem& system, const Start<T>& from, T& h, State<T>& x1, State<T>& dxdt1,
+                State<T>& error, const T& rtol, const T& atol) {
     if constexpr (AnySystem::base_motion == BaseMotion::fixed) {
       expand(system, from);
+      h = smaller(h, longest(system.layout(), from.x, rtol, atol));
       sum(system, from.x, h, x1, error);
       system.made_elsewhere().evaluations += order;
     }
@@ -78,9 +84,8 @@ private:
     std::array<T, order + 2> cosine, sine;
     std::array<T, order + 1> rate;       ///< ω
     std::array<T, order + 1> relative;   ///< φ̇
+    std::array<T, order + 2> angle;      ///< φ, but for order 0
     std::array<T, order> pull_x, pull_y; ///< S
-    std::array<T, order> square,
-        root; ///< r² + ω_s² and its power −1/2, of the friction at its hinge
   };
 
   /// What all orders have in common: (1)'s matrix, inverted, and S = Σ_m W_jm z̈_m, of which i W_jm z_m0 α_m comes last.
@@ -113,7 +118,7 @@ private:
     T angle(0), rate(0);
     for (int j = 0; j < N; ++j) {
       Series& own = bodies_[j];
-      own.relative[0] = from.x[at.rate(j + 1)];
+      own.relative[0] = own.angle[1] = from.x[at.rate(j + 1)];
       angle = j == 0 ? from.x[at.angle(1)] : T(angle + from.x[at.angle(j + 1)]);
       rate = j == 0 ? own.relative[0] : T(rate + own.relative[0]);
       own.rate[0] = rate;
@@ -171,30 +176,39 @@ private:
     }
   }
 
-  /// Order k of S, from which order k + 1 of ω and k + 2 of z follow.
+  /// Order k of S, from which order k + 1 of ω and k + 2 of z follow. What has been found last is added last: the sums
+  /// before need not wait for it.
   template <class AnySystem, int N>
   [[gnu::always_inline]] void go_on(const AnySystem& system, const Constants<N>& constant,
                                     const Start<T>& from, int k) {
     Series* const body = bodies_.data();
-    std::array<T, N> x, y, load, torque, alpha; // x, y: of ω times z, without ω_(k+1)
-    std::array<Vec2<T>, N> bent, pull;          // z̈ of order k, without α_k
+    std::array<T, N> x, y, up, down, load, resistance, alpha; // x, y: of ω times z, without ω_(k+1)
+    std::array<Vec2<T>, N> bent, pull;                        // z̈ of order k, without α_k
 #pragma GCC unroll 4
-    for (int j = 0; j < N; ++j) x[j] = y[j] = load[j] = T(0);
-    for (int l = 0; l < k; ++l)
+    for (int j = 0; j < N; ++j) x[j] = y[j] = up[j] = down[j] = T(0);
+    for (int l = 1; l < k; ++l)
 #pragma GCC unroll 4
       for (int j = 0; j < N; ++j) {
         const Series& own = body[j];
-        x[j] = fused(own.rate[l], own.sine[k + 1 - l], x[j]);
-        y[j] = fused(own.rate[l], own.cosine[k + 1 - l], y[j]);
-        load[j] = fused(own.sine[k - l], own.pull_x[l], load[j]);
-        load[j] = fused(T(-own.cosine[k - l]), own.pull_y[l], load[j]);
+        const T &sine = own.sine[k + 1 - l], &cosine = own.cosine[k + 1 - l];
+        x[j] = fused(own.rate[l], sine, x[j]);
+        y[j] = fused(own.rate[l], cosine, y[j]);
+        up[j] = fused(own.pull_x[l - 1], sine, up[j]);
+        down[j] = fused(own.pull_y[l - 1], cosine, down[j]);
       }
 #pragma GCC unroll 4
     for (int j = 0; j < N; ++j) {
       const Series& own = body[j];
-      x[j] = fused(own.rate[k], own.sine[1], x[j]), y[j] = fused(own.rate[k], own.cosine[1], y[j]);
-      bent[j] = {-(number_[k + 1] * x[j]), number_[k + 1] * y[j]};
-      torque[j] = torque_of(system, from, j, k);
+      x[j] = fused(own.rate[0], own.sine[k + 1], x[j]);
+      y[j] = fused(own.rate[0], own.cosine[k + 1], y[j]);
+      if (k > 0) {
+        x[j] = fused(own.rate[k], own.sine[1], x[j]);
+        y[j] = fused(own.rate[k], own.cosine[1], y[j]);
+        up[j] = fused(own.pull_x[k - 1], own.sine[1], up[j]);
+        down[j] = fused(own.pull_y[k - 1], own.cosine[1], down[j]);
+      }
+      bent[j] = {minus_number_[k + 1] * x[j], number_[k + 1] * y[j]};
+      resistance[j] = resistance_of(system, from, j, k);
     }
 #pragma GCC unroll 4
     for (int j = 0; j < N; ++j) {
@@ -203,9 +217,9 @@ private:
 #pragma GCC unroll 4
       for (int m = 0; m < N; ++m)
         if (m != j) pull[j] = times(constant.W[j][m], bent[m], pull[j]);
-      load[j] = fused(own.sine[0], pull[j].x,
-                      fused(T(-own.cosine[0]), pull[j].y, T(load[j] + torque[j])));
-      if (j > 0) load[j - 1] = load[j - 1] - torque[j];
+      T due = (up[j] - down[j]) - resistance[j];
+      if (j + 1 < N) due = due + resistance[j + 1];
+      load[j] = fused(own.sine[0], pull[j].x, fused(T(-own.cosine[0]), pull[j].y, due));
     }
 #pragma GCC unroll 4
     for (int j = 0; j < N; ++j) {
@@ -222,21 +236,21 @@ private:
       own.pull_x[k] = pull[j].x, own.pull_y[k] = pull[j].y;
       const T rate = alpha[j] * inverse_of_[k + 1];
       own.rate[k + 1] = rate;
-      own.relative[k + 1] = j == 0 ? rate : T((alpha[j] - alpha[j - 1]) * inverse_of_[k + 1]);
-      own.cosine[k + 2] = -(fused(rate, own.sine[0], x[j]) * inverse_of_[k + 2]);
+      own.relative[k + 1] = j == 0 ? rate : T(rate - body[j - 1].rate[k + 1]);
+      own.angle[k + 2] = own.relative[k + 1] * inverse_of_[k + 2];
+      own.cosine[k + 2] = fused(rate, own.sine[0], x[j]) * minus_inverse_of_[k + 2];
       own.sine[k + 2] = fused(rate, own.cosine[0], y[j]) * inverse_of_[k + 2];
     }
   }
 
-  /// What hinge j brings, order k.
+  /// What hinge j resists, order k: less its moment.
   template <class AnySystem>
-  [[nodiscard, gnu::always_inline]] T torque_of(const AnySystem& system, const Start<T>& from,
-                                                int j, int k) {
+  [[nodiscard, gnu::always_inline]] T resistance_of(const AnySystem& system, const Start<T>& from,
+                                                    int j, int k) {
     const LinearLaw<T>& law = system.work().laws[j + 1];
     const Series& own = bodies_[j];
-    if (k == 0) return linear_moment(law, from.x[system.layout().angle(j + 1)], own.relative[0]);
-    return -fused(law.stiffness, T(own.relative[k - 1] * inverse_of_[k]),
-                  law.damping * own.relative[k]);
+    if (k == 0) return -linear_moment(law, from.x[system.layout().angle(j + 1)], own.relative[0]);
+    return fused(law.stiffness, own.angle[k], law.damping * own.relative[k]);
   }
 
   /// a·b + c of complex numbers.
@@ -259,11 +273,11 @@ private:
     const T h2 = h * h, h4 = h2 * h2, h8 = h4 * h4;
     const T last = h8 * h8, before = h8 * h4 * h2 * h;
     for (int i = 1; i <= at.bodies; ++i) {
-      const auto& r = bodies_[i - 1].relative;
-      T angle = r[order] * inverse_of_[order + 1], rate = r[order];
+      const auto &r = bodies_[i - 1].relative, &a = bodies_[i - 1].angle;
+      T angle = a[order + 1], rate = r[order];
       for (int k = order - 1; k >= 0; --k) {
         rate = fused(rate, h, r[k]);
-        angle = fused(angle, h, r[k] * inverse_of_[k + 1]);
+        angle = fused(angle, h, a[k + 1]);
       }
       const T term = larger(T(abs(r[order]) * last), T(abs(r[order - 1]) * before));
       x1[at.rate(i)] = rate, x1[at.angle(i)] = fused(h, angle, x[at.angle(i)]);
@@ -272,9 +286,33 @@ private:
     }
   }
 
-  static constexpr double margin = 2; ///< the terms left out may be as large as the last two
+  /// The step after which the larger of the last two terms is the tolerance, next to.
+  [[nodiscard]] T longest(const Layout& at, const State<T>& x, const T& rtol, const T& atol) const {
+    using std::abs;
+    T last(1e-300), before(1e-300);
+    for (int i = 1; i <= at.bodies; ++i) {
+      const auto& r = bodies_[i - 1].relative;
+      const T per_tolerance = T(margin / share) / fused(rtol, T(abs(x[at.rate(i)])), atol);
+      last = larger(last, T(abs(r[order]) * per_tolerance));
+      before = larger(before, T(abs(r[order - 1]) * per_tolerance));
+    }
+    return T(0.99) * smaller(root(last, order), root(before, order - 1));
+  }
 
-  std::array<T, order + 3> number_, inverse_of_; ///< k, 1/k
+  /// v^(−1/n), to 1e-6.
+  [[nodiscard]] static T root(const T& v, int n) {
+    const T bounded = smaller(v, T(1e300));
+    if constexpr (is_one_number<T>)
+      return T(power_roughly(static_cast<double>(bounded), -1.0 / n));
+    else
+      return exp2_roughly(T(T(-1.0 / n) * log2_roughly(bounded)));
+  }
+
+  static constexpr double margin = 2;       ///< the terms left out may be as large as the last two
+  static constexpr double share = 1.0 / 32; ///< of the tolerance, to which steps are fitted
+
+  std::array<T, order + 3> number_, inverse_of_, minus_number_,
+      minus_inverse_of_; ///< k, 1/k, −k, −1/k
   std::array<Series, longest_static_chain> bodies_;
   State<T> error_; ///< scratch
 };

@@ -85,7 +85,7 @@ public:
   [[nodiscard]] Carried hand_back(int lane, const Place& place) const override {
     const long tries = round_ - 1 - static_cast<long>(begun_.v[lane]);
     if (tries > 0) {
-      place.step.t = step_.t.v[lane], place.step.h = step_.h.v[lane];
+      place.step.t = step_.t.v[lane];
       get_lane(lane, step_.x, place.step.x), get_lane(lane, step_.dxdt, place.step.dxdt);
       for (int i = 1; i <= at_.bodies; ++i) place.overtravel[i] = overtravel_[i].v[lane];
     }
@@ -96,8 +96,12 @@ public:
       free_.hand_back(lane, place, shape_.forces);
       evaluations += static_cast<long>(free_.projections().v[lane]);
     }
-    Carried carried{
-        tries, evaluations, error_size_.v[lane], {judged_.v[lane], factor_.v[lane]}, {}};
+    Carried carried{tries,
+                    step_.h.v[lane],
+                    evaluations,
+                    error_size_.v[lane],
+                    {judged_.v[lane], factor_.v[lane]},
+                    {}};
     get_lane(lane, pace_, carried.pace);
     return carried;
   }
@@ -105,7 +109,7 @@ public:
   LaneSet advance() override {
     for (;;) {
       const Start<P> from{step_.t, step_.x, step_.dxdt};
-      formula_.estimate(system_, from, step_.h, step_.x1, step_.dxdt1, error_);
+      estimate(formula_, system_, from, step_.h, step_.x1, step_.dxdt1, error_, rtol_, atol_);
       ++round_;
       const Judgement judgement = judge();
       const Mask asks = must_ask(judgement);
@@ -168,7 +172,7 @@ private:
   [[nodiscard]] Judgement judge() {
     error_size_ = scaled_error_of(formula_, step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
     Mask accepted = error_size_ <= P(1.0);
-    P factor = step_factor(Formula::error_order, error_size_, step_.h, pace_.memory);
+    P factor = factor_of<Formula>(error_size_, step_.h, pace_.memory);
     if (wing_.has_regularized_friction) {
       const LayerLimits<P> layers = layer_limits(wing_, at_, step_, rtol_, atol_);
       const Mask leaps = layers.cut < P(1.0);

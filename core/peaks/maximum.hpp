@@ -10,6 +10,9 @@
 
 namespace wingspread {
 
+/// So close to a step's end the dense output is right to round-off.
+inline constexpr double next_to_an_end = 1e-5;
+
 /// The maximum of f near the largest of samples at the ends and at equal distances between them,
 /// by parabolas through the best three points, within a bracket [Brent 1973, 5]. Good to
 /// √ε, ε of T, where f is smooth, which makes the value good to ε, for f is flat there.
@@ -27,8 +30,10 @@ template <class T, std::size_t N, class Function>
     left = sampled(best - 1), middle = sampled(best), right = sampled(best + 1);
   } else { // the largest lies at an end: is there one beside it that is larger?
     const Sampled<T> end = sampled(best), next = sampled(best == 0 ? 1 : N - 2);
-    const T s = (end.s + next.s) / T(2);
-    middle = {s, f(s)};
+    const T beside = best == 0 ? T(next_to_an_end) : T(1 - next_to_an_end),
+            halfway = (end.s + next.s) / T(2);
+    middle = {beside, f(beside)};
+    if (!(middle.value > end.value)) middle = {halfway, f(halfway)};
     left = best == 0 ? end : next, right = best == 0 ? next : end;
   }
   const auto largest = [&](const T& vertex) -> std::pair<Sampled<T>, T> {

@@ -278,8 +278,7 @@ raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int 
   raise_by_interpolant(candidate, moment, step);
   if (!(candidate.value > peak.value)) return std::nullopt;
   const T s = (candidate.time - step.t) / step.h;
-  constexpr double at_an_end = 1e-5; // there the interpolant is right to round-off
-  if (s < T(at_an_end) || s > T(1 - at_an_end)) {
+  if (s < T(next_to_an_end) || s > T(1 - next_to_an_end)) {
     peak = candidate;
     return std::nullopt;
   }

@@ -49,7 +49,7 @@ struct Handover {
 
 /// Where an engine leaves what it brings back.
 struct Place {
-  Step<double>& step;                ///< t, h, x and dxdt, if the run was carried
+  Step<double>& step;                ///< t, x and dxdt, if the run was carried
   std::vector<double>& force_before; ///< 1 … n: at its start, where forces are asked for
   std::vector<PeakOf<double>>&moments, &forces; ///< 1 … n: up to there, those asked for
   std::vector<double>& overtravel;              ///< 1 … n: up to there
@@ -61,6 +61,7 @@ struct Place {
 /// How far a run was carried, without the step made last.
 struct Carried {
   long tries;       ///< 0: the step made last is the one that the run asked for
+  double h;         ///< of that step, s
   long evaluations; ///< of these, and of that step
   double error;     ///< of that step, as in Verdict
   Verdict judged;   ///< on it, by all that a step must satisfy

@@ -54,6 +54,7 @@ public:
   /// Makes the step that is asked for, and takes it.
   void go() {
     const Verdict verdict = stepping_.attempt(asked_.h, *asked_.x1, *asked_.dxdt1);
+    if (asked_.stage == Stage::step) stepping_.fit(asked_.h);
     take(asks_for_whole_step() ? stepping_.judged(verdict) : verdict);
   }
 
@@ -98,7 +99,9 @@ public:
     run_.system.made_elsewhere().evaluations += carried.evaluations;
     if (carried.tries > 0) {
       ending_.pass(stepping_.resume(carried));
-      asked_.h = run_.step.h;
+      run_.step.h = asked_.h = carried.h;
+    } else if (asked_.stage == Stage::step) {
+      stepping_.fit(carried.h);
     }
     take(asks_for_whole_step() ? carried.judged : Verdict{carried.error, 1});
   }

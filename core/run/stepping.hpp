@@ -85,12 +85,19 @@ public:
   /// Whether the step planned ends there.
   [[nodiscard]] bool is_last() const { return last_; }
 
-  /// Makes a step of h from where the run stands.
-  [[nodiscard]] Verdict attempt(const T& h, State<T>& x1, State<T>& dxdt1) {
+  /// Makes a step of h, or shorter, from where the run stands.
+  [[nodiscard]] Verdict attempt(T& h, State<T>& x1, State<T>& dxdt1) {
     return steppers_.with(method(), [&](auto& stepper) {
       const Step<T>& step = run_.step;
       return stepper.attempt(run_.system, Start<T>{step.t, step.x, step.dxdt}, h, x1, dxdt1);
     });
+  }
+
+  /// The step planned was made so long, by a method that fits it.
+  void fit(const T& h) {
+    if (!(h < run_.step.h)) return;
+    run_.step.h = h;
+    last_ = false;
   }
 
   /// The same in shorter steps, where one over h is refused: extrapolation chooses its order as it
@@ -241,11 +248,13 @@ private:
   void choose_first_step() {
     const Step<T>& step = run_.step;
     const T rest = end_of_stretch() - step.t;
+    const T longest = time_to_a_radian(run_.at, step, rest);
     h_ = steppers_.with(method(), [&](auto& stepper) {
       using Stepper = std::decay_t<decltype(stepper)>;
       if (Stepper::fixed_step) return T(2 * run_.how.step); // it takes two at a time
+      if (method() == Method::taylor) return longest;       // it fits it
       return first_step(run_.system, step.x, step.dxdt, step.t, Stepper::order, tolerance().rtol,
-                        tolerance().atol, time_to_a_radian(run_.at, step, rest), run_.x, run_.dxdt);
+                        tolerance().atol, longest, run_.x, run_.dxdt);
     });
   }
 

@@ -122,18 +122,20 @@ Walk walk(Wanderer<T>& wing, const std::vector<Stretch>& way, double rtol, int /
     while (t < stretch.to) {
       const auto rest = static_cast<double>(stretch.to - t);
       const bool last = h >= rest * (1 - 1e-9);
-      const double step = last ? rest : h;
-      formula.estimate(wing.system, Start<T>{now, wing.x, dxdt}, T(step), x1, dxdt1, error);
+      T tried(last ? rest : h);
+      estimate(formula, wing.system, Start<T>{now, wing.x, dxdt}, tried, x1, dxdt1, error, T(rtol),
+               T(1e-2 * rtol));
+      const double step = first_lane(tried);
       const double off =
           first_lane(scaled_error_of(formula, wing.x, x1, dxdt1, error, T(rtol), T(1e-2 * rtol)));
-      h = step * step_factor(Formula<T>::error_order, off, step, memory);
+      h = step * factor_of<Formula<T>>(off, step, memory);
       if (!(off <= 1)) {
         memory.rejected();
         continue;
       }
       memory.accepted(off, step);
       std::swap(wing.x, x1), std::swap(dxdt, dxdt1);
-      t = last ? stretch.to : t + step;
+      t = last && step == rest ? stretch.to : t + step;
       ++steps;
     }
     made.arrive(wing.x, wing.system.work().evaluations, steps);

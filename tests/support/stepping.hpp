@@ -54,7 +54,7 @@ template <class T> struct RingingWing : TestWing<T> {
 
 /// What a method goes on with from step to step.
 template <class T> struct Stepping {
-  T t = T(0);
+  T t = T(0), made = T(0); ///< made: the step last tried
   State<T> x, dxdt, x1, dxdt1;
 
   template <class AnySystem>
@@ -65,7 +65,8 @@ template <class T> struct Stepping {
 
   template <class Stepper, class AnySystem>
   [[nodiscard]] Verdict attempt(Stepper& stepper, AnySystem& system, const T& h) {
-    return stepper.attempt(system, Start<T>{t, x, dxdt}, h, x1, dxdt1);
+    made = h;
+    return stepper.attempt(system, Start<T>{t, x, dxdt}, made, x1, dxdt1);
   }
 
   template <class Stepper> void accept(Stepper& stepper, const Verdict& verdict, const T& h) {

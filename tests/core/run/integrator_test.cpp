@@ -39,7 +39,7 @@ Refused run_refusing_probes(const Integration& how) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     place.x1.assign(place.x1.size(), none), place.dxdt1.assign(place.dxdt1.size(), none);
     place.forces_at_end.assign(place.forces_at_end.size(), {none, none});
-    run.take_back({.tries = 0, .evaluations = 0, .error = 2, .judged = {2, 1}, .pace = {}});
+    run.take_back({.tries = 0, .h = 0, .evaluations = 0, .error = 2, .judged = {2, 1}, .pace = {}});
     ++refused.probes;
   }
   refused.outcome = run.outcome();
