@@ -39,7 +39,7 @@ def distinct(rows, key):
 
 def styles(methods):
     """A line style for each method: auto black and wide, CVODE dashed, the others by colour."""
-    markers, colours = iter("osD^vP*Xhp<>"), iter([*TAB10[:7], *TAB10[8:]] * 2)  # its grey is CVODE's
+    markers, colours = iter("osD^vP*Xhp<>"), iter([*TAB10[:7], *TAB10[8:], "black"] * 2)  # its grey is CVODE's
     style = {}
     for method in methods:
         if method == "auto":
