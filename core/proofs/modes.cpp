@@ -45,34 +45,44 @@ bool Modes::find_one_by_one(const RestModel& model) {
   undamped_.compute(model.stiffness, model.mass);
   if (undamped_.info() != Eigen::Success) return false;
   values_.resize(2UL * n), columns_.resize(2L * n, 2L * n), Q_.resize(n, n), right_.resize(n);
-  for (int j = 0; j < n; ++j) {
-    const std::optional<Complex> first = start(model, undamped_.eigenvectors().col(j));
-    const std::optional<Complex> value = first ? settle(model, *first) : std::nullopt;
-    if (!value) return false;
-    keep_pair(2 * j, *value);
-  }
+  for (int j = 0; j < n; ++j)
+    if (!find_two(model, 2 * j)) return false;
   return are_apart();
 }
 
-/// By the motion in this shape alone. @return none if it does not swing
-std::optional<Complex> Modes::start(const RestModel& model, const Eigen::VectorXd& shape) {
-  x_ = shape.cast<Complex>();
+/// The two modes that a shape without damping becomes, into two columns: a pair that swings, or two that creep.
+bool Modes::find_two(const RestModel& model, int column) {
+  const Eigen::VectorXd shape = undamped_.eigenvectors().col(column / 2);
   const double mass = shape.dot(model.mass.lazyProduct(shape));
   const double rate = -0.5 * shape.dot(model.damping.lazyProduct(shape)) / mass;
   const double square = shape.dot(model.stiffness.lazyProduct(shape)) / mass - rate * rate;
-  if (!(square > 0)) return std::nullopt;
-  return Complex(rate, std::sqrt(square));
+  if (square > 0) { // by the motion in this shape alone
+    x_ = shape.cast<Complex>();
+    const std::optional<Complex> value = settle(model, Complex(rate, std::sqrt(square)));
+    if (value) keep_pair(column, *value);
+    return value.has_value();
+  }
+  for (const int side : {0, 1}) {
+    x_ = shape.cast<Complex>();
+    const double apart = std::sqrt(-square);
+    const std::optional<Complex> value = settle(model, rate + (side == 0 ? apart : -apart));
+    if (!value) return false;
+    keep_one(column + side, value->real());
+  }
+  return true;
 }
 
-/// The eigenvalue to which λ and x come; none if that is no swinging mode's.
+/// The eigenvalue to which λ and x come; none if that is no swinging mode's where λ swings.
 std::optional<Complex> Modes::settle(const RestModel& model, Complex value) {
   constexpr int passes = 8;
   constexpr double settled = 1e-9; // what is left of a pass's step is its square and less
+  const bool swings = value.imag() > 0;
   for (int k = 0; k < passes; ++k) {
     const Complex before = value;
     pass(model, value);
     if (size_of(value - before) <= settled * size_of(value))
-      return value.imag() > settled * size_of(value) ? std::optional(value) : std::nullopt;
+      return !swings || value.imag() > settled * size_of(value) ? std::optional(value)
+                                                                : std::nullopt;
   }
   return std::nullopt;
 }
@@ -133,11 +143,20 @@ void Modes::keep_pair(int column, const Complex& value) {
   values_[column] = value, values_[column + 1] = std::conj(value);
 }
 
+void Modes::keep_one(int column, double value) {
+  const auto n = static_cast<int>(x_.size());
+  for (int i = 0; i < n; ++i) {
+    columns_(i, column) = x_(i).real();
+    columns_(n + i, column) = value * x_(i).real();
+  }
+  values_[column] = value;
+}
+
 /// Of as many eigenvalues that differ as there are, each is another mode's.
 bool Modes::are_apart() const {
   constexpr double apart = 1e-4;
-  for (std::size_t j = 0; j < values_.size(); j += 2)
-    for (std::size_t k = 0; k < j; k += 2)
+  for (std::size_t j = 0; j < values_.size(); ++j)
+    for (std::size_t k = 0; k < j; ++k)
       if (!(size_of(values_[j] - values_[k]) > apart * size_of(values_[j]))) return false;
   return true;
 }

@@ -1,7 +1,7 @@
 /// The modes of the linear model of a latched wing, M ü + C u̇ + K u = 0.
 ///
-/// Where every one of them swings and few bodies take part they are found one by one, each from that
-/// without damping: with Q(λ) = λ² M + λ C + K, x the mode and λ its eigenvalue so far,
+/// Where few bodies take part they are found one by one, each from that
+/// without damping, of a shape that creeps two: with Q(λ) = λ² M + λ C + K, x the mode and λ its eigenvalue so far,
 ///
 ///     Q(λ) y = Q'(λ) x,   λ ← λ − yᵀQ'(λ)x / yᵀQ'(λ)y,   x ← y                                  (1)
 ///
@@ -44,11 +44,12 @@ private:
   using Vector = Eigen::VectorXcd;
 
   [[nodiscard]] bool find_at_once(const Matrix& first_order);
-  [[nodiscard]] std::optional<Complex> start(const RestModel& model, const Eigen::VectorXd& shape);
+  [[nodiscard]] bool find_two(const RestModel& model, int column);
   [[nodiscard]] std::optional<Complex> settle(const RestModel& model, Complex value);
   void pass(const RestModel& model, Complex& value);
   void solve();
   void keep_pair(int column, const Complex& value);
+  void keep_one(int column, double value);
   [[nodiscard]] bool are_apart() const;
 
   Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> undamped_;

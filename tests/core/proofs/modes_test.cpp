@@ -62,7 +62,7 @@ TEST_CASE("modes found one by one are those of a library, and fulfil the model t
   oracle::Draws draws(5);
   int found = 0, asked = 0;
   for (const int n : {1, 2, 3, 5, 8, 20})
-    for (const double damping : {0.0, 1e-3, 0.02, 0.1})
+    for (const double damping : {0.0, 1e-3, 0.02, 0.1, 0.5, 1.0})
       for (int trial = 0; trial < 10; ++trial, ++asked) {
         const RestModel model = chain(draws, n, damping);
         const MatrixXd L = first_order(model);
@@ -77,10 +77,11 @@ TEST_CASE("modes found one by one are those of a library, and fulfil the model t
         for (std::size_t j = 0; j < values.size(); ++j)
           CHECK(std::abs(values[j] - expected[j]) < 1e-9 * std::abs(expected[j]));
       }
-  CHECK(found > 0.9 * asked);
+  CHECK(found > 0.8 * asked);
 }
 
-TEST_CASE("modes that creep, or are the same twice, are found all at once") {
+TEST_CASE(
+    "modes that creep are found, one by one or all at once, and those that are the same twice") {
   oracle::Draws draws(6);
   for (const double damping : {0.5, 4.0})
     for (int trial = 0; trial < 20; ++trial) {
@@ -89,7 +90,6 @@ TEST_CASE("modes that creep, or are the same twice, are found all at once") {
       Modes modes;
       REQUIRE(modes.find(model, L));
       CHECK(residual(modes, L) < 1e-9);
-      if (damping > 1) CHECK_FALSE(Modes().find_one_by_one(model));
     }
   RestModel twins; // two wings that are alike
   twins.parents = {0, 0};
