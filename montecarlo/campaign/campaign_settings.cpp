@@ -15,6 +15,10 @@ constexpr std::string_view fixed_step_method = "runge_kutta4";
 constexpr std::int64_t most_accuracy_runs = 10'000;
 constexpr const char* accuracy_runs_expected = "an integer from 0 (none) to 10000";
 
+constexpr double least_rtol = 1e-15; ///< double precision knows of no smaller differences
+constexpr const char* rtol_expected = "a number, ≥ 1e-15 and < 1";
+
+bool is_rtol(const double& rtol) { return rtol >= least_rtol && rtol < 1; }
 bool is_at_least_1(const std::int64_t& number) { return number >= 1; }
 bool is_accuracy_runs(const std::int64_t& number) {
   return number >= 0 && number <= most_accuracy_runs;
@@ -145,11 +149,12 @@ void read_tolerances(JsonObject& object, Integration& integration,
   const auto rtol = object.find("rtol");
   const bool automatic = rtol && rtol->value() == "auto";
   if (automatic && !choice)
-    rtol->refuse("a number, > 0 and < 1: only a campaign has a sampling error to weigh errors by");
+    rtol->refuse(
+        fmt::format("{}: only a campaign has a sampling error to weigh errors by", rtol_expected));
   if (!automatic)
     object.optional("rtol", integration.rtol,
-                    choice ? "a number, > 0 and < 1, or \"auto\"" : "a number, > 0 and < 1",
-                    is_proper_share);
+                    choice ? fmt::format("{}, or \"auto\"", rtol_expected) : rtol_expected,
+                    is_rtol);
   object.optional("atol", integration.atol, "a number, > 0", is_positive);
   if (choice) read_tolerance_choice(object, automatic, *choice);
 }

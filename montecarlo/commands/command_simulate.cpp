@@ -116,7 +116,8 @@ void add_simulate(CLI::App& app, Action& action) {
       ->type_name("S");
   command->add_option("--method", options->settings.method, "See wingspread methods");
   command->add_option("--step", options->settings.step, "The step of a method with a fixed one, s");
-  command->add_option("--rtol", options->settings.rtol, "Relative tolerance of a step")
+  command
+      ->add_option("--rtol", options->settings.rtol, "Relative tolerance of a step, at least 1e-15")
       ->check(refuse_auto);
   command->add_option("--atol", options->settings.atol,
                       "Absolute tolerance of a step, rad and rad/s");

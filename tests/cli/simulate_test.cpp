@@ -109,12 +109,33 @@ TEST_CASE("simulate refuses settings by their options") {
   CHECK(code == 2);
   CHECK(out.empty());
   CHECK(error.find("error: --method: found string \"guess\", expected \"auto\"") == 0);
-  CHECK(error.find("error: --rtol: found 2.0, expected a number, > 0 and < 1\n") != error.npos);
+  CHECK(error.find("error: --rtol: found 2.0, expected a number, ≥ 1e-15 and < 1\n") != error.npos);
   CHECK(error.find("error: --atol: found 0.0, expected a number, > 0\n") != error.npos);
   CHECK(error.find("error: --latch: found -1.0, expected a number, rad, > 0\n") != error.npos);
   CHECK(error.find("error: --t-end: found -1.0, expected a number, s, > 0\n") != error.npos);
   CHECK(lines_of(error).size() == 5);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "t.csv"));
+}
+
+TEST_CASE(
+    "a tolerance that double precision does not have is refused, as an option and in a campaign") {
+  const Folder folder;
+  const auto simulate = [&](const char* rtol) {
+    return run_program(folder, {"simulate", three_panel_file(), "--t-end", "0.1", "--rtol", rtol});
+  };
+  const auto [code, out, error] = simulate("1e-40");
+  CHECK(code == 2);
+  CHECK(out.empty());
+  CHECK(error == "error: --rtol: found 1e-40, expected a number, ≥ 1e-15 and < 1\n");
+  CHECK(simulate("1e-15").code == 0);
+  Json campaign = quick_campaign(5);
+  campaign["integration"]["rtol"] = 1e-40;
+  const std::string file = folder.write("campaign.json", campaign.dump());
+  const auto run = run_program(folder, {"run", file, "--out", folder.path() / "r"});
+  CHECK(run.code == 2);
+  CHECK(run.error == "error: " + file +
+                         ": /integration/rtol: found 1e-40, expected a number, ≥ 1e-15 and < 1, or "
+                         "\"auto\"\n");
 }
 
 TEST_CASE("a simulation that fails says why") {

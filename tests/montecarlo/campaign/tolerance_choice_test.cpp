@@ -60,7 +60,7 @@ TEST_CASE("what a pilot has chosen is read as it was written", "[tolerance_choic
 TEST_CASE("each fault of a tolerance left to a pilot is told", "[tolerance_choice]") {
   const auto [integration, message] = GENERATE(values<IntegrationCase>(
       {{R"({"rtol": "automatic"})", "/integration/rtol: found string \"automatic\", expected a "
-                                    "number, > 0 and < 1, or \"auto\""},
+                                    "number, ≥ 1e-15 and < 1, or \"auto\""},
        {R"({"rtol": 1e-6, "rtol_share": 0.1})",
         "/integration/rtol_share: found a share of the sampling error beside a fixed \"rtol\", "
         "expected \"rtol\": \"auto\""},

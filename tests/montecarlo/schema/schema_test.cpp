@@ -255,6 +255,8 @@ TEST_CASE("bounds are read off what readers expect") {
   CHECK(bounds_of("a number, kg, > 0") == Json{{"exclusiveMinimum", 0.0}});
   CHECK(bounds_of("a number, > 0 and < 1, or \"auto\"") ==
         Json{{"exclusiveMinimum", 0.0}, {"exclusiveMaximum", 1.0}});
+  CHECK(bounds_of("a number, ≥ 1e-15 and < 1, or \"auto\"") ==
+        Json{{"minimum", 1e-15}, {"exclusiveMaximum", 1.0}});
   CHECK(bounds_of("an integer from 2 to 200") == Json{{"minimum", 2.0}, {"maximum", 200.0}});
   CHECK(bounds_of("an integer from 0 to 2^64 - 1") == Json{{"minimum", 0.0}});
   CHECK(bounds_of("a number, > -1 and < 1") ==
