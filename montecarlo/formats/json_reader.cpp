@@ -53,10 +53,21 @@ bool read_each(const JsonCursor& at, std::vector<double>& out, const Expected& e
   return all;
 }
 
+/// What is expected where the number that was found is none that JSON has.
+std::string finite(std::string_view expected) {
+  constexpr std::string_view number = "a number";
+  return expected.starts_with(number)
+             ? fmt::format("a finite number{}", expected.substr(number.size()))
+             : std::string(expected);
+}
+
 } // namespace
 
 std::string describe_value(const Json& value) {
   switch (value.type()) {
+  case Json::value_t::number_float: // from an option: JSON has no nan, and writes null for it
+    return std::isfinite(value.get<double>()) ? value.dump()
+                                              : fmt::format("{}", value.get<double>());
   case Json::value_t::object:
     return "an object";
   case Json::value_t::array:
@@ -127,7 +138,8 @@ bool JsonCursor::refuse_repeated(std::string_view what, std::string_view expecte
 
 bool JsonCursor::read(double& out, std::string_view expected) const {
   note(Question::What::number, expected);
-  if (!value_->is_number() || !std::isfinite(value_->get<double>())) return refuse(expected);
+  if (!value_->is_number()) return refuse(expected);
+  if (!std::isfinite(value_->get<double>())) return refuse(finite(expected));
   out = value_->get<double>();
   return true;
 }

@@ -138,6 +138,20 @@ TEST_CASE(
                          "\"auto\"\n");
 }
 
+TEST_CASE("an option's number that is not finite is named as it was typed") {
+  const Folder folder;
+  const auto [code, out, error] = run_program(
+      folder, {"simulate", three_panel_file(), "--set", "hinges.root.spring.scale=nan", "--set",
+               "bodies.panel_1.mass=-inf", "--set", "bodies.panel_2.mass=inf"});
+  CHECK(code == 2);
+  CHECK(out.empty());
+  CHECK(error == "error: --set hinges.root.spring.scale: found nan, expected a finite number\n"
+                 "error: --set bodies.panel_1.mass: found -inf, expected a finite number, kg\n"
+                 "error: --set bodies.panel_2.mass: found inf, expected a finite number, kg\n");
+  CHECK(run_program(folder, {"simulate", three_panel_file(), "--rtol", "nan"}).error ==
+        "error: --rtol: found nan, expected a finite number, ≥ 1e-15 and < 1\n");
+}
+
 TEST_CASE("a simulation that fails says why") {
   const Folder folder;
   Json campaign = quick_campaign(5);

@@ -63,6 +63,11 @@ TEST_CASE("Numbers are read, and nothing else as a number", "[json_reader]") {
   double value = 7;
   const Json infinite = INFINITY; // the parser lets none through, but a program can make one
   CHECK_FALSE(JsonCursor(infinite, "", problems).read(value, "a number"));
+  const Json none = NAN;
+  CHECK_FALSE(JsonCursor(none, "", problems).read(value, "a number, kg, > 0"));
+  CHECK(value == 7);
+  CHECK(std::string(SpecError(problems).what()) == "found inf, expected a finite number\n"
+                                                   "found nan, expected a finite number, kg, > 0");
 }
 
 TEST_CASE("A number with a dimension may be a string with its unit", "[json_reader]") {
