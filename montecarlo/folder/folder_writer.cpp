@@ -3,6 +3,7 @@
 #include "montecarlo/campaign/campaign_json.hpp"
 #include "montecarlo/folder/replay.hpp"
 #include "montecarlo/formats/files.hpp"
+#include "montecarlo/formats/json_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -29,6 +30,58 @@ std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaig
   if (stamp.shard || there.stamp.shard)
     return "a shard's runs depend on the number of all; run it into a new folder";
   return std::nullopt;
+}
+
+/// A value that two documents do not have in common; null: there is none.
+struct Difference {
+  std::string pointer;
+  const Json *found, *expected;
+};
+
+/// The deepest values that differ; arrays of different lengths are one.
+void find_differences(const Json& found, const Json& expected, const std::string& pointer,
+                      std::vector<Difference>& all) {
+  if (found.is_object() && expected.is_object()) {
+    for (const auto& [key, value] : found.items())
+      if (!expected.contains(key)) all.push_back({pointer + pointer_token(key), &value, nullptr});
+    for (const auto& [key, value] : expected.items()) {
+      const auto there = found.find(key);
+      if (there == found.end())
+        all.push_back({pointer + pointer_token(key), nullptr, &value});
+      else
+        find_differences(*there, value, pointer + pointer_token(key), all);
+    }
+  } else if (found.is_array() && expected.is_array() && found.size() == expected.size()) {
+    for (std::size_t i = 0; i < found.size(); ++i)
+      find_differences(found[i], expected[i], fmt::format("{}/{}", pointer, i), all);
+  } else if (found != expected) {
+    all.push_back({pointer, &found, &expected});
+  }
+}
+
+std::string describe_side(const Json* value) { return value ? describe_value(*value) : "nothing"; }
+
+/// What sets a campaign apart from the one that is there: the first values that differ, or hashes where the same values
+/// stand in another order.
+/// @param told the pointer of a problem that is known
+void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::string_view told,
+                        std::vector<Problem>& problems) {
+  constexpr std::size_t most_told = 5;
+  const std::string file = (there.folder / campaign_file).string();
+  const std::string hash = campaign_hash(ours.resolved);
+  if (there.stamp.hash == hash) return;
+  std::vector<Difference> all;
+  find_differences(there.campaign.resolved, ours.resolved, "", all);
+  std::string reason = all.empty() ? "the same values in another order" : "";
+  std::erase_if(all, [&](const Difference& each) { return each.pointer == told; });
+  for (std::size_t i = 0; i < std::min(all.size(), most_told); ++i)
+    problems.push_back({file, all[i].pointer,
+                        describe_side(all[i].found) + " (when the folder was made)",
+                        describe_side(all[i].expected) + " (now), to continue what is there"});
+  if (all.size() > most_told) reason = fmt::format("{} values differ", all.size());
+  if (!reason.empty())
+    problems.push_back({file, "/wingspread/hash", there.stamp.hash,
+                        fmt::format("{}, to continue what is there: {}", hash, reason)});
 }
 
 /// The looks that were taken when these rows had been made and more runs are added to them.
@@ -72,7 +125,7 @@ void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, co
                         std::to_string(found), fmt::format("{}: {}", runs, *fixed)});
   Campaign same = ours; // but for the number of runs, which may grow
   if (!fixed) override_sampling(same, found, std::nullopt);
-  compare("hash", there.stamp.hash, campaign_hash(same.resolved));
+  refuse_differences(there, same, fixed ? "/sampling/runs" : "", problems);
   compare("shard", describe(there.stamp.shard), describe(stamp.shard));
   compare("version", there.stamp.version, stamp.version);
   if (there.stamp.preview)
