@@ -1,6 +1,8 @@
 #include "montecarlo/terminal/output_file.hpp"
 
 #include "montecarlo/folder/results_folder.hpp"
+#include "montecarlo/formats/json_parse.hpp"
+#include "montecarlo/formats/machine_error.hpp"
 #include "montecarlo/formats/spec_error.hpp"
 #include "montecarlo/log/study_folder.hpp"
 #include "montecarlo/margin/margin_report.hpp"
@@ -39,6 +41,31 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, none_there) && !none_there;
 }
 
+/// The files of empirical laws, wherever they stand.
+void find_tables(const Json& part, const fs::path& directory, std::vector<fs::path>& tables) {
+  if (part.is_object() && part.contains("type"))
+    if (const auto file = part.find("file"); file != part.end() && file->is_string())
+      tables.push_back(directory / file->get_ref<const std::string&>());
+  if (part.is_structured())
+    for (const Json& each : part) find_tables(each, directory, tables);
+}
+
+/// The files that a campaign, or that of a results folder, names; none of what its reader will refuse.
+std::vector<fs::path> named_files(const fs::path& read) {
+  const fs::path file = fs::is_directory(read) ? read / campaign_file : read;
+  std::vector<fs::path> named;
+  try {
+    const Json document = parse_json_file(file);
+    find_tables(document, file.parent_path(), named);
+    if (!document.is_object()) return named;
+    if (const auto scene = document.find("scene"); scene != document.end() && scene->is_string())
+      named.push_back(file.parent_path() / scene->get_ref<const std::string&>());
+  } catch (const SpecError&) {
+  } catch (const MachineError&) {
+  }
+  return named;
+}
+
 } // namespace
 
 void refuse_overwriting(const fs::path& out, const std::vector<fs::path>& read) {
@@ -51,7 +78,11 @@ void refuse_overwriting(const fs::path& out, const std::vector<fs::path>& read) 
     if (is_same_file(out, each)) refuse("which is read");
     if (fs::is_directory(each) && is_own_file(out, each)) refuse("one of the results folder's own");
   }
-  if (out.extension() == ".json" && fs::is_regular_file(out)) refuse("a JSON file");
+  if (!fs::is_regular_file(out)) return;
+  for (const fs::path& each : read)
+    for (const fs::path& named : named_files(each))
+      if (is_same_file(out, named)) refuse("which is read");
+  if (out.extension() == ".json") refuse("a JSON file");
 }
 
 } // namespace wingspread

@@ -6,8 +6,9 @@
 
 namespace wingspread {
 
-/// Refuses a file for `--out` in whose place something would be lost that nobody can make again: one that is read, any
-/// JSON file (scenes and campaigns are such, and no command writes one), and what a results folder consists of.
+/// Refuses a file for `--out` in whose place something would be lost that nobody can make again: one that is read, also
+/// because a campaign names it (its scene, the table of an empirical law), any JSON file (scenes and campaigns are such,
+/// and no command writes one), and what a results folder consists of.
 /// @param out  where to; empty: nowhere
 /// @param read files, and results folders
 /// @throws SpecError that names --out

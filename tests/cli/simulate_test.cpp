@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fstream>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -227,6 +229,50 @@ TEST_CASE("what is read, and any JSON file, is not written over") {
   CHECK(run_program(folder, {"simulate", scene, "--out", other}).code == 2);
   CHECK(read_text(scene).value() == text);
   CHECK(read_text(other).value() == "{}");
+}
+
+TEST_CASE("what a campaign names is not written over: its scene, and the tables of its laws") {
+  const Folder folder;
+  const std::string text = read_text(three_panel_file()).value(), values = "x\n0.9\n1\n1.1\n";
+  const std::string scene = folder.write("wing", text), table = folder.write("t.csv", values),
+                    in_case = folder.write("case.csv", values);
+  Json json = quick_campaign(5);
+  const auto law = [](const char* file) {
+    return Json{{"type", "empirical"}, {"file", file}, {"column", "x"}};
+  };
+  json["scene"] = "wing";
+  json["dispersions"][0]["distribution"] = law("t.csv");
+  json["cases"] = {
+      {{"name", "worn"}, {"distributions", {{json["dispersions"][0]["name"], law("case.csv")}}}}};
+  const std::string campaign = folder.write("c.json", json.dump());
+  for (const char* command : {"simulate", "sample"})
+    for (const std::string& file : {scene, table, in_case}) {
+      const Finished done =
+          run_program(folder, {command, campaign, "--case", "worn", "--out", file});
+      CHECK(done.code == 2);
+      CHECK(done.error == "error: --out: found \"" + file +
+                              "\", which is read, expected another file: it would be lost\n");
+    }
+  CHECK(read_text(scene).value() == text);
+  CHECK(read_text(table).value() == values);
+  CHECK(read_text(in_case).value() == values);
+  const std::string fresh = folder.write("fresh.csv", "mine to replace");
+  CHECK(run_program(folder, {"sample", campaign, "--case", "worn", "--out", fresh}).code == 0);
+
+  // rows of another tool, with a campaign beside them as somebody wrote it
+  const std::string there = folder.path() / "r";
+  std::filesystem::create_directory(there);
+  json["scene"] = "../wing";
+  json["dispersions"][0]["distribution"] = law("../t.csv");
+  json.erase("cases");
+  std::ofstream(there + "/campaign.json") << json.dump();
+  for (const char* command : {"report", "export"}) {
+    const Finished done = run_program(folder, {command, there, "--out", table});
+    CHECK(done.code == 2);
+    CHECK_THAT(done.error,
+               Catch::EndsWith("which is read, expected another file: it would be lost\n"));
+  }
+  CHECK(read_text(table).value() == values);
 }
 
 TEST_CASE("no command writes over a results folder's own files") {
