@@ -38,7 +38,8 @@ int report(const ReportOptions& options) {
   std::deque<FolderLock> locks;
   for (const std::filesystem::path& folder : options.folders) {
     if (!is_study_folder(folder)) (void)read_any_campaign(folder); // there is one to be locked
-    locks.emplace_back(folder);
+    const bool written = options.out.empty() && locks.empty();     // the page goes to the first
+    locks.emplace_back(folder, written ? FolderLock::For::writing : FolderLock::For::reading);
     if (!is_study_folder(folder)) warn_of_preview(read_any_campaign(folder));
   }
   const std::filesystem::path out =

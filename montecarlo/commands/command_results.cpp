@@ -119,11 +119,16 @@ StoredCampaign held_to(StoredCampaign stored, const AnalyzeOptions& options) {
   return stored;
 }
 
+/// The results folder is only read where another gets the statistics.
+FolderLock::For purpose_of(const AnalyzeOptions& options) {
+  return options.out.empty() ? FolderLock::For::writing : FolderLock::For::reading;
+}
+
 int analyze_cases(const AnalyzeOptions& options, const std::filesystem::path& to) {
   StoredCampaign whole = read_stored_campaign(options.folder);
   std::vector<CaseSummary> cases;
   for (const CaseSpec& spec : made_cases(whole)) {
-    const FolderLock lock(whole.folder / spec.name);
+    const FolderLock lock(whole.folder / spec.name, purpose_of(options));
     const StoredCampaign stored = held_to(read_stored_campaign(whole.folder / spec.name), options);
     cases.push_back(case_summary(stored, summarize_again(stored, options, to / spec.name)));
   }
@@ -135,7 +140,7 @@ int analyze(const AnalyzeOptions& options) {
   (void)read_any_campaign(options.folder); // there is one to be locked
   const bool elsewhere = !options.out.empty();
   if (elsewhere) refuse_used_folder(options.out, "a new or an empty folder");
-  const FolderLock lock(options.folder);
+  const FolderLock lock(options.folder, purpose_of(options));
   std::optional<FolderLock> other;
   if (elsewhere) other.emplace(options.out);
   const std::filesystem::path& to = elsewhere ? options.out : options.folder;

@@ -63,12 +63,26 @@ bool is_alive(const std::string& name) {
       {folder.string(), "", who + " at work in it", "a folder that no other process writes to"});
 }
 
+int open_without_signals(const std::filesystem::path& path, int flags) {
+  int file = -1;
+  do file = open(path.c_str(), flags | O_CLOEXEC, 0666);
+  while (file < 0 && errno == EINTR);
+  return file;
+}
+
 int open_lock(const std::filesystem::path& path) {
-  for (;;) {
-    const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file >= 0) return file;
-    if (errno != EINTR) refuse_path(path, errno, expected_lock);
-  }
+  const int file = open_without_signals(path, O_RDWR | O_CREAT);
+  if (file < 0) refuse_path(path, errno, expected_lock);
+  return file;
+}
+
+/// Whether the folder keeps this process from making or changing its lock. One that is not there can be made.
+bool is_read_only(const std::filesystem::path& folder, const std::filesystem::path& path) {
+  const auto may_write = [](const std::filesystem::path& its) {
+    return faccessat(AT_FDCWD, its.c_str(), W_OK, AT_EACCESS) == 0 ||
+           (errno != EACCES && errno != EROFS && errno != EPERM);
+  };
+  return !may_write(folder) || !may_write(path);
 }
 
 /// Locks it. @return 0, or the error
@@ -103,6 +117,17 @@ std::optional<int> take(const std::filesystem::path& folder, const std::filesyst
   refuse_path(path, error, expected_lock);
 }
 
+/// Throws when another process writes to a folder that this one cannot write to.
+void refuse_writer(const std::filesystem::path& folder, const std::filesystem::path& path) {
+  const int file = open_without_signals(path, O_RDONLY);
+  if (file < 0) return; // nobody holds it
+  const std::string holder = name_in(file);
+  const bool held = flock(file, LOCK_SH | LOCK_NB) != 0 &&
+                    (errno == EWOULDBLOCK || (errno != EINTR && is_alive(holder)));
+  close(file);
+  if (held) refuse_second(folder, holder);
+}
+
 /// Who holds it, into the file. @return 0, or the error
 int write_name(int file) {
   const std::string name = own_name();
@@ -117,8 +142,12 @@ int write_name(int file) {
 
 } // namespace
 
-FolderLock::FolderLock(std::filesystem::path folder)
+FolderLock::FolderLock(std::filesystem::path folder, For purpose)
     : folder_(std::move(folder)), path_(folder_ / lock_file) {
+  if (purpose == For::reading && is_read_only(folder_, path_)) {
+    refuse_writer(folder_, path_);
+    return;
+  }
   std::error_code unknown;
   made_ = !std::filesystem::exists(folder_, unknown);
   make_folder(folder_);
@@ -134,6 +163,7 @@ FolderLock::FolderLock(std::filesystem::path folder)
 }
 
 FolderLock::~FolderLock() {
+  if (file_ < 0) return;
   unlink(path_.c_str()); // first: who finds it afterwards has another file
   close(file_);
   if (made_) rmdir(folder_.c_str()); // only if nothing is in it

@@ -14,9 +14,14 @@ inline constexpr const char* lock_file = ".lock";
 /// machine and in this boot of it.
 class FolderLock {
 public:
+  enum class For {
+    writing,
+    reading ///< a folder that this process may not write to is read without the lock, unless another holds it
+  };
+
   /// Makes the folder if it is not there, and takes away what a killed program had begun in it.
   /// @throws MachineError when another process holds it, and says which; and as refuse_path does
-  explicit FolderLock(std::filesystem::path folder);
+  explicit FolderLock(std::filesystem::path folder, For purpose = For::writing);
   /// Lets go of it, and of the folder too if it was made and nothing was written.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
@@ -25,7 +30,7 @@ public:
 private:
   std::filesystem::path folder_, path_;
   bool made_ = false; ///< the folder
-  int file_ = -1;
+  int file_ = -1;     ///< none: there is no lock
 };
 
 } // namespace wingspread

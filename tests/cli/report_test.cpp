@@ -2,9 +2,13 @@
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
+#include <linux/capability.h>
+#include <sys/prctl.h>
 
 #include <cmath>
 #include <fstream>
+#include <thread>
+#include <unistd.h>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -31,7 +35,81 @@ struct Done {
   }
 };
 
+/// As somebody for whom what may only be read is so; root is asked no questions, and gives that up for it.
+Finished run_as_reader(const Folder& folder, const std::vector<std::string>& arguments) {
+  Finished done{};
+  std::thread([&] { // the bounding set is a thread's own, and that of the processes that it starts
+    prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
+    prctl(PR_CAPBSET_DROP, CAP_DAC_READ_SEARCH);
+    done = run_program(folder, arguments);
+  })
+      .join();
+  return done;
+}
+
+/// A folder with all below it that may only be read, while this lives.
+class ReadOnly {
+public:
+  explicit ReadOnly(std::filesystem::path folder) : folder_(std::move(folder)) { set(false); }
+  ~ReadOnly() { set(true); }
+  ReadOnly(const ReadOnly&) = delete;
+  ReadOnly& operator=(const ReadOnly&) = delete;
+
+private:
+  void set(bool writable) const {
+    const auto change = [&](const std::filesystem::path& path) {
+      using std::filesystem::perms;
+      using std::filesystem::perm_options;
+      std::filesystem::permissions(path, perms::owner_write | perms::group_write,
+                                   writable ? perm_options::add : perm_options::remove);
+    };
+    change(folder_);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) change(entry);
+  }
+  std::filesystem::path folder_;
+};
+
 } // namespace
+
+TEST_CASE("report and analyze read a folder that may only be read, and write elsewhere",
+          "[report][cases]") {
+  const Folder folder;
+  const bool cases = GENERATE(false, true);
+  Json json = quick_campaign(10);
+  if (cases)
+    json["cases"] = parse_json(
+        R"([ { "name": "as_it_is" }, { "name": "weak", "scale": { "hinges.*.spring.scale": 0.9 } } ])");
+  const std::string file = folder.write("c.json", json.dump()), path = folder.path() / "r",
+                    page = folder.path() / "page.html", again = folder.path() / "again";
+  REQUIRE(run_program(folder, {"run", file, "--out", path}).code == 0);
+  const auto before = contents(path);
+  {
+    const ReadOnly read_only(path);
+    const Finished refused = run_as_reader(folder, {"analyze", path});
+    if (refused.code == 0 && geteuid() == 0) {
+      WARN("root here cannot give up its rights");
+      return;
+    }
+    CHECK(refused.code == 4);
+    CHECK_THAT(refused.error, Catch::Contains("expected a folder that can be locked"));
+    CHECK(run_as_reader(folder, {"report", path}).code == 4);
+    const Finished reported = run_as_reader(folder, {"report", path, "--out", page});
+    CHECK(reported.error.empty());
+    CHECK(reported.code == 0);
+    CHECK(run_as_reader(folder, {"report", path, path, "--out", page}).code == 0);
+    const Finished analyzed = run_as_reader(folder, {"analyze", path, "--out", again});
+    CHECK(analyzed.error.empty());
+    CHECK(analyzed.code == 0);
+    CHECK(std::filesystem::exists(again + (cases ? "/weak/summary.json" : "/summary.json")));
+  }
+  CHECK(contents(path) == before);
+
+  const FolderLock held(path);
+  const ReadOnly read_only(path);
+  const Finished second = run_as_reader(folder, {"report", path, "--out", page});
+  CHECK(second.code == 4);
+  CHECK_THAT(second.error, Catch::Contains(": found process " + std::to_string(getpid()) + " on "));
+}
 
 TEST_CASE("report writes one page, the same bytes on any number of threads", "[report][parallel]") {
   const Done done(full_campaign(40));
