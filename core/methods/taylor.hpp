@@ -286,17 +286,23 @@ private:
     }
   }
 
-  /// The step after which the larger of the last two terms is the tolerance, next to.
+  /// The step after which the larger of the last two terms is its share of the tolerance, next to. Of a wing that is
+  /// folded straight and set out by constant moments from rest three of four terms vanish: the two before must
+  /// be small as well, which in other motions they are then.
   [[nodiscard]] T longest(const Layout& at, const State<T>& x, const T& rtol, const T& atol) const {
     using std::abs;
-    T last(1e-300), before(1e-300);
+    constexpr double small = 4; // tolerances
+    std::array<T, 4> terms;
+    for (T& term : terms) term = T(1e-300);
     for (int i = 1; i <= at.bodies; ++i) {
       const auto& r = bodies_[i - 1].relative;
-      const T per_tolerance = T(margin / share) / fused(rtol, T(abs(x[at.rate(i)])), atol);
-      last = larger(last, T(abs(r[order]) * per_tolerance));
-      before = larger(before, T(abs(r[order - 1]) * per_tolerance));
+      const T per_tolerance = T(1) / fused(rtol, T(abs(x[at.rate(i)])), atol);
+      for (int k = 0; k < 4; ++k) terms[k] = larger(terms[k], T(abs(r[order - k]) * per_tolerance));
     }
-    return T(0.99) * smaller(root(last, order), root(before, order - 1));
+    T h(1e300);
+    for (int k = 0; k < 4; ++k)
+      h = smaller(h, root(T(terms[k] * T(k < 2 ? margin / share : 1 / small)), order - k));
+    return T(0.99) * h;
   }
 
   /// v^(−1/n), to 1e-6.

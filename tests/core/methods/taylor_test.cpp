@@ -85,6 +85,29 @@ TEST_CASE("a step that series fit to the tolerance keeps it: chains, latched and
   CHECK(worst > 1e-4); // and tolerances are made use of
 }
 
+TEST_CASE("a wing folded straight, set out by constant moments from rest, has terms of few orders "
+          "alone") {
+  Scene scene = seed_scene();
+  for (Hinge& hinge : scene.hinges) {
+    hinge.parent_point.y() = hinge.child_point.y() = 0;
+    hinge.spring.torque_latched = hinge.spring.torque_stowed;
+  }
+  const auto run = [&](const char* method, double rtol) {
+    Integration how;
+    how.method = method, how.rtol = rtol, how.atol = 1e-2 * rtol, how.t_end = 10;
+    return Deployment().run(scene, how, {});
+  };
+  const Outcome exact = run("dop853", 1e-13);
+  REQUIRE(exact.latches.size() == 3);
+  for (const double rtol : {1e-6, 1e-8, 1e-10, 1e-12}) {
+    const Outcome out = run("taylor", rtol);
+    REQUIRE(out.latches.size() == 3);
+    CAPTURE(rtol);
+    for (int k = 0; k < 3; ++k)
+      CHECK(std::abs(out.latches[k].time / exact.latches[k].time - 1) < 0.1 * rtol + 1e-12);
+  }
+}
+
 TEST_CASE("halving a step by series divides its error by two to the seventeenth") {
   const Scene scene = random_scene(731, chain_of(4));
   std::vector<double> errors;
