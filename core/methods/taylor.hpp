@@ -273,7 +273,8 @@ private:
     const T h2 = h * h, h4 = h2 * h2, h8 = h4 * h4;
     const T last = h8 * h8, before = h8 * h4 * h2 * h;
     for (int i = 1; i <= at.bodies; ++i) {
-      const auto &r = bodies_[i - 1].relative, &a = bodies_[i - 1].angle;
+      const auto& r = bodies_[i - 1].relative;
+      const auto& a = bodies_[i - 1].angle;
       T angle = a[order + 1], rate = r[order];
       for (int k = order - 1; k >= 0; --k) {
         rate = fused(rate, h, r[k]);
