@@ -17,6 +17,7 @@
 
 #include "core/dense/step.hpp"
 #include "core/mechanics/wing.hpp"
+#include "core/number/over_root.hpp"
 
 #include <cmath>
 
@@ -42,22 +43,29 @@ template <class T> [[nodiscard]] T reach_inward(const T& size, const T& slip_rat
   return select(size > T(longest_leap) * slip_rate, T(size - kept), T(T(reach_inside) * slip_rate));
 }
 
+/// √(φ̇² + ω_s²).
+template <class T> [[nodiscard]] T from_layer(const T& rate, const T& slip_rate) {
+  const T square = fused(rate, rate, slip_rate * slip_rate);
+  return over_root(square, square);
+}
+
 } // namespace detail
 
 /// Of an accepted step. Cost: some twenty operations a hinge.
 template <class T>
 [[nodiscard]] LayerLimits<T> layer_limits(const Wing<T>& wing, const Layout& at,
                                           const Step<T>& step, const T& rtol, const T& atol) {
-  using std::abs, std::sqrt;
+  using std::abs;
   LayerLimits<T> limits{T(1e10), T(1e10)};
   for (int i = 1; i <= at.bodies; ++i) {
     const HingeTerms<T>& hinge = wing.hinges[i];
     const int r = at.rate(i);
     const T &v0 = step.x[r], &v1 = step.x1[r], &a = step.dxdt1[r], &slip = hinge.slip_rate;
     const T size0 = abs(v0), size1 = abs(v1), change = abs(v1 - v0);
-    const T at_stake = T(0.1) * hinge.most_regularized() / wing.bodies[i].central_inertia * step.h;
-    const auto matters = at_stake > fused(rtol, larger(size0, size1), atol);
-    const T from0 = sqrt(fused(v0, v0, slip * slip)), from1 = sqrt(fused(v1, v1, slip * slip));
+    const T at_stake = T(0.1) * hinge.most_regularized() * step.h; // N·m·s
+    const auto matters =
+        at_stake > wing.bodies[i].central_inertia * fused(rtol, larger(size0, size1), atol);
+    const T from0 = detail::from_layer(v0, slip), from1 = detail::from_layer(v1, slip);
     const auto crosses = v0 * v1 < T(0);
     const T least = select(crosses, slip, smaller(from0, from1));
     const T shorter = select(crosses || from1 < from0, detail::reach_inward(size0, slip),

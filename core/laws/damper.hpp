@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/laws/curve_value.hpp"
-#include "core/number/pack.hpp"
+#include "core/number/power.hpp"
 #include "core/scene/scene.hpp"
 
 #include <cmath>
@@ -21,19 +21,6 @@ template <class T> struct DamperTerms {
   T near_zero; ///< A w^{p−1}, times the scale, N·m·s/rad
 };
 
-namespace detail {
-template <class T> [[nodiscard]] T power(const T& base, const T& exponent) {
-  using std::pow;
-  return pow(base, exponent);
-}
-/// A lane at a time: the bits that each has alone.
-template <int W> [[nodiscard]] inline Pack<W> power(const Pack<W>& base, const Pack<W>& exponent) {
-  Pack<W> result;
-  for (int lane = 0; lane < W; ++lane) result.v[lane] = std::pow(base.v[lane], exponent.v[lane]);
-  return result;
-}
-} // namespace detail
-
 template <class T> [[nodiscard]] DamperTerms<T> damper_terms(const Damper& damper) {
   const T scale(damper.scale), p(damper.exponent);
   switch (damper.law) {
@@ -41,7 +28,7 @@ template <class T> [[nodiscard]] DamperTerms<T> damper_terms(const Damper& dampe
     return {damper.law, scale * T(damper.coefficient), T(1), T(1), T(0)};
   case DamperLaw::power: {
     const T A = scale * T(damper.coefficient), w(damper.regularization_rate);
-    return {damper.law, A, p, w, A * detail::power(w, T(p - T(1)))};
+    return {damper.law, A, p, w, A * power_precisely(w, T(p - T(1)))};
   }
   case DamperLaw::eddy_current:
     break;
@@ -57,7 +44,7 @@ template <class T> [[nodiscard]] T damper_moment(const DamperTerms<T>& damper, c
     return -damper.strength * v;
   case DamperLaw::power: {
     const T size = abs(v);
-    const T beyond = damper.strength * detail::power(larger(size, damper.rate), damper.exponent);
+    const T beyond = damper.strength * power_precisely(larger(size, damper.rate), damper.exponent);
     const T torque = select(size < damper.rate, T(damper.near_zero * size), beyond);
     return select(v > T(0), T(-torque), torque);
   }
@@ -77,7 +64,7 @@ template <class T> [[nodiscard]] T damper_damping(const DamperTerms<T>& damper, 
   case DamperLaw::power: {
     const T size = larger(T(abs(v)), damper.rate);
     const T beyond =
-        damper.strength * damper.exponent * detail::power(size, T(damper.exponent - T(1)));
+        damper.strength * damper.exponent * power_precisely(size, T(damper.exponent - T(1)));
     return select(T(abs(v)) < damper.rate, damper.near_zero, beyond);
   }
   case DamperLaw::eddy_current:

@@ -16,6 +16,7 @@
 
 #include "core/laws/curve_value.hpp"
 #include "core/laws/damper.hpp"
+#include "core/number/over_root.hpp"
 #include "core/scene/scene.hpp"
 
 #include <cmath>
@@ -113,9 +114,8 @@ template <class T>
 template <class T>
 [[nodiscard]] T sense_of_friction(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
                                   const T& rate) {
-  using std::sqrt;
   if (!hinge.regularized) return mode.sliding;
-  return rate / sqrt(fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
+  return over_root(rate, fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
 }
 
 /// The stop's moment, N·m.

@@ -19,6 +19,7 @@
 #pragma once
 
 #include "core/mechanics/wing.hpp"
+#include "core/number/over_root.hpp"
 
 #include <optional>
 
@@ -57,9 +58,8 @@ template <class T>
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T regularized_friction_moment(const HingeTerms<T>& hinge,
                                                                        const T& rate) {
-  using std::sqrt;
-  return -(hinge.regularized_friction * rate) /
-         sqrt(fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
+  return over_root(T(-(hinge.regularized_friction * rate)),
+                   fused(rate, rate, hinge.slip_rate * hinge.slip_rate));
 }
 
 /// −d/dφ̇ of it: the damping that it is for small changes, N·m·s/rad.

@@ -263,7 +263,13 @@ private:
     topology().outward([&](int i) __attribute__((always_inline)) {
       frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
     });
-    if (wing_.is_nonlinear() || layout_.smoothed) {
+    if (is_static<Topology> && wing_.has_regularized_friction && !wing_.is_real() &&
+        !layout_.smoothed) {
+      topology().outward([&](int i) __attribute__((always_inline)) {
+        frames[i].moment =
+            frames[i].moment + regularized_friction_moment(wing_.hinges[i], rates[i - 1]);
+      });
+    } else if (wing_.is_nonlinear() || layout_.smoothed) {
       find_nonlinear_moments(x);
       topology().outward([&](int i) __attribute__((always_inline)) {
         frames[i].moment = frames[i].moment + work_.nonlinear[i];

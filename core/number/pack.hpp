@@ -73,6 +73,11 @@ template <int W>
 
 template <int W> inline constexpr double epsilon_of<Pack<W>> = epsilon_of<double>;
 
+/// Whether T is a double, or a pack of them.
+template <class T> inline constexpr bool is_of_doubles = false;
+template <> inline constexpr bool is_of_doubles<double> = true;
+template <int W> inline constexpr bool is_of_doubles<Pack<W>> = true;
+
 /// Whether it holds in any lane.
 template <class Mask>
 requires requires(Mask mask) { mask.bits; }
