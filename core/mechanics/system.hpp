@@ -206,10 +206,7 @@ private:
   }
 
   static constexpr int first_coordinate = base_freedoms<M>; ///< φ_1 in q
-  [[nodiscard]] bool has_table() const {
-    if constexpr (M == BaseMotion::prescribed) return wing_.base.table != nullptr;
-    return false;
-  }
+  [[nodiscard]] bool has_table() const { return M == BaseMotion::prescribed && wing_.base.table; }
   [[nodiscard]] int freedoms() const { return first_coordinate + topology().bodies(); }
 
   void update_law(int i) {
@@ -260,16 +257,13 @@ private:
     const T* const angles = x.data() + first_coordinate;
     const T* const rates = angles + freedoms();
     const LinearLaw<T>* const laws = work_.laws.data();
+    const bool rubs = is_static<Topology> && wing_.rubs_alone() && !layout_.smoothed;
     topology().outward([&](int i) __attribute__((always_inline)) {
-      frames[i].moment = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
+      T m = linear_moment(laws[i], angles[i - 1], rates[i - 1]);
+      if (rubs) m = m + regularized_friction_moment(wing_.hinges[i], rates[i - 1]);
+      frames[i].moment = m;
     });
-    if (is_static<Topology> && wing_.has_regularized_friction && !wing_.is_real() &&
-        !layout_.smoothed) {
-      topology().outward([&](int i) __attribute__((always_inline)) {
-        frames[i].moment =
-            frames[i].moment + regularized_friction_moment(wing_.hinges[i], rates[i - 1]);
-      });
-    } else if (wing_.is_nonlinear() || layout_.smoothed) {
+    if (!rubs && (wing_.is_nonlinear() || layout_.smoothed)) {
       find_nonlinear_moments(x);
       topology().outward([&](int i) __attribute__((always_inline)) {
         frames[i].moment = frames[i].moment + work_.nonlinear[i];

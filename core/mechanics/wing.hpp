@@ -88,6 +88,8 @@ template <class T> struct Wing {
   [[nodiscard]] bool is_real() const { return !real.empty() || !loops.empty(); }
   /// Whether any moment is not linear in angles and rates.
   [[nodiscard]] bool is_nonlinear() const { return has_regularized_friction || is_real(); }
+  /// Whether regularized friction alone is not.
+  [[nodiscard]] bool rubs_alone() const { return has_regularized_friction && !is_real(); }
 };
 
 namespace detail {
