@@ -65,6 +65,25 @@ template <int W>
   return found;
 }
 
+#ifdef __AVX512F__
+/// Of eight lanes out of eight pieces: how many knots lie at or before each x, then a permutation.
+[[nodiscard, gnu::always_inline]] inline PieceAt<Pack<8>>
+piece_of_columns(const Curve::Columns& columns, const std::vector<double>& knots,
+                 const Pack<8>& x) {
+  __m512i number = _mm512_setzero_si512();
+  for (const double knot : knots) {
+    const __mmask8 there = _mm512_cmp_pd_mask(x.v, _mm512_set1_pd(knot), _CMP_GE_OQ);
+    number = _mm512_mask_add_epi64(number, there, number, _mm512_set1_epi64(1));
+  }
+  const auto of = [&](const std::array<double, 8>& column) -> Pack<8> {
+    return _mm512_permutexvar_pd(number, _mm512_loadu_pd(column.data()));
+  };
+  return {x - of(columns.from),
+          {of(columns.c[0]), of(columns.c[1]), of(columns.c[2]), of(columns.c[3])},
+          of(columns.integral)};
+}
+#endif
+
 } // namespace detail
 
 /// In all lanes at once: from piece to piece, each lane takes what begins before it. With more than
@@ -73,6 +92,10 @@ template <int W>
 [[nodiscard]] inline PieceAt<Pack<W>> piece_at(const Curve& curve, const Pack<W>& x) {
   using P = Pack<W>;
   const std::vector<double>& knots = curve.knots();
+#ifdef __AVX512F__
+  if constexpr (W == 8)
+    if (curve.columns()) return detail::piece_of_columns(*curve.columns(), knots, x);
+#endif
   if (knots.size() > 12) return detail::piece_lane_by_lane(curve, x);
   PieceAt<P> found = detail::piece_at(curve.pieces()[0], 0.0, x);
   P knot(knots[0]);
@@ -140,23 +163,10 @@ template <class T>
 [[nodiscard]] ValueRange<T> range_of_slope(const Curve& curve, const ValueRange<T>& x) {
   const T first = slope(curve, x.low), last = slope(curve, x.high);
   ValueRange<T> range{smaller(first, last), larger(first, last)};
-  const std::vector<double>& knots = curve.knots();
-  const auto include = [&](std::size_t piece, double where, const auto& inside) {
-    const T there =
-        slope(detail::piece_at(curve.pieces()[piece], detail::knot_of(curve, piece), T(where)));
-    range.low = select(inside, smaller(range.low, there), range.low);
-    range.high = select(inside, larger(range.high, there), range.high);
-  };
-  for (std::size_t k = 0; k <= knots.size(); ++k) {
-    if (k < knots.size()) {
-      const auto inside = x.low <= T(knots[k]) && T(knots[k]) <= x.high;
-      include(k, knots[k], inside), include(k + 1, knots[k], inside);
-    }
-    const Curve::Piece& piece = curve.pieces()[k];
-    if (piece.c[3] == 0) continue;
-    const double turn = detail::knot_of(curve, k) - piece.c[2] / (3 * piece.c[3]);
-    if ((k == 0 || knots[k - 1] < turn) && (k == knots.size() || turn < knots[k]))
-      include(k, turn, x.low < T(turn) && T(turn) < x.high);
+  for (const Curve::Turn& turn : curve.turns()) {
+    const auto inside = x.low <= T(turn.x) && T(turn.x) <= x.high;
+    range.low = select(inside, smaller(range.low, T(turn.least)), range.low);
+    range.high = select(inside, larger(range.high, T(turn.largest)), range.high);
   }
   return range;
 }

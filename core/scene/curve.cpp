@@ -92,6 +92,8 @@ Curve::Curve(std::vector<double> x, std::vector<double> y, Interpolation interpo
   add_ends(beyond);
   integrate();
   find_slopes();
+  find_turns();
+  make_columns();
 }
 
 Curve Curve::sum(double a, const Curve& f, double b, const Curve& g) {
@@ -101,6 +103,8 @@ Curve Curve::sum(double a, const Curve& f, double b, const Curve& g) {
       total.pieces_[k].c[power] = a * f.pieces_[k].c[power] + b * g.pieces_[k].c[power];
   total.integrate();
   total.find_slopes();
+  total.find_turns();
+  total.make_columns();
   return total;
 }
 
@@ -136,6 +140,34 @@ void Curve::find_slopes() {
     overshoot_ = std::max(overshoot_, overshoot_of(pieces_[k], h));
     sharpest_bend_ =
         std::max({sharpest_bend_, 2 * std::abs(c[2]), std::abs(2 * c[2] + 6 * h * c[3])});
+  }
+}
+
+void Curve::find_turns() {
+  turns_.clear();
+  const auto slope = [&](std::size_t piece, double x) {
+    const auto& c = pieces_[piece].c;
+    const double u = x - knots_[piece > 0 ? piece - 1 : 0];
+    return std::fma(u, std::fma(u, 3 * c[3], 2 * c[2]), c[1]);
+  };
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    const double before = slope(k, knots_[k]), after = slope(k + 1, knots_[k]);
+    turns_.push_back({knots_[k], std::min(before, after), std::max(before, after)});
+    const auto& c = pieces_[k + 1].c;
+    if (k + 1 == knots_.size() || c[3] == 0) continue;
+    const double x = knots_[k] - c[2] / (3 * c[3]);
+    if (knots_[k] < x && x < knots_[k + 1]) turns_.push_back({x, slope(k + 1, x), slope(k + 1, x)});
+  }
+}
+
+void Curve::make_columns() {
+  columns_.reset();
+  if (pieces_.size() > 8) return;
+  columns_.emplace();
+  for (std::size_t k = 0; k < pieces_.size(); ++k) {
+    columns_->from[k] = knots_[k > 0 ? k - 1 : 0];
+    for (std::size_t power = 0; power < 4; ++power) columns_->c[power][k] = pieces_[k].c[power];
+    columns_->integral[k] = pieces_[k].integral;
   }
 }
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace wingspread {
@@ -30,6 +31,16 @@ public:
     double from = 0;
     std::array<double, 4> c{};
     double integral = 0;
+  };
+  /// Where the slope has its extremes over a range, and these: at a knot those of both sides.
+  struct Turn {
+    double x, least, largest;
+  };
+  /// Up to eight pieces column by column, for eight lanes that look in them at once.
+  struct Columns {
+    std::array<double, 8> from{};
+    std::array<std::array<double, 8>, 4> c{};
+    std::array<double, 8> integral{};
   };
 
   Curve() = default;
@@ -51,6 +62,10 @@ public:
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   /// x_0 … x_n, ascending: where a piece begins, and the extremes can lie.
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
+  /// Knots, and where a bend turns between them.
+  [[nodiscard]] const std::vector<Turn>& turns() const { return turns_; }
+  /// Empty where there are more pieces than eight.
+  [[nodiscard]] const std::optional<Columns>& columns() const { return columns_; }
   /// Largest and least dy/dx anywhere.
   [[nodiscard]] double steepest_rise() const { return steepest_rise_; }
   [[nodiscard]] double steepest_fall() const { return steepest_fall_; }
@@ -65,9 +80,13 @@ private:
   void add_ends(Beyond beyond);
   void integrate();
   void find_slopes();
+  void find_turns();
+  void make_columns();
 
   std::vector<double> knots_;
   std::vector<Piece> pieces_;
+  std::vector<Turn> turns_;
+  std::optional<Columns> columns_;
   double steepest_rise_ = 0, steepest_fall_ = 0, sharpest_bend_ = 0, overshoot_ = 0;
 };
 

@@ -57,10 +57,11 @@ void inspect(const Base& base, Inspector& check) {
 void inspect(const Friction& friction, const Owner& owner, Inspector& check) {
   check.require(friction.coulomb >= 0, friction.coulomb, owner, "friction.coulomb", ">= 0");
   check.require(friction.viscous >= 0, friction.viscous, owner, "friction.viscous", ">= 0");
-  check.require(friction.regularization_rate >= 1e-150, friction.regularization_rate, owner,
-                "friction.regularization_rate",
-                friction.regularization_rate > 0 ? ">= 1e-150"
-                                                 : "> 0"); // its square must not vanish
+  const double slip = friction.regularization_rate; // its square must neither vanish nor overflow
+  check.require(slip >= 1e-150 && slip <= 1e150, slip, owner, "friction.regularization_rate",
+                slip > 1   ? "<= 1e150"
+                : slip > 0 ? ">= 1e-150"
+                           : "> 0");
   if (friction.static_level)
     check.require(*friction.static_level >= friction.coulomb, *friction.static_level, owner,
                   "friction.static", ">= friction.coulomb");

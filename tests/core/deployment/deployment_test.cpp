@@ -25,6 +25,8 @@ TEST_CASE("what cannot be run says so") {
     CHECK(out.status == Status::invalid);
     CHECK_THAT(out.reason, Catch::Contains("hinges.root.friction.regularization_rate is "
                                            "9.9999999999999998e-201, expected >= 1e-150"));
+    scene.hinges[0].friction.regularization_rate = 1e200; // or overflows
+    CHECK_THAT(Deployment().run(scene, {}, {}).reason, Catch::Contains("expected <= 1e150"));
     scene.hinges[0].friction.regularization_rate = 1e-150;
     Integration how;
     how.max_steps = 2000; // a layer that no double can follow
