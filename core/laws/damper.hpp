@@ -27,8 +27,9 @@ template <class T> [[nodiscard]] DamperTerms<T> damper_terms(const Damper& dampe
   case DamperLaw::viscous:
     return {damper.law, scale * T(damper.coefficient), T(1), T(1), T(0)};
   case DamperLaw::power: {
+    using std::pow; // the same where products and sums are not made at once: terms are made there
     const T A = scale * T(damper.coefficient), w(damper.regularization_rate);
-    return {damper.law, A, p, w, A * power_precisely(w, T(p - T(1)))};
+    return {damper.law, A, p, w, A * pow(w, T(p - T(1)))};
   }
   case DamperLaw::eddy_current:
     break;
