@@ -163,7 +163,7 @@ void Curve::find_turns() {
 void Curve::make_columns() {
   columns_.reset();
   if (pieces_.size() > 8) return;
-  columns_.emplace();
+  columns_ = Columns{};
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
     columns_->from[k] = knots_[k > 0 ? k - 1 : 0];
     for (std::size_t power = 0; power < 4; ++power) columns_->c[power][k] = pieces_[k].c[power];

@@ -38,9 +38,9 @@ public:
   };
   /// Up to eight pieces column by column, for eight lanes that look in them at once.
   struct Columns {
-    std::array<double, 8> from{};
-    std::array<std::array<double, 8>, 4> c{};
-    std::array<double, 8> integral{};
+    std::array<double, 8> from;
+    std::array<std::array<double, 8>, 4> c;
+    std::array<double, 8> integral;
   };
 
   Curve() = default;
