@@ -1,5 +1,5 @@
-/// n/√x by multiplications alone: a root and a division wait for each other in one unit that takes
-/// some forty cycles for eight lanes, where this takes fifteen.
+/// n/√x by multiplications alone, which overlap: a root and a division of all lanes wait for each
+/// other in the one unit of a processor that makes both.
 #pragma once
 
 #include "core/number/pack.hpp"

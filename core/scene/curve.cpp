@@ -36,6 +36,11 @@ std::vector<double> monotone_slopes(const std::vector<double>& h, const std::vec
   return slopes;
 }
 
+/// With one rounding for each product and sum.
+double slope_of(const Curve::Piece& piece, double u) {
+  return std::fma(u, std::fma(u, 3 * piece.c[3], 2 * piece.c[2]), piece.c[1]);
+}
+
 /// Least and largest slope of a cubic over 0 … h.
 void widen_by_slopes(const Curve::Piece& piece, double h, double& least, double& largest) {
   const auto slope = [&](double u) {
@@ -146,9 +151,7 @@ void Curve::find_slopes() {
 void Curve::find_turns() {
   turns_.clear();
   const auto slope = [&](std::size_t piece, double x) {
-    const auto& c = pieces_[piece].c;
-    const double u = x - knots_[piece > 0 ? piece - 1 : 0];
-    return std::fma(u, std::fma(u, 3 * c[3], 2 * c[2]), c[1]);
+    return slope_of(pieces_[piece], x - knots_[piece > 0 ? piece - 1 : 0]);
   };
   for (std::size_t k = 0; k < knots_.size(); ++k) {
     const double before = slope(k, knots_[k]), after = slope(k + 1, knots_[k]);
@@ -156,7 +159,8 @@ void Curve::find_turns() {
     const auto& c = pieces_[k + 1].c;
     if (k + 1 == knots_.size() || c[3] == 0) continue;
     const double x = knots_[k] - c[2] / (3 * c[3]);
-    if (knots_[k] < x && x < knots_[k + 1]) turns_.push_back({x, slope(k + 1, x), slope(k + 1, x)});
+    const double there = slope(k + 1, x);
+    if (knots_[k] < x && x < knots_[k + 1]) turns_.push_back({x, there, there});
   }
 }
 
@@ -185,9 +189,7 @@ double Curve::value_at(double x) const {
 
 double Curve::slope_at(double x) const {
   const std::size_t k = piece_at(x);
-  const auto& c = pieces_[k].c;
-  const double u = x - knots_[k > 0 ? k - 1 : 0];
-  return std::fma(u, std::fma(u, 3 * c[3], 2 * c[2]), c[1]);
+  return slope_of(pieces_[k], x - knots_[k > 0 ? k - 1 : 0]);
 }
 
 } // namespace wingspread

@@ -67,6 +67,9 @@ def main():
     parser.add_argument("--untouched", action="store_true", help="the campaigns as they are, for programs that repeat no runs")
     parser.add_argument("--quick", action="store_true", help="one pair of the seed campaign, 200 runs")
     args = parser.parse_args()
+    for program in args.programs:
+        if not shutil.which(program):
+            parser.error(f"{program}: no program is there")
     names, pairs = (["seed"], 1) if args.quick else (args.campaigns, args.pairs)
 
     print("| campaign | runs | " + " | ".join(f"{program}, us a run" for program in args.programs) + " | faster | middle half |")
