@@ -55,7 +55,7 @@ public:
   /// @param spin   |H| of a free base about the common centre of mass, kg·m²/s, else 0
   /// @pre prepared, and all decay
   bool none_exceeds(const double* angles, const double* rates, const double* moments,
-                    const double* forces, const std::optional<double>& energy, double spin = 0);
+                    const double* forces, const std::optional<double>& energy, double spin);
 
   /// Finds `rates()` alone.
   void find_rates(const double* angles, const double* rates);

@@ -192,7 +192,7 @@ private:
       if (modes_.none_exceeds(&x[at.angle(1)], &x[at.rate(1)],
                               run_.goal.peak_moment ? values(peaks_.moments(), moments_) : nullptr,
                               run_.goal.peak_force ? values(peaks_.forces(), forces_) : nullptr,
-                              energy))
+                              energy, spin()))
         return true;
       retune();
     }

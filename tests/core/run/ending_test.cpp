@@ -1,5 +1,6 @@
 // Why and where a run ends, and what it has seen until then.
 #include "core/deployment.hpp"
+#include "tests/support/real_scenes.hpp"
 #include "tests/support/whole_runs.hpp"
 
 #include <catch2/catch.hpp>
@@ -89,6 +90,21 @@ TEST_CASE("an early end loses no peak: bases of prescribed motion") {
     CAPTURE(rate, push);
     CHECK(part_needed(scene, within(1e-8, 60)).evaluations <= part);
   }
+}
+
+TEST_CASE("an early end loses no peak: free bases that spin") {
+  // against the spin the panel comes out and latches; rings back, with the spin, pulls harder
+  for (const double rate : {0.3, 1., 3.})
+    for (const double viscous : {0.5, 2., 8.}) {
+      Scene scene = free_panel(1);
+      scene.base.motion = BaseMotion::free;
+      scene.base.mass = 500, scene.base.inertia = 100, scene.base.rate = rate;
+      Hinge& hinge = scene.hinges[0];
+      hinge.latched = 0, hinge.latch = Latch{100, 0.5, 0};
+      hinge.spring.torque_stowed = 10, hinge.friction.viscous = viscous;
+      CAPTURE(rate, viscous);
+      CHECK(part_needed(scene, within(1e-8, 200)).time < 1);
+    }
 }
 
 TEST_CASE("a base that turns faster and faster is followed to t_end where peaks are asked for") {
