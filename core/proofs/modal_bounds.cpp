@@ -7,9 +7,6 @@ namespace wingspread {
 
 namespace {
 
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
-
 /// A·B, by sums written out: of the few bodies of a wing a library's blocks take longer to begin.
 template <class A, class B> auto product(const A& a, const B& b) { return a.lazyProduct(b); }
 
@@ -19,14 +16,14 @@ double size_of(double real, double imaginary) {
 
 } // namespace
 
-bool ModalBounds::prepare(const RestModel& model) {
+template <int N> bool ModalBounds<N>::prepare(const RestModel& model) {
   model_ = &model, n_ = model.size();
-  inverse_ = model.mass.llt().solve(Matrix::Identity(n_, n_));
-  const Eigen::Index states = 2L * n_;
-  Matrix L = Matrix::Zero(states, states);
-  L.topRightCorner(n_, n_).setIdentity();
-  L.bottomLeftCorner(n_, n_) = -product(inverse_, model.stiffness);
-  L.bottomRightCorner(n_, n_) = -product(inverse_, model.damping);
+  const int n = size();
+  inverse_ = seen_as<Square>(model.mass).llt().solve(Square::Identity(n, n));
+  Matrix L = Matrix::Zero(2L * n, 2L * n);
+  L.template topRightCorner<N, N>(n, n).setIdentity();
+  L.template bottomLeftCorner<N, N>(n, n) = -product(inverse_, seen_as<Square>(model.stiffness));
+  L.template bottomRightCorner<N, N>(n, n) = -product(inverse_, seen_as<Square>(model.damping));
   if (!L.allFinite()) return false;
   if (!found_.find(model, L)) return false;
   const auto decays = [](const std::complex<double>& value) { return value.real() < 0; };
@@ -39,24 +36,31 @@ bool ModalBounds::prepare(const RestModel& model) {
   return true;
 }
 
-void ModalBounds::prepare_cap(const double* least, const double* rest) {
+template <int N> void ModalBounds<N>::prepare_cap(const double* least, const double* rest) {
   capped_ = least != nullptr;
   if (!capped_) return;
-  Vector apart(n_), squares(2L * n_);
-  for (int i = 0; i < n_; ++i) apart(i) = rest[i] - model_->angles(i);
-  offset_ = sizes_of_rows(product(rows_.leftCols(n_), apart));
-  const Matrix slow = product(rows_.rightCols(n_), inverse_);
-  for (int j = 0; j < 2 * n_; ++j) {
-    squares(j) = std::abs(rows_.row(j).tail(n_).dot(slow.row(j)));
-    for (int i = 0; i < n_; ++i) squares(j) += rows_(j, i) * rows_(j, i) / least[i];
+  const int n = size();
+  Vector apart(n);
+  States squares(2L * n);
+  for (int i = 0; i < n; ++i) apart(i) = rest[i] - model_->angles(i);
+  offset_ = sizes_of_rows(product(rows_.template leftCols<N>(n), apart).eval());
+  const auto quick = rows_.template rightCols<N>(n);
+  const auto slow = product(quick, inverse_).eval();
+  for (int j = 0; j < 2 * n; ++j) {
+    squares(j) = std::abs(quick.row(j).dot(slow.row(j)));
+    for (int i = 0; i < n; ++i) squares(j) += rows_(j, i) * rows_(j, i) / least[i];
   }
-  by_energy_ = sizes_of_rows(squares.cwiseSqrt());
+  by_energy_ = sizes_of_rows(squares.cwiseSqrt().eval());
 }
 
 /// |p_j x| of every mode, from the products of its rows.
-Eigen::MatrixXd ModalBounds::sizes_of_rows(const Products& products) const {
-  Matrix sizes(modes_.size(), products.cols());
-  for (std::size_t m = 0; m < modes_.size(); ++m)
+template <int N>
+template <class Products>
+auto ModalBounds<N>::sizes_of_rows(const Products& products) const {
+  Eigen::Matrix<double, many, Products::ColsAtCompileTime, 0, Of::states,
+                Products::MaxColsAtCompileTime>
+      sizes(modes(), products.cols());
+  for (int m = 0; m < modes(); ++m)
     for (int k = 0; k < products.cols(); ++k) {
       const int j = modes_[m].column;
       sizes(m, k) = modes_[m].is_pair ? 0.5 * size_of(products(j, k), products(j + 1, k))
@@ -66,9 +70,11 @@ Eigen::MatrixXd ModalBounds::sizes_of_rows(const Products& products) const {
 }
 
 /// |x w_j| of every mode, pairs counted twice, from the products of its columns.
-Eigen::MatrixXd ModalBounds::sizes_of_columns(const Products& products) const {
-  Matrix sizes(products.rows(), modes_.size());
-  for (std::size_t m = 0; m < modes_.size(); ++m)
+template <int N>
+template <class Products>
+auto ModalBounds<N>::sizes_of_columns(const Products& products) const {
+  Kept<Products::RowsAtCompileTime, many> sizes(products.rows(), modes());
+  for (int m = 0; m < modes(); ++m)
     for (int k = 0; k < products.rows(); ++k) {
       const int j = modes_[m].column;
       sizes(k, m) = modes_[m].is_pair ? 2 * size_of(products(k, j), products(k, j + 1))
@@ -78,7 +84,8 @@ Eigen::MatrixXd ModalBounds::sizes_of_columns(const Products& products) const {
 }
 
 /// |e_jk| of two modes, that of the conjugate of the second added where it is one of a pair.
-double ModalBounds::size_of_residual(const Matrix& E, const Mode& of, const Mode& by) {
+template <int N>
+double ModalBounds<N>::size_of_residual(const Matrix& E, const Mode& of, const Mode& by) {
   const int a = of.column, c = by.column;
   if (of.is_pair && by.is_pair)
     return 0.5 * (size_of(E(a, c) + E(a + 1, c + 1), E(a, c + 1) - E(a + 1, c)) +
@@ -87,13 +94,13 @@ double ModalBounds::size_of_residual(const Matrix& E, const Mode& of, const Mode
   return by.is_pair ? 2 * size_of(E(a, c), E(a, c + 1)) : std::abs(E(a, c));
 }
 
-void ModalBounds::keep(const Matrix& V, const Matrix& residual) {
+template <int N> void ModalBounds<N>::keep(const Matrix& V, const Matrix& residual) {
   const std::vector<std::complex<double>>& lambda = found_.values();
   modes_.clear();
-  for (int j = 0; j < 2 * n_; ++j)
+  for (int j = 0; j < 2 * size(); ++j)
     if (lambda[j].imag() >= 0) modes_.push_back({j, lambda[j].imag() > 0});
-  const auto count = static_cast<Eigen::Index>(modes_.size());
-  Vector time(count), quick(count);
+  const int count = modes();
+  OfModes time(count), quick(count);
   rounding_.resize(count, count);
   for (int m = 0; m < count; ++m) {
     const std::complex<double> own = lambda[modes_[m].column];
@@ -103,46 +110,53 @@ void ModalBounds::keep(const Matrix& V, const Matrix& residual) {
   }
   keep_columns(V, quick);
   keep_rows(time);
-  const int bodies = n_ + 1;
-  for (Vector* v : {&u_, &v_, &f_, &moment_, &force_, &rate_}) v->setZero(n_);
-  for (Vector* v : {&turned_, &spin_, &n_bound_, &a_, &next_a_, &added_}) v->setZero(bodies);
+  const int n = size();
+  for (Eigen::VectorXd* v : {&u_, &v_, &f_}) v->setZero(n);
+  for (Vector* v : {&moment_, &force_, &rate_}) v->setZero(n);
+  for (Bodies* v : {&turned_, &spin_, &n_bound_, &a_, &next_a_, &added_}) v->setZero(n + 1);
 }
 
 /// What the modes move. @param quick |λ|
-void ModalBounds::keep_columns(const Matrix& V, const Vector& quick) {
-  const auto ways = V.topRows(n_), rates = V.bottomRows(n_);
+template <int N> void ModalBounds<N>::keep_columns(const Matrix& V, const OfModes& quick) {
+  const int n = size();
+  const auto ways = V.template topRows<N>(n), rates = V.template bottomRows<N>(n);
   way_ = sizes_of_columns(ways), rate_of_ = sizes_of_columns(rates);
-  const Matrix turns = product(model_->turns, rates);
+  const auto turns = product(seen_as<Fixed<Of::bodies, N>>(model_->turns), rates).eval();
   turn_ = sizes_of_columns(turns);
   swing_ = turn_ * quick.asDiagonal();
-  moment_of_ = sizes_of_columns(product(model_->stiffness, ways) + product(model_->damping, rates));
-  force_x_ = sizes_of_columns(product(model_->lever_y, turns)) * quick.asDiagonal();
-  force_y_ = sizes_of_columns(product(model_->lever_x, turns)) * quick.asDiagonal();
-  lever_ = (model_->lever_x.array().square() + model_->lever_y.array().square()).sqrt().matrix();
+  moment_of_ = sizes_of_columns((product(seen_as<Square>(model_->stiffness), ways) +
+                                 product(seen_as<Square>(model_->damping), rates))
+                                    .eval());
+  using Levers = Fixed<N, Of::bodies>;
+  const auto x = seen_as<Levers>(model_->lever_x), y = seen_as<Levers>(model_->lever_y);
+  force_x_ = sizes_of_columns(product(y, turns).eval()) * quick.asDiagonal();
+  force_y_ = sizes_of_columns(product(x, turns).eval()) * quick.asDiagonal();
+  lever_ = (x.array().square() + y.array().square()).sqrt().matrix();
 }
 
 /// What moves the modes. @param time 1/α
-void ModalBounds::keep_rows(const Vector& time) {
-  const Matrix& S = model_->turns;
-  const Matrix drive = product(rows_.rightCols(n_), inverse_);
+template <int N> void ModalBounds<N>::keep_rows(const OfModes& time) {
+  const auto S = seen_as<Fixed<Of::bodies, N>>(model_->turns);
+  const auto drive = product(rows_.template rightCols<N>(size()), inverse_).eval();
   by_hinges_ = time.asDiagonal() * sizes_of_rows(drive);
-  by_turns_ = time.asDiagonal() * sizes_of_rows(product(drive, S.transpose()));
-  const Matrix answer = product(S, inverse_);
+  by_turns_ = time.asDiagonal() * sizes_of_rows(product(drive, S.transpose()).eval());
+  const auto answer = product(S, inverse_).eval();
   swing_by_hinges_ = answer.cwiseAbs();
   swing_by_turns_ = (product(answer, S.transpose()).array() + model_->rigid).abs().matrix();
 }
 
-void ModalBounds::find_rates(const double* angles, const double* rates) {
-  z_.resize(2L * n_);
-  z_.head(n_) = Eigen::Map<const Vector>(angles, n_) - model_->angles;
-  z_.tail(n_) = Eigen::Map<const Vector>(rates, n_);
-  start_ = sizes_of_rows(product(rows_, z_));
+template <int N> void ModalBounds<N>::find_rates(const double* angles, const double* rates) {
+  const int n = size();
+  z_.resize(2L * n);
+  for (int i = 0; i < n; ++i) z_(i) = angles[i] - model_->angles(i), z_(n + i) = rates[i];
+  start_ = sizes_of_rows(product(rows_, z_).eval());
   rate_ = product(rate_of_, start_);
 }
 
-bool ModalBounds::none_exceeds(const double* angles, const double* rates, const double* moments,
-                               const double* forces, const std::optional<double>& energy,
-                               double spin) {
+template <int N>
+bool ModalBounds<N>::none_exceeds(const double* angles, const double* rates, const double* moments,
+                                  const double* forces, const std::optional<double>& energy,
+                                  double spin) {
   find_rates(angles, rates);
   bound_linear(start_);
   if (!below(moments, forces) || !find_box(energy, spin)) return false;
@@ -151,7 +165,7 @@ bool ModalBounds::none_exceeds(const double* angles, const double* rates, const 
 }
 
 /// A box that (4), (5) and (6) do not leave.
-bool ModalBounds::find_box(const std::optional<double>& energy, double spin) {
+template <int N> bool ModalBounds<N>::find_box(const std::optional<double>& energy, double spin) {
   constexpr int passes = 12;
   constexpr double wider = 1.02;
   B_ = wider * start_;
@@ -173,14 +187,14 @@ bool ModalBounds::find_box(const std::optional<double>& energy, double spin) {
 }
 
 /// The right sides of (4), (5) and (6) over the box.
-void ModalBounds::follow() {
+template <int N> void ModalBounds<N>::follow() {
   u_ = product(way_, B_), v_ = product(rate_of_, B_);
   spin_ = product(turn_, B_);
   spin_.array() += rigid_;
   const RestModel& m = *model_;
   m.bound_remainders(u_, v_, f_);
   turned_(0) = n_bound_(0) = 0;
-  for (int k = 1; k <= n_; ++k) {
+  for (int k = 1; k <= size(); ++k) {
     turned_(k) = u_(k - 1) + turned_(m.parents[k - 1]);
     n_bound_(k) = m.pushed(k) * (m.push_turns ? 1.0 : turned_(k));
   }
@@ -203,10 +217,10 @@ void ModalBounds::follow() {
 }
 
 /// (7).
-void ModalBounds::cap_modes(double energy) {
+template <int N> void ModalBounds<N>::cap_modes(double energy) {
   double mu = 0; // by Collatz, a being positive
-  const Vector shaken = product(swing_by_turns_, n_bound_);
-  for (int k = 0; k <= n_; ++k)
+  const Bodies shaken = product(swing_by_turns_, n_bound_);
+  for (int k = 0; k <= size(); ++k)
     if (shaken(k) > 0) mu = std::max(mu, shaken(k) / a_(k));
   if (!(mu < 1)) return;
   const double size = std::sqrt(2 * std::max(energy, 0.0) / (1 - mu));
@@ -214,25 +228,31 @@ void ModalBounds::cap_modes(double energy) {
 }
 
 /// What the hinges will see where the modes alone act.
-void ModalBounds::bound_linear(const Vector& modes) {
+template <int N> void ModalBounds<N>::bound_linear(const OfModes& modes) {
   moment_ = product(moment_of_, modes);
   force_ = (product(force_x_, modes).array().square() + product(force_y_, modes).array().square())
                .sqrt();
 }
 
-void ModalBounds::bound_all() {
+template <int N> void ModalBounds<N>::bound_all() {
   constexpr double rounded_up = 1 + 1e-6;
   bound_linear(next_B_);
   moment_ = rounded_up * (moment_ + f_ + model_->moment.cwiseAbs());
-  const Vector shaken = added_.array() + turned_.array() * a_.array() + spin_.array().square();
+  const Bodies shaken = added_.array() + turned_.array() * a_.array() + spin_.array().square();
   force_ += product(lever_, shaken);
   force_ = rounded_up * (force_ + model_->weight);
 }
 
-bool ModalBounds::below(const double* moments, const double* forces) const {
+template <int N> bool ModalBounds<N>::below(const double* moments, const double* forces) const {
   using Map = Eigen::Map<const Vector>;
-  return (!moments || (moment_.array() <= Map(moments, n_).array()).all()) &&
-         (!forces || (force_.array() <= Map(forces, n_).array()).all());
+  return (!moments || (moment_.array() <= Map(moments, size()).array()).all()) &&
+         (!forces || (force_.array() <= Map(forces, size()).array()).all());
 }
+
+template class ModalBounds<1>;
+template class ModalBounds<2>;
+template class ModalBounds<3>;
+template class ModalBounds<4>;
+template class ModalBounds<>;
 
 } // namespace wingspread

@@ -39,8 +39,12 @@
 
 namespace wingspread {
 
-class ModalBounds {
+/// @tparam N of hinges, as of Modes
+template <int N = Eigen::Dynamic> class ModalBounds {
 public:
+  using Of = SizesFor<N>;
+  using Vector = Eigen::Matrix<double, N, 1>; ///< of hinges
+
   /// Finds the modes. Cost O(n³). @return whether all of them decay
   bool prepare(const RestModel& model);
 
@@ -60,52 +64,82 @@ public:
   /// Finds `rates()` alone.
   void find_rates(const double* angles, const double* rates);
   /// Of the last question, where a box was found: 0 … n − 1.
-  [[nodiscard]] const Eigen::VectorXd& moment() const { return moment_; }
-  [[nodiscard]] const Eigen::VectorXd& force() const { return force_; }
+  [[nodiscard]] const Vector& moment() const { return moment_; }
+  [[nodiscard]] const Vector& force() const { return force_; }
   /// No hinge of the linear model will turn faster from that state on, rad/s.
-  [[nodiscard]] const Eigen::VectorXd& rates() const { return rate_; }
+  [[nodiscard]] const Vector& rates() const { return rate_; }
 
 private:
-  using Vector = Eigen::VectorXd;
-  using Matrix = Eigen::MatrixXd;
-  using Products = Eigen::Ref<const Matrix>;
+  static constexpr int most(int count) { return count == Eigen::Dynamic ? Of::states : count; }
+  /// A library's rows lie as rows do.
+  static constexpr int order(int rows, int columns) {
+    return rows == 1 && columns != 1 ? Eigen::RowMajor : Eigen::ColMajor;
+  }
+  /// Where a number is dynamic there are as many as modes that are kept.
+  template <int rows, int columns>
+  using Kept =
+      Eigen::Matrix<double, rows, columns, order(rows, columns), most(rows), most(columns)>;
+  template <int rows, int columns>
+  using Fixed = Eigen::Matrix<double, rows, columns, order(rows, columns)>;
+  static constexpr int many = Eigen::Dynamic;
+  using Square = Fixed<N, N>;
+  using States = Fixed<Of::states, 1>;
+  using Bodies = Fixed<Of::bodies, 1>;
+  using Matrix = Fixed<Of::states, Of::states>;
+  using OfModes = Kept<many, 1>;
   /// A real one, or one of a conjugate pair, whose real and imaginary part have columns of their own.
   struct Mode {
     int column;
     bool is_pair;
   };
 
+  [[nodiscard]] int size() const { return N == Eigen::Dynamic ? n_ : N; }
+  [[nodiscard]] int modes() const { return static_cast<int>(modes_.size()); }
   void keep(const Matrix& V, const Matrix& residual);
-  void keep_columns(const Matrix& V, const Vector& quick);
-  void keep_rows(const Vector& time);
-  [[nodiscard]] Matrix sizes_of_rows(const Products& products) const;
-  [[nodiscard]] Matrix sizes_of_columns(const Products& products) const;
+  void keep_columns(const Matrix& V, const OfModes& quick);
+  void keep_rows(const OfModes& time);
+  template <class Products> [[nodiscard]] auto sizes_of_rows(const Products& products) const;
+  template <class Products> [[nodiscard]] auto sizes_of_columns(const Products& products) const;
   [[nodiscard]] static double size_of_residual(const Matrix& E, const Mode& of, const Mode& by);
   bool find_box(const std::optional<double>& energy, double spin);
   void follow();
   void cap_modes(double energy);
-  void bound_linear(const Vector& modes);
+  void bound_linear(const OfModes& modes);
   void bound_all();
   [[nodiscard]] bool below(const double* moments, const double* forces) const;
 
   const RestModel* model_ = nullptr;
   int n_ = 0;
-  Matrix inverse_; ///< M_0⁻¹
-  Modes found_;
+  Square inverse_; ///< M_0⁻¹
+  Modes<N> found_;
   std::vector<Mode> modes_; ///< those kept: one of each conjugate pair
   Matrix rows_; ///< V⁻¹, V having the columns v of a real mode, and v, v' of a pair v ± iv'
-  Matrix way_, rate_of_, turn_, swing_; ///< |W_u|, |W_v|, |S W_v|, |S W_v Λ|, pairs counted twice
-  Matrix by_turns_, by_hinges_, rounding_;  ///< of (5), divided by α
-  Matrix swing_by_turns_, swing_by_hinges_; ///< of (6)
-  Matrix moment_of_, force_x_, force_y_, lever_;
-  Vector by_energy_, offset_; ///< of (7): the root, and what the two rests differ by
+  Kept<N, many> way_, rate_of_;                  ///< |W_u|, |W_v|, pairs counted twice
+  Kept<Of::bodies, many> turn_, swing_;          ///< |S W_v|, |S W_v Λ|, likewise
+  Kept<many, Of::bodies> by_turns_;              ///< of (5), divided by α
+  Kept<many, N> by_hinges_;                      ///< likewise
+  Kept<many, many> rounding_;                    ///< likewise
+  Fixed<Of::bodies, Of::bodies> swing_by_turns_; ///< of (6)
+  Fixed<Of::bodies, N> swing_by_hinges_;         ///< of (6)
+  Kept<N, many> moment_of_, force_x_, force_y_;
+  Fixed<N, Of::bodies> lever_;
+  OfModes by_energy_, offset_; ///< of (7): the root, and what the two rests differ by
   bool capped_ = false;
   // of a question
-  Vector z_, start_, B_, next_B_, a_, next_a_, added_;
+  States z_;
+  OfModes start_, B_, next_B_;
+  Bodies a_, next_a_, added_;
   double rigid_ = 0, next_rigid_ = 0; ///< |r| of the box, and the right side of (4)
   double momentum_ = 0;               ///< |H|
-  Vector u_, v_, turned_, spin_, n_bound_, f_;
+  Bodies turned_, spin_, n_bound_;
+  Eigen::VectorXd u_, v_, f_; ///< of hinges
   Vector moment_, force_, rate_;
 };
+
+extern template class ModalBounds<1>;
+extern template class ModalBounds<2>;
+extern template class ModalBounds<3>;
+extern template class ModalBounds<4>;
+extern template class ModalBounds<>;
 
 } // namespace wingspread

@@ -8,7 +8,7 @@
 namespace wingspread {
 namespace {
 
-using Complex = Modes::Complex;
+using Complex = Modes<>::Complex;
 
 constexpr int few_bodies = 8; // beyond, all at once are found as quickly
 
@@ -27,11 +27,11 @@ Complex over(const Complex& a, const Complex& b) {
 
 } // namespace
 
-bool Modes::find(const RestModel& model, const Matrix& first_order) {
+template <int N> bool Modes<N>::find(const RestModel& model, const Matrix& first_order) {
   return (model.size() <= few_bodies && find_one_by_one(model)) || find_at_once(first_order);
 }
 
-bool Modes::find_at_once(const Matrix& first_order) {
+template <int N> bool Modes<N>::find_at_once(const Matrix& first_order) {
   at_once_.compute(first_order);
   if (at_once_.info() != Eigen::Success) return false;
   const auto& values = at_once_.eigenvalues();
@@ -40,9 +40,10 @@ bool Modes::find_at_once(const Matrix& first_order) {
   return true;
 }
 
-bool Modes::find_one_by_one(const RestModel& model) {
-  const int n = model.size();
-  undamped_.compute(model.stiffness, model.mass);
+template <int N> bool Modes<N>::find_one_by_one(const RestModel& model) {
+  n_ = model.size();
+  const int n = size();
+  undamped_.compute(seen_as<Square>(model.stiffness), seen_as<Square>(model.mass));
   if (undamped_.info() != Eigen::Success) return false;
   values_.resize(2UL * n), columns_.resize(2L * n, 2L * n), Q_.resize(n, n), right_.resize(n);
   for (int j = 0; j < n; ++j)
@@ -51,19 +52,20 @@ bool Modes::find_one_by_one(const RestModel& model) {
 }
 
 /// The two modes that a shape without damping becomes, into two columns: a pair that swings, or two that creep.
-bool Modes::find_two(const RestModel& model, int column) {
-  const Eigen::VectorXd shape = undamped_.eigenvectors().col(column / 2);
-  const double mass = shape.dot(model.mass.lazyProduct(shape));
-  const double rate = -0.5 * shape.dot(model.damping.lazyProduct(shape)) / mass;
-  const double square = shape.dot(model.stiffness.lazyProduct(shape)) / mass - rate * rate;
+template <int N> bool Modes<N>::find_two(const RestModel& model, int column) {
+  const Eigen::Matrix<double, N, 1> shape = undamped_.eigenvectors().col(column / 2);
+  const double mass = shape.dot(seen_as<Square>(model.mass).lazyProduct(shape));
+  const double rate = -0.5 * shape.dot(seen_as<Square>(model.damping).lazyProduct(shape)) / mass;
+  const double square =
+      shape.dot(seen_as<Square>(model.stiffness).lazyProduct(shape)) / mass - rate * rate;
   if (square > 0) { // by the motion in this shape alone
-    x_ = shape.cast<Complex>();
+    x_ = shape.template cast<Complex>();
     const std::optional<Complex> value = settle(model, Complex(rate, std::sqrt(square)));
     if (value) keep_pair(column, *value);
     return value.has_value();
   }
   for (const int side : {0, 1}) {
-    x_ = shape.cast<Complex>();
+    x_ = shape.template cast<Complex>();
     const double apart = std::sqrt(-square);
     const std::optional<Complex> value = settle(model, rate + (side == 0 ? apart : -apart));
     if (!value) return false;
@@ -73,7 +75,7 @@ bool Modes::find_two(const RestModel& model, int column) {
 }
 
 /// The eigenvalue to which λ and x come; none if that is no swinging mode's where λ swings.
-std::optional<Complex> Modes::settle(const RestModel& model, Complex value) {
+template <int N> std::optional<Complex> Modes<N>::settle(const RestModel& model, Complex value) {
   constexpr int passes = 8;
   constexpr double settled = 1e-9; // what is left of a pass's step is its square and less
   const bool swings = value.imag() > 0;
@@ -87,14 +89,16 @@ std::optional<Complex> Modes::settle(const RestModel& model, Complex value) {
   return std::nullopt;
 }
 
-void Modes::pass(const RestModel& model, Complex& value) {
-  const int n = model.size();
+template <int N> void Modes<N>::pass(const RestModel& model, Complex& value) {
+  const int n = size();
+  const auto mass = seen_as<Square>(model.mass), damping = seen_as<Square>(model.damping),
+             stiffness = seen_as<Square>(model.stiffness);
   const Complex square = times(value, value), twice = 2.0 * value;
-  const auto slope = [&](int i, int k) { return twice * model.mass(i, k) + model.damping(i, k); };
+  const auto slope = [&](int i, int k) { return twice * mass(i, k) + damping(i, k); };
   for (int i = 0; i < n; ++i) {
     right_(i) = 0;
     for (int k = 0; k < n; ++k) {
-      Q_(i, k) = square * model.mass(i, k) + value * model.damping(i, k) + model.stiffness(i, k);
+      Q_(i, k) = square * mass(i, k) + value * damping(i, k) + stiffness(i, k);
       right_(i) += times(slope(i, k), x_(k));
     }
   }
@@ -112,8 +116,8 @@ void Modes::pass(const RestModel& model, Complex& value) {
 }
 
 /// y ← Q⁻¹ y, by elimination. Near an eigenvalue Q is nearly singular, which makes y long and no less right.
-void Modes::solve() {
-  const auto n = static_cast<int>(y_.size());
+template <int N> void Modes<N>::solve() {
+  const int n = size();
   for (int k = 0; k < n; ++k) {
     int pivot = k;
     for (int i = k + 1; i < n; ++i)
@@ -133,8 +137,8 @@ void Modes::solve() {
   }
 }
 
-void Modes::keep_pair(int column, const Complex& value) {
-  const auto n = static_cast<int>(x_.size());
+template <int N> void Modes<N>::keep_pair(int column, const Complex& value) {
+  const int n = size();
   for (int i = 0; i < n; ++i) {
     const Complex rate = times(value, x_(i));
     columns_(i, column) = x_(i).real(), columns_(i, column + 1) = x_(i).imag();
@@ -143,8 +147,8 @@ void Modes::keep_pair(int column, const Complex& value) {
   values_[column] = value, values_[column + 1] = std::conj(value);
 }
 
-void Modes::keep_one(int column, double value) {
-  const auto n = static_cast<int>(x_.size());
+template <int N> void Modes<N>::keep_one(int column, double value) {
+  const int n = size();
   for (int i = 0; i < n; ++i) {
     columns_(i, column) = x_(i).real();
     columns_(n + i, column) = value * x_(i).real();
@@ -153,7 +157,7 @@ void Modes::keep_one(int column, double value) {
 }
 
 /// Of as many eigenvalues that differ as there are, each is another mode's.
-bool Modes::are_apart() const {
+template <int N> bool Modes<N>::are_apart() const {
   constexpr double apart = 1e-4;
   for (std::size_t j = 0; j < values_.size(); ++j)
     for (std::size_t k = 0; k < j; ++k)
@@ -161,7 +165,7 @@ bool Modes::are_apart() const {
   return true;
 }
 
-Eigen::MatrixXd Modes::blocks() const {
+template <int N> auto Modes<N>::blocks() const -> Matrix {
   const auto states = static_cast<Eigen::Index>(values_.size());
   Matrix blocks = Matrix::Zero(states, states);
   for (Eigen::Index j = 0; j < states; ++j) {
@@ -171,5 +175,11 @@ Eigen::MatrixXd Modes::blocks() const {
   }
   return blocks;
 }
+
+template class Modes<1>;
+template class Modes<2>;
+template class Modes<3>;
+template class Modes<4>;
+template class Modes<>;
 
 } // namespace wingspread

@@ -21,9 +21,25 @@
 
 namespace wingspread {
 
-class Modes {
+/// Sizes of what belongs to n hinges, as a library's matrices take them.
+template <int N> struct SizesFor {
+  static constexpr int hinges = N, bodies = N + 1, states = 2 * N;
+};
+template <> struct SizesFor<Eigen::Dynamic> {
+  static constexpr int hinges = Eigen::Dynamic, bodies = Eigen::Dynamic, states = Eigen::Dynamic;
+};
+
+/// A matrix of a model of any size as one whose size the compiler knows.
+template <class Fixed> [[nodiscard]] auto seen_as(const Eigen::MatrixXd& matrix) {
+  return Eigen::Map<const Fixed>(matrix.data(), matrix.rows(), matrix.cols());
+}
+
+/// @tparam N of hinges, 1 … longest_static_chain, where the compiler knows; else any
+template <int N = Eigen::Dynamic> class Modes {
 public:
-  using Matrix = Eigen::MatrixXd;
+  using Of = SizesFor<N>;
+  using Square = Eigen::Matrix<double, N, N>;
+  using Matrix = Eigen::Matrix<double, Of::states, Of::states>;
   using Complex = std::complex<double>;
 
   /// @param first_order L of ż = L z, z = (u, u̇)
@@ -41,7 +57,7 @@ public:
   [[nodiscard]] Matrix blocks() const;
 
 private:
-  using Vector = Eigen::VectorXcd;
+  using Vector = Eigen::Matrix<Complex, N, 1>;
 
   [[nodiscard]] bool find_at_once(const Matrix& first_order);
   [[nodiscard]] bool find_two(const RestModel& model, int column);
@@ -52,12 +68,21 @@ private:
   void keep_one(int column, double value);
   [[nodiscard]] bool are_apart() const;
 
-  Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> undamped_;
+  [[nodiscard]] int size() const { return N == Eigen::Dynamic ? n_ : N; }
+
+  int n_ = 0;
+  Eigen::GeneralizedSelfAdjointEigenSolver<Square> undamped_;
   Eigen::EigenSolver<Matrix> at_once_;
-  Eigen::MatrixXcd Q_;
+  Eigen::Matrix<Complex, N, N> Q_;
   Vector x_, y_, right_; ///< of (1)
   std::vector<Complex> values_;
   Matrix columns_;
 };
+
+extern template class Modes<1>;
+extern template class Modes<2>;
+extern template class Modes<3>;
+extern template class Modes<4>;
+extern template class Modes<>;
 
 } // namespace wingspread

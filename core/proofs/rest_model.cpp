@@ -138,10 +138,17 @@ private:
     for (int pass = 0;; ++pass) {
       place();
       find_stiffness();
-      if (pass == passes) break;
+      if (pass == passes || balances()) break;
       m_.angles += m_.stiffness.partialPivLu().solve(residual_);
     }
     for (int i = 0; i < n_; ++i) m_.remainders[i].steady = std::abs(residual_(i));
+  }
+
+  /// Whether a next pass would move no hinge by more than rounding does.
+  [[nodiscard]] bool balances() const {
+    constexpr double rounding = 1e-14; // rad
+    const auto least = rounding * m_.stiffness.diagonal().array();
+    return (residual_.array().abs() <= least).all();
   }
 
   /// K, the moments at rest, and what they and the push leave.

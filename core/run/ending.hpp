@@ -19,6 +19,11 @@
 
 namespace wingspread {
 
+/// The number of hinges, where the compiler knows it.
+template <class AnySystem> inline constexpr int hinges_known = Eigen::Dynamic;
+template <class T, int N, BaseMotion M>
+inline constexpr int hinges_known<System<T, Chain<N>, M>> = N;
+
 /// Decides whether a run has come to its end: at t_end, at its first latch, once all that was asked
 /// is known, or by a proof that nothing more can happen.
 template <class T, class AnySystem> class Ending {
@@ -222,7 +227,7 @@ private:
   Prospects<T> prospects_;
   PeakBounds<T> bounds_;
   RestModel model_;
-  ModalBounds modes_;
+  ModalBounds<hinges_known<AnySystem>> modes_;
   State<double> moments_, forces_;
   bool has_modes_ = false;    ///< no hinge will latch any more, and all modes decay
   bool bounds_ready_ = false; ///< no hinge will latch any more

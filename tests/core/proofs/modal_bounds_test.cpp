@@ -67,7 +67,7 @@ template <BaseMotion M> struct Latched {
   Prospects<double> prospects;
   State<double> still;
   RestModel model;
-  ModalBounds modes;
+  ModalBounds<> modes;
   bool has_model = false;
 
 private:
@@ -310,6 +310,55 @@ TEST_CASE("no motion breaks the bounds by modes: real hinges and loops") {
   }
   CAPTURE(all.bounded, all.tried);
   CHECK(all.bounded >= 110);
+}
+
+namespace {
+
+/// Bounds of matrices whose size the compiler knows, and of any, from random states of a latched chain.
+/// @return from how many states nothing exceeds them
+template <int N> int compare_known(std::uint64_t seed) {
+  Draws draws(seed);
+  oracle::RandomScene options;
+  options.bodies = N, options.branching = false;
+  options.motion = BaseMotion::free;
+  options.mass_lower = 1, options.mass_upper = 30;
+  Latched<BaseMotion::free> wing(with_latches(oracle::random_scene(800 + seed, options), draws));
+  REQUIRE(wing.has_model);
+  ModalBounds<N> known;
+  REQUIRE(known.prepare(wing.model));
+  known.prepare_cap(wing.prospects.least_stiffness(), &wing.prospects.rest()[wing.at.angle(1)]);
+  const std::vector<double> peaks(N, 1e300);
+  int bounded = 0;
+  for (int k = 0; k < 20; ++k) {
+    std::vector<double> angles(N), rates(N);
+    for (int i = 0; i < N; ++i) {
+      angles[i] = wing.model.angles(i) + draws.uniform(-1, 1) * draws.log_uniform(1e-5, 1e-2);
+      rates[i] = draws.uniform(-1, 1) * draws.log_uniform(1e-4, 0.1);
+    }
+    const auto ask = [&](auto& bounds) {
+      return bounds.none_exceeds(angles.data(), rates.data(), peaks.data(), peaks.data(),
+                                 k % 2 == 0 ? std::optional(1e-3) : std::nullopt, 0.01 * k);
+    };
+    CAPTURE(N, seed, k);
+    const bool holds = ask(wing.modes);
+    REQUIRE(ask(known) == holds);
+    CHECK((known.rates() - wing.modes.rates()).norm() <= 1e-9 * wing.modes.rates().norm());
+    CHECK((known.moment() - wing.modes.moment()).norm() <= 1e-9 * wing.modes.moment().norm());
+    CHECK((known.force() - wing.modes.force()).norm() <= 1e-9 * wing.modes.force().norm());
+    bounded += holds;
+  }
+  return bounded;
+}
+
+} // namespace
+
+TEST_CASE(
+    "bounds by modes are the same whether or not the compiler knows how many hinges there are") {
+  int bounded = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed)
+    bounded += compare_known<1>(seed) + compare_known<2>(seed) + compare_known<3>(seed) +
+               compare_known<4>(seed);
+  CHECK(bounded > 200);
 }
 
 TEST_CASE("there is no model by modes of backlash, of air, of a base that turns faster") {
