@@ -101,7 +101,8 @@ struct Outcome {
   std::vector<LatchEvent> latches; ///< in order of time
   std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
   std::vector<Peak> peak_force;    ///< N; empty when not asked for
-  /// How far each hinge turned beyond its stowed angle, rad, ≥ 0; empty when it was not watched.
+  /// How far each hinge turned beyond its stowed angle up to the run's end, rad, ≥ 0; empty when it was not watched.
+  /// It is final where peaks are, unless the run stalled.
   std::vector<double> overtravel;
   /// Up to the run's end, whatever it was that ended it; nothing where the base is not free.
   std::optional<BasePeaks> base_peaks;

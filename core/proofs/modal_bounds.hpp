@@ -66,6 +66,7 @@ public:
   /// Of the last question, where a box was found: 0 … n − 1.
   [[nodiscard]] const Vector& moment() const { return moment_; }
   [[nodiscard]] const Vector& force() const { return force_; }
+  [[nodiscard]] const Eigen::VectorXd& ways() const { return u_; } ///< off rest, rad
   /// No hinge of the linear model will turn faster from that state on, rad/s.
   [[nodiscard]] const Vector& rates() const { return rate_; }
 

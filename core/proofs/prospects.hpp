@@ -30,6 +30,7 @@
 #include "core/proofs/apparent_load.hpp"
 #include "core/proofs/stall.hpp"
 
+#include <limits>
 #include <optional>
 
 namespace wingspread {
@@ -82,6 +83,13 @@ public:
   /// where it is not.
   [[nodiscard]] const T* least_stiffness() const {
     return elastic_ ? least_stiffness_.data() + 1 : nullptr;
+  }
+  /// How far hinge i may stand off its rest with an energy that `energy` told, rad.
+  [[nodiscard]] T furthest(int i, const T& energy) const {
+    using std::sqrt;
+    const T& kappa = least_stiffness_(i);
+    if (!(kappa > T(0))) return T(std::numeric_limits<double>::infinity());
+    return load_.moment(i) / kappa + sqrt(T(2) * energy / kappa);
   }
   [[nodiscard]] const ApparentLoad<T>& load() const { return load_; }
 
@@ -146,14 +154,12 @@ private:
   /// Whether this energy takes a hinge to its stop, or one is there.
   template <class AnySystem>
   [[nodiscard]] bool may_touch_stop(const AnySystem& system, const T& available) const {
-    using std::abs, std::sqrt;
+    using std::abs;
     for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
       const RealHingeTerms<T>& real = system.wing().real[i];
       if (!real.has_stop) continue;
-      const T& kappa = least_stiffness_(i);
-      const T furthest = load_.moment(i) / kappa + sqrt(T(2) * available / kappa);
       const T way = abs(rest_[system.layout().angle(i)] - real.contact_angle);
-      if (system.work().modes[i].in_contact != T(0) || !(furthest < way)) return true;
+      if (system.work().modes[i].in_contact != T(0) || !(furthest(i, available) < way)) return true;
     }
     return false;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/events/events.hpp"
+#include "core/peaks/overtravel.hpp"
 #include "core/proofs/modal_bounds.hpp"
 #include "core/proofs/peak_bounds.hpp"
 #include "core/proofs/prospects.hpp"
@@ -133,17 +134,39 @@ private:
     why_stalled_ = why + ", from t = " + in_words(static_cast<double>(run_.step.t)) + " s on";
   }
 
+  /// Where a hinge may stand from now on.
+  struct Reach {
+    T rest, way; ///< rad
+  };
+
   [[nodiscard]] bool no_peak_can_rise() {
     if (run_.system.next_knot() < T(never)) return false; // the base will be driven otherwise
     if (!bounds_ready_) prepare_bounds();
     const std::optional<T> energy =
         prospects_.energy(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end));
-    if (no_mode_can_raise_a_peak(energy)) return true;
+    const auto by_modes = [&](int i) {
+      return Reach{T(model_.angles(i - 1)), T(modes_.ways()(i - 1))};
+    };
+    if (no_mode_can_raise_a_peak(energy) && none_turns_back(by_modes)) return true;
     if (!energy) return false;
     bounds_.bound(run_.system, prospects_, *energy);
     for (int i = 1; i <= run_.at.bodies; ++i) {
       if (run_.goal.peak_moment && bounds_.moment[i] > peaks_.moments()[i].value) return false;
       if (run_.goal.peak_force && bounds_.force[i] > peaks_.forces()[i].value) return false;
+    }
+    return none_turns_back([&](int i) {
+      return Reach{prospects_.rest()[run_.at.angle(i)], prospects_.furthest(i, *energy)};
+    });
+  }
+
+  /// Whether no hinge will turn further beyond its stowed angle than it has. While latches are left it is known up
+  /// to the run's end only. @param reach_of of hinge i
+  template <class ReachOf> [[nodiscard]] bool none_turns_back(const ReachOf& reach_of) const {
+    if (!run_.goal.overtravel || latches_left()) return true;
+    for (int i = 1; i <= run_.at.bodies; ++i) {
+      const Reach reach = reach_of(i);
+      const T at_rest = beyond_stowed(run_.system.wing().hinges[i], reach.rest);
+      if (!(at_rest + reach.way <= peaks_.overtravel()[i])) return false;
     }
     return true;
   }

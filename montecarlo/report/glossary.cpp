@@ -23,7 +23,8 @@ constexpr std::array outputs{
           "engagement included: springs, harness, friction, dampers, stops, loops and latch"},
     Entry{"HINGE.peak_force", "largest force across the hinge over the whole run"},
     Entry{"HINGE.overtravel",
-          "how far the hinge turned beyond its stowed angle, away from the latch"},
+          "how far the hinge turned beyond its stowed angle, away from the latch; in a stalled run up to "
+          "where it ends"},
     Entry{"base.peak_angle", "largest change of a free base's angle from the start"},
     Entry{"base.peak_rate", "largest change of a free base's rate from the start"},
     Entry{"deployment_time", "when the last hinge that has a latch latched"}};

@@ -45,7 +45,7 @@ MatrixXd first_order(const RestModel& model) {
 
 /// |V⁻¹ L V − Λ| beside |L|.
 template <int N> double residual(const Modes<N>& modes, const MatrixXd& L) {
-  const MatrixXd V = modes.columns();
+  const auto& V = modes.columns();
   return (V.inverse() * L * V - modes.blocks()).cwiseAbs().maxCoeff() / L.norm();
 }
 

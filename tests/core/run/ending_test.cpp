@@ -70,6 +70,7 @@ Needed part_needed(const Scene& scene, const Integration& how) {
     CHECK(early.peak_force[i].value == whole.peak_force[i].value);
     CHECK(early.peak_moment[i].time == whole.peak_moment[i].time);
   }
+  CHECK(early.overtravel == whole.overtravel);
   CHECK(early.peaks_final == (early.t_end < how.t_end));
   return {static_cast<double>(early.work.rhs_evaluations) /
               static_cast<double>(whole.work.rhs_evaluations),
@@ -89,6 +90,25 @@ TEST_CASE("an early end loses no peak: bases of prescribed motion") {
     scene.base.rate = rate, scene.base.acceleration = {push, -push / 2};
     CAPTURE(rate, push);
     CHECK(part_needed(scene, within(1e-8, 60)).evaluations <= part);
+  }
+}
+
+TEST_CASE("an early end loses no overtravel: a hinge without a latch swings back") {
+  struct Hinges {
+    double before_rest, kappa, viscous, stiffness, damping; // of the root, and of the tip's latch
+  };
+  for (const auto& [before_rest, kappa, viscous, stiffness, damping] :
+       {Hinges{0.017, 70, 7, 5600, 25}, {0.046, 124, 14, 1080, 1.24}, {0.4, 70, 7, 5600, 25}}) {
+    Scene scene = seed_scene();
+    scene.bodies.resize(2), scene.hinges.resize(2);
+    Hinge &root = scene.hinges[0], &tip = scene.hinges[1];
+    root.latch.reset(), root.harness = {}, root.spring = {}, root.friction = {};
+    root.stowed = 0, root.latched = before_rest;
+    root.spring.torque_stowed = kappa * before_rest; // and none where it is to rest
+    root.friction.viscous = viscous;
+    tip.latch = Latch{stiffness, damping, 0};
+    CAPTURE(before_rest, kappa, viscous);
+    CHECK(part_needed(scene, within(1e-8, 100)).time < 0.5);
   }
 }
 
