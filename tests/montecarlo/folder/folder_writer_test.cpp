@@ -26,12 +26,12 @@ void replace(const std::filesystem::path& file, const std::string& what, const s
 
 TEST_CASE("the files do not depend on threads and interruptions", "[parallel]") {
   const Folder folder;
-  const Campaign campaign = campaign_of(full_campaign(300));
+  const Campaign campaign = campaign_of(full_campaign(1000));
   const auto whole = folder.path() / "whole", broken = folder.path() / "broken";
   (void)run_into(whole, campaign);
   CHECK(contents(whole).size() == 5);
   int sessions = 0;
-  for (long done = 0; done < 300; ++sessions)
+  for (long done = 0; done < 1000; ++sessions)
     done += run_into(broken, campaign, {.threads = 3, .resume = true, .stop_after = 14});
   CHECK(sessions > 1);
   CHECK(contents(broken) == contents(whole));
