@@ -4,7 +4,8 @@
 /// of the chord give or take (b − a) of its second derivative, of which rise is an eighth).
 ///
 /// Where it may have kinks and jumps too, it is above its larger end by no more than
-/// bend·(b − a)² + lean·(b − a) + jump, and nothing is said of its way from end to end.
+/// bend·(b − a)² + lean·(b − a) + jump, and nothing is said of its way from end to end. A jump does not become less by
+/// halving: who knows of one says for each stretch whether it may lie there.
 ///
 /// Intervals are halved until that settles them: nothing is missed between samples.
 #pragma once
@@ -21,13 +22,23 @@
 
 namespace wingspread {
 
-/// How far a function may be above the larger of its ends on a part of the step.
+/// Between a and b of the step: how far a function may be above the larger of its values there, and whether it is
+/// smooth.
+template <class T> struct Inside {
+  T most;
+  bool smooth;
+};
+
+/// The same of any part of the step.
 template <class T> struct Bulge {
   T bend;           ///< times the part's square
   T lean{}, jump{}; ///< times the part; on any part
 
   [[nodiscard]] T over(const T& part) const { return fused(part, fused(part, bend, lean), jump); }
   [[nodiscard]] bool is_smooth() const { return lean == T(0) && jump == T(0); }
+  [[nodiscard]] Inside<T> operator()(const T& a, const T& b) const {
+    return {over(T(b - a)), is_smooth()};
+  }
   Bulge& operator+=(const Bulge& other) {
     bend = bend + other.bend, lean = lean + other.lean, jump = jump + other.jump;
     return *this;
@@ -78,10 +89,11 @@ private:
 };
 
 /// The most that the function may be inside above its larger end.
-template <class T> [[nodiscard]] T rise_inside(const Stretch<T>& at, const Bulge<T>& bulge) {
+template <class T, class Bulges>
+[[nodiscard]] T rise_inside(const Stretch<T>& at, const Bulges& bulge) {
   using std::abs;
-  const T most = bulge.over(T(at.b.s - at.a.s));
-  return bulge.is_smooth() && abs(at.b.value - at.a.value) > T(8) * most ? T(0) : most;
+  const Inside<T> inside = bulge(at.a.s, at.b.s);
+  return inside.smooth && abs(at.b.value - at.a.value) > T(8) * inside.most ? T(0) : inside.most;
 }
 
 template <class T, class Function>
@@ -96,12 +108,13 @@ template <class T, class Function>
 
 /// The first s in [0, 1] where f > 0; none where f stays ≤ 0 or exceeds it by no more than `close`.
 /// @param first, last f at s = 0 and 1
+/// @param rise  Inside for any two fractions of the step
 /// @param crest raised to the largest sample made on the way
 /// @param budget spent: not known
-template <class T, class Function>
+template <class T, class Function, class Bulges>
 [[nodiscard]] std::optional<T> first_positive(const Function& f, const T& first, const T& last,
-                                              const Bulge<T>& rise, const T& close,
-                                              Sampled<T>& crest, SampleBudget& budget) {
+                                              const Bulges& rise, const T& close, Sampled<T>& crest,
+                                              SampleBudget& budget) {
   if (first > T(0)) return T(0);
   detail::OpenStretches<T> open;
   open.push({{T(0), first}, {T(1), last}});

@@ -129,6 +129,21 @@ template <class T> void halve(Quintic<T> p, Quintic<T>& left, Quintic<T>& right)
   }
 }
 
+/// p from s = a to b, 0 ≤ a < b ≤ 1: split at b, and what is left of it at a/b.
+template <class T> [[nodiscard]] Quintic<T> part_of(Quintic<T> p, const T& a, const T& b) {
+  Quintic<T> left, right;
+  for (int level = 5; level >= 0; --level) {
+    left[5 - level] = p[0];
+    for (int k = 0; k < level; ++k) p[k] = fused(b, T(p[k + 1] - p[k]), p[k]);
+  }
+  const T ratio = a / b;
+  for (int level = 5; level >= 0; --level) {
+    right[level] = left[level];
+    for (int k = 0; k < level; ++k) left[k] = fused(ratio, T(left[k + 1] - left[k]), left[k]);
+  }
+  return right;
+}
+
 /// Whether the coefficients are negative up to one of them, and not from there on: then p has one
 /// zero in [0, 1] (their changes of sign bound the number of zeros).
 template <class T> [[nodiscard]] bool changes_sign_once(const Quintic<T>& p) {

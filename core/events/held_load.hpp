@@ -71,7 +71,7 @@ public:
       parent.moment = parent.moment +
                       fused(length(wing.bodies[i].arm), parent.turned_with(own.force), own.moment);
     });
-    weight_ = step.h * step.h * T(1.0 / 6);
+    h_ = step.h, weight_ = step.h * step.h * T(1.0 / 6);
     add_loops(system, step);
   }
 
@@ -79,16 +79,33 @@ public:
   /// and b.
   [[nodiscard]] T rise(int i) const { return weight_ * bodies_[i].moment; }
 
-  /// By how much the friction that holds hinge i may.
-  [[nodiscard]] Bulge<T> friction(int i) const {
+  /// By how much the friction that holds hinge i may inside the step, between s = a and b. Where a loop may go slack
+  /// or pass a knot in the step, by what it may do there alone.
+  [[nodiscard]] Inside<T> friction(int i, const T& a, const T& b) const {
     Bulge<T> bulge{rise(i)};
-    return loops_.empty() ? bulge : bulge += loops_[i];
+    if (loops_.empty()) return bulge(a, b);
+    if (loops_[i].is_smooth()) return (bulge += loops_[i])(a, b);
+    Inside<T> inside = bulge(a, b);
+    for (const HeldLoop& held : held_) {
+      const bool is_first = held.loop->first == i;
+      if (!is_first && held.loop->second != i) continue;
+      const LoopBulges<T> bulges = loop_bulges(*held.loop, part_of(held.angle_of_first, a, b),
+                                               part_of(held.angle_of_second, a, b), h_ * (b - a));
+      const Bulge<T>& own = is_first ? bulges.first : bulges.second;
+      inside.most = inside.most + own.over(T(1)), inside.smooth = inside.smooth && own.is_smooth();
+    }
+    return inside;
   }
 
 private:
   /// Of a vector's second, third and fourth derivative; of a force: itself and its first two.
   struct Derivatives {
     T second = T(0), third = T(0), fourth = T(0);
+  };
+
+  struct HeldLoop {
+    const LoopTerms<T>* loop;
+    Quintic<T> angle_of_first, angle_of_second;
   };
 
   struct Bounds {
@@ -143,12 +160,13 @@ private:
     const std::vector<LoopTerms<T>>& loops = system.wing().loops;
     if (loops.empty()) return;
     const Layout& at = system.layout();
-    loops_.assign(at.bodies + 1, Bulge<T>{T(0)});
+    loops_.assign(at.bodies + 1, Bulge<T>{T(0)}), held_.clear();
     for (const LoopTerms<T>& loop : loops) {
       if (!system.sticks(loop.first) && !system.sticks(loop.second)) continue;
+      held_.push_back({&loop, step.coordinate(at.angle(loop.first), at.freedoms()),
+                       step.coordinate(at.angle(loop.second), at.freedoms())});
       const LoopBulges<T> bulges =
-          loop_bulges(loop, step.coordinate(at.angle(loop.first), at.freedoms()),
-                      step.coordinate(at.angle(loop.second), at.freedoms()), step.h);
+          loop_bulges(loop, held_.back().angle_of_first, held_.back().angle_of_second, step.h);
       loops_[loop.first] += bulges.first, loops_[loop.second] += bulges.second;
     }
   }
@@ -181,7 +199,8 @@ private:
 
   std::vector<Bounds> bodies_;  ///< 0 … n
   std::vector<Bulge<T>> loops_; ///< 1 … n: of the loops; empty where there are none
-  T weight_ = T(0);
+  std::vector<HeldLoop> held_;  ///< those that have a hinge which sticks
+  T h_ = T(0), weight_ = T(0);
 };
 
 } // namespace wingspread

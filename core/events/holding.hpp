@@ -86,7 +86,7 @@ private:
   }
 
   [[nodiscard]] bool may_exceed(int i) const {
-    return larger(before_[i], after_[i]) + bound_.friction(i).over(T(1)) > T(0);
+    return larger(before_[i], after_[i]) + bound_.friction(i, T(0), T(1)).most > T(0);
   }
 
   template <class Function>
@@ -94,8 +94,9 @@ private:
                                                      const T& limit, const T& h) {
     constexpr double grazes = 1e-3, width = 1e-3;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
-    const auto s = first_positive(excess_at, before_[i], after_[i], bound_.friction(i),
-                                  T(1e-10) * limit, crest, samples_);
+    const auto rise = [&](const T& a, const T& b) { return bound_.friction(i, a, b); };
+    const auto s =
+        first_positive(excess_at, before_[i], after_[i], rise, T(1e-10) * limit, crest, samples_);
     if (s) {
       const T slope = (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * h);
       return Release<T>{i, *s, slope};

@@ -62,7 +62,7 @@ double part_of_friction(const AnyMotion<M>& motion, const HeldLoadBound<double>&
     const double ends = std::max(friction(from, i), friction(to, i));
     for (int k = 1; k < 24; ++k)
       most = std::max(most, (friction(from + (to - from) * k / 24, i) - ends) /
-                                bound.friction(i).over(to - from));
+                                bound.friction(i, from, to).most);
   }
   return most;
 }

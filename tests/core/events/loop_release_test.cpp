@@ -1,5 +1,6 @@
 // A hinge that sticks against a loop, and is let go between the ends of steps.
 #include "tests/core/deployment/real_runs.hpp"
+#include "tests/core/events/regularized_limit.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
 
 using namespace wingspread;
@@ -86,4 +87,51 @@ TEST_CASE("wings with loops whose hinges stick agree with the reference") {
     ++compared;
   }
   CHECK(compared == 12);
+}
+
+namespace {
+
+/// Hinges that stick, joined by loops of which a strand may go slack.
+Scene slackening(std::uint64_t seed) {
+  RandomScene options;
+  options.bodies = 2 + static_cast<int>(seed % 3), options.motion = BaseMotion::fixed;
+  options.mass_lower = 1, options.mass_upper = 20;
+  RealFeatures features;
+  features.tables = features.measured = features.scales = features.dampers = features.windows =
+      features.stops = features.backlash = features.gravity = features.air = false;
+  Scene scene = with_real_hinges(random_scene(seed, options), seed, features);
+  for (Hinge& hinge : scene.hinges) {
+    hinge.friction.model = FrictionModel::exact;
+    hinge.friction.coulomb = 0.2, hinge.friction.viscous = 2;
+  }
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE(
+    "a strand that may go slack in the step in which a hinge is let go leaves no run in vain") {
+  int with_loops = 0;
+  for (std::uint64_t seed = 100; seed < 300; ++seed) {
+    const Scene scene = slackening(seed);
+    with_loops += !scene.synchronisations.empty();
+    const Outcome out = Deployment().run(scene, within(1e-7, 10), {});
+    CAPTURE(seed, out.reason);
+    CHECK(out.status != Status::failed);
+  }
+  CHECK(with_loops > 100);
+}
+
+TEST_CASE(
+    "hinges that stick between loops that go slack move as in the limit of regularized friction") {
+  for (const std::uint64_t seed :
+       {159, 198, 239, 254, 413, 514}) { // strands slacken where one is let go
+    const Scene scene = slackening(seed);
+    const Outcome out = Deployment().run(scene, within(1e-10, 6), to_the_end);
+    const ReferenceOutcome limit = regularized_run(scene, 1e-7, 6);
+    CAPTURE(seed, out.reason);
+    REQUIRE(out.status != Status::failed);
+    for (std::size_t i = 0; i < scene.hinges.size(); ++i)
+      CHECK(std::abs(out.final.angles[i] - limit.final.angles(i)) < 3e-6); // it creeps for 6 s
+  }
 }
