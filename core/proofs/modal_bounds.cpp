@@ -139,25 +139,63 @@ template <int N> void ModalBounds<N>::keep_rows(const OfModes& time) {
   const auto S = seen_as<Fixed<Of::bodies, N>>(model_->turns);
   const auto drive = product(rows_.template rightCols<N>(size()), inverse_).eval();
   by_hinges_ = time.asDiagonal() * sizes_of_rows(drive);
-  by_turns_ = time.asDiagonal() * sizes_of_rows(product(drive, S.transpose()).eval());
+  const Fixed<Of::states, Of::bodies> by_turns = product(drive, S.transpose());
+  by_turns_ = time.asDiagonal() * sizes_of_rows(by_turns);
+  keep_push(by_turns);
   const auto answer = product(S, inverse_).eval();
   swing_by_hinges_ = answer.cwiseAbs();
   swing_by_turns_ = (product(answer, S.transpose()).array() + model_->rigid).abs().matrix();
 }
 
-template <int N> void ModalBounds<N>::find_rates(const double* angles, const double* rates) {
+/// (9). @param by_turns p_j M_0⁻¹Sᵀ of the rows
+template <int N> void ModalBounds<N>::keep_push(const Fixed<Of::states, Of::bodies>& by_turns) {
+  using Complex = std::complex<double>;
+  swung_.setZero(modes());
+  with_base_.clear(), against_base_.clear();
+  if (model_->turn_rate == 0) return;
+  const States cosine = product(by_turns, model_->push_cosine),
+               sine = product(by_turns, model_->push_sine);
+  const Complex i(0, 1), turning = i * model_->turn_rate;
+  for (int m = 0; m < modes(); ++m) {
+    const int j = modes_[m].column;
+    const auto of_mode = [&](const States& rows) {
+      return modes_[m].is_pair ? 0.5 * Complex(rows(j), -rows(j + 1)) : Complex(rows(j));
+    };
+    const Complex c = of_mode(cosine), s = of_mode(sine), lambda = found_.values()[j];
+    with_base_.push_back(0.5 * (c - i * s) / (turning - lambda));
+    against_base_.push_back(0.5 * (c + i * s) / (-turning - lambda));
+    swung_(m) = std::abs(with_base_[m]) + std::abs(against_base_[m]);
+  }
+}
+
+/// |w − w'| in place of |w|.
+template <int N> void ModalBounds<N>::take_push(double t) {
+  const auto round = std::polar(1.0, model_->turn_rate * (t - model_->since));
+  const States rows = product(rows_, z_);
+  for (int m = 0; m < modes(); ++m) {
+    const int j = modes_[m].column;
+    const std::complex<double> w = modes_[m].is_pair
+                                       ? 0.5 * std::complex<double>(rows(j), -rows(j + 1))
+                                       : std::complex<double>(rows(j));
+    start_(m) = std::abs(w - with_base_[m] * round - against_base_[m] * std::conj(round));
+  }
+}
+
+template <int N>
+void ModalBounds<N>::find_rates(const double* angles, const double* rates, double t) {
   const int n = size();
   z_.resize(2L * n);
   for (int i = 0; i < n; ++i) z_(i) = angles[i] - model_->angles(i), z_(n + i) = rates[i];
   start_ = sizes_of_rows(product(rows_, z_).eval());
-  rate_ = product(rate_of_, start_);
+  if (!with_base_.empty()) take_push(t);
+  rate_ = product(rate_of_, start_ + swung_);
 }
 
 template <int N>
 bool ModalBounds<N>::none_exceeds(const double* angles, const double* rates, const double* moments,
-                                  const double* forces, const std::optional<double>& energy,
-                                  double spin) {
-  find_rates(angles, rates);
+                                  const double* forces, double t,
+                                  const std::optional<double>& energy, double spin) {
+  find_rates(angles, rates, t);
   bound_linear(start_);
   if (!below(moments, forces) || !find_box(energy, spin)) return false;
   bound_all();
@@ -168,7 +206,7 @@ bool ModalBounds<N>::none_exceeds(const double* angles, const double* rates, con
 template <int N> bool ModalBounds<N>::find_box(const std::optional<double>& energy, double spin) {
   constexpr int passes = 12;
   constexpr double wider = 1.02;
-  B_ = wider * start_;
+  B_ = wider * (start_ + swung_);
   a_ = product(swing_, B_);
   momentum_ = spin;
   rigid_ = model_->spin + wider * model_->rigid * spin;
@@ -196,7 +234,7 @@ template <int N> void ModalBounds<N>::follow() {
   turned_(0) = n_bound_(0) = 0;
   for (int k = 1; k <= size(); ++k) {
     turned_(k) = u_(k - 1) + turned_(m.parents[k - 1]);
-    n_bound_(k) = m.pushed(k) * (m.push_turns ? 1.0 : turned_(k));
+    n_bound_(k) = m.pushed(k) * turned_(k);
   }
   double momentum = momentum_;
   for (const RestModel::Pair& pair : m.pairs) {
@@ -210,8 +248,9 @@ template <int N> void ModalBounds<N>::follow() {
   }
   next_rigid_ = m.spin + m.rigid * momentum;
   if (m.rigid == 0) n_bound_(0) = 0; // the base is not moved by it
-  next_B_ =
-      start_ + product(rounding_, B_) + product(by_turns_, n_bound_) + product(by_hinges_, f_);
+  next_B_ = start_ + swung_ + product(rounding_, B_) + product(by_turns_, n_bound_) +
+            product(by_hinges_, f_);
+  if (m.turn_rate != 0) n_bound_ += m.pushed;
   added_ = product(swing_by_turns_, n_bound_) + product(swing_by_hinges_, f_);
   next_a_ = added_ + product(swing_, B_);
 }

@@ -20,6 +20,13 @@
 ///
 ///     |w_j| ≤ √(2E/(1 − μ)) √(P_j diag(κ, M_0)⁻¹ P_jᴴ)                                          (7)
 ///
+/// On a base that turns by ψ = s t the push on the wing at rest, g = g_c cos ψ + g_s sin ψ in n, swings every mode as
+///
+///     w'_j = X e^(iψ)/(2(is − λ_j)) + Y e^(−iψ)/(2(−is − λ_j))       X, Y = p_j M_0⁻¹Sᵀ(g_c ∓ i g_s)      (9)
+///
+/// so that in (5) |w_j(0) − w'_j(0)| and the largest |w'_j| take the place of |w_j(0)|, and n has of the push only
+/// what bending adds to it.
+///
 /// Then |M_i| ≤ Σ |K W_u + C W_v|_ij B_j + f_i + |M_i at rest|, and of the reactions, Y_ik the levers,
 ///
 ///     |Y_i| ≤ |Σ_j |F_ij| B_j| + Σ_k |Y_ik| (what (6) adds to the modes + |turn_k| a_k + ω_k²) + |a| m (8)
@@ -35,7 +42,9 @@
 
 #include <Eigen/Dense>
 
+#include <complex>
 #include <optional>
+#include <vector>
 
 namespace wingspread {
 
@@ -55,14 +64,16 @@ public:
   /// Whether no moment and no force will exceed these, from a state on. Cost O(n²) a pass.
   /// @param angles, rates of the hinges
   /// @param moments, forces of each hinge so far; null: not asked for
+  /// @param t s; counts on a base that turns
   /// @param energy that is never exceeded, J, where there is one
   /// @param spin   |H| of a free base about the common centre of mass, kg·m²/s, else 0
   /// @pre prepared, and all decay
   bool none_exceeds(const double* angles, const double* rates, const double* moments,
-                    const double* forces, const std::optional<double>& energy, double spin);
+                    const double* forces, double t, const std::optional<double>& energy,
+                    double spin);
 
   /// Finds `rates()` alone.
-  void find_rates(const double* angles, const double* rates);
+  void find_rates(const double* angles, const double* rates, double t);
   /// Of the last question, where a box was found: 0 … n − 1.
   [[nodiscard]] const Vector& moment() const { return moment_; }
   [[nodiscard]] const Vector& force() const { return force_; }
@@ -99,6 +110,8 @@ private:
   void keep(const Matrix& V, const Matrix& residual);
   void keep_columns(const Matrix& V, const OfModes& quick);
   void keep_rows(const OfModes& time);
+  void keep_push(const Fixed<Of::states, Of::bodies>& by_turns);
+  void take_push(double t);
   template <class Products> [[nodiscard]] auto sizes_of_rows(const Products& products) const;
   template <class Products> [[nodiscard]] auto sizes_of_columns(const Products& products) const;
   [[nodiscard]] static double size_of_residual(const Matrix& E, const Mode& of, const Mode& by);
@@ -126,9 +139,12 @@ private:
   Fixed<N, Of::bodies> lever_;
   OfModes by_energy_, offset_; ///< of (7): the root, and what the two rests differ by
   bool capped_ = false;
+  /// Of (9), what goes round with the base and against it.
+  std::vector<std::complex<double>> with_base_, against_base_;
+  OfModes swung_; ///< the most that (9) comes to
   // of a question
   States z_;
-  OfModes start_, B_, next_B_;
+  OfModes start_, B_, next_B_; ///< start_: |w(0) − w'(0)|
   Bodies a_, next_a_, added_;
   double rigid_ = 0, next_rigid_ = 0; ///< |r| of the box, and the right side of (4)
   double momentum_ = 0;               ///< |H|

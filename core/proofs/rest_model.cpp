@@ -87,16 +87,16 @@ private:
       v->setZero(n_);
     for (Eigen::MatrixXd* v : {&m_.mass, &m_.stiffness, &m_.damping}) v->setZero(n_, n_);
     for (Eigen::MatrixXd* v : {&m_.lever_x, &m_.lever_y}) v->setZero(n_, n_ + 1);
-    m_.turns.setZero(n_ + 1, n_), m_.pushed.setZero(n_ + 1);
+    m_.turns.setZero(n_ + 1, n_);
+    for (Eigen::VectorXd* v : {&m_.pushed, &m_.push_cosine, &m_.push_sine}) v->setZero(n_ + 1);
     m_.remainders.assign(n_, {});
     m_.loops.clear(), m_.pairs.clear();
     const bool driven = wing_.base.motion == BaseMotion::prescribed;
-    const double since = wing_.base.table ? work_.driven.from : 0;
-    const Drive<double> drive = drive_at(wing_.base, work_.driven, since);
+    m_.since = wing_.base.table ? work_.driven.from : 0;
+    const Drive<double> drive = drive_at(wing_.base, work_.driven, m_.since);
     push_ = driven ? drive.felt : Vec2<double>{0, 0};
-    m_.spin = driven ? std::abs(drive.rate) : 0;
+    m_.turn_rate = driven ? drive.rate : 0, m_.spin = std::abs(m_.turn_rate), m_.rigid = 0;
     turn_.assign(n_ + 1, driven ? drive.angle : 0);
-    m_.push_turns = m_.spin != 0, m_.rigid = 0;
     outward_mass_.assign(n_ + 1, 0);
     own_moment_.assign(n_ + 1, {0, 0}), Y_.assign(n_ + 1, {0, 0});
   }
@@ -173,7 +173,7 @@ private:
       add(m_.stiffness, loop, at, taut_share(loop, at.elastic) * loop.stiffness);
     }
     residual_ = m_.moment;
-    if (m_.push_turns) return;
+    if (m_.turn_rate != 0) return;
     for (int k = 1; k <= n_; ++k) // the push turns body k, and with it what it hangs on
       for (int i = k; i != 0; i = wing_.tree.parent_of(i))
         residual_(i - 1) += dot(turned(Y_[k]), scaled(-1.0, push_));
@@ -295,6 +295,10 @@ private:
     const double push = length(push_);
     for (int i = 1; i <= n_; ++i) {
       m_.pushed(i) = push * length(Y_[i]), m_.weight(i - 1) = push * outward_mass_[i];
+      if (m_.turn_rate != 0) {
+        const Vec2<double> along = turned(Y_[i]), felt = scaled(-1.0, push_);
+        m_.push_cosine(i) = dot(along, felt), m_.push_sine(i) = dot(turned(along), felt);
+      }
       for (int k = wing_.tree.parent_of(i), outer = i;; outer = k, k = wing_.tree.parent_of(k)) {
         set_lever(i, k, scaled(outward_mass_[i], arm(outer)));
         if (k == 0) break;

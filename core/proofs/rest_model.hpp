@@ -18,7 +18,8 @@
 ///     |r| ≤ (|H| + Σ_kl (½|c|Δ² + |s||Δ|) |ω_l|)/I,  ṙ = 1ᵀn/I     on a free base                 (4)
 ///
 /// The first sum is M(θ) − M(rest), the second what centripetal accelerations come to; H is the
-/// angular momentum. On a base that turns r is its rate, and there is no first sum for it. f is what
+/// angular momentum. On a base that turns r is its rate, there is no first sum for it, and the push on the wing at rest, which
+/// comes and goes as the base turns, is told apart. f is what
 /// the moments of the hinges have beyond K and C: friction, curves that bend, dampers that are not
 /// viscous, loops that go slack.
 #pragma once
@@ -68,11 +69,13 @@ struct RestModel {
   /// (i, k): first moment of what is outward of hinge i, as far as body k's turning moves it, kg·m
   Eigen::MatrixXd lever_x, lever_y;
   Eigen::VectorXd pushed; ///< 0 … n: |a| |Y|, N·m
-  bool push_turns =
-      false;              ///< against the wing at rest: all of it counts, not what turns alone adds
-  Eigen::VectorXd weight; ///< |a| times the mass outward, N
-  Eigen::VectorXd moment; ///< M of each hinge at rest, N·m
-  Eigen::VectorXd room;   ///< within this way from rest no other law holds, nor an overtravel, rad
+  /// Of a base that turns, else 0: what the push does to body k at rest is cosine cos ψ + sine sin ψ, where the base
+  /// has turned by ψ = turn_rate (t − since), N·m.
+  Eigen::VectorXd push_cosine, push_sine;
+  double turn_rate = 0, since = 0; ///< rad/s, s
+  Eigen::VectorXd weight;          ///< |a| times the mass outward, N
+  Eigen::VectorXd moment;          ///< M of each hinge at rest, N·m
+  Eigen::VectorXd room; ///< within this way from rest no other law holds, nor an overtravel, rad
   std::vector<Remainder> remainders;
   std::vector<Loop> loops;
 

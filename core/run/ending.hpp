@@ -186,7 +186,7 @@ private:
       const State<double>& x = run_.step.x;
       find_modes(&x[at.rate(1)]);
       if (has_modes_) { // dampers have been made linear for the rates of an instant
-        modes_.find_rates(&x[at.angle(1)], &x[at.rate(1)]);
+        modes_.find_rates(&x[at.angle(1)], &x[at.rate(1)], run_.step.t);
         retune();
       }
     }
@@ -220,7 +220,7 @@ private:
       if (modes_.none_exceeds(&x[at.angle(1)], &x[at.rate(1)],
                               run_.goal.peak_moment ? values(peaks_.moments(), moments_) : nullptr,
                               run_.goal.peak_force ? values(peaks_.forces(), forces_) : nullptr,
-                              energy, spin()))
+                              run_.step.t, energy, spin()))
         return true;
       retune();
     }

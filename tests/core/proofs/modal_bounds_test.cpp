@@ -1,9 +1,6 @@
 // The bounds by the modes of a latched wing: motions are sought that break them.
-#include "core/mechanics/energy.hpp"
-#include "core/proofs/modal_bounds.hpp"
-#include "core/proofs/prospects.hpp"
+#include "tests/core/proofs/latched_wing.hpp"
 #include "tests/support/dry_friction.hpp"
-#include "tests/support/random_scenes.hpp"
 #include "tests/support/real_scenes.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -11,72 +8,10 @@
 
 using namespace wingspread;
 using oracle::Draws;
+using oracle::Latched;
+using oracle::with_latches;
 
 namespace {
-
-/// A wing with all latches engaged that it has, and its model about rest.
-template <BaseMotion M> struct Latched {
-  explicit Latched(const Scene& scene)
-      : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
-    State<double> x;
-    system.start(x);
-    for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] = wing.hinges[i].latched, x[at.rate(i)] = 0;
-    system.find_sides(x);
-    for (int i = 1; i <= at.bodies; ++i)
-      if (wing.hinges[i].has_latch) system.engage(i);
-    system.want_forces(true);
-    prospects.prepare(system);
-    still = x;
-    has_model = tune(&still[at.rate(1)]);
-  }
-
-  /// @param rates for which dampers are linear
-  bool tune(const double* rates) {
-    if (!make_rest_model(wing, work, &still[at.angle(1)], rates, model) || !modes.prepare(model))
-      return false;
-    modes.prepare_cap(prospects.least_stiffness(), &prospects.rest()[at.angle(1)]);
-    return true;
-  }
-
-  [[nodiscard]] State<double> rest() const {
-    State<double> x = still;
-    for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] = model.angles(i - 1);
-    return x;
-  }
-
-  [[nodiscard]] Eigen::VectorXd accelerations(const State<double>& x) {
-    State<double> dxdt(at.size());
-    system(x, dxdt, 0);
-    return Eigen::Map<Eigen::VectorXd>(&dxdt[at.rate(1)], at.bodies);
-  }
-
-  /// Largest rate at which the linear model changes, rad/s.
-  [[nodiscard]] double fastest() const {
-    const int n = at.bodies;
-    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(2L * n, 2L * n);
-    L.topRightCorner(n, n).setIdentity();
-    L.bottomLeftCorner(n, n) = -model.mass.inverse() * model.stiffness;
-    L.bottomRightCorner(n, n) = -model.mass.inverse() * model.damping;
-    return L.eigenvalues().cwiseAbs().maxCoeff();
-  }
-
-  Wing<double> wing;
-  Workspace<double> work;
-  System<double, Tree, M> system;
-  Layout at;
-  Prospects<double> prospects;
-  State<double> still;
-  RestModel model;
-  ModalBounds<> modes;
-  bool has_model = false;
-
-private:
-  static Wing<double> with_numbers(const Scene& scene) {
-    Wing<double> made = make_wing<double>(scene, outward_order(scene));
-    set_parameters(made, scene);
-    return made;
-  }
-};
 
 struct Shares {
   double moment = 0, force = 0;
@@ -95,9 +30,9 @@ std::optional<Shares> shares_from(Latched<M>& wing, State<double> x, bool by_ene
     double spin = 0;
     if (M == BaseMotion::free) spin = std::abs(total_motion(wing.system, x, 0.).spin());
     return wing.modes.none_exceeds(&x[at.angle(1)], &x[at.rate(1)], no_peak.data(), no_peak.data(),
-                                   energy, spin);
+                                   0, energy, spin);
   };
-  wing.modes.find_rates(&x[at.angle(1)], &x[at.rate(1)]);
+  wing.modes.find_rates(&x[at.angle(1)], &x[at.rate(1)], 0);
   const Eigen::VectorXd rates = wing.modes.rates();
   if (!wing.model.is_tuned_for(rates) && !wing.tune(rates.data())) return std::nullopt;
   if (!asked()) return std::nullopt;
@@ -155,12 +90,6 @@ void seek(Latched<M>& wing, Draws& draws, double size, int states, Sought& sough
     sought.worst.moment = std::max(sought.worst.moment, found->moment);
     sought.worst.force = std::max(sought.worst.force, found->force);
   }
-}
-
-Scene with_latches(Scene scene, Draws& draws) {
-  for (Hinge& hinge : scene.hinges)
-    hinge.latch = Latch{draws.log_uniform(1e3, 1e5), draws.log_uniform(1, 1e3)};
-  return scene;
 }
 
 /// The accelerations' slopes about rest are M_0⁻¹K and M_0⁻¹C.
@@ -310,55 +239,6 @@ TEST_CASE("no motion breaks the bounds by modes: real hinges and loops") {
   }
   CAPTURE(all.bounded, all.tried);
   CHECK(all.bounded >= 110);
-}
-
-namespace {
-
-/// Bounds of matrices whose size the compiler knows, and of any, from random states of a latched chain.
-/// @return from how many states nothing exceeds them
-template <int N> int compare_known(std::uint64_t seed) {
-  Draws draws(seed);
-  oracle::RandomScene options;
-  options.bodies = N, options.branching = false;
-  options.motion = BaseMotion::free;
-  options.mass_lower = 1, options.mass_upper = 30;
-  Latched<BaseMotion::free> wing(with_latches(oracle::random_scene(800 + seed, options), draws));
-  REQUIRE(wing.has_model);
-  ModalBounds<N> known;
-  REQUIRE(known.prepare(wing.model));
-  known.prepare_cap(wing.prospects.least_stiffness(), &wing.prospects.rest()[wing.at.angle(1)]);
-  const std::vector<double> peaks(N, 1e300);
-  int bounded = 0;
-  for (int k = 0; k < 20; ++k) {
-    std::vector<double> angles(N), rates(N);
-    for (int i = 0; i < N; ++i) {
-      angles[i] = wing.model.angles(i) + draws.uniform(-1, 1) * draws.log_uniform(1e-5, 1e-2);
-      rates[i] = draws.uniform(-1, 1) * draws.log_uniform(1e-4, 0.1);
-    }
-    const auto ask = [&](auto& bounds) {
-      return bounds.none_exceeds(angles.data(), rates.data(), peaks.data(), peaks.data(),
-                                 k % 2 == 0 ? std::optional(1e-3) : std::nullopt, 0.01 * k);
-    };
-    CAPTURE(N, seed, k);
-    const bool holds = ask(wing.modes);
-    REQUIRE(ask(known) == holds);
-    CHECK((known.rates() - wing.modes.rates()).norm() <= 1e-9 * wing.modes.rates().norm());
-    CHECK((known.moment() - wing.modes.moment()).norm() <= 1e-9 * wing.modes.moment().norm());
-    CHECK((known.force() - wing.modes.force()).norm() <= 1e-9 * wing.modes.force().norm());
-    bounded += holds;
-  }
-  return bounded;
-}
-
-} // namespace
-
-TEST_CASE(
-    "bounds by modes are the same whether or not the compiler knows how many hinges there are") {
-  int bounded = 0;
-  for (std::uint64_t seed = 0; seed < 10; ++seed)
-    bounded += compare_known<1>(seed) + compare_known<2>(seed) + compare_known<3>(seed) +
-               compare_known<4>(seed);
-  CHECK(bounded > 200);
 }
 
 TEST_CASE("there is no model by modes of backlash, of air, of a base that turns faster") {

@@ -1,0 +1,85 @@
+/// A wing all of whose latches have engaged, with its bounds by modes.
+#pragma once
+
+#include "core/mechanics/energy.hpp"
+#include "core/proofs/modal_bounds.hpp"
+#include "core/proofs/prospects.hpp"
+#include "tests/support/random_scenes.hpp"
+
+#include <Eigen/Dense>
+
+#include <optional>
+
+namespace wingspread::oracle {
+
+/// A wing with all latches engaged that it has, and its model about rest.
+template <BaseMotion M> struct Latched {
+  explicit Latched(const Scene& scene)
+      : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
+    State<double> x;
+    system.start(x);
+    for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] = wing.hinges[i].latched, x[at.rate(i)] = 0;
+    system.find_sides(x);
+    for (int i = 1; i <= at.bodies; ++i)
+      if (wing.hinges[i].has_latch) system.engage(i);
+    system.want_forces(true);
+    prospects.prepare(system);
+    still = x;
+    has_model = tune(&still[at.rate(1)]);
+  }
+
+  /// @param rates for which dampers are linear
+  bool tune(const double* rates) {
+    if (!make_rest_model(wing, work, &still[at.angle(1)], rates, model) || !modes.prepare(model))
+      return false;
+    modes.prepare_cap(prospects.least_stiffness(), &prospects.rest()[at.angle(1)]);
+    return true;
+  }
+
+  [[nodiscard]] State<double> rest() const {
+    State<double> x = still;
+    for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] = model.angles(i - 1);
+    return x;
+  }
+
+  [[nodiscard]] Eigen::VectorXd accelerations(const State<double>& x) {
+    State<double> dxdt(at.size());
+    system(x, dxdt, 0);
+    return Eigen::Map<Eigen::VectorXd>(&dxdt[at.rate(1)], at.bodies);
+  }
+
+  /// Largest rate at which the linear model changes, rad/s.
+  [[nodiscard]] double fastest() const {
+    const int n = at.bodies;
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(2L * n, 2L * n);
+    L.topRightCorner(n, n).setIdentity();
+    L.bottomLeftCorner(n, n) = -model.mass.inverse() * model.stiffness;
+    L.bottomRightCorner(n, n) = -model.mass.inverse() * model.damping;
+    return L.eigenvalues().cwiseAbs().maxCoeff();
+  }
+
+  Wing<double> wing;
+  Workspace<double> work;
+  System<double, Tree, M> system;
+  Layout at;
+  Prospects<double> prospects;
+  State<double> still;
+  RestModel model;
+  ModalBounds<> modes;
+  bool has_model = false;
+
+private:
+  static Wing<double> with_numbers(const Scene& scene) {
+    Wing<double> made = make_wing<double>(scene, outward_order(scene));
+    set_parameters(made, scene);
+    return made;
+  }
+};
+
+inline Scene with_latches(Scene scene, Draws& draws) {
+  for (Hinge& hinge : scene.hinges)
+    hinge.latch = Latch{draws.log_uniform(1e3, 1e5), draws.log_uniform(1, 1e3)};
+  return scene;
+}
+
+} // namespace wingspread::oracle
