@@ -37,6 +37,21 @@ TEST_CASE("a quintic is reproduced, its ends and its derivative with it") {
   }
 }
 
+TEST_CASE("a part of a quintic is that quintic, however small, and lies within what it is on a "
+          "larger one") {
+  oracle::Draws draws(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    Quintic<double> p;
+    for (double& v : p) v = draws.uniform(-1, 1);
+    const double a = trial % 4 == 0 ? 0 : draws.uniform(0, 1);
+    const double b = trial % 4 == 1 ? 1 : a + (1 - a) * draws.log_uniform(1e-12, 1);
+    const Quintic<double> part = part_of(p, a, b);
+    for (const double s : {0., 0.1, 0.5, 0.93, 1.})
+      CHECK(value(part, s) == Approx(value(p, a + (b - a) * s)).margin(1e-15));
+    CHECK(bound(part) <= bound(p) * (1 + 1e-15));
+  }
+}
+
 TEST_CASE("interpolation error falls with the sixth power of the step") {
   const auto error = [](double h) {
     // about the crest, where the even powers of the error alone are left
