@@ -86,6 +86,16 @@ template <class T, class Topology, BaseMotion M>
   return own + system.latch_energy(x, i);
 }
 
+/// What a smoothed latch of hinge i stores with its whole weight, J; 0 of an event latch.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] T smoothed_latch_energy(const System<T, Topology, M>& system, const State<T>& x,
+                                      int i) {
+  if (!system.layout().smoothed) return T(0);
+  const HingeTerms<T>& hinge = system.wing().hinges[i];
+  const T y = x[system.layout().angle(i)] - hinge.latched;
+  return T(0.5) * hinge.stiffness * y * y;
+}
+
 /// Of all loops, J.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T loops_energy(const System<T, Topology, M>& system, const State<T>& x) {
@@ -113,13 +123,10 @@ template <class T, class Topology, BaseMotion M>
   const Layout& at = system.layout();
   T sum = loops_energy(system, x) + gravity_energy(system, x, t);
   for (int i = 1; i <= at.bodies; ++i) {
-    const T& angle = x[at.angle(i)];
     sum = sum + hinge_potential(system, x, i);
-    if (at.smoothed) {
-      const T y = angle - system.wing().hinges[i].latched;
-      sum = sum + T(0.5) * system.wing().hinges[i].stiffness * y * y *
-                      smooth_step(x[at.latch(i)] / system.epsilon());
-    }
+    if (at.smoothed)
+      sum = sum +
+            smoothed_latch_energy(system, x, i) * smooth_step(x[at.latch(i)] / system.epsilon());
   }
   return sum;
 }

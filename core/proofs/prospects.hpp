@@ -147,8 +147,14 @@ private:
       if (next == rest_[k]) break;
       rest_[k] = next;
     }
-    at_rest_(i) = hinge_potential(system, rest_, i);
+    at_rest_(i) = latched_potential(system, rest_, i);
     add_load(i, least);
+  }
+
+  /// Of a real hinge whose latch, if it has one, is in.
+  template <class AnySystem>
+  [[nodiscard]] static T latched_potential(const AnySystem& system, const State<T>& x, int i) {
+    return hinge_potential(system, x, i) + smoothed_latch_energy(system, x, i);
   }
 
   /// Whether this energy takes a hinge to its stop, or one is there.
@@ -178,7 +184,7 @@ private:
     if (!(stiffness_(i) > T(0))) return T(0);
     if (!system.wing().real.empty()) {
       using std::abs;
-      const T P = hinge_potential(system, x, i);
+      const T P = latched_potential(system, x, i);
       return (P - at_rest_(i)) + T(256 * epsilon_of<T>) * (abs(P) + abs(at_rest_(i)));
     }
     const LinearLaw<T> law = linear_law(hinge, true);
