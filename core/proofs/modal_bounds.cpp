@@ -157,28 +157,27 @@ template <int N> void ModalBounds<N>::keep_push(const Fixed<Of::states, Of::bodi
                sine = product(by_turns, model_->push_sine);
   const Complex i(0, 1), turning = i * model_->turn_rate;
   for (int m = 0; m < modes(); ++m) {
-    const int j = modes_[m].column;
-    const auto of_mode = [&](const States& rows) {
-      return modes_[m].is_pair ? 0.5 * Complex(rows(j), -rows(j + 1)) : Complex(rows(j));
-    };
-    const Complex c = of_mode(cosine), s = of_mode(sine), lambda = found_.values()[j];
+    const Complex c = of_mode(modes_[m], cosine), s = of_mode(modes_[m], sine),
+                  lambda = found_.values()[modes_[m].column];
     with_base_.push_back(0.5 * (c - i * s) / (turning - lambda));
     against_base_.push_back(0.5 * (c + i * s) / (-turning - lambda));
     swung_(m) = std::abs(with_base_[m]) + std::abs(against_base_[m]);
   }
 }
 
+/// p_j x of a mode, from the products of its rows.
+template <int N>
+std::complex<double> ModalBounds<N>::of_mode(const Mode& mode, const States& rows) {
+  const int j = mode.column;
+  return mode.is_pair ? 0.5 * std::complex(rows(j), -rows(j + 1)) : std::complex(rows(j));
+}
+
 /// |w − w'| in place of |w|.
-template <int N> void ModalBounds<N>::take_push(double t) {
+template <int N> void ModalBounds<N>::take_push(const States& rows, double t) {
   const auto round = std::polar(1.0, model_->turn_rate * (t - model_->since));
-  const States rows = product(rows_, z_);
-  for (int m = 0; m < modes(); ++m) {
-    const int j = modes_[m].column;
-    const std::complex<double> w = modes_[m].is_pair
-                                       ? 0.5 * std::complex<double>(rows(j), -rows(j + 1))
-                                       : std::complex<double>(rows(j));
-    start_(m) = std::abs(w - with_base_[m] * round - against_base_[m] * std::conj(round));
-  }
+  for (int m = 0; m < modes(); ++m)
+    start_(m) = std::abs(of_mode(modes_[m], rows) - with_base_[m] * round -
+                         against_base_[m] * std::conj(round));
 }
 
 template <int N>
@@ -186,8 +185,9 @@ void ModalBounds<N>::find_rates(const double* angles, const double* rates, doubl
   const int n = size();
   z_.resize(2L * n);
   for (int i = 0; i < n; ++i) z_(i) = angles[i] - model_->angles(i), z_(n + i) = rates[i];
-  start_ = sizes_of_rows(product(rows_, z_).eval());
-  if (!with_base_.empty()) take_push(t);
+  const States rows = product(rows_, z_);
+  start_ = sizes_of_rows(rows);
+  if (!with_base_.empty()) take_push(rows, t);
   rate_ = product(rate_of_, start_ + swung_);
 }
 

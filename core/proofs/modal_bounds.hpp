@@ -83,7 +83,7 @@ public:
 
 private:
   static constexpr int most(int count) { return count == Eigen::Dynamic ? Of::states : count; }
-  /// A library's rows lie as rows do.
+  /// The only one in which the library keeps what has a single row.
   static constexpr int order(int rows, int columns) {
     return rows == 1 && columns != 1 ? Eigen::RowMajor : Eigen::ColMajor;
   }
@@ -111,7 +111,8 @@ private:
   void keep_columns(const Matrix& V, const OfModes& quick);
   void keep_rows(const OfModes& time);
   void keep_push(const Fixed<Of::states, Of::bodies>& by_turns);
-  void take_push(double t);
+  [[nodiscard]] static std::complex<double> of_mode(const Mode& mode, const States& rows);
+  void take_push(const States& rows, double t);
   template <class Products> [[nodiscard]] auto sizes_of_rows(const Products& products) const;
   template <class Products> [[nodiscard]] auto sizes_of_columns(const Products& products) const;
   [[nodiscard]] static double size_of_residual(const Matrix& E, const Mode& of, const Mode& by);

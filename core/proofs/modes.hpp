@@ -22,11 +22,9 @@
 namespace wingspread {
 
 /// Sizes of what belongs to n hinges, as a library's matrices take them.
-template <int N> struct SizesFor {
-  static constexpr int hinges = N, bodies = N + 1, states = 2 * N;
-};
+template <int N> struct SizesFor { static constexpr int bodies = N + 1, states = 2 * N; };
 template <> struct SizesFor<Eigen::Dynamic> {
-  static constexpr int hinges = Eigen::Dynamic, bodies = Eigen::Dynamic, states = Eigen::Dynamic;
+  static constexpr int bodies = Eigen::Dynamic, states = Eigen::Dynamic;
 };
 
 /// A matrix of a model of any size as one whose size the compiler knows.

@@ -22,9 +22,9 @@ constexpr std::array outputs{
           "largest |moment| about the hinge's axis over the whole run, the instants behind each "
           "engagement included: springs, harness, friction, dampers, stops, loops and latch"},
     Entry{"HINGE.peak_force", "largest force across the hinge over the whole run"},
-    Entry{"HINGE.overtravel", "how far the hinge turned beyond its stowed angle, away from the "
-                              "latch; in a stalled run up to "
-                              "where it ends"},
+    Entry{"HINGE.overtravel",
+          "how far the hinge turned beyond its stowed angle, away from the latch; in a stalled run "
+          "up to where it ends"},
     Entry{"base.peak_angle", "largest change of a free base's angle from the start"},
     Entry{"base.peak_rate", "largest change of a free base's rate from the start"},
     Entry{"deployment_time", "when the last hinge that has a latch latched"}};
