@@ -1,3 +1,3 @@
-#include "montecarlo/commands/cli.hpp"
+#include "montecarlo/interfaces/commands/cli.hpp"
 
 int main(int argc, char** argv) { return wingspread::command_line(argc, argv); }

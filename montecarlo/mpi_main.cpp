@@ -1,10 +1,11 @@
 /// The program that mpirun starts: on rank 0 it is the one of every day, on the others it makes runs for that.
-#include "montecarlo/commands/cli.hpp"
-#include "montecarlo/machine/interrupt.hpp"
-#include "montecarlo/ranks/evaluator_of.hpp"
-#include "montecarlo/ranks/mpi/mpi_wire.hpp"
-#include "montecarlo/ranks/rank_evaluator.hpp"
-#include "montecarlo/ranks/serve.hpp"
+#include "montecarlo/analyses/rare/limit_state.hpp"
+#include "montecarlo/engine/mpi/evaluator_of.hpp"
+#include "montecarlo/engine/mpi/mpi_wire.hpp"
+#include "montecarlo/engine/mpi/rank_evaluator.hpp"
+#include "montecarlo/engine/mpi/serve.hpp"
+#include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/interfaces/commands/cli.hpp"
 
 #include <mpi.h>
 
@@ -15,7 +16,7 @@ int work(int argc, char** argv) {
   const std::unique_ptr<Wire> wire = mpi_wire();
   if (wire->rank() > 0) {
     const Interrupt interrupt;
-    serve(*wire, interrupt.flag());
+    serve(*wire, measure_of_recipe, interrupt.flag());
     return 0;
   }
   const int code = command_line(argc, argv);

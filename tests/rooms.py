@@ -3,9 +3,10 @@
     /usr/bin/python3 tests/rooms.py          from the repository's root; silent where all is well
     /usr/bin/python3 tests/rooms.py --draw   prints which room uses which
 
-The order of the rooms stands here and nowhere else: a file may include what stands in its own room or
-in one above it. Rooms on one line know nothing of each other. The compiler cannot see this, for all targets share
-one include path. It also fails on a room that is too full, a file that is too long, and a folder without a place.
+WINGS holds the order of wings and rooms, and no other file does. A file may include files of its own room, of the
+rooms above it and of the wings above its own. Rooms on one line know nothing of each other. The compiler cannot check
+this, because all targets share one include path. The script also fails on a wing with more than seven rooms, a room
+with more than 15 units, a file of more than 400 lines, and a file outside every room.
 """
 
 import collections
@@ -13,49 +14,33 @@ import pathlib
 import re
 import sys
 
-ORDER = """
-distributions
-core/number
-core/scene
-core/outcome
-core/laws
-core/mechanics
-core/dense
-core/methods
-core/events
-core/peaks
-core/proofs
-core/run
-core/packs
-core/deployment
-montecarlo/formats
-montecarlo/machine
-montecarlo/statistics
-montecarlo/scene_file
-montecarlo/motorization
-montecarlo/campaign
-montecarlo/notices
-montecarlo/runs
-montecarlo/accuracy
-montecarlo/summary
-montecarlo/folder
-montecarlo/log
-montecarlo/sensitivity montecarlo/rare montecarlo/margin montecarlo/export montecarlo/rowless
-montecarlo/ranks
-montecarlo/page_data
-montecarlo/report
-montecarlo/terminal
-montecarlo/library montecarlo/package montecarlo/schema
-montecarlo/commands montecarlo/python
-montecarlo/main montecarlo/mpi_main
-"""
-LEVEL = {room: level for level, line in enumerate(ORDER.split("\n")) for room in line.split()}
+WINGS = {
+    "distributions": [""],
+    "core": ["number", "scene", "outcome", "laws", "mechanics", "dense", "methods", "events", "peaks", "proofs", "run",
+             "packs", "deployment"],
+    "montecarlo/foundation": ["formats", "platform", "statistics"],
+    "montecarlo/model": ["scene_file", "static_margins", "campaign", "input_checks", "schema"],
+    "montecarlo/engine": ["runs", "mpi accuracy"],
+    "montecarlo/results": ["summary", "results_folder", "checkpoint streaming export"],
+    "montecarlo/analyses": ["run margin sensitivity rare"],
+    "montecarlo/report": ["data", "text page"],
+    "montecarlo/interfaces": ["library", "python package terminal", "commands"],
+    "montecarlo": ["main mpi_main"],
+}
+LEVEL, WING = {}, {}
+for wing, lines in WINGS.items():
+    for names in lines:
+        level = len(set(LEVEL.values()))
+        for name in names.split(" "):
+            room = f"{wing}/{name}".rstrip("/")
+            LEVEL[room], WING[room] = level, wing
 MOST_LINES = 400  # of a file
 MOST_UNITS = 15  # of a room: a header with its source, or either alone
+MOST_ROOMS = 7  # of a wing of montecarlo
 
 
 def room_of(path):
-    """The longest name in ORDER that the path begins with; a file at a folder's door is a room of its own."""
+    """The longest known room that the path begins with; a file at a folder's door is a room of its own."""
     parts = pathlib.PurePosixPath(path).with_suffix("").parts
     for length in range(len(parts), 0, -1):
         if (name := "/".join(parts[:length])) in LEVEL:
@@ -89,9 +74,18 @@ def main():
     for room, held in units.items():
         if len(held) > MOST_UNITS:
             faults.append(f"{room}: {len(held)} units, at most {MOST_UNITS}")
+    for name in WINGS:
+        folder = pathlib.Path(name)
+        rooms = [room for room in folder.iterdir() if room.is_dir()] if folder.is_dir() and "/" in name else []
+        if len(rooms) > MOST_ROOMS:
+            faults.append(f"{name}: {len(rooms)} rooms, at most {MOST_ROOMS}")
     if "--draw" in sys.argv:
+        shown = ""
         for room in sorted(units, key=LEVEL.get):
-            print(f"{room:26} {len(units[room]):3} units   uses {' '.join(sorted(uses[room], key=LEVEL.get))}")
+            if WING[room] != shown:
+                shown = WING[room]
+                print(f"{shown}/")
+            print(f"  {room:36} {len(units[room]):3} units   uses {' '.join(sorted(uses[room], key=LEVEL.get))}")
     for fault in faults:
         print(fault, file=sys.stderr)
     return 1 if faults else 0

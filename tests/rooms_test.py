@@ -9,14 +9,20 @@ import subprocess
 import sys
 
 SOUND = {"core/scene/scene.hpp": "", "core/run/run.hpp": '#include "core/scene/scene.hpp"\n',
-         "distributions/law.hpp": "", "montecarlo/runs/run.cpp": '#include "distributions/law.hpp"\n'}
+         "distributions/law.hpp": "", "montecarlo/engine/runs/run.cpp": '#include "distributions/law.hpp"\n'}
 FAULTS = {
     "an arrow that runs back": ({"core/scene/scene.hpp": '#include "core/run/run.hpp"\n'},
                                 "core/scene/scene.hpp:1: core/scene may not use core/run"),
     "core that uses distributions": ({"core/run/run.hpp": '#include "distributions/law.hpp"\n'},
                                      "core/run may not use distributions"),
-    "rooms on one line": ({"montecarlo/rare/a.hpp": "", "montecarlo/margin/b.hpp": ' #  include "montecarlo/rare/a.hpp"\n'},
-                          "montecarlo/margin may not use montecarlo/rare"),
+    "rooms on one line": ({"montecarlo/analyses/rare/a.hpp": "",
+                           "montecarlo/analyses/margin/b.hpp": ' #  include "montecarlo/analyses/rare/a.hpp"\n'},
+                          "montecarlo/analyses/margin may not use montecarlo/analyses/rare"),
+    "a wing that uses a lower one": ({"montecarlo/results/summary/a.hpp": "",
+                                      "montecarlo/engine/runs/b.hpp": '#include "montecarlo/results/summary/a.hpp"\n'},
+                                     "montecarlo/engine/runs may not use montecarlo/results/summary"),
+    "a full wing": ({f"montecarlo/engine/runs_{k}/README.md": "" for k in range(7)},
+                    "montecarlo/engine: 8 rooms, at most 7"),
     "a file without a room": ({"core/attic/a.hpp": ""}, "core/attic/a.hpp: stands in no room"),
     "an include without a room": ({"core/run/run.hpp": '#include "core/attic/a.hpp"\n'}, "which stands in no room"),
     "a long file": ({"core/run/run.hpp": "//\n" * 401}, "core/run/run.hpp: 401 lines, at most 400"),

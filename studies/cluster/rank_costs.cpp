@@ -5,11 +5,11 @@
 ///
 ///   run_times.csv   how long each run took by itself, s
 ///   costs.csv       name, value
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/folder/row_writer.hpp"
-#include "montecarlo/machine/live_histogram.hpp"
-#include "montecarlo/ranks/messages.hpp"
-#include "montecarlo/runs/in_order.hpp"
+#include "montecarlo/engine/mpi/messages.hpp"
+#include "montecarlo/engine/runs/in_order.hpp"
+#include "montecarlo/foundation/platform/live_histogram.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/results_folder/row_writer.hpp"
 #include "studies/support/study.hpp"
 
 #include <fmt/format.h>

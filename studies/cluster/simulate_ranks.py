@@ -4,7 +4,7 @@
 
 DIR holds what `rank_costs` measures: the times of single runs, with the slow ones (run_times.csv), and rank 0's costs of
 a message and of a row (costs.csv). Every rank has one thread, and four chunks in store beside the one that it makes; when
-it begins a chunk it asks for another, with what it has finished, as montecarlo/ranks does. Rank 0 takes messages in one
+it begins a chunk it asks for another, with what it has finished, as montecarlo/engine/mpi does. Rank 0 takes messages in one
 after the other, each at its cost, and sends the answer. What MPI itself takes of it, and the network's latency and
 bandwidth, are those of a usual cluster, and may be given. Prints a table, writes simulation.csv, draws the chart.
 """

@@ -7,7 +7,7 @@
 
 #include "core/deployment.hpp"
 #include "core/mechanics/system.hpp"
-#include "montecarlo/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "studies/peers/dense_chain.hpp"
 #include "studies/support/study.hpp"
 

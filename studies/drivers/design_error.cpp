@@ -5,11 +5,11 @@
 //   build/release/studies/design_error --quick         8 replicates of 64 … 512 runs
 //   /usr/bin/python3 studies/plots/plot_design_error.py results/design_error
 
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/formats/csv.hpp"
-#include "montecarlo/formats/files.hpp"
-#include "montecarlo/runs/evaluator.hpp"
-#include "montecarlo/statistics/statistics.hpp"
+#include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -7,8 +7,8 @@
 // Exits 1 where anything was lost.
 
 #include "core/deployment.hpp"
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/runs/run_plan.hpp"
+#include "montecarlo/engine/runs/run_plan.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "studies/support/study.hpp"
 
 #include <fmt/format.h>

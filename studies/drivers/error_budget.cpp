@@ -11,10 +11,10 @@
 //   build/release/studies/error_budget --quick         400 and 16
 
 #include "core/deployment.hpp"
-#include "montecarlo/accuracy/automatic_tolerance.hpp"
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/runs/runner.hpp"
-#include "montecarlo/statistics/statistics.hpp"
+#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
+#include "montecarlo/engine/runs/runner.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "studies/support/study.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 // What a team of threads costs and gives by the work that there is for it, with the processors free and with as many
 // other threads that want them all. Means, as it is the slow ones that are waited for. What comes of it is
-// `operations_worth_a_team` (montecarlo/machine/team.hpp).
+// `operations_worth_a_team` (montecarlo/foundation/platform/team.hpp).
 //
 //   build/release/studies/team_costs
 
-#include "montecarlo/machine/team.hpp"
+#include "montecarlo/foundation/platform/team.hpp"
 
 #include <fmt/format.h>
 

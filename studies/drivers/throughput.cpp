@@ -8,8 +8,8 @@
 
 #include "core/deployment.hpp"
 #include "core/packs/instruction_set.hpp"
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/runs/evaluator.hpp"
+#include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "studies/peers/plain_odeint.hpp"
 #include "studies/support/pack_kernel.hpp"
 #include "studies/support/study.hpp"

@@ -7,10 +7,10 @@
 //   build/release/studies/work_precision --quick         4 scenes, 3 tolerances
 //   /usr/bin/python3 studies/plots/plot_work_precision.py results/work_precision
 
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/formats/csv.hpp"
-#include "montecarlo/formats/files.hpp"
-#include "montecarlo/runs/run_plan.hpp"
+#include "montecarlo/engine/runs/run_plan.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "studies/peers/cvode_peer.hpp"
 #include "studies/support/precision_measurement.hpp"
 #include "studies/support/precision_references.hpp"

@@ -1,9 +1,9 @@
 #include "studies/support/precision_references.hpp"
 
-#include "montecarlo/campaign/campaign.hpp"
-#include "montecarlo/formats/csv.hpp"
-#include "montecarlo/formats/files.hpp"
-#include "montecarlo/scene_file/scene_json.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
 #include "tests/support/reference_run.hpp"
 
 #include <fmt/format.h>

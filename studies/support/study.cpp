@@ -1,8 +1,8 @@
 #include "studies/support/study.hpp"
 
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/formats/csv.hpp"
-#include "montecarlo/formats/files.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

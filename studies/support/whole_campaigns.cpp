@@ -1,7 +1,7 @@
 #include "studies/support/whole_campaigns.hpp"
 
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/runs/run_plan.hpp"
+#include "montecarlo/engine/runs/run_plan.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "studies/support/wing_runs.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-#include "montecarlo/folder/version.hpp"
-#include "montecarlo/report/method_list.hpp"
+#include "montecarlo/report/text/method_list.hpp"
+#include "montecarlo/results/results_folder/version.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

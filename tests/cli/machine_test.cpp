@@ -1,6 +1,6 @@
 // What the machine refuses, and what endangers data that are there.
-#include "montecarlo/machine/folder_lock.hpp"
-#include "montecarlo/summary/summary_json.hpp"
+#include "montecarlo/foundation/platform/folder_lock.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // A study of margins whose first looks were made in shards.
-#include "montecarlo/log/shard_looks.hpp"
-#include "montecarlo/log/study_folder.hpp"
-#include "montecarlo/margin/margin_report.hpp"
+#include "montecarlo/analyses/margin/margin_report.hpp"
+#include "montecarlo/results/checkpoint/shard_looks.hpp"
+#include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 

@@ -1,4 +1,4 @@
-#include "montecarlo/margin/margin_report.hpp"
+#include "montecarlo/analyses/margin/margin_report.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 

@@ -1,4 +1,4 @@
-#include "montecarlo/folder/cases_folder.hpp"
+#include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // Studies that were cut off at any moment go on to the same bytes.
-#include "montecarlo/log/study_folder.hpp"
-#include "montecarlo/margin/margin_report.hpp"
-#include "montecarlo/rare/rare_report.hpp"
-#include "montecarlo/sensitivity/design_folder.hpp"
+#include "montecarlo/analyses/margin/margin_report.hpp"
+#include "montecarlo/analyses/rare/rare_report.hpp"
+#include "montecarlo/analyses/sensitivity/design_folder.hpp"
+#include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 

@@ -1,4 +1,4 @@
-#include "montecarlo/sensitivity/design_folder.hpp"
+#include "montecarlo/analyses/sensitivity/design_folder.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // What `wingspread export` writes, read back by HDF5 itself and held against runs.csv.
-#include "montecarlo/export/hdf5_export.hpp"
+#include "montecarlo/results/export/hdf5_export.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

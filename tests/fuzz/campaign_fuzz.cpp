@@ -1,9 +1,9 @@
 /// A campaign from any bytes. It is refused with reasons, or it can be described, keeps its hash when what is
 /// stored of it is read back, and has draws and runs: two of them, of at most 20 steps.
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/campaign/describe.hpp"
-#include "montecarlo/folder/results_folder.hpp"
-#include "montecarlo/runs/runner.hpp"
+#include "montecarlo/engine/runs/runner.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/describe.hpp"
+#include "montecarlo/results/results_folder/results_folder.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace wingspread;

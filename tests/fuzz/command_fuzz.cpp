@@ -1,6 +1,6 @@
 /// The command line, one argument a line. It is understood, or refused with exit code 0 (--help) or 2. What reads
 /// and writes no file is also done: the codes that FORMATS has.
-#include "montecarlo/commands/cli.hpp"
+#include "montecarlo/interfaces/commands/cli.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 #include <algorithm>

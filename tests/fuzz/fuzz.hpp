@@ -1,7 +1,7 @@
 /// For the fuzz targets: what they share.
 #pragma once
 
-#include "montecarlo/formats/spec_error.hpp"
+#include "montecarlo/foundation/formats/spec_error.hpp"
 
 #include <cstdint>
 #include <cstdio>

@@ -1,9 +1,9 @@
 /// The rows of a results folder from any bytes. They are refused with a reason, or written again they read back
 /// to the same rows, and the length that is kept of a file cut off in its last line has all rows that were read.
 /// Their statistics can be worked out, and written as JSON and CSV.
-#include "montecarlo/formats/json.hpp"
-#include "montecarlo/runs/results.hpp"
-#include "montecarlo/summary/summary_json.hpp"
+#include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 #include <sstream>

@@ -1,9 +1,9 @@
 /// A scene from any bytes. It is refused with reasons, or it can be described, written and read back to the same
 /// text, and run: at most 50 steps of it, which end in a status and not in an exception.
 #include "core/deployment.hpp"
-#include "montecarlo/campaign/describe.hpp"
-#include "montecarlo/formats/json_parse.hpp"
-#include "montecarlo/scene_file/scene_json.hpp"
+#include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/model/campaign/describe.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace wingspread;

@@ -1,8 +1,8 @@
 /// For the tests of what runs campaigns: a campaign of the seed scene, run into a folder.
 #pragma once
 
-#include "montecarlo/campaign/campaign_json.hpp"
-#include "montecarlo/folder/folder_writer.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <atomic>

@@ -1,7 +1,7 @@
 /// For the tests of margins: a wing of which all that matters is known in closed form.
 #pragma once
 
-#include "montecarlo/margin/margin_study.hpp"
+#include "montecarlo/analyses/margin/margin_study.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>

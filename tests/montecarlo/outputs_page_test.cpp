@@ -1,6 +1,6 @@
-#include "montecarlo/campaign/outputs.hpp"
-#include "montecarlo/report/outcome_report.hpp"
-#include "montecarlo/report/trajectory.hpp"
+#include "montecarlo/model/campaign/outputs.hpp"
+#include "montecarlo/report/text/outcome_report.hpp"
+#include "montecarlo/report/text/trajectory.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,10 +1,10 @@
 /// For the tests of what reads JSON: a small document to spoil, and the messages that come of it.
 #pragma once
 
-#include "montecarlo/formats/files.hpp"
-#include "montecarlo/formats/json_parse.hpp"
-#include "montecarlo/formats/json_reader.hpp"
-#include "montecarlo/formats/spec_error.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/foundation/formats/spec_error.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -2,10 +2,10 @@
 /// written by other people from other sources: sizes of samples, laws, dependence, rank correlations, rare events.
 #include "distributions/copula.hpp"
 #include "distributions/prepared_distribution.hpp"
-#include "montecarlo/rare/subset_simulation.hpp"
-#include "montecarlo/statistics/pairwise_correlation.hpp"
-#include "montecarlo/statistics/rank_correlation.hpp"
-#include "montecarlo/statistics/wilks.hpp"
+#include "montecarlo/analyses/rare/subset_simulation.hpp"
+#include "montecarlo/foundation/statistics/pairwise_correlation.hpp"
+#include "montecarlo/foundation/statistics/rank_correlation.hpp"
+#include "montecarlo/foundation/statistics/wilks.hpp"
 
 #include <catch2/catch.hpp>
 #include <openturns/Beta.hxx>

@@ -2,7 +2,7 @@
 
     /usr/bin/python3 tests/schema/schema_test.py build/release/wingspread
 
-That schema and readers know the same keys, the C++ tests ask of the readers themselves (tests/montecarlo/schema).
+That schema and readers know the same keys, the C++ tests ask of the readers themselves (tests/montecarlo/model/schema).
 """
 
 import copy

@@ -1,0 +1,171 @@
+#include "montecarlo/analyses/margin/margin_findings.hpp"
+
+#include "montecarlo/analyses/margin/recommendation.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace wingspread {
+namespace {
+
+std::string_view kind_of(const std::vector<Window>& holds) {
+  if (holds.empty()) return "never";
+  if (holds.size() > 1) return "several";
+  const bool lower = holds.front().below.has_value(), upper = holds.front().above.has_value();
+  if (lower) return upper ? "both" : "lower";
+  return upper ? "upper" : "always";
+}
+
+/// Whether a condition is broken by nothing but runs that did not deploy.
+bool lacks_deployment(const Verdict& verdict, const CaseLook& look) {
+  const long deployed = look.statuses[static_cast<std::size_t>(Status::deployed)];
+  return std::ssize(verdict.broken) == verdict.runs - deployed;
+}
+
+MarginEdge edge(const MarginSearch& search, double passing, const std::optional<double>& failing) {
+  MarginEdge edge{passing, failing, {}, {}};
+  if (!failing) return edge;
+  const ScaleLook& look = search.seen.at(*failing);
+  const Failing why = telling(look);
+  edge.set_by.assign(why.begin(), why.end());
+  std::ranges::set_difference(wingspread::failing(look), why, std::back_inserter(edge.as_well));
+  return edge;
+}
+
+/// The confidence of each condition.
+std::vector<double> confidences_of(const Campaign& campaign, const MarginResult& result) {
+  std::vector<double> confidences;
+  for (const MarginCondition& condition : conditions_of(campaign, result))
+    confidences.push_back(
+        confidence_alone(campaign.requirements, campaign.requirements[condition.requirement]));
+  return confidences;
+}
+
+/// Whether more runs break it, or those that have its output come nearer to the limit.
+bool is_worse(const Concession& change) {
+  const bool nearer = change.recommended->requirement.min
+                          ? change.quantile < change.present_quantile
+                          : change.quantile > change.present_quantile;
+  return nearer || change.recommended->broken.size() > change.present->broken.size();
+}
+
+} // namespace
+
+std::vector<ConditionFinding> condition_findings(const Campaign& campaign,
+                                                 const MarginResult& result,
+                                                 const MarginSearch& search) {
+  const Looks looks = looks_of(search);
+  std::vector<ConditionFinding> all;
+  for (const MarginCondition& condition : conditions_of(campaign, result)) {
+    const auto holds = windows_of(looks, all.size());
+    ConditionFinding& each = all.emplace_back();
+    each.condition = condition;
+    each.requirement = to_string(campaign.requirements[condition.requirement]);
+    each.which_case = result.cases[condition.which_case].name;
+    each.holds = holds;
+    each.kind = kind_of(holds);
+    if (search.recommended)
+      each.out_of_order = out_of_order(search, condition, *search.recommended);
+  }
+  return all;
+}
+
+MarginEdge lower_edge(const MarginSearch& search, const Window& window) {
+  return edge(search, window.lower, window.below);
+}
+
+MarginEdge upper_edge(const MarginSearch& search, const Window& window) {
+  return edge(search, window.upper, window.above);
+}
+
+double window_confidence(const Campaign& campaign, const MarginResult& result,
+                         const Window& window) {
+  std::vector<double> confidences;
+  for (const bool is_edge : {window.below.has_value(), window.above.has_value()})
+    if (is_edge)
+      std::ranges::copy(confidences_of(campaign, result), std::back_inserter(confidences));
+  return joint_confidence(confidences);
+}
+
+double confirmation_confidence(const Campaign& campaign, const MarginResult& result) {
+  return joint_confidence(confidences_of(campaign, result));
+}
+
+Failing telling(const ScaleLook& look) {
+  Failing all;
+  std::size_t first = 0; // condition of the case
+  for (const CaseLook& each : look) {
+    std::optional<std::size_t> deployment; // the condition that stands for its want
+    for (std::size_t k = 0; k < each.verdicts.size(); ++k) {
+      const Verdict& verdict = each.verdicts[k];
+      if (verdict.decision == Decision::pass) continue;
+      const bool is_deployed = verdict.requirement.output == deployed_output;
+      if (!is_deployed && !lacks_deployment(verdict, each))
+        all.insert(first + k);
+      else if (is_deployed || !deployment)
+        deployment = first + k;
+    }
+    if (deployment) all.insert(*deployment);
+    first += each.verdicts.size();
+  }
+  return all;
+}
+
+std::vector<Concession> concessions(const Campaign& campaign, const MarginResult& result,
+                                    const MarginSearch& search) {
+  std::vector<Concession> all;
+  const auto present = search.seen.find(1);
+  if (!search.recommended || *search.recommended == 1 || present == search.seen.end()) return all;
+  const ScaleLook& recommended = search.seen.at(*search.recommended);
+  const auto conditions = conditions_of(campaign, result);
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    const Concession change{
+        k, &verdict_of(present->second, conditions[k]), &verdict_of(recommended, conditions[k]),
+        quantile_of(present->second, conditions[k]), quantile_of(recommended, conditions[k])};
+    if (is_worse(change)) all.push_back(change);
+  }
+  return all;
+}
+
+std::size_t most_strained(const ScaleLook& look) {
+  std::vector<double> strains;
+  for (const CaseLook& each : look)
+    for (const Verdict& verdict : each.verdicts) strains.push_back(strain(verdict));
+  return static_cast<std::size_t>(std::ranges::max_element(strains) - strains.begin());
+}
+
+std::string why_withheld(const MarginSearch& search) {
+  switch (search.withheld) {
+  case Withheld::nothing:
+    return "";
+  case Withheld::no_window:
+    return "no scale that was looked at meets all requirements";
+  case Withheld::no_lower_edge:
+    return fmt::format("nothing fails down to {}: no edge was found, and how far down the springs "
+                       "may go is not known",
+                       search.seen.begin()->first);
+  case Withheld::no_upper_edge:
+    return fmt::format("nothing fails up to {}: no edge was found, for nothing that is required "
+                       "limits the springs from above",
+                       search.seen.rbegin()->first);
+  case Withheld::short_of_torque:
+    break;
+  }
+  return "only weaker springs meet all requirements, and their static margins fall short" +
+         (search.passed_over ? ": " + to_string(*search.passed_over) : "");
+}
+
+bool is_met(const MarginResult& result) {
+  return std::ranges::all_of(result.searches, is_confirmed);
+}
+
+const MarginSearch* recommending(const Campaign& campaign, const MarginResult& result) {
+  const MarginSearch& search = result.searches.front();
+  const bool joint = campaign.margin->mode == MarginMode::joint;
+  return joint && search.recommended ? &search : nullptr;
+}
+
+} // namespace wingspread

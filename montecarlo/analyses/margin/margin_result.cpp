@@ -1,0 +1,90 @@
+#include "montecarlo/analyses/margin/margin_result.hpp"
+
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace wingspread {
+namespace {
+
+/// Draws that break the condition at a look, having kept to it at the one before.
+long relapses(const std::vector<const ScaleLook*>& looks, const MarginCondition& condition) {
+  std::set<long> relapsed;
+  for (std::size_t k = 1; k < looks.size(); ++k) {
+    const Spilled<long>& before = verdict_of(*looks[k - 1], condition).broken;
+    const std::set<long> broken(before.begin(), before.end());
+    for (const long run : verdict_of(*looks[k], condition).broken)
+      if (!broken.contains(run)) relapsed.insert(run);
+  }
+  return std::ssize(relapsed);
+}
+
+} // namespace
+
+DeployedShare deployed_share(const CaseLook& look, double confidence) {
+  const long runs = std::reduce(look.statuses.begin(), look.statuses.end());
+  const long deployed = look.statuses[static_cast<std::size_t>(Status::deployed)];
+  return {runs, static_cast<double>(deployed) / static_cast<double>(runs),
+          clopper_pearson(deployed, runs, confidence)};
+}
+
+bool applies(const Requirement& requirement, const MarginCase& which) {
+  return which.weakened.empty() || !requirement.static_margin;
+}
+
+std::vector<MarginCondition> conditions_of(const Campaign& campaign, const MarginResult& result) {
+  std::vector<MarginCondition> conditions;
+  for (std::size_t which = 0; which < result.cases.size(); ++which) {
+    std::size_t verdict = 0;
+    for (std::size_t k = 0; k < campaign.requirements.size(); ++k)
+      if (applies(campaign.requirements[k], result.cases[which]))
+        conditions.push_back({which, k, verdict++});
+  }
+  return conditions;
+}
+
+const Verdict& verdict_of(const ScaleLook& look, const MarginCondition& condition) {
+  return look[condition.which_case].verdicts[condition.verdict];
+}
+
+double quantile_of(const ScaleLook& look, const MarginCondition& condition) {
+  const std::vector<double>& quantiles = look[condition.which_case].quantiles;
+  return condition.verdict < quantiles.size() ? quantiles[condition.verdict]
+                                              : std::numeric_limits<double>::quiet_NaN();
+}
+
+Failing failing(const ScaleLook& look) {
+  Failing failing;
+  std::size_t condition = 0;
+  for (const CaseLook& each : look)
+    for (const Verdict& verdict : each.verdicts) {
+      if (verdict.decision != Decision::pass) failing.insert(condition);
+      ++condition;
+    }
+  return failing;
+}
+
+Looks looks_of(const MarginSearch& search) {
+  Looks looks;
+  for (const auto& [scale, look] : search.seen) looks[scale] = failing(look);
+  return looks;
+}
+
+bool is_confirmed(const MarginSearch& search) {
+  return search.confirmation && failing(*search.confirmation).empty();
+}
+
+OutOfOrder out_of_order(const MarginSearch& search, const MarginCondition& condition,
+                        double middle) {
+  std::vector<const ScaleLook*> below, above; // inwards
+  for (const auto& [scale, look] : search.seen) {
+    if (scale <= middle) below.push_back(&look);
+    if (scale >= middle) above.insert(above.begin(), &look);
+  }
+  return {relapses(below, condition), relapses(above, condition)};
+}
+
+} // namespace wingspread

@@ -1,0 +1,275 @@
+#include "montecarlo/analyses/margin/margin_study.hpp"
+
+#include "distributions/random_stream.hpp"
+#include "montecarlo/analyses/margin/recommendation.hpp"
+#include "montecarlo/analyses/margin/scaled_springs.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/summary/static_margins.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+void refuse_unsuitable(const Campaign& campaign) {
+  std::vector<Problem> problems;
+  if (!campaign.margin) problems.push_back({"", "/margin", "nothing", "what to size"});
+  if (campaign.requirements.empty())
+    problems.push_back(
+        {"", "/requirements", "none", "at least one: it is they that make a window"});
+  for (const Requirement& requirement : campaign.requirements) {
+    const auto least = runs_to_show(requirement.probability,
+                                    confidence_alone(campaign.requirements, requirement), 0);
+    if (!least || campaign.sampling.runs < *least)
+      problems.push_back({"", "/sampling/runs", std::to_string(campaign.sampling.runs),
+                          fmt::format("at least {}: fewer cannot show \"{}\"",
+                                      least.value_or(most_runs_sized), to_string(requirement))});
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+/// The families that the requirements are about: a run goes no further than they need.
+Outputs outputs_for(const std::vector<Requirement>& requirements) {
+  Outputs outputs;
+  for (const Requirement& requirement : requirements) {
+    const std::string quantity = parse_output_name(requirement.output).quantity;
+    const auto family = std::ranges::find(output_family_names, quantity);
+    if (family != output_family_names.end())
+      outputs.insert(static_cast<OutputFamily>(family - output_family_names.begin()));
+  }
+  match_peaks_final(outputs);
+  return outputs;
+}
+
+/// Those of one of the campaigns.
+void add_cases(const Campaign& campaign, std::size_t index, std::vector<MarginCase>& cases) {
+  const MarginSpec& spec = *campaign.margin;
+  const std::string& name = campaign.of_case;
+  if (spec.nominal) cases.push_back({name.empty() ? "nominal" : name, {}, index});
+  if (!spec.one_spring_out) return;
+  const Scene& scene = campaign.scene;
+  for (int hinge = 0; hinge < std::ssize(scene.hinges); ++hinge) {
+    if (!sizes_spring(spec.scaled, scene, hinge)) continue;
+    const std::string lost = scene.hinges[hinge].name + " spring out";
+    cases.push_back({name.empty() ? lost : fmt::format("{}, {}", name, lost),
+                     spring_torques(scene, hinge), index});
+  }
+}
+
+/// What is scaled together: all of it, or hinge by hinge in the order of the first mention.
+std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene) {
+  if (spec.mode == MarginMode::joint) return {{.name = "joint", .scaled = spec.scaled}};
+  std::vector<MarginSearch> searches;
+  for (const SceneParameter& parameter : spec.scaled) {
+    const std::string& name = scene.hinges[parameter.index].name;
+    auto found = std::ranges::find(searches, name, &MarginSearch::name);
+    if (found == searches.end()) found = searches.insert(found, {.name = name, .scaled = {}});
+    found->scaled.push_back(parameter);
+  }
+  return searches;
+}
+
+/// The quantile that is required, over the runs that have the output; NaN of what is no column of theirs.
+double quantile_over_runs(const Requirement& requirement, const Results& results) {
+  const auto column = std::ranges::find(results.outputs, requirement.output, &Column::name);
+  std::vector<double> values;
+  if (column != results.outputs.end())
+    for (const double value : column->values)
+      if (!std::isnan(value)) values.push_back(requirement.absolute ? std::abs(value) : value);
+  std::ranges::sort(values);
+  return quantile(values, requirement.min ? 1 - requirement.probability : requirement.probability);
+}
+
+/// What a case's runs at a scale came to.
+CaseLook look_of(const Campaign& campaign, const MarginCase& which, const Results& results) {
+  CaseLook look;
+  for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
+  look.verdicts = judge_campaign(campaign, results);
+  std::erase_if(look.verdicts,
+                [&](const Verdict& verdict) { return !applies(verdict.requirement, which); });
+  for (const Verdict& verdict : look.verdicts)
+    look.quantiles.push_back(quantile_over_runs(verdict.requirement, results));
+  return look;
+}
+
+/// Makes the runs that a search asks for.
+class Looking {
+public:
+  Looking(Evaluator& evaluator, const std::function<void(const StudyProgress&)>& progress,
+          MarginResult& result)
+      : campaigns_(result.campaigns), evaluator_(evaluator), progress_(progress), result_(result) {
+    for (Campaign& campaign : campaigns_) campaign.outputs = outputs_for(campaign.requirements);
+  }
+
+  /// From now on there will be no more looks than so many in all.
+  void expect(long looks) {
+    most_ = std::max(looks_ + 1, most_ == 0 ? looks : std::min(most_, looks));
+  }
+
+  [[nodiscard]] ScaleLook at(const std::vector<SceneParameter>& parameters, double scale) {
+    ScaleLook look;
+    for_each_case(parameters, scale, [&](const Campaign& campaign, const MarginCase& which) {
+      look.push_back(runs_of(campaign, which));
+    });
+    ++looks_;
+    return look;
+  }
+
+  /// Makes a part of the runs, and looks at none.
+  void make(const std::vector<SceneParameter>& parameters, double scale, const Shard& shard) {
+    for_each_case(parameters, scale, [&](const Campaign& campaign, const MarginCase&) {
+      const RunRange part = part_of_look({0, campaign.sampling.runs}, shard);
+      make(RunPlan(campaign), part, part.size(), [](const Batch&) {});
+    });
+    ++looks_;
+  }
+
+  /// How many were taken.
+  [[nodiscard]] long looks() const { return looks_; }
+
+  void use_seed(std::uint64_t seed) {
+    for (Campaign& campaign : campaigns_) override_sampling(campaign, std::nullopt, seed);
+  }
+
+private:
+  /// @param take the case's campaign at the scale, and the case
+  template <class Take>
+  void for_each_case(const std::vector<SceneParameter>& parameters, double scale,
+                     const Take& take) {
+    std::vector<Campaign> sized;
+    for (const Campaign& campaign : campaigns_)
+      sized.push_back(scaled(campaign, parameters, scale));
+    for (const MarginCase& each : result_.cases) {
+      const Campaign& campaign = sized[each.campaign];
+      const double springs = static_cast<double>(campaign.motorization.springs_per_hinge);
+      if (each.weakened.empty())
+        take(campaign, each);
+      else
+        take(scaled(campaign, each.weakened, (springs - 1) / springs), each);
+    }
+  }
+
+  [[nodiscard]] CaseLook runs_of(const Campaign& campaign, const MarginCase& which) {
+    const RunPlan plan(campaign);
+    Results results(plan.names());
+    make(plan, {0, campaign.sampling.runs}, campaign.sampling.runs, [&](const Batch& batch) {
+      for (const ResultRow& row : batch.rows) results.append(row);
+    });
+    CaseLook look = look_of(campaign, which, results);
+    result_.failed += look.statuses[static_cast<std::size_t>(Status::failed)];
+    return look;
+  }
+
+  /// @param runs of each case in a look
+  void make(const RunPlan& plan, RunRange range, long runs,
+            const std::function<void(const Batch&)>& take) {
+    const long cases = std::ssize(result_.cases);
+    long done = result_.runs;
+    const auto keep = [&](const Batch& batch) {
+      take(batch);
+      done += std::ssize(batch.rows);
+      progress_({looks_ + 1, most_, done, most_ * cases * runs});
+    };
+    const long made = evaluator_.make(plan, range, {keep});
+    result_.runs += made;
+    if (made < range.size()) throw Stopped{};
+  }
+
+  std::vector<Campaign> campaigns_; ///< with the outputs that the requirements need
+  Evaluator& evaluator_;
+  const std::function<void(const StudyProgress&)>& progress_;
+  MarginResult& result_;
+  long looks_ = 0, most_ = 0;
+};
+
+/// Then these bound the window, and no others speak against weaker springs.
+bool requires_margins(const Campaign& campaign) {
+  return std::ranges::any_of(campaign.requirements, [](const Requirement& requirement) {
+    return requirement.static_margin.has_value();
+  });
+}
+
+SearchRange range_of(const MarginSpec& spec) {
+  return {spec.lower,          spec.upper,  static_cast<long>(spec.points),
+          spec.edge_tolerance, spec.lowest, spec.highest};
+}
+
+/// What is looked at, before anything is.
+MarginResult prepared(const Campaign& campaign) {
+  refuse_unsuitable(campaign);
+  MarginResult result;
+  result.campaigns = campaigns_of(campaign);
+  for (std::size_t k = 0; k < result.campaigns.size(); ++k)
+    add_cases(result.campaigns[k], k, result.cases);
+  result.searches = searches_of(*campaign.margin, campaign.scene);
+  result.confirmation_seed = confirmation_seed(campaign.sampling.seed);
+  return result;
+}
+
+/// No more looks than this, when one of the searches is under way and those behind it are to come: each is confirmed.
+long most_looks_of(const std::vector<MarginSearch>& searches, const MarginSearch& current,
+                   const SearchRange& range) {
+  long most = std::ssize(searches);
+  for (const MarginSearch& search : searches)
+    most += &search < &current ? std::ssize(search.seen) : most_looks(looks_of(search), range);
+  return most;
+}
+
+} // namespace
+
+std::uint64_t confirmation_seed(std::uint64_t seed) {
+  return RandomStream(seed, 0,
+                      stream_name("\x7F" // no dispersion's name: those hold no such character
+                                  "margin confirmation"))();
+}
+
+void find_margin(const Campaign& campaign, Evaluator& evaluator,
+                 const std::function<void(const StudyProgress&)>& progress, MarginResult& result) {
+  result = prepared(campaign);
+  const MarginSpec& spec = *campaign.margin;
+  const SearchRange range = range_of(spec);
+  Looking looking(evaluator, progress, result);
+  for (MarginSearch& search : result.searches) {
+    const auto look = [&](double scale) {
+      looking.expect(most_looks_of(result.searches, search, range));
+      search.seen[scale] = looking.at(search.scaled, scale);
+    };
+    (void)search_window(range, [&](double scale) {
+      look(scale);
+      return failing(search.seen.at(scale));
+    });
+    const auto shortfall = [&](double scale) {
+      return requires_margins(campaign) ? std::nullopt
+                                        : shortfall_at(result.campaigns, search.scaled, scale);
+    };
+    recommend({spec.edge_tolerance, look, shortfall}, search);
+  }
+  looking.use_seed(result.confirmation_seed);
+  long left = std::ranges::count_if(
+      result.searches, [](const MarginSearch& search) { return search.recommended.has_value(); });
+  for (MarginSearch& search : result.searches)
+    if (search.recommended) {
+      looking.expect(looking.looks() + left--);
+      search.confirmation = looking.at(search.scaled, *search.recommended);
+    }
+}
+
+long make_first_looks(const Campaign& campaign, const Shard& shard, Evaluator& evaluator,
+                      const std::function<void(const StudyProgress&)>& progress) {
+  MarginResult result = prepared(campaign);
+  const std::vector<double> scales = first_scales(range_of(*campaign.margin));
+  Looking looking(evaluator, progress, result);
+  looking.expect(std::ssize(result.searches) * std::ssize(scales));
+  for (const MarginSearch& search : result.searches)
+    for (const double scale : scales) looking.make(search.scaled, scale, shard);
+  return result.runs;
+}
+
+} // namespace wingspread

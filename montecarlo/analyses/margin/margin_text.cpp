@@ -1,0 +1,282 @@
+#include "montecarlo/analyses/margin/margin_report.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+/// What was seen of one search, in words.
+class SearchText {
+public:
+  SearchText(const MarginReport& report, const MarginSearch& search)
+      : report_(report), search_(search), looks_(looks_of(search)),
+        conditions_(condition_findings(report.campaign, report.result, search)) {}
+
+  [[nodiscard]] std::string text() const {
+    const auto windows = windows_of(looks_);
+    const Window* best = widest(windows);
+    std::string text = fmt::format("\n{}\n", heading());
+    text += best ? window(*best) : no_window();
+    if (windows.size() > 1) {
+      text += "  There are others, for the requirements come and go:";
+      for (const Window& other : windows)
+        if (&other != best) text += fmt::format(" {} to {}", other.lower, other.upper);
+      text += '\n';
+    }
+    text += present() + given_up() + requirements();
+    return text + (search_.recommended ? new_values() : "") + looks();
+  }
+
+private:
+  [[nodiscard]] std::string heading() const {
+    const MarginSpec& spec = *report_.campaign.margin;
+    const std::string what = search_.name == "joint" && spec.mode == MarginMode::joint
+                                 ? fmt::format("{} parameters together", search_.scaled.size())
+                                 : fmt::format("hinge {} alone", search_.name);
+    std::string text = fmt::format("WINDOW of the springs' scale: {}, looked at from {} to {}",
+                                   what, spec.lower, spec.upper);
+    const double lowest = search_.seen.begin()->first, highest = search_.seen.rbegin()->first;
+    if (lowest < spec.lower || spec.upper < highest)
+      text += fmt::format(",\n  and further, from {} to {}, for want of an edge or of the present "
+                          "springs",
+                          lowest, highest);
+    return text;
+  }
+
+  [[nodiscard]] std::string name(std::size_t condition) const {
+    const ConditionFinding& found = conditions_[condition];
+    return report_.result.cases.size() == 1
+               ? found.requirement
+               : fmt::format("{} ({})", found.requirement, found.which_case);
+  }
+
+  [[nodiscard]] const Verdict& verdict(std::size_t condition, double scale) const {
+    return verdict_of(search_.seen.at(scale), conditions_[condition].condition);
+  }
+
+  [[nodiscard]] static std::string line(const char* label, double scale, std::string_view text) {
+    return fmt::format("  {:<20}{:>8}  {}\n", label, scale, wrapped(text, 32));
+  }
+
+  /// A condition on the labelled line, or below it.
+  [[nodiscard]] std::string first_or_next(bool first, const char* label, double scale,
+                                          std::size_t condition) const {
+    return first ? line(label, scale, name(condition))
+                 : fmt::format("{:32}{}\n", "", wrapped(name(condition), 32));
+  }
+
+  /// "at 1.18: pass: 2 of 2000 runs break it, and 2 may".
+  [[nodiscard]] std::string at(std::size_t condition, double scale) const {
+    const Verdict& seen = verdict(condition, scale);
+    return fmt::format("{:34}at {}: {}: {} of {} runs break it, and {} may\n", "", scale,
+                       to_string(seen.decision), seen.broken.size(), seen.runs,
+                       seen.allowed.value_or(0));
+  }
+
+  [[nodiscard]] std::string edge(const char* label, const MarginEdge& edge) const {
+    if (!edge.failing)
+      return line(label, edge.passing,
+                  "no edge: nothing fails this far, and the search ended here");
+    std::string text;
+    for (const std::size_t condition : edge.set_by)
+      text += first_or_next(text.empty(), label, edge.passing, condition) +
+              at(condition, edge.passing) + at(condition, *edge.failing);
+    if (!edge.as_well.empty())
+      text += fmt::format("{:32}and {} more, by the same runs that do not deploy\n", "",
+                          edge.as_well.size());
+    return text;
+  }
+
+  [[nodiscard]] std::string window(const Window& window) const {
+    return edge("weakest springs", lower_edge(search_, window)) + recommended() +
+           edge("strongest springs", upper_edge(search_, window)) + together(window);
+  }
+
+  [[nodiscard]] static std::string below(std::string_view words) { return paragraph(words, 34); }
+
+  [[nodiscard]] std::string recommended() const {
+    if (!search_.recommended)
+      return fmt::format("  {:<20}{:>8}  nothing, for\n", "recommended", "–") +
+             below(why_withheld(search_));
+    const double scale = *search_.recommended;
+    std::string text = line("recommended", scale, confirmation());
+    const std::size_t worst = most_strained(search_.seen.at(scale));
+    const Verdict& verdict = verdict_of(search_.seen.at(scale), conditions_[worst].condition);
+    text += below(verdict.broken.empty()
+                      ? "no run breaks any requirement there"
+                      : fmt::format("the most strained there: {}: {} of {} runs break it",
+                                    name(worst), verdict.broken.size(), verdict.runs));
+    if (search_.passed_over)
+      text += below(fmt::format("{} would strain less, but is not advised: {}",
+                                search_.passed_over->scale, to_string(*search_.passed_over)));
+    return text;
+  }
+
+  /// What the recommended springs give up against the present ones.
+  [[nodiscard]] std::string given_up() const {
+    if (!search_.recommended) return "";
+    const double scale = *search_.recommended;
+    if (scale == 1) return line("given up", 1, "nothing: the present springs are kept");
+    std::string text;
+    for (const Concession& each : concessions(report_.campaign, report_.result, search_))
+      text += first_or_next(text.empty(), "given up", scale, each.condition) + change(each);
+    const auto lowered = lowered_margins(report_.result.campaigns, search_.scaled, scale);
+    if (const auto least = std::ranges::min_element(lowered, {}, &Shortfall::margin);
+        least != lowered.end())
+      text += line(text.empty() ? "given up" : "", scale, "static margins: " + to_string(*least));
+    return text.empty() ? line("given up", scale, "nothing: no requirement is nearer to its limit")
+                        : text;
+  }
+
+  /// "at 1: 67 of 3000 runs break it, and of those that have it 99 % come to 230.1; here 1, 264.2".
+  [[nodiscard]] static std::string change(const Concession& each) {
+    const Verdict& before = *each.present;
+    std::string text = fmt::format("at 1: {} of {} runs break it; here {}", before.broken.size(),
+                                   before.runs, each.recommended->broken.size());
+    if (!std::isnan(each.present_quantile) && !std::isnan(each.quantile))
+      text +=
+          fmt::format("; {:.10g} % of those that have it keep to {:.5g}; here {:.5g}",
+                      100 * before.requirement.probability, each.present_quantile, each.quantile);
+    return below(text);
+  }
+
+  /// What all requirements, and both edges, come to together.
+  [[nodiscard]] std::string together(const Window& window) const {
+    const double confidence = window_confidence(report_.campaign, report_.result, window);
+    return fmt::format("  {:<20}{:>8}  {}\n", "all together",
+                       fmt::format("{:.10g} %", 100 * confidence),
+                       "at least: every requirement, in every case, at each edge");
+  }
+
+  [[nodiscard]] std::string confirmation() const {
+    const std::string runs = fmt::format("{} runs of seed {}: ", report_.campaign.sampling.runs,
+                                         report_.result.confirmation_seed);
+    if (!is_confirmed(search_)) return runs + "NOT confirmed";
+    return runs + "all requirements are met";
+  }
+
+  [[nodiscard]] std::string no_window() const {
+    std::string text = "  EMPTY: no scale meets all requirements.\n";
+    for (const std::size_t condition : closed_by(looks_))
+      text += fmt::format("    {}\n", wrapped(name(condition) + ": " + holds(condition), 6));
+    return text;
+  }
+
+  /// An edge that was not located, for it does not matter to the window, has both of its sides.
+  [[nodiscard]] std::string between(double passing, double failing) const {
+    const double ratio = std::max(passing / failing, failing / passing);
+    if (ratio <= 1 + report_.campaign.margin->edge_tolerance) return fmt::format("{}", passing);
+    return fmt::format("{} – {}", std::min(passing, failing), std::max(passing, failing));
+  }
+
+  /// "1.18 to 1.63", "from 1.18", "up to 1.63"; each stretch of them.
+  [[nodiscard]] std::string holds(std::size_t condition) const {
+    if (conditions_[condition].kind == "never") return "nowhere";
+    std::string text;
+    for (const auto& [lower, upper, below, above] : conditions_[condition].holds) {
+      if (!text.empty()) text += ", ";
+      if (below) text += (above ? "" : "from ") + between(lower, *below);
+      if (above) text += (below ? " to " : "up to ") + between(upper, *above);
+    }
+    return text.empty() ? "everywhere" : text;
+  }
+
+  [[nodiscard]] std::string present() const {
+    const auto found = search_.seen.find(1);
+    if (found == search_.seen.end()) return "";
+    const Failing why = telling(found->second);
+    if (why.empty()) return line("present springs", 1, "all requirements are met");
+    std::string text;
+    for (const std::size_t condition : why)
+      text += first_or_next(text.empty(), "present springs", 1, condition) + at(condition, 1);
+    return text;
+  }
+
+  [[nodiscard]] std::string requirements() const {
+    std::string text = fmt::format("\n{:<54}{:>10}  {}\n", "REQUIREMENT", "disorder", "holds");
+    const std::string* previous = nullptr; // case
+    for (std::size_t k = 0; k < conditions_.size(); ++k) {
+      const auto& each = conditions_[k];
+      if (report_.result.cases.size() > 1 && !(previous && *previous == each.which_case))
+        text += each.which_case + '\n';
+      previous = &each.which_case;
+      text += fmt::format("{}{:>10}  {}\n", in_column("  " + each.requirement, 54), disorder(k),
+                          wrapped(holds(k), 66));
+    }
+    return text;
+  }
+
+  /// Draws that do not go with the others at its edges.
+  [[nodiscard]] std::string disorder(std::size_t condition) const {
+    const auto& each = conditions_[condition];
+    if (!each.out_of_order || each.kind == "always" || each.kind == "never") return "–";
+    const bool lower = each.kind != "upper", upper = each.kind != "lower";
+    return fmt::format("{}", (lower ? each.out_of_order->lower : 0) +
+                                 (upper ? each.out_of_order->upper : 0));
+  }
+
+  [[nodiscard]] std::string new_values() const {
+    std::string text =
+        fmt::format("\n{:<60}{:>12}{:>14}\n", "NEW SPRINGS", "present", "recommended");
+    for (const SceneParameter& parameter : search_.scaled) {
+      const double value = parameter.in(report_.campaign.scene);
+      const std::string_view unit = unit_of(parameter);
+      text += fmt::format("{}{:>12.5g}{:>14.5g}{}{}\n",
+                          in_column("  " + path_of(report_.campaign.scene, parameter), 60), value,
+                          value * *search_.recommended, unit.empty() ? "" : " ", unit);
+    }
+    return text;
+  }
+
+  [[nodiscard]] std::string looks() const {
+    std::string text = fmt::format("\n{:<10}{:>12}{:>26}   {}\n", "SCALE", "deployed",
+                                   fmt::format("{:g} % bounds", 100 * confidence()), "not met");
+    for (const auto& [scale, look] : search_.seen) {
+      const DeployedShare deployed = deployed_share(look.front(), confidence());
+      text += fmt::format("  {:<8}{:>12}{:>26}{}\n", scale, percent(deployed.share),
+                          percent_range(deployed.bounds.lower, deployed.bounds.upper),
+                          outputs_of(telling(look)));
+    }
+    return text;
+  }
+
+  [[nodiscard]] double confidence() const { return report_.campaign.statistics.confidence; }
+
+  /// The outputs that fail, each once, behind a space, at their column.
+  [[nodiscard]] std::string outputs_of(const Failing& failing) const {
+    std::vector<std::string> outputs;
+    for (const std::size_t condition : failing) {
+      const Requirement& requirement =
+          report_.campaign.requirements[conditions_[condition].condition.requirement];
+      if (std::ranges::find(outputs, requirement.output) == outputs.end())
+        outputs.push_back(requirement.output);
+    }
+    if (outputs.empty()) return "";
+    return "   " + wrapped(fmt::format("{}", fmt::join(outputs, ", ")), 51);
+  }
+
+  const MarginReport& report_;
+  const MarginSearch& search_;
+  Looks looks_;
+  std::vector<ConditionFinding> conditions_;
+};
+
+} // namespace
+
+std::string margin_text(const MarginReport& report) {
+  const Sampling& sampling = report.campaign.sampling;
+  std::string text =
+      fmt::format("{} · margin · {} runs a scale and case, {} in all · {}, seed {}\n",
+                  report.campaign.scene.name, sampling.runs, report.result.runs,
+                  design_names[static_cast<std::size_t>(sampling.design)], sampling.seed);
+  for (const MarginSearch& search : report.result.searches)
+    text += SearchText(report, search).text();
+  return text + motorization_text(report.campaign, report.motorization);
+}
+
+} // namespace wingspread

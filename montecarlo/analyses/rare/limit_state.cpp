@@ -1,0 +1,136 @@
+#include "montecarlo/analyses/rare/limit_state.hpp"
+
+#include "core/scene/torque.hpp"
+#include "montecarlo/foundation/formats/nearest.hpp"
+#include "montecarlo/foundation/formats/spec_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+OutputColumn column_named(const Scene& scene, const std::string& name) {
+  std::vector<std::string> known;
+  for (const OutputColumn& column : output_columns(scene, all_outputs())) {
+    if (column.name == name) return column;
+    known.push_back(column.name);
+  }
+  throw SpecError({{"", "--output", fmt::format("\"{}\"", name),
+                    fmt::format("an output of a run, like \"{}\"{}", known.front(),
+                                did_you_mean(name, known))}});
+}
+
+Goal goal_for(const std::optional<OutputColumn>& column) {
+  Goal goal;
+  goal.audit = false;
+  goal.peak_moment = column && column->quantity == OutputColumn::Quantity::peak_moment;
+  goal.peak_force = column && column->quantity == OutputColumn::Quantity::peak_force;
+  goal.overtravel = column && column->quantity == OutputColumn::Quantity::overtravel;
+  return goal;
+}
+
+/// Increasing and above 0 everywhere; the share itself unless it is small.
+double bent(double share) {
+  constexpr double knee = 0.01;
+  return share > knee ? share : knee * std::exp(share / knee - 1);
+}
+
+/// By how much the hinge's drive exceeds its static friction where it is stowed, N·m.
+double release(const Hinge& hinge) {
+  return torque_at(hinge.spring, hinge, 0) - torque_at(hinge.harness, hinge, 0) -
+         static_level_at(hinge, 0);
+}
+
+bool can_stick_stowed(const Hinge& hinge) {
+  return hinge.latch && hinge.friction.model == FrictionModel::exact && hinge.initial_rate == 0;
+}
+
+/// The largest part of its travel that a hinge with a latch has left.
+double travel_left(const Scene& scene, const Outcome& outcome) {
+  double most = 0;
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
+    const Hinge& hinge = scene.hinges[i];
+    const bool open = hinge.latch && std::ranges::find(outcome.latches, static_cast<int>(i),
+                                                       &LatchEvent::hinge) == outcome.latches.end();
+    if (open && i < outcome.final.angles.size())
+      most = std::max(most, std::abs((outcome.final.angles[i] - hinge.latched) /
+                                     (hinge.stowed - hinge.latched)));
+  }
+  return most > 0 ? most : 1; // not known: it did not come to an end
+}
+
+} // namespace
+
+std::string describe(const RareEvent& event) {
+  if (event.output.empty()) return "not deployed";
+  return fmt::format("{} {} {:.6g}", event.output, event.above ? '>' : '<', event.limit);
+}
+
+double level_of(const RareEvent& event, double g) {
+  if (event.output.empty()) return g;
+  return event.above ? event.limit - g : event.limit + g;
+}
+
+LimitState::LimitState(const Campaign& campaign, RareEvent event)
+    : campaign_(&campaign), event_(std::move(event)) {
+  const Scene& scene = campaign.scene;
+  if (!event_.output.empty()) {
+    column_ = column_named(scene, event_.output);
+    goal_ = goal_for(column_);
+    return;
+  }
+  goal_ = goal_for(column_);
+  if (std::ranges::none_of(scene.hinges, [](const Hinge& hinge) { return bool(hinge.latch); }))
+    throw SpecError({{"", "/scene/hinges", "none with a latch",
+                      "a wing that can be deployed, or --output with a limit"}});
+  const Outcome nominal = Deployment().run(scene, campaign.integration, goal_);
+  if (nominal.status != Status::deployed) return;
+  energy_ = std::max(nominal.energy.final, 1e-9 * std::abs(nominal.energy.initial));
+  time_ = campaign.integration.t_end - nominal.t_end;
+}
+
+Measure LimitState::measure() const {
+  const Json event{{"output", event_.output}, {"limit", event_.limit}, {"above", event_.above}};
+  return {"g", goal_,
+          [this](const Scene& scene, const Outcome& outcome) { return of(scene, outcome); },
+          event.dump()};
+}
+
+Measure measure_of_recipe(const Campaign& campaign, const std::string& recipe) {
+  const Json json = parse_json(recipe, "");
+  const RareEvent event{json.at("output").get<std::string>(), json.at("limit").get<double>(),
+                        json.at("above").get<bool>()};
+  const auto state = std::make_shared<const LimitState>(campaign, event);
+  Measure measure = state->measure();
+  measure.of = [state](const Scene& scene, const Outcome& outcome) {
+    return state->of(scene, outcome);
+  };
+  return measure;
+}
+
+double LimitState::of_deployed(const Scene& scene, const Outcome& outcome) const {
+  const double time = (campaign_->integration.t_end - outcome.t_end) / time_;
+  double least = std::min(outcome.energy.final / energy_, time);
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
+    const double nominal = release(campaign_->scene.hinges[i]);
+    if (can_stick_stowed(scene.hinges[i]) && nominal > 0)
+      least = std::min(least, release(scene.hinges[i]) / nominal);
+  }
+  return bent(least);
+}
+
+double LimitState::of(const Scene& scene, const Outcome& outcome) const {
+  if (column_) {
+    const double value = output_of(*column_, outcome);
+    return event_.above ? event_.limit - value : value - event_.limit;
+  }
+  return outcome.status == Status::deployed ? of_deployed(scene, outcome)
+                                            : -travel_left(scene, outcome);
+}
+
+} // namespace wingspread

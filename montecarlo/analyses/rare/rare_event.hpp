@@ -1,0 +1,49 @@
+/// The probability of a rare event in a campaign: independent subset simulations over its draws.
+///
+///   z → u = Φ(z), with 1 − u → copula, quantiles → draws → run → g (limit_state.hpp)
+#pragma once
+
+#include "montecarlo/analyses/rare/limit_state.hpp"
+#include "montecarlo/analyses/rare/subset_simulation.hpp"
+#include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/foundation/platform/progress.hpp"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace wingspread {
+
+struct RareOptions {
+  RareEvent event{};
+  long samples = 2000; ///< N of a level, a multiple of 10, ≥ 100
+  long repeats = 5;    ///< ≥ 1
+  double confidence = 0.95;
+  double smallest = 1e-10;
+};
+
+/// The point of the event that is nearest to the middle of all draws,
+/// so the likeliest that was met.
+struct LikeliestRun {
+  double distance; ///< |z|
+  NormalPoint z;   ///< before dependence
+  std::vector<double> draws;
+  Status status;
+  std::string reason;
+};
+
+struct RareResult {
+  std::vector<SubsetEstimate> estimates; ///< the repetitions, without their points
+  RareEstimate estimate;
+  std::array<long, 5> statuses{};        ///< of all runs made, in the order of Status
+  std::optional<LikeliestRun> likeliest; ///< none when the event was not met
+};
+
+/// @param progress told how far it has come, one call at a time
+/// @throws SpecError for an event that there is not in the campaign, or one without dispersions;
+///   Stopped when the evaluator makes fewer runs than it is asked for
+[[nodiscard]] RareResult
+estimate_rare_event(const Campaign& campaign, const RareOptions& options, Evaluator& evaluator,
+                    const std::function<void(const StudyProgress&)>& progress);
+
+} // namespace wingspread

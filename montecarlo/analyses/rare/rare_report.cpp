@@ -1,0 +1,161 @@
+#include "montecarlo/analyses/rare/rare_report.hpp"
+
+#include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace wingspread {
+namespace {
+
+Json estimate_json(const SubsetEstimate& estimate, const RareEvent& event) {
+  Json levels = Json::array();
+  for (const SubsetLevel& level : estimate.levels)
+    levels.push_back({{"threshold", json_number(level_of(event, level.threshold))},
+                      {"share", level.share},
+                      {"chain_correlation", level.correlation},
+                      {"variation", json_number(level.variation)},
+                      {"moves_taken", json_number(level.taken)}});
+  return {{"probability", estimate.probability}, {"variation", json_number(estimate.variation)},
+          {"reached", estimate.reached},         {"stuck", estimate.stuck},
+          {"runs", estimate.evaluations},        {"levels", levels}};
+}
+
+Json likeliest_json(const LikeliestRun& run, const Campaign& campaign) {
+  Json draws = Json::object(), z = Json::object();
+  for (std::size_t i = 0; i < run.draws.size(); ++i) {
+    draws[campaign.dispersions[i].name] = json_number(run.draws[i]);
+    z[campaign.dispersions[i].name] = json_number(run.z[i]);
+  }
+  return {{"distance", run.distance},
+          {"status", to_string(run.status)},
+          {"reason", run.reason},
+          {"draws", draws},
+          {"z", z}};
+}
+
+std::string repeats_text(const RareResult& result, const RareOptions& options) {
+  std::string text = fmt::format("\n{:<8}{:>14}{:>12}{:>10}   {}\n", "REPEAT", "probability",
+                                 "variation", "runs", "levels");
+  for (std::size_t k = 0; k < result.estimates.size(); ++k) {
+    const SubsetEstimate& estimate = result.estimates[k];
+    text += fmt::format("  {:<6}{:>14}{:>12}{:>10}  ", k + 1,
+                        fmt::format("{}{:.3g}", estimate.reached ? "" : "≲ ", estimate.probability),
+                        percent(estimate.variation, 0), estimate.evaluations);
+    for (const SubsetLevel& level : estimate.levels)
+      text += fmt::format(" {:.4g}", level_of(options.event, level.threshold));
+    text += '\n';
+  }
+  return text;
+}
+
+/// The draws that are furthest out, first.
+std::string likeliest_text(const LikeliestRun& run, const Campaign& campaign) {
+  constexpr std::size_t most_lines = 8;
+  std::vector<std::size_t> order(run.draws.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&](std::size_t i) { return std::abs(run.z[i]); });
+  std::string text = fmt::format(
+      "\nTHE LIKELIEST such run met, {:.2f} standard deviations from the middle: {}{}{}\n",
+      run.distance, to_string(run.status), run.reason.empty() ? "" : ", ", run.reason);
+  text += fmt::format("  {:<40}{:>14}{:>24}\n", "dispersion", "draw", "standard deviations");
+  const std::size_t shown = std::min(order.size(), most_lines);
+  for (const std::size_t i : std::span(order).first(shown))
+    text += fmt::format("  {:<40}{:>14.6g}{:>+24.2f}\n", campaign.dispersions[i].name, run.draws[i],
+                        run.z[i]);
+  if (shown < order.size())
+    text += fmt::format("  and {} others, none above {:.2f}\n", order.size() - shown,
+                        std::abs(run.z[order[shown]]));
+  return text;
+}
+
+std::string plain_text(const RareEstimate& estimate) {
+  if (!estimate.reached) return "";
+  if (estimate.plain_is_enough())
+    return fmt::format(
+        "Plain sampling would have been enough: {:.0f} runs give the same accuracy.\n",
+        std::ceil(estimate.plain_runs));
+  return fmt::format("Plain sampling would take {:.2g} runs for the same accuracy.\n",
+                     estimate.plain_runs);
+}
+
+} // namespace
+
+Json rare_json(const RareResult& result, const RareOptions& options, const Campaign& campaign,
+               const Json& about) {
+  const RareEstimate& all = result.estimate;
+  Json by_status = Json::object(), repeats = Json::array();
+  for (const Status status : statuses)
+    by_status[to_string(status)] = result.statuses[static_cast<std::size_t>(status)];
+  for (const SubsetEstimate& estimate : result.estimates)
+    repeats.push_back(estimate_json(estimate, options.event));
+  return {{stamp_key, about},
+          {"event", describe(options.event)},
+          {"probability", all.probability},
+          {"reached", all.reached},
+          {"confidence", options.confidence},
+          {"lower", all.interval.lower},
+          {"upper", all.interval.upper},
+          {"variation",
+           {{"value", json_number(all.variation)},
+            {"from_chains", json_number(all.from_chains)},
+            {"from_repeats", json_number(all.from_spread)}}},
+          {"runs", all.evaluations},
+          {"bias", all.bias},
+          {"plain_runs", json_number(all.plain_runs)},
+          {"plain_sampling_is_enough", all.plain_is_enough()},
+          {"definitions",
+           {{"probability",
+             "mean of independent subset simulations; of those that did not reach the event, the "
+             "estimated probability of the last level that they did: more than the event's, but "
+             "an estimate"},
+            {"bias", "by how much the probability is too large on average, in units of it: 0.4 of "
+                     "a repeat's squared variation, as measured on events of known probability; "
+                     "not taken off, and not in the bounds"},
+            {"variation", "coefficient of variation of the mean: by the correlation along chains, "
+                          "by the repeats' spread, and the larger of the two"},
+            {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
+                       "lower one where a repeat did not reach the event"},
+            {"plain_runs", "runs of plain sampling for the same variation"}}},
+          {"samples", options.samples},
+          {"repeats", repeats},
+          {"statuses", by_status},
+          {"likeliest",
+           result.likeliest ? likeliest_json(*result.likeliest, campaign) : Json(nullptr)}};
+}
+
+std::string rare_text(const RareResult& result, const RareOptions& options,
+                      const Campaign& campaign) {
+  const RareEstimate& all = result.estimate;
+  std::string text =
+      fmt::format("{} · subset simulation, {} repeats of {} a level · seed {}\n\n",
+                  campaign.scene.name, options.repeats, options.samples, campaign.sampling.seed);
+  const std::string event = describe(options.event);
+  if (all.reached)
+    text += fmt::format("P({}) = {:.3g}, {:g} % bounds {:.3g} … {:.3g}, variation {}\n", event,
+                        all.probability, 100 * options.confidence, all.interval.lower,
+                        all.interval.upper, percent(all.variation, 0));
+  else
+    text += fmt::format(
+        "P({}) was not found: {} of {} repeats did not reach it. The levels that were reached are\n"
+        "estimated at {:.3g}, {:g} % bound {:.3g}: an estimate of what P does not exceed, no "
+        "proof\n",
+        event, std::ranges::count(result.estimates, false, &SubsetEstimate::reached),
+        result.estimates.size(), all.probability, 100 * options.confidence, all.interval.upper);
+  if (all.reached && all.bias > 0)
+    text += fmt::format("Such an estimate is too large on average, by some {} here\n",
+                        percent(all.bias, 1));
+  text += fmt::format("{} runs were made. {}", all.evaluations, plain_text(all));
+  if (text.back() != '\n') text += '\n';
+  text += repeats_text(result, options);
+  if (result.likeliest) text += likeliest_text(*result.likeliest, campaign);
+  return text;
+}
+
+} // namespace wingspread

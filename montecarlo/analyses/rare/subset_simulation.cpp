@@ -1,0 +1,272 @@
+#include "montecarlo/analyses/rare/subset_simulation.hpp"
+
+#include "distributions/continuous_law.hpp"
+#include "distributions/random_stream.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/foundation/statistics/two_sided.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+namespace wingspread {
+namespace {
+
+constexpr long chain_length = 10;      // L
+constexpr double aimed_at = 0.44;      // share of moves taken
+constexpr double first_scale = 0.6;    // λ of the first chains
+constexpr double bias_of_square = 0.4; // of an estimate with chains, in units of its δ²
+
+double standard_normal(RandomStream& stream) {
+  const double u = open_uniform(stream());
+  return inverse(Normal{}, {u, 1 - u});
+}
+
+/// A level's points with their g, and in which order they came: chain by chain.
+struct Level {
+  std::vector<NormalPoint> points;
+  std::vector<double> g;
+};
+
+class SubsetSimulation {
+public:
+  SubsetSimulation(const LimitStateFunction& g, std::size_t dimensions,
+                   const SubsetOptions& options)
+      : g_(g), dimensions_(dimensions), options_(options) {
+    assert(options.samples >= 10 * chain_length && options.samples % chain_length == 0);
+  }
+
+  SubsetEstimate run() {
+    estimate_.probability = 1;
+    level_ = plain_level();
+    double taken = undefined;
+    while (true) {
+      const long inside = count_inside();
+      const double threshold = next_threshold();
+      estimate_.stuck = inside < chains() && !(threshold < std::ranges::max(level_.g));
+      const bool ends = inside >= chains() || estimate_.stuck ||
+                        estimate_.probability / chain_length <= options_.smallest;
+      estimate_.reached = ends && inside > 0;
+      note(estimate_.reached ? 0 : threshold, taken);
+      if (ends) break;
+      level_ = next_level(threshold, taken);
+    }
+    return finished();
+  }
+
+private:
+  [[nodiscard]] long chains() const { return options_.samples / chain_length; }
+
+  [[nodiscard]] long count_inside() const {
+    return std::ranges::count_if(level_.g, [](double g) { return g < 0; });
+  }
+
+  std::vector<double> evaluate(std::span<const NormalPoint> points) {
+    std::vector<double> g = g_(points);
+    assert(g.size() == points.size());
+    for (double& value : g)
+      if (std::isnan(value)) value = -std::numeric_limits<double>::infinity();
+    estimate_.evaluations += std::ssize(g);
+    return g;
+  }
+
+  /// The stream of one point of the level that is being made.
+  [[nodiscard]] RandomStream stream(long point) const {
+    const std::string name = "\x7Fsubset " + std::to_string(options_.repetition) + ' ' +
+                             std::to_string(estimate_.levels.size());
+    return {options_.seed, static_cast<std::uint64_t>(point), stream_name(name)};
+  }
+
+  Level plain_level() {
+    Level level;
+    for (long k = 0; k < options_.samples; ++k) {
+      RandomStream random = stream(k);
+      NormalPoint point(dimensions_);
+      std::ranges::generate(point, [&] { return standard_normal(random); });
+      level.points.push_back(std::move(point));
+    }
+    level.g = evaluate(level.points);
+    return level;
+  }
+
+  /// The g that a tenth of the points do not exceed.
+  [[nodiscard]] double next_threshold() const {
+    std::vector<double> sorted = level_.g;
+    std::ranges::sort(sorted);
+    return sorted[static_cast<std::size_t>(chains() - 1)];
+  }
+
+  /// (4), over the points as they stand in chains.
+  [[nodiscard]] double chain_correlation(const std::vector<bool>& in, double share) const {
+    if (!(share < 1) || estimate_.levels.empty()) return 0;
+    double gamma = 0;
+    for (long k = 1; k < chain_length; ++k) {
+      long both = 0;
+      for (long start = 0; start < options_.samples; start += chain_length)
+        for (long at = start; at + k < start + chain_length; ++at)
+          both += in[static_cast<std::size_t>(at)] && in[static_cast<std::size_t>(at + k)];
+      const auto pairs = static_cast<double>(chains() * (chain_length - k));
+      const double covariance = static_cast<double>(both) / pairs - share * share;
+      gamma += 2 * (1 - static_cast<double>(k) / chain_length) * covariance / (share * (1 - share));
+    }
+    return std::max(0.0, gamma); // below it there is only noise
+  }
+
+  void note(double threshold, double taken) {
+    std::vector<bool> in;
+    for (const double g : level_.g) in.push_back(estimate_.reached ? g < 0 : g <= threshold);
+    const auto n = static_cast<double>(options_.samples);
+    const double share = static_cast<double>(std::ranges::count(in, true)) / n;
+    const double gamma = chain_correlation(in, share);
+    const double variation = std::sqrt((1 - share) / (share * n) * (1 + gamma));
+    estimate_.levels.push_back({threshold, share, gamma, variation, taken});
+    estimate_.probability *= share;
+  }
+
+  /// Points of the level that are in the event, c of them,
+  /// spread evenly over it where ties make more.
+  [[nodiscard]] std::vector<std::size_t> seeds(double threshold) const {
+    std::vector<std::size_t> in;
+    for (std::size_t k = 0; k < level_.g.size(); ++k)
+      if (level_.g[k] <= threshold) in.push_back(k);
+    std::vector<std::size_t> chosen;
+    const std::size_t wanted = static_cast<std::size_t>(chains());
+    for (std::size_t k = 0; k < wanted; ++k) chosen.push_back(in[k * in.size() / wanted]);
+    return chosen;
+  }
+
+  /// s of each coordinate.
+  [[nodiscard]] std::vector<double> spread(const std::vector<NormalPoint>& points) const {
+    std::vector<double> s;
+    for (std::size_t i = 0; i < dimensions_; ++i) {
+      std::vector<double> coordinate;
+      for (const NormalPoint& point : points) coordinate.push_back(point[i]);
+      s.push_back(moments(coordinate).std);
+    }
+    return s;
+  }
+
+  /// (2)
+  [[nodiscard]] NormalPoint moved(const NormalPoint& from, const std::vector<double>& s,
+                                  RandomStream random) const {
+    NormalPoint to(dimensions_);
+    for (std::size_t i = 0; i < dimensions_; ++i) {
+      const double sigma = std::min(1.0, scale_ * s[i]);
+      to[i] = std::sqrt(1 - sigma * sigma) * from[i] + sigma * standard_normal(random);
+    }
+    return to;
+  }
+
+  /// All chains, a step at a time.
+  Level next_level(double threshold, double& taken) {
+    std::vector<NormalPoint> at;
+    std::vector<double> g;
+    for (const std::size_t seed : seeds(threshold)) {
+      at.push_back(level_.points[seed]);
+      g.push_back(level_.g[seed]);
+    }
+    const std::vector<double> s = spread(at);
+    const std::size_t chains = at.size();
+    Level level;
+    level.points.resize(chains * chain_length);
+    level.g.resize(chains * chain_length);
+    long moves = 0;
+    for (long step = 0; step < chain_length; ++step) {
+      if (step > 0) moves += advance(step, threshold, s, at, g);
+      for (std::size_t chain = 0; chain < chains; ++chain) {
+        const std::size_t place = chain * chain_length + static_cast<std::size_t>(step);
+        level.points[place] = at[chain];
+        level.g[place] = g[chain];
+      }
+    }
+    taken = static_cast<double>(moves) / static_cast<double>(chains * (chain_length - 1));
+    return level;
+  }
+
+  /// One step of every chain. @return how many moves were taken
+  long advance(long step, double threshold, const std::vector<double>& s,
+               std::vector<NormalPoint>& at, std::vector<double>& g) {
+    std::vector<NormalPoint> candidates;
+    for (std::size_t chain = 0; chain < at.size(); ++chain)
+      candidates.push_back(
+          moved(at[chain], s, stream(static_cast<long>(chain) * chain_length + step)));
+    const std::vector<double> there = evaluate(candidates);
+    long moves = 0;
+    for (std::size_t chain = 0; chain < at.size(); ++chain) {
+      if (!(there[chain] <= threshold)) continue;
+      at[chain] = std::move(candidates[chain]);
+      g[chain] = there[chain];
+      ++moves;
+    }
+    const double share = static_cast<double>(moves) / static_cast<double>(at.size());
+    scale_ = std::min(1e3, scale_ * std::exp((share - aimed_at) / std::sqrt(step)));
+    return moves;
+  }
+
+  SubsetEstimate finished() {
+    double square = 0;
+    for (const SubsetLevel& level : estimate_.levels) square += level.variation * level.variation;
+    estimate_.variation = std::sqrt(square);
+    for (std::size_t k = 0; k < level_.g.size(); ++k)
+      if (level_.g[k] < 0) estimate_.inside.push_back(std::move(level_.points[k]));
+    return std::move(estimate_);
+  }
+
+  const LimitStateFunction& g_;
+  std::size_t dimensions_;
+  SubsetOptions options_;
+  SubsetEstimate estimate_;
+  Level level_;
+  double scale_ = first_scale; ///< λ
+};
+
+/// The standard error of the mean in units of it.
+double relative_spread(std::span<const double> values, double mean) {
+  if (values.size() < 2) return undefined;
+  return moments(values).std / (mean * std::sqrt(static_cast<double>(values.size())));
+}
+
+} // namespace
+
+SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
+                                 const SubsetOptions& options) {
+  return SubsetSimulation(g, dimensions, options).run();
+}
+
+long most_evaluations(const SubsetOptions& options) {
+  const auto levels = static_cast<long>(std::ceil(-std::log10(options.smallest))); // each a tenth
+  return options.samples + levels * (options.samples - options.samples / chain_length);
+}
+
+RareEstimate combined(std::span<const SubsetEstimate> estimates, double confidence) {
+  assert(!estimates.empty());
+  RareEstimate all;
+  std::vector<double> probabilities;
+  const double count = static_cast<double>(estimates.size());
+  double square = 0, bias = 0;
+  all.reached = std::ranges::all_of(estimates, &SubsetEstimate::reached);
+  for (const SubsetEstimate& estimate : estimates) {
+    probabilities.push_back(estimate.probability);
+    all.evaluations += estimate.evaluations;
+    square += std::pow(estimate.probability * estimate.variation, 2);
+    if (estimate.levels.size() > 1) bias += bias_of_square * std::pow(estimate.variation, 2);
+  }
+  all.probability = moments(probabilities).mean;
+  all.bias = bias / count;
+  all.from_chains = std::sqrt(square) / (count * all.probability);
+  all.from_spread = relative_spread(probabilities, all.probability);
+  all.variation = std::fmax(all.from_chains, all.from_spread);
+  double reach = two_sided_normal(confidence) * all.from_chains;
+  if (estimates.size() > 1)
+    reach = std::max(reach, two_sided_student(std::ssize(probabilities) - 1, confidence) *
+                                all.from_spread);
+  all.interval = {all.reached ? all.probability * std::exp(-reach) : 0,
+                  std::min(1.0, all.probability * std::exp(reach))};
+  all.plain_runs = (1 - all.probability) / (all.probability * all.variation * all.variation);
+  return all;
+}
+
+} // namespace wingspread

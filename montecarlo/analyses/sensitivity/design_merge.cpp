@@ -1,0 +1,66 @@
+#include "montecarlo/analyses/sensitivity/design_merge.hpp"
+
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/results/results_folder/folder_writer.hpp"
+#include "montecarlo/results/results_folder/parts.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace wingspread {
+namespace {
+
+/// An earlier merging of the same folders may have been cut off: it is done again.
+void refuse_other_folder(const std::filesystem::path& out, const SaltelliDesign& whole) {
+  if (read_text(out / design_file) != design_text(whole))
+    refuse_used_folder(out, "a new or an empty folder for the merged runs");
+}
+
+void write_rows(std::vector<Part> parts, const RunPlan& plan, const std::filesystem::path& file) {
+  constexpr std::size_t block_bytes = 1 << 16;
+  std::ranges::sort(parts, {}, [](const Part& part) { return part.own.first; });
+  WholeFile out(file);
+  std::string lines;
+  append_header(lines, plan.names());
+  const auto take = [&](const ResultRow& row) {
+    append_row(lines, row);
+    if (lines.size() < block_bytes) return;
+    out.write(lines);
+    lines.clear();
+  };
+  for (const Part& part : parts) (void)for_each_design_row(part.folder, plan, part.own, take);
+  out.write(lines);
+  out.finish();
+}
+
+} // namespace
+
+void merge_designs(const std::vector<std::filesystem::path>& folders,
+                   const std::filesystem::path& out) {
+  SaltelliDesign whole = read_design(folders.front());
+  std::vector<Part> parts;
+  for (const std::filesystem::path& folder : folders) {
+    const SaltelliDesign design = read_design(folder);
+    parts.push_back({folder, folder, stamp_of(design), runs_of(design)});
+  }
+  refuse_strangers(parts, design_file);
+  whole.shard.reset();
+  refuse_other_folder(out, whole);
+  const RunPlan plan = saltelli_plan(whole.campaign, whole.rows);
+  for (Part& part : parts)
+    (void)for_each_design_row(part.folder, plan, part.own,
+                              [&](const ResultRow& row) { part.add(row.run); });
+  PartFaults faults;
+  find_doubles(parts, faults);
+  find_missing(
+      parts, runs_of(whole).last,
+      {"wingspread sensitivity " + shell_word((folders.front() / design_file).string()), ""},
+      faults);
+  faults.refuse();
+  const FolderLock lock(out);
+  refuse_other_folder(out, whole);
+  write_file(out / design_file, design_text(whole));
+  write_rows(std::move(parts), plan, out / design_runs_file);
+}
+
+} // namespace wingspread

@@ -1,0 +1,20 @@
+/// Shards of a design for Sobol' indices put together again.
+#pragma once
+
+#include "montecarlo/analyses/sensitivity/design_folder.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace wingspread {
+
+/// Writes design.json and design_runs.csv as making all of the design's runs at once would have, byte for byte. Its
+/// rows are read one at a time.
+/// @param folders of one design and version, in any order, with each run in one of them
+/// @param out     new or empty
+/// @throws MissingRuns (parts.hpp) when runs are missing, SpecError with all else that keeps them from being merged;
+///   then nothing is written
+void merge_designs(const std::vector<std::filesystem::path>& folders,
+                   const std::filesystem::path& out);
+
+} // namespace wingspread

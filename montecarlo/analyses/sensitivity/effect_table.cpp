@@ -1,0 +1,76 @@
+#include "montecarlo/analyses/sensitivity/effect_table.hpp"
+
+#include "montecarlo/foundation/formats/output_name.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace wingspread {
+namespace {
+
+constexpr std::size_t most_lines = 8; ///< of an output's table
+
+/// Indices of the dispersions, the largest first; those without a number last.
+std::vector<std::size_t> by_size(std::size_t count,
+                                 const std::function<double(std::size_t)>& size) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t j) {
+    const double value = size(j);
+    return std::isnan(value) ? -1.0 : value;
+  });
+  return order;
+}
+
+} // namespace
+
+Json value_json(double value, const Bounds& bounds) {
+  return {{"value", json_number(value)},
+          {"lower", json_number(bounds.lower)},
+          {"upper", json_number(bounds.upper)}};
+}
+
+std::string value_text(double value, const Bounds& bounds) {
+  if (std::isnan(value)) return fmt::format("{:>9}{:>21}", "–", "–");
+  const std::string range =
+      bounds.lower ? fmt::format("{:.3f} … {:.3f}", *bounds.lower, *bounds.upper) : "–";
+  return fmt::format("{:>9.3f}{:>21}", value, range);
+}
+
+std::string column_names(std::string_view first, std::string_view second, double confidence) {
+  const std::string bounds = fmt::format("{:g} % bounds", 100 * confidence);
+  return fmt::format("  {:<{}}{:>9}{:>21}{:>9}{:>21}", "dispersion", name_width, first, bounds,
+                     second, bounds);
+}
+
+std::string heading_of(const std::string& output, long count, std::string_view counted,
+                       long missing, std::string_view what_of_them) {
+  const std::string unit = parse_output_name(output).unit;
+  std::string text =
+      fmt::format("{}{}{} · {} {}", output, unit.empty() ? "" : ", ", unit, count, counted);
+  if (missing > 0) text += fmt::format(" · {} {}", missing, what_of_them);
+  return text;
+}
+
+std::string effect_block(const std::string& heading, const std::string& columns, std::size_t count,
+                         const std::function<double(std::size_t)>& size,
+                         const std::function<std::string(std::size_t)>& line) {
+  std::string text = fmt::format("\n{}\n{}\n", heading, columns);
+  const std::vector<std::size_t> order = by_size(count, size);
+  const std::size_t shown = count > most_lines + 1 ? most_lines : count;
+  for (std::size_t k = 0; k < shown; ++k) text += line(order[k]);
+  if (shown < count)
+    text += fmt::format("  and {} others, none above {:.3f}\n", count - shown,
+                        std::max(0.0, size(order[shown])));
+  return text;
+}
+
+std::string quoted(const std::vector<std::string>& names) {
+  return fmt::format("\"{}\"", fmt::join(names, "\", \""));
+}
+
+} // namespace wingspread

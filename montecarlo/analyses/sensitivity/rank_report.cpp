@@ -1,0 +1,127 @@
+#include "montecarlo/analyses/sensitivity/rank_report.hpp"
+
+#include "montecarlo/analyses/sensitivity/effect_table.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/foundation/statistics/jackknife.hpp"
+#include "montecarlo/results/results_folder/stamp.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+/// What the bounds are, for the design of the runs.
+std::string bounds_definition(const RankSensitivity& all) {
+  if (all.replicates == 1) return std::string(one_replicate);
+  if (all.replicates > 1)
+    return fmt::format(
+        "jackknife over {} independent replicates, Fisher's z, Student's t, two-sided",
+        all.replicates);
+  std::string text =
+      fmt::format("spearman: Fisher's z, variance (1 + r^2/2)/(n - 3); prcc: jackknife "
+                  "over {} parts of the runs, Fisher's z, Student's t; two-sided",
+                  jackknife_groups);
+  if (all.looks > 1)
+    text += fmt::format(", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints "
+                        "the campaign stops",
+                        at_each_of(all.confidence, all.looks), all.looks);
+  return text;
+}
+
+} // namespace
+
+Json sensitivity_json(const RankSensitivity& all, const Json& about) {
+  Json outputs = Json::object();
+  for (const OutputRanks& output : all.outputs) {
+    Json effects = Json::object();
+    for (std::size_t j = 0; j < all.dispersions.size(); ++j) {
+      const auto& [spearman, partial, seen] = output.effects[j];
+      effects[all.dispersions[j]] = {{"spearman", value_json(spearman.value, spearman.bounds)},
+                                     {"prcc", value_json(partial.value, partial.bounds)}};
+    }
+    outputs[output.output] = {{"count", output.count},
+                              {"missing", output.missing},
+                              {"entangled", output.entangled},
+                              {"dispersions", effects}};
+  }
+  return {
+      {stamp_key, about},
+      {"method", "rank correlation"},
+      {"runs", all.runs},
+      {"confidence", all.confidence},
+      {"definitions",
+       {{"spearman", "Pearson's of the mid-ranks, over the runs that have the output"},
+        {"prcc", "partial correlation of the mid-ranks, all other dispersions held"},
+        {"bounds", bounds_definition(all)},
+        {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
+        {"moves_nothing", "no coefficient differs from 0 at this confidence taken over all "
+                          "outputs together"},
+        {"follow_from_others", "dispersions of whose ranks half or more follow from the others': "
+                               "what they do together, prcc gives to none of them"}}},
+      {"outputs", outputs},
+      {"do_not_vary", all.unvaried},
+      {"moves_nothing", all.idle},
+      {"follow_from_others", all.collinear}};
+}
+
+std::string sensitivity_csv(const RankSensitivity& all) {
+  std::string text = "output,dispersion,count,missing,spearman,spearman_lower,spearman_upper,"
+                     "prcc,prcc_lower,prcc_upper\n";
+  for (const OutputRanks& output : all.outputs)
+    for (std::size_t j = 0; j < all.dispersions.size(); ++j) {
+      append_csv_cell(text, output.output);
+      append_csv_cells(text, all.dispersions[j], output.count, output.missing);
+      for (const Coefficient& c : {output.effects[j].spearman, output.effects[j].partial})
+        append_csv_cells(text, c.value, c.bounds.lower, c.bounds.upper);
+      text += '\n';
+    }
+  return text;
+}
+
+std::string sensitivity_table(const RankSensitivity& all, std::string_view title) {
+  std::string text = fmt::format("{}\n", title);
+  const std::string columns = column_names("PRCC", "Spearman", all.confidence);
+  for (const OutputRanks& output : all.outputs) {
+    const auto size = [&](std::size_t j) {
+      const RankEffect& effect = output.effects[j];
+      return std::fmax(std::abs(effect.spearman.value), std::abs(effect.partial.value));
+    };
+    const auto line = [&](std::size_t j) {
+      const auto& [spearman, partial, seen] = output.effects[j];
+      return fmt::format("{}{}{}\n", in_column("  " + all.dispersions[j], name_width + 2),
+                         value_text(partial.value, partial.bounds),
+                         value_text(spearman.value, spearman.bounds));
+    };
+    text += effect_block(
+        heading_of(output.output, output.count, "runs", output.missing, "without it left out"),
+        columns, all.dispersions.size(), size, line);
+  }
+  return text;
+}
+
+std::vector<std::string> warnings(const RankSensitivity& all) {
+  std::vector<std::string> list;
+  if (!all.unvaried.empty())
+    list.push_back(fmt::format("the draws of {} do not vary", quoted(all.unvaried)));
+  if (!all.idle.empty())
+    list.push_back(fmt::format("no output is seen to rise or fall with {} in {} runs (one that "
+                               "rises and falls would not be seen: Sobol' indices show it)",
+                               quoted(all.idle), all.runs));
+  if (all.replicates == 1) list.emplace_back(one_replicate);
+  if (!all.collinear.empty())
+    list.push_back(
+        fmt::format("the draws of {} go together with those of others: what they do "
+                    "together is in Spearman's coefficients, and not in the partial ones",
+                    quoted(all.collinear)));
+  if (std::ranges::any_of(all.outputs, &OutputRanks::entangled))
+    list.emplace_back("two dispersions rank the runs alike, or there are too few runs: some "
+                      "outputs have no partial coefficients");
+  return list;
+}
+
+} // namespace wingspread

@@ -1,0 +1,242 @@
+#include "montecarlo/analyses/sensitivity/rank_sensitivity.hpp"
+
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/foundation/statistics/jackknife.hpp"
+#include "montecarlo/foundation/statistics/ranked_column.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/foundation/statistics/two_sided.hpp"
+#include "montecarlo/results/summary/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace wingspread {
+namespace {
+
+constexpr double most_explained =
+    0.5; ///< R² of a dispersion by the others, beyond which it is told
+constexpr int all_threads = 0;
+
+using Rows = std::vector<bool>; ///< which runs are kept
+
+std::vector<RankedColumn> ranked(const std::vector<const Column*>& columns) {
+  std::vector<const Spilled<double>*> values;
+  for (const Column* column : columns) values.push_back(&column->values);
+  return rank_columns(values, all_threads);
+}
+
+/// Takes out the runs in which the column has no number.
+void keep_runs_with(const Column& column, Rows& keep) {
+  for (std::size_t i = 0; i < keep.size(); ++i)
+    if (std::isnan(column.values[i])) keep[i] = false;
+  column.values.release();
+}
+
+/// The draws' ranks over some runs, made ready.
+class RankedDraws {
+public:
+  RankedDraws(const std::vector<RankedColumn>& draws, const Rows& keep)
+      : ranks_(ranks_of(draws, keep)), partial_(ranks_, all_threads) {}
+
+  [[nodiscard]] const PartialCorrelations& partial() const { return partial_; }
+
+  /// Spearman's coefficients of an output, and the partial ones.
+  struct Coefficients {
+    std::vector<double> spearman, partial;
+  };
+  [[nodiscard]] Coefficients with(const RankedColumn& output, const Rows& keep) const {
+    const std::vector<double> ranks = output.ranks_where(keep);
+    Coefficients found;
+    for (const Spilled<double>& draw : ranks_) {
+      found.spearman.push_back(pearson(draw, ranks));
+      draw.release();
+    }
+    found.partial = partial_.given(found.spearman);
+    return found;
+  }
+
+private:
+  static std::vector<Spilled<double>> ranks_of(const std::vector<RankedColumn>& draws,
+                                               const Rows& keep) {
+    std::vector<Spilled<double>> ranks;
+    for (const RankedColumn& draw : draws) ranks.emplace_back(draw.ranks_where(keep));
+    return ranks;
+  }
+
+  std::vector<Spilled<double>> ranks_;
+  PartialCorrelations partial_;
+};
+
+using Coefficients = RankedDraws::Coefficients;
+
+/// Runs that fall into groups which are independent of each other: for the jackknife.
+class Groups {
+public:
+  Groups(const Replication& replication, std::size_t rows) : replication_(replication) {
+    const bool independent = replication.replicates == 0;
+    count_ = independent ? jackknife_groups : replication.replicates;
+    if (static_cast<std::size_t>(count_) > rows || count_ < 2) count_ = 0;
+  }
+  [[nodiscard]] int count() const { return count_; }
+  /// The runs kept, less those of a group.
+  [[nodiscard]] Rows without(int group, Rows keep) const {
+    for (std::size_t row = 0; row < keep.size(); ++row)
+      if (of(row) == group) keep[row] = false;
+    return keep;
+  }
+
+private:
+  [[nodiscard]] int of(std::size_t row) const {
+    return replication_.replicates == 0 ? static_cast<int>(row % jackknife_groups)
+                                        : replication_.of_row[row];
+  }
+  const Replication& replication_;
+  int count_;
+};
+
+/// The coefficients of one output: of all its runs, and of all but each group's.
+struct Found {
+  long count = 0, held = 0;
+  Coefficients all;
+  std::vector<Coefficients> without{};
+};
+
+/// Bounds of an output's coefficients.
+class Judge {
+public:
+  /// @param tests how many coefficients are looked at together, to find the idle dispersions
+  Judge(const RankSensitivity& all, long tests)
+      : independent_(all.replicates == 0), confidence_(at_each_of(all.confidence, all.looks)),
+        sure_(at_each_of(confidence_, tests)) {}
+
+  [[nodiscard]] RankEffect effect(const Found& found, std::size_t j) const {
+    const double spearman = found.all.spearman[j], partial = found.all.partial[j];
+    return {{spearman, spearman_bounds(found, j, confidence_)},
+            {partial, jackknifed(found, j, &Coefficients::partial, confidence_)},
+            seen(found, j)};
+  }
+
+private:
+  using Kind = std::vector<double> Coefficients::*;
+
+  [[nodiscard]] Bounds spearman_bounds(const Found& found, std::size_t j, double confidence) const {
+    const double value = found.all.spearman[j];
+    if (!independent_) return jackknifed(found, j, &Coefficients::spearman, confidence);
+    return std::isnan(value) ? Bounds{} : rank_correlation_bounds(value, found.count, confidence);
+  }
+
+  [[nodiscard]] static Bounds jackknifed(const Found& found, std::size_t j, Kind kind,
+                                         double confidence) {
+    std::vector<double> without;
+    for (const Coefficients& each : found.without) without.push_back((each.*kind)[j]);
+    return jackknife_correlation_bounds((found.all.*kind)[j], without, confidence);
+  }
+
+  /// Whether a coefficient differs from 0. Of independent draws by its z in standard errors under
+  /// ρ = 0; of others by its bounds, where there are any.
+  [[nodiscard]] bool seen(const Found& found, std::size_t j) const {
+    if (independent_)
+      return standard_errors(found.all.spearman[j], found.count) > two_sided_normal(sure_) ||
+             standard_errors(found.all.partial[j], found.count - found.held) >
+                 two_sided_normal(sure_);
+    return found.without.empty() ||
+           excludes_0(jackknifed(found, j, &Coefficients::spearman, sure_)) ||
+           excludes_0(jackknifed(found, j, &Coefficients::partial, sure_));
+  }
+
+  [[nodiscard]] static double standard_errors(double coefficient, long n) {
+    if (std::isnan(coefficient) || n <= 3) return 0;
+    return std::abs(std::atanh(coefficient)) * std::sqrt(static_cast<double>(n - 3));
+  }
+  [[nodiscard]] static bool excludes_0(const Bounds& bounds) {
+    return bounds.lower && (*bounds.lower > 0 || *bounds.upper < 0);
+  }
+
+  bool independent_;
+  double confidence_, sure_;
+};
+
+/// The coefficients of all outputs that the same runs have.
+std::vector<Found> coefficients(const std::vector<RankedColumn>& draws,
+                                const std::vector<const RankedColumn*>& outputs, const Rows& keep,
+                                const Groups& groups, bool& entangled) {
+  std::vector<Found> found;
+  const RankedDraws all(draws, keep);
+  entangled = all.partial().entangled();
+  for (const RankedColumn* output : outputs)
+    found.push_back({std::ranges::count(keep, true), std::max(0L, all.partial().varying() - 1),
+                     all.with(*output, keep)});
+  for (int group = 0; group < groups.count(); ++group) {
+    const Rows rest = groups.without(group, keep);
+    const RankedDraws without(draws, rest);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      found[i].without.push_back(without.with(*outputs[i], rest));
+  }
+  return found;
+}
+
+OutputRanks output_ranks(const std::string& name, const Found& found, std::size_t runs,
+                         bool entangled, const Judge& judge) {
+  OutputRanks result{name, found.count, static_cast<long>(runs) - found.count, {}, entangled};
+  for (std::size_t j = 0; j < found.all.spearman.size(); ++j)
+    result.effects.push_back(judge.effect(found, j));
+  return result;
+}
+
+/// What is to be said of the dispersions themselves.
+void note_dispersions(const Results& results, const std::vector<RankedColumn>& draws,
+                      const Rows& with_draws, RankSensitivity& all) {
+  const std::vector<double> explained = RankedDraws(draws, with_draws).partial().explained();
+  for (std::size_t j = 0; j < draws.size(); ++j) {
+    const std::string& name = results.draws[j].name;
+    const auto seen = [&](const OutputRanks& output) { return output.effects[j].seen; };
+    if (!varies(results.draws[j].values))
+      all.unvaried.push_back(name);
+    else if (std::ranges::none_of(all.outputs, seen))
+      all.idle.push_back(name);
+    if (explained[j] >= most_explained) all.collinear.push_back(name);
+  }
+}
+
+} // namespace
+
+RankSensitivity rank_sensitivity(const Results& results, double confidence, const RunsMade& made) {
+  RankSensitivity all;
+  all.runs = static_cast<long>(results.size());
+  all.confidence = confidence;
+  all.looks = made.looks;
+  all.replicates = made.replication.replicates;
+  std::vector<const Column*> drawn, outputs;
+  for (const Column& draw : results.draws) drawn.push_back(&draw);
+  for (const Column& output : results.outputs) outputs.push_back(&output);
+  for (const Column* draw : drawn) all.dispersions.push_back(draw->name);
+  const Column deployed = deployed_column(results);
+  if (const auto known = sorted_present(deployed.values); !known.empty() && varies(known))
+    outputs.push_back(&deployed);
+  const std::vector<RankedColumn> draws = ranked(drawn), ranks = ranked(outputs);
+  Rows with_draws(results.size(), true); // one that overflowed is no number
+  for (const Column* draw : drawn) keep_runs_with(*draw, with_draws);
+  std::map<Rows, std::vector<std::size_t>> together; // most outputs are there in the same runs
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    Rows keep = with_draws;
+    keep_runs_with(*outputs[i], keep);
+    together[keep].push_back(i);
+  }
+  const Groups groups(made.replication, results.size());
+  const Judge judge(all, 2 * std::ssize(outputs));
+  all.outputs.resize(outputs.size());
+  for (const auto& [keep, which] : together) {
+    std::vector<const RankedColumn*> these;
+    for (const std::size_t i : which) these.push_back(&ranks[i]);
+    bool entangled = false;
+    const std::vector<Found> found = coefficients(draws, these, keep, groups, entangled);
+    for (std::size_t k = 0; k < which.size(); ++k)
+      all.outputs[which[k]] =
+          output_ranks(outputs[which[k]]->name, found[k], results.size(), entangled, judge);
+  }
+  note_dispersions(results, draws, with_draws, all);
+  return all;
+}
+
+} // namespace wingspread

@@ -1,0 +1,125 @@
+#include "montecarlo/analyses/sensitivity/sobol_report.hpp"
+
+#include "montecarlo/analyses/sensitivity/effect_table.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/results/results_folder/stamp.hpp"
+#include "montecarlo/results/summary/replication.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+/// Where bounds are from, for the design of the rows.
+std::string bounds_definition(const SobolBounds& how) {
+  if (how.replicates == 1) return std::string(one_replicate);
+  if (how.replicates > 1)
+    return fmt::format("jackknife over {} independent replicates, Student's t, two-sided",
+                       how.replicates);
+  return fmt::format("percentile bootstrap over rows, {} resamples, two-sided", how.resamples);
+}
+
+/// The outputs that have no indices because they did not happen at some point.
+std::vector<std::string> incomplete(const SobolSensitivity& all) {
+  std::vector<std::string> names;
+  for (const auto& [name, indices] : all.outputs)
+    if (indices.incomplete > 0) names.push_back(name);
+  return names;
+}
+
+} // namespace
+
+Json sensitivity_json(const SobolSensitivity& all, const Json& about) {
+  Json outputs = Json::object();
+  for (const auto& [name, indices] : all.outputs) {
+    Json effects = Json::object();
+    for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
+      const auto& [first, total, inert] = indices.effects[i];
+      effects[all.dispersions[i]] = {{"first", value_json(first.value, first.bounds)},
+                                     {"total", value_json(total.value, total.bounds)},
+                                     {"inert", inert}};
+    }
+    outputs[name] = {{"rows", indices.rows},
+                     {"incomplete", indices.incomplete},
+                     {"mean", json_number(indices.mean)},
+                     {"variance", json_number(indices.variance)},
+                     {"dispersions", effects}};
+  }
+  return {
+      {stamp_key, about},
+      {"method", "Sobol' indices"},
+      {"design", all.design},
+      {"samples", all.rows},
+      {"runs", all.runs},
+      {"partial", all.runs < all.total},
+      {"confidence", all.bounds.confidence},
+      {"definitions",
+       {{"first", "Saltelli 2010: mean of f_B (f_ABi - f_A) over the variance"},
+        {"total", "Jansen 1999: mean of (f_A - f_ABi)^2 over twice the variance"},
+        {"bounds", bounds_definition(all.bounds)},
+        {"incomplete", "rows in which one of the points does not have the output: where there are "
+                       "any, it has no indices"},
+        {"deployed", "1 deployed, 0 stalled or timed out; others left out"},
+        {"moves_nothing", "all outputs of all rows are the same without it, bit for bit"}}},
+      {"outputs", outputs},
+      {"moves_nothing", all.idle()}};
+}
+
+std::string sensitivity_csv(const SobolSensitivity& all) {
+  std::string text = "output,dispersion,rows,incomplete,first,first_lower,first_upper,"
+                     "total,total_lower,total_upper\n";
+  for (const auto& [name, indices] : all.outputs)
+    for (std::size_t i = 0; i < all.dispersions.size(); ++i) {
+      append_csv_cell(text, name);
+      append_csv_cells(text, all.dispersions[i], indices.rows, indices.incomplete);
+      for (const SobolIndex& index : {indices.effects[i].first, indices.effects[i].total})
+        append_csv_cells(text, index.value, index.bounds.lower, index.bounds.upper);
+      text += '\n';
+    }
+  return text;
+}
+
+std::string sensitivity_table(const SobolSensitivity& all, std::string_view title) {
+  std::string text = fmt::format("{}\n", title);
+  const std::string columns = column_names("total", "first", all.bounds.confidence);
+  for (const auto& [name, indices] : all.outputs) {
+    const SobolIndices& found = indices;
+    const auto size = [&](std::size_t i) { return found.effects[i].total.value; };
+    const auto line = [&](std::size_t i) {
+      const auto& [first, total, inert] = found.effects[i];
+      return fmt::format("{}{}{}\n", in_column("  " + all.dispersions[i], name_width + 2),
+                         value_text(total.value, total.bounds),
+                         value_text(first.value, first.bounds));
+    };
+    text += effect_block(heading_of(name, found.rows, "rows", found.incomplete,
+                                    "in which some point is without it: no indices"),
+                         columns, all.dispersions.size(), size, line);
+    double sum = 0;
+    for (const SobolEffect& effect : found.effects) sum += effect.first.value;
+    if (!std::isnan(sum))
+      text += fmt::format("  {:<{}}{:>39.3f}\n", "sum of the first-order", name_width, sum);
+  }
+  return text;
+}
+
+std::vector<std::string> warnings(const SobolSensitivity& all) {
+  std::vector<std::string> list;
+  if (const std::vector<std::string> idle = all.idle(); !idle.empty())
+    list.push_back(fmt::format("no output of any run changes with {}", quoted(idle)));
+  if (all.bounds.replicates == 1) list.emplace_back(one_replicate);
+  if (const std::vector<std::string> names = incomplete(all); !names.empty())
+    list.push_back(
+        fmt::format("{} did not happen at some points of the design, and so without a value "
+                    "there have no indices (rank correlations of a campaign's runs take "
+                    "those that have it)",
+                    quoted(names)));
+  if (all.runs < all.total)
+    list.push_back(fmt::format("only {} of {} runs are there", all.runs, all.total));
+  return list;
+}
+
+} // namespace wingspread

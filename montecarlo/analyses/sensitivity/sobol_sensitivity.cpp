@@ -1,0 +1,43 @@
+#include "montecarlo/analyses/sensitivity/sobol_sensitivity.hpp"
+
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/results/summary/summary.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+
+std::vector<std::string> SobolSensitivity::idle() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < dispersions.size(); ++i) {
+    const auto inert = [i](const Output& output) { return output.indices.effects[i].inert; };
+    const auto known = [](const Output& output) {
+      return output.indices.rows > output.indices.incomplete;
+    };
+    if (std::ranges::all_of(outputs, inert) && std::ranges::any_of(outputs, known))
+      names.push_back(dispersions[i]);
+  }
+  return names;
+}
+
+SobolSensitivity sobol_sensitivity(const Results& results, long rows, std::string design,
+                                   const SobolBounds& bounds) {
+  const std::size_t d = results.draws.size();
+  SobolSensitivity all{rows,
+                       static_cast<long>(results.size()),
+                       rows * static_cast<long>(d + 2),
+                       std::move(design),
+                       bounds,
+                       {},
+                       {}};
+  for (const Column& draw : results.draws) all.dispersions.push_back(draw.name);
+  for (const Column& output : results.outputs)
+    all.outputs.push_back({output.name, sobol_indices(output.values, d, bounds)});
+  const Column deployed = deployed_column(results);
+  if (moments(sorted_present(deployed.values)).std > 0)
+    all.outputs.push_back({deployed.name, sobol_indices(deployed.values, d, bounds)});
+  return all;
+}
+
+} // namespace wingspread

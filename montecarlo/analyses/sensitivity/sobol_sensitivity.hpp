@@ -1,0 +1,34 @@
+/// Sobol' indices of all outputs of a Saltelli design.
+#pragma once
+
+#include "montecarlo/analyses/sensitivity/sobol_indices.hpp"
+#include "montecarlo/engine/runs/results.hpp"
+
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// Sobol' indices of all outputs of a design.
+struct SobolSensitivity {
+  long rows = 0;  ///< N
+  long runs = 0;  ///< made, of N (d + 2)
+  long total = 0; ///< N (d + 2)
+  std::string design;
+  SobolBounds bounds;
+  std::vector<std::string> dispersions;
+  struct Output {
+    std::string name;
+    SobolIndices indices;
+  };
+  std::vector<Output> outputs;
+  /// Dispersions without which every output of every row is the same, bit for bit.
+  [[nodiscard]] std::vector<std::string> idle() const;
+};
+
+/// All outputs' indices, and those of `deployed` (deployed_column()) when it varies.
+/// @param results of a Saltelli design, from its first run on
+[[nodiscard]] SobolSensitivity sobol_sensitivity(const Results& results, long rows,
+                                                 std::string design, const SobolBounds& bounds);
+
+} // namespace wingspread

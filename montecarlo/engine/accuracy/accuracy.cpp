@@ -1,0 +1,176 @@
+#include "montecarlo/engine/accuracy/accuracy.hpp"
+
+#include "montecarlo/engine/accuracy/chosen_runs.hpp"
+#include "montecarlo/engine/runs/runner.hpp"
+#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr double tighter = 1e-3; ///< a reference's tolerance, as a share of the campaign's
+constexpr double tightest_explicit = 1e-13; ///< below it round-off says what a step's error is
+constexpr double tightest_implicit = 1e-12; ///< seulex takes ten times the steps below it
+constexpr double loosest = 1e-10;
+constexpr long times_the_steps = 100, least_steps = 20'000;
+
+/// The nearest number of three decimal digits: 1e-11, where a product is 1.0000000000000001e-11.
+double in_three_digits(double x) {
+  std::array<char, 32> text{};
+  char* const first = text.data();
+  const auto written =
+      std::to_chars(first, first + text.size(), x, std::chars_format::scientific, 2);
+  std::from_chars(first, written.ptr, x);
+  return x;
+}
+
+/// Tolerances together: atol keeps its ratio to rtol.
+Integration with_tolerance(Integration integration, std::string method, double rtol) {
+  integration.method = std::move(method);
+  integration.atol *= rtol / integration.rtol;
+  integration.rtol = rtol;
+  return integration;
+}
+
+/// The same outcome: errors are of numbers then.
+bool agree(const ResultRow& a, const ResultRow& b) {
+  const auto happened_alike = [](double x, double y) { return std::isnan(x) == std::isnan(y); };
+  return a.status == b.status && a.latch_order == b.latch_order &&
+         std::ranges::equal(a.outputs, b.outputs, happened_alike);
+}
+
+OutputAccuracy error_of(const std::string& name, std::size_t column,
+                        std::span<const std::pair<const ResultRow*, const ResultRow*>> pairs) {
+  OutputAccuracy found{name, 0, undefined, undefined};
+  std::vector<double> errors;
+  for (const auto& [row, reference] : pairs)
+    if (!std::isnan(row->outputs[column]))
+      errors.push_back(std::abs(row->outputs[column] - reference->outputs[column]));
+  if (errors.empty()) return found;
+  found.runs = std::ssize(errors);
+  found.largest = *std::ranges::max_element(errors);
+  Sum squares; // of errors over the largest: those of 1e-160 too
+  for (const double error : errors)
+    if (found.largest > 0) squares.add(error / found.largest * (error / found.largest));
+  found.rms = found.largest * std::sqrt(squares.value() / static_cast<double>(found.runs));
+  return found;
+}
+
+/// Steps that a reference may take, by what some of the runs take as they are.
+long steps_allowed(const Campaign& campaign, std::span<const long> runs) {
+  const RunPlan plan(campaign);
+  Runner runner(plan);
+  long allowed = least_steps;
+  for (const std::size_t i : {std::size_t{0}, runs.size() / 2, runs.size() - 1})
+    allowed = std::max(allowed, times_the_steps * runner.replay(runs[i], {}).outcome.work.steps);
+  return allowed;
+}
+
+} // namespace
+
+std::vector<Integration> references_of(const Integration& integration) {
+  const double rtol = integration.rtol;
+  const auto at = [&](const char* method, double tightest) {
+    const double wanted = in_three_digits(std::clamp(rtol * tighter, tightest, loosest));
+    return with_tolerance(integration, method, std::min(wanted, rtol));
+  };
+  const bool is_dopri5 = integration.method == "dopri5", is_seulex = integration.method == "seulex";
+  return {at(is_dopri5 ? "dop853" : "dopri5", tightest_explicit),
+          at(is_seulex ? "auto" : "seulex", tightest_implicit)};
+}
+
+Accuracy compare_rows(const ResultNames& names, std::span<const ResultRow> rows,
+                      std::span<const ResultRow> reference) {
+  Accuracy accuracy;
+  std::vector<std::pair<const ResultRow*, const ResultRow*>> pairs;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (reference[i].status == Status::failed) {
+      ++accuracy.unreached;
+      continue;
+    }
+    ++accuracy.runs;
+    if (agree(rows[i], reference[i]))
+      pairs.emplace_back(&rows[i], &reference[i]);
+    else
+      accuracy.in_doubt.push_back(rows[i].run);
+  }
+  for (std::size_t column = 0; column < names.outputs.size(); ++column)
+    accuracy.outputs.push_back(error_of(names.outputs[column], column, pairs));
+  return accuracy;
+}
+
+std::vector<ResultRow> make_again(const Campaign& campaign, const Integration& integration,
+                                  std::span<const long> runs, const Crew& crew) {
+  Campaign again = campaign;
+  again.integration = integration;
+  const RunPlan plan(again);
+  std::vector<ResultRow> rows(runs.size());
+  std::atomic<std::size_t> claimed = 0;
+  const auto next = [&]() -> std::optional<long> {
+    const std::size_t i = claimed++;
+    return i < runs.size() ? std::optional(runs[i]) : std::nullopt;
+  };
+  const auto keep = [&](ResultRow&& row) {
+    const auto place = std::ranges::lower_bound(runs, row.run) - runs.begin();
+    rows[static_cast<std::size_t>(place)] = std::move(row);
+  };
+  on_team(
+      team_size(crew.threads), [&] { (void)Runner(plan).run_all(crew.set, next, keep); },
+      [&] { claimed = runs.size(); });
+  return rows;
+}
+
+Accuracy compare_with_reference(const Campaign& campaign, std::span<const ResultRow> rows,
+                                const Crew& crew) {
+  const ResultNames names = RunPlan(campaign).names();
+  std::vector<long> runs;
+  std::ranges::transform(rows, std::back_inserter(runs), &ResultRow::run);
+  Accuracy accuracy;
+  const long steps = steps_allowed(campaign, runs);
+  for (Integration reference : references_of(campaign.integration)) {
+    reference.max_steps = steps;
+    std::vector<ResultRow> made = make_again(campaign, reference, std::span(runs).first(1), crew);
+    if (made.front().status == Status::failed) continue;
+    std::ranges::move(make_again(campaign, reference, std::span(runs).subspan(1), crew),
+                      std::back_inserter(made));
+    accuracy = compare_rows(names, rows, made);
+    accuracy.reference_method = reference.method;
+    accuracy.reference_rtol = reference.rtol;
+    break;
+  }
+  accuracy.method = campaign.integration.method;
+  accuracy.rtol = campaign.integration.rtol;
+  return accuracy;
+}
+
+std::size_t count_repeated(const Campaign& campaign, std::size_t runs) {
+  const auto most = static_cast<std::size_t>(campaign.statistics.accuracy_runs);
+  return std::min(most, (runs + 9) / 10);
+}
+
+std::optional<Accuracy> measure_accuracy(const Campaign& campaign, const Results& results,
+                                         const Crew& crew) {
+  const auto began = std::chrono::steady_clock::now();
+  std::vector<ResultRow> rows;
+  const std::size_t count = count_repeated(campaign, results.size());
+  if (count > 0)
+    for (const std::size_t row : chosen_rows(campaign, results, count))
+      rows.push_back(results.row(row));
+  results.release();
+  if (rows.empty()) return std::nullopt;
+  Accuracy accuracy = compare_with_reference(campaign, rows, crew);
+  accuracy.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return accuracy.runs > 0 ? std::optional(std::move(accuracy)) : std::nullopt;
+}
+
+} // namespace wingspread

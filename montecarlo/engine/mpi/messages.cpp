@@ -1,0 +1,100 @@
+#include "montecarlo/engine/mpi/messages.hpp"
+
+#include <utility>
+
+namespace wingspread {
+
+std::string word(Told kind) {
+  Packer packer;
+  packer.put(kind);
+  return packer.take();
+}
+
+std::string open_message(const PlanDescription& description) {
+  Packer packer;
+  packer.put(Told::open);
+  packer.put(description.campaign);
+  packer.put(description.recipe);
+  packer.put(description.own_points);
+  packer.put(description.wants_csv);
+  packer.put(description.threads);
+  packer.put(description.set);
+  return packer.take();
+}
+
+PlanDescription take_description(Unpacker& message) {
+  PlanDescription description;
+  description.campaign = message.take_text();
+  description.recipe = message.take_text();
+  description.own_points = message.take<bool>();
+  description.wants_csv = message.take<bool>();
+  description.threads = message.take<int>();
+  description.set = message.take<InstructionSet>();
+  return description;
+}
+
+std::string chunk_message(const Chunk& chunk, const RunPlan& plan) {
+  Packer packer;
+  packer.put(Told::chunk);
+  packer.put(chunk);
+  if (plan.has_own_points()) {
+    std::vector<Tails> point(plan.campaign().dispersions.size());
+    for (long run = chunk.runs.first; run < chunk.runs.last; ++run) {
+      plan.place(run, point);
+      for (const Tails& u : point) packer.put(u);
+    }
+  }
+  return packer.take();
+}
+
+Chunk take_chunk(Unpacker& message) { return message.take<Chunk>(); }
+
+std::vector<Tails> take_points(Unpacker& message, long runs, std::size_t dispersions) {
+  std::vector<Tails> points(static_cast<std::size_t>(runs) * dispersions);
+  for (Tails& u : points) u = message.take<Tails>();
+  return points;
+}
+
+std::string report_message(const Report& report) {
+  Packer packer;
+  packer.put(Told::report);
+  packer.put(report.wanted);
+  packer.put(report.stopped);
+  packer.put(report.finished.size());
+  for (const FinishedChunk& finished : report.finished) {
+    packer.put(finished.chunk);
+    packer.put(finished.complete);
+    packer.put(finished.batch);
+  }
+  return packer.take();
+}
+
+Report take_report(Unpacker& message) {
+  Report report;
+  report.wanted = message.take<long>();
+  report.stopped = message.take<bool>();
+  report.finished.resize(message.take<std::size_t>());
+  for (FinishedChunk& finished : report.finished) {
+    finished.chunk = message.take<Chunk>();
+    finished.complete = message.take<bool>();
+    finished.batch = message.take_batch(finished.chunk.runs.first);
+  }
+  return report;
+}
+
+std::string closed_message(const Closing& closing) {
+  Packer packer;
+  packer.put(Told::closed);
+  packer.put(closing.occupancy);
+  packer.put(closing.failure);
+  return packer.take();
+}
+
+Closing take_closing(Unpacker& message) {
+  Closing closing;
+  closing.occupancy = message.take<Occupancy>();
+  closing.failure = message.take_text();
+  return closing;
+}
+
+} // namespace wingspread

@@ -1,0 +1,73 @@
+#include "montecarlo/engine/mpi/mpi_wire.hpp"
+
+#include <limits>
+#include <list>
+#include <mpi.h>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// Errors of MPI end the job: its default (MPI_ERRORS_ARE_FATAL) is left as it is.
+class MpiWire final : public Wire {
+public:
+  MpiWire() {
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  /// Waits until all has been sent.
+  ~MpiWire() override {
+    for (Sending& each : sending_) MPI_Wait(&each.request, MPI_STATUS_IGNORE);
+  }
+
+  [[nodiscard]] int rank() const override { return rank_; }
+  [[nodiscard]] int size() const override { return size_; }
+
+  void send(int to, std::string bytes) override {
+    forget_sent();
+    Sending& each = sending_.emplace_back();
+    each.bytes = std::move(bytes);
+    MPI_Isend(each.bytes.data(), static_cast<int>(each.bytes.size()), MPI_BYTE, to, tag,
+              MPI_COMM_WORLD, &each.request);
+  }
+
+  [[nodiscard]] std::optional<Message> receive() override {
+    forget_sent();
+    int there = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &status);
+    if (!there) return std::nullopt;
+    int bytes = 0;
+    MPI_Get_count(&status, MPI_BYTE, &bytes);
+    Message message{status.MPI_SOURCE, std::string(static_cast<std::size_t>(bytes), '\0')};
+    MPI_Recv(message.bytes.data(), bytes, MPI_BYTE, status.MPI_SOURCE, tag, MPI_COMM_WORLD,
+             MPI_STATUS_IGNORE);
+    return message;
+  }
+
+private:
+  static constexpr int tag = 0;
+
+  /// What is under way has to stay where it is.
+  struct Sending {
+    std::string bytes;
+    MPI_Request request = MPI_REQUEST_NULL;
+  };
+
+  void forget_sent() {
+    for (auto each = sending_.begin(); each != sending_.end();) {
+      int sent = 0;
+      MPI_Test(&each->request, &sent, MPI_STATUS_IGNORE);
+      each = sent ? sending_.erase(each) : std::next(each);
+    }
+  }
+
+  int rank_ = 0, size_ = 1;
+  std::list<Sending> sending_;
+};
+
+} // namespace
+
+std::unique_ptr<Wire> mpi_wire() { return std::make_unique<MpiWire>(); }
+
+} // namespace wingspread

@@ -1,0 +1,70 @@
+/// What several threads finish, handed on in the order of its numbers.
+#pragma once
+
+#include "montecarlo/engine/runs/evaluator.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <utility>
+
+namespace wingspread {
+
+/// Hands batches on in the order of their chunks, whichever order they are finished in; those that are finished
+/// before their turn wait. What may wait is bounded: a chunk far ahead of the oldest one that is not finished is not
+/// to be begun yet.
+class InOrder {
+public:
+  /// @param most_ahead chunks that may be begun beyond those that were handed on, ≥ 1
+  InOrder(const BatchSink& sink, long most_ahead) : sink_(sink), most_ahead_(most_ahead) {}
+
+  /// Whether the chunk may be begun now.
+  [[nodiscard]] bool may_begin(long chunk) const {
+    const std::lock_guard lock(mutex_);
+    return chunk < next_ + most_ahead_;
+  }
+
+  /// Waits until the chunk may be begun, or something ends all work.
+  /// @param ended asked ten times a second
+  template <class Ended> void wait_for(long chunk, const Ended& ended) {
+    std::unique_lock lock(mutex_);
+    const auto over = [&] { return chunk < next_ + most_ahead_ || ended(); };
+    while (!moved_.wait_for(lock, std::chrono::milliseconds(100), over)) {
+    }
+  }
+
+  /// @param complete false when the chunk was broken off: nothing after it will be handed on
+  void finish(long chunk, Batch batch, bool complete) {
+    const std::lock_guard lock(mutex_);
+    waiting_.emplace(chunk, Finished{std::move(batch), complete});
+    while (!cut_ && waiting_.contains(next_)) hand_on(waiting_.extract(next_++).mapped());
+    moved_.notify_all();
+  }
+
+  /// Runs handed on. @pre all threads are done
+  [[nodiscard]] long done() const { return done_; }
+
+private:
+  struct Finished {
+    Batch batch;
+    bool complete;
+  };
+
+  void hand_on(const Finished& finished) {
+    cut_ = true; // stays so if the sink throws
+    if (!finished.batch.rows.empty()) sink_.take(finished.batch);
+    done_ += std::ssize(finished.batch.rows);
+    cut_ = !finished.complete;
+  }
+
+  const BatchSink& sink_;
+  const long most_ahead_;
+  mutable std::mutex mutex_;
+  std::condition_variable moved_;
+  std::map<long, Finished> waiting_; ///< by chunk
+  long next_ = 0, done_ = 0;
+  bool cut_ = false;
+};
+
+} // namespace wingspread

@@ -1,0 +1,84 @@
+#include "montecarlo/engine/runs/runner.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace wingspread {
+
+namespace {
+
+PeaksFinal finality_of(const Outcome& outcome) {
+  if (outcome.status == Status::invalid || outcome.status == Status::failed)
+    return PeaksFinal::unknown;
+  return outcome.peaks_final ? PeaksFinal::yes : PeaksFinal::no;
+}
+
+} // namespace
+
+Runner::Runner(const RunPlan& plan) : plan_(&plan), scene_(plan.campaign().scene) {}
+
+ResultRow Runner::run(long k) { return make(k, plan_->goal(), {}).row; }
+
+Runner::Replay Runner::replay(long k, const Observer& observer) {
+  Goal goal = plan_->goal();
+  goal.audit = goal.end_state = true;
+  return make(k, goal, observer);
+}
+
+Occupancy Runner::run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
+                          const std::function<void(ResultRow&&)>& done) {
+  std::map<long, std::vector<double>> draws; // of the runs in the lanes
+  const auto next_scene = [&](Scene& scene) {
+    const std::optional<long> k = next();
+    if (k) set_scene(*k, draws[*k], scene);
+    return k;
+  };
+  const auto ended = [&](long k, Outcome&& outcome) {
+    done(row_of(k, std::move(draws.extract(k).mapped()), outcome));
+  };
+  return DeploymentPack(set, plan_->campaign().integration, plan_->goal())
+      .run(plan_->campaign().scene, next_scene, ended);
+}
+
+Runner::Replay Runner::make(long k, const Goal& goal, const Observer& observer) {
+  std::vector<double> draws;
+  set_scene(k, draws, scene_);
+  Replay made;
+  made.outcome = deployment_.run(scene_, plan_->campaign().integration, goal, observer);
+  made.row = row_of(k, std::move(draws), made.outcome);
+  return made;
+}
+
+void Runner::set_scene(long k, std::vector<double>& draws, Scene& scene) const {
+  const Campaign& campaign = plan_->campaign();
+  draws.resize(campaign.dispersions.size());
+  plan_->draw(k, draws);
+  apply(campaign, draws, campaign.scene, scene);
+}
+
+std::vector<double> Runner::outputs_of(std::span<const double> draws, const Outcome& outcome) {
+  std::vector<double> outputs;
+  if (const auto& measure = plan_->measure()) {
+    apply(plan_->campaign(), draws, plan_->campaign().scene, scene_);
+    outputs.push_back(measure->of(scene_, outcome));
+  }
+  for (const OutputColumn& column : plan_->columns()) outputs.push_back(output_of(column, outcome));
+  return outputs;
+}
+
+ResultRow Runner::row_of(long k, std::vector<double>&& draws, Outcome& outcome) {
+  ResultRow row;
+  row.run = k;
+  row.outputs = outputs_of(draws, outcome);
+  row.draws = std::move(draws);
+  // A draw that overflowed is in the reason of its invalid run; the table has room for numbers.
+  std::ranges::transform(row.draws, row.draws.begin(), finite_or_none);
+  row.status = outcome.status;
+  row.reason = outcome.reason;
+  if (plan_->names().peaks_final) row.peaks_final = finality_of(outcome);
+  row.latch_order = latch_order(plan_->campaign().scene, outcome);
+  return row;
+}
+
+} // namespace wingspread

@@ -1,0 +1,38 @@
+#include "montecarlo/foundation/formats/output_name.hpp"
+
+#include <array>
+
+namespace wingspread {
+
+namespace {
+
+struct Quantity {
+  std::string_view name;
+  const char* unit;
+};
+
+constexpr std::array per_hinge{Quantity{"latch_time", "s"}, Quantity{"latch_rate", "rad/s"},
+                               Quantity{"peak_moment", "N·m"}, Quantity{"peak_force", "N"},
+                               Quantity{"overtravel", "rad"}};
+constexpr std::array of_base{Quantity{"base.peak_angle", "rad"},
+                             Quantity{"base.peak_rate", "rad/s"}};
+constexpr std::string_view rate_at = ".rate_at.";
+
+} // namespace
+
+OutputName parse_output_name(std::string_view name) {
+  if (name == "deployment_time") return {"", std::string(name), "", "s"};
+  for (const Quantity& quantity : of_base)
+    if (name == quantity.name)
+      return {"base", std::string(name.substr(name.find('.') + 1)), "", quantity.unit};
+  const std::size_t dot = name.rfind('.');
+  for (const Quantity& quantity : per_hinge)
+    if (dot != std::string_view::npos && name.substr(dot + 1) == quantity.name)
+      return {std::string(name.substr(0, dot)), std::string(quantity.name), "", quantity.unit};
+  if (const std::size_t at = name.find(rate_at); at != std::string_view::npos)
+    return {std::string(name.substr(0, at)), "rate_at",
+            std::string(name.substr(at + rate_at.size())), "rad/s"};
+  return {"", std::string(name), "", ""};
+}
+
+} // namespace wingspread

@@ -1,0 +1,101 @@
+#include "montecarlo/foundation/formats/text_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace wingspread {
+namespace {
+
+/// Whether the byte begins a character, rather than goes on with one.
+bool starts_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
+
+} // namespace
+
+std::size_t count_characters(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, starts_character));
+}
+
+std::string shortened(std::string_view text, std::size_t width) {
+  if (count_characters(text) <= width) return std::string(text);
+  std::size_t end = 0;
+  for (std::size_t characters = 0; characters < width; ++end)
+    if (starts_character(text[end])) ++characters;
+  return std::string(text.substr(0, end - 1)) + "…";
+}
+
+std::string in_column(std::string_view text, std::size_t width) {
+  const std::size_t length = count_characters(text);
+  return std::string(text) +
+         (length < width ? std::string(width - length, ' ') : '\n' + std::string(width, ' '));
+}
+
+std::string right_aligned(std::string_view text, std::size_t width) {
+  const std::size_t length = count_characters(text);
+  return std::string(length < width ? width - length : 1, ' ') + std::string(text);
+}
+
+std::string wrapped(std::string_view text, std::size_t indent) {
+  std::string lines;
+  std::size_t column = indent;
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    const std::size_t length = count_characters(word);
+    if (column == indent) {
+      column += length;
+    } else if (column + 1 + length <= table_width) {
+      lines += ' ';
+      column += 1 + length;
+    } else {
+      lines += '\n' + std::string(indent, ' ');
+      column = indent + length;
+    }
+    lines += word;
+  }
+  return lines;
+}
+
+std::string in_digits(double value) {
+  if (std::isnan(value)) return "–";
+  std::string text = fmt::format("{:#.5g}", value);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+std::string paragraph(std::string_view text, std::size_t indent) {
+  const std::string margin(indent, ' ');
+  constexpr std::size_t width = table_width;
+  std::string lines;
+  std::size_t column = 0;
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    const std::size_t length = count_characters(word);
+    const bool fits = column > 0 && column + 1 + length <= width;
+    lines += fits ? " " : column == 0 ? margin : '\n' + margin;
+    column = fits ? column + 1 + length : indent + length;
+    lines += word;
+  }
+  return lines.empty() ? "" : lines + '\n';
+}
+
+std::string percent(double share, int decimals) {
+  return std::isnan(share) ? "–" : fmt::format("{:.{}f} %", 100 * share, decimals);
+}
+
+std::string percent_range(double lower, double upper) {
+  return fmt::format("{:.3f} – {:.3f} %", 100 * lower, 100 * upper);
+}
+
+std::string spaced(std::string_view name) {
+  std::string words(name);
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+std::string counted(long count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+} // namespace wingspread

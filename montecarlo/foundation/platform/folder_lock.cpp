@@ -1,0 +1,172 @@
+#include "montecarlo/foundation/platform/folder_lock.hpp"
+
+#include "montecarlo/foundation/formats/files.hpp"
+
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <fcntl.h>
+#include <fstream>
+#include <optional>
+#include <signal.h>
+#include <string>
+#include <unistd.h>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr const char* expected_lock = "a folder that can be locked for one writer";
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// Another one after each start of the machine; empty where the system does not tell.
+std::string boot_name() {
+  std::ifstream in("/proc/sys/kernel/random/boot_id");
+  std::string name;
+  return std::getline(in, name) ? name : "";
+}
+
+/// What stands in the file: "process 123 on HOST, boot BOOT".
+std::string own_name() {
+  return fmt::format("process {} on {}, boot {}", getpid(), host_name(), boot_name());
+}
+
+std::string name_in(int file) {
+  std::array<char, 512> text{};
+  const auto size = pread(file, text.data(), text.size(), 0);
+  return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : "";
+}
+
+/// Whether the file names a process that lives.
+bool is_alive(const std::string& name) {
+  pid_t process = 0;
+  constexpr std::size_t number_at = std::string_view("process ").size();
+  if (name.size() <= number_at) return false;
+  std::from_chars(name.data() + number_at, name.data() + name.size(), process);
+  const bool of_this_boot =
+      name.ends_with(fmt::format(" on {}, boot {}", host_name(), boot_name()));
+  return of_this_boot && process > 0 && (kill(process, 0) == 0 || errno == EPERM);
+}
+
+[[noreturn]] void refuse_second(const std::filesystem::path& folder, const std::string& holder) {
+  const std::string who =
+      holder.empty() ? "another process" : holder.substr(0, holder.find(", boot "));
+  throw MachineError(
+      {folder.string(), "", who + " at work in it", "a folder that no other process writes to"});
+}
+
+int open_without_signals(const std::filesystem::path& path, int flags) {
+  int file = -1;
+  do file = open(path.c_str(), flags | O_CLOEXEC, 0666);
+  while (file < 0 && errno == EINTR);
+  return file;
+}
+
+int open_lock(const std::filesystem::path& path) {
+  const int file = open_without_signals(path, O_RDWR | O_CREAT);
+  if (file < 0) refuse_path(path, errno, expected_lock);
+  return file;
+}
+
+/// Whether the folder keeps this process from making or changing its lock. One that is not there can be made.
+bool is_read_only(const std::filesystem::path& folder, const std::filesystem::path& path) {
+  const auto may_write = [](const std::filesystem::path& its) {
+    return faccessat(AT_FDCWD, its.c_str(), W_OK, AT_EACCESS) == 0 ||
+           (errno != EACCES && errno != EROFS && errno != EPERM);
+  };
+  return !may_write(folder) || !may_write(path);
+}
+
+/// Locks it. @return 0, or the error
+int lock(int file) {
+  for (;;) {
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) return 0;
+    if (errno != EINTR) return errno;
+  }
+}
+
+/// Whether the path still leads to the open file, and not to another or to none.
+bool is_at(int file, const std::filesystem::path& path) {
+  struct stat open_file {
+  }, named{};
+  return fstat(file, &open_file) == 0 && stat(path.c_str(), &named) == 0 &&
+         open_file.st_dev == named.st_dev && open_file.st_ino == named.st_ino;
+}
+
+/// The locked file; nothing when its last holder took it away meanwhile.
+std::optional<int> take(const std::filesystem::path& folder, const std::filesystem::path& path) {
+  const int file = open_lock(path);
+  const std::string holder = name_in(file);
+  const int error = lock(file);
+  const bool has_no_locks = error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP;
+  if (error == 0 || (has_no_locks && !is_alive(holder))) {
+    if (is_at(file, path)) return file;
+    close(file);
+    return std::nullopt;
+  }
+  close(file);
+  if (error == EWOULDBLOCK || has_no_locks) refuse_second(folder, holder);
+  refuse_path(path, error, expected_lock);
+}
+
+/// Throws when another process writes to a folder that this one cannot write to.
+void refuse_writer(const std::filesystem::path& folder, const std::filesystem::path& path) {
+  const int file = open_without_signals(path, O_RDONLY);
+  if (file < 0) return; // nobody holds it
+  const std::string holder = name_in(file);
+  const bool held = flock(file, LOCK_SH | LOCK_NB) != 0 &&
+                    (errno == EWOULDBLOCK || (errno != EINTR && is_alive(holder)));
+  close(file);
+  if (held) refuse_second(folder, holder);
+}
+
+/// Who holds it, into the file. @return 0, or the error
+int write_name(int file) {
+  const std::string name = own_name();
+  if (ftruncate(file, 0) != 0) return errno;
+  for (std::size_t at = 0; at < name.size();) {
+    const auto written = pwrite(file, name.data() + at, name.size() - at, static_cast<off_t>(at));
+    if (written < 0 && errno != EINTR) return errno;
+    if (written > 0) at += static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+} // namespace
+
+FolderLock::FolderLock(std::filesystem::path folder, For purpose)
+    : folder_(std::move(folder)), path_(folder_ / lock_file) {
+  if (purpose == For::reading && is_read_only(folder_, path_)) {
+    refuse_writer(folder_, path_);
+    return;
+  }
+  std::error_code unknown;
+  made_ = !std::filesystem::exists(folder_, unknown);
+  make_folder(folder_);
+  std::optional<int> taken;
+  while (!taken) taken = take(folder_, path_);
+  file_ = *taken;
+  if (const int error = write_name(file_)) {
+    unlink(path_.c_str());
+    close(file_);
+    refuse_path(path_, error, expected_lock);
+  }
+  remove_parts(folder_);
+}
+
+FolderLock::~FolderLock() {
+  if (file_ < 0) return;
+  unlink(path_.c_str()); // first: who finds it afterwards has another file
+  close(file_);
+  if (made_) rmdir(folder_.c_str()); // only if nothing is in it
+}
+
+} // namespace wingspread

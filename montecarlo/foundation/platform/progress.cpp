@@ -1,0 +1,96 @@
+#include "montecarlo/foundation/platform/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unistd.h>
+
+namespace wingspread {
+namespace {
+
+/// "7 s", "3 min 20 s", "2 h 5 min".
+std::string duration(double seconds) {
+  const auto whole = static_cast<long>(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string bar(double share) {
+  constexpr int width = 24;
+  std::string text;
+  for (int i = 0; i < width; ++i) text += i < std::floor(share * width) ? "█" : "░";
+  return text;
+}
+
+} // namespace
+
+namespace {
+
+/// From 0 to 1.
+double share_of(const Tally& tally) {
+  if (tally.total == 0) return 1;
+  return std::min(1.0, static_cast<double>(tally.done) / static_cast<double>(tally.total));
+}
+
+} // namespace
+
+bool is_terminal(std::FILE* stream) { return isatty(fileno(stream)) == 1; }
+
+Tally tally_of(const StudyProgress& progress, long before) {
+  Tally tally{.done = progress.runs, .total = progress.most_runs, .before = before};
+  tally.look = progress.look;
+  tally.looks = progress.most_looks;
+  tally.at_most = true;
+  return tally;
+}
+
+std::string progress_line(const Tally& tally, double seconds) {
+  std::string text = bar(share_of(tally));
+  if (tally.looks > 0) text += fmt::format(" look {} of at most {} ·", tally.look, tally.looks);
+  text += tally.at_most ? fmt::format(" {} of at most {} runs", tally.done, tally.total)
+                        : fmt::format(" {}/{} runs", tally.done, tally.total);
+  const double rate = static_cast<double>(tally.done - tally.before) / seconds;
+  if (rate > 0 && std::isfinite(rate)) {
+    text += fmt::format(" · {:.0f} runs/s", rate);
+    if (tally.done < tally.total && !tally.at_most)
+      text += " · " + duration(static_cast<double>(tally.total - tally.done) / rate) + " left";
+  }
+  if (tally.stalled > 0) text += fmt::format(" · {} stalled", tally.stalled);
+  if (tally.timed_out > 0) text += fmt::format(" · {} timed out", tally.timed_out);
+  if (tally.invalid > 0) text += fmt::format(" · {} invalid", tally.invalid);
+  if (tally.failed > 0) text += fmt::format(" · {} failed", tally.failed);
+  return text;
+}
+
+Progress::Progress(std::FILE* stream) : stream_(is_terminal(stream) ? stream : nullptr) {}
+
+Progress::~Progress() { pause(); }
+
+void Progress::pause() {
+  if (shown_) fmt::print(stream_, "{}", pictured_ ? "\n\n" : "\n");
+  shown_ = pictured_ = false;
+}
+
+double Progress::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void Progress::show(const Tally& tally) {
+  if (!stream_) return;
+  const auto now = Clock::now();
+  if (shown_ && tally.done < tally.total && now - last_ < std::chrono::milliseconds(100)) return;
+  if (share_of(tally) < share_) return;
+  share_ = share_of(tally);
+  last_ = now;
+  shown_ = true;
+  fmt::print(stream_, "\r{}\x1b[K", progress_line(tally, seconds())); // \x1b[K: clear what is left
+  if (!tally.picture.empty()) {
+    fmt::print(stream_, "\n{}\x1b[K\x1b[A", tally.picture); // \x1b[A: up again
+    pictured_ = true;
+  }
+  std::fflush(stream_);
+}
+
+} // namespace wingspread

@@ -1,0 +1,100 @@
+#include "montecarlo/foundation/platform/team.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <omp.h>
+
+// GCC's OpenMP runtime synchronises with futexes that the thread sanitizer does not see: it would
+// take the team's start and end for races. So these two edges are told to it, by release() and
+// acquire(). One store is out of their reach: the compiler hands the team the address of what it
+// shares just before the start, behind release(). The function that does it, which touches nothing
+// else of the team's, is therefore not instrumented; all that it calls is.
+#ifdef __SANITIZE_THREAD__
+extern "C" {
+void __tsan_acquire(void* address);
+void __tsan_release(void* address);
+}
+namespace {
+char edge; // its address is all that matters
+void acquire() { __tsan_acquire(&edge); }
+void release() { __tsan_release(&edge); }
+} // namespace
+#else
+namespace {
+void acquire() {}
+void release() {}
+} // namespace
+#endif
+
+namespace wingspread {
+namespace {
+
+/// What the team shares.
+struct Shift {
+  const std::function<void()>& work;
+  const std::function<void()>& on_exception;
+  std::mutex mutex{};
+  std::exception_ptr first{};
+
+  void one_thread() noexcept {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!first) first = std::current_exception();
+      on_exception();
+    }
+  }
+};
+
+} // namespace
+
+int team_size(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
+
+int team_for(int wanted, double operations) {
+  return operations < operations_worth_a_team ? 1 : team_size(wanted);
+}
+
+namespace {
+
+[[gnu::no_sanitize_thread]] void start_and_join(int threads, Shift& shift) {
+  release();
+#pragma omp parallel num_threads(threads) default(none) shared(shift)
+  {
+    acquire();
+    shift.one_thread();
+    release();
+  }
+  acquire();
+}
+
+} // namespace
+
+void on_team(int threads, const std::function<void()>& work,
+             const std::function<void()>& on_exception) {
+  Shift shift{work, on_exception};
+  start_and_join(team_size(threads), shift);
+  if (shift.first) std::rethrow_exception(shift.first);
+}
+
+void for_each_task(int threads, std::size_t count, const std::function<void(std::size_t)>& task) {
+  std::atomic<std::size_t> next = 0;
+  const auto most = static_cast<int>(std::clamp<std::size_t>(count, 1, 1024));
+  on_team(
+      std::min(team_size(threads), most),
+      [&] {
+        for (std::size_t i = next++; i < count; i = next++) task(i);
+      },
+      [&] { next = count; });
+}
+
+int team_within(int wanted, std::size_t bytes_each) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 30;
+  const auto most = static_cast<int>(
+      std::clamp<std::size_t>(most_bytes / std::max<std::size_t>(bytes_each, 1), 1, 1024));
+  return std::min(team_size(wanted), most);
+}
+
+} // namespace wingspread

@@ -1,0 +1,48 @@
+/// Confidence bounds of independent draws, whatever their distribution: of proportions and
+/// quantiles, by the binomial law. Exact for any n. (Draws that depend on each other:
+/// replicate_bounds.hpp.)
+///
+/// Symbols: α = 1 − confidence; every interval leaves α/2 on either side, so that each end on its
+/// own is a one-sided bound with confidence 1 − α/2.
+#pragma once
+
+#include "montecarlo/foundation/statistics/bounds.hpp"
+
+#include <optional>
+#include <span>
+
+namespace wingspread {
+
+/// Clopper–Pearson interval of a proportion of which `hits` of `n` independent trials were seen:
+/// P(Bin(n, lower) ≥ hits) = P(Bin(n, upper) ≤ hits) = α/2. Never covers less than `confidence`.
+/// [0, 1] for n = 0. Source: C. J. Clopper, E. S. Pearson, Biometrika 26 (1934) 404–413.
+/// @pre 0 ≤ hits ≤ n, 0 < confidence < 1
+[[nodiscard]] Interval clopper_pearson(long hits, long n, double confidence);
+
+/// One-sided: the proportion above which `hits` or fewer would be seen with probability
+/// 1 − confidence at most. 1 for hits = n.
+[[nodiscard]] double clopper_pearson_upper(long hits, long n, double confidence);
+
+/// One-sided, from below. 0 for hits = 0.
+[[nodiscard]] double clopper_pearson_lower(long hits, long n, double confidence);
+
+/// The same for a share that need not come to a whole number of hits; changes steadily with n.
+/// @pre n > 0, 0 ≤ share ≤ 1
+[[nodiscard]] Interval clopper_pearson_of_share(double share, double n, double confidence);
+
+/// Ranks, from 1, of the order statistics that bound a quantile; none where no rank does.
+struct RankBounds {
+  std::optional<long> lower, upper;
+};
+
+/// X_(lower) ≤ ξ_p ≤ X_(upper) with the confidence asked for at least, whatever the distribution:
+/// lower is the largest l with P(Bin(n, p) ≤ l − 1) ≤ α/2, upper the smallest u with
+/// P(Bin(n, p) ≥ u) ≤ α/2. Independent draws only. Cost O(log n) binomial probabilities.
+/// Source: H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed. (2003), §7.1.
+/// @pre n ≥ 0, 0 < p < 1, 0 < confidence < 1
+[[nodiscard]] RankBounds quantile_rank_bounds(long n, double p, double confidence);
+
+/// The values at those ranks. @param sorted smallest first, independent draws.
+[[nodiscard]] Bounds quantile_bounds(std::span<const double> sorted, double p, double confidence);
+
+} // namespace wingspread

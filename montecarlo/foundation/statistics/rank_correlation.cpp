@@ -1,0 +1,108 @@
+#include "montecarlo/foundation/statistics/rank_correlation.hpp"
+
+#include "distributions/copula.hpp"
+#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/foundation/statistics/two_sided.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wingspread {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// The inverse of a correlation matrix, by its Cholesky factor; nothing when it is singular. By
+/// hand, as the factor is: the same bytes however a library was compiled.
+std::optional<Matrix> inverse_of(const Matrix& correlations) {
+  const auto factor = cholesky(correlations);
+  if (!factor) return std::nullopt;
+  const Eigen::Index n = correlations.rows();
+  Matrix root = Matrix::Zero(n, n); // L⁻¹
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j; i < n; ++i) {
+      double rest = i == j ? 1 : 0;
+      for (Eigen::Index k = j; k < i; ++k) rest -= (*factor)(i, k) * root(k, j);
+      root(i, j) = rest / (*factor)(i, i);
+    }
+  Matrix inverse = Matrix::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      for (Eigen::Index k = std::max(i, j); k < n; ++k) inverse(i, j) += root(k, i) * root(k, j);
+  return inverse;
+}
+
+} // namespace
+
+Bounds rank_correlation_bounds(double coefficient, long n, double confidence) {
+  if (n <= 3) return {};
+  const double z = std::atanh(coefficient);
+  const double s = std::sqrt((1 + coefficient * coefficient / 2) / static_cast<double>(n - 3));
+  const double reach = two_sided_normal(confidence) * s;
+  return {std::tanh(z - reach), std::tanh(z + reach)};
+}
+
+PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& columns, int threads)
+    : columns_(columns.size()),
+      rows_(columns.empty() ? 0 : static_cast<long>(columns.front().size())) {
+  std::vector<Standard> standards;
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    if (const auto standard = standard_of(columns[j])) {
+      varying_.push_back(j);
+      standards.push_back(*standard);
+    }
+  Matrix correlations = Matrix::Identity(index(varying_.size()), index(varying_.size()));
+  const auto pairs = static_cast<double>(varying_.size() * varying_.size()) / 2;
+  const int team = team_for(threads, pairs * static_cast<double>(rows_));
+  for_each_task(team, varying_.size(), [&](std::size_t i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double products =
+          sum_of_products(columns[varying_[i]], standards[i], columns[varying_[j]], standards[j]);
+      correlations(index(i), index(j)) = correlations(index(j), index(i)) =
+          pearson(standards[i], standards[j], products);
+      columns[varying_[j]].release();
+    }
+  });
+  for (const Spilled<double>& column : columns) column.release();
+  inverse_ = inverse_of(correlations);
+}
+
+std::vector<double> PartialCorrelations::explained() const {
+  std::vector<double> explained(columns_, undefined);
+  const long n = rows_, k = varying();
+  if (!inverse_ || n <= k) return explained;
+  for (std::size_t j = 0; j < varying_.size(); ++j)
+    explained[varying_[j]] = 1 - static_cast<double>(n - 1) /
+                                     (static_cast<double>(n - k) * (*inverse_)(index(j), index(j)));
+  return explained;
+}
+
+std::vector<double> PartialCorrelations::given(std::span<const double> plain) const {
+  std::vector<double> partial(columns_, undefined);
+  const std::size_t k = varying_.size();
+  const bool usable =
+      inverse_ && rows_ > static_cast<long>(k) + 1 &&
+      std::ranges::none_of(varying_, [&](std::size_t j) { return std::isnan(plain[j]); });
+  if (!usable) return partial;
+  std::vector<double> b(k, 0.0);
+  double explained = 0; // c·b
+  for (std::size_t i = 0; i < k; ++i) {
+    for (std::size_t j = 0; j < k; ++j)
+      b[i] += (*inverse_)(index(i), index(j)) * plain[varying_[j]];
+    explained += b[i] * plain[varying_[i]];
+  }
+  // Less than rounding is no rest: what it would leave of the other coefficients is noise.
+  const double rounding = 64 * static_cast<double>(k + 1) * std::numeric_limits<double>::epsilon();
+  const double rest = std::max(1 - explained, rounding);
+  for (std::size_t i = 0; i < k; ++i) {
+    const double size = std::sqrt(b[i] * b[i] + rest * (*inverse_)(index(i), index(i)));
+    partial[varying_[i]] = std::clamp(b[i] / size, -1.0, 1.0);
+  }
+  return partial;
+}
+
+} // namespace wingspread

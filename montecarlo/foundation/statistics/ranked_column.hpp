@@ -1,0 +1,42 @@
+/// Columns of numbers, sorted and ranked once, that statistics of ranks share.
+#pragma once
+
+#include "montecarlo/foundation/platform/spilled.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace wingspread {
+
+/// A column made ready to be correlated with others: sorted and ranked once. Keeps a reference to
+/// the values. NaN marks what is missing.
+class RankedColumn {
+public:
+  /// Cost O(n log n). @pre fewer than 2³¹ values
+  explicit RankedColumn(const Spilled<double>& values);
+  explicit RankedColumn(Spilled<double>&&) = delete;
+
+  [[nodiscard]] const Spilled<double>& values() const { return *values_; }
+  /// Twice the mid-ranks from 1 of the values that are there (ties share the mean of their ranks),
+  /// a whole number; 0 where there is none.
+  [[nodiscard]] const Spilled<std::uint32_t>& doubled_ranks() const { return doubled_ranks_; }
+  [[nodiscard]] bool complete() const { return complete_; }
+  /// Mid-ranks of all values. @pre complete()
+  [[nodiscard]] std::vector<double> ranks() const;
+  /// Mid-ranks of the values at which `keep` is true, among themselves and in their order. Cost
+  /// O(n). @pre no kept value is missing
+  [[nodiscard]] std::vector<double> ranks_where(const std::vector<bool>& keep) const;
+
+private:
+  const Spilled<double>* values_;
+  Spilled<std::uint32_t> doubled_ranks_;
+  bool complete_ = true;
+};
+
+/// The columns ranked, several at once. @param threads as of team_size (team.hpp)
+/// @pre the columns outlive what comes back
+[[nodiscard]] std::vector<RankedColumn>
+rank_columns(std::span<const Spilled<double>* const> columns, int threads = 1);
+
+} // namespace wingspread

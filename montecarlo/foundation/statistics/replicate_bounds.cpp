@@ -1,0 +1,91 @@
+#include "montecarlo/foundation/statistics/replicate_bounds.hpp"
+
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/foundation/statistics/two_sided.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace wingspread {
+namespace {
+
+/// A proportion over replicates, and its standard error.
+struct Share {
+  double value, error;
+};
+
+/// Of replicates of sizes n_r with hits h_r, F = Σh/Σn. As of a ratio estimator:
+/// s² = R/(R − 1) · Σ(h_r − F n_r)² / (Σn)² (W. G. Cochran, Sampling Techniques, 3rd ed. (1977),
+/// eq. 6.13 without the finite-population factor). The differences, times Σn, are of whole numbers:
+/// where the replicates agree the error is exactly 0.
+Share share_of(std::span<const long> hits, std::span<const long> sizes) {
+  const auto hit = static_cast<double>(std::reduce(hits.begin(), hits.end()));
+  const auto all = static_cast<double>(std::reduce(sizes.begin(), sizes.end()));
+  double squares = 0;
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    const double difference =
+        static_cast<double>(hits[r]) * all - hit * static_cast<double>(sizes[r]);
+    squares += difference * difference;
+  }
+  const auto replicates = static_cast<double>(sizes.size());
+  return {hit / all, std::sqrt(squares * replicates / (replicates - 1)) / (all * all)};
+}
+
+std::vector<long> replicate_sizes(std::span<const ReplicateValue> values, int replicates) {
+  std::vector<long> sizes(static_cast<std::size_t>(replicates), 0);
+  for (const ReplicateValue& each : values) ++sizes[static_cast<std::size_t>(each.replicate)];
+  return sizes;
+}
+
+} // namespace
+
+Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted, int replicates, double p,
+                                 double confidence) {
+  if (replicates < 2 || sorted.empty()) return {};
+  const long n = std::ssize(sorted);
+  const double value = sorted[static_cast<std::size_t>(quantile_rank(n, p) - 1)].value;
+  const auto tied = std::ranges::equal_range(sorted, value, {}, &ReplicateValue::value);
+  const std::vector<long> sizes = replicate_sizes(sorted, replicates);
+  const auto error_below = [&](auto end) {
+    return share_of(replicate_sizes({sorted.begin(), end}, replicates), sizes).error;
+  };
+  const double error = std::max(error_below(tied.begin()), error_below(tied.end()));
+  if (!(error > 0)) return {};
+  const double reach = two_sided_student(replicates - 1, confidence) * error;
+  const auto at_share = [&](double share) -> std::optional<double> {
+    const double rank = std::ceil(static_cast<double>(n) * share);
+    if (rank < 1 || rank > static_cast<double>(n)) return std::nullopt;
+    return sorted[static_cast<std::size_t>(rank) - 1].value;
+  };
+  return {at_share(p - reach), at_share(p + reach)};
+}
+
+double replicate_mean_error(std::span<const ReplicateValue> values, int replicates, double mean) {
+  if (replicates < 2 || values.empty()) return undefined;
+  std::vector<double> deviations(static_cast<std::size_t>(replicates), 0.0);
+  for (const auto& [value, replicate] : values)
+    deviations[static_cast<std::size_t>(replicate)] += value - mean;
+  const double squares =
+      std::inner_product(deviations.begin(), deviations.end(), deviations.begin(), 0.0);
+  return std::sqrt(squares * replicates / (replicates - 1.0)) / static_cast<double>(values.size());
+}
+
+Bounds replicate_proportion_bounds(std::span<const long> hits, std::span<const long> sizes,
+                                   double confidence) {
+  assert(hits.size() == sizes.size());
+  if (sizes.size() < 2) return {};
+  const auto [share, error] = share_of(hits, sizes);
+  if (!(error > 0)) return {};
+  const long n = std::reduce(sizes.begin(), sizes.end());
+  const double t_ratio =
+      two_sided_student(n - 1, confidence) / two_sided_student(std::ssize(sizes) - 1, confidence);
+  const double effective = share * (1 - share) / (error * error) * t_ratio * t_ratio;
+  const Interval interval = clopper_pearson_of_share(share, effective, confidence);
+  return {interval.lower, interval.upper};
+}
+
+} // namespace wingspread

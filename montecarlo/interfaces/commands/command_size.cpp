@@ -1,0 +1,168 @@
+#include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/spec_error.hpp"
+#include "montecarlo/foundation/statistics/wilks.hpp"
+#include "montecarlo/interfaces/commands/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+namespace wingspread {
+namespace {
+
+struct SizeOptions {
+  std::optional<double> probability, width, proportion;
+  double confidence = 0;
+  std::optional<long> order, failures, runs;
+  bool two_sided = false, json = false;
+};
+
+SpecError too_many(const char* expected) {
+  return SpecError({{"", "", fmt::format("more than {} runs", most_runs_sized), expected}});
+}
+
+/// Runs that may break it, of those that leave out `order` values on one side or on both.
+long failures_of(const SizeOptions& options) {
+  if (options.failures) return *options.failures;
+  const long order = options.order.value_or(1);
+  return (options.two_sided ? 2 * order : order) - 1;
+}
+
+struct Answer {
+  Json json;
+  std::string text;
+};
+
+/// How many runs show P ≥ p.
+Answer runs_needed(const SizeOptions& options) {
+  const double p = *options.probability, c = options.confidence;
+  const long k = failures_of(options);
+  const auto runs = runs_to_show(p, c, k);
+  if (!runs) throw too_many("a probability and an order that fewer can show");
+  const long order = options.two_sided ? (k + 1) / 2 : k + 1;
+  return {{{"probability", p},
+           {"confidence", c},
+           {"order", order},
+           {"two_sided", options.two_sided},
+           {"failures", k},
+           {"runs", *runs}},
+          fmt::format("{} runs show a probability of {} with confidence {}: {} may break the "
+                      "requirement\n({}-sided tolerance limits of order {})\n",
+                      *runs, p, c, k, options.two_sided ? "two" : "one", order)};
+}
+
+/// How many of so many runs may fail.
+Answer failures_allowed(const SizeOptions& options) {
+  const double p = *options.probability, c = options.confidence;
+  const auto allowed = allowed_failures(*options.runs, p, c);
+  const auto least = runs_to_show(p, c, 0);
+  Json json{{"probability", p},
+            {"confidence", c},
+            {"runs", *options.runs},
+            {"failures", allowed ? Json(*allowed) : Json(nullptr)},
+            {"least_runs", least ? Json(*least) : Json(nullptr)}};
+  if (allowed)
+    return {json, fmt::format("{} of {} runs may break a requirement of probability {} with "
+                              "confidence {}\n",
+                              *allowed, *options.runs, p, c)};
+  return {json, fmt::format("{} runs cannot show a probability of {} with confidence {}, even if "
+                            "none breaks the requirement: it takes {}\n",
+                            *options.runs, p, c,
+                            least ? std::to_string(*least)
+                                  : fmt::format("more than {}", most_runs_sized))};
+}
+
+/// How many runs make a share known to within a width.
+Answer runs_for_share(const SizeOptions& options) {
+  const double width = *options.width, proportion = options.proportion.value_or(0.5);
+  const auto runs = runs_for_width(width, options.confidence, proportion);
+  if (!runs) throw too_many("a width that fewer can reach");
+  return {{{"width", width},
+           {"confidence", options.confidence},
+           {"proportion", proportion},
+           {"runs", *runs}},
+          fmt::format("{} runs bound a share near {} to within {} with confidence {} "
+                      "(Clopper–Pearson, two-sided)\n",
+                      *runs, proportion, width, options.confidence)};
+}
+
+int size(const SizeOptions& options) {
+  const Answer answer = options.width  ? runs_for_share(options)
+                        : options.runs ? failures_allowed(options)
+                                       : runs_needed(options);
+  fmt::print("{}", options.json ? json_text(answer.json) : answer.text);
+  return exit_code::done;
+}
+
+CLI::Validator between(double lower, double upper, bool inclusive) {
+  const std::string expected = inclusive ? fmt::format("a number from {} to {}", lower, upper)
+                                         : fmt::format("a number, > {} and < {}", lower, upper);
+  return {[=](const std::string& text) {
+            double value = 0;
+            const bool is_number = CLI::detail::lexical_cast(text, value);
+            const bool fits =
+                inclusive ? lower <= value && value <= upper : lower < value && value < upper;
+            return is_number && fits ? "" : fmt::format("found {}, expected {}", text, expected);
+          },
+          ""};
+}
+
+CLI::Validator from(long least) { return CLI::Range(least, most_runs_sized).description(""); }
+
+void add_questions(CLI::App& command, SizeOptions& options) {
+  auto* probability =
+      command.add_option("--probability", options.probability, "That is to be shown, e.g. 0.9973")
+          ->check(between(0, 1, false));
+  command.add_option("--confidence", options.confidence, "One-sided, or of --width's interval")
+      ->required()
+      ->check(between(0, 1, false));
+  auto* order = command
+                    .add_option("--order", options.order,
+                                "Of the tolerance limit: 1 for the largest value, 2 for the next")
+                    ->check(from(1))
+                    ->needs(probability);
+  auto* two_sided = command.add_flag("--two-sided", options.two_sided, "Limits on either side")
+                        ->needs(probability);
+  auto* failures =
+      command.add_option("--failures", options.failures, "Runs that may break it: order - 1")
+          ->check(from(0))
+          ->needs(probability)
+          ->excludes(order)
+          ->excludes(two_sided);
+  command.add_option("--runs", options.runs, "Ask how many of so many may break it")
+      ->check(from(1))
+      ->needs(probability)
+      ->excludes(order)
+      ->excludes(two_sided)
+      ->excludes(failures);
+  auto* width = command.add_option("--width", options.width, "Of a share's confidence interval")
+                    ->check(between(0, 1, false))
+                    ->excludes(probability);
+  command.add_option("--proportion", options.proportion, "The share expected; a half, the worst")
+      ->check(between(0, 1, true))
+      ->needs(width);
+}
+
+} // namespace
+
+void add_size(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<SizeOptions>();
+  CLI::App* command = app.add_subcommand("size", "How many runs it takes to show what is required");
+  add_questions(*command, *options);
+  command->add_flag("--json", options->json, "Print the answer as JSON");
+  command->footer(R"(All of it holds for independent draws: the design "random".
+
+Example:
+  wingspread size --probability 0.9973 --confidence 0.9 --order 2
+  wingspread size --probability 0.99 --confidence 0.9 --runs 10000
+  wingspread size --width 0.01 --confidence 0.95 --proportion 0.02)");
+  command->callback([options, &action] {
+    if (!options->probability && !options->width)
+      throw CLI::ValidationError("size", "found neither --probability nor --width, expected one");
+    action = [options] { return size(*options); };
+  });
+}
+
+} // namespace wingspread

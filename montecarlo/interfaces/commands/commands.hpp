@@ -1,0 +1,46 @@
+/// The commands. Each `add_` adds one to the command line, with its options and its help.
+#pragma once
+
+#include "montecarlo/interfaces/terminal/exit_code.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace wingspread {
+
+/// What is to be done once the command line is understood; returns the exit status.
+using Action = std::function<int()>;
+
+void add_run(CLI::App& app, Action& action);
+void add_merge(CLI::App& app, Action& action);
+void add_analyze(CLI::App& app, Action& action);
+void add_size(CLI::App& app, Action& action);
+void add_simulate(CLI::App& app, Action& action);
+void add_replay(CLI::App& app, Action& action);
+void add_check(CLI::App& app, Action& action);
+void add_sample(CLI::App& app, Action& action);
+void add_sensitivity(CLI::App& app, Action& action);
+void add_rare(CLI::App& app, Action& action);
+void add_margin(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
+void add_methods(CLI::App& app, Action& action);
+void add_version(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
+// For packages; --help does not list them.
+void add_completion(CLI::App& app, Action& action);
+void add_man(CLI::App& app, Action& action);
+
+/// Shows the Sobol' indices of a design whose runs are all in the folder, and writes their files, as making the runs
+/// does. @return the exit status
+int show_design(const std::filesystem::path& folder);
+
+/// "wingspread 0.1.0".
+[[nodiscard]] std::string version_text();
+
+} // namespace wingspread

@@ -1,0 +1,73 @@
+#include "core/deployment.hpp"
+#include "montecarlo/interfaces/library/single_run.hpp"
+#include "montecarlo/interfaces/library/wingspread.hpp"
+#include "montecarlo/report/text/outcome_report.hpp"
+#include "montecarlo/report/text/trajectory.hpp"
+
+#include <utility>
+
+namespace wingspread::api {
+namespace {
+
+std::vector<Peak> peaks_of(const std::vector<wingspread::Peak>& peaks) {
+  std::vector<Peak> plain;
+  for (const auto& [value, time] : peaks) plain.push_back({value, time});
+  return plain;
+}
+
+std::vector<Latch> latches_of(const Scene& scene, const wingspread::Outcome& outcome) {
+  std::vector<Latch> plain;
+  for (const LatchEvent& latch : outcome.latches)
+    plain.push_back(
+        {scene.hinges[latch.hinge].name, latch.time, latch.rates[latch.hinge], latch.rates});
+  return plain;
+}
+
+Outcome plain_outcome(const Scene& scene, const wingspread::Outcome& outcome) {
+  Outcome plain;
+  plain.status = to_string(outcome.status);
+  plain.reason = outcome.reason;
+  plain.json = json_text(outcome_json(scene, outcome));
+  for (const Hinge& hinge : scene.hinges) plain.hinges.push_back(hinge.name);
+  plain.t_end = outcome.t_end;
+  plain.latches = latches_of(scene, outcome);
+  if (outcome.status != Status::failed) { // a larger one may have been to come
+    plain.peak_moment = peaks_of(outcome.peak_moment);
+    plain.peak_force = peaks_of(outcome.peak_force);
+  }
+  plain.angles = outcome.final.angles;
+  plain.rates = outcome.final.rates;
+  return plain;
+}
+
+} // namespace
+
+Input from_file(std::filesystem::path file) { return {std::move(file), {}, {}}; }
+
+Input from_text(std::string json, std::filesystem::path directory) {
+  return {{}, std::move(json), std::move(directory)};
+}
+
+Outcome simulate(const Input& input, const Settings& settings, std::optional<double> interval) {
+  const Task task = task_of(read_input(input), settings);
+  if (interval && *interval != 0) check_interval(*interval);
+  Goal goal;
+  goal.to_t_end = true;
+  goal.sample_interval = interval.value_or(0);
+  std::vector<Series> trajectory;
+  if (interval)
+    for (const std::string& column : trajectory_columns(task.scene))
+      trajectory.push_back({column, {}});
+  const auto keep = [&](const Sample& sample) {
+    auto series = trajectory.begin();
+    take_sample(sample, task.scene.base.motion,
+                [&](double value) { (series++)->values.push_back(value); });
+  };
+  const Observer observer = interval ? Observer(keep) : Observer();
+  Outcome plain =
+      plain_outcome(task.scene, Deployment().run(task.scene, task.integration, goal, observer));
+  plain.trajectory = std::move(trajectory);
+  return plain;
+}
+
+} // namespace wingspread::api

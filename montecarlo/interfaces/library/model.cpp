@@ -1,0 +1,147 @@
+#include "core/deployment.hpp"
+#include "montecarlo/foundation/formats/nearest.hpp"
+#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/interfaces/library/single_run.hpp"
+#include "montecarlo/model/campaign/outputs.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <iterator>
+#include <utility>
+
+namespace wingspread::api {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<OutputColumn>& columns) {
+  std::vector<std::string> names;
+  std::ranges::transform(columns, std::back_inserter(names), &OutputColumn::name);
+  return names;
+}
+
+/// The parameters of each path.
+std::vector<std::vector<SceneParameter>> find_parameters(const std::vector<std::string>& paths,
+                                                         const Scene& scene,
+                                                         std::vector<Problem>& problems) {
+  std::vector<std::vector<SceneParameter>> parameters(paths.size());
+  std::vector<SceneParameter> seen;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const Json path = paths[i];
+    std::vector<Problem> its;
+    const JsonCursor at(path, "", its);
+    for (const ParameterMatch& match : read_path(at, &scene)) {
+      if (std::ranges::find(seen, match.parameter) != seen.end())
+        at.refuse_repeated(path_of(scene, match.parameter), "each parameter once");
+      seen.push_back(match.parameter);
+      parameters[i].push_back(match.parameter);
+    }
+    for (const Problem& problem : its)
+      problems.push_back({"", fmt::format("paths[{}]", i), problem.found, problem.expected});
+  }
+  return parameters;
+}
+
+std::vector<OutputColumn> find_outputs(const std::vector<std::string>& wanted, const Scene& scene,
+                                       std::vector<Problem>& problems) {
+  const std::vector<OutputColumn> all = output_columns(scene, all_outputs());
+  std::vector<OutputColumn> columns;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (const auto found = std::ranges::find(all, wanted[i], &OutputColumn::name);
+        found != all.end())
+      columns.push_back(*found);
+    else
+      problems.push_back({"", fmt::format("outputs[{}]", i), fmt::format("\"{}\"", wanted[i]),
+                          "an output of the scene" + did_you_mean(wanted[i], names_of(all))});
+  return columns;
+}
+
+/// The families that cost something, of those that the columns are of.
+Outputs families_of(const std::vector<OutputColumn>& columns) {
+  using Quantity = OutputColumn::Quantity;
+  Outputs families;
+  for (const OutputColumn& column : columns)
+    if (column.quantity == Quantity::peak_moment)
+      families.insert(OutputFamily::peak_moment);
+    else if (column.quantity == Quantity::peak_force)
+      families.insert(OutputFamily::peak_force);
+    else if (column.quantity == Quantity::base_peak_angle ||
+             column.quantity == Quantity::base_peak_rate)
+      families.insert(OutputFamily::base_motion);
+  return families;
+}
+
+} // namespace
+
+struct Model::Prepared {
+  Task task;
+  std::vector<std::vector<SceneParameter>> parameters; ///< by column of x
+  std::vector<OutputColumn> columns;                   ///< of y
+  std::vector<std::string> outputs;
+  std::vector<double> nominal;
+  Goal goal;
+
+  void set(std::span<const double> x, Scene& scene) const {
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      for (const SceneParameter& parameter : parameters[j]) parameter.in(scene) = x[j];
+  }
+  void take(const wingspread::Outcome& outcome, std::span<double> y) const {
+    for (std::size_t j = 0; j < columns.size(); ++j) y[j] = output_of(columns[j], outcome);
+  }
+};
+
+Model::Model(const Input& input, const std::vector<std::string>& paths,
+             std::vector<std::string> outputs, const Settings& settings) {
+  auto prepared = std::make_shared<Prepared>();
+  prepared->task = task_of(read_input(input), settings);
+  const Scene& scene = prepared->task.scene;
+  if (outputs.empty()) outputs = names_of(output_columns(scene, default_outputs()));
+  std::vector<Problem> problems;
+  prepared->parameters = find_parameters(paths, scene, problems);
+  prepared->columns = find_outputs(outputs, scene, problems);
+  if (paths.empty()) problems.push_back({"", "paths", "none", "at least one parameter's path"});
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  prepared->outputs = std::move(outputs);
+  prepared->goal = goal_of(families_of(prepared->columns));
+  for (const auto& parameters : prepared->parameters)
+    prepared->nominal.push_back(parameters.front().in(scene));
+  prepared_ = std::move(prepared);
+}
+
+std::size_t Model::parameters() const { return prepared_->parameters.size(); }
+
+const std::vector<std::string>& Model::outputs() const { return prepared_->outputs; }
+
+const std::vector<double>& Model::nominal() const { return prepared_->nominal; }
+
+bool Model::evaluate(std::span<const double> x, std::span<double> y, int threads,
+                     const std::atomic<bool>* stop) const {
+  const Prepared& model = *prepared_;
+  const std::size_t d = parameters(), m = outputs().size();
+  const auto rows = static_cast<long>(x.size() / d);
+  assert(x.size() % d == 0 && y.size() == static_cast<std::size_t>(rows) * m);
+  if (rows == 0) return true;
+  std::atomic<long> begun = 0, ended = 0;
+  std::atomic<bool> broken = false;
+  const auto next = [&](Scene& scene) -> std::optional<long> {
+    if (broken || (stop && *stop)) return std::nullopt;
+    const long row = begun++;
+    if (row >= rows) return std::nullopt;
+    model.set(x.subspan(static_cast<std::size_t>(row) * d, d), scene);
+    return row;
+  };
+  const auto done = [&](long row, wingspread::Outcome&& outcome) {
+    model.take(outcome, y.subspan(static_cast<std::size_t>(row) * m, m));
+    ++ended;
+  };
+  const auto work = [&] {
+    DeploymentPack(instruction_sets().back(), model.task.integration, model.goal)
+        .run(model.task.scene, next, done);
+  };
+  on_team(static_cast<int>(std::min<long>(team_size(threads), rows)), work, [&] { broken = true; });
+  return ended == rows;
+}
+
+} // namespace wingspread::api

@@ -1,0 +1,49 @@
+# What a package has beside the program and the library: man pages, completions and schemas, which the program prints
+# itself, the scenes and campaigns as examples, and who holds which rights.
+include(GNUInstallDirs)
+set(made ${PROJECT_BINARY_DIR}/package)
+find_program(WINGSPREAD_GZIP gzip)
+set(WINGSPREAD_MAINTAINER "The wingspread authors <wingspread@localhost>" CACHE STRING "Who makes the packages")
+
+if(WINGSPREAD_GZIP AND NOT CMAKE_CROSSCOMPILING AND NOT WINGSPREAD_SANITIZE AND NOT WINGSPREAD_MPI)
+  add_custom_command(OUTPUT ${made}/made COMMENT "Man pages and completions" VERBATIM
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:wingspread> -DOUT=${made} -DGZIP=${WINGSPREAD_GZIP}
+            -DCHANGELOG=${PROJECT_SOURCE_DIR}/CHANGELOG.md -DVERSION=${PROJECT_VERSION}-1
+            -DMAINTAINER=${WINGSPREAD_MAINTAINER} -P ${CMAKE_CURRENT_LIST_DIR}/make.cmake
+    DEPENDS wingspread ${CMAKE_CURRENT_LIST_DIR}/make.cmake ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
+  add_custom_target(wingspread_package_files ALL DEPENDS ${made}/made)
+  install(DIRECTORY ${made}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  install(FILES ${made}/wingspread.bash DESTINATION share/bash-completion/completions RENAME wingspread COMPONENT program)
+  install(FILES ${made}/wingspread.zsh DESTINATION share/zsh/vendor-completions RENAME _wingspread COMPONENT program)
+  install(FILES ${made}/wingspread.fish DESTINATION share/fish/vendor_completions.d COMPONENT program)
+  install(FILES ${made}/scene.schema.json ${made}/campaign.schema.json DESTINATION share/wingspread COMPONENT program)
+  foreach(package "program wingspread" "development libwingspread-dev" "python python3-wingspread")
+    separate_arguments(package)
+    list(POP_FRONT package component name)
+    install(FILES ${made}/changelog.gz DESTINATION share/doc/${name} COMPONENT ${component})
+    install(FILES ${made}/${name}.changelog.gz DESTINATION share/doc/${name} RENAME changelog.Debian.gz
+      COMPONENT ${component})
+  endforeach()
+endif()
+
+# Our licence, and those of what is compiled into the program, as Debian's packages of them state them.
+file(READ ${PROJECT_SOURCE_DIR}/LICENSE rights)
+string(PREPEND rights "wingspread\n\n")
+string(APPEND rights "\nThe program holds code of the following, and the report's page d3.\n")
+foreach(file ${WINGSPREAD_D3_LICENCE} /usr/share/doc/nlohmann-json3-dev/copyright /usr/share/doc/libcli11-dev/copyright
+             /usr/share/doc/libeigen3-dev/copyright /usr/share/doc/librandom123-dev/copyright
+             /usr/share/doc/libhdf5-dev/copyright /usr/share/doc/zlib1g-dev/copyright)
+  if(EXISTS ${file})
+    file(READ ${file} text)
+    string(APPEND rights "\n----------------------------------------------------------------\n${file}\n\n${text}")
+  endif()
+endforeach()
+file(GENERATE OUTPUT ${made}/copyright CONTENT "${rights}")
+foreach(package "program wingspread" "development libwingspread-dev" "python python3-wingspread")
+  separate_arguments(package)
+  list(POP_FRONT package component name)
+  install(FILES ${made}/copyright DESTINATION share/doc/${name} COMPONENT ${component})
+endforeach()
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/studies/scenes ${PROJECT_SOURCE_DIR}/studies/campaigns
+  DESTINATION share/doc/wingspread/examples COMPONENT program FILES_MATCHING PATTERN *.json PATTERN *.csv)

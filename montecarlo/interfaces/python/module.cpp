@@ -1,0 +1,184 @@
+// The Python module's native half: the library (library/wingspread.hpp) in Python's types, nothing more. What people
+// call is in wingspread/__init__.py.
+#include "montecarlo/interfaces/library/wingspread.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+#include <future>
+#include <system_error>
+
+namespace py = pybind11;
+
+namespace wingspread::api {
+namespace {
+
+/// Rows that are made without a look at Ctrl-C: a fraction of a second's.
+constexpr py::ssize_t few_rows = 256;
+
+/// Work in a thread of its own, without the GIL, while this one looks out for Ctrl-C.
+/// @param work takes the flag that tells it to stop
+template <class Work> auto interruptible(const Work& work) {
+  std::atomic<bool> stop = false;
+  auto future = std::async(std::launch::async, [&] { return work(stop); });
+  const auto is_done = [&](std::chrono::milliseconds most) {
+    const py::gil_scoped_release release;
+    return future.wait_for(most) == std::future_status::ready;
+  };
+  while (!is_done(std::chrono::milliseconds(50))) {
+    if (PyErr_CheckSignals() == 0) continue;
+    stop = true;
+    while (!is_done(std::chrono::seconds(1))) {
+    }
+    throw py::error_already_set();
+  }
+  return future.get();
+}
+
+/// A view of what the owner holds, not to be written to.
+template <class T> py::array view(std::span<const T> values, const py::object& owner) {
+  py::array_t<T> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+py::array runs_of(const py::object& self) { return view(self.cast<const Table&>().runs(), self); }
+
+py::array numbers_of(const py::object& self, const std::string& column) {
+  return view(self.cast<const Table&>().numbers(column), self);
+}
+
+py::tuple words_of(const py::object& self, const std::string& column) {
+  const auto [texts, codes] = self.cast<const Table&>().words(column);
+  return py::make_tuple(view(codes, self), std::vector<std::string>(texts.begin(), texts.end()));
+}
+
+py::list reasons_of(const Table& table) {
+  py::list reasons;
+  for (std::size_t row = 0; row < table.size(); ++row) reasons.append(table.reason(row));
+  return reasons;
+}
+
+Table run_it(const Input& input, std::optional<std::int64_t> runs,
+             std::optional<std::uint64_t> seed, int threads, const std::string& of_case,
+             const std::vector<std::string>& set) {
+  return interruptible([&](const std::atomic<bool>& stop) {
+    return run(input, {runs, seed, threads, of_case, set, &stop});
+  });
+}
+
+py::tuple simulate_it(const Input& input, const Settings& settings,
+                      std::optional<double> interval) {
+  const Outcome outcome =
+      interruptible([&](const std::atomic<bool>&) { return simulate(input, settings, interval); });
+  py::dict trajectory;
+  for (const Series& series : outcome.trajectory)
+    trajectory[py::str(series.name)] =
+        py::array_t<double>(static_cast<py::ssize_t>(series.values.size()), series.values.data());
+  return py::make_tuple(outcome.json, trajectory);
+}
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+py::array evaluate_it(const Model& model, const Numbers& x, int threads) {
+  const auto parameters = static_cast<py::ssize_t>(model.parameters());
+  if (x.ndim() != 2 || x.shape(1) != parameters)
+    throw py::value_error("found x of shape " + std::string(py::str(x.attr("shape"))) +
+                          ", expected (n, " + std::to_string(parameters) + ")");
+  const auto outputs = static_cast<py::ssize_t>(model.outputs().size());
+  py::array_t<double> y({x.shape(0), outputs});
+  const std::span<const double> from(x.data(), static_cast<std::size_t>(x.size()));
+  const std::span<double> to(y.mutable_data(), static_cast<std::size_t>(y.size()));
+  if (x.shape(0) <= few_rows) {
+    const py::gil_scoped_release release;
+    (void)model.evaluate(from, to, threads);
+  } else {
+    (void)interruptible(
+        [&](const std::atomic<bool>& stop) { return model.evaluate(from, to, threads, &stop); });
+  }
+  return y;
+}
+
+void add_errors(py::module_& module) {
+  static py::handle spec_error, machine_error; // the interpreter's, for as long as it lives
+  spec_error = py::exception<SpecError>(module, "SpecError", PyExc_ValueError).release();
+  machine_error = py::exception<MachineError>(module, "MachineError", PyExc_OSError).release();
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const SpecError& error) {
+      py::list problems;
+      for (const auto& [file, pointer, found, expected] : error.problems())
+        problems.append(py::make_tuple(file, pointer, found, expected));
+      const py::object raised = spec_error(error.what());
+      raised.attr("problems") = problems;
+      PyErr_SetObject(spec_error.ptr(), raised.ptr());
+    } catch (const MachineError& error) {
+      PyErr_SetString(machine_error.ptr(), error.what());
+    } catch (const std::system_error& error) { // of threads
+      PyErr_SetString(machine_error.ptr(), error.what());
+    }
+  });
+}
+
+} // namespace
+
+PYBIND11_MODULE(_native, module) {
+  module.doc() = "wingspread's library in Python's types; use wingspread";
+  add_errors(module);
+  module.def("version", &version, "The library's version");
+
+  py::class_<Input>(module, "Input", "A scene or a campaign as it is written")
+      .def_static("from_file", &from_file, py::arg("file"))
+      .def_static("from_text", &from_text, py::arg("json"), py::arg("directory"));
+
+  py::class_<Settings>(module, "Settings", "What is asked of one deployment")
+      .def(py::init([](std::vector<std::string> set, std::string of_case,
+                       std::optional<std::string> method, std::optional<std::string> latch,
+                       std::optional<double> step, std::optional<double> rtol,
+                       std::optional<double> atol, std::optional<double> t_end) {
+             return Settings{std::move(set),
+                             std::move(of_case),
+                             std::move(method),
+                             std::move(latch),
+                             step,
+                             rtol,
+                             atol,
+                             t_end};
+           }),
+           py::arg("set"), py::arg("of_case"), py::arg("method"), py::arg("latch"), py::arg("step"),
+           py::arg("rtol"), py::arg("atol"), py::arg("t_end"));
+
+  py::class_<Table>(module, "Table", "The rows of a campaign, by columns")
+      .def_property_readonly("size", &Table::size)
+      .def_property_readonly("columns", &Table::columns)
+      .def_property_readonly("draws", &Table::draws)
+      .def_property_readonly("outputs", &Table::outputs)
+      .def_property_readonly("is_complete", &Table::is_complete)
+      .def_property_readonly("campaign", &Table::campaign)
+      .def_property_readonly("notices", &Table::notices)
+      .def("runs", &runs_of, "The runs' numbers, a view")
+      .def("numbers", &numbers_of, py::arg("column"), "A draw or an output, a view")
+      .def("words", &words_of, py::arg("column"), "Codes, a view, and the texts they stand for")
+      .def("reasons", &reasons_of, "Why runs are not deployed");
+
+  py::class_<Model>(module, "Model", "A wing as a function of some of its parameters")
+      .def(py::init<const Input&, const std::vector<std::string>&, std::vector<std::string>,
+                    const Settings&>(),
+           py::arg("input"), py::arg("paths"), py::arg("outputs"), py::arg("settings"))
+      .def_property_readonly("outputs", &Model::outputs)
+      .def_property_readonly("nominal", &Model::nominal)
+      .def("evaluate", &evaluate_it, py::arg("x"), py::arg("threads"),
+           "A row of outputs for each row of parameters");
+
+  module.def("run", &run_it, py::arg("input"), py::arg("runs"), py::arg("seed"), py::arg("threads"),
+             py::arg("of_case"), py::arg("set"), "Makes a campaign's runs");
+  module.def("simulate", &simulate_it, py::arg("input"), py::arg("settings"), py::arg("interval"),
+             "The outcome as JSON, and the trajectory's columns");
+  module.def("read", &read, py::arg("folder"), py::arg("of_case"), "A results folder's rows");
+}
+
+} // namespace wingspread::api

@@ -1,0 +1,166 @@
+#include "montecarlo/interfaces/terminal/results_display.hpp"
+
+#include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/foundation/platform/progress.hpp"
+#include "montecarlo/interfaces/terminal/exit_code.hpp"
+#include "montecarlo/results/summary/table.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+std::string title(const StoredCampaign& stored, const Summary& summary) {
+  const Campaign& campaign = stored.campaign;
+  const std::string of_case = campaign.of_case.empty() ? "" : " · " + campaign.of_case;
+  std::string text = fmt::format(
+      "{}{} · {} runs · {}, seed {}", campaign.scene.name, of_case, summary.runs,
+      design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed);
+  if (summary.replicates > 0) text += ", " + counted(summary.replicates, "replicate", "replicates");
+  if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
+  if (!summary.looked_at.empty())
+    text += fmt::format(" · look {}, after {}", summary.looks, fmt::join(summary.looked_at, ", "));
+  if (const auto& preview = stored.stamp.preview)
+    text += fmt::format(" · PREVIEW: {} of {} runs, {} missing", preview->runs, preview->of,
+                        preview->of - preview->runs);
+  else if (summary.stopped)
+    text += fmt::format(" · stopped, of {} at most", stored.runs().size());
+  else if (summary.runs < stored.runs().size())
+    text += fmt::format(" · partial, of {} runs", stored.runs().size());
+  return text;
+}
+
+void print_histograms(const Summary& summary) {
+  for (const OutputSummary& output : summary.outputs)
+    fmt::print("\n{}", draw_histogram(output.name, parse_output_name(output.name).unit,
+                                      output.histogram, table_width));
+}
+
+/// Says which requirements are not met. @return whether all are
+bool report_requirements(const Summary& summary, const std::string& of_case) {
+  bool met = true;
+  for (const Verdict& verdict : summary.requirements) {
+    if (verdict.decision == Decision::pass) continue;
+    met = false;
+    fmt::print(stderr, "not met: {}{}: {}: {}\n", of_case, to_string(verdict.requirement),
+               to_string(verdict.decision), evidence(verdict));
+  }
+  const auto is_open = [](const Verdict& verdict) { return !is_decided(verdict); };
+  if (std::ranges::any_of(summary.requirements, is_open))
+    fmt::print(
+        stderr,
+        "note: more runs of the same draws are another look at them. To decide what is open, "
+        "state it as --until \"requirement {}\" or take another --seed, with a number of runs "
+        "fixed beforehand\n",
+        name_of(std::ranges::find_if(summary.requirements, is_open)->requirement));
+  return met;
+}
+
+} // namespace
+
+void add_display_options(CLI::App& command, Display& display) {
+  command.add_flag("--table", display.table, "Print the table even when it is not to a terminal");
+  command.add_flag("--histograms", display.histograms,
+                   "Print the table, and each output's histogram below it");
+}
+
+int report_failed(long failed, long runs, std::string_view consequence) {
+  if (failed == 0) return exit_code::done;
+  fmt::print(stderr, "error: {} of {} runs failed numerically{}\n", failed, runs, consequence);
+  return exit_code::failed_runs;
+}
+
+bool wants_table(const Display& display) {
+  return display.table || display.histograms || is_terminal(stdout);
+}
+
+namespace {
+
+void print_files(const std::filesystem::path& folder) {
+  for (const char* file : {campaign_file, is_rowless(folder) ? broken_runs_file : runs_file,
+                           summary_file, histograms_json_file, histograms_csv_file})
+    fmt::print("{}\n", (folder / file).string());
+}
+
+} // namespace
+
+int refuse_missing(const MissingRuns& missing, std::string_view otherwise) {
+  constexpr std::size_t most = 1000;
+  for (const Problem& problem : missing.problems())
+    fmt::print(stderr, "error: {}\n", printable(to_string(problem)));
+  const std::vector<std::string>& commands = missing.commands();
+  fmt::print(stderr, "made by ({}){}\n", counted(std::ssize(commands), "command", "commands"),
+             otherwise.empty() ? ":" : otherwise);
+  for (std::size_t i = 0; i < std::min(commands.size(), most); ++i)
+    fmt::print(stderr, "  {}\n", commands[i]);
+  if (commands.size() > most) fmt::print(stderr, "  … and {} more\n", commands.size() - most);
+  return exit_code::bad_input;
+}
+
+void show_table(const StoredCampaign& stored, const Summary& summary, const Display& display) {
+  fmt::print("{}", summary_table(summary, title(stored, summary), stored.folder.string()));
+  if (display.histograms) print_histograms(summary);
+}
+
+void warn_of_preview(const StoredCampaign& stored) {
+  if (const auto& preview = stored.stamp.preview)
+    fmt::print(stderr,
+               "warning: {} is a PREVIEW: {} of the campaign's {} runs; {} are missing, and what "
+               "they will change is not known\n",
+               stored.folder.string(), preview->runs, preview->of, preview->of - preview->runs);
+}
+
+int judge_results(const StoredCampaign& stored, const Summary& summary) {
+  const std::string& name = stored.campaign.of_case;
+  warn_of_preview(stored);
+  bool met = stored.stamp.shard || report_requirements(summary, name.empty() ? "" : name + ": ");
+  if (stored.stamp.preview && !summary.requirements.empty()) {
+    fmt::print(stderr, "not met: a preview shows no requirement to be met\n");
+    met = false;
+  }
+  const auto failed = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
+  const int code =
+      report_failed(failed->count, summary.runs,
+                    fmt::format("; {} has their reasons", (stored.folder / summary_file).string()));
+  return code != exit_code::done || met ? code : exit_code::not_met;
+}
+
+void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
+                const Display& display) {
+  const Campaign& campaign = whole.campaign;
+  if (wants_table(display)) {
+    const std::string title = fmt::format(
+        "{} · {} · {}, seed {}{}", campaign.scene.name, counted(std::ssize(cases), "case", "cases"),
+        design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed,
+        whole.stamp.shard ? " · " + describe(whole.stamp.shard) : "");
+    fmt::print("{}", cases_table(cases, title, whole.folder.string()));
+    return;
+  }
+  fmt::print("{}\n{}\n", (whole.folder / campaign_file).string(),
+             (whole.folder / cases_file).string());
+  for (const CaseSummary& each : cases) print_files(whole.folder / each.name);
+}
+
+Json show_finished(const std::filesystem::path& file, bool whole) {
+  Json study = parse_json_file(file);
+  fmt::print("{}", whole ? json_text(study) : file.string() + '\n');
+  fmt::print(stderr, "note: the study is finished: nothing was left to do\n");
+  return study;
+}
+
+int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display) {
+  if (wants_table(display))
+    show_table(stored, summary, display);
+  else
+    print_files(stored.folder);
+  return judge_results(stored, summary);
+}
+
+} // namespace wingspread

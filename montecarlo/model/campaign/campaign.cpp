@@ -1,0 +1,52 @@
+#include "montecarlo/model/campaign/campaign.hpp"
+
+#include "core/scene/curve.hpp"
+#include "distributions/prepared_distribution.hpp"
+#include "distributions/random_stream.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <iterator>
+
+namespace wingspread {
+long count_looks(const Campaign& campaign) {
+  if (campaign.until.empty()) return 1 + std::ssize(campaign.sampling.extended_from);
+  return count_looks(campaign.until, campaign.sampling.runs);
+}
+
+std::string campaign_hash(const Json& resolved) {
+  Json hashed = resolved;
+  hashed.erase(stamp_key);
+  return fmt::format("{:016x}", stream_name(hashed.dump()).hash); // FNV-1a
+}
+
+void apply(const Campaign& campaign, std::span<const double> draws, const Scene& nominal,
+           Scene& run_scene) {
+  assert(draws.size() == campaign.dispersions.size());
+  for (const Dispersion& dispersion : campaign.dispersions)
+    for_each_effect(dispersion, [&](Apply, const auto& targets, const Curve*) {
+      for (const SceneParameter& target : targets) target.in(run_scene) = target.in(nominal);
+    });
+  for (std::size_t i = 0; i < draws.size(); ++i)
+    for_each_effect(campaign.dispersions[i],
+                    [&](Apply how, const auto& targets, const Curve* table) {
+                      const double effect = table ? table->value_at(draws[i]) : draws[i];
+                      for (const SceneParameter& target : targets)
+                        apply_to(target.in(run_scene), how, effect);
+                    });
+}
+
+Scene nominal_scene(const Campaign& campaign) {
+  Scene scene = campaign.scene;
+  for (const Dispersion& dispersion : campaign.dispersions) {
+    if (dispersion.through.empty()) continue;
+    const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
+    for (const Driven& driven : dispersion.through)
+      for (const SceneParameter& target : driven.targets)
+        apply_to(target.in(scene), driven.apply, driven.table.value_at(median));
+  }
+  return scene;
+}
+
+} // namespace wingspread

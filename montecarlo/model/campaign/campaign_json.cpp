@@ -1,0 +1,377 @@
+#include "montecarlo/model/campaign/campaign_json.hpp"
+
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/model/campaign/distribution_json.hpp"
+#include "montecarlo/model/campaign/wanted_correlations.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr const char* expected_scene = "a scene, or the name of the file that holds it";
+
+/// More dispersions than Sobol' points have coordinates.
+void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, std::size_t dispersions) {
+  if (sampling.design == DesignKind::sobol && dispersions > most_sobol_dimensions)
+    at.refuse(fmt::format("{} dispersions", dispersions),
+              fmt::format("up to {} with the design \"sobol\"", most_sobol_dimensions));
+}
+
+/// What holds for independent draws only is refused with the designs whose draws depend on each
+/// other, rather than left to mislead.
+void refuse_dependent_draws(const JsonCursor& at, const char* what, DesignKind design) {
+  if (design == DesignKind::random) return;
+  at.refuse(fmt::format("{} with the design \"{}\"", what,
+                        design_names[static_cast<std::size_t>(design)]),
+            "the design \"random\": their statistics are exact for independent draws, and hold for "
+            "no others");
+}
+
+/// Its checkpoints were fixed beforehand, and no more of them can be.
+void refuse_extended_rule(const JsonCursor& at) {
+  at.refuse("goals to stop at",
+            "none, for a campaign that was extended beyond the runs first made");
+}
+
+std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs) {
+  std::vector<std::string> names;
+  for (OutputColumn& column : output_columns(scene, outputs))
+    names.push_back(std::move(column.name));
+  return names;
+}
+
+/// Requirements and goals to stop at: what names the campaign's outputs, and needs its draws to be
+/// independent.
+/// @param scene null when it or its outputs are wrong themselves: then no output is missed
+class GuaranteeReader {
+public:
+  /// @param t_end of the runs; none: limits on times are not compared with it
+  GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design,
+                  std::optional<double> t_end)
+      : scene_(scene), design_(design), t_end_(t_end) {
+    if (!scene_) return;
+    names_ = output_names(*scene, outputs);
+    all_names_ = output_names(*scene, all_outputs());
+  }
+  void read(const JsonCursor& at, std::vector<Requirement>& requirements) const {
+    read_requirements(at, scene_ ? &names_ : nullptr, all_names_, requirements, scene_);
+    if (t_end_) refuse_late_limits(at, requirements, *t_end_);
+    if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
+  }
+  /// @param requirements the campaign's; null when they are wrong themselves
+  void read(const JsonCursor& at, const std::vector<Requirement>* requirements,
+            StoppingRule& until) const {
+    std::vector<std::string> names;
+    if (requirements)
+      for (const Requirement& requirement : *requirements) names.push_back(name_of(requirement));
+    read_stopping_rule(at, scene_ ? &names_ : nullptr, requirements ? &names : nullptr, until);
+    if (!until.empty()) refuse_dependent_draws(at, "goals to stop at", design_);
+  }
+
+private:
+  const Scene* scene_;
+  DesignKind design_;
+  std::optional<double> t_end_;
+  std::vector<std::string> names_, all_names_;
+};
+
+GuaranteeReader guarantee_reader(const Campaign& campaign) {
+  return {&campaign.scene, campaign.outputs, campaign.sampling.design, campaign.integration.t_end};
+}
+
+/// A scene that stands in the campaign, or in the file that is named there.
+Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& directory) {
+  if (!at.value().is_string()) return read_scene(at);
+  std::string name;
+  at.read(name, expected_scene);
+  const std::filesystem::path path = directory / name;
+  const auto text = read_text(path);
+  try {
+    if (text) {
+      const Json document = parse_json(*text, path.string());
+      return read_scene(JsonCursor(document, path.string(), at.problems()));
+    }
+    at.refuse(fmt::format("no file that can be read at \"{}\"", path.string()), expected_scene);
+  } catch (const SpecError& error) {
+    at.problems().insert(at.problems().end(), error.problems().begin(), error.problems().end());
+  }
+  return {};
+}
+
+/// By itself: with the springs of a hinge.
+Json motorization_by_itself(const MotorizationSpec& motorization, const Scene& scene) {
+  Json json = write_motorization(motorization, scene);
+  json["springs_per_hinge"] = motorization.springs_per_hinge;
+  return json;
+}
+
+Json write_campaign(const Campaign& campaign, Json dispersions) {
+  Json json{{"scene", write_scene(campaign.scene)},
+            {"dispersions", std::move(dispersions)},
+            {"sampling", write_sampling(campaign.sampling)},
+            {"integration", write_integration(campaign.integration, campaign.tolerance)},
+            {"outputs", write_outputs(campaign.outputs)},
+            {"statistics", write_statistics(campaign.statistics)}};
+  // Not there when there are none: what a campaign does not use does not change its hash.
+  if (!campaign.wanted_correlations.empty())
+    json["correlations"] =
+        write_wanted_correlations(campaign.wanted_correlations, campaign.dispersions);
+  if (!campaign.requirements.empty())
+    json["requirements"] = write_requirements(campaign.requirements);
+  if (!campaign.until.empty()) json["until"] = write_stopping_rule(campaign.until);
+  if (!campaign.cases.empty()) json["cases"] = write_cases(campaign.cases);
+  if (!campaign.of_case.empty()) json["case"] = campaign.of_case;
+  const MotorizationSpec& motorization = campaign.motorization;
+  if (campaign.margin)
+    json["margin"] = write_margin(*campaign.margin, motorization, campaign.scene);
+  else if (const Json given = motorization_by_itself(motorization, campaign.scene);
+           given != motorization_by_itself(default_motorization(campaign.scene), campaign.scene))
+    json["motorization"] = given;
+  return json;
+}
+
+/// Reads a campaign part by part: what comes later is looked up only in what was sound before.
+class CampaignReader {
+public:
+  CampaignReader(const Json& document, std::filesystem::path directory, const std::string& file,
+                 std::vector<Question>* questions = nullptr)
+      : directory_(std::move(directory)),
+        object_(JsonCursor(document, file, problems_, questions), "a campaign: an object"),
+        was_run_(document.is_object() && document.contains(stamp_key)) {}
+
+  /// @throws SpecError with all that is wrong
+  [[nodiscard]] Campaign read() {
+    read_scene_and_dispersions();
+    read_settings();
+    read_dependence();
+    read_guarantees();
+    read_margins();
+    (void)object_.find(stamp_key);
+    if (!was_run_) add_recorded();
+    object_.refuse_others();
+    if (!problems_.empty()) throw SpecError(std::move(problems_));
+    campaign_.resolved = write_campaign(campaign_, std::move(resolved_dispersions_));
+    return std::move(campaign_);
+  }
+
+private:
+  template <class Part>
+  void read_part(const char* key, void (*reader)(const JsonCursor&, Part&), Part& part) {
+    if (const auto at = object_.find(key)) reader(*at, part);
+  }
+
+  /// What is recorded, asked for or not. One that was run stays what it was, with its columns.
+  void add_recorded() {
+    campaign_.outputs.insert(OutputFamily::overtravel);
+    match_peaks_final(campaign_.outputs);
+  }
+
+  void read_scene_and_dispersions() {
+    if (const auto at = object_.require("scene", expected_scene))
+      campaign_.scene = read_scene_member(*at, directory_);
+    if (problems_.empty()) scene_ = &campaign_.scene;
+    Dispersions varied;
+    varied.resolved = Json::array();
+    if (const auto at = object_.find("dispersions"))
+      varied = read_dispersions(*at, scene_, directory_);
+    named_ = problems_.empty();
+    read_its_cases(varied);
+    campaign_.dispersions = std::move(varied.list);
+    resolved_dispersions_ = std::move(varied.resolved);
+  }
+
+  void read_its_cases(const Dispersions& varied) {
+    if (const auto at = object_.find("cases"))
+      campaign_.cases = read_cases(*at, scene_, named_ ? &varied : nullptr, directory_);
+    if (const auto at = object_.find("case"); at && !campaign_.cases.empty())
+      at->refuse("no case of another campaign beside \"cases\"");
+    object_.optional("case", campaign_.of_case, "a string, the name of a case", is_case_name);
+  }
+
+  void read_settings() {
+    read_part("sampling", read_sampling, campaign_.sampling);
+    std::size_t before = problems_.size();
+    if (const auto at = object_.find("integration"))
+      read_integration(*at, campaign_.integration, campaign_.tolerance);
+    if (!was_run_ && problems_.size() == before) t_end_ = campaign_.integration.t_end;
+    before = problems_.size();
+    read_part("outputs", read_outputs, campaign_.outputs);
+    if (scene_ && scene_->base.motion != BaseMotion::free &&
+        campaign_.outputs.contains(OutputFamily::base_motion))
+      object_.at().member("outputs").refuse("\"base_motion\" with a base that is not free",
+                                            "a base whose motion is \"free\"");
+    outputs_known_ = scene_ && problems_.size() == before;
+    read_part("statistics", read_statistics, campaign_.statistics);
+  }
+
+  void read_dependence() {
+    if (const auto at = object_.find("correlations"))
+      campaign_.wanted_correlations =
+          read_wanted_correlations(*at, named_ ? &campaign_.dispersions : nullptr);
+    if (const auto at = object_.find("dispersions"))
+      refuse_dimensions(*at, campaign_.sampling, campaign_.dispersions.size());
+  }
+
+  void read_guarantees() {
+    const DesignKind design = campaign_.sampling.design;
+    const GuaranteeReader guarantees(outputs_known_ ? scene_ : nullptr, campaign_.outputs, design,
+                                     t_end_);
+    const std::size_t before = problems_.size();
+    if (const auto at = object_.find("requirements")) guarantees.read(*at, campaign_.requirements);
+    const bool sound = problems_.size() == before;
+    if (const auto at = object_.find("until"))
+      guarantees.read(*at, sound ? &campaign_.requirements : nullptr, campaign_.until);
+    if (!campaign_.until.empty() && !campaign_.sampling.extended_from.empty())
+      refuse_extended_rule(object_.at().member("until"));
+    if (!campaign_.statistics.tolerance_limits.empty())
+      refuse_dependent_draws(object_.at().member("statistics").member("tolerance"),
+                             "tolerance limits", design);
+  }
+
+  /// Static margins are judged by what the campaign says, or what its margin does.
+  void read_margins() {
+    campaign_.motorization = default_motorization(campaign_.scene);
+    const auto own = object_.find("motorization");
+    if (own) read_motorization(*own, scene_, campaign_.motorization);
+    const auto margin = object_.find("margin");
+    if (!margin) return;
+    if (own && margin->value().is_object() && margin->value().contains("motorization"))
+      margin->member("motorization")
+          .refuse_repeated("\"motorization\"", "it once: here, or in the campaign");
+    campaign_.margin = read_margin(*margin, scene_, campaign_.motorization);
+  }
+
+  std::filesystem::path directory_;
+  std::vector<Problem> problems_;
+  JsonObject object_;
+  bool was_run_; ///< it is stamped: the campaign of results that there are
+  Campaign campaign_;
+  Json resolved_dispersions_ = Json::array();
+  const Scene* scene_ = nullptr; ///< null when it has problems of its own
+  bool named_ = false;           ///< the dispersions have none either
+  bool outputs_known_ = false;
+  std::optional<double> t_end_; ///< that requirements have to keep to
+};
+
+Campaign read_document(const Json& document, const std::filesystem::path& directory,
+                       const std::string& file) {
+  return CampaignReader(document, directory, file).read();
+}
+
+} // namespace
+
+Campaign read_campaign(const std::string& text, const std::filesystem::path& directory,
+                       const std::string& file) {
+  return read_document(parse_json(text, file), directory, file);
+}
+
+Campaign read_campaign(const Json& document, std::vector<Question>& questions) {
+  return CampaignReader(document, {}, "", &questions).read();
+}
+
+Campaign read_campaign_file(const std::filesystem::path& path) {
+  return read_document(parse_json_file(path), path.parent_path(), path.string());
+}
+
+Scene read_scene_file(const std::filesystem::path& path) {
+  return read_scene(parse_json_file(path), path.string());
+}
+
+namespace {
+
+std::variant<Scene, Campaign>
+read_either(const Json& document, const std::filesystem::path& directory, const std::string& file) {
+  constexpr std::array campaign_keys{"scene", "dispersions", "sampling"};
+  const auto has = [&](const char* key) { return document.contains(key); };
+  if (std::ranges::any_of(campaign_keys, has)) return read_document(document, directory, file);
+  return read_scene(document, file);
+}
+
+} // namespace
+
+std::variant<Scene, Campaign> read_file(const std::filesystem::path& path) {
+  return read_either(parse_json_file(path), path.parent_path(), path.string());
+}
+
+std::variant<Scene, Campaign> read_scene_or_campaign(const std::string& text,
+                                                     const std::filesystem::path& directory) {
+  return read_either(parse_json(text), directory, "");
+}
+
+void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
+                       std::optional<std::uint64_t> seed) {
+  if (runs && has_replicates(campaign.sampling) && *runs < campaign.sampling.replicates)
+    throw SpecError({{"", "--runs", std::to_string(*runs),
+                      fmt::format("at least {}, one for each of the campaign's replicates",
+                                  campaign.sampling.replicates)}});
+  Sampling& sampling = campaign.sampling;
+  if (seed && *seed != sampling.seed) sampling.extended_from.clear(); // nobody has seen those draws
+  sampling.runs = runs.value_or(sampling.runs);
+  sampling.seed = seed.value_or(sampling.seed);
+  std::erase_if(sampling.extended_from, [&](std::int64_t seen) { return seen >= sampling.runs; });
+  campaign.resolved["sampling"] = write_sampling(campaign.sampling);
+}
+
+namespace {
+
+/// What was resolved of a campaign and then changed, read again.
+Campaign read_again(const Campaign& campaign, const Json& changed) {
+  Campaign read = read_document(changed, {}, "");
+  read.outputs = campaign.outputs; // overtravel is not to be added once more
+  read.resolved["outputs"] = write_outputs(read.outputs);
+  return read;
+}
+
+} // namespace
+
+Campaign with_scene(const Campaign& campaign, const Scene& scene) {
+  Json json = campaign.resolved;
+  json["scene"] = write_scene(scene);
+  return read_again(campaign, json);
+}
+
+Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec) {
+  Json json = campaign.resolved;
+  json.erase("cases");
+  json["case"] = spec.name;
+  json["scene"] = write_scene(scene_of_case(campaign.scene, spec));
+  for (const auto& [name, distribution] : spec.distributions)
+    for (Json& dispersion : json["dispersions"])
+      if (dispersion["name"] == name) dispersion["distribution"] = write_distribution(distribution);
+  return read_again(campaign, json);
+}
+
+std::vector<Campaign> campaigns_of(const Campaign& campaign) {
+  if (campaign.cases.empty()) return {campaign};
+  std::vector<Campaign> campaigns;
+  for (const CaseSpec& spec : campaign.cases) campaigns.push_back(campaign_of_case(campaign, spec));
+  return campaigns;
+}
+
+void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from) {
+  campaign.sampling.extended_from = std::move(extended_from);
+  campaign.resolved["sampling"] = write_sampling(campaign.sampling);
+}
+
+void override_stopping(Campaign& campaign, const JsonCursor& at) {
+  guarantee_reader(campaign).read(at, &campaign.requirements, campaign.until);
+  campaign.resolved["until"] = write_stopping_rule(campaign.until);
+}
+
+std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
+                                                const Campaign& campaign) {
+  const Json document = parse_json_file(path);
+  std::vector<Problem> problems;
+  std::vector<Requirement> requirements;
+  guarantee_reader(campaign).read(JsonCursor(document, path.string(), problems), requirements);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  return requirements;
+}
+
+} // namespace wingspread

@@ -1,0 +1,80 @@
+/// The parts of a campaign that say how its runs are drawn, integrated and summed up; what they
+/// leave behind is in outputs.hpp.
+///
+/// `"rtol": "auto"` is in tolerance_choice.hpp.
+///
+/// Each `read_` starts from what is already there (the defaults), and notes its problems in the
+/// cursor's list; each `write_` gives the same in full.
+#pragma once
+
+#include "core/deployment.hpp"
+#include "distributions/design.hpp"
+#include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/foundation/statistics/histogram.hpp"
+#include "montecarlo/foundation/statistics/wilks.hpp"
+#include "montecarlo/model/campaign/tolerance_choice.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace wingspread {
+
+/// Statistics rank runs in 32 bits; runs.csv would take a terabyte.
+inline constexpr std::int64_t most_runs = (std::int64_t{1} << 31) - 1;
+
+struct Sampling {
+  DesignKind design = DesignKind::random;
+  std::int64_t runs = 1000; ///< from 1 to most_runs
+  std::uint64_t seed = 1;
+  std::int64_t replicates = 1; ///< independent repetitions of a design, ≥ 1
+  /// Numbers of runs at which the results were looked at before more were made of the same draws:
+  /// each less than the next, and than `runs`. Every one is a look (count_looks).
+  std::vector<std::int64_t> extended_from{};
+};
+
+/// Whether the runs are in replicates, at most as many as runs: independent draws are not, whatever
+/// number is given.
+[[nodiscard]] constexpr bool has_replicates(const Sampling& sampling) {
+  return sampling.design != DesignKind::random;
+}
+
+[[nodiscard]] Design design_of(const Sampling& sampling);
+
+inline constexpr std::array<std::string_view, 3> design_names{"random", "latin_hypercube", "sobol"};
+
+/// Whether the method takes the step it is given: no other has a use for `Integration::step`.
+[[nodiscard]] bool has_fixed_step(std::string_view method);
+
+inline constexpr std::array<std::string_view, 3> side_names{"upper", "lower", "both"};
+
+/// Tolerance limits of every output: a share `probability` of all wings lies within them.
+struct ToleranceLimitSpec {
+  double probability = 0, confidence = 0; ///< each in (0, 1)
+  Side side = Side::upper;
+};
+
+/// What a campaign asks of its statistics.
+struct StatisticsSpec {
+  std::vector<double> quantiles{0.01, 0.5, 0.99}; ///< probabilities, each in (0, 1)
+  double confidence = 0.95;                       ///< of every bound, two-sided, in (0, 1)
+  Bins bins = AutoBins{};
+  std::vector<ToleranceLimitSpec> tolerance_limits{};
+  std::int64_t accuracy_runs = 24; ///< that are made again to tell their errors, at most; 0: none
+};
+
+void read_sampling(const JsonCursor& at, Sampling& sampling);
+void read_integration(const JsonCursor& at, Integration& integration);
+/// That of a campaign, whose tolerance may be left to it. @param choice of the tolerance, if it is
+void read_integration(const JsonCursor& at, Integration& integration,
+                      std::optional<ToleranceChoice>& choice);
+void read_statistics(const JsonCursor& at, StatisticsSpec& statistics);
+
+[[nodiscard]] Json write_sampling(const Sampling& sampling);
+[[nodiscard]] Json write_integration(const Integration& integration,
+                                     const std::optional<ToleranceChoice>& choice = {});
+[[nodiscard]] Json write_statistics(const StatisticsSpec& statistics);
+
+} // namespace wingspread

@@ -1,0 +1,228 @@
+#include "montecarlo/model/campaign/describe.hpp"
+
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/foundation/statistics/wilks.hpp"
+#include "montecarlo/model/campaign/distribution_json.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <bit>
+#include <span>
+
+namespace wingspread {
+namespace {
+
+/// "2 N·m"; of what has no dimension, the number alone.
+std::string with_unit(double value, std::string_view unit) {
+  return fmt::format("{}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
+std::string describe_argument(double value) { return fmt::format("{}", value); }
+std::string describe_argument(const std::vector<double>& values) {
+  return values.size() <= 4 ? fmt::format("{}", fmt::join(values, " "))
+                            : fmt::format("{} numbers", values.size());
+}
+
+std::string describe_targets(const Scene& scene, std::span<const SceneParameter> parameters) {
+  std::vector<std::string> targets;
+  for (const SceneParameter& target : parameters)
+    targets.push_back(fmt::format("{} (nominal {})", path_of(scene, target),
+                                  with_unit(target.in(scene), unit_of(target))));
+  return fmt::format("{}", fmt::join(targets, ", "));
+}
+
+/// "1.2 to 0.9 over -60 to 70".
+std::string describe_table(const Curve& table) {
+  const auto value_at = [&](std::size_t knot) { return table.pieces()[knot + 1].c[0]; };
+  const std::vector<double>& draws = table.knots();
+  return fmt::format("{} to {} over {} to {}", value_at(0), value_at(draws.size() - 1),
+                     draws.front(), draws.back());
+}
+
+/// A line, and one more for each thing that a `through` drives.
+std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
+  std::string text = fmt::format("{}: {}", dispersion.name, describe(dispersion.distribution));
+  for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve* table) {
+    const std::string_view verb = apply_names[static_cast<std::size_t>(how)];
+    text += table ? fmt::format("\n    {} by {}: {}", verb, describe_table(*table),
+                                describe_targets(scene, targets))
+                  : fmt::format(", {} {}", verb, describe_targets(scene, targets));
+  });
+  return text;
+}
+
+/// Which parameters more than one draw changes, and in what order.
+std::string describe_shared(const Campaign& campaign) {
+  std::string text;
+  for (const auto& [paths, draws] : shared_targets(campaign.dispersions, campaign.scene))
+    text += fmt::format("  {}: one after the other, {}\n", fmt::join(paths, ", "),
+                        fmt::join(draws, ", then "));
+  return text.empty() ? "" : "changed by more than one draw\n" + text;
+}
+
+std::string describe_case(const Campaign& campaign, const CaseSpec& spec) {
+  std::vector<std::string> changes;
+  for (const auto& [how, target, value] : spec.changes) {
+    const std::string_view unit = unit_of(target);
+    changes.push_back(fmt::format(
+        "{} {} {} (nominal {})", apply_names[static_cast<std::size_t>(how)],
+        path_of(campaign.scene, target), with_unit(value, how == Apply::scale ? "" : unit),
+        with_unit(target.in(campaign.scene), unit)));
+  }
+  for (const auto& [dispersion, distribution] : spec.distributions)
+    changes.push_back(fmt::format("{}: {}", dispersion, describe(distribution)));
+  if (changes.empty()) changes.emplace_back("as it is");
+  return fmt::format("{}: {}", spec.name, fmt::join(changes, ", "));
+}
+
+std::string describe_cases(const Campaign& campaign) {
+  if (campaign.cases.empty()) return "";
+  std::string text = counted(std::ssize(campaign.cases), "case", "cases") + "\n";
+  for (const CaseSpec& spec : campaign.cases)
+    text += fmt::format("  {}\n", describe_case(campaign, spec));
+  return text;
+}
+
+/// What a design that stratifies makes of the numbers; nothing for independent draws.
+std::string describe_replicates(const Sampling& sampling) {
+  if (!has_replicates(sampling)) return "";
+  const auto each = static_cast<std::uint64_t>(sampling.runs / sampling.replicates);
+  const bool even = sampling.runs % sampling.replicates == 0;
+  const bool uneven_net =
+      sampling.design == DesignKind::sobol && !(even && std::has_single_bit(each));
+  std::string text;
+  if (sampling.replicates > 1)
+    text = fmt::format(", {} replicates of {} runs", sampling.replicates,
+                       even ? fmt::format("{}", each) : fmt::format("{} or {}", each, each + 1));
+  if (uneven_net) text += "; Sobol' points are at their best in powers of two";
+  if (sampling.replicates == 1) text += "; one replicate, so no bounds";
+  return text;
+}
+
+std::string describe_sampling(const Sampling& sampling) {
+  return fmt::format("{}, {}, seed {}", design_names[static_cast<std::size_t>(sampling.design)],
+                     counted(sampling.runs, "run", "runs"), sampling.seed) +
+         describe_replicates(sampling) +
+         (sampling.extended_from.empty() ? ""
+                                         : fmt::format(", extended: looked at after {} runs",
+                                                       fmt::join(sampling.extended_from, ", ")));
+}
+
+std::string describe_correlation(const Campaign& campaign, const RankCorrelation& correlation) {
+  return fmt::format("{} and {}: Spearman {}", campaign.dispersions[correlation.first].name,
+                     campaign.dispersions[correlation.second].name, correlation.spearman);
+}
+
+std::string describe_tolerances(const Integration& integration,
+                                const std::optional<ToleranceChoice>& choice) {
+  if (choice && !choice->pilot)
+    return fmt::format("rtol chosen by a pilot, at most 1e-06 and errors within {:g} % of the "
+                       "sampling error",
+                       100 * choice->share);
+  return fmt::format("rtol {}, atol {}", integration.rtol, integration.atol);
+}
+
+std::string describe_integration(const Integration& integration,
+                                 const std::optional<ToleranceChoice>& choice) {
+  const std::string latch =
+      integration.smoothing ? fmt::format("smoothed over {} rad", *integration.smoothing) : "event";
+  const std::string step =
+      has_fixed_step(integration.method) ? fmt::format(", step {} s", integration.step) : "";
+  return fmt::format("method {}{}, {}, latch {}, up to {} s and {} steps", integration.method, step,
+                     describe_tolerances(integration, choice), latch, integration.t_end,
+                     integration.max_steps);
+}
+
+std::string describe_outputs(const Outputs& outputs) {
+  std::vector<std::string_view> names;
+  for (const OutputFamily family : outputs)
+    names.push_back(output_family_names[static_cast<std::size_t>(family)]);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string describe_statistics(const StatisticsSpec& statistics) {
+  const int* bins = std::get_if<int>(&statistics.bins);
+  return fmt::format("quantiles {}, confidence {}, bins {}", fmt::join(statistics.quantiles, " "),
+                     statistics.confidence, bins ? std::to_string(*bins) : "auto");
+}
+
+/// With what the number of runs can show of it.
+std::string describe_requirement(const Campaign& campaign, const Requirement& requirement) {
+  const long runs = campaign.sampling.runs;
+  const double p = requirement.probability;
+  const double c =
+      at_each_of(confidence_alone(campaign.requirements, requirement), count_looks(campaign));
+  const std::string text = to_string(requirement);
+  if (const auto allowed = allowed_failures(runs, p, c))
+    return fmt::format("{}: {} of {} may break it", text, *allowed, counted(runs, "run", "runs"));
+  const auto least = runs_to_show(p, c, 0);
+  return fmt::format("{}: cannot be shown with {}, it takes {}", text, counted(runs, "run", "runs"),
+                     least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
+}
+
+std::string describe_margin(const MarginSpec& margin, const Scene& scene) {
+  return fmt::format("{} scaled by {} to {}, {}, {}",
+                     fmt::join(paths_of(scene, margin.scaled), ", "), margin.lower, margin.upper,
+                     margin.mode == MarginMode::joint ? "all together" : "hinge by hinge",
+                     !margin.one_spring_out ? "no spring lost"
+                     : margin.nominal       ? "with and without a spring lost"
+                                            : "with a spring lost");
+}
+
+std::string describe_guarantees(const Campaign& campaign) {
+  std::string text;
+  for (const auto& [probability, confidence, side] : campaign.statistics.tolerance_limits)
+    text += fmt::format("tolerance limits: {} probability, {} confidence, {}\n", probability,
+                        confidence, side_names[static_cast<std::size_t>(side)]);
+  for (const Requirement& requirement : campaign.requirements)
+    text += "requirement: " + describe_requirement(campaign, requirement) + "\n";
+  for (const StoppingGoal& goal : campaign.until)
+    text += (std::holds_alternative<WidthGoal>(goal) ? "until the interval's width is: "
+                                                     : "until it is passed or disproved: ") +
+            to_string(goal) + "\n";
+  if (campaign.margin)
+    text += "margin: " + describe_margin(*campaign.margin, campaign.scene) + "\n";
+  return text;
+}
+
+} // namespace
+
+std::string describe(const Distribution& distribution) {
+  std::string text(type_of(distribution.law));
+  const char* separator = " (";
+  std::visit(
+      [&]<class L>(const L& law) {
+        for (const auto& parameter : L::parameters()) {
+          text += fmt::format("{}{} {}", separator, parameter.name,
+                              describe_argument(law.*parameter.member));
+          separator = ", ";
+        }
+      },
+      distribution.law);
+  text += ")";
+  if (distribution.truncate)
+    text +=
+        fmt::format(" within [{}, {}]", distribution.truncate->lower, distribution.truncate->upper);
+  return text;
+}
+
+std::string describe(const Campaign& campaign) {
+  std::string text = "campaign\n" + describe(campaign.scene) +
+                     counted(std::ssize(campaign.dispersions), "dispersion", "dispersions") + "\n";
+  for (const Dispersion& dispersion : campaign.dispersions)
+    text += fmt::format("  {}\n", describe_dispersion(campaign.scene, dispersion));
+  text += describe_shared(campaign) + describe_cases(campaign);
+  if (!campaign.wanted_correlations.empty())
+    text += counted(std::ssize(campaign.wanted_correlations), "correlation", "correlations") + "\n";
+  for (const RankCorrelation& correlation : campaign.wanted_correlations)
+    text += fmt::format("  {}\n", describe_correlation(campaign, correlation));
+  text += "sampling: " + describe_sampling(campaign.sampling) + "\n";
+  text += "integration: " + describe_integration(campaign.integration, campaign.tolerance) + "\n";
+  text += "outputs: " + describe_outputs(campaign.outputs) + "\n";
+  text += "statistics: " + describe_statistics(campaign.statistics) + "\n";
+  return text + describe_guarantees(campaign);
+}
+
+} // namespace wingspread

@@ -1,0 +1,18 @@
+/// What a campaign holds, in words: for `wingspread check`.
+#pragma once
+
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/model/scene_file/describe_scene.hpp"
+
+#include <string>
+
+namespace wingspread {
+
+/// "normal (mean 1, std 0.05) within [0, 2]".
+[[nodiscard]] std::string describe(const Distribution& distribution);
+
+/// The scene, then a line for each dispersion,
+/// and for the sampling, integration, outputs and statistics.
+[[nodiscard]] std::string describe(const Campaign& campaign);
+
+} // namespace wingspread

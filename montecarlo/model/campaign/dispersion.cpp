@@ -1,0 +1,297 @@
+#include "montecarlo/model/campaign/dispersion.hpp"
+
+#include "distributions/random_stream.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/model/campaign/distribution_json.hpp"
+#include "montecarlo/model/scene_file/torque_json.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr std::array<std::string_view, 6> columns_of_runs{"run",         "status", "peaks_final",
+                                                          "latch_order", "reason", "deployed"};
+
+constexpr std::size_t most_dispersions = 10'000;
+
+/// A dispersion of the campaign and where it was read.
+struct Sourced {
+  Dispersion dispersion;
+  JsonCursor at;
+};
+
+bool is_column_name(const std::string& name) {
+  return !name.empty() && name.find_first_of(",\"") == std::string::npos &&
+         !has_control_characters(name);
+}
+
+bool is_taken(const std::string& name) {
+  return std::ranges::find(columns_of_runs, name) != columns_of_runs.end() ||
+         *parse_output_name(name).unit != '\0';
+}
+
+/// The paths of an `each`: one, or a list.
+std::vector<JsonCursor> paths_of_each(const JsonCursor& each) {
+  if (!each.value().is_array()) return {each};
+  if (each.value().empty()) each.refuse("a path, or an array of at least one");
+  return each.elements();
+}
+
+/// Adds a parameter to the copy that belongs to its body, hinge or synchronisation: a new one if there is none.
+void add_match(const ParameterMatch& match, const Dispersion& pattern,
+               std::vector<Dispersion>& copies) {
+  const auto has_its_owner = [&](const Dispersion& copy) {
+    return copy.targets.front().index == match.parameter.index;
+  };
+  auto copy = std::ranges::find_if(copies, has_its_owner);
+  if (copy == copies.end()) {
+    copies.push_back(pattern);
+    copies.back().name += "." + match.name;
+    copy = copies.end() - 1;
+  }
+  copy->targets.push_back(match.parameter);
+}
+
+/// One copy of the dispersion for each body, hinge or synchronisation that `each` matches, named after it.
+std::vector<Dispersion> expand(const JsonCursor& each, const Scene* scene,
+                               const Dispersion& pattern) {
+  std::vector<Dispersion> copies;
+  std::set<SceneParameter> seen;
+  for (const JsonCursor& path : paths_of_each(each))
+    for (const ParameterMatch& match : read_path(path, scene)) {
+      if (match.name.empty()) {
+        path.refuse("the path of a body's or a hinge's parameter (\"to\" takes the base's)");
+      } else if (!seen.empty() && seen.begin()->owner != match.parameter.owner) {
+        path.refuse(describe_value(path.value()) + " beside parameters of another kind of thing",
+                    "parameters of bodies alone, of hinges or of synchronisations: they share one "
+                    "draw for each");
+        break;
+      } else if (!seen.insert(match.parameter).second) {
+        path.refuse_repeated(path_of(*scene, match.parameter), "each parameter once");
+      } else {
+        add_match(match, pattern, copies);
+      }
+    }
+  return copies;
+}
+
+/// The unit that all parameters of these paths have; empty where they have none in common.
+std::string_view common_unit(const Json& paths, const Scene& scene) {
+  std::set<std::string_view> units;
+  const auto take = [&](const Json& path) {
+    if (!path.is_string()) return;
+    for (const ParameterMatch& match : resolve(scene, path.get<std::string>()).matches)
+      units.insert(unit_of(match.parameter));
+  };
+  if (paths.is_array())
+    for (const Json& path : paths) take(path);
+  else
+    take(paths);
+  return units.size() == 1 ? *units.begin() : "";
+}
+
+/// The knots of a table: where, ascending.
+bool read_knots(JsonObject& table, std::vector<double>& at_draws) {
+  const std::string expected = fmt::format("an array of 2 to {} numbers, ascending", most_knots);
+  const auto at = table.require("at", expected);
+  if (!at || !at->read(at_draws, expected)) return false;
+  if (!can_be_knots(at_draws.size())) return at->refuse(expected);
+  for (std::size_t k = 1; k < at_draws.size(); ++k)
+    if (!(at_draws[k] > at_draws[k - 1]))
+      return at->element(k).refuse(fmt::format("more than {}, the one before", at_draws[k - 1]));
+  return true;
+}
+
+/// @param resolved the table, to get numbers in SI
+void read_drive_table(const JsonCursor& at, std::string_view unit, Driven& driven, Json& resolved) {
+  JsonObject object(at, "a table: an object with at and value");
+  std::vector<double> draws, values;
+  bool good = read_knots(object, draws);
+  const auto value = object.require("value", "an array with a number for each draw");
+  good = good && value && read_column_beside(*value, draws, "draws", Dimension{unit}, values);
+  object.refuse_others();
+  if (!good) return;
+  resolved = {{"at", draws}, {"value", values}};
+  driven.table = Curve(std::move(draws), std::move(values), Interpolation::monotone);
+  if (!is_finite(driven.table))
+    at.refuse("a curve too steep for numbers", "draws further apart, or smaller values");
+}
+
+Driven read_driven(const JsonCursor& at, const Scene* scene, Json& resolved) {
+  Driven driven;
+  JsonObject object(at, "what the draw drives: an object with to, apply and table");
+  if (const auto to = object.require("to", "an array of at least one parameter's path"))
+    driven.targets = read_paths(*to, scene);
+  object.required_choice("apply", driven.apply, apply_names);
+  const bool has_unit = scene && driven.apply != Apply::scale && at.value().is_object();
+  const std::string_view unit = has_unit ? common_unit(at.value().value("to", Json()), *scene) : "";
+  if (const auto table = object.require("table", "a table: an object with at and value"))
+    read_drive_table(*table, unit, driven, resolved["table"]);
+  object.refuse_others();
+  return driven;
+}
+
+void read_through(const JsonCursor& at, const Scene* scene, Dispersion& dispersion,
+                  Json& resolved) {
+  if (!at.value().is_array() || at.value().empty())
+    at.refuse("an array of what the draw drives, at least one");
+  for (std::size_t i = 0; const JsonCursor& element : at.elements())
+    dispersion.through.push_back(read_driven(element, scene, resolved[i++]));
+}
+
+/// The targets of a dispersion that is read but for them: itself, or its copies.
+std::vector<Dispersion> read_targets(JsonObject& object, const Scene* scene, Dispersion dispersion,
+                                     Json& resolved) {
+  const auto to = object.find("to"), each = object.find("each"), through = object.find("through");
+  std::vector<std::string_view> given;
+  if (to) given.emplace_back("\"to\"");
+  if (each) given.emplace_back("\"each\"");
+  if (through) given.emplace_back("\"through\"");
+  if (through) {
+    if (const auto apply = object.find("apply"))
+      apply->refuse("no apply beside a \"through\": each of its tables has its own");
+    read_through(*through, scene, dispersion, resolved["through"]);
+  } else {
+    object.required_choice("apply", dispersion.apply, apply_names);
+  }
+  if (object.is_object() && given.size() != 1)
+    object.at().refuse(given.empty() ? "neither \"to\" nor \"each\" nor \"through\""
+                                     : fmt::format("both {}", fmt::join(given, " and ")),
+                       "one of them");
+  else if (each)
+    return expand(*each, scene, dispersion);
+  else if (to)
+    dispersion.targets = read_paths(*to, scene);
+  return {std::move(dispersion)};
+}
+
+std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene,
+                                        const std::filesystem::path& directory, Json& resolved) {
+  Dispersion dispersion;
+  JsonObject object(at, "a dispersion: an object");
+  object.required("name", dispersion.name,
+                  "a string, not empty, without commas, quotes and control characters",
+                  is_column_name);
+  if (const auto law = object.require("distribution", "a distribution: an object with its type")) {
+    dispersion.distribution = read_distribution(*law, directory, unit_of_draws(at.value(), scene));
+    resolved["distribution"] = write_distribution(dispersion.distribution);
+  }
+  auto read = read_targets(object, scene, std::move(dispersion), resolved);
+  object.refuse_others();
+  return read;
+}
+
+/// Notes each name that is another column's, or shares its random stream with another.
+void check_names(const std::vector<Sourced>& all) {
+  std::map<std::uint64_t, std::string> streams;
+  for (const auto& [dispersion, at] : all) {
+    const std::string& name = dispersion.name;
+    if (name.empty()) continue; // noted when it was read
+    const auto refuse = [&, &place = at](const std::string& found, std::string_view expected) {
+      place.refuse(fmt::format("\"{}\", {}", name, found), expected, "/name");
+    };
+    const auto [same, is_new] = streams.emplace(stream_name(name).hash, name);
+    if (is_taken(name))
+      refuse("the name of a column of the results", "another name");
+    else if (!is_new && same->second == name)
+      refuse("the name of another dispersion too", "a name of its own");
+    else if (!is_new)
+      refuse(fmt::format("whose random stream is that of \"{}\" too", same->second),
+             "another name");
+  }
+}
+
+/// Notes each dispersion that sets a parameter which one before it has written.
+void check_order(const std::vector<Sourced>& all, const Scene& scene) {
+  std::map<SceneParameter, std::string> writers;
+  for (const auto& [dispersion, at] : all)
+    for_each_effect(dispersion, [&, &by = dispersion, &place = at](Apply how, const auto& targets,
+                                                                   const Curve*) {
+      for (const SceneParameter& target : targets) {
+        const auto [writer, first] = writers.emplace(target, by.name);
+        if (!first && how == Apply::set)
+          place.refuse(fmt::format("\"set\" of {}, which \"{}\" has written before",
+                                   path_of(scene, target), writer->second),
+                       "nothing before a \"set\", which would undo it",
+                       by.through.empty() ? "/apply" : "/through");
+      }
+    });
+}
+
+} // namespace
+
+Dispersions read_dispersions(const JsonCursor& at, const Scene* scene,
+                             const std::filesystem::path& directory) {
+  if (!at.value().is_array()) at.refuse("an array of dispersions");
+  Dispersions dispersions{{}, at.value()};
+  std::vector<Sourced> all;
+  for (std::size_t i = 0; const JsonCursor& element : at.elements(most_dispersions))
+    for (Dispersion& read : read_dispersion(element, scene, directory, dispersions.resolved[i++]))
+      all.push_back({std::move(read), element});
+  if (all.size() > most_dispersions)
+    at.refuse(fmt::format("{} dispersions", all.size()),
+              fmt::format("at most {}", most_dispersions));
+  check_names(all);
+  if (scene) check_order(all, *scene);
+  for (Sourced& sourced : all) dispersions.list.push_back(std::move(sourced.dispersion));
+  return dispersions;
+}
+
+void apply_to(double& parameter, Apply how, double value) {
+  switch (how) {
+  case Apply::set:
+    parameter = value;
+    break;
+  case Apply::scale:
+    parameter *= value;
+    break;
+  case Apply::add:
+    parameter += value;
+    break;
+  }
+}
+
+std::string_view unit_of_draws(const Json& spec, const Scene* scene) {
+  if (!scene || !spec.is_object() || spec.value("apply", Json()) == "scale") return "";
+  Json paths = Json::array();
+  for (const char* key : {"to", "each"})
+    if (const auto named = spec.find(key); named != spec.end())
+      for (const Json& path : named->is_array() ? *named : Json::array({*named}))
+        paths.push_back(path);
+  return common_unit(paths, *scene);
+}
+
+std::vector<SharedTarget> shared_targets(std::span<const Dispersion> dispersions,
+                                         const Scene& scene) {
+  constexpr std::array<std::string_view, 3> verbs{"sets", "scales", "adds"};
+  std::vector<SceneParameter> order;
+  std::map<SceneParameter, std::vector<std::string>> draws;
+  for (const Dispersion& dispersion : dispersions)
+    for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve*) {
+      for (const SceneParameter& target : targets) {
+        if (draws[target].empty()) order.push_back(target);
+        draws[target].push_back(
+            fmt::format("{} {}", dispersion.name, verbs[static_cast<std::size_t>(how)]));
+      }
+    });
+  std::vector<SharedTarget> shared;
+  for (const SceneParameter& target : order) {
+    if (draws[target].size() < 2) continue;
+    const auto same = std::ranges::find(shared, draws[target], &SharedTarget::draws);
+    if (same == shared.end())
+      shared.push_back({{path_of(scene, target)}, draws[target]});
+    else
+      same->paths.push_back(path_of(scene, target));
+  }
+  return shared;
+}
+
+} // namespace wingspread

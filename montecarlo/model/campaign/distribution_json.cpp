@@ -1,0 +1,186 @@
+#include "montecarlo/model/campaign/distribution_json.hpp"
+
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+template <std::size_t... I> constexpr auto law_names(std::index_sequence<I...>) {
+  return std::array{std::variant_alternative_t<I, Law>::type...};
+}
+constexpr std::make_index_sequence<std::variant_size_v<Law>> every_law;
+constexpr auto type_names = law_names(every_law);
+
+template <std::size_t... I> Law default_law(std::size_t type, std::index_sequence<I...>) {
+  const std::array laws{Law(std::in_place_index<I>)...};
+  return laws[type];
+}
+
+std::string expected_of(double, Range range) {
+  switch (range) {
+  case Range::positive:
+    return "a number, > 0";
+  case Range::non_negative:
+    return "a number, ≥ 0";
+  case Range::shape:
+    return "a number, > 0 and ≤ 1e6";
+  case Range::finite:
+    break;
+  }
+  return "a number";
+}
+
+std::string expected_of(const std::vector<double>&, Range range) {
+  return range == Range::finite ? "an array of numbers" : "an array of numbers, ≥ 0";
+}
+
+/// The parameters that have the unit of what is drawn.
+constexpr std::array<std::string_view, 8> in_drawn_unit{"mean",  "std",   "lower",  "mode",
+                                                        "upper", "scale", "values", "value"};
+
+bool has_string(const Json& value) {
+  if (!value.is_array()) return value.is_string();
+  return std::ranges::any_of(value, [](const Json& each) { return each.is_string(); });
+}
+
+/// Where strings stand for numbers of the drawn unit, they are read as such.
+template <class T>
+void read_parameter(JsonObject& object, std::string_view name, T& value, Range range,
+                    std::string_view unit) {
+  const auto at = object.find(name);
+  if (at && !unit.empty() && has_string(at->value()) &&
+      std::ranges::find(in_drawn_unit, name) != in_drawn_unit.end())
+    at->read(value, Dimension{unit});
+  else
+    object.required(name, value, expected_of(value, range));
+}
+
+template <class L> void read_parameters(JsonObject& object, L& law, std::string_view unit) {
+  for (const auto& parameter : L::parameters())
+    read_parameter(object, parameter.name, law.*parameter.member, parameter.range, unit);
+}
+
+double parse_cell(const CsvReader& reader, const std::string& cell, const std::string& column) {
+  if (const auto value = parse_csv_number(cell)) return *value;
+  throw reader.error(column, fmt::format("'{}'", cell), "a finite number");
+}
+
+/// The numbers of one column of a CSV file whose first record names its columns.
+/// @throws SpecError at the first fault
+std::vector<double> read_column(std::istream& in, const std::string& file,
+                                const std::string& column) {
+  CsvReader reader(in, file);
+  const bool has_header = reader.next();
+  const std::vector<std::string> header = has_header ? reader.cells() : std::vector<std::string>{};
+  const auto index = static_cast<std::size_t>(std::ranges::find(header, column) - header.begin());
+  if (std::ranges::count(header, column) != 1)
+    throw reader.error(column, index == header.size() ? "no such column" : "it more than once",
+                       "it once in the header");
+  std::vector<double> values;
+  while (reader.next()) {
+    const std::vector<std::string>& cells = reader.cells();
+    if (cells.size() == 1 && cells[0].empty() && header.size() > 1) continue; // an empty line
+    if (cells.size() != header.size())
+      throw reader.error("", fmt::format("{} cells", cells.size()),
+                         fmt::format("{}, as in the header", header.size()));
+    values.push_back(parse_cell(reader, cells[index], column));
+  }
+  return values;
+}
+
+void read_file(const JsonCursor& at, const std::string& name, const std::string& column,
+               const std::filesystem::path& directory, std::vector<double>& values) {
+  const std::filesystem::path path = directory / name;
+  const auto text = read_text(path);
+  if (!text) {
+    at.refuse(fmt::format("no file that can be read at \"{}\"", path.string()), "a CSV file",
+              "/file");
+    return;
+  }
+  std::istringstream in(*text);
+  try {
+    values = read_column(in, path.string(), column);
+  } catch (const SpecError& error) {
+    at.problems().insert(at.problems().end(), error.problems().begin(), error.problems().end());
+  }
+}
+
+void read_empirical(JsonObject& object, Empirical& law, const std::filesystem::path& directory,
+                    std::string_view unit) {
+  const bool from_file = object.find("file") || object.find("column");
+  if (!from_file) return read_parameters(object, law, unit);
+  if (object.find("values")) object.at().refuse("both values and a file", "either of them");
+  std::string name, column;
+  const bool named = object.required("file", name, "a string, the name of a CSV file");
+  const bool picked = object.required("column", column, "a string, a column's name in the header");
+  if (named && picked) read_file(object.at(), name, column, directory, law.values);
+}
+
+void read_truncation(const JsonCursor& at, std::optional<Truncation>& truncate,
+                     std::string_view unit) {
+  JsonObject object(at, "an object with lower and upper");
+  truncate.emplace();
+  for (const auto& [name, limit] :
+       {std::pair{"lower", &truncate->lower}, std::pair{"upper", &truncate->upper}})
+    if (object.find(name)) read_parameter(object, name, *limit, Range::finite, unit);
+  if (object.is_object() && !object.find("lower") && !object.find("upper"))
+    at.refuse("neither lower nor upper", "at least one of them");
+  object.refuse_others();
+}
+
+} // namespace
+
+Distribution read_distribution(const JsonCursor& at, const std::filesystem::path& directory,
+                               std::string_view unit) {
+  const std::size_t before = at.problems().size();
+  Distribution distribution;
+  constexpr std::string_view what = "a distribution: an object with its type";
+  at.note(Question::What::object, what, "distribution");
+  JsonObject object(at, what);
+  std::size_t type = 0;
+  if (!object.required_choice("type", type, type_names) || !object.is_object()) return distribution;
+  distribution.law = default_law(type, every_law);
+  std::visit(
+      [&]<class L>(L& law) {
+        if constexpr (std::is_same_v<L, Empirical>)
+          read_empirical(object, law, directory, unit);
+        else
+          read_parameters(object, law, unit);
+      },
+      distribution.law);
+  if (const auto truncate = object.find("truncate"))
+    read_truncation(*truncate, distribution.truncate, unit);
+  object.refuse_others();
+  if (at.problems().size() == before)
+    for (const DistributionFault& fault : faults(distribution))
+      at.refuse(fault.found, fault.expected, fault.path.empty() ? "" : "/" + fault.path);
+  return distribution;
+}
+
+Json write_distribution(const Distribution& distribution) {
+  Json json{{"type", type_of(distribution.law)}};
+  std::visit(
+      [&]<class L>(const L& law) {
+        for (const auto& parameter : L::parameters())
+          json[std::string(parameter.name)] = law.*parameter.member;
+      },
+      distribution.law);
+  if (!distribution.truncate) return json;
+  Json& truncate = json["truncate"] = Json::object();
+  if (std::isfinite(distribution.truncate->lower)) truncate["lower"] = distribution.truncate->lower;
+  if (std::isfinite(distribution.truncate->upper)) truncate["upper"] = distribution.truncate->upper;
+  return json;
+}
+
+std::string_view type_of(const Law& law) { return type_names[law.index()]; }
+
+} // namespace wingspread

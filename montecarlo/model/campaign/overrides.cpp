@@ -1,0 +1,61 @@
+#include "montecarlo/model/campaign/overrides.hpp"
+
+#include "montecarlo/foundation/formats/number_text.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// "/t_end" → "--t-end"; what lies deeper is the option's too.
+std::string option_of(std::string_view pointer) {
+  const std::string_view key = pointer.substr(std::min<std::size_t>(1, pointer.size()));
+  std::string option = "--" + std::string(key.substr(0, key.find('/')));
+  std::ranges::replace(option, '_', '-');
+  return option;
+}
+
+} // namespace
+
+void override_settings(const Json& given, const std::function<void(const JsonCursor&)>& read) {
+  std::vector<Problem> problems;
+  read(JsonCursor(given, "", problems));
+  for (Problem& problem : problems) problem.pointer = option_of(problem.pointer);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+Scene changed_scene(Scene scene, const std::vector<std::string>& changes) {
+  std::vector<Problem> problems;
+  std::vector<CaseChange> read;
+  for (const std::string& change : changes) {
+    const std::size_t equals = std::min(change.find('='), change.size());
+    const std::string path = change.substr(0, equals);
+    const std::string text = change.substr(std::min(equals + 1, change.size()));
+    const auto number = parse_number<double>(text);
+    const Json value = number ? Json(*number) : Json(text);
+    std::vector<Problem> its;
+    if (equals == change.size())
+      its.push_back({"", "", fmt::format("\"{}\"", change), "PATH=VALUE"});
+    else
+      read_change(JsonCursor(value, "", its), path, Apply::set, scene, read);
+    for (Problem& problem : its)
+      problems.push_back({"", "--set " + path, problem.found, problem.expected});
+  }
+  if (problems.empty()) make_changes(read, scene);
+  for (const Fault& fault : unphysical(scene))
+    problems.push_back(
+        {"", "--set", fmt::format("{} of {}", fault.path, fault.found), fault.expected});
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  return scene;
+}
+
+void change_scene(Campaign& campaign, const std::vector<std::string>& changes) {
+  if (changes.empty()) return;
+  campaign = with_scene(campaign, changed_scene(campaign.scene, changes));
+}
+
+} // namespace wingspread

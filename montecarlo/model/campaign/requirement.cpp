@@ -1,0 +1,194 @@
+#include "montecarlo/model/campaign/requirement.hpp"
+
+#include "montecarlo/foundation/formats/nearest.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+bool is_name(const std::string& text) { return !text.empty() && !has_control_characters(text); }
+
+bool contains(std::span<const std::string> names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+void refuse_unknown_output(const JsonCursor& at, const std::string& output,
+                           const std::vector<std::string>& outputs,
+                           std::span<const std::string> all_outputs) {
+  if (output == deployed_output || contains(outputs, output)) return;
+  if (contains(all_outputs, output))
+    return void(at.refuse(fmt::format("an output that the campaign asks for (\"{}\" is not in its "
+                                      "\"outputs\")",
+                                      parse_output_name(output).quantity)));
+  std::vector<std::string> known = outputs;
+  known.emplace_back(deployed_output);
+  at.refuse("an output of the campaign, or \"deployed\"" + did_you_mean(output, known));
+}
+
+/// A plain number is in the output's unit; a string names its own.
+bool read_limit(const JsonCursor& at, const std::string& output, double& limit) {
+  const std::string unit = parse_output_name(output).unit;
+  return at.value().is_string() && !unit.empty() ? at.read(limit, Dimension{unit})
+                                                 : at.read(limit, "a number, in the output's unit");
+}
+
+void read_limits(JsonObject& object, Requirement& requirement) {
+  const auto read = [&](const char* key, std::optional<double>& limit) {
+    const auto at = object.find(key);
+    double value = 0;
+    if (at && read_limit(*at, requirement.output, value)) limit = value;
+    return at.has_value();
+  };
+  const bool has_max = read("max", requirement.max), has_min = read("min", requirement.min);
+  if (!object.is_object() || requirement.output.empty()) return;
+  if (requirement.output == deployed_output) {
+    if (has_max || has_min)
+      object.at().refuse("a limit", "neither max nor min: a run has deployed or has not");
+  } else if (has_max == has_min) {
+    object.at().refuse(has_max ? "both max and min" : "neither max nor min",
+                       "one of them (for both, two requirements)");
+  }
+}
+
+void read_absolute(JsonObject& object, Requirement& requirement) {
+  const auto at = object.find("abs");
+  if (!at) return;
+  if (!at->value().is_boolean())
+    at->refuse("true or false");
+  else if (requirement.output == deployed_output)
+    at->refuse("an output with a limit: a run has deployed or has not");
+  else
+    requirement.absolute = at->value().get<bool>();
+}
+
+/// Notes each member of a group whose confidence is not that of the first: it is that of all of them together.
+void check_groups(const JsonCursor& at, std::span<const Requirement> requirements) {
+  for (std::size_t i = 0; i < requirements.size(); ++i) {
+    const Requirement& own = requirements[i];
+    const auto first = std::ranges::find(requirements, own.group, &Requirement::group);
+    if (own.group.empty() || own.confidence == first->confidence || own.confidence == 0) continue;
+    at.element(i).refuse(fmt::format("{}", own.confidence),
+                         fmt::format("{}, as of the others of the group \"{}\": it is that of all "
+                                     "of them together",
+                                     first->confidence, own.group),
+                         "/confidence");
+  }
+}
+
+/// A static margin has no output of its own, and is limited from below: by 0 if nothing is said.
+void read_static_margin(JsonObject& object, const Scene* scene, Requirement& requirement) {
+  requirement.static_margin.emplace();
+  read_required_margin(object, scene, *requirement.static_margin);
+  requirement.output = name_of(*requirement.static_margin);
+  requirement.min = 0;
+  object.optional("min", *requirement.min, "a number");
+}
+
+void read_output(JsonObject& object, const std::vector<std::string>* outputs,
+                 std::span<const std::string> all_outputs, Requirement& requirement) {
+  const bool named =
+      object.required("output", requirement.output, "a string, an output or \"deployed\"");
+  if (named && outputs && object.is_object())
+    refuse_unknown_output(object.at().member("output"), requirement.output, *outputs, all_outputs);
+  read_limits(object, requirement);
+  read_absolute(object, requirement);
+}
+
+Requirement read_requirement(const JsonCursor& at, const std::vector<std::string>* outputs,
+                             std::span<const std::string> all_outputs, const Scene* scene) {
+  Requirement requirement;
+  JsonObject object(at, "a requirement: an object");
+  object.optional("name", requirement.name, "a string, not empty, without control characters",
+                  is_name);
+  if (at.value().is_object() && at.value().contains("motorization"))
+    read_static_margin(object, scene, requirement);
+  else
+    read_output(object, outputs, all_outputs, requirement);
+  object.optional("group", requirement.group, "a string, not empty, without control characters",
+                  is_name);
+  object.required("probability", requirement.probability, "a number, > 0 and < 1", is_proper_share);
+  object.required("confidence", requirement.confidence, "a number, > 0 and < 1", is_proper_share);
+  object.refuse_others();
+  return requirement;
+}
+
+} // namespace
+
+double confidence_alone(std::span<const Requirement> all, const Requirement& requirement) {
+  if (requirement.group.empty()) return requirement.confidence;
+  return at_each_of(requirement.confidence,
+                    std::ranges::count(all, requirement.group, &Requirement::group));
+}
+
+const std::string& name_of(const Requirement& requirement) {
+  return requirement.name.empty() ? requirement.output : requirement.name;
+}
+
+void read_requirements(const JsonCursor& at, const std::vector<std::string>* outputs,
+                       std::span<const std::string> all_outputs,
+                       std::vector<Requirement>& requirements, const Scene* scene) {
+  if (!at.value().is_array()) return void(at.refuse("an array of requirements"));
+  requirements.clear();
+  for (const JsonCursor& element : at.elements())
+    requirements.push_back(read_requirement(element, outputs, all_outputs, scene));
+  check_groups(at, requirements);
+}
+
+void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,
+                        double t_end) {
+  for (std::size_t i = 0; i < requirements.size(); ++i) {
+    const Requirement& own = requirements[i];
+    const std::optional<double> limit = own.max ? own.max : own.min;
+    const std::string quantity = parse_output_name(own.output).quantity;
+    const bool is_time = quantity == "latch_time" || quantity == "deployment_time";
+    if (!is_time || !limit || *limit <= t_end) continue;
+    at.element(i).refuse(fmt::format("{} s", *limit),
+                         fmt::format("at most t_end, {} s: a run ends there, and what has not "
+                                     "latched by then breaks the requirement (a later limit wants "
+                                     "a later t_end)",
+                                     t_end),
+                         own.max ? "/max" : "/min");
+  }
+}
+
+Json write_requirements(std::span<const Requirement> requirements) {
+  Json list = Json::array();
+  for (const Requirement& requirement : requirements) {
+    Json json = Json::object();
+    if (!requirement.name.empty()) json["name"] = requirement.name;
+    if (requirement.static_margin) {
+      json["motorization"] = word_of(*requirement.static_margin);
+      json["hinge"] = requirement.static_margin->hinge;
+    } else {
+      json["output"] = requirement.output;
+    }
+    if (requirement.max) json["max"] = *requirement.max;
+    if (requirement.min) json["min"] = *requirement.min;
+    if (requirement.absolute) json["abs"] = true;
+    json["probability"] = requirement.probability;
+    json["confidence"] = requirement.confidence;
+    if (!requirement.group.empty()) json["group"] = requirement.group;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+std::string to_string(const Requirement& requirement) {
+  std::string text = requirement.name.empty() ? "" : requirement.name + ": ";
+  text += requirement.absolute ? '|' + requirement.output + '|' : requirement.output;
+  const std::string unit = parse_output_name(requirement.output).unit;
+  const std::string after = unit.empty() ? "" : ' ' + unit;
+  if (requirement.max) text += fmt::format(" ≤ {}{}", *requirement.max, after);
+  if (requirement.min) text += fmt::format(" ≥ {}{}", *requirement.min, after);
+  text += fmt::format(", {:.10g} % at {:.10g} %", 100 * requirement.probability,
+                      100 * requirement.confidence);
+  return requirement.group.empty() ? text : text + " in group " + requirement.group;
+}
+
+} // namespace wingspread

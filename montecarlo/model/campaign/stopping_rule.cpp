@@ -1,0 +1,179 @@
+#include "montecarlo/model/campaign/stopping_rule.hpp"
+
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/formats/nearest.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/model/campaign/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+constexpr long first_checkpoint = 1000;
+constexpr std::string_view decision_prefix = "requirement ";
+constexpr const char* quantile_expected = "a number, > 0 and < 1: the quantile that is meant";
+
+void refuse_unknown_output(const JsonCursor& at, const std::string& output,
+                           const std::vector<std::string>& outputs) {
+  if (status_named(output) || std::ranges::find(outputs, output) != outputs.end()) return;
+  std::vector<std::string> known = outputs;
+  for (const Status status : statuses) known.emplace_back(to_string(status));
+  at.refuse("an output of the campaign, or a status" + did_you_mean(output, known));
+}
+
+/// Reads width or relative_width, of which there has to be one.
+void read_width(JsonObject& object, WidthGoal& goal) {
+  const bool absolute = object.find("width").has_value();
+  goal.relative = object.find("relative_width").has_value();
+  if (!object.is_object()) return;
+  if (absolute == goal.relative)
+    object.at().refuse(absolute ? "both width and relative_width"
+                                : "neither width nor relative_width",
+                       "one of them");
+  const auto width = object.find("width");
+  const std::string unit = parse_output_name(goal.output).unit;
+  if (width && width->value().is_string() && !unit.empty())
+    object.optional("width", goal.width, Dimension{unit, "> 0"}, is_positive);
+  else
+    object.optional("width", goal.width, "a number, in the output's unit, > 0", is_positive);
+  object.optional("relative_width", goal.width, "a number, > 0", is_positive);
+}
+
+/// A status has a share, and an output has quantiles.
+void read_quantile(JsonObject& object, WidthGoal& goal) {
+  const auto quantile = object.find("quantile");
+  if (!object.is_object() || goal.output.empty()) return;
+  if (!status_named(goal.output)) {
+    goal.quantile.emplace();
+    object.required("quantile", *goal.quantile, quantile_expected, is_proper_share);
+    return;
+  }
+  if (quantile) quantile->refuse("no quantile of a share of runs");
+  if (goal.relative) object.at().refuse("a relative_width", "a width, for a share of runs");
+}
+
+DecisionGoal read_decision_goal(JsonObject& object, const std::vector<std::string>* requirements) {
+  DecisionGoal goal;
+  const bool named =
+      object.required("requirement", goal.requirement, "a string, the name of a requirement");
+  if (named && requirements &&
+      std::ranges::find(*requirements, goal.requirement) == requirements->end())
+    object.at()
+        .member("requirement")
+        .refuse("a requirement of the campaign, by its name or its output" +
+                did_you_mean(goal.requirement, *requirements));
+  return goal;
+}
+
+WidthGoal read_width_goal(JsonObject& object, const std::vector<std::string>* outputs) {
+  WidthGoal goal;
+  const bool named = object.required("output", goal.output, "a string, an output or a status");
+  if (named && outputs && object.is_object())
+    refuse_unknown_output(object.at().member("output"), goal.output, *outputs);
+  read_width(object, goal);
+  read_quantile(object, goal);
+  return goal;
+}
+
+StoppingGoal read_goal(const JsonCursor& at, const std::vector<std::string>* outputs,
+                       const std::vector<std::string>* requirements) {
+  JsonObject object(at, "a width to be reached, or a requirement to be decided: an object");
+  const bool decision = object.is_object() && at.value().contains("requirement");
+  StoppingGoal goal = decision ? StoppingGoal(read_decision_goal(object, requirements))
+                               : read_width_goal(object, outputs);
+  object.refuse_others();
+  return goal;
+}
+
+Json write_goal(const WidthGoal& goal) {
+  Json json{{"output", goal.output}};
+  if (goal.quantile) json["quantile"] = *goal.quantile;
+  json[goal.relative ? "relative_width" : "width"] = goal.width;
+  return json;
+}
+
+Json write_goal(const DecisionGoal& goal) { return {{"requirement", goal.requirement}}; }
+
+std::string text_of(const WidthGoal& goal) {
+  const std::string quantile = goal.quantile ? fmt::format("@{}", *goal.quantile) : "";
+  if (goal.relative) return fmt::format("{}{} {:.10g}%", goal.output, quantile, 100 * goal.width);
+  return fmt::format("{}{} {}", goal.output, quantile, goal.width);
+}
+
+std::string text_of(const DecisionGoal& goal) {
+  return fmt::format("{}{}", decision_prefix, goal.requirement);
+}
+
+/// Splits off what follows the last `mark`, which has to be there.
+std::optional<std::string_view> split_last(std::string_view& text, char mark) {
+  const std::size_t at = text.rfind(mark);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view last = text.substr(at + 1);
+  text = text.substr(0, at);
+  return last;
+}
+
+} // namespace
+
+void read_stopping_rule(const JsonCursor& at, const std::vector<std::string>* outputs,
+                        const std::vector<std::string>* requirements, StoppingRule& rule) {
+  if (!at.value().is_array())
+    return void(at.refuse("an array of widths to be reached and requirements to be decided"));
+  rule.clear();
+  for (const JsonCursor& element : at.elements())
+    rule.push_back(read_goal(element, outputs, requirements));
+}
+
+Json write_stopping_rule(const StoppingRule& rule) {
+  Json list = Json::array();
+  for (const StoppingGoal& goal : rule)
+    list.push_back(std::visit([](const auto& each) { return write_goal(each); }, goal));
+  return list;
+}
+
+std::optional<Json> parse_stopping_goal(std::string_view text) {
+  if (text.starts_with(decision_prefix) && text.size() > decision_prefix.size())
+    return Json{{"requirement", text.substr(decision_prefix.size())}};
+  const bool percent = text.ends_with('%');
+  std::string_view name = text.substr(0, text.find_last_not_of("% ") + 1);
+  const auto width = split_last(name, ' ');
+  if (!width) return std::nullopt;
+  const auto number = parse_csv_number(*width);
+  if (!number) return std::nullopt;
+  Json goal{{"output", ""}};
+  if (name.find('@') != std::string_view::npos) {
+    const auto quantile = parse_csv_number(*split_last(name, '@'));
+    if (!quantile) return std::nullopt;
+    goal["quantile"] = *quantile;
+  }
+  goal["output"] = std::string(name);
+  goal[percent ? "relative_width" : "width"] = percent ? *number / 100 : *number;
+  return goal;
+}
+
+std::string to_string(const StoppingGoal& goal) {
+  return std::visit([](const auto& each) { return text_of(each); }, goal);
+}
+
+long next_checkpoint(long done, long runs) {
+  long checkpoint = first_checkpoint;
+  while (checkpoint <= done && checkpoint < runs)
+    checkpoint = checkpoint > runs / 2 ? runs : 2 * checkpoint;
+  return std::min(checkpoint, runs);
+}
+
+bool is_checkpoint(long done, long runs) {
+  return done > 0 && next_checkpoint(done - 1, runs) == done;
+}
+
+long count_looks(const StoppingRule& rule, long runs) {
+  if (rule.empty()) return 1;
+  long looks = 0;
+  for (long done = 0; done < runs; done = next_checkpoint(done, runs)) ++looks;
+  return looks;
+}
+
+} // namespace wingspread

@@ -1,0 +1,145 @@
+#include "montecarlo/model/campaign/wanted_correlations.hpp"
+
+#include "montecarlo/foundation/formats/nearest.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr std::size_t most_correlations = 100'000;
+
+using Matrix = Eigen::MatrixXd;
+
+/// Of the coefficients that a message proposes. Rounding them changes an eigenvalue by some
+/// half_unit times the number of dispersions that they couple at most: with twice that left between
+/// the eigenvalues and zero, the matrix as proposed is possible.
+constexpr double unit = 1e-4, half_unit = unit / 2;
+
+/// Far above what rounding makes of an eigenvalue, far below what anybody knows of a correlation.
+constexpr double least_eigenvalue = 1e-9;
+
+constexpr std::string_view expected_pair = "an array of two dispersions' names";
+
+bool is_inside(const double& coefficient) { return -1 < coefficient && coefficient < 1; }
+
+/// The dispersion named at the cursor; a problem and nothing when there is none.
+std::optional<std::size_t> read_name(const JsonCursor& at,
+                                     const std::vector<Dispersion>* dispersions) {
+  std::string name;
+  if (!at.read(name, "a string, the name of a dispersion") || !dispersions) return std::nullopt;
+  const auto found = std::ranges::find(*dispersions, name, &Dispersion::name);
+  if (found != dispersions->end()) return static_cast<std::size_t>(found - dispersions->begin());
+  std::vector<std::string> names, copies; // all, and those of the "each" of that name
+  for (const Dispersion& each : *dispersions) {
+    names.push_back(each.name);
+    if (each.name.starts_with(name + '.')) copies.push_back(each.name);
+  }
+  at.refuse("the name of a dispersion" +
+            (copies.empty() ? did_you_mean(name, names)
+                            : fmt::format(" (did you mean \"{}\"?)", copies.front())));
+  return std::nullopt;
+}
+
+/// The two dispersions; a problem and nothing when they are not two.
+std::optional<std::pair<std::size_t, std::size_t>>
+read_pair(const JsonCursor& at, const std::vector<Dispersion>* dispersions) {
+  if (!at.value().is_array() || at.value().size() != 2) {
+    at.refuse(expected_pair);
+    return std::nullopt;
+  }
+  const auto first = read_name(at.element(0), dispersions);
+  const auto second = read_name(at.element(1), dispersions);
+  if (!first || !second) return std::nullopt;
+  if (*first != *second) return std::minmax(*first, *second);
+  at.refuse(describe_value(at.element(0).value()) + " twice", "two dispersions");
+  return std::nullopt;
+}
+
+/// One correlation; nothing when it noted a problem.
+std::optional<RankCorrelation> read_correlation(const JsonCursor& at,
+                                                const std::vector<Dispersion>* dispersions) {
+  RankCorrelation correlation;
+  JsonObject object(at, "a correlation: an object");
+  std::optional<std::pair<std::size_t, std::size_t>> pair;
+  if (const auto between = object.require("between", expected_pair))
+    pair = read_pair(*between, dispersions);
+  const bool sound =
+      object.required("spearman", correlation.spearman, "a number, > -1 and < 1", is_inside);
+  object.refuse_others();
+  if (!pair || !sound) return std::nullopt;
+  std::tie(correlation.first, correlation.second) = *pair;
+  return correlation;
+}
+
+double rounded(double coefficient) { return std::round(coefficient / unit) * unit; }
+
+/// `"a" and "b" 0.5, …`: the coefficients that have to change,
+/// as the nearest possible matrix has them.
+std::string proposal(const Matrix& matrix, const std::vector<Dispersion>& dispersions) {
+  const auto coupled = ((matrix.array() != 0).rowwise().count() > 1).count();
+  const double margin = 2 * half_unit * static_cast<double>(coupled);
+  const Matrix nearest = nearest_correlations(matrix, std::min(margin, 0.5));
+  std::string text;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = i + 1; j < matrix.cols(); ++j) {
+      const double near = rounded(spearman_correlation(nearest(i, j)));
+      if (std::abs(near - spearman_correlation(matrix(i, j))) <= half_unit) continue;
+      text += fmt::format("{}\"{}\" and \"{}\" {:.4f}", text.empty() ? "" : ", ",
+                          dispersions[static_cast<std::size_t>(i)].name,
+                          dispersions[static_cast<std::size_t>(j)].name, near);
+    }
+  return text;
+}
+
+void refuse_impossible(const JsonCursor& at, const std::vector<RankCorrelation>& correlations,
+                       const std::vector<Dispersion>& dispersions) {
+  const Matrix matrix = normal_correlations(dispersions.size(), correlations);
+  // With so much to spare it factors in whatever order the dispersions are taken.
+  if (cholesky(matrix - least_eigenvalue * Matrix::Identity(matrix.rows(), matrix.cols()))) return;
+  const double smallest =
+      Eigen::SelfAdjointEigenSolver<Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
+  at.refuse(fmt::format("coefficients that cannot hold together (the smallest eigenvalue of their "
+                        "matrix is {:.2g})",
+                        smallest),
+            "a positive definite matrix; the nearest has " + proposal(matrix, dispersions));
+}
+
+} // namespace
+
+std::vector<RankCorrelation> read_wanted_correlations(const JsonCursor& at,
+                                                      const std::vector<Dispersion>* dispersions) {
+  if (!at.value().is_array()) at.refuse("an array of correlations");
+  std::vector<RankCorrelation> correlations;
+  const std::size_t problems_before = at.problems().size();
+  for (const JsonCursor& element : at.elements(most_correlations)) {
+    const auto read = read_correlation(element, dispersions);
+    if (!read) continue;
+    const auto is_same = [&](const RankCorrelation& other) {
+      return other.first == read->first && other.second == read->second;
+    };
+    if (std::ranges::any_of(correlations, is_same))
+      element.refuse("a pair that is named before", "each pair once", "/between");
+    correlations.push_back(*read);
+  }
+  if (dispersions && at.problems().size() == problems_before)
+    refuse_impossible(at, correlations, *dispersions);
+  return correlations;
+}
+
+Json write_wanted_correlations(const std::vector<RankCorrelation>& correlations,
+                               const std::vector<Dispersion>& dispersions) {
+  Json json = Json::array();
+  for (const auto& [first, second, spearman] : correlations)
+    json.push_back(
+        {{"between", {dispersions[first].name, dispersions[second].name}}, {"spearman", spearman}});
+  return json;
+}
+
+} // namespace wingspread

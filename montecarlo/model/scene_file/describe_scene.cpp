@@ -1,0 +1,185 @@
+#include "montecarlo/model/scene_file/describe_scene.hpp"
+
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/model/scene_file/base_json.hpp"
+#include "montecarlo/model/scene_file/torque_json.hpp"
+
+#include <fmt/format.h>
+
+namespace wingspread {
+namespace {
+
+std::string describe_vector(const Eigen::Vector2d& vector) {
+  return fmt::format("({}, {})", vector.x(), vector.y());
+}
+
+/// ", times 1.2, plus 0.1 N·m": nothing where it changes nothing.
+std::string describe_change(double scale, double offset = 0) {
+  return (scale == 1 ? "" : fmt::format(", times {}", scale)) +
+         (offset == 0 ? "" : fmt::format(", plus {} N·m", offset));
+}
+
+/// ", acceleration and rate by a table of 5 times from 0 to 10 s, linear, times 1.2": what is constant
+/// comes before.
+std::string describe_prescribed(const Base& base) {
+  const BaseTable* table = base.table.get();
+  std::string text;
+  if (!table || !table->gives_acceleration())
+    text += fmt::format(", acceleration {} m/s²", describe_vector(base.acceleration));
+  if (!table || !table->gives_turning())
+    text += fmt::format(", angular acceleration {} rad/s²", base.angular_acceleration);
+  if (!table) return text;
+  const std::string turning = table->gives_rate()      ? "rate"
+                              : table->gives_turning() ? "angular acceleration"
+                                                       : "";
+  const char* both = table->gives_acceleration() && table->gives_turning() ? " and " : "";
+  const std::vector<double>& time = table->columns().time;
+  return text + fmt::format(", {}{}{} by a table of {} times from {} to {} s, {}{}",
+                            table->gives_acceleration() ? "acceleration" : "", both, turning,
+                            time.size(), time.front(), time.back(),
+                            interpolation_names[static_cast<std::size_t>(table->interpolation())],
+                            describe_change(base.table_scale));
+}
+
+std::string describe_base(const Base& base) {
+  std::string text(base_motion_names[static_cast<std::size_t>(base.motion)]);
+  if (base.motion == BaseMotion::fixed) return text;
+  if (base.motion == BaseMotion::free)
+    text +=
+        fmt::format(", mass {} kg, inertia {} kg·m², position {} m, velocity {} m/s", base.mass,
+                    base.inertia, describe_vector(base.position), describe_vector(base.velocity));
+  else
+    text += describe_prescribed(base);
+  text += fmt::format(", angle {} rad", base.angle);
+  if (base.motion == BaseMotion::prescribed && base.table && base.table->gives_rate()) return text;
+  return text + fmt::format(", rate {} rad/s", base.rate);
+}
+
+std::string describe_table(const TorqueTable& table) {
+  const std::vector<double>& angle = table.angle();
+  return fmt::format("{} at {} angles from {} to {} rad, {}",
+                     table.both_ways() ? "measured both ways" : "by a table", angle.size(),
+                     angle.front(), angle.back(),
+                     interpolation_names[static_cast<std::size_t>(table.interpolation())]);
+}
+
+/// Nothing for a torque that is zero throughout.
+std::string describe_torque(const char* name, const HingeTorque& torque) {
+  const bool is_line = torque.table == nullptr;
+  if (is_line && torque.torque_stowed == 0 && torque.torque_latched == 0 && torque.offset == 0)
+    return "";
+  const std::string law =
+      is_line ? fmt::format("{} to {} N·m", torque.torque_stowed, torque.torque_latched)
+              : describe_table(*torque.table);
+  return fmt::format("; {} {}{}", name, law, describe_change(torque.scale, torque.offset));
+}
+
+/// Nothing for a hinge without friction.
+std::string describe_friction(const Friction& friction) {
+  const bool exact = friction.model == FrictionModel::exact;
+  const double static_level = friction.static_level.value_or(friction.coulomb);
+  if (friction.coulomb == 0 && friction.viscous == 0 && static_level == 0) return "";
+  const std::string model =
+      exact ? fmt::format("exact, static {} N·m", static_level)
+            : fmt::format("regularized at {} rad/s", friction.regularization_rate);
+  return fmt::format("; friction {} N·m, {} N·m·s/rad, {}{}", friction.coulomb, friction.viscous,
+                     model, describe_change(friction.scale));
+}
+
+std::string describe_damper_law(const Damper& damper) {
+  switch (damper.law) {
+  case DamperLaw::viscous:
+    break;
+  case DamperLaw::power:
+    return fmt::format("{} N·m·(s/rad)^{}, linear below {} rad/s", damper.coefficient,
+                       damper.exponent, damper.regularization_rate);
+  case DamperLaw::eddy_current:
+    return fmt::format("of eddy currents, {} N·m at {} rad/s", damper.peak_torque,
+                       damper.peak_rate);
+  }
+  return fmt::format("{} N·m·s/rad", damper.coefficient);
+}
+
+std::string describe_damper(const std::optional<Damper>& damper) {
+  if (!damper) return "";
+  const std::string window =
+      damper->window
+          ? fmt::format(", between {} and {} rad", damper->window->front(), damper->window->back())
+          : "";
+  return fmt::format("; damper {}{}{}", describe_damper_law(*damper),
+                     describe_change(damper->scale), window);
+}
+
+std::string describe_stop(const std::optional<Stop>& stop) {
+  if (!stop) return "";
+  return fmt::format("; stop {} N·m/rad, {} s/rad, gap {} rad", stop->stiffness, stop->dissipation,
+                     stop->gap);
+}
+
+std::string describe_latch(const std::optional<Latch>& latch) {
+  if (!latch) return "; no latch";
+  const std::string backlash =
+      latch->backlash == 0 ? "" : fmt::format(", backlash {} rad", latch->backlash);
+  return fmt::format("; latch {} N·m/rad, {} N·m·s/rad{}", latch->stiffness, latch->damping,
+                     backlash);
+}
+
+std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
+  const std::string parent = hinge.parent == base_index ? "base" : scene.bodies[hinge.parent].name;
+  std::string text = fmt::format("{}: {} to {}, {} to {} rad", hinge.name, parent,
+                                 scene.bodies[hinge.child].name, hinge.stowed, hinge.latched);
+  if (hinge.initial_rate != 0) text += fmt::format(", from {} rad/s", hinge.initial_rate);
+  return text + describe_torque("spring", hinge.spring) +
+         describe_torque("harness", hinge.harness) + describe_friction(hinge.friction) +
+         describe_damper(hinge.damper) + describe_stop(hinge.stop) + describe_latch(hinge.latch);
+}
+
+std::string describe_body(const Body& body) {
+  std::string text =
+      fmt::format("{}: mass {} kg, inertia {} kg·m²", body.name, body.mass, body.inertia);
+  if (const auto& plate = body.plate)
+    text += fmt::format("; plate from {} to {} m, {} m wide, drag coefficient {}",
+                        describe_vector(plate->from), describe_vector(plate->to), plate->width,
+                        plate->drag_coefficient);
+  return text;
+}
+
+std::string describe_loop(const Scene& scene, const Synchronisation& loop) {
+  const std::string ratio = loop.table ? fmt::format("by a table of {} travels", loop.travel.size())
+                                       : fmt::format("ratio {}", loop.ratio);
+  const std::string preload =
+      loop.preload ? fmt::format(", preload {} N·m", *loop.preload) : ", never slack";
+  return fmt::format("{}: {} to {}, {}; {} N·m/rad, {} N·m·s/rad{}", loop.name,
+                     scene.hinges[loop.first].name, scene.hinges[loop.second].name, ratio,
+                     loop.stiffness, loop.damping, preload);
+}
+
+/// Nothing in empty space.
+std::string describe_environment(const Environment& environment) {
+  std::string text;
+  if (!environment.gravity.isZero(0))
+    text += fmt::format("  gravity: {} m/s²\n", describe_vector(environment.gravity));
+  if (environment.air_density != 0)
+    text += fmt::format("  air: {} kg/m³\n", environment.air_density);
+  return text;
+}
+
+} // namespace
+
+std::string describe(const Scene& scene) {
+  std::string text =
+      fmt::format("scene {}\n  base: {}\n  {}\n", scene.name, describe_base(scene.base),
+                  counted(std::ssize(scene.bodies), "body", "bodies"));
+  for (const Body& body : scene.bodies) text += fmt::format("    {}\n", describe_body(body));
+  text += fmt::format("  {}\n", counted(std::ssize(scene.hinges), "hinge", "hinges"));
+  for (const Hinge& hinge : scene.hinges)
+    text += fmt::format("    {}\n", describe_hinge(scene, hinge));
+  if (!scene.synchronisations.empty())
+    text += fmt::format("  {}\n", counted(std::ssize(scene.synchronisations), "synchronisation",
+                                          "synchronisations"));
+  for (const Synchronisation& loop : scene.synchronisations)
+    text += fmt::format("    {}\n", describe_loop(scene, loop));
+  return text + describe_environment(scene.environment);
+}
+
+} // namespace wingspread

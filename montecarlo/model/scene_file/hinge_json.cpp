@@ -1,0 +1,199 @@
+#include "montecarlo/model/scene_file/hinge_json.hpp"
+
+#include "montecarlo/model/scene_file/torque_json.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace wingspread {
+namespace {
+
+Way way_of(const Hinge& hinge) {
+  if (hinge.stowed == hinge.latched) return Way::unknown; // noted elsewhere
+  return hinge.stowed < hinge.latched ? Way::up : Way::down;
+}
+
+/// Which way the hinge goes, as far as its angles could be read.
+Way read_angle(const JsonCursor& at, Hinge& hinge) {
+  JsonObject object(at, "an object with the stowed and the latched angle");
+  // Not zero: the two are compared, and one that is missing differs from whatever the other is.
+  hinge.stowed = std::numeric_limits<double>::quiet_NaN();
+  const bool stowed = object.required("stowed", hinge.stowed, Dimension{"rad"});
+  const bool latched =
+      object.required("latched", hinge.latched, Dimension{"rad", "different from stowed"});
+  object.refuse_others();
+  return object.is_object() && stowed && latched ? way_of(hinge) : Way::unknown;
+}
+
+/// What the other model of friction has is refused, and never ignored.
+void refuse_static(JsonObject& friction) {
+  if (const auto at = friction.find("static"))
+    at->refuse("no static level with the regularized model (\"model\": \"exact\" has one)");
+}
+
+void read_friction(const JsonCursor& at, Friction& friction) {
+  JsonObject object(at, "an object with the friction's parameters");
+  object.optional("coulomb", friction.coulomb, Dimension{"N·m", "≥ 0"});
+  object.optional("viscous", friction.viscous, Dimension{"N·m·s/rad", "≥ 0"});
+  const bool known = object.optional_choice("model", friction.model, friction_model_names);
+  object.optional("regularization_rate", friction.regularization_rate, Dimension{"rad/s", "> 0"});
+  double static_level = 0;
+  if (const auto level = object.find("static");
+      level && level->read(static_level, Dimension{"N·m", "≥ coulomb"}))
+    friction.static_level = static_level;
+  if (known && friction.model == FrictionModel::regularized) refuse_static(object);
+  object.optional("scale", friction.scale, "a number, ≥ 0");
+  object.refuse_others();
+}
+
+/// A·|rate|^p is a torque.
+std::string power_unit(double exponent) { return fmt::format("N·m·(s/rad)^{}", exponent); }
+
+void read_power_law(JsonObject& object, Damper& damper) {
+  const bool exponent = object.required("exponent", damper.exponent, "a number, > 0");
+  const std::string unit = exponent ? power_unit(damper.exponent) : "N·m·(s/rad)^exponent";
+  object.required("coefficient", damper.coefficient, Dimension{unit, "≥ 0"});
+  object.optional("regularization_rate", damper.regularization_rate, Dimension{"rad/s", "> 0"});
+}
+
+void read_damper_law(JsonObject& object, Damper& damper) {
+  switch (damper.law) {
+  case DamperLaw::viscous:
+    object.required("coefficient", damper.coefficient, Dimension{"N·m·s/rad", "≥ 0"});
+    break;
+  case DamperLaw::power:
+    read_power_law(object, damper);
+    break;
+  case DamperLaw::eddy_current:
+    object.required("peak_torque", damper.peak_torque, Dimension{"N·m", "≥ 0"});
+    object.required("peak_rate", damper.peak_rate, Dimension{"rad/s", "> 0"});
+    break;
+  }
+}
+
+void read_damper(const JsonCursor& at, std::optional<Damper>& damper) {
+  JsonObject object(at, "an object with the damper's law");
+  damper.emplace();
+  if (!object.required_choice("law", damper->law, damper_law_names) || !object.is_object()) return;
+  read_damper_law(object, *damper);
+  Eigen::Vector2d window;
+  if (const auto ends = object.find("window"); ends && ends->read(window, Dimension{"rad"}))
+    damper->window = {window[0], window[1]};
+  object.optional("scale", damper->scale, "a number, ≥ 0");
+  object.refuse_others();
+}
+
+void read_stop(const JsonCursor& at, std::optional<Stop>& stop) {
+  JsonObject object(at, "an object with the stop's stiffness and dissipation");
+  stop.emplace();
+  object.required("stiffness", stop->stiffness, Dimension{"N·m/rad", "≥ 0"});
+  object.optional("dissipation", stop->dissipation, Dimension{"s/rad", "≥ 0"});
+  object.optional("gap", stop->gap, Dimension{"rad", "≥ 0"});
+  object.refuse_others();
+}
+
+void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
+  JsonObject object(at, "an object with the latch's stiffness and damping");
+  latch.emplace();
+  object.required("stiffness", latch->stiffness, Dimension{"N·m/rad", "≥ 0"});
+  object.required("damping", latch->damping, Dimension{"N·m·s/rad", "≥ 0"});
+  object.optional("backlash", latch->backlash, Dimension{"rad", "≥ 0"});
+  object.refuse_others();
+}
+
+std::optional<std::string> read_end(JsonObject& object, std::string_view key,
+                                    std::string_view expected) {
+  std::string name;
+  const auto at = object.require(key, expected);
+  return at && at->read(name, expected) ? std::optional(name) : std::nullopt;
+}
+
+/// What acts across the hinge.
+void read_laws(JsonObject& object, Way way, Hinge& hinge) {
+  if (const auto spring = object.find("spring")) read_spring(*spring, way, hinge.spring);
+  if (const auto harness = object.find("harness")) read_harness(*harness, way, hinge.harness);
+  if (const auto friction = object.find("friction")) read_friction(*friction, hinge.friction);
+  if (const auto damper = object.find("damper")) read_damper(*damper, hinge.damper);
+  if (const auto stop = object.find("stop")) read_stop(*stop, hinge.stop);
+  if (const auto latch = object.find("latch")) read_latch(*latch, hinge.latch);
+}
+
+Json write_friction(const Friction& friction) {
+  Json json{{"model", friction_model_names[static_cast<std::size_t>(friction.model)]},
+            {"coulomb", friction.coulomb},
+            {"viscous", friction.viscous}};
+  if (friction.model == FrictionModel::regularized)
+    json["regularization_rate"] = friction.regularization_rate;
+  if (friction.static_level) json["static"] = *friction.static_level;
+  if (friction.scale != 1) json["scale"] = friction.scale;
+  return json;
+}
+
+Json write_damper(const Damper& damper) {
+  Json json{{"law", damper_law_names[static_cast<std::size_t>(damper.law)]}};
+  if (damper.law == DamperLaw::eddy_current) {
+    json["peak_torque"] = damper.peak_torque;
+    json["peak_rate"] = damper.peak_rate;
+  } else {
+    json["coefficient"] = damper.coefficient;
+  }
+  if (damper.law == DamperLaw::power) {
+    json["exponent"] = damper.exponent;
+    json["regularization_rate"] = damper.regularization_rate;
+  }
+  if (damper.window) json["window"] = *damper.window;
+  json["scale"] = damper.scale;
+  return json;
+}
+
+Json write_latch(const Latch& latch) {
+  Json json{{"stiffness", latch.stiffness}, {"damping", latch.damping}};
+  if (latch.backlash != 0) json["backlash"] = latch.backlash;
+  return json;
+}
+
+} // namespace
+
+HingeEnds read_hinge(const JsonCursor& at, Hinge& hinge) {
+  HingeEnds ends;
+  JsonObject object(at, "a hinge: an object");
+  object.required("name", hinge.name, "a string, the hinge's name");
+  ends.parent = read_end(object, "parent", "a string, \"base\" or a body's name");
+  ends.child = read_end(object, "child", "a string, a body's name");
+  object.required("parent_point", hinge.parent_point, Dimension{"m"});
+  object.required("child_point", hinge.child_point, Dimension{"m"});
+  const auto angle = object.require("angle", "an object with the stowed and the latched angle");
+  const Way way = angle ? read_angle(*angle, hinge) : Way::unknown;
+  object.optional("initial_rate", hinge.initial_rate, Dimension{"rad/s"});
+  read_laws(object, way, hinge);
+  object.refuse_others();
+  return ends;
+}
+
+// What real hinges have more is not there when it is not used: it does not change a campaign's hash.
+Json write_hinge(const Scene& scene, const Hinge& hinge) {
+  const bool on_base = hinge.parent == base_index;
+  Json json{{"name", hinge.name},
+            {"parent", on_base ? "base" : scene.bodies[hinge.parent].name},
+            {"child", scene.bodies[hinge.child].name},
+            {"parent_point", write_vector(hinge.parent_point)},
+            {"child_point", write_vector(hinge.child_point)},
+            {"angle", {{"stowed", hinge.stowed}, {"latched", hinge.latched}}},
+            {"initial_rate", hinge.initial_rate},
+            {"spring", write_torque(hinge.spring)},
+            {"harness", write_torque(hinge.harness)},
+            {"friction", write_friction(hinge.friction)}};
+  if (hinge.damper) json["damper"] = write_damper(*hinge.damper);
+  if (hinge.stop)
+    json["stop"] = {{"stiffness", hinge.stop->stiffness},
+                    {"dissipation", hinge.stop->dissipation},
+                    {"gap", hinge.stop->gap}};
+  if (hinge.latch) json["latch"] = write_latch(*hinge.latch);
+  return json;
+}
+
+Json write_vector(const Eigen::Vector2d& vector) { return {vector.x(), vector.y()}; }
+
+} // namespace wingspread

@@ -1,0 +1,146 @@
+#include "montecarlo/model/scene_file/scene_json.hpp"
+
+#include "montecarlo/foundation/formats/printable.hpp"
+#include "montecarlo/model/scene_file/base_json.hpp"
+#include "montecarlo/model/scene_file/hinge_json.hpp"
+#include "montecarlo/model/scene_file/synchronisation_json.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+namespace {
+
+using Array = std::vector<JsonCursor>;
+
+void read_plate(const JsonCursor& at, std::optional<Plate>& plate) {
+  JsonObject object(at, "an object with the plate's edges, width and drag_coefficient");
+  plate.emplace();
+  object.required("from", plate->from, Dimension{"m"});
+  object.required("to", plate->to, Dimension{"m"});
+  object.required("width", plate->width, Dimension{"m", "≥ 0"});
+  object.required("drag_coefficient", plate->drag_coefficient, "a number, ≥ 0");
+  object.refuse_others();
+}
+
+void read_body(const JsonCursor& at, Body& body) {
+  JsonObject object(at, "a body: an object");
+  object.required("name", body.name, "a string, the body's name");
+  object.required("mass", body.mass, Dimension{"kg", "> 0"});
+  object.required("inertia", body.inertia, Dimension{"kg·m²", "> 0"});
+  if (const auto plate = object.find("plate")) read_plate(*plate, body.plate);
+  object.refuse_others();
+}
+
+void read_environment(const JsonCursor& at, Environment& environment) {
+  JsonObject object(at, "an object with gravity and air_density");
+  object.optional("gravity", environment.gravity, Dimension{"m/s²"});
+  object.optional("air_density", environment.air_density, Dimension{"kg/m³", "≥ 0"});
+  object.refuse_others();
+}
+
+Array read_list(JsonObject& object, std::string_view key, std::string_view expected) {
+  const auto list = object.require(key, expected);
+  if (list && (!list->value().is_array() || list->value().empty())) list->refuse(expected);
+  return list ? list->elements() : Array{};
+}
+
+/// Of what need not be there at all.
+Array read_synchronisation_list(JsonObject& object) {
+  const auto list = object.find("synchronisations");
+  if (list && !list->value().is_array()) list->refuse("an array of synchronisations");
+  return list ? list->elements() : Array{};
+}
+
+/// With its index for a name, a parameter's path is its pointer.
+template <class Named> void number(std::vector<Named>& all) {
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].name = std::to_string(i);
+}
+
+/// A problem for each parameter that physics forbids, less those in places that have one already.
+void refuse_unphysical(const JsonCursor& at, Scene scene) {
+  number(scene.bodies);
+  number(scene.hinges);
+  number(scene.synchronisations);
+  const std::vector<Problem> known = at.problems();
+  for (const Fault& fault : unphysical(scene)) {
+    std::string below = "/" + fault.path;
+    std::ranges::replace(below, '.', '/');
+    const std::string pointer = at.pointer() + below + "/";
+    const auto covers = [&](const Problem& problem) {
+      return problem.file == at.file() && pointer.starts_with(problem.pointer + "/");
+    };
+    if (std::ranges::any_of(known, covers)) continue;
+    const Json::json_pointer place(below);
+    const bool stated = at.value().contains(place); // else it is a default
+    at.refuse(stated ? describe_value(at.value()[place]) : fault.found, fault.expected, below);
+  }
+}
+
+Json write_body(const Body& body) {
+  Json json{{"name", body.name}, {"mass", body.mass}, {"inertia", body.inertia}};
+  if (body.plate)
+    json["plate"] = {{"from", write_vector(body.plate->from)},
+                     {"to", write_vector(body.plate->to)},
+                     {"width", body.plate->width},
+                     {"drag_coefficient", body.plate->drag_coefficient}};
+  return json;
+}
+
+} // namespace
+
+Scene read_scene(const JsonCursor& at) {
+  Scene scene;
+  JsonObject object(at, "a scene: an object");
+  object.required(
+      "name", scene.name, "a string, the scene's name, not empty, without control characters",
+      [](const std::string& name) { return !name.empty() && !has_control_characters(name); });
+  if (const auto base = object.require("base", "an object with the base's motion"))
+    read_base(*base, scene.base);
+  const Array bodies = read_list(object, "bodies", "an array of at least one body");
+  const Array hinges = read_list(object, "hinges", "an array of at least one hinge");
+  const Array loops = read_synchronisation_list(object);
+  if (const auto environment = object.find("environment"))
+    read_environment(*environment, scene.environment);
+  object.refuse_others();
+  scene.bodies.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) read_body(bodies[i], scene.bodies[i]);
+  scene.hinges.resize(hinges.size());
+  std::vector<HingeEnds> ends;
+  for (std::size_t i = 0; i < hinges.size(); ++i)
+    ends.push_back(read_hinge(hinges[i], scene.hinges[i]));
+  scene.synchronisations.resize(loops.size());
+  std::vector<LoopEnds> loop_ends;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    loop_ends.push_back(read_synchronisation(loops[i], scene.synchronisations[i]));
+  refuse_unphysical(at, scene);
+  check_names(at, scene);
+  link_hinges(at, ends, scene);
+  link_synchronisations(at, loop_ends, scene);
+  return scene;
+}
+
+Scene read_scene(const Json& document, const std::string& file) {
+  std::vector<Problem> problems;
+  Scene scene = read_scene(JsonCursor(document, file, problems));
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  return scene;
+}
+
+Json write_scene(const Scene& scene) {
+  Json json{{"name", scene.name}, {"base", write_base(scene.base)}};
+  json["bodies"] = Json::array();
+  for (const Body& body : scene.bodies) json["bodies"].push_back(write_body(body));
+  json["hinges"] = Json::array();
+  for (const Hinge& hinge : scene.hinges) json["hinges"].push_back(write_hinge(scene, hinge));
+  for (const Synchronisation& loop : scene.synchronisations)
+    json["synchronisations"].push_back(write_synchronisation(scene, loop));
+  const Environment& around = scene.environment;
+  if (!around.gravity.isZero(0) || around.air_density != 0)
+    json["environment"] = {{"gravity", write_vector(around.gravity)},
+                           {"air_density", around.air_density}};
+  return json;
+}
+
+} // namespace wingspread

@@ -1,0 +1,132 @@
+#include "montecarlo/model/static_margins/hinge_terms.hpp"
+
+#include "core/laws/damper.hpp"
+#include "core/scene/torque.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace wingspread {
+namespace {
+
+/// Where a torque that is linear in the travel is zero.
+std::optional<double> root_of_line(const HingeTorque& torque) {
+  const double stowed = torque.scale * torque.torque_stowed + torque.offset;
+  const double latched = torque.scale * torque.torque_latched + torque.offset;
+  const double x = stowed / (stowed - latched);
+  return x > 0 && x < 1 ? std::optional(x) : std::nullopt;
+}
+
+/// Where a torque is zero that changes its sense between two places.
+double root_between(const HingeTorque& torque, const Hinge& hinge, double from, double to) {
+  const bool sense = torque_at(torque, hinge, from) > 0;
+  for (double middle = std::midpoint(from, to); from < middle && middle < to;
+       middle = std::midpoint(from, to))
+    ((torque_at(torque, hinge, middle) > 0) == sense ? from : to) = middle;
+  return to;
+}
+
+/// The share of the way at which the hinge has an angle.
+double travel_at(const Hinge& hinge, double angle) {
+  return (angle - hinge.stowed) / (hinge.latched - hinge.stowed);
+}
+
+/// The ends of the travel and the knots of a table between them, and places between these.
+std::vector<double> places_along(const TorqueTable& table, const Hinge& hinge) {
+  std::vector<double> knots;
+  for (const double angle : table.angle())
+    if (const double x = travel_at(hinge, angle); x > 0 && x < 1) knots.push_back(x);
+  return parts_between(std::move(knots));
+}
+
+void add_roots(const HingeTorque& torque, const Hinge& hinge, std::vector<double>& points) {
+  if (!torque.table) {
+    if (const auto x = root_of_line(torque)) points.push_back(*x);
+    return;
+  }
+  const std::vector<double> places = places_along(*torque.table, hinge);
+  const auto is_positive_at = [&](double x) { return torque_at(torque, hinge, x) > 0; };
+  for (std::size_t k = 1; k < places.size(); ++k)
+    if (is_positive_at(places[k - 1]) != is_positive_at(places[k]))
+      points.push_back(root_between(torque, hinge, places[k - 1], places[k]));
+}
+
+/// Whether a damper acts at x; both edges of its window are within it.
+bool acts_at(const Damper& damper, const Hinge& hinge, double x) {
+  if (!damper.window) return true;
+  const auto [from, to] = std::minmax((*damper.window)[0], (*damper.window)[1]);
+  constexpr double slack = 1e-9; // an edge that is looked at comes back rounded
+  const double angle = std::lerp(hinge.stowed, hinge.latched, x);
+  return from - slack <= angle && angle <= to + slack;
+}
+
+/// What damper and viscous friction resist with at a rate, N·m.
+double damping_at(const Hinge& hinge, double x, double rate) {
+  double torque = hinge.friction.scale * hinge.friction.viscous * rate;
+  if (rate > 0 && hinge.damper && acts_at(*hinge.damper, hinge, x))
+    torque -= damper_moment(damper_terms<double>(*hinge.damper), rate);
+  return torque;
+}
+
+} // namespace
+
+void add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& extras,
+               MotorizationTerms& terms) {
+  const double size = std::abs(gear);
+  const double spring = gear * torque_at(hinge.spring, hinge, x);
+  const MotorizationTerms& other = extras.other;
+  terms.available += size * other.available + std::max(spring, 0.0);
+  terms.spring += size * other.spring + std::max(-spring, 0.0);
+  terms.harness += size * other.harness + std::max(gear * torque_at(hinge.harness, hinge, x), 0.0);
+  terms.friction += size * (other.friction + static_level_at(hinge, x));
+  terms.damping += size * (other.damping + damping_at(hinge, x, extras.rate));
+  terms.inertia += size * other.inertia;
+  terms.motor += size * other.motor;
+  terms.hysteresis += size * other.hysteresis;
+  terms.adhesion += size * other.adhesion;
+  terms.acceleration += size * other.acceleration;
+  terms.delivered += size * other.delivered;
+}
+
+MotorizationTerms terms_at(const Hinge& hinge, double x, const HingeExtras& extras) {
+  MotorizationTerms terms;
+  add_terms(hinge, x, 1, extras, terms);
+  return terms;
+}
+
+std::vector<double> turning_points(const Hinge& hinge) {
+  std::vector<double> points{0, 1};
+  add_roots(hinge.spring, hinge, points);
+  add_roots(hinge.harness, hinge, points);
+  std::ranges::sort(points);
+  return points;
+}
+
+std::vector<double> places_of_least(const Hinge& hinge) {
+  std::vector<double> points = turning_points(hinge);
+  for (const HingeTorque* torque : {&hinge.spring, &hinge.harness})
+    if (torque->table) {
+      const std::vector<double> places = places_along(*torque->table, hinge);
+      points.insert(points.end(), places.begin(), places.end());
+    }
+  if (hinge.damper && hinge.damper->window)
+    for (const double angle : *hinge.damper->window)
+      if (const double x = travel_at(hinge, angle); x > 0 && x < 1) points.push_back(x);
+  std::ranges::sort(points);
+  return points;
+}
+
+std::vector<double> parts_between(std::vector<double> knots) {
+  constexpr int parts = 8; // of a cubic piece: its least lies hardly below that of their ends
+  knots.insert(knots.end(), {0, 1});
+  std::ranges::sort(knots);
+  std::vector<double> places{0};
+  for (std::size_t k = 1; k < knots.size(); ++k)
+    for (int part = 1; part <= parts; ++part)
+      places.push_back(std::lerp(knots[k - 1], knots[k], static_cast<double>(part) / parts));
+  return places;
+}
+
+} // namespace wingspread

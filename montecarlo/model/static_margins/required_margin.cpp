@@ -1,0 +1,67 @@
+#include "montecarlo/model/static_margins/required_margin.hpp"
+
+#include "montecarlo/foundation/formats/nearest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace wingspread {
+namespace {
+
+/// The kinds, as a campaign has them.
+constexpr std::array<std::string_view, 5> kind_words{"ECSS", "NASA", "NASA_one_spring_out", "GEVS",
+                                                     "AIAA"};
+constexpr std::string_view every_hinge = "*";
+constexpr const char* expected_hinge = "a string, a hinge's name, or \"*\" for all";
+
+bool has_hinge(const HingeDrive& drive, const Scene& scene, const std::string& name) {
+  return std::ranges::any_of(drive.hinges,
+                             [&](int hinge) { return scene.hinges[hinge].name == name; });
+}
+
+void refuse_unknown_hinge(const JsonCursor& at, const Scene& scene, const RequiredMargin& margin) {
+  if (!required_drives(scene, margin).empty()) return;
+  std::vector<std::string> names;
+  for (const HingeDrive& drive : drives_of(scene))
+    for (const int hinge : drive.hinges) names.push_back(scene.hinges[hinge].name);
+  at.refuse("the name of a hinge with a spring or a latch, or \"*\" for all" +
+            did_you_mean(margin.hinge, names));
+}
+
+} // namespace
+
+void read_required_margin(JsonObject& object, const Scene* scene, RequiredMargin& margin) {
+  object.optional_choice("motorization", margin.kind, kind_words);
+  const auto at = object.find("hinge");
+  if (!at || !at->read(margin.hinge, expected_hinge)) return;
+  if (scene) refuse_unknown_hinge(*at, *scene, margin);
+}
+
+std::string_view word_of(const RequiredMargin& margin) {
+  return kind_words[static_cast<std::size_t>(margin.kind)];
+}
+
+std::string name_of(const RequiredMargin& margin) {
+  return fmt::format("{} margin of {}", margin_kind_texts[static_cast<std::size_t>(margin.kind)],
+                     margin.hinge == every_hinge ? "every hinge" : margin.hinge);
+}
+
+std::vector<HingeDrive> required_drives(const Scene& scene, const RequiredMargin& margin) {
+  std::vector<HingeDrive> drives = drives_of(scene);
+  if (margin.hinge != every_hinge)
+    std::erase_if(drives,
+                  [&](const HingeDrive& drive) { return !has_hinge(drive, scene, margin.hinge); });
+  return drives;
+}
+
+double least_margin(const Scene& scene, std::span<const HingeDrive> drives, MarginKind kind,
+                    const MotorizationSpec& spec) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const HingeDrive& drive : drives)
+    least = std::min(least, least_margins(scene, drive, spec)[static_cast<std::size_t>(kind)]);
+  return least;
+}
+
+} // namespace wingspread

@@ -1,0 +1,211 @@
+#include "montecarlo/report/data/causes_json.hpp"
+
+#include "montecarlo/analyses/sensitivity/rank_report.hpp"
+#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+// ---- effects
+
+/// The first runs of a random design; all of one whose replicates have to stay whole.
+const Results& effect_runs(const PageSource& source, Results& first) {
+  if (source.replication.replicates > 0 || source.results.size() <= most_effect_runs)
+    return source.results;
+  first = Results(RunPlan(source.stored.campaign).names());
+  for (std::size_t row = 0; row < most_effect_runs; ++row) first.append(source.results.row(row));
+  return first;
+}
+
+double strength(const RankEffect& effect) {
+  const auto size = [](double value) { return std::isnan(value) ? 0 : std::abs(value); };
+  return std::max(size(effect.spearman.value), size(effect.partial.value));
+}
+
+void add_coefficient(Json& json, const std::string& name, const Coefficient& coefficient) {
+  json[name] = page_number(coefficient.value, 4);
+  json[name + "_lower"] = page_number(coefficient.bounds.lower);
+  json[name + "_upper"] = page_number(coefficient.bounds.upper);
+}
+
+/// The strongest effects on an output, strongest first.
+void add_effects(const RankSensitivity& all, const OutputRanks& output, std::size_t most,
+                 Json& effects) {
+  std::vector<std::size_t> draws(output.effects.size());
+  std::iota(draws.begin(), draws.end(), std::size_t{0});
+  std::ranges::stable_sort(draws, std::ranges::greater{},
+                           [&](std::size_t i) { return strength(output.effects[i]); });
+  for (const std::size_t draw : std::span(draws).first(std::min(most, draws.size()))) {
+    const RankEffect& effect = output.effects[draw];
+    if (std::isnan(effect.spearman.value) && std::isnan(effect.partial.value)) continue;
+    Json json{{"output", output.output}, {"draw", all.dispersions[draw]}};
+    add_coefficient(json, "spearman", effect.spearman);
+    add_coefficient(json, "prcc", effect.partial);
+    effects.push_back(std::move(json));
+  }
+}
+
+// ---- scatters
+
+std::vector<double> even_edges(const Column& column, std::span<const std::size_t> rows,
+                               std::size_t bins) {
+  double least = column.values[rows.front()], most = least;
+  for (const std::size_t row : rows) {
+    least = std::min(least, column.values[row]);
+    most = std::max(most, column.values[row]);
+  }
+  if (least == most) {
+    const double half = least == 0 ? 0.5 : std::abs(least) / 2;
+    least -= half;
+    most += half;
+  }
+  std::vector<double> edges;
+  for (std::size_t i = 0; i <= bins; ++i)
+    edges.push_back(std::lerp(least, most, static_cast<double>(i) / static_cast<double>(bins)));
+  return edges;
+}
+
+std::size_t bin_of(const std::vector<double>& edges, double value) {
+  const auto inner = std::upper_bound(edges.begin() + 1, edges.end() - 1, value);
+  return static_cast<std::size_t>(inner - edges.begin() - 1);
+}
+
+/// The rows in which both have a number.
+std::vector<std::size_t> rows_of_both(const Column& x, const Column& y) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < x.values.size(); ++row)
+    if (!std::isnan(x.values[row]) && !std::isnan(y.values[row])) rows.push_back(row);
+  return rows;
+}
+
+Json points_json(const PageSource& source, const Column& x, const Column& y) {
+  constexpr std::size_t most_points = 400;
+  Json json{
+      {"run", Json::array()}, {"x", Json::array()}, {"y", Json::array()}, {"order", Json::array()}};
+  for (const std::size_t row : scatter_rows(x, y, most_points)) {
+    json["run"].push_back(source.results.runs[row]);
+    json["x"].push_back(page_number(x.values[row], 6));
+    json["y"].push_back(page_number(y.values[row], 6));
+    json["order"].push_back(source.orders->of_row(row));
+  }
+  return json;
+}
+
+Json scatter_json(const PageSource& source, const Pair& pair) {
+  constexpr std::size_t bins = 32;
+  const Column& x = source.results.draws[pair.draw];
+  const Column& y = source.results.outputs[pair.output];
+  const std::vector<std::size_t> rows = rows_of_both(x, y);
+  const std::vector<double> x_edges = even_edges(x, rows, bins),
+                            y_edges = even_edges(y, rows, bins);
+  std::vector<long> density(bins * bins, 0);
+  for (const std::size_t row : rows)
+    ++density[bin_of(y_edges, y.values[row]) * bins + bin_of(x_edges, x.values[row])];
+  return {{"draw", x.name},
+          {"output", y.name},
+          {"spearman", page_number(pair.spearman, 4)},
+          {"x_edges", page_numbers(x_edges)},
+          {"y_edges", page_numbers(y_edges)},
+          {"density", density},
+          {"points", points_json(source, x, y)}};
+}
+
+} // namespace
+
+Json correlations_json(const PageSource& source, const PageDetail& detail) {
+  const Results& results = source.results;
+  const std::size_t draws = std::min(results.draws.size(), detail.correlated_draws);
+  const std::size_t outputs = std::min(results.outputs.size(), detail.outputs);
+  if (draws == 0 || results.size() < 2) return nullptr;
+  Json json{{"draws", Json::array()},
+            {"outputs", Json::array()},
+            {"spearman", Json::array()},
+            {"pearson", Json::array()}};
+  for (std::size_t o = 0; o < outputs; ++o) json["outputs"].push_back(results.outputs[o].name);
+  const std::size_t row = results.outputs.size() + 1; // and `deployed` behind them
+  for (std::size_t d = 0; d < draws; ++d) {
+    json["draws"].push_back(results.draws[d].name);
+    Json spearman = Json::array(), pearson = Json::array();
+    for (std::size_t o = 0; o < outputs; ++o) {
+      const Correlation& value = source.summary.correlations[d * row + o].value;
+      spearman.push_back(page_number(value.spearman, 3));
+      pearson.push_back(page_number(value.pearson, 3));
+    }
+    json["spearman"].push_back(std::move(spearman));
+    json["pearson"].push_back(std::move(pearson));
+  }
+  return json;
+}
+
+Json effects_json(const PageSource& source, const PageDetail& detail) {
+  constexpr std::size_t fewest_runs = 4;
+  if (source.results.draws.empty() || source.results.size() < fewest_runs) return nullptr;
+  Results first;
+  const Results& runs = effect_runs(source, first);
+  const RunsMade made{source.replication, source.summary.looks};
+  const RankSensitivity all =
+      rank_sensitivity(runs, source.stored.campaign.statistics.confidence, made);
+  Json effects = Json::array();
+  const std::size_t shown = std::min(all.outputs.size(), detail.outputs);
+  for (const OutputRanks& output : std::span(all.outputs).first(shown))
+    add_effects(all, output, detail.effects, effects);
+  if (effects.empty()) return nullptr;
+  return {{"kind", "rank"},   {"runs", all.runs},          {"confidence", all.confidence},
+          {"idle", all.idle}, {"warnings", warnings(all)}, {"effects", std::move(effects)}};
+}
+
+std::vector<Pair> strongest_pairs(const PageSource& source, std::size_t most) {
+  constexpr long most_of_output = 2;
+  std::vector<Pair> all;
+  const std::size_t row = source.results.outputs.size() + 1;
+  for (std::size_t i = 0; i < source.summary.correlations.size(); ++i)
+    if (const double r = source.summary.correlations[i].value.spearman;
+        i % row + 1 < row && !std::isnan(r))
+      all.push_back({i / row, i % row, r});
+  std::ranges::stable_sort(all, std::ranges::greater{},
+                           [](const Pair& pair) { return std::abs(pair.spearman); });
+  std::vector<Pair> strongest;
+  for (const Pair& pair : all)
+    if (strongest.size() < most &&
+        std::ranges::count(strongest, pair.output, &Pair::output) < most_of_output)
+      strongest.push_back(pair);
+  return strongest;
+}
+
+std::vector<std::size_t> scatter_rows(const Column& x, const Column& y, std::size_t most) {
+  std::vector<std::size_t> rows = rows_of_both(x, y);
+  if (rows.size() <= most) return rows;
+  const auto extreme = static_cast<std::ptrdiff_t>(most / 10); // at each end of each column
+  std::vector<std::size_t> chosen;
+  std::vector<std::size_t> by_value = rows;
+  for (const Column* column : {&x, &y}) {
+    const auto value = [&](std::size_t row) { return std::pair(column->values[row], row); };
+    std::ranges::nth_element(by_value, by_value.begin() + extreme, {}, value);
+    chosen.insert(chosen.end(), by_value.begin(), by_value.begin() + extreme);
+    std::ranges::nth_element(by_value, by_value.end() - extreme, {}, value);
+    chosen.insert(chosen.end(), by_value.end() - extreme, by_value.end());
+  }
+  const std::size_t rest = most - chosen.size();
+  for (std::size_t i = 0; i < rest; ++i) chosen.push_back(rows[i * rows.size() / rest]);
+  std::ranges::sort(chosen);
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
+
+Json scatters_json(const PageSource& source, const PageDetail& detail, int threads) {
+  const std::vector<Pair> pairs = strongest_pairs(source, detail.scatters);
+  std::vector<Json> scatters(pairs.size());
+  for_each_task(team_within(threads, 24 * source.results.size()), pairs.size(),
+                [&](std::size_t i) { scatters[i] = scatter_json(source, pairs[i]); });
+  source.results.release();
+  return scatters;
+}
+
+} // namespace wingspread

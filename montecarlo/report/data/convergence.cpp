@@ -1,0 +1,104 @@
+#include "montecarlo/report/data/convergence.hpp"
+
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/foundation/statistics/number_sort.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/foundation/statistics/two_sided.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace wingspread {
+namespace {
+
+/// Puts what is behind `sorted` in its place. @param sorted how many at the beginning are sorted
+template <class Value, class Number>
+void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number) {
+  const auto less = [&](const Value& a, const Value& b) { return number(a) < number(b); };
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(sorted);
+  sort_by_number(std::span(middle, values.end()), number);
+  std::inplace_merge(values.begin(), middle, values.end(), less);
+}
+
+/// The first runs of a column, more and more of them.
+class Growing {
+public:
+  Growing(const Column& column, const Replication& replication, SettledColumn& settled)
+      : column_(column), replication_(replication), settled_(settled) {}
+
+  void grow_to(std::size_t rows) {
+    const std::size_t before = settled_.sorted.size();
+    const bool replicated = replication_.replicates > 0;
+    for (; rows_ < rows; ++rows_) {
+      if (replicated) replicates_ = std::max(replicates_, replication_.of_row[rows_] + 1);
+      if (std::isnan(column_.values[rows_])) continue;
+      settled_.sorted.push_back(column_.values[rows_]);
+      if (replicated)
+        settled_.replicated.push_back({column_.values[rows_], replication_.of_row[rows_]});
+    }
+    merge_behind(settled_.sorted, before, std::identity{});
+    if (replicated)
+      merge_behind(settled_.replicated, before,
+                   [](const ReplicateValue& each) { return each.value; });
+  }
+
+  [[nodiscard]] ConvergencePoint point(double p, double confidence) const {
+    const Moments all = moments(settled_.sorted);
+    return {static_cast<long>(rows_), all.mean, quantile(settled_.sorted, p),
+            mean_bounds(all, confidence), quantile_bounds_at(p, confidence)};
+  }
+
+private:
+  [[nodiscard]] Bounds mean_bounds(const Moments& all, double confidence) const {
+    const bool replicated = replication_.replicates > 0;
+    const double error = replicated
+                             ? replicate_mean_error(settled_.replicated, replicates_, all.mean)
+                             : all.std / std::sqrt(static_cast<double>(all.count));
+    const long degrees = (replicated ? replicates_ : all.count) - 1;
+    if (degrees < 1 || !std::isfinite(error)) return {};
+    const double width = two_sided_student(degrees, confidence) * error;
+    return {all.mean - width, all.mean + width};
+  }
+
+  [[nodiscard]] Bounds quantile_bounds_at(double p, double confidence) const {
+    return replication_.replicates > 0
+               ? replicate_quantile_bounds(settled_.replicated, replicates_, p, confidence)
+               : quantile_bounds(settled_.sorted, p, confidence);
+  }
+
+  const Column& column_;
+  const Replication& replication_;
+  SettledColumn& settled_;
+  std::size_t rows_ = 0;
+  int replicates_ = 0; ///< of which there are rows so far
+};
+
+} // namespace
+
+std::vector<long> convergence_runs(long all, std::size_t most, long first) {
+  std::vector<long> runs;
+  const double from = std::log(static_cast<double>(std::min(first, all)));
+  const double to = std::log(static_cast<double>(all));
+  for (std::size_t i = 0; i + 1 < most; ++i)
+    runs.push_back(std::lround(
+        std::exp(std::lerp(from, to, static_cast<double>(i) / static_cast<double>(most - 1)))));
+  runs.push_back(all);
+  runs.erase(std::unique(runs.begin(), runs.end()), runs.end());
+  return runs;
+}
+
+SettledColumn settle(const Column& column, double p, double confidence,
+                     const Replication& replication, std::size_t most) {
+  SettledColumn settled;
+  settled.convergence.p = p;
+  if (column.values.empty()) return settled;
+  Growing growing(column, replication, settled);
+  for (const long runs : convergence_runs(std::ssize(column.values), most)) {
+    growing.grow_to(static_cast<std::size_t>(runs));
+    settled.convergence.points.push_back(growing.point(p, confidence));
+  }
+  return settled;
+}
+
+} // namespace wingspread

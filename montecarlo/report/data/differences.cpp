@@ -1,0 +1,196 @@
+#include "montecarlo/report/data/differences.hpp"
+
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/foundation/statistics/replicate_bounds.hpp"
+#include "montecarlo/foundation/statistics/two_sided.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+constexpr Difference none{undefined, {}, 0};
+
+Difference with_width(double value, double error, double degrees, double confidence, long runs) {
+  if (!(degrees >= 1) || !std::isfinite(error)) return {value, {}, runs};
+  const double width = two_sided_student(static_cast<long>(degrees), confidence) * error;
+  return {value, {{value - width}, {value + width}}, runs};
+}
+
+/// Bounds of b − a from those of each.
+Difference of_shares(double value, const Interval& a, const Interval& b, long runs) {
+  return {value, {b.lower - a.upper, b.upper - a.lower}, runs};
+}
+
+Json difference_json(const char* key, const std::string& name, const Difference& difference) {
+  Json json{{key, name}, {"difference", page_number(difference.value)}};
+  add_bounds(json, difference.bounds);
+  json["runs"] = difference.runs;
+  return json;
+}
+
+/// The rows of two sets that are compared run by run; none where they are not.
+struct Sides {
+  const PageSource &first, &second;
+  bool paired;
+  SameRuns rows;
+};
+
+Difference output_difference(const Sides& sides, std::size_t i, std::size_t j) {
+  const double confidence = std::min(sides.first.confidence, sides.second.confidence);
+  if (sides.paired)
+    return paired_difference(sides.first.results.outputs[i], sides.second.results.outputs[j],
+                             sides.rows, sides.first.replication, confidence);
+  Difference difference = unpaired_difference(sides.first.summary.outputs[i].moments,
+                                              sides.second.summary.outputs[j].moments, confidence);
+  if (sides.first.replication.replicates + sides.second.replication.replicates > 0)
+    difference.bounds = {};
+  return difference;
+}
+
+Json outputs_difference_json(const Sides& sides) {
+  Json json = Json::array();
+  const auto& others = sides.second.results.outputs;
+  for (std::size_t i = 0; i < sides.first.results.outputs.size(); ++i) {
+    const Column& column = sides.first.results.outputs[i];
+    const auto other = std::ranges::find(others, column.name, &Column::name);
+    if (other == others.end()) continue;
+    const Difference difference =
+        output_difference(sides, i, static_cast<std::size_t>(other - others.begin()));
+    Json entry = difference_json("output", column.name, difference);
+    const double mean = sides.first.summary.outputs[i].moments.mean;
+    entry["relative"] = page_number(mean == 0 ? undefined : difference.value / std::abs(mean));
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+Difference status_difference(const Sides& sides, std::size_t status) {
+  const double confidence = std::min(sides.first.confidence, sides.second.confidence);
+  if (!sides.paired)
+    return unpaired_share_difference(
+        sides.first.summary.statuses[status].count, sides.first.summary.runs,
+        sides.second.summary.statuses[status].count, sides.second.summary.runs, confidence);
+  long first_alone = 0, second_alone = 0;
+  for (std::size_t k = 0; k < sides.rows.first.size(); ++k) {
+    const bool in_first = sides.first.results.status[sides.rows.first[k]] == statuses[status];
+    const bool in_second = sides.second.results.status[sides.rows.second[k]] == statuses[status];
+    first_alone += in_first && !in_second;
+    second_alone += in_second && !in_first;
+  }
+  return paired_share_difference(first_alone, second_alone, std::ssize(sides.rows.first),
+                                 confidence);
+}
+
+Json statuses_difference_json(const Sides& sides) {
+  const bool replicated =
+      sides.first.replication.replicates + sides.second.replication.replicates > 0;
+  Json json = Json::array();
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    Difference difference = status_difference(sides, i);
+    if (replicated) difference.bounds = {};
+    json.push_back(difference_json("status", to_string(statuses[i]), difference));
+  }
+  return json;
+}
+
+} // namespace
+
+SameRuns same_runs(const Results& first, const Results& second) {
+  SameRuns rows;
+  for (std::size_t i = 0, j = 0; i < first.size() && j < second.size();) {
+    if (first.runs[i] == second.runs[j]) {
+      rows.first.push_back(i);
+      rows.second.push_back(j);
+    }
+    const bool step_second = second.runs[j] <= first.runs[i];
+    i += first.runs[i] <= second.runs[j];
+    j += step_second;
+  }
+  return rows;
+}
+
+Difference paired_difference(const Column& first, const Column& second, const SameRuns& rows,
+                             const Replication& replication, double confidence) {
+  std::vector<double> differences;
+  std::vector<ReplicateValue> replicated;
+  for (std::size_t k = 0; k < rows.first.size(); ++k) {
+    const double difference = second.values[rows.second[k]] - first.values[rows.first[k]];
+    if (std::isnan(difference)) continue;
+    differences.push_back(difference);
+    if (replication.replicates > 0)
+      replicated.push_back({difference, replication.of_row[rows.first[k]]});
+  }
+  if (differences.empty()) return none;
+  const Moments all = moments(differences);
+  if (replication.replicates > 0)
+    return with_width(all.mean, replicate_mean_error(replicated, replication.replicates, all.mean),
+                      replication.replicates - 1, confidence, all.count);
+  return with_width(all.mean, all.std / std::sqrt(static_cast<double>(all.count)),
+                    static_cast<double>(all.count - 1), confidence, all.count);
+}
+
+Difference unpaired_difference(const Moments& first, const Moments& second, double confidence) {
+  if (first.count == 0 || second.count == 0) return none;
+  const auto variance = [](const Moments& m) {
+    return m.std * m.std / static_cast<double>(m.count);
+  };
+  const double a = variance(first), b = variance(second), sum = a + b;
+  const auto degrees_of = [](double part, long count) {
+    return part * part / static_cast<double>(count - 1);
+  };
+  const double degrees =
+      sum > 0 ? sum * sum / (degrees_of(a, first.count) + degrees_of(b, second.count))
+              : static_cast<double>(std::min(first.count, second.count) - 1);
+  return with_width(second.mean - first.mean, std::sqrt(sum), degrees, confidence,
+                    std::min(first.count, second.count));
+}
+
+Difference paired_share_difference(long first_alone, long second_alone, long n, double confidence) {
+  if (n == 0) return none;
+  const double each = (1 + confidence) / 2; // 1 − α/2
+  return of_shares(static_cast<double>(second_alone - first_alone) / static_cast<double>(n),
+                   clopper_pearson(first_alone, n, each), clopper_pearson(second_alone, n, each),
+                   n);
+}
+
+Difference unpaired_share_difference(long first, long first_of, long second, long second_of,
+                                     double confidence) {
+  if (first_of == 0 || second_of == 0) return none;
+  const double each = (1 + confidence) / 2;
+  const auto share = [](long hits, long n) {
+    return static_cast<double>(hits) / static_cast<double>(n);
+  };
+  return of_shares(share(second, second_of) - share(first, first_of),
+                   clopper_pearson(first, first_of, each), clopper_pearson(second, second_of, each),
+                   std::min(first_of, second_of));
+}
+
+bool have_same_draws(const PageSource& first, const PageSource& second) {
+  const Results &a = first.results, &b = second.results;
+  const Sampling &sampled = first.stored.campaign.sampling,
+                 &other = second.stored.campaign.sampling;
+  const bool fixed_design = sampled.design == DesignKind::random || sampled.runs == other.runs;
+  return !first.stored.foreign && !second.stored.foreign && sampled.seed == other.seed &&
+         sampled.design == other.design && sampled.replicates == other.replicates && fixed_design &&
+         std::ranges::equal(a.draws, b.draws, {}, &Column::name, &Column::name);
+}
+
+Json comparison_json(const PageSource& first, const PageSource& second,
+                     std::pair<std::size_t, std::size_t> places) {
+  Sides sides{first, second, have_same_draws(first, second), {}};
+  if (sides.paired) sides.rows = same_runs(first.results, second.results);
+  if (sides.rows.first.empty()) sides.paired = false;
+  return {{"sets", {places.first, places.second}},
+          {"paired", sides.paired},
+          {"text", fmt::format("{} − {}, {}", second.label, first.label,
+                               sides.paired ? "the same draws" : "draws of their own")},
+          {"outputs", outputs_difference_json(sides)},
+          {"statuses", statuses_difference_json(sides)}};
+}
+
+} // namespace wingspread

@@ -1,0 +1,83 @@
+#include "montecarlo/report/data/distribution_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+/// Half the width of the band of n values.
+double band_width(double n, double confidence) {
+  return std::sqrt(std::log(2 / (1 - confidence)) / (2 * n));
+}
+
+/// How many values of each replicate are at most x, and how many there are, as x goes up.
+class ReplicateCounts {
+public:
+  ReplicateCounts(std::span<const ReplicateValue> sorted, int replicates)
+      : sorted_(sorted), hits_(static_cast<std::size_t>(replicates), 0), sizes_(hits_) {
+    for (const ReplicateValue& value : sorted) ++sizes_[static_cast<std::size_t>(value.replicate)];
+  }
+
+  [[nodiscard]] Bounds bounds_at(double x, double confidence) {
+    for (; next_ < sorted_.size() && sorted_[next_].value <= x; ++next_)
+      ++hits_[static_cast<std::size_t>(sorted_[next_].replicate)];
+    return replicate_proportion_bounds(hits_, sizes_, confidence);
+  }
+
+private:
+  std::span<const ReplicateValue> sorted_;
+  std::vector<long> hits_, sizes_;
+  std::size_t next_ = 0;
+};
+
+} // namespace
+
+std::vector<long> curve_ranks(long n, std::size_t most) {
+  const auto quarter = static_cast<long>(most) / 4, half = static_cast<long>(most) - 2 * quarter;
+  std::vector<long> ranks;
+  for (long i = 0; i < half; ++i)
+    ranks.push_back(1 + std::lround(static_cast<double>(n - 1) * static_cast<double>(i) /
+                                    static_cast<double>(half - 1)));
+  const double first = std::max(1.0, static_cast<double>(n) / static_cast<double>(half));
+  for (long i = 0; i < quarter; ++i) {
+    const auto from_end = static_cast<long>(
+        std::pow(first, static_cast<double>(i + 1) / static_cast<double>(quarter)));
+    ranks.push_back(from_end);
+    ranks.push_back(n + 1 - from_end);
+  }
+  std::ranges::sort(ranks);
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  return ranks;
+}
+
+std::vector<CurveKnot> distribution_curve(std::span<const double> sorted,
+                                          std::span<const ReplicateValue> replicated,
+                                          int replicates, double confidence, std::size_t most) {
+  std::vector<CurveKnot> knots;
+  if (sorted.empty()) return knots;
+  const auto n = static_cast<double>(sorted.size());
+  const double width = band_width(n, confidence);
+  ReplicateCounts counts(replicated, replicates);
+  for (const long rank : curve_ranks(std::ssize(sorted), most)) {
+    const double x = sorted[static_cast<std::size_t>(rank - 1)];
+    if (!knots.empty() && knots.back().x == x) continue;
+    const auto below = std::ranges::upper_bound(sorted, x) - sorted.begin();
+    const double p = static_cast<double>(below) / n;
+    knots.push_back({x, p,
+                     replicates > 0 ? counts.bounds_at(x, confidence)
+                                    : Bounds{std::max(0.0, p - width), std::min(1.0, p + width)}});
+  }
+  return knots;
+}
+
+std::string band_name(int replicates, double confidence) {
+  if (replicates == 0) return fmt::format("Dvoretzky-Kiefer-Wolfowitz, {:g} %", 100 * confidence);
+  if (replicates == 1) return "none: the draws of one replicate depend on each other";
+  return fmt::format("Korn-Graubard over {} replicates, {:g} % at each value by itself", replicates,
+                     100 * confidence);
+}
+
+} // namespace wingspread

@@ -1,0 +1,156 @@
+#include "montecarlo/report/data/envelopes_json.hpp"
+
+#include "montecarlo/engine/runs/runner.hpp"
+#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/report/data/motion.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace wingspread {
+namespace {
+
+constexpr std::array levels{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
+
+/// A run as far as the envelopes need it.
+struct Track {
+  std::vector<MotionSample> samples; ///< none of a run that is left out
+  std::vector<LatchEvent> latches;
+  double end = 0; ///< what there is to see of it
+  bool deployed = false;
+};
+
+Track track_of(const RunPlan& plan, long run) {
+  constexpr std::size_t most_samples = 400;
+  const std::size_t hinges = plan.campaign().scene.hinges.size();
+  MotionRecorder recorder(hinges);
+  const Outcome outcome = Runner(plan).replay(run, recorder.observer()).outcome;
+  Track track;
+  track.deployed = outcome.status == Status::deployed;
+  track.latches = outcome.latches;
+  track.end = outcome.t_end;
+  if (track.deployed) track.end = 1.08 * outcome.latches.back().time;
+  if (outcome.status == Status::failed) return track;
+  pin_only(recorder.samples(), {});
+  track.samples = resample(recorder.samples(), {hinges}, most_samples);
+  return track;
+}
+
+/// The runs that are made again: evenly from the first to the last row.
+std::vector<Track> tracks_of(const PageSource& source, std::size_t most, int threads) {
+  const std::size_t rows = source.results.size(), count = std::min(rows, most);
+  const RunPlan plan(source.stored.campaign);
+  std::vector<Track> tracks(count);
+  for_each_task(threads, count, [&](std::size_t i) {
+    tracks[i] = track_of(plan, source.results.runs[i * rows / count]);
+  });
+  std::erase_if(tracks, [](const Track& track) { return track.samples.empty(); });
+  return tracks;
+}
+
+double end_of(const std::vector<Track>& tracks) {
+  double deployed = 0, any = 0;
+  for (const Track& track : tracks) {
+    any = std::max(any, track.end);
+    if (track.deployed) deployed = std::max(deployed, track.end);
+  }
+  return deployed > 0 ? deployed : any;
+}
+
+/// Where a run is at ascending times; behind its end it rests.
+class Follower {
+public:
+  Follower(const Track& track, const MotionLayout& layout) : track_(track), layout_(layout) {}
+
+  /// @param t not before the one before
+  [[nodiscard]] MotionSample at(double t) {
+    const std::vector<MotionSample>& samples = track_.samples;
+    while (next_ < samples.size() && samples[next_].t <= t) ++next_;
+    if (next_ == 0) return samples.front();
+    if (next_ < samples.size()) return between(samples[next_ - 1], samples[next_], layout_, t);
+    MotionSample rest = samples.back();
+    if (t > rest.t)
+      for (std::size_t h = 0; h < layout_.hinges; ++h) rest.values[layout_.rate(h)] = 0;
+    return rest;
+  }
+
+private:
+  const Track& track_;
+  MotionLayout layout_;
+  std::size_t next_ = 0;
+};
+
+/// values[place][level][time]
+using Bands = std::vector<std::vector<std::vector<double>>>;
+
+Bands bands_of(const std::vector<Track>& tracks, const MotionLayout& layout,
+               const std::vector<double>& times) {
+  Bands bands(2 * layout.hinges, std::vector(levels.size(), std::vector<double>()));
+  std::vector<Follower> followers;
+  for (const Track& track : tracks) followers.emplace_back(track, layout);
+  for (const double t : times) {
+    std::vector<std::vector<double>> there(2 * layout.hinges);
+    for (Follower& follower : followers) {
+      const MotionSample sample = follower.at(t);
+      for (std::size_t place = 0; place < there.size(); ++place)
+        there[place].push_back(sample.values[place]);
+    }
+    for (std::size_t place = 0; place < there.size(); ++place) {
+      std::ranges::sort(there[place]);
+      for (std::size_t level = 0; level < levels.size(); ++level)
+        bands[place][level].push_back(quantile(there[place], levels[level]));
+    }
+  }
+  return bands;
+}
+
+Json bands_json(const Bands& bands, std::size_t first, std::size_t count, int digits) {
+  Json json = Json::array();
+  for (std::size_t place = first; place < first + count; ++place) {
+    Json of_place = Json::array();
+    for (const std::vector<double>& level : bands[place])
+      of_place.push_back(page_numbers(level, digits));
+    json.push_back(std::move(of_place));
+  }
+  return json;
+}
+
+/// Of each hinge when it latched, sorted; of more times than there is room for evenly chosen ones.
+Json latch_times_json(const std::vector<Track>& tracks, std::size_t hinges, std::size_t most) {
+  std::vector<std::vector<double>> times(hinges);
+  for (const Track& track : tracks)
+    for (const LatchEvent& latch : track.latches)
+      times[static_cast<std::size_t>(latch.hinge)].push_back(latch.time);
+  Json json = Json::array();
+  for (std::vector<double>& each : times) {
+    std::ranges::sort(each);
+    std::vector<double> shown;
+    const std::size_t count = std::min(each.size(), most);
+    for (std::size_t i = 0; i < count; ++i) shown.push_back(each[i * each.size() / count]);
+    json.push_back(page_numbers(shown, 6));
+  }
+  return json;
+}
+
+} // namespace
+
+Json envelopes_json(const PageSource& source, const PageDetail& detail, int threads) {
+  if (!source.replayable()) return nullptr;
+  const MotionLayout layout{source.stored.campaign.scene.hinges.size()};
+  const std::vector<Track> tracks = tracks_of(source, detail.envelope_runs, threads);
+  if (tracks.empty()) return nullptr;
+  std::vector<double> times;
+  const double end = end_of(tracks);
+  for (std::size_t i = 0; i < detail.envelope_times; ++i)
+    times.push_back(end * static_cast<double>(i) / static_cast<double>(detail.envelope_times - 1));
+  const Bands bands = bands_of(tracks, layout, times);
+  return {{"runs", tracks.size()},
+          {"t", page_numbers(times, 6)},
+          {"levels", levels},
+          {"angles", bands_json(bands, 0, layout.hinges, 5)},
+          {"rates", bands_json(bands, layout.hinges, layout.hinges, 4)},
+          {"latch_times", latch_times_json(tracks, layout.hinges, detail.latch_times)}};
+}
+
+} // namespace wingspread

@@ -1,0 +1,113 @@
+#include "montecarlo/report/data/inputs_json.hpp"
+
+#include "distributions/prepared_distribution.hpp"
+#include "montecarlo/model/campaign/describe.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+/// "hinges.root.spring.torque_stowed" without its kind: "root spring torque stowed".
+std::string label_of(std::string path) {
+  for (const char* kind : {"hinges.", "bodies.", "synchronisations."})
+    if (path.starts_with(kind)) path.erase(0, std::string_view(kind).size());
+  std::ranges::replace(path, '.', ' ');
+  std::ranges::replace(path, '_', ' ');
+  return path;
+}
+
+/// All parameters that are not 0 in both scenes, with what the case makes of them.
+Json scene_json(const PageSource& source, std::size_t most) {
+  const Scene &nominal = source.before_case.scene, &scene = source.stored.campaign.scene;
+  Json json = Json::array();
+  for (const std::string& path : parameter_paths(scene)) {
+    const auto matches = resolve(scene, path).matches;
+    if (matches.empty() || json.size() >= most) continue;
+    const SceneParameter& parameter = matches.front().parameter;
+    const double value = parameter.in(nominal), in_case = parameter.in(scene);
+    if (value == 0 && in_case == 0) continue;
+    json.push_back({{"path", path},
+                    {"label", label_of(path)},
+                    {"value", page_number(value)},
+                    {"unit", unit_of(parameter)},
+                    {"case_value", in_case == value ? Json(nullptr) : page_number(in_case)}});
+  }
+  return json;
+}
+
+/// The least and the largest of 98 % of the draws, and what they are applied to.
+Json dispersion_json(const Campaign& campaign, const Dispersion& dispersion,
+                     const Dispersion& before_case) {
+  constexpr std::size_t most_paths = 20;
+  const PreparedDistribution law(dispersion.distribution);
+  Json paths = Json::array();
+  std::optional<SceneParameter> first;
+  std::string how;
+  for_each_effect(dispersion, [&](Apply apply, const auto& targets, const Curve* table) {
+    if (!first) {
+      first = targets.front();
+      how = table ? "by a table" : std::string(apply_names[static_cast<std::size_t>(apply)]);
+    }
+    for (const SceneParameter& target : targets)
+      if (paths.size() < most_paths) paths.push_back(path_of(campaign.scene, target));
+  });
+  const std::string law_text = describe(dispersion.distribution),
+                    before = describe(before_case.distribution);
+  const bool of_parameter = how == "set" || how == "add";
+  return {{"draw", dispersion.name},
+          {"paths", std::move(paths)},
+          {"apply", how},
+          {"law", law_text},
+          {"law_before_case", law_text == before ? Json(nullptr) : Json(before)},
+          {"nominal", first ? page_number(first->in(campaign.scene)) : Json(nullptr)},
+          {"nominal_unit", first ? unit_of(*first) : std::string_view()},
+          {"low", page_number(law.quantile(0.01))},
+          {"high", page_number(law.quantile(0.99))},
+          {"unit", first && of_parameter ? unit_of(*first) : std::string_view()}};
+}
+
+Json settings_json(const Campaign& campaign) {
+  const Integration& how = campaign.integration;
+  const Sampling& sampling = campaign.sampling;
+  const StatisticsSpec& statistics = campaign.statistics;
+  Json json = Json::array();
+  const auto add = [&](const char* label, const std::string& value) {
+    json.push_back({{"label", label}, {"value", value}});
+  };
+  add("method", how.method);
+  add("relative tolerance", fmt::format("{:g}", how.rtol));
+  add("absolute tolerance", fmt::format("{:g}", how.atol));
+  add("latch", how.smoothing ? fmt::format("smoothed over {:g} rad", *how.smoothing) : "event");
+  add("end of a run, at the latest", fmt::format("{:g} s", how.t_end));
+  add("design", std::string(design_names[static_cast<std::size_t>(sampling.design)]));
+  add("runs", std::to_string(sampling.runs));
+  add("seed", std::to_string(sampling.seed));
+  if (has_replicates(sampling)) add("replicates", std::to_string(sampling.replicates));
+  add("confidence of bounds", fmt::format("{:g} %", 100 * statistics.confidence));
+  add("quantiles", fmt::format("{:g}", fmt::join(statistics.quantiles, ", ")));
+  for (const RankCorrelation& wanted : campaign.wanted_correlations)
+    add("rank correlation", fmt::format("{} with {}: {:g}", campaign.dispersions[wanted.first].name,
+                                        campaign.dispersions[wanted.second].name, wanted.spearman));
+  return json;
+}
+
+} // namespace
+
+Json inputs_json(const PageSource& source, const PageDetail& detail) {
+  const Campaign& campaign = source.stored.campaign;
+  Json dispersions = Json::array();
+  for (std::size_t i = 0; i < campaign.dispersions.size(); ++i)
+    dispersions.push_back(
+        dispersion_json(campaign, campaign.dispersions[i], source.before_case.dispersions[i]));
+  return {{"scene", scene_json(source, detail.parameters)},
+          {"dispersions", std::move(dispersions)},
+          {"settings", settings_json(campaign)}};
+}
+
+} // namespace wingspread

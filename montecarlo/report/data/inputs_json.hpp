@@ -1,0 +1,12 @@
+/// What went into a set of runs: INPUTS of page/DATA.md.
+#pragma once
+
+#include "montecarlo/report/data/page_detail.hpp"
+#include "montecarlo/report/data/page_source.hpp"
+
+namespace wingspread {
+
+/// The scene's parameters, what its case changes of them, the dispersions with their laws, and the settings.
+[[nodiscard]] Json inputs_json(const PageSource& source, const PageDetail& detail);
+
+} // namespace wingspread

@@ -1,0 +1,114 @@
+#include "montecarlo/report/data/motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+/// The three ways by which samples are shared out, summed up over all hinges.
+std::array<double, 3> way(const MotionSample& from, const MotionSample& to,
+                          const MotionLayout& layout) {
+  std::array<double, 3> ways{to.t - from.t, 0, 0};
+  for (std::size_t h = 0; h < layout.hinges; ++h) {
+    ways[1] += std::abs(to.values[layout.angle(h)] - from.values[layout.angle(h)]);
+    ways[2] += std::abs(to.values[layout.moment(h)] - from.values[layout.moment(h)]);
+  }
+  return ways;
+}
+
+/// How far along its ways a run is at each sample: from 0 to 1.
+std::vector<double> progress_of(std::span<const MotionSample> samples, const MotionLayout& layout) {
+  std::vector<std::array<double, 3>> ways;
+  std::array<double, 3> whole{0, 0, 0};
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    ways.push_back(way(samples[i - 1], samples[i], layout));
+    for (std::size_t k = 0; k < 3; ++k) whole[k] += ways.back()[k];
+  }
+  const auto there =
+      static_cast<double>(std::ranges::count_if(whole, [](double w) { return w > 0; }));
+  std::vector<double> progress{0};
+  for (const auto& each : ways) {
+    double step = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (whole[k] > 0) step += each[k] / whole[k] / there;
+    progress.push_back(progress.back() + step);
+  }
+  return progress;
+}
+
+} // namespace
+
+Observer MotionRecorder::observer() {
+  return [this](const Sample& sample) { take(sample); };
+}
+
+void MotionRecorder::take(const Sample& sample) {
+  const bool again = !samples_.empty() && samples_.back().t == sample.t;
+  if (again) samples_.back().pinned = true;
+  // Of a run that is thinned the last sample always stands: the next one takes its place unless it is to be kept.
+  if (!again && ++seen_ % stride_ != 0 && samples_.size() > 1 && !samples_.back().pinned)
+    samples_.pop_back();
+  MotionSample kept{sample.t, {}, again};
+  kept.values.reserve(layout_.size());
+  for (const auto* row : {&sample.angles, &sample.rates, &sample.moments})
+    kept.values.insert(kept.values.end(), row->begin(), row->end());
+  kept.values.insert(kept.values.end(),
+                     {sample.base_position.x(), sample.base_position.y(), sample.base_angle});
+  samples_.push_back(std::move(kept));
+  if (samples_.size() > most_kept) thin();
+}
+
+void MotionRecorder::thin() {
+  std::size_t place = 0;
+  std::erase_if(samples_, [&](const MotionSample& sample) {
+    return place++ % 2 == 1 && !sample.pinned && &sample != &samples_.back();
+  });
+  stride_ *= 2;
+}
+
+MotionSample between(const MotionSample& from, const MotionSample& to, const MotionLayout& layout,
+                     double t) {
+  const double h = to.t - from.t, s = (t - from.t) / h;
+  MotionSample sample{t, {}, false};
+  for (std::size_t i = 0; i < layout.size(); ++i)
+    sample.values.push_back(std::lerp(from.values[i], to.values[i], s));
+  for (std::size_t k = 0; k < layout.hinges; ++k) {
+    const double a = from.values[layout.angle(k)], b = to.values[layout.angle(k)];
+    const double da = h * from.values[layout.rate(k)], db = h * to.values[layout.rate(k)];
+    const double c = 3 * (b - a) - 2 * da - db, d = 2 * (a - b) + da + db;
+    sample.values[layout.angle(k)] = a + s * (da + s * (c + s * d));
+    sample.values[layout.rate(k)] = (da + s * (2 * c + 3 * s * d)) / h;
+  }
+  return sample;
+}
+
+void pin_only(std::span<MotionSample> samples, std::span<const double> times) {
+  for (MotionSample& sample : samples)
+    sample.pinned = std::ranges::find(times, sample.t) != times.end();
+}
+
+std::vector<MotionSample> resample(std::span<const MotionSample> samples,
+                                   const MotionLayout& layout, std::size_t most) {
+  if (samples.size() < 2) return {samples.begin(), samples.end()};
+  const std::vector<double> progress = progress_of(samples, layout);
+  const double step = progress.back() / static_cast<double>(std::max<std::size_t>(most, 2) - 1);
+  std::vector<MotionSample> chosen{samples.front()};
+  double next = step;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double from = progress[i - 1], to = progress[i];
+    bool due = samples[i].pinned || i + 1 == samples.size();
+    for (; next <= to && step > 0; next += step) {
+      const double t = std::lerp(samples[i - 1].t, samples[i].t, (next - from) / (to - from));
+      if (to - from > step && t > chosen.back().t && t < samples[i].t)
+        chosen.push_back(between(samples[i - 1], samples[i], layout, t));
+      else
+        due = true;
+    }
+    if (due) chosen.push_back(samples[i]);
+  }
+  return chosen;
+}
+
+} // namespace wingspread

@@ -1,0 +1,212 @@
+#include "montecarlo/report/data/motions_json.hpp"
+
+#include "montecarlo/engine/runs/runner.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/report/data/motion.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/results/results_folder/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace wingspread {
+namespace {
+
+constexpr std::array other_statuses{Status::stalled, Status::timed_out, Status::failed};
+
+/// Gathers runs, each once.
+class Choice {
+public:
+  Choice(const Results& results, std::size_t most) : results_(results), most_(most) {}
+
+  void add(std::string label, std::string why, long run) {
+    if (chosen_.size() < most_ && !std::ranges::count(chosen_, run, &ChosenRun::run))
+      chosen_.push_back({std::move(label), std::move(why), run});
+  }
+  void add_row(std::string label, std::string why, std::size_t row) {
+    add(std::move(label), std::move(why), results_.runs[row]);
+  }
+  [[nodiscard]] std::size_t size() const { return chosen_.size(); }
+  [[nodiscard]] std::vector<ChosenRun> take() { return std::move(chosen_); }
+
+private:
+  const Results& results_;
+  std::size_t most_;
+  std::vector<ChosenRun> chosen_;
+};
+
+const Column* column_named(const Results& results, std::string_view name) {
+  const auto found = std::ranges::find(results.outputs, name, &Column::name);
+  return found == results.outputs.end() ? nullptr : &*found;
+}
+
+/// The first row with the largest measure of a column's values; none without values.
+std::optional<std::size_t> largest(const Column& column,
+                                   const std::function<double(double)>& measure) {
+  std::optional<std::size_t> best;
+  for (std::size_t row = 0; row < column.values.size(); ++row)
+    if (!std::isnan(column.values[row]) &&
+        (!best || measure(column.values[row]) > measure(column.values[*best])))
+      best = row;
+  return best;
+}
+
+/// The row of the median deployment time: of equals the first.
+void add_median(const PageSource& source, Choice& choice) {
+  const Column* column = column_named(source.results, "deployment_time");
+  if (!column) return;
+  std::vector<double> times;
+  std::ranges::copy_if(column->values, std::back_inserter(times),
+                       [](double time) { return !std::isnan(time); });
+  if (times.empty()) return;
+  const auto middle = times.begin() + (quantile_rank(std::ssize(times), 0.5) - 1);
+  std::ranges::nth_element(times, middle);
+  const auto row = std::ranges::find(column->values, *middle) - column->values.begin();
+  choice.add_row("median run", "its deployment time is the median of those that deployed",
+                 static_cast<std::size_t>(row));
+}
+
+/// The run that breaks a requirement worst or, where none does, comes nearest to its limit.
+void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choice) {
+  const Requirement& requirement = verdict.requirement;
+  const std::string label = "worst: " + name_of(requirement);
+  if (!verdict.broken.empty())
+    return choice.add(label, "it breaks worst: " + to_string(requirement), verdict.broken.front());
+  const Column* column = column_named(source.results, requirement.output);
+  if (!column) return;
+  const auto row = largest(*column, [&](double value) {
+    return requirement.absolute ? std::abs(value) : requirement.max ? value : -value;
+  });
+  if (row)
+    choice.add_row(label, "it comes nearest to the limit of: " + to_string(requirement), *row);
+}
+
+/// Of the outputs of a family the run with the largest value of any.
+void add_largest_of(const PageSource& source, std::string_view family, Choice& choice) {
+  const Column* of = nullptr;
+  std::size_t best = 0;
+  for (const Column& column : source.results.outputs) {
+    const std::size_t dot = column.name.rfind('.');
+    if (std::string_view(column.name).substr(dot == std::string::npos ? 0 : dot + 1) != family)
+      continue;
+    const auto row = largest(column, [](double value) { return value; });
+    if (row && (!of || column.values[*row] > of->values[best])) {
+      of = &column;
+      best = *row;
+    }
+  }
+  if (of) choice.add_row("largest " + of->name, "of all runs it has the largest " + of->name, best);
+}
+
+/// The first run of each status but `deployed`, and `invalid`, whose runs have no motion.
+void add_statuses(const PageSource& source, Choice& choice) {
+  for (const Status status : other_statuses) {
+    const auto found = std::ranges::find(source.results.status, status);
+    if (found != source.results.status.end())
+      choice.add_row(spaced(to_string(status)),
+                     fmt::format("the first run that {}", status == Status::stalled ? "stalled"
+                                                          : status == Status::failed
+                                                              ? "failed numerically"
+                                                              : "did not end by t_end"),
+                     static_cast<std::size_t>(found - source.results.status.begin()));
+  }
+}
+
+/// A run as the page plays it.
+Json motion_json(const Scene& scene, MotionRecorder& recorder, const Outcome& outcome,
+                 std::size_t most) {
+  const MotionLayout layout{scene.hinges.size()};
+  std::vector<double> latched;
+  for (const LatchEvent& latch : outcome.latches) latched.push_back(latch.time);
+  pin_only(recorder.samples(), latched);
+  const std::vector<MotionSample> samples = resample(recorder.samples(), layout, most);
+  const auto column = [&](std::size_t place, int digits) {
+    Json json = Json::array();
+    for (const MotionSample& sample : samples)
+      json.push_back(page_number(sample.values[place], digits));
+    return json;
+  };
+  Json json{{"status", to_string(outcome.status)}, {"reason", outcome.reason}};
+  json["t"] = Json::array();
+  for (const MotionSample& sample : samples) json["t"].push_back(page_number(sample.t));
+  for (const char* key : {"angles", "rates", "moments"}) json[key] = Json::array();
+  for (std::size_t h = 0; h < layout.hinges; ++h) {
+    json["angles"].push_back(column(layout.angle(h), 6));
+    json["rates"].push_back(column(layout.rate(h), 5));
+    json["moments"].push_back(column(layout.moment(h), 5));
+  }
+  json["base"] = nullptr;
+  if (scene.base.motion != BaseMotion::fixed)
+    json["base"] = {{"x", column(layout.base(), 6)},
+                    {"y", column(layout.base() + 1, 6)},
+                    {"angle", column(layout.base() + 2, 6)}};
+  json["latches"] = Json::array();
+  for (const LatchEvent& latch : outcome.latches)
+    json["latches"].push_back({{"hinge", latch.hinge}, {"time", page_number(latch.time)}});
+  json["peaks"] = Json::array();
+  for (std::size_t h = 0; h < outcome.peak_moment.size(); ++h)
+    json["peaks"].push_back({{"hinge", h},
+                             {"value", page_number(outcome.peak_moment[h].value)},
+                             {"time", page_number(outcome.peak_moment[h].time)}});
+  return json;
+}
+
+Json nominal_json(const PageSource& source, std::size_t most) {
+  const Campaign& campaign = source.stored.campaign;
+  MotionRecorder recorder(campaign.scene.hinges.size());
+  const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
+                                           goal_of(campaign.outputs), recorder.observer());
+  Json json{{"label", "nominal"},
+            {"why", "nothing is dispersed"},
+            {"run", nullptr},
+            {"replay", fmt::format("wingspread simulate {}",
+                                   (source.stored.folder / campaign_file).string())}};
+  json.update(motion_json(campaign.scene, recorder, outcome, most));
+  return json;
+}
+
+Json chosen_json(const PageSource& source, const RunPlan& plan, const ChosenRun& chosen,
+                 std::size_t most) {
+  MotionRecorder recorder(source.stored.campaign.scene.hinges.size());
+  const Runner::Replay made = Runner(plan).replay(chosen.run, recorder.observer());
+  Json json{{"label", chosen.label},
+            {"why", chosen.why},
+            {"run", chosen.run},
+            {"replay", replay_command(source.stored.folder.string(), chosen.run)}};
+  json.update(motion_json(source.stored.campaign.scene, recorder, made.outcome, most));
+  return json;
+}
+
+} // namespace
+
+std::vector<ChosenRun> chosen_runs(const PageSource& source, std::size_t most) {
+  Choice choice(source.results, most);
+  add_median(source, choice);
+  for (const Verdict& verdict : source.summary.requirements)
+    if (choice.size() + other_statuses.size() < most) add_worst_of(source, verdict, choice);
+  if (source.summary.requirements.empty())
+    for (const char* family : {"peak_moment", "peak_force", "deployment_time"})
+      add_largest_of(source, family, choice);
+  add_statuses(source, choice);
+  return choice.take();
+}
+
+Json motions_json(const PageSource& source, const PageDetail& detail, int threads) {
+  if (!source.replayable()) return Json::array();
+  const std::vector<ChosenRun> chosen = chosen_runs(source, detail.motions - 1);
+  const RunPlan plan(source.stored.campaign);
+  std::vector<Json> motions(1 + chosen.size());
+  for_each_task(threads, motions.size(), [&](std::size_t i) {
+    motions[i] = i == 0 ? nominal_json(source, detail.motion_samples)
+                        : chosen_json(source, plan, chosen[i - 1], detail.motion_samples);
+  });
+  std::erase_if(motions, [](const Json& motion) { return motion["t"].empty(); });
+  return motions;
+}
+
+} // namespace wingspread

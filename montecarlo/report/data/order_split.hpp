@@ -1,0 +1,43 @@
+/// Runs by the order in which their hinges latched: the modes that puzzle a reader of a histogram are orders.
+#pragma once
+
+#include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/statistics/histogram.hpp"
+#include "montecarlo/results/summary/summary.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wingspread {
+
+/// The most frequent orders, then what is beyond them, then the runs without any latch.
+class OrderSplit {
+public:
+  static constexpr std::size_t most_orders = 6; ///< of those that have a group of their own
+  static constexpr std::string_view others = "others", no_latch = "no latch";
+
+  /// @pre the summary is of these results; they outlive this
+  OrderSplit(const Results& results, const Summary& summary);
+
+  struct Group {
+    std::string name;
+    long count = 0;
+  };
+  [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
+  /// The group of a row.
+  [[nodiscard]] std::size_t of_row(std::size_t row) const {
+    return of_code_[results_->latch_order.codes()[row]];
+  }
+
+  /// How many values of each group are in each bin; of every bin the sum is its count.
+  [[nodiscard]] std::vector<std::vector<long>> counts(const Histogram& histogram,
+                                                      const Spilled<double>& values) const;
+
+private:
+  const Results* results_;
+  std::vector<Group> groups_;
+  std::vector<std::size_t> of_code_; ///< the group of each text of the column
+};
+
+} // namespace wingspread

@@ -1,0 +1,138 @@
+#include "montecarlo/report/data/output_json.hpp"
+
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/report/data/convergence.hpp"
+#include "montecarlo/report/data/distribution_curve.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+Json moments_json(const OutputSummary& output) {
+  const Moments& m = output.moments;
+  return {{"count", m.count},
+          {"missing", output.missing},
+          {"nominal", output.nominal ? page_number(*output.nominal) : Json(nullptr)},
+          {"mean", page_number(m.mean)},
+          {"mean_error", page_number(output.mean_error)},
+          {"std", page_number(m.std)},
+          {"min", page_number(m.min)},
+          {"max", page_number(m.max)},
+          {"skewness", page_number(m.skewness)},
+          {"kurtosis", page_number(m.kurtosis)}};
+}
+
+Json quantiles_json(const OutputSummary& output) {
+  Json json = Json::array();
+  for (const auto& [p, value, bounds, error] : output.quantiles) {
+    json.push_back({{"p", p}, {"value", page_number(value)}});
+    add_bounds(json.back(), bounds);
+  }
+  return json;
+}
+
+/// The summary's own bins, or the most there is room for.
+Json histogram_json(const PageSource& source, std::size_t index, std::span<const double> sorted,
+                    std::size_t most_bins) {
+  const Histogram& own = source.summary.outputs[index].histogram;
+  const Histogram shown =
+      own.counts.size() <= most_bins ? own : histogram(sorted, static_cast<int>(most_bins));
+  return {{"edges", page_numbers(shown.edges, 10)},
+          {"counts", shown.counts},
+          {"by_order", source.orders->counts(shown, source.results.outputs[index].values)}};
+}
+
+Json curve_json(const PageSource& source, const SettledColumn& settled, std::size_t most) {
+  Json json{{"x", Json::array()},
+            {"p", Json::array()},
+            {"lower", Json::array()},
+            {"upper", Json::array()}};
+  const int replicates = source.replication.replicates;
+  for (const CurveKnot& knot : distribution_curve(settled.sorted, settled.replicated, replicates,
+                                                  source.confidence, most)) {
+    json["x"].push_back(page_number(knot.x));
+    json["p"].push_back(page_number(knot.p));
+    json["lower"].push_back(page_number(knot.band.lower));
+    json["upper"].push_back(page_number(knot.band.upper));
+  }
+  json["band"] = band_name(replicates, source.confidence);
+  return json;
+}
+
+Json convergence_json(const Convergence& convergence) {
+  Json json{{"runs", Json::array()},           {"mean", Json::array()},
+            {"lower", Json::array()},          {"upper", Json::array()},
+            {"quantile_p", convergence.p},     {"quantile", Json::array()},
+            {"quantile_lower", Json::array()}, {"quantile_upper", Json::array()}};
+  for (const ConvergencePoint& point : convergence.points) {
+    json["runs"].push_back(point.runs);
+    json["mean"].push_back(page_number(point.mean));
+    json["lower"].push_back(page_number(point.mean_bounds.lower));
+    json["upper"].push_back(page_number(point.mean_bounds.upper));
+    json["quantile"].push_back(page_number(point.quantile));
+    json["quantile_lower"].push_back(page_number(point.quantile_bounds.lower));
+    json["quantile_upper"].push_back(page_number(point.quantile_bounds.upper));
+  }
+  return json;
+}
+
+Json tolerance_json(const OutputSummary& output) {
+  Json json = Json::array();
+  for (const auto& [spec, limits] : output.tolerance_limits) {
+    json.push_back(
+        {{"text", fmt::format("{:g} % at {:g} %, {}", 100 * spec.probability, 100 * spec.confidence,
+                              side_names[static_cast<std::size_t>(spec.side)])}});
+    add_bounds(json.back(), limits);
+  }
+  return json;
+}
+
+/// Which of the requirements are on the output.
+Json limits_json(const PageSource& source, const std::string& name) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < source.summary.requirements.size(); ++i)
+    if (source.summary.requirements[i].requirement.output == name) json.push_back(i);
+  return json;
+}
+
+Json output_json(const PageSource& source, std::size_t index, const PageDetail& detail) {
+  const Column& column = source.results.outputs[index];
+  const OutputSummary& output = source.summary.outputs[index];
+  const auto& asked = source.stored.campaign.statistics.quantiles;
+  const double p = asked.empty() ? 0.99 : std::ranges::max(asked);
+  const SettledColumn settled =
+      settle(column, p, source.confidence, source.replication, detail.checkpoints);
+  const OutputName name = parse_output_name(column.name);
+  Json json{
+      {"name", column.name},
+      {"unit", name.unit},
+      {"family", name.quantity},
+      {"hinge", name.hinge.empty() || name.hinge == "base" ? Json(nullptr) : Json(name.hinge)}};
+  json.update(moments_json(output));
+  json["quantiles"] = quantiles_json(output);
+  json["histogram"] = histogram_json(source, index, settled.sorted, detail.bins);
+  json["curve"] = curve_json(source, settled, detail.knots);
+  json["tolerance_limits"] = tolerance_json(output);
+  json["limits"] = limits_json(source, column.name);
+  json["convergence"] = convergence_json(settled.convergence);
+  column.values.release();
+  return json;
+}
+
+} // namespace
+
+Json outputs_json(const PageSource& source, const PageDetail& detail, int threads) {
+  const std::size_t count = std::min(source.results.outputs.size(), detail.outputs);
+  const std::size_t bytes = (source.replication.replicates > 0 ? 64 : 16) * source.results.size();
+  std::vector<Json> blocks(count);
+  for_each_task(team_within(threads, bytes), count,
+                [&](std::size_t i) { blocks[i] = output_json(source, i, detail); });
+  return blocks;
+}
+
+} // namespace wingspread

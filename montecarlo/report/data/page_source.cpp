@@ -1,0 +1,24 @@
+#include "montecarlo/report/data/page_source.hpp"
+
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+
+#include <utility>
+
+namespace wingspread {
+
+std::unique_ptr<PageSource> read_page_source(StoredCampaign stored, const std::string& label,
+                                             const Campaign* before_case, int threads) {
+  auto source = std::make_unique<PageSource>();
+  source->label = label;
+  source->before_case = before_case ? *before_case : stored.campaign;
+  source->stored = std::move(stored);
+  const Campaign& campaign = source->stored.campaign;
+  source->results = std::move(read_stored_results(source->stored).results);
+  source->replication = replication_of(campaign.sampling, source->results);
+  source->summary = stored_summary(source->stored, source->results, campaign.statistics, threads);
+  source->confidence = at_each_of(campaign.statistics.confidence, source->summary.looks);
+  source->orders = std::make_unique<OrderSplit>(source->results, source->summary);
+  return source;
+}
+
+} // namespace wingspread

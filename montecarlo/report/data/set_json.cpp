@@ -1,0 +1,170 @@
+#include "montecarlo/report/data/set_json.hpp"
+
+#include "montecarlo/report/data/causes_json.hpp"
+#include "montecarlo/report/data/envelopes_json.hpp"
+#include "montecarlo/report/data/inputs_json.hpp"
+#include "montecarlo/report/data/motions_json.hpp"
+#include "montecarlo/report/data/output_json.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/report/data/wing_json.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace wingspread {
+namespace {
+
+/// The command that makes the same rows again.
+std::string made_by(const StoredCampaign& stored) {
+  if (stored.foreign) return "";
+  std::string text =
+      fmt::format("wingspread run {} --seed {} --runs {}", (stored.folder / campaign_file).string(),
+                  stored.stamp.seed, stored.campaign.sampling.runs);
+  if (const auto& shard = stored.stamp.shard)
+    text += fmt::format(" --shard {}/{}", shard->index, shard->of);
+  return text + " --out again";
+}
+
+Json identity_json(const PageSource& source) {
+  const StoredCampaign& stored = source.stored;
+  const Campaign& campaign = stored.campaign;
+  const auto& shard = stored.stamp.shard;
+  return {{"label", source.label},
+          {"folder", stored.folder.string()},
+          {"case", campaign.of_case.empty() ? Json(nullptr) : Json(campaign.of_case)},
+          {"campaign", campaign.scene.name},
+          {"description", campaign.resolved.value("description", "")},
+          {"foreign", stored.foreign},
+          {"seed", std::to_string(stored.stamp.seed)},
+          {"hash", stored.stamp.hash},
+          {"version", stored.stamp.version},
+          {"runs", source.summary.runs},
+          {"planned", stored.runs().size()},
+          {"partial", source.summary.runs < stored.runs().size() && !source.summary.stopped},
+          {"stopped", source.summary.stopped},
+          {"shard", shard ? Json(fmt::format("{}/{}", shard->index, shard->of)) : Json(nullptr)},
+          {"design", design_names[static_cast<std::size_t>(campaign.sampling.design)]},
+          {"confidence", source.summary.confidence},
+          {"looks", source.summary.looks},
+          {"replicates", source.replication.replicates},
+          {"made_by", made_by(stored)}};
+}
+
+Json statuses_json(const Summary& summary) {
+  Json json = Json::array();
+  for (const StatusShare& share : summary.statuses) {
+    json.push_back({{"status", to_string(share.status)},
+                    {"count", share.count},
+                    {"rate", page_number(share.rate)}});
+    add_bounds(json.back(), share.bounds);
+  }
+  return json;
+}
+
+Json reasons_json(const Summary& summary) {
+  constexpr std::size_t most_reasons_shown = 50;
+  Json json = Json::array();
+  for (const auto& [status, reason, count] : summary.reasons)
+    if (json.size() < most_reasons_shown)
+      json.push_back({{"status", to_string(status)}, {"reason", reason}, {"count", count}});
+  return json;
+}
+
+Json orders_json(const OrderSplit& orders) {
+  Json json = Json::array();
+  for (const auto& [name, count] : orders.groups())
+    json.push_back({{"order", name}, {"count", count}});
+  return json;
+}
+
+Json broken_json(const Verdict& verdict) {
+  constexpr std::size_t most_broken_shown = 20;
+  const auto shown =
+      static_cast<std::ptrdiff_t>(std::min(verdict.broken.size(), most_broken_shown));
+  return std::vector<long>(verdict.broken.begin(), verdict.broken.begin() + shown);
+}
+
+/// What is asked for.
+Json asked_json(const Requirement& requirement) {
+  const bool limited = requirement.max || requirement.min;
+  return {{"text", to_string(requirement)},
+          {"name", requirement.name},
+          {"output", requirement.output},
+          {"kind", !limited          ? "status"
+                   : requirement.max ? "<="
+                                     : ">="},
+          {"limit", page_number(requirement.max ? requirement.max : requirement.min)},
+          {"upper", !limited || requirement.max},
+          {"abs", requirement.absolute},
+          {"static_margin", requirement.static_margin.has_value()},
+          {"group", requirement.group},
+          {"probability", requirement.probability},
+          {"confidence", requirement.confidence}};
+}
+
+Json requirement_json(const Verdict& verdict) {
+  constexpr std::array words{"passed", "failed", "open"}; // in the order of Decision
+  Json json = asked_json(verdict.requirement);
+  json.update({{"verdict", words[static_cast<std::size_t>(verdict.decision)]},
+               {"disproved", verdict.disproved},
+               {"observed", page_number(verdict.share)},
+               {"guaranteed", page_number(verdict.guaranteed_share)},
+               {"observed_value", page_number(verdict.observed)},
+               {"guaranteed_value", page_number(verdict.guaranteed)},
+               {"margin", page_number(verdict.margin)},
+               {"runs", verdict.runs},
+               {"broken", verdict.broken.size()},
+               {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)},
+               {"broken_runs", broken_json(verdict)},
+               {"evidence", evidence(verdict)}});
+  return json;
+}
+
+/// The summary's, and what the page has no room for.
+std::vector<std::string> all_warnings(const PageSource& source, const PageDetail& detail) {
+  std::vector<std::string> lines = warnings(source.summary);
+  if (const std::size_t all = source.results.outputs.size(); all > detail.outputs)
+    lines.push_back(fmt::format("the page has room for the first {} of {} outputs: {} has all",
+                                detail.outputs, all,
+                                (source.stored.folder / summary_file).string()));
+  return lines;
+}
+
+Json requirements_json(const Summary& summary) {
+  Json json = Json::array();
+  for (const Verdict& verdict : summary.requirements) json.push_back(requirement_json(verdict));
+  return json;
+}
+
+} // namespace
+
+Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
+  const Summary& summary = source.summary;
+  Json json = identity_json(source);
+  json["statuses"] = statuses_json(summary);
+  json["reasons"] = reasons_json(summary);
+  json["orders"] = orders_json(*source.orders);
+  json["order_kinds"] = summary.latch_order_kinds;
+  json["without_latch"] = summary.without_latch;
+  json["warnings"] = all_warnings(source, detail);
+  json["accuracy"] = accuracy_json(summary);
+  json["requirements"] = requirements_json(summary);
+  json["outputs"] = outputs_json(source, detail, threads);
+  json["correlations"] = correlations_json(source, detail);
+  json["sensitivity"] = effects_json(source, detail);
+  json["scatters"] = scatters_json(source, detail, threads);
+  json["wing"] = wing_json(source.stored.campaign.scene);
+  json["motions"] = motions_json(source, detail, threads);
+  json["envelopes"] = envelopes_json(source, detail, threads);
+  json["static_margins"] = nullptr;
+  json["margin"] = nullptr;
+  json["rare"] = nullptr;
+  json["inputs"] = inputs_json(source, detail);
+  return json;
+}
+
+} // namespace wingspread

@@ -1,0 +1,122 @@
+#include "montecarlo/report/page/html_page.hpp"
+
+#include "montecarlo/report/data/differences.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/report/data/set_json.hpp"
+#include "montecarlo/report/page/glossary.hpp"
+#include "montecarlo/report/page/page_files.hpp"
+#include "montecarlo/report/page/static_margins_json.hpp"
+#include "montecarlo/report/page/study_set.hpp"
+#include "montecarlo/results/results_folder/cases_folder.hpp"
+#include "montecarlo/results/results_folder/version.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr std::size_t most_sets = 12;
+
+std::string name_of_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path name =
+      folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+  return name.empty() || name == "." || name == ".." ? folder.string() : name.string();
+}
+
+/// The sets of one folder. @param several whether there are other folders, from which its cases are to be told
+void read_folder(const std::filesystem::path& folder, bool several, int threads,
+                 PageSources& sources) {
+  const std::string name = name_of_folder(folder);
+  if (is_study_folder(folder)) {
+    for (Json& set : study_sets_json(folder, name)) sources.studies.push_back(std::move(set));
+    return;
+  }
+  if (!is_cases_folder(folder)) {
+    sources.runs.push_back(read_page_source(read_any_campaign(folder), name, nullptr, threads));
+    return;
+  }
+  const StoredCampaign whole = read_stored_campaign(folder);
+  for (const CaseSpec& spec : made_cases(whole))
+    sources.runs.push_back(read_page_source(read_stored_campaign(folder / spec.name),
+                                            several ? name + " · " + spec.name : spec.name,
+                                            &whole.campaign, threads));
+}
+
+/// Two folders of one name are told apart by their paths.
+void tell_apart(PageSources& sources) {
+  std::vector<std::string> labels;
+  for (const auto& source : sources.runs) labels.push_back(source->label);
+  for (const auto& source : sources.runs)
+    if (std::ranges::count(labels, source->label) > 1)
+      source->label = source->stored.folder.string();
+}
+
+PageExtent extent_of(const PageSources& sources) {
+  PageExtent extent{std::max<std::size_t>(sources.runs.size(), 1)};
+  for (const auto& source : sources.runs) {
+    extent.hinges = std::max(extent.hinges, source->stored.campaign.scene.hinges.size());
+    extent.outputs = std::max(extent.outputs, source->results.outputs.size());
+  }
+  return extent;
+}
+
+/// Each set with the first, and with the one before it.
+void add_comparisons(const PageSources& sources, Json& comparisons) {
+  const auto add = [&](std::size_t i, std::size_t j) {
+    comparisons.push_back(comparison_json(*sources.runs[i], *sources.runs[j], {i, j}));
+  };
+  for (std::size_t j = 1; j < sources.runs.size(); ++j) {
+    add(0, j);
+    if (j > 1) add(j - 1, j);
+  }
+}
+
+std::string title_of(const PageSources& sources) {
+  return sources.runs.empty() ? sources.studies.front().at("campaign").get<std::string>()
+                              : sources.runs.front()->stored.campaign.scene.name;
+}
+
+} // namespace
+
+PageSources read_page_sources(std::span<const std::filesystem::path> folders, int threads) {
+  PageSources sources;
+  for (const std::filesystem::path& folder : folders)
+    read_folder(folder, folders.size() > 1, threads, sources);
+  const std::size_t sets = sources.runs.size() + sources.studies.size();
+  if (sets == 0 || sets > most_sets)
+    throw SpecError({{folders.front().string(), "", fmt::format("{} sets of runs", sets),
+                      fmt::format("from 1 to {}: folders, and cases in them", most_sets)}});
+  tell_apart(sources);
+  return sources;
+}
+
+Json page_json(const PageSources& sources, const std::string& command, int threads) {
+  const PageDetail detail = page_detail(extent_of(sources));
+  Json json{{"format", 1},
+            {"version", version()},
+            {"command", command},
+            {"title", title_of(sources)},
+            {"glossary", glossary_json()},
+            {"sets", Json::array()},
+            {"comparisons", Json::array()}};
+  for (const auto& source : sources.runs) {
+    json["sets"].push_back(set_json(*source, detail, threads));
+    json["sets"].back()["static_margins"] = static_margins_json(source->stored.campaign);
+  }
+  for (const Json& set : sources.studies) json["sets"].push_back(set);
+  add_comparisons(sources, json["comparisons"]);
+  return json;
+}
+
+std::string html_page(const Json& data) {
+  std::string page(page_before_data);
+  page += "<script type=\"application/json\" id=\"data\">";
+  page += page_text(data);
+  page += "</script>";
+  return page += page_behind_data;
+}
+
+} // namespace wingspread

@@ -1,0 +1,280 @@
+#include "montecarlo/report/page/study_set.hpp"
+
+#include "montecarlo/analyses/margin/margin_report.hpp"
+#include "montecarlo/analyses/rare/rare_report.hpp"
+#include "montecarlo/analyses/sensitivity/design_folder.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/report/data/wing_json.hpp"
+#include "montecarlo/report/page/static_margins_json.hpp"
+#include "montecarlo/results/results_folder/results_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// A set without runs.
+Json empty_set(const std::filesystem::path& folder, const std::string& label, const Json& about) {
+  Json json{{"label", label},
+            {"folder", folder.string()},
+            {"case", nullptr},
+            {"campaign", ""},
+            {"description", ""},
+            {"foreign", false},
+            {"seed", about.contains("seed") ? about["seed"].dump() : ""},
+            {"hash", about.value("hash", "")},
+            {"version", about.value("version", "")},
+            {"runs", 0},
+            {"planned", 0},
+            {"partial", false},
+            {"stopped", false},
+            {"shard", nullptr},
+            {"design", ""},
+            {"confidence", 0.95},
+            {"looks", 1},
+            {"replicates", 0},
+            {"made_by", ""}};
+  for (const char* list : {"statuses", "reasons", "orders", "warnings", "requirements", "outputs",
+                           "scatters", "motions"})
+    json[list] = Json::array();
+  json["order_kinds"] = json["without_latch"] = 0;
+  for (const char* block : {"accuracy", "correlations", "sensitivity", "wing", "envelopes",
+                            "static_margins", "margin", "rare"})
+    json[block] = nullptr;
+  json["inputs"] = {
+      {"scene", Json::array()}, {"dispersions", Json::array()}, {"settings", Json::array()}};
+  return json;
+}
+
+void add_campaign(const Campaign& campaign, Json& set) {
+  set["campaign"] = campaign.scene.name;
+  set["confidence"] = campaign.statistics.confidence;
+  set["wing"] = wing_json(campaign.scene);
+  set["static_margins"] = static_margins_json(campaign);
+}
+
+// ---- margin
+
+/// What margin.csv has of one requirement in one case, by scale.
+struct RequirementScales {
+  std::string text;
+  std::vector<double> scales;
+  std::vector<long> runs, broken;
+  std::vector<std::string> verdicts;
+};
+/// By search, then by requirement in the order of the file.
+using MarginTable = std::vector<std::pair<std::string, std::vector<RequirementScales>>>;
+
+/// The element with that name, put behind the others if there is none.
+template <class List, class Same, class Make>
+auto& found_or_made(List& list, Same same, Make make) {
+  const auto found = std::ranges::find_if(list, same);
+  if (found != list.end()) return *found;
+  list.push_back(make());
+  return list.back();
+}
+
+/// As the page has verdicts.
+std::string page_verdict(const std::string& verdict) {
+  return verdict == "pass" ? "passed" : verdict == "fail" ? "failed" : "open";
+}
+
+MarginTable read_margin_csv(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  CsvReader reader(in, path.string());
+  std::map<std::string, std::size_t> place;
+  MarginTable table;
+  while (reader.next()) {
+    const std::vector<std::string>& cells = reader.cells();
+    if (place.empty()) {
+      for (std::size_t i = 0; i < cells.size(); ++i) place[cells[i]] = i;
+      continue;
+    }
+    const auto cell = [&](const char* name) -> const std::string& { return cells[place.at(name)]; };
+    const auto number = [&](const char* name) { return parse_csv_number(cell(name)).value_or(0); };
+    auto& search = found_or_made(
+        table, [&](const auto& each) { return each.first == cell("search"); },
+        [&] {
+          return MarginTable::value_type{cell("search"), {}};
+        });
+    const std::string text = cell("case") == "nominal" ? cell("requirement")
+                                                       : cell("requirement") + " · " + cell("case");
+    RequirementScales& row = found_or_made(
+        search.second, [&](const RequirementScales& each) { return each.text == text; },
+        [&] {
+          return RequirementScales{text, {}, {}, {}, {}};
+        });
+    row.scales.push_back(number("scale"));
+    row.runs.push_back(std::lround(number("runs")));
+    row.broken.push_back(std::lround(number("broken")));
+    row.verdicts.push_back(page_verdict(cell("verdict")));
+  }
+  return table;
+}
+
+Json requirement_json(const RequirementScales& row, double confidence) {
+  Json json{{"text", row.text},
+            {"passed", Json::array()},
+            {"lower", Json::array()},
+            {"upper", Json::array()},
+            {"verdict", row.verdicts}};
+  for (std::size_t i = 0; i < row.scales.size(); ++i) {
+    const long kept = row.runs[i] - row.broken[i];
+    const Interval bounds = clopper_pearson(kept, row.runs[i], confidence);
+    json["passed"].push_back(
+        page_number(static_cast<double>(kept) / static_cast<double>(row.runs[i]), 5));
+    json["lower"].push_back(page_number(bounds.lower, 5));
+    json["upper"].push_back(page_number(bounds.upper, 5));
+  }
+  return json;
+}
+
+/// @param search of margin.json
+Json margin_block(const Json& search, const std::vector<RequirementScales>& rows,
+                  double confidence) {
+  const auto edge = [&](const char* side) -> Json {
+    if (search["window"].is_null()) return nullptr;
+    const Json& found = search["window"][side];
+    return found["range_end"].get<bool>() ? Json(nullptr) : found["scale"];
+  };
+  Json requirements = Json::array();
+  for (const RequirementScales& row : rows)
+    requirements.push_back(requirement_json(row, confidence));
+  const Json& recommended = search["recommended"];
+  return {{"scales", rows.empty() ? std::vector<double>{} : rows.front().scales},
+          {"requirements", std::move(requirements)},
+          {"recommended", recommended.is_null() ? Json(nullptr) : recommended["scale"]},
+          {"why_none", search["why_none"]},
+          {"window", {edge("lower"), edge("upper")}}};
+}
+
+std::vector<Json> margin_sets(const std::filesystem::path& folder, const std::string& label) {
+  const Json study = parse_json_file(folder / margin_json_file);
+  const MarginTable table = read_margin_csv(folder / margin_csv_file);
+  const std::filesystem::path recommended = folder / recommended_file;
+  std::vector<Json> sets;
+  for (const Json& search : study.at("searches")) {
+    const std::string name = search.at("name");
+    Json set = empty_set(folder, study["searches"].size() > 1 ? label + " · " + name : label,
+                         study.value(stamp_key, Json::object()));
+    set["campaign"] = study.value("scene", "");
+    if (std::filesystem::exists(recommended)) add_campaign(read_campaign_file(recommended), set);
+    const auto rows = std::ranges::find(table, name, &MarginTable::value_type::first);
+    set["margin"] =
+        margin_block(search, rows == table.end() ? std::vector<RequirementScales>{} : rows->second,
+                     set["confidence"]);
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+// ---- Sobol' indices
+
+Json sobol_effects(const Json& sensitivity, std::size_t most) {
+  Json effects = Json::array();
+  for (const auto& [name, output] : sensitivity.at("outputs").items()) {
+    std::vector<Json> of_output;
+    for (const auto& [draw, effect] : output.at("dispersions").items()) {
+      Json json{{"output", name}, {"draw", draw}};
+      for (const char* index : {"first", "total"}) {
+        const Json& value = effect.at(index);
+        json[index] = value.at("value");
+        json[std::string(index) + "_lower"] = value.at("lower");
+        json[std::string(index) + "_upper"] = value.at("upper");
+      }
+      if (!json["total"].is_null()) of_output.push_back(std::move(json));
+    }
+    std::ranges::stable_sort(of_output, std::ranges::greater{},
+                             [](const Json& effect) { return effect["total"].get<double>(); });
+    for (Json& effect : std::span(of_output).first(std::min(most, of_output.size())))
+      effects.push_back(std::move(effect));
+  }
+  return effects;
+}
+
+Json sobol_set(const std::filesystem::path& folder, const std::string& label) {
+  constexpr std::size_t most_effects = 12;
+  const SaltelliDesign design = read_design(folder);
+  const Json sensitivity = parse_json_file(folder / sensitivity_json_file);
+  Json set = empty_set(folder, label, stamp_json(stamp_of(design)));
+  add_campaign(design.campaign, set);
+  set["sensitivity"] = {{"kind", "sobol"}, {"effects", sobol_effects(sensitivity, most_effects)}};
+  return set;
+}
+
+// ---- rare events
+
+Json levels_json(const Json& repeat) {
+  Json levels = Json::array();
+  double probability = 1;
+  for (const Json& level : repeat.at("levels")) {
+    probability *= level.at("share").get<double>();
+    levels.push_back(
+        {{"threshold", level["threshold"]}, {"probability", page_number(probability)}});
+  }
+  return levels;
+}
+
+Json rare_set(const std::filesystem::path& folder, const std::string& label) {
+  const Json study = parse_json_file(folder / rare_json_file);
+  Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
+  Json likeliest = nullptr;
+  if (const Json& run = study.at("likeliest"); !run.is_null()) {
+    std::vector<Json> draws; // the furthest out first
+    for (const auto& [name, value] : run["draws"].items())
+      draws.push_back({{"name", name}, {"value", value}, {"sigma", run.at("z").at(name)}});
+    std::ranges::stable_sort(draws, std::ranges::greater{}, [](const Json& draw) {
+      return std::abs(draw["sigma"].get<double>());
+    });
+    likeliest = {{"distance", run["distance"]}, {"draws", draws}};
+  }
+  const Json& repeats = study.at("repeats");
+  set["rare"] = {{"text", study.at("event")},
+                 {"probability", study["probability"]},
+                 {"lower", study["lower"]},
+                 {"upper", study["upper"]},
+                 {"reached", study["reached"]},
+                 {"levels", repeats.empty() ? Json::array() : levels_json(repeats.front())},
+                 {"likeliest", std::move(likeliest)}};
+  return set;
+}
+
+/// What is broken in its files is told with the folder.
+template <class Read> auto reading(const std::filesystem::path& folder, Read read) {
+  try {
+    return read();
+  } catch (const Json::exception& error) {
+    throw SpecError({{folder.string(), "", error.what(), "the files of a study as it left them"}});
+  } catch (const std::out_of_range&) {
+    throw SpecError({{folder.string(), "", "a column that is missing",
+                      "the files of a study as it left them"}});
+  }
+}
+
+} // namespace
+
+bool is_study_folder(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / campaign_file)) return false;
+  return std::filesystem::exists(folder / margin_json_file) ||
+         std::filesystem::exists(folder / design_file) ||
+         std::filesystem::exists(folder / rare_json_file);
+}
+
+std::vector<Json> study_sets_json(const std::filesystem::path& folder, const std::string& label) {
+  return reading(folder, [&]() -> std::vector<Json> {
+    if (std::filesystem::exists(folder / margin_json_file)) return margin_sets(folder, label);
+    if (std::filesystem::exists(folder / design_file)) return {sobol_set(folder, label)};
+    return {rare_set(folder, label)};
+  });
+}
+
+} // namespace wingspread

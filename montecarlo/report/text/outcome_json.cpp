@@ -1,0 +1,115 @@
+#include "montecarlo/report/text/outcome_report.hpp"
+#include "montecarlo/results/summary/overtravel.hpp"
+
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+Json vector(const Eigen::Vector2d& v) {
+  return Json::array({json_number(v.x()), json_number(v.y())});
+}
+
+/// A number for each hinge, by name.
+Json by_hinge(const Scene& scene, const std::vector<double>& values) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    json[scene.hinges[i].name] = json_number(values[i]);
+  return json;
+}
+
+Json phases_json(const std::vector<Phase>& phases) {
+  Json json = Json::array();
+  for (const Phase& phase : phases)
+    json.push_back({{"method", phase.method},
+                    {"from", json_number(phase.from)},
+                    {"to", json_number(phase.to)},
+                    {"steps", phase.steps}});
+  return json;
+}
+
+Json latches_json(const Scene& scene, const Outcome& outcome) {
+  Json json = Json::array();
+  for (const LatchEvent& latch : outcome.latches)
+    json.push_back({{"hinge", scene.hinges[latch.hinge].name},
+                    {"time", json_number(latch.time)},
+                    {"rate", json_number(latch.rates[latch.hinge])},
+                    {"rates", by_hinge(scene, latch.rates)}});
+  return json;
+}
+
+Json peaks_json(const Scene& scene, const std::vector<Peak>& peaks, Status status) {
+  if (peaks.empty() || status == Status::failed) return nullptr;
+  Json json = Json::object();
+  for (std::size_t i = 0; i < peaks.size(); ++i)
+    json[scene.hinges[i].name] = {{"value", json_number(peaks[i].value)},
+                                  {"time", json_number(peaks[i].time)}};
+  return json;
+}
+
+Json overtravel_json(const Scene& scene, const Outcome& outcome) {
+  if (outcome.overtravel.empty() || outcome.status == Status::failed) return nullptr;
+  return by_hinge(scene, outcome.overtravel);
+}
+
+/// Nothing where no peak is known.
+Json peaks_final_json(const Outcome& outcome) {
+  const bool none = outcome.peak_moment.empty() && outcome.peak_force.empty();
+  return none || outcome.status == Status::failed ? Json(nullptr) : Json(outcome.peaks_final);
+}
+
+Json warnings_json(const Scene& scene, const Outcome& outcome) {
+  Json json = Json::array();
+  for (const Overtravel& overtravel : overtravels(scene, outcome))
+    json.push_back(warning(overtravel));
+  if (has_cut_peaks(outcome)) json.push_back(cut_peaks_warning);
+  return json;
+}
+
+Json final_json(const Scene& scene, const Configuration& final) {
+  return {{"angles", by_hinge(scene, final.angles)},
+          {"rates", by_hinge(scene, final.rates)},
+          {"base",
+           {{"position", vector(final.base_position)},
+            {"angle", json_number(final.base_angle)},
+            {"velocity", vector(final.base_velocity)},
+            {"rate", json_number(final.base_rate)}}}};
+}
+
+Json energy_json(const EnergyAudit& energy) {
+  return {{"initial", json_number(energy.initial)},
+          {"final", json_number(energy.final)},
+          {"drift_before_first_latch", json_number(energy.drift_before_first_latch)}};
+}
+
+} // namespace
+
+bool has_cut_peaks(const Outcome& outcome) {
+  const bool ran = outcome.status != Status::invalid && outcome.status != Status::failed;
+  const bool peaks = !outcome.peak_moment.empty() || !outcome.peak_force.empty();
+  return ran && peaks && !outcome.peaks_final;
+}
+
+Json outcome_json(const Scene& scene, const Outcome& outcome) {
+  const bool ran = outcome.status != Status::invalid;
+  const auto if_ran = [ran](const Json& json) { return ran ? json : Json(nullptr); };
+  return {{"status", to_string(outcome.status)},
+          {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
+          {"method", if_ran(methods_used(outcome))},
+          {"phases", if_ran(phases_json(outcome.phases))},
+          {"t_end", if_ran(json_number(outcome.t_end))},
+          {"latches", latches_json(scene, outcome)},
+          {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},
+          {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
+          {"peaks_final", peaks_final_json(outcome)},
+          {"overtravel", overtravel_json(scene, outcome)},
+          {"warnings", warnings_json(scene, outcome)},
+          {"final", if_ran(final_json(scene, outcome.final))},
+          {"energy", if_ran(energy_json(outcome.energy))},
+          {"work",
+           {{"steps", outcome.work.steps},
+            {"rejected", outcome.work.rejected},
+            {"rhs_evaluations", outcome.work.rhs_evaluations}}}};
+}
+
+} // namespace wingspread

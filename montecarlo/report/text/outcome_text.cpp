@@ -1,0 +1,100 @@
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/report/text/outcome_report.hpp"
+#include "montecarlo/results/summary/overtravel.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <span>
+
+namespace wingspread {
+namespace {
+
+constexpr std::size_t most_phases = 4;
+
+/// "to 60 s by dopri5"; of several phases "to 60 s: dopri5 to 4.82 s, rosenbrock_w to 60 s".
+std::string extent(const Outcome& outcome) {
+  const std::string end = fmt::format("to {:.6g} s", outcome.t_end);
+  if (outcome.phases.size() <= 1) return fmt::format("{} by {}", end, methods_used(outcome));
+  std::vector<std::string> parts;
+  for (const Phase& phase :
+       std::span(outcome.phases).first(std::min(outcome.phases.size(), most_phases)))
+    parts.push_back(fmt::format("{} to {:.4g} s", phase.method, phase.to));
+  const std::size_t left = outcome.phases.size() - parts.size();
+  return fmt::format("{}: {}", end, fmt::join(parts, ", ")) +
+         (left == 0 ? "" : " and " + counted(static_cast<long>(left), "more phase", "more phases"));
+}
+
+std::string ending(const Scene& scene, const Outcome& outcome) {
+  std::string text = fmt::format("{}: {}", scene.name, spaced(to_string(outcome.status)));
+  if (!outcome.reason.empty()) text += fmt::format(" ({})", outcome.reason);
+  if (outcome.status == Status::invalid) return text + '\n';
+  return text + fmt::format(", integrated {}\n", extent(outcome));
+}
+
+std::string latches(const Scene& scene, const Outcome& outcome) {
+  if (outcome.latches.empty()) return "\nno hinge latched\n";
+  std::string text = fmt::format("\n{:<24}{:>14}{:>16}\n", "LATCH", "time, s", "rate, rad/s");
+  for (const LatchEvent& latch : outcome.latches)
+    text += fmt::format("  {:<22}{:>14.6f}{:>16.6f}\n", scene.hinges[latch.hinge].name, latch.time,
+                        latch.rates[latch.hinge]);
+  return text;
+}
+
+std::string peak_columns(const std::vector<Peak>& peaks, std::size_t hinge) {
+  if (peaks.empty()) return fmt::format("{:>14}{:>12}", "–", "–");
+  return fmt::format("{:>14.4f}{:>12.6f}", peaks[hinge].value, peaks[hinge].time);
+}
+
+std::string peaks(const Scene& scene, const Outcome& outcome) {
+  const bool any = !outcome.peak_moment.empty() || !outcome.peak_force.empty();
+  if (!any || outcome.status == Status::failed) return "";
+  std::string text = fmt::format("\n{:<24}{:>15}{:>12}{:>14}{:>12}\n", "PEAK", "moment, N·m",
+                                 "at, s", "force, N", "at, s");
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i)
+    text += fmt::format("  {:<22}{} {}\n", scene.hinges[i].name,
+                        peak_columns(outcome.peak_moment, i), peak_columns(outcome.peak_force, i));
+  return text;
+}
+
+std::string final_state(const Scene& scene, const Outcome& outcome) {
+  const Configuration& final = outcome.final;
+  const bool watched = !outcome.overtravel.empty();
+  std::string text = fmt::format("\n{:<24}{:>14}{:>16}{}\n", "END", "angle, rad", "rate, rad/s",
+                                 watched ? "   overtravel, rad" : "");
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i)
+    text +=
+        fmt::format("  {:<22}{:>14.6g}{:>16.6g}{}\n", scene.hinges[i].name, final.angles[i],
+                    final.rates[i], watched ? fmt::format("{:>18.6g}", outcome.overtravel[i]) : "");
+  if (scene.base.motion != BaseMotion::fixed)
+    text += fmt::format("  {:<22}{:>14.6g}{:>16.6g}\n", "base", final.base_angle, final.base_rate);
+  return text;
+}
+
+std::string warnings(const Scene& scene, const Outcome& outcome) {
+  const std::vector<Overtravel> found = overtravels(scene, outcome);
+  const bool cut = has_cut_peaks(outcome);
+  std::string text = found.empty() && !cut ? "" : "\nWARNING\n";
+  for (const Overtravel& overtravel : found) text += fmt::format("  {}\n", warning(overtravel));
+  return cut ? text + fmt::format("  {}\n", cut_peaks_warning) : text;
+}
+
+std::string effort(const Outcome& outcome) {
+  const auto& [initial, final, drift] = outcome.energy;
+  const auto& [steps, rejected, evaluations] = outcome.work;
+  return fmt::format("\nEnergy {:.6g} J at the start, {:.6g} J at the end; it moved by at most "
+                     "{:.2g} J before the first latch.\n"
+                     "Work: {} steps, {} rejected, {} evaluations.\n",
+                     initial, final, drift, steps, rejected, evaluations);
+}
+
+} // namespace
+
+std::string outcome_text(const Scene& scene, const Outcome& outcome) {
+  if (outcome.status == Status::invalid) return ending(scene, outcome);
+  return ending(scene, outcome) + latches(scene, outcome) + peaks(scene, outcome) +
+         final_state(scene, outcome) + warnings(scene, outcome) + effort(outcome);
+}
+
+} // namespace wingspread

@@ -1,0 +1,33 @@
+#include "montecarlo/report/text/replay_report.hpp"
+
+#include "montecarlo/report/text/outcome_report.hpp"
+
+#include <fmt/format.h>
+
+namespace wingspread {
+
+Json replay_json(const Replayed& replayed, const Scene& scene) {
+  Json json = outcome_json(scene, replayed.outcome);
+  json["run"] = replayed.row.run;
+  json["draws"] = Json::object();
+  for (std::size_t i = 0; i < replayed.row.draws.size(); ++i)
+    json["draws"][replayed.names.draws[i]] = replayed.row.draws[i];
+  json["same_as_recorded"] = replayed.recorded ? Json(replayed.differences.empty()) : Json(nullptr);
+  return json;
+}
+
+std::string replay_text(const Replayed& replayed, const Scene& scene) {
+  std::string text = outcome_text(scene, replayed.outcome);
+  if (!replayed.row.draws.empty()) text += "\nDRAW\n";
+  for (std::size_t i = 0; i < replayed.row.draws.size(); ++i)
+    text += fmt::format("  {:<40}{:>24.17g}\n", replayed.names.draws[i], replayed.row.draws[i]);
+  if (!replayed.recorded)
+    text += fmt::format("\nRun {} is not in {}: there is nothing to compare it with.\n",
+                        replayed.row.run, replayed.file);
+  else if (replayed.differences.empty())
+    text +=
+        fmt::format("\nRun {} is the one in {}, bit for bit.\n", replayed.row.run, replayed.file);
+  return text;
+}
+
+} // namespace wingspread

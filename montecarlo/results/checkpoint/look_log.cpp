@@ -1,0 +1,123 @@
+#include "montecarlo/results/checkpoint/look_log.hpp"
+
+#include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/results/checkpoint/look_id.hpp"
+#include "montecarlo/results/checkpoint/row_records.hpp"
+#include "montecarlo/results/results_folder/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr char look_mark = 'L';
+
+/// What the first record says.
+Json about_in(RecordReader& in, const std::filesystem::path& file) {
+  if (!in.next())
+    throw SpecError({{file.string(), "", "a log whose first record is damaged",
+                      "one that says whose it is (it is of no use: take it away to begin anew)"}});
+  return parse_json(in.record(), file.string());
+}
+
+} // namespace
+
+void refuse_other_study(const std::filesystem::path& file, const Json& there, const Json& ours) {
+  std::vector<Problem> problems;
+  const Json values = ours.flatten();
+  for (const auto& [pointer, value] : values.items()) {
+    const Json::json_pointer at(pointer);
+    Json found = there.contains(at) ? there.at(at) : Json();
+    if (found.is_array()) found = found.size();
+    if (found != value)
+      problems.push_back(
+          {file.string(), pointer, found.dump(), value.dump() + ", to go on with what is there"});
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+Json about_of_log(const std::filesystem::path& file) {
+  RecordReader in(file);
+  return about_in(in, file);
+}
+
+LookLog::LookLog(std::filesystem::path file, Json about)
+    : file_(std::move(file)), about_(std::move(about)) {
+  if (!std::filesystem::exists(file_)) return;
+  in_.emplace(file_);
+  const Json there = about_in(*in_, file_);
+  refuse_other_study(file_, there, about_);
+  refuse_other_study(file_, about_, there); // what there is, and is not ours
+  read_ahead();
+}
+
+void LookLog::read_ahead() {
+  if (in_->next()) return;
+  end_ = in_->end();
+  damaged_ = in_->tail() == RecordsTail::damaged;
+  in_.reset();
+}
+
+bool LookLog::has(char mark) const { return in_ && in_->record().starts_with(mark); }
+
+SpecError LookLog::other_look(const std::string& id) const {
+  return SpecError(
+      {{file_.string(), "",
+        fmt::format("look {}: {}", looks_, has(look_mark) ? in_->record().substr(1) : "cut short"),
+        id + ": what this study asks for (shards that it was given with --from are to be given "
+             "again)"}});
+}
+
+bool LookLog::has_next(const RunPlan& plan, RunRange range) const {
+  return in_ && in_->record() == look_mark + look_id(plan, range);
+}
+
+void LookLog::begin(const std::string& id) {
+  if (!out_ && end_)
+    out_.emplace(file_, *end_);
+  else if (!out_)
+    out_.emplace(file_, about_.dump());
+  out_->add(look_mark + id);
+}
+
+long LookLog::enter(const RunPlan& plan, RunRange range, const BatchSink& sink,
+                    const std::atomic<bool>& stop) {
+  const std::string id = look_id(plan, range);
+  ++looks_;
+  if (!in_) {
+    begin(id);
+    return 0;
+  }
+  if (in_->record() != look_mark + id) throw other_look(id);
+  read_ahead();
+  RunRange left = range;
+  while (has(rows_mark) && !stop) {
+    Batch batch{rows_of_record(in_->record(), plan, left, file_.string()), {}};
+    left.first += std::ssize(batch.rows);
+    rows_ = read_ += std::ssize(batch.rows);
+    read_ahead();
+    if (!in_) refuse_other_row(plan, batch.rows.back(), file_);
+    if (sink.wants_csv)
+      for (const ResultRow& row : batch.rows) append_row(batch.csv, row);
+    sink.take(batch);
+  }
+  if (in_ && !stop && (left.size() > 0 || !has(look_mark))) throw other_look(id);
+  return range.size() - left.size();
+}
+
+void LookLog::add(const Batch& batch) {
+  if (!out_) out_.emplace(file_, *end_);
+  for_each_record(batch.rows, [&](std::string_view record) { out_->add(record); });
+  rows_ += std::ssize(batch.rows);
+  if (Clock::now() - synced_ < std::chrono::seconds(5)) return;
+  sync();
+}
+
+void LookLog::sync() {
+  if (out_) out_->sync();
+  synced_ = Clock::now();
+}
+
+} // namespace wingspread

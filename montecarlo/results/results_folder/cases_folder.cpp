@@ -1,0 +1,120 @@
+#include "montecarlo/results/results_folder/cases_folder.hpp"
+
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/nearest.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/results_folder/folder_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// `"cold", "ambient" or "hot"`.
+std::string names_of(const std::vector<CaseSpec>& cases) {
+  std::vector<std::string_view> names;
+  for (const CaseSpec& spec : cases) names.push_back(spec.name);
+  return quoted_list(names);
+}
+
+SpecError unknown_case(const std::vector<CaseSpec>& cases, const std::string& name) {
+  std::vector<std::string> names;
+  for (const CaseSpec& spec : cases) names.push_back(spec.name);
+  const std::string expected = cases.empty() ? "no case: the campaign has none"
+                                             : names_of(cases) + did_you_mean(name, names);
+  return SpecError({{"", "--case", fmt::format("\"{}\"", name), expected}});
+}
+
+/// The case that is meant; nothing where the campaign has none and none is named.
+const CaseSpec* find_case(const std::vector<CaseSpec>& cases, const std::string& name) {
+  if (cases.empty() && name.empty()) return nullptr;
+  if (name.empty())
+    throw SpecError({{"", "--case", "nothing", "one of the campaign's cases: " + names_of(cases)}});
+  const auto found = std::ranges::find(cases, name, &CaseSpec::name);
+  if (found == cases.end()) throw unknown_case(cases, name);
+  return &*found;
+}
+
+} // namespace
+
+bool is_cases_folder(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / campaign_file;
+  return std::filesystem::exists(file) && parse_json_file(file).contains("cases");
+}
+
+std::filesystem::path folder_of_case(const std::filesystem::path& folder, const std::string& name) {
+  if (name.empty() && !is_cases_folder(folder)) return folder;
+  const StoredCampaign whole = read_stored_campaign(folder);
+  return folder / find_case(whole.campaign.cases, name)->name;
+}
+
+std::vector<CaseSpec> chosen_cases(const Campaign& campaign, std::span<const std::string> names) {
+  for (const std::string& name : names) (void)find_case(campaign.cases, name);
+  std::vector<CaseSpec> chosen;
+  for (const CaseSpec& spec : campaign.cases)
+    if (names.empty() || std::ranges::find(names, spec.name) != names.end()) chosen.push_back(spec);
+  return chosen;
+}
+
+Campaign chosen_case(const Campaign& campaign, const std::string& name) {
+  const CaseSpec* spec = find_case(campaign.cases, name);
+  return spec ? campaign_of_case(campaign, *spec) : campaign;
+}
+
+CasesFolder::CasesFolder(std::filesystem::path folder, const Campaign& campaign,
+                         const std::optional<Shard>& shard, bool resume)
+    : stored_{std::move(folder), campaign, stamp_of(campaign, shard)} {
+  constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
+  if (!resume)
+    refuse_used_folder(stored_.folder, expected);
+  else if (!is_new_folder(stored_.folder))
+    (void)read_stored_campaign(stored_.folder); // before anything is made in what is no such folder
+  lock_.emplace(stored_.folder);
+  if (!resume) refuse_used_folder(stored_.folder, expected);
+  const std::filesystem::path file = stored_.folder / campaign_file;
+  if (!is_new_folder(stored_.folder))
+    refuse_other_campaign(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);
+  const std::string text = campaign_text(stored_.campaign, stored_.stamp);
+  if (read_text(file) != text) write_file(file, text);
+}
+
+std::vector<CaseSpec> made_cases(const StoredCampaign& whole) {
+  std::vector<CaseSpec> made;
+  for (const CaseSpec& spec : whole.campaign.cases)
+    if (std::filesystem::exists(whole.folder / spec.name / campaign_file)) made.push_back(spec);
+  return made;
+}
+
+CaseSummary case_summary(const StoredCampaign& stored, Summary summary) {
+  const bool partial = summary.runs < stored.runs().size() && !summary.stopped;
+  return {stored.campaign.of_case, std::move(summary), partial};
+}
+
+std::vector<CaseSummary> complete_cases(const StoredCampaign& whole,
+                                        std::vector<CaseSummary> known) {
+  std::vector<CaseSummary> all;
+  for (const CaseSpec& spec : made_cases(whole)) {
+    const auto found = std::ranges::find(known, spec.name, &CaseSummary::name);
+    if (found != known.end()) {
+      all.push_back(std::move(*found));
+      continue;
+    }
+    const StoredCampaign stored = read_stored_campaign(whole.folder / spec.name);
+    const FolderLock lock(stored.folder);
+    all.push_back(case_summary(stored, write_statistics(stored, read_stored_results(stored).results,
+                                                        stored.campaign.statistics)));
+  }
+  return all;
+}
+
+void write_cases_file(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
+                      const std::filesystem::path& to) {
+  if (!cases.empty())
+    write_file(to / cases_file, json_text(cases_json(cases, stamp_json(whole.stamp))));
+}
+
+} // namespace wingspread

@@ -1,0 +1,192 @@
+#include "montecarlo/results/results_folder/folder_writer.hpp"
+
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/results_folder/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wingspread {
+namespace {
+
+/// Why these runs cannot be added to those that are there; nothing when they can.
+std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaign& ours,
+                                      const Stamp& stamp) {
+  if (ours.sampling.runs < there.campaign.sampling.runs)
+    return "more can be added to them, but none taken away; run it into a new folder";
+  if (ours.sampling.design == DesignKind::latin_hypercube)
+    return "a Latin hypercube's strata, and so all of its draws, depend on the number of runs; "
+           "run it into a new folder";
+  if (!ours.until.empty() || !there.campaign.until.empty())
+    return "the checkpoints of a campaign that may stop early depend on the number of runs; run it "
+           "into a new folder";
+  if (stamp.shard || there.stamp.shard)
+    return "a shard's runs depend on the number of all; run it into a new folder";
+  return std::nullopt;
+}
+
+/// A value that two documents do not have in common; null: there is none.
+struct Difference {
+  std::string pointer;
+  const Json *found, *expected;
+};
+
+/// The deepest values that differ; arrays of different lengths are one.
+void find_differences(const Json& found, const Json& expected, const std::string& pointer,
+                      std::vector<Difference>& all) {
+  if (found.is_object() && expected.is_object()) {
+    for (const auto& [key, value] : found.items())
+      if (!expected.contains(key)) all.push_back({pointer + pointer_token(key), &value, nullptr});
+    for (const auto& [key, value] : expected.items()) {
+      const auto there = found.find(key);
+      if (there == found.end())
+        all.push_back({pointer + pointer_token(key), nullptr, &value});
+      else
+        find_differences(*there, value, pointer + pointer_token(key), all);
+    }
+  } else if (found.is_array() && expected.is_array() && found.size() == expected.size()) {
+    for (std::size_t i = 0; i < found.size(); ++i)
+      find_differences(found[i], expected[i], fmt::format("{}/{}", pointer, i), all);
+  } else if (found != expected) {
+    all.push_back({pointer, &found, &expected});
+  }
+}
+
+std::string describe_side(const Json* value) { return value ? describe_value(*value) : "nothing"; }
+
+/// What sets a campaign apart from the one that is there: the first values that differ, or hashes where the same values
+/// stand in another order.
+/// @param told the pointer of a problem that is known
+void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::string_view told,
+                        std::vector<Problem>& problems) {
+  constexpr std::size_t most_told = 5;
+  const std::string file = (there.folder / campaign_file).string();
+  const std::string hash = campaign_hash(ours.resolved);
+  if (there.stamp.hash == hash) return;
+  std::vector<Difference> all;
+  find_differences(there.campaign.resolved, ours.resolved, "", all);
+  std::string reason = all.empty() ? "the same values in another order" : "";
+  std::erase_if(all, [&](const Difference& each) { return each.pointer == told; });
+  for (std::size_t i = 0; i < std::min(all.size(), most_told); ++i)
+    problems.push_back({file, all[i].pointer,
+                        describe_side(all[i].found) + " (when the folder was made)",
+                        describe_side(all[i].expected) + " (now), to continue what is there"});
+  if (all.size() > most_told) reason = fmt::format("{} values differ", all.size());
+  if (!reason.empty())
+    problems.push_back({file, "/wingspread/hash", there.stamp.hash,
+                        fmt::format("{}, to continue what is there: {}", hash, reason)});
+}
+
+/// The looks that were taken when these rows had been made and more runs are added to them.
+std::vector<std::int64_t> looks_before(const Sampling& there, std::int64_t rows) {
+  std::vector<std::int64_t> looks = there.extended_from;
+  if (rows > 0 && (looks.empty() || rows > looks.back())) looks.push_back(rows);
+  return looks;
+}
+
+/// A shard cannot tell what all runs up to a checkpoint come to.
+void refuse_stopping_shard(const Campaign& campaign, const std::optional<Shard>& shard) {
+  if (shard && !campaign.until.empty())
+    throw SpecError({{"", "", describe(shard) + " of a campaign that may stop early",
+                      "all runs: only they tell when to stop"}});
+}
+
+} // namespace
+
+bool is_new_folder(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) return true;
+  if (!std::filesystem::is_directory(folder)) return false;
+  const auto is_nothing = [](const std::filesystem::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.ends_with(part_suffix) || name == lock_file;
+  };
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder), is_nothing);
+}
+
+void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, const Stamp& stamp) {
+  std::vector<Problem> problems;
+  const auto compare = [&](const char* key, const std::string& found, const std::string& expected) {
+    if (found != expected)
+      problems.push_back({(there.folder / campaign_file).string(),
+                          fmt::format("/wingspread/{}", key), found,
+                          fmt::format("{}, to continue what is there", expected)});
+  };
+  const std::int64_t found = there.campaign.sampling.runs, runs = ours.sampling.runs;
+  const auto fixed = found == runs ? std::nullopt : fixed_runs(there, ours, stamp);
+  if (fixed)
+    problems.push_back({(there.folder / campaign_file).string(), "/sampling/runs",
+                        std::to_string(found), fmt::format("{}: {}", runs, *fixed)});
+  Campaign same = ours; // but for the number of runs, which may grow
+  if (!fixed) override_sampling(same, found, std::nullopt);
+  refuse_differences(there, same, fixed ? "/sampling/runs" : "", problems);
+  compare("shard", describe(there.stamp.shard), describe(stamp.shard));
+  compare("version", there.stamp.version, stamp.version);
+  if (there.stamp.preview)
+    problems.push_back({(there.folder / campaign_file).string(), "/wingspread/preview",
+                        describe(*there.stamp.preview),
+                        "a folder that runs are made into: go on with the shards, and merge them"});
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+void refuse_used_folder(const std::filesystem::path& folder, const char* expected) {
+  if (is_new_folder(folder)) return;
+  const bool is_folder = std::filesystem::is_directory(folder);
+  throw SpecError(
+      {{folder.string(), "", is_folder ? "a folder with files in it" : "a file", expected}});
+}
+
+FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
+                           const std::optional<Shard>& shard, bool resume)
+    : stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)},
+      rows_(stored_.folder / runs_file, plan.names()) {
+  refuse_stopping_shard(stored_.campaign, shard);
+  constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
+  if (!resume)
+    refuse_used_folder(stored_.folder, expected);
+  else if (!is_new_folder(stored_.folder))
+    (void)read_stored_campaign(stored_.folder); // before anything is made in what is no such folder
+  lock_.emplace(stored_.folder);
+  const bool fresh = is_new_folder(stored_.folder);
+  if (!resume) refuse_used_folder(stored_.folder, expected);
+  if (!fresh) {
+    go_on(plan);
+  } else {
+    write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
+  }
+  rows_.open(plan.names());
+}
+
+void FolderWriter::go_on(const RunPlan& plan) {
+  const StoredCampaign there = read_stored_campaign(stored_.folder);
+  const Sampling& before = there.campaign.sampling;
+  if (stored_.campaign.sampling.extended_from.empty() &&
+      before.seed == stored_.campaign.sampling.seed)
+    note_extension(stored_.campaign, before.extended_from);
+  refuse_other_campaign(there, stored_.campaign, stored_.stamp);
+  ResultsFile read = read_stored_results(there);
+  refuse_other_rows(plan, read.results, stored_.folder / runs_file);
+  rows_.go_on_behind(std::move(read), stored_.runs().first);
+  if (before.runs < stored_.campaign.sampling.runs)
+    note_extension(stored_.campaign, looks_before(before, rows_.count()));
+  stored_.stamp = stamp_of(stored_.campaign, stored_.stamp.shard);
+  if (before.runs < stored_.campaign.sampling.runs)
+    write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
+}
+
+RunRange FolderWriter::remaining() const {
+  const RunRange runs = stored_.runs();
+  const long done = rows_.count();
+  const bool may_stop = !stored_.campaign.until.empty();
+  if (done >= runs.size() || (may_stop && is_complete(stored_, results())))
+    return {runs.first + done, runs.first + done};
+  return {runs.first + done, may_stop ? next_checkpoint(done, runs.size()) : runs.last};
+}
+
+} // namespace wingspread

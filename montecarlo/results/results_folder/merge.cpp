@@ -1,0 +1,199 @@
+#include "montecarlo/results/results_folder/merge.hpp"
+
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/results/results_folder/cases_folder.hpp"
+#include "montecarlo/results/results_folder/folder_writer.hpp"
+#include "montecarlo/results/results_folder/parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+void refuse_stopping(const StoredCampaign& stored) {
+  if (!stored.campaign.until.empty())
+    throw SpecError({{(stored.folder / campaign_file).string(), "/until",
+                      "a campaign that may stop early", "one that can have shards"}});
+}
+
+/// The campaign as one of its folders has it.
+StoredCampaign stored_in(const Part& part, const StoredCampaign& whole) {
+  StoredCampaign stored = whole;
+  stored.folder = part.folder;
+  stored.stamp = part.stamp;
+  return stored;
+}
+
+void find_present(Part& part, const StoredCampaign& whole) {
+  (void)for_each_stored_row(stored_in(part, whole),
+                            [&](const ResultRow& row) { part.add(row.run); });
+}
+
+/// Writes the rows in the order of their runs.
+/// @param parts complete, and no run in two of them
+void write_in_order(std::vector<Part> parts, const StoredCampaign& whole) {
+  constexpr std::size_t block_bytes = 1 << 16;
+  std::ranges::sort(parts, {}, [](const Part& part) { return part.own.first; });
+  WholeFile out(whole.folder / runs_file);
+  std::string lines;
+  append_header(lines, RunPlan(whole.campaign).names());
+  const auto take = [&](const ResultRow& row) {
+    append_row(lines, row);
+    if (lines.size() < block_bytes) return;
+    out.write(lines);
+    lines.clear();
+  };
+  for (const Part& part : parts) (void)for_each_stored_row(stored_in(part, whole), take);
+  out.write(lines);
+  out.finish();
+}
+
+/// An earlier merging of the same folders may have been cut off: it is done again. An earlier preview makes room.
+void refuse_other_folder(const std::filesystem::path& out, const std::string& text) {
+  const auto there = read_text(out / campaign_file);
+  if (there != text && !(there && read_stored_campaign(out).stamp.preview))
+    refuse_used_folder(out, "a new or an empty folder for the merged results");
+}
+
+/// What is to be merged, when nothing speaks against it.
+struct Merging {
+  StoredCampaign whole;
+  std::vector<Part> parts;
+  std::string campaign; ///< campaign.json's text
+};
+
+/// The cases that are in any of the folders, in the campaign's order.
+std::vector<CaseSpec> cases_in(const std::vector<std::filesystem::path>& folders) {
+  std::vector<CaseSpec> cases;
+  for (const CaseSpec& spec : read_stored_campaign(folders.front()).campaign.cases)
+    if (std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
+          return std::filesystem::exists(folder / spec.name / campaign_file);
+        }))
+      cases.push_back(spec);
+  return cases;
+}
+
+/// What makes the shards of a campaign again, as the first folder has it.
+ShardMaker maker_of(const std::vector<std::filesystem::path>& folders) {
+  const std::filesystem::path campaign = folders.front() / campaign_file;
+  ShardMaker maker{"wingspread run " + shell_word(campaign.string()), ""};
+  const std::vector<CaseSpec> made = cases_in(folders);
+  if (made.size() < read_stored_campaign(folders.front()).campaign.cases.size())
+    for (const CaseSpec& spec : made) maker.more += " --case " + shell_word(spec.name);
+  return maker;
+}
+
+/// Takes for a preview what is there of the runs, if some are missing.
+void preview(Merging& merging, PartFaults& faults) {
+  const long of = merging.whole.campaign.sampling.runs;
+  long there = 0;
+  for (const Part& part : merging.parts) there += part.count();
+  if (there == 0)
+    faults.add(Problem{merging.parts.front().folder.string(), "", "no runs", "at least one"});
+  if (there < of) merging.whole.stamp.preview = Preview{there, of};
+}
+
+/// Looks at the folders of a campaign, or of one of its cases, and notes what keeps them from being merged.
+/// @param of_case empty: the folders are those that were named; else the case's are in them
+/// @throws SpecError when they are no folders of one campaign
+Merging look_at(const std::vector<std::filesystem::path>& folders, const std::string& of_case,
+                const std::filesystem::path& out, MergeKind kind, PartFaults& faults) {
+  Merging merging;
+  auto& [whole, parts, text] = merging;
+  std::vector<Part> not_begun;
+  for (const std::filesystem::path& folder : folders) {
+    const std::filesystem::path its = of_case.empty() ? folder : folder / of_case;
+    if (!of_case.empty() && !std::filesystem::exists(its / campaign_file)) {
+      not_begun.push_back({its, folder, read_stored_campaign(folder).stamp, {}});
+      continue;
+    }
+    StoredCampaign stored = read_stored_campaign(its);
+    parts.push_back({its, folder, stored.stamp, stored.runs()});
+    if (parts.size() == 1) whole = std::move(stored);
+  }
+  refuse_strangers(parts, campaign_file);
+  refuse_stopping(whole);
+  for (Part& part : not_begun) {
+    part.own = shard_runs(whole.campaign.sampling.runs, part.stamp.shard);
+    parts.push_back(std::move(part));
+  }
+  whole.folder = out;
+  whole.stamp.shard.reset();
+  for (Part& part : parts) find_present(part, whole);
+  find_doubles(parts, faults);
+  if (kind == MergeKind::preview)
+    preview(merging, faults);
+  else
+    find_missing(parts, whole.campaign.sampling.runs, maker_of(folders), faults);
+  text = campaign_text(whole.campaign, whole.stamp);
+  refuse_other_folder(out, text);
+  return merging;
+}
+
+/// What was made of an earlier preview, and what was made of that.
+void drop_preview(const std::filesystem::path& folder) {
+  for (const char* file : {summary_file, histograms_json_file, histograms_csv_file, runs_file,
+                           "sensitivity.json", "sensitivity.csv", "report.html"})
+    std::filesystem::remove(folder / file);
+}
+
+/// @pre nothing speaks against it
+Summary write_merged(Merging&& merging) {
+  auto& [whole, parts, text] = merging;
+  const FolderLock lock(whole.folder);
+  refuse_other_folder(whole.folder, text);
+  if (read_text(whole.folder / campaign_file) != text) drop_preview(whole.folder);
+  write_file(whole.folder / campaign_file, text);
+  write_in_order(std::move(parts), whole);
+  return write_statistics(whole, read_stored_results(whole).results, whole.campaign.statistics);
+}
+
+} // namespace
+
+Summary merge_folders(const std::vector<std::filesystem::path>& folders,
+                      const std::filesystem::path& out, MergeKind kind) {
+  PartFaults faults;
+  Merging merging = look_at(folders, "", out, kind, faults);
+  faults.refuse();
+  return write_merged(std::move(merging));
+}
+
+std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& folders,
+                                     const std::filesystem::path& out, MergeKind kind) {
+  std::vector<Part> tops;
+  for (const auto& folder : folders)
+    tops.push_back({folder, folder, read_stored_campaign(folder).stamp, {}, {}});
+  refuse_strangers(tops, campaign_file);
+  StoredCampaign whole = read_stored_campaign(folders.front());
+  PartFaults faults;
+  std::vector<Merging> mergings; // all are looked at before anything is written
+  Preview all;
+  for (const CaseSpec& spec : cases_in(folders)) {
+    mergings.push_back(look_at(folders, spec.name, out / spec.name, kind, faults));
+    const Stamp& stamp = mergings.back().whole.stamp;
+    all.of += whole.campaign.sampling.runs;
+    all.runs += stamp.preview ? stamp.preview->runs : whole.campaign.sampling.runs;
+  }
+  faults.refuse();
+  whole.folder = out;
+  whole.stamp.shard.reset();
+  if (all.runs < all.of) whole.stamp.preview = all;
+  const std::string text = campaign_text(whole.campaign, whole.stamp);
+  refuse_other_folder(out, text);
+  const FolderLock lock(out);
+  refuse_other_folder(out, text);
+  write_file(out / campaign_file, text);
+  std::vector<CaseSummary> cases;
+  for (Merging& merging : mergings) {
+    const StoredCampaign stored = merging.whole;
+    cases.push_back(case_summary(stored, write_merged(std::move(merging))));
+  }
+  write_cases_file(whole, cases, out);
+  return cases;
+}
+
+} // namespace wingspread

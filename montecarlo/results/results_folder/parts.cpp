@@ -1,0 +1,208 @@
+#include "montecarlo/results/results_folder/parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// "runs 3 to 5, 8": for messages.
+class RunList {
+public:
+  void add(const RunRange& range) {
+    if (range.size() > 0 && ranges_.size() <= most)
+      ranges_.push_back(range); // one more than are shown
+  }
+  [[nodiscard]] bool empty() const { return ranges_.empty(); }
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    for (std::size_t i = 0; i < ranges_.size() && i < most; ++i) {
+      const auto& [first, last] = ranges_[i];
+      text += i == 0 ? "" : ", ";
+      text +=
+          last - first == 1 ? fmt::format("{}", first) : fmt::format("{} to {}", first, last - 1);
+    }
+    if (ranges_.size() > most) text += ", …";
+    return text;
+  }
+
+private:
+  static constexpr std::size_t most = 5;
+  std::vector<RunRange> ranges_;
+};
+
+RunRange common(const RunRange& a, const RunRange& b) {
+  return {std::max(a.first, b.first), std::min(a.last, b.last)};
+}
+
+/// What is left of the range.
+/// @param present in order
+std::vector<RunRange> missing_in(const RunRange& range, const std::vector<RunRange>& present) {
+  std::vector<RunRange> missing;
+  const auto add = [&](long first, long last) {
+    if (first < last) missing.push_back({first, last});
+  };
+  long next = range.first;
+  for (const RunRange& there : present) {
+    add(next, std::min(there.first, range.last));
+    next = std::max(next, there.last);
+  }
+  add(next, range.last);
+  return missing;
+}
+
+RunList listed(const std::vector<RunRange>& ranges) {
+  RunList list;
+  for (const RunRange& range : ranges) list.add(range);
+  return list;
+}
+
+/// "part2" → "part3": the folder's name with another shard's number in place of its own, where it has that.
+std::optional<std::filesystem::path> renumbered(const Part& part, long index) {
+  const std::string name = part.out.filename().string(),
+                    own = std::to_string(part.stamp.shard->index);
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::size_t at = name.find(own), behind = at + own.size();
+  if (at == std::string::npos || name.find(own, behind) != std::string::npos) return std::nullopt;
+  if ((at > 0 && is_digit(name[at - 1])) || (behind < name.size() && is_digit(name[behind])))
+    return std::nullopt;
+  return part.out.parent_path() /
+         (name.substr(0, at) + std::to_string(index) + name.substr(behind));
+}
+
+std::string command(const ShardMaker& maker, const std::filesystem::path& out,
+                    const std::optional<Shard>& shard, bool resume) {
+  std::string text = maker.command + " --out " + shell_word(out.string());
+  if (shard) text += fmt::format(" --shard {}/{}", shard->index, shard->of);
+  return text + maker.more + (resume ? " --resume" : "");
+}
+
+/// For a shard that no folder is of. One that is there, and was not named, is gone on with.
+std::string command_for(const ShardMaker& maker, const Part& sibling, const Shard& shard) {
+  const std::filesystem::path other =
+      sibling.out.parent_path() / fmt::format("shard_{}_of_{}", shard.index, shard.of);
+  const std::filesystem::path out = renumbered(sibling, shard.index).value_or(other);
+  return command(maker, out, shard, std::filesystem::exists(out));
+}
+
+/// The shards that lie in what nobody has, of those numbers of shards that there are.
+void add_commands(const std::vector<Part>& parts, const std::vector<RunRange>& nobodys, long runs,
+                  const ShardMaker& maker, PartFaults& faults) {
+  std::map<long, const Part*, std::greater<>> siblings; // by their number of shards
+  for (const Part& part : parts)
+    if (part.stamp.shard) siblings.try_emplace(part.stamp.shard->of, &part);
+  for (const RunRange& missing : nobodys) {
+    long next = missing.first; // of which no command is known yet
+    for (const auto& [of, sibling] : siblings)
+      for (Shard shard{1, of}; shard.index <= of && next < missing.last; ++shard.index) {
+        const RunRange own = shard_runs(runs, shard);
+        if (own.first != next || own.size() == 0 || own.last > missing.last) continue;
+        faults.add(command_for(maker, *sibling, shard));
+        next = own.last;
+      }
+  }
+}
+
+} // namespace
+
+void Part::add(long run) {
+  if (present.empty() || present.back().last != run) present.push_back({run, run});
+  ++present.back().last;
+}
+
+long Part::count() const {
+  long count = 0;
+  for (const RunRange& range : present) count += range.size();
+  return count;
+}
+
+void PartFaults::add(Problem problem) {
+  const auto is_same = [&](const Problem& other) { return to_string(other) == to_string(problem); };
+  if (std::ranges::none_of(problems_, is_same)) problems_.push_back(std::move(problem));
+}
+
+void PartFaults::add(std::string command) {
+  if (std::ranges::find(commands_, command) == commands_.end())
+    commands_.push_back(std::move(command));
+}
+
+void PartFaults::refuse() const {
+  if (!commands_.empty()) throw MissingRuns(problems_, commands_);
+  if (!problems_.empty()) throw SpecError(problems_);
+}
+
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view plain = "_@%+=:,./-";
+  const auto is_plain = [&](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           plain.find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string(R"('\'')") : std::string(1, c);
+  return quoted + "'";
+}
+
+void refuse_strangers(const std::vector<Part>& parts, const char* file) {
+  const Part& first = parts.front();
+  std::vector<Problem> problems;
+  for (const Part& part : parts) {
+    const std::string path = (part.folder / file).string();
+    const auto compare = [&](const char* key, const std::string& found, const std::string& ours) {
+      if (found != ours)
+        problems.push_back({path, fmt::format("/wingspread/{}", key), found,
+                            fmt::format("{}, as in {}", ours, first.folder.string())});
+    };
+    compare("hash", part.stamp.hash, first.stamp.hash);
+    compare("version", part.stamp.version, first.stamp.version);
+    if (part.stamp.preview)
+      problems.push_back({path, "/wingspread/preview", describe(*part.stamp.preview),
+                          "shards: what is merged has each run once"});
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
+void find_doubles(const std::vector<Part>& parts, PartFaults& faults) {
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    RunList twice;
+    std::string other;
+    for (std::size_t q = 0; q < p; ++q)
+      for (const RunRange& here : parts[p].present)
+        for (const RunRange& there : parts[q].present)
+          if (const RunRange both = common(here, there); both.size() > 0) {
+            twice.add(both);
+            other = parts[q].folder.string();
+          }
+    if (!twice.empty())
+      faults.add(Problem{parts[p].folder.string(), "",
+                         fmt::format("runs {}, which {} has too", twice.text(), other),
+                         "each run in one folder"});
+  }
+}
+
+void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& maker,
+                  PartFaults& faults) {
+  std::vector<RunRange> somebodys;
+  for (const Part& part : parts) {
+    somebodys.push_back(part.own);
+    const RunList missing = listed(missing_in(part.own, part.present));
+    if (missing.empty()) continue;
+    faults.add(Problem{
+        part.folder.string(), "", fmt::format("no runs {}", missing.text()),
+        fmt::format("{} complete (run it again with --resume)", describe(part.stamp.shard))});
+    faults.add(command(maker, part.out, part.stamp.shard, true));
+  }
+  std::ranges::sort(somebodys, {}, &RunRange::first);
+  const std::vector<RunRange> nobodys = missing_in({0, runs}, somebodys);
+  if (nobodys.empty()) return;
+  faults.add(Problem{"", "", fmt::format("no folder with runs {}", listed(nobodys).text()),
+                     fmt::format("folders with all of the campaign's {} runs", runs)});
+  add_commands(parts, nobodys, runs, maker, faults);
+}
+
+} // namespace wingspread

@@ -1,0 +1,232 @@
+#include "montecarlo/results/results_folder/results_folder.hpp"
+
+#include "montecarlo/engine/accuracy/accuracy.hpp"
+#include "montecarlo/engine/runs/row_reader.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/input_file.hpp"
+#include "montecarlo/foundation/formats/json_reader.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/summary/static_margins.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
+  std::filesystem::path path = folder / campaign_file;
+  if (!std::filesystem::is_directory(folder))
+    throw SpecError({{folder.string(), "", "no such folder", "a results folder"}});
+  if (!std::filesystem::exists(path))
+    throw SpecError({{folder.string(), "", fmt::format("no {} in it", campaign_file),
+                      "a results folder: one that `wingspread run` or `merge` wrote"}});
+  return path;
+}
+
+/// The stamp for summary.json, which also says when runs are missing.
+Json about(const StoredCampaign& stored, const Summary& summary) {
+  Json json = stamp_json(stored.stamp);
+  if (stored.foreign) json["foreign"] = true;
+  if (summary.runs < stored.runs().size() && !summary.stopped)
+    json["partial"] = {{"done", summary.runs}, {"of", stored.runs().size()}};
+  return json;
+}
+
+/// What decides when the campaign stops: at its own confidence, whatever the summary's.
+std::vector<GoalFound> goals_of(const Campaign& campaign, const Results& results,
+                                std::span<const Verdict> verdicts) {
+  return find_goals(campaign.until, results, verdicts,
+                    at_each_of(campaign.statistics.confidence, count_looks(campaign)));
+}
+
+/// Whether the rows up to a checkpoint meet every goal.
+bool goals_are_met(const Campaign& campaign, const Results& results) {
+  const auto decides = [](const StoppingGoal& goal) {
+    return std::holds_alternative<DecisionGoal>(goal);
+  };
+  std::vector<Verdict> verdicts;
+  if (std::ranges::any_of(campaign.until, decides))
+    verdicts = judge_campaign(campaign, results, count_looks(campaign));
+  return are_met(goals_of(campaign, results, verdicts));
+}
+
+void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, long looks,
+                          Summary& summary) {
+  for (std::size_t i = 0; i < results.outputs.size(); ++i) {
+    const RankedOutput ranks(results, results.outputs[i]);
+    for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
+      summary.outputs[i].tolerance_limits.push_back(
+          {tolerance, output_limits(ranks, tolerance, looks)});
+  }
+}
+
+/// Another tool's rows may do without what is recorded here, asked for or not, unless their campaign asks for it.
+void match_recorded(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
+  std::string header;
+  if (std::filesystem::exists(runs)) {
+    InputFile in(runs);
+    std::getline(in, header);
+  }
+  const auto named = document.find("outputs");
+  const auto match = [&](OutputFamily family, std::string_view name) {
+    const bool asked = named != document.end() && std::ranges::find(*named, name) != named->end();
+    if (!asked && header.find(name) == std::string::npos) campaign.outputs.erase(family);
+  };
+  match(OutputFamily::overtravel, "overtravel");
+  match(OutputFamily::peaks_final, peaks_final_column);
+  campaign.resolved["outputs"] = write_outputs(campaign.outputs);
+}
+
+StoredCampaign read_campaign_of(const std::filesystem::path& folder, bool may_be_foreign) {
+  const std::filesystem::path path = refuse_missing(folder);
+  StoredCampaign stored{folder, read_campaign_file(path), {}};
+  const Json document = parse_json_file(path);
+  if (may_be_foreign && !document.contains(stamp_key)) {
+    match_recorded(document, folder / runs_file, stored.campaign);
+    stored.stamp = stamp_of(stored.campaign, {});
+    stored.foreign = true;
+    return stored;
+  }
+  std::vector<Problem> problems;
+  stored.stamp = read_stamp(JsonCursor(document, path.string(), problems));
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  const std::string hash = campaign_hash(stored.campaign.resolved);
+  if (stored.stamp.hash != hash || stored.stamp.seed != stored.campaign.sampling.seed)
+    throw SpecError(
+        {{path.string(), fmt::format("/{}/hash", stamp_key),
+          fmt::format("\"{}\", with a campaign and seed of hash \"{}\"", stored.stamp.hash, hash),
+          "a campaign that nobody changed after it was run"}});
+  return stored;
+}
+
+} // namespace
+
+std::string campaign_text(const Campaign& campaign, const Stamp& stamp) {
+  Json json{{stamp_key, stamp_json(stamp)}};
+  for (const auto& [key, value] : campaign.resolved.items())
+    if (key != stamp_key) json[key] = value;
+  return json_text(json);
+}
+
+bool is_complete(const StoredCampaign& stored, const Results& results) {
+  const long done = std::ssize(results.runs), runs = stored.runs().size();
+  if (done >= runs) return true;
+  return is_checkpoint(done, runs) && goals_are_met(stored.campaign, results);
+}
+
+void add_nominal(const Campaign& campaign, Summary& summary) {
+  const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
+                                           goal_of(campaign.outputs), Observer{});
+  summary.nominal = {outcome.status, latch_order(campaign.scene, outcome), outcome.reason};
+  const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    summary.outputs[i].nominal = output_of(columns[i], outcome);
+}
+
+bool is_rowless(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / statistics_file);
+}
+
+std::string rows_file(const std::filesystem::path& folder) {
+  return is_rowless(folder) ? broken_runs_file : runs_file;
+}
+
+void refuse_rowless(const std::filesystem::path& folder) {
+  if (is_rowless(folder))
+    throw SpecError(
+        {{folder.string(), "", "a campaign that was run with --no-rows",
+          fmt::format("one with {}: what is asked for takes every run's row", runs_file)}});
+}
+
+StoredCampaign read_stored_campaign(const std::filesystem::path& folder) {
+  return read_campaign_of(folder, false);
+}
+
+StoredCampaign read_any_campaign(const std::filesystem::path& folder) {
+  return read_campaign_of(folder, true);
+}
+
+RowsRead for_each_stored_row(const StoredCampaign& stored,
+                             const std::function<void(const ResultRow&)>& take) {
+  const std::filesystem::path path = stored.folder / runs_file;
+  refuse_rowless(stored.folder);
+  if (!std::filesystem::exists(path)) return {};
+  InputFile in(path);
+  RowReader reader(in, path.string(), RunPlan(stored.campaign).names(),
+                   stored.foreign ? UnterminatedRow::read : UnterminatedRow::drop);
+  const auto [first, last] = stored.runs();
+  while (reader.next()) {
+    if (const long run = reader.row().run; run < first || run >= last)
+      throw SpecError({{path.string(), "", fmt::format("run {}", run),
+                        fmt::format("runs from {} up to {}, those of {}", first, last - 1,
+                                    describe(stored.stamp.shard))}});
+    take(reader.row());
+  }
+  return {reader.complete_bytes(), reader.unterminated()};
+}
+
+ResultsFile read_stored_results(const StoredCampaign& stored) {
+  ResultsFile read{Results(RunPlan(stored.campaign).names()), 0, false};
+  const RowsRead rows =
+      for_each_stored_row(stored, [&](const ResultRow& row) { read.results.append(row); });
+  read.complete_bytes = rows.complete_bytes;
+  read.unterminated = rows.unterminated;
+  const auto [first, last] = stored.runs();
+  const std::filesystem::path path = stored.folder / runs_file;
+  if (stored.foreign && !is_complete(stored, read.results))
+    throw SpecError(
+        {{path.string(), "", fmt::format("{} runs", read.results.size()),
+          fmt::format("all {} of the campaign: whatever became of them", last - first)}});
+  return read;
+}
+
+Summary stored_summary(const StoredCampaign& stored, const Results& results,
+                       const StatisticsSpec& spec, int threads) {
+  const Campaign& campaign = stored.campaign;
+  const long looks = count_looks(campaign);
+  StatisticsSpec at_a_look = spec;
+  at_a_look.confidence = at_each_of(spec.confidence, looks);
+  Summary summary =
+      summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
+  summary.confidence = spec.confidence;
+  summary.looks = looks;
+  summary.looked_at.assign(campaign.sampling.extended_from.begin(),
+                           campaign.sampling.extended_from.end());
+  summary.requirements = judge_campaign(campaign, results, looks);
+  if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
+  summary.until = goals_of(campaign, results, summary.requirements);
+  if (!stored.foreign) add_nominal(campaign, summary);
+  summary.overtravels = overtravels(campaign.scene, results);
+  if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
+  const bool whole = std::ssize(results.runs) == stored.runs().size();
+  summary.stopped = !whole && is_complete(stored, results);
+  if (!stored.foreign && !stored.stamp.shard && (whole || summary.stopped)) {
+    Campaign asked = campaign;
+    asked.statistics = spec;
+    summary.accuracy = measure_accuracy(asked, results, {.threads = threads});
+  }
+  return summary;
+}
+
+void write_summary_files(const StoredCampaign& stored, const Summary& summary) {
+  write_file(stored.folder / summary_file,
+             json_text(summary_json(summary, about(stored, summary))));
+  write_file(stored.folder / histograms_json_file, json_text(histograms_json(summary)));
+  write_file(stored.folder / histograms_csv_file, histograms_csv(summary));
+}
+
+Summary write_statistics(const StoredCampaign& stored, const Results& results,
+                         const StatisticsSpec& spec, int threads) {
+  Summary summary = stored_summary(stored, results, spec, threads);
+  write_summary_files(stored, summary);
+  return summary;
+}
+
+} // namespace wingspread

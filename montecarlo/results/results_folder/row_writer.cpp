@@ -1,0 +1,65 @@
+#include "montecarlo/results/results_folder/row_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace wingspread {
+
+RowWriter::RowWriter(std::filesystem::path file, const ResultNames& names)
+    : file_(std::move(file)), results_(names) {}
+
+void RowWriter::go_on_behind(ResultsFile&& read, long first) {
+  refuse_gaps(read.results, first, file_);
+  std::error_code why;
+  if (read.unterminated) std::filesystem::resize_file(file_, read.complete_bytes, why);
+  if (why) refuse_path(file_, why.value(), "a file that can be written");
+  results_ = std::move(read.results);
+  count_ = std::ssize(results_.runs);
+}
+
+void RowWriter::open(const ResultNames& names) {
+  out_.emplace(file_, OutputFile::From::end);
+  if (std::filesystem::file_size(file_) > 0) return;
+  std::string header;
+  append_header(header, names);
+  out_->write(header);
+}
+
+void RowWriter::add(const Batch& batch) {
+  out_->write(batch.csv);
+  count_ += std::ssize(batch.rows);
+  keep(batch);
+  if (Clock::now() - synced_ < std::chrono::seconds(10)) return;
+  out_->sync();
+  synced_ = Clock::now();
+}
+
+void RowWriter::keep(const Batch& batch) {
+  if (no_room_) return;
+  try {
+    for (const ResultRow& row : batch.rows) results_.append(row);
+  } catch (const MachineError& error) {
+    no_room_ = error;
+    results_ = {};
+  }
+}
+
+void RowWriter::finish() {
+  out_->sync();
+  out_->close();
+}
+
+const Results& RowWriter::results() const {
+  if (no_room_) throw *no_room_;
+  return results_;
+}
+
+void refuse_gaps(const Results& results, long first, const std::filesystem::path& file) {
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (const long expected = first + static_cast<long>(i); results.runs[i] != expected)
+      throw SpecError({{file.string(), "", fmt::format("run {}", results.runs[i]),
+                        fmt::format("run {}, the next one", expected)}});
+}
+
+} // namespace wingspread

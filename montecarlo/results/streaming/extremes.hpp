@@ -1,0 +1,54 @@
+/// The largest or smallest of many values, with the runs that they are from.
+#pragma once
+
+#include "montecarlo/results/streaming/state_file.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace wingspread {
+
+/// A value and its run.
+struct RunValue {
+  double value;
+  long run;
+  bool operator==(const RunValue&) const = default;
+};
+
+/// Up to so many: those at one end and, of equal ones, those of the lowest runs. The same whatever the order in which they
+/// come.
+class Extremes {
+public:
+  enum class End { lowest, highest };
+  Extremes(End end, std::size_t most) : sign_(end == End::lowest ? 1 : -1), most_(most) {}
+
+  /// @param value not NaN; infinite ones are values like any other
+  void add(double value, long run) {
+    const RunValue mine{sign_ * value, run};
+    if (heap_.size() == most_ && !is_before(mine, heap_.front())) return;
+    put(mine);
+  }
+  void add(const Extremes& other) {
+    for (const RunValue& each : other.heap_) add(sign_ * each.value, each.run);
+  }
+
+  [[nodiscard]] std::size_t size() const { return heap_.size(); }
+  /// From the end inwards.
+  [[nodiscard]] std::vector<RunValue> sorted() const;
+
+  void write(StateWriter& to) const;
+  void read(StateReader& from);
+
+private:
+  /// Nearer the end, by values that are turned so that it is the lower one.
+  static bool is_before(const RunValue& a, const RunValue& b) {
+    return a.value != b.value ? a.value < b.value : a.run < b.run;
+  }
+  void put(const RunValue& mine);
+
+  double sign_;
+  std::size_t most_;
+  std::vector<RunValue> heap_; ///< the one farthest from the end first
+};
+
+} // namespace wingspread

@@ -1,0 +1,123 @@
+/// All that is kept of a campaign's runs where their rows are not: counts, sums, extremes.
+///
+/// It does not depend on the order in which runs are added, nor on how they are shared out among several of these that are
+/// added together: everything in it is a whole number, a sum without rounding, or chosen by value and run. So the same runs
+/// give the same bytes on any number of threads, whatever was interrupted, and from shards.
+#pragma once
+
+#include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/results/streaming/population.hpp"
+#include "montecarlo/results/streaming/power_sums.hpp"
+#include "montecarlo/results/summary/reason_pattern.hpp"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// Latch orders beyond so many kinds, in the order in which they come, are counted together.
+inline constexpr std::size_t most_order_kinds = 100'000;
+/// Draws times outputs beyond which no correlations are kept: their sums would take hundreds of MB.
+inline constexpr std::size_t most_tally_pairs = 40'000;
+
+/// An output as a requirement or a tolerance limit reads it: over all runs, those that are worse than any number apart.
+struct RequiredOutput {
+  std::string output;
+  bool absolute = false;
+  std::size_t column = 0; ///< of the outputs, and behind them of the static margins
+  bool operator==(const RequiredOutput&) const = default;
+};
+
+/// Those of a campaign, each once. @param margins names of the static margins' columns
+[[nodiscard]] std::vector<RequiredOutput> required_outputs(const Campaign& campaign,
+                                                           const ResultNames& names,
+                                                           const std::vector<std::string>& margins);
+
+/// What breaks a requirement.
+struct RequirementTally {
+  long failures = 0, cut = 0; ///< cut: of them, deployed runs whose peak t_end cut
+  Extremes worst;             ///< how bad they are; infinite where worse than any number
+};
+
+struct RequiredPopulation {
+  Population values;
+  long worse = 0; ///< runs that are worse than any number
+};
+
+class RunTally {
+public:
+  /// Empty. @param pilot the campaign's first runs, from which it takes where values fall
+  RunTally(const Campaign& campaign, const ResultNames& names, const Results& pilot);
+  /// As it was written. @throws SpecError when it is damaged or of another campaign
+  RunTally(const Campaign& campaign, const ResultNames& names, StateReader& from);
+
+  /// @param margins the run's static margins that are required, in the order of static_margin_columns
+  /// @return whether the run is one to be kept: it did not deploy, or breaks a requirement
+  bool add(const ResultRow& row, std::span<const double> margins);
+  /// @pre of the same campaign, other runs
+  /// @throws SpecError when too many kinds of latch orders were counted for the two to be put together
+  void add(const RunTally& other);
+  void write(StateWriter& to) const;
+
+  [[nodiscard]] long runs() const { return runs_; }
+  [[nodiscard]] long count_of(Status status) const {
+    return status_[static_cast<std::size_t>(status)];
+  }
+
+  struct Output {
+    Population values;
+    Scale scale;
+    PowerSums sums;
+    long beyond_stowed = 0; ///< of an overtravel, those beyond most_overtravel
+  };
+  [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
+  [[nodiscard]] const std::vector<RequiredOutput>& required() const { return required_; }
+  [[nodiscard]] const std::vector<RequiredPopulation>& required_values() const {
+    return populations_;
+  }
+  [[nodiscard]] const std::vector<RequirementTally>& requirements() const { return tallies_; }
+  [[nodiscard]] const std::map<std::string, long>& latch_orders() const { return orders_; }
+  [[nodiscard]] long other_orders() const { return other_orders_; }
+  [[nodiscard]] const std::array<long, 3>& peaks() const { return peaks_; } ///< by PeaksFinal
+  struct Reason {
+    ReasonPattern pattern;
+    long count = 0;
+  };
+  using Reasons = std::map<std::pair<Status, std::vector<std::string>>, Reason>; ///< by words
+  [[nodiscard]] const Reasons& reasons() const { return reasons_; }
+  /// Each draw with each output and, as the last, `deployed`; nothing where there are too many of them.
+  [[nodiscard]] const std::optional<CoMoments>& correlations() const { return correlations_; }
+
+private:
+  RunTally(const Campaign& campaign, const ResultNames& names);
+  void add_outputs(const ResultRow& row);
+  bool add_requirements(const ResultRow& row, std::span<const double> margins);
+  void add_texts(const ResultRow& row);
+  void add_correlations(const ResultRow& row);
+  template <class Use> void each_part(const Use& use);
+
+  const Campaign* campaign_;
+  long runs_ = 0;
+  std::array<long, 5> status_{};
+  std::array<long, 3> peaks_{};
+  std::vector<Output> outputs_;
+  std::vector<bool> is_overtravel_;
+  std::vector<RequiredOutput> required_;
+  std::vector<bool> is_peak_; ///< of each of them
+  std::vector<RequiredPopulation> populations_;
+  std::vector<RequirementTally> tallies_;
+  std::vector<std::size_t>
+      population_of_; ///< each requirement's; none of "deployed": as many as there are
+  std::vector<Scale> draw_scales_;
+  std::optional<CoMoments> correlations_;
+  std::map<std::string, long> orders_;
+  long other_orders_ = 0;
+  Reasons reasons_;
+  std::vector<double> draw_z_, output_z_, seen_; ///< of one run; the last: required outputs
+};
+
+} // namespace wingspread

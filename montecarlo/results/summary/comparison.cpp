@@ -1,0 +1,189 @@
+#include "montecarlo/results/summary/comparison.hpp"
+
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <span>
+#include <tuple>
+
+namespace wingspread {
+namespace {
+
+constexpr int name_width = 46, case_width = 13;
+
+using Cases = std::span<const CaseSummary>;
+
+/// The less, the worse.
+auto standing(const Verdict& verdict) {
+  constexpr std::array rank{2, 0, 1}; // pass, fail, undecided
+  return std::tuple(rank[static_cast<std::size_t>(verdict.decision)],
+                    verdict.margin.value_or(-std::numeric_limits<double>::infinity()),
+                    verdict.share);
+}
+
+/// Each verdict had its chance of a false pass, in each of the cases.
+double joint_confidence_of(const std::vector<CaseSummary>& cases) {
+  std::vector<double> confidences;
+  for (const CaseSummary& each : cases)
+    for (const Verdict& verdict : each.summary.requirements)
+      confidences.push_back(verdict.requirement.confidence);
+  return joint_confidence(confidences);
+}
+
+/// What stands in each case's own summary.json, less the runs that break it.
+Json requirement_json(const std::vector<CaseSummary>& cases, const std::vector<Json>& summaries,
+                      std::size_t requirement) {
+  const std::size_t worst = worst_case(cases, requirement);
+  Json json =
+      write_requirements({&cases[worst].summary.requirements[requirement].requirement, 1}).front();
+  json["worst"] = cases[worst].name;
+  json["verdict"] = summaries[worst]["requirements"][requirement]["verdict"];
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Json& whole = summaries[i]["requirements"][requirement];
+    Json& its = json["cases"][cases[i].name];
+    for (const char* key :
+         {"verdict", "margin", "evidence", "runs", "failures", "observed", "guaranteed", "replay"})
+      if (whole.contains(key)) its[key] = whole[key];
+  }
+  return json;
+}
+
+// ---- the table
+
+using Cell = std::function<std::string(const CaseSummary&)>;
+
+/// A line with a cell for each case. A name that has no room in its column has a line of its own.
+std::string line(std::string_view name, Cases cases, const Cell& cell) {
+  std::string text = in_column(name, name_width);
+  for (const CaseSummary& each : cases) text += right_aligned(cell(each), case_width);
+  return text + '\n';
+}
+
+std::string heading(std::string_view name, Cases cases) {
+  return '\n' + line(name, cases, [](const CaseSummary& each) { return each.name; });
+}
+
+std::string outcome_lines(Cases cases) {
+  std::string text = heading("OUTCOME", cases);
+  text += line("  runs", cases,
+               [](const CaseSummary& each) { return std::to_string(each.summary.runs); });
+  for (std::size_t i = 0; i < statuses.size(); ++i)
+    text += line("  " + spaced(to_string(statuses[i])), cases,
+                 [i](const CaseSummary& each) { return percent(each.summary.statuses[i].rate); });
+  text += line("  the nominal wing", cases, [](const CaseSummary& each) {
+    return each.summary.nominal ? spaced(to_string(each.summary.nominal->status)) : "–";
+  });
+  return text;
+}
+
+std::string quantile_name(double p) {
+  return p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * p);
+}
+
+/// The mean, and of the quantiles the first and the last.
+std::string output_lines(const OutputSummary& output, std::size_t index, Cases cases) {
+  std::string text =
+      fmt::format("{}{}{}\n", output.name, *parse_output_name(output.name).unit ? ", " : "",
+                  parse_output_name(output.name).unit);
+  const auto of = [index](const CaseSummary& each) -> const OutputSummary& {
+    return each.summary.outputs[index];
+  };
+  text += line("  nominal", cases, [&](const CaseSummary& each) {
+    return of(each).nominal ? in_digits(*of(each).nominal) : "–";
+  });
+  text += line("  mean", cases,
+               [&](const CaseSummary& each) { return in_digits(of(each).moments.mean); });
+  const std::size_t count = output.quantiles.size();
+  for (std::size_t q = 0; q < count; q += std::max<std::size_t>(count - 1, 1))
+    text += line("  " + quantile_name(output.quantiles[q].p), cases,
+                 [&](const CaseSummary& each) { return in_digits(of(each).quantiles[q].value); });
+  return text;
+}
+
+std::string all_output_lines(Cases cases) {
+  const std::vector<OutputSummary>& outputs = cases.front().summary.outputs;
+  std::string text = outputs.empty() ? "" : heading("OUTPUT", cases);
+  for (std::size_t i = 0; i < outputs.size(); ++i) text += output_lines(outputs[i], i, cases);
+  return text;
+}
+
+std::string requirement_lines(const std::vector<CaseSummary>& all, Cases cases) {
+  const auto count = cases.front().summary.requirements.size();
+  if (count == 0) return "";
+  std::string text = heading("REQUIREMENT, runs that break it (and may)", cases);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto verdict = [i](const CaseSummary& each) -> const Verdict& {
+      return each.summary.requirements[i];
+    };
+    text += to_string(verdict(cases.front()).requirement) + '\n';
+    text += line("  worst: " + all[worst_case(all, i)].name, cases, [&](const CaseSummary& each) {
+      return std::string(to_string(verdict(each).decision));
+    });
+    text += line("", cases, [&](const CaseSummary& each) {
+      const auto& allowed = verdict(each).allowed;
+      return fmt::format("{} (may {})", verdict(each).failures(),
+                         allowed ? std::to_string(*allowed) : "–");
+    });
+  }
+  return text;
+}
+
+} // namespace
+
+std::size_t worst_case(const std::vector<CaseSummary>& cases, std::size_t requirement) {
+  const auto standing_in = [&](const CaseSummary& each) {
+    return standing(each.summary.requirements[requirement]);
+  };
+  return static_cast<std::size_t>(std::ranges::min_element(cases, {}, standing_in) - cases.begin());
+}
+
+Json cases_json(const std::vector<CaseSummary>& cases, const Json& about) {
+  std::vector<Json> summaries;
+  for (const CaseSummary& each : cases) summaries.push_back(summary_json(each.summary, {}));
+  Json json{{stamp_key, about}, {"cases", Json::object()}, {"outputs", Json::object()}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    Json& its = json["cases"][cases[i].name];
+    its = {{"runs", cases[i].summary.runs}, {"status", summaries[i]["status"]}};
+    if (summaries[i].contains("nominal")) its["nominal"] = summaries[i]["nominal"];
+    if (cases[i].partial) its["partial"] = true;
+    for (const auto& [output, statistics] : summaries[i]["outputs"].items())
+      json["outputs"][output][cases[i].name] = statistics;
+  }
+  json["requirements"] = Json::array();
+  for (std::size_t i = 0; i < cases.front().summary.requirements.size(); ++i)
+    json["requirements"].push_back(requirement_json(cases, summaries, i));
+  if (!cases.front().summary.requirements.empty())
+    json["joint_confidence"] = joint_confidence_of(cases);
+  json["definitions"] = {
+      {"worst", "failed before undecided before passed, then the least margin"},
+      {"draws", "the same in every case: differences between cases are the cases'"},
+      {"joint_confidence",
+       "at least this for all that pass in all cases together: 1 - the sum of (1 - c)"},
+      {"statistics", "as in each case's own summary.json"}};
+  return json;
+}
+
+std::string cases_table(const std::vector<CaseSummary>& cases, std::string_view title,
+                        std::string_view folder) {
+  constexpr std::size_t most_beside = (table_width - name_width) / case_width;
+  std::string text = std::string(title) + '\n';
+  for (std::size_t first = 0; first < cases.size(); first += most_beside) {
+    const Cases block = Cases(cases).subspan(first, std::min(most_beside, cases.size() - first));
+    text += outcome_lines(block) + all_output_lines(block) + requirement_lines(cases, block);
+  }
+  for (const CaseSummary& each : cases)
+    if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);
+  return text +
+         fmt::format("\nFILES  {}: cases.json, and a results folder for each case\n", folder);
+}
+
+} // namespace wingspread

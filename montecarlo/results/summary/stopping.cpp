@@ -1,0 +1,64 @@
+#include "montecarlo/results/summary/stopping.hpp"
+
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/outputs.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+GoalFound find(const WidthGoal& goal, const Results& results, double confidence) {
+  GoalFound found{goal, {}, false};
+  if (results.size() == 0) return found;
+  if (const auto status = status_named(goal.output)) {
+    const long hits = std::ranges::count(results.status, *status);
+    const Interval interval = clopper_pearson(hits, static_cast<long>(results.size()), confidence);
+    found.width = interval.upper - interval.lower;
+    found.met = *found.width <= goal.width;
+    return found;
+  }
+  const auto column = std::ranges::find(results.outputs, goal.output, &Column::name);
+  assert(column != results.outputs.end());
+  const std::vector<double> sorted = sorted_present(column->values);
+  column->values.release();
+  const Bounds bounds = quantile_bounds(sorted, *goal.quantile, confidence);
+  if (!bounds.lower || !bounds.upper) return found;
+  found.width = *bounds.upper - *bounds.lower;
+  const double unit = goal.relative ? std::abs(quantile(sorted, *goal.quantile)) : 1;
+  found.met = *found.width <= goal.width * unit;
+  return found;
+}
+
+/// Met when there is such a requirement, and each is passed or disproved.
+GoalFound find(const DecisionGoal& goal, std::span<const Verdict> verdicts) {
+  GoalFound found{goal, {}, false};
+  for (const Verdict& verdict : verdicts) {
+    if (name_of(verdict.requirement) != goal.requirement) continue;
+    found.met = is_decided(verdict);
+    if (!found.met) break;
+  }
+  return found;
+}
+
+} // namespace
+
+std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& results,
+                                  std::span<const Verdict> verdicts, double confidence) {
+  std::vector<GoalFound> found;
+  for (const StoppingGoal& goal : rule)
+    if (const WidthGoal* width = std::get_if<WidthGoal>(&goal))
+      found.push_back(find(*width, results, confidence));
+    else
+      found.push_back(find(std::get<DecisionGoal>(goal), verdicts));
+  return found;
+}
+
+bool are_met(std::span<const GoalFound> goals) {
+  return !goals.empty() && std::ranges::all_of(goals, &GoalFound::met);
+}
+
+} // namespace wingspread

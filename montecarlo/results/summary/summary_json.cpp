@@ -1,0 +1,369 @@
+#include "montecarlo/results/summary/summary_json.hpp"
+
+#include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/results/summary/verdict_json.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace wingspread {
+
+namespace {
+
+constexpr std::string_view replicates_agree =
+    "no bounds: all replicates agree, which says nothing about the error";
+
+/// Of bounds that hold at several looks at once.
+std::string at_looks(const Summary& summary) {
+  if (summary.looks == 1) return "";
+  if (!summary.looked_at.empty())
+    return fmt::format(", at a confidence of {:.10g}: of one look of {} at draws seen before",
+                       at_each_of(summary.confidence, summary.looks), summary.looks);
+  return fmt::format(
+      ", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints the "
+      "campaign stops",
+      at_each_of(summary.confidence, summary.looks), summary.looks);
+}
+
+/// Where bounds are from, for independent draws and for replicates.
+std::string source_of(const Summary& summary, const char* independent, const char* replicated) {
+  if (summary.replicates == 0) return independent + at_looks(summary);
+  if (summary.replicates == 1) return std::string(one_replicate);
+  return fmt::format("{} {} independent replicates", replicated, summary.replicates);
+}
+
+Json definitions(const Summary& summary) {
+  const bool independent = summary.replicates == 0;
+  Json json{
+      {"std", "divisor n - 1"},
+      {"mean_error",
+       independent ? "std / sqrt(count)" : source_of(summary, "", "spread of the means of")},
+      {"skewness", "G1 = m3/m2^1.5 sqrt(n(n - 1))/(n - 2), adjusted Fisher-Pearson"},
+      {"kurtosis", "G2 = (n - 1)/((n - 2)(n - 3)) ((n + 1)(m4/m2^2 - 3) + 6), excess"},
+      {"quantile", "order statistic of rank ceil(n p)"},
+      {"quantile_bounds", source_of(summary, "order statistics, binomial, two-sided",
+                                    "Woodruff: inverse of the pooled distribution, Student's t "
+                                    "over")},
+      {"rate_bounds", source_of(summary, "Clopper-Pearson, two-sided",
+                                "Korn-Graubard: Clopper-Pearson for the effective number of "
+                                "draws, Student's t over")},
+      {"spearman", "Pearson's of the mid-ranks"},
+      {"outputs", "over the runs in which they happened"},
+      {"requirements", independent
+                           ? "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; "
+                             "what did not deploy or happen counts against them"
+                           : "none: the draws depend on each other"}};
+  if (summary.nominal)
+    json["nominal"] =
+        "of the run with nothing dispersed; what drives others by tables is at its median";
+  if (summary.without_rows) {
+    json["quantile"] = "order statistic of rank ceil(n p): exact among the extremes that are kept, "
+                       "else by counts: within `within`, its rank off by rank_error at most";
+    json["quantile_bounds"] =
+        "order statistics, binomial, two-sided, at the outer edges of the bins "
+        "that they lie in";
+    json["spearman"] = "none: ranks take the rows";
+    json["histograms"] = "edges where the number of values below is known exactly";
+  }
+  if (summary.requirements.size() > 1)
+    json["joint_confidence"] =
+        "at least this for all that pass together: 1 - the sum of (1 - c) over all requirements";
+  if (summary.peaks)
+    json["peaks_final"] = "runs whose peaks are proven (true) or were cut by t_end (false): a cut "
+                          "peak breaks every requirement on it";
+  if (summary.accuracy)
+    json["accuracy"] = "runs chosen by their outcomes, edges and extremes, made again by the "
+                       "reference: largest and RMS difference; order_in_doubt: its status or latch "
+                       "order is another; standard_error: of the mean, by the number of runs";
+  if (!judge_groups(summary.requirements).empty())
+    json["groups"] = "m requirements of a group are judged at 1 - (1 - c)/m each, so that all of "
+                     "them together hold at c";
+  if (!summary.looked_at.empty())
+    json["extended"] =
+        "runs were added to draws whose results had been looked at: look k takes its "
+        "bounds and verdicts at 1 - (1 - c)/k; whoever takes the first of the looks "
+        "that suits has at most risk_of_all_looks times (1 - c)";
+  return json;
+}
+
+Json statuses_json(const Summary& summary) {
+  Json json = Json::object();
+  for (const StatusShare& share : summary.statuses) {
+    Json entry{{"count", share.count},
+               {"rate", json_number(share.rate)},
+               {"lower", json_number(share.bounds.lower)},
+               {"upper", json_number(share.bounds.upper)}};
+    if (!share.bounds.lower && summary.replicates > 0)
+      entry["note"] = summary.replicates == 1 ? one_replicate : replicates_agree;
+    json[to_string(share.status)] = std::move(entry);
+  }
+  return json;
+}
+
+Json nominal_json(const NominalRun& run) {
+  Json json{{"status", to_string(run.status)}, {"latch_order", run.latch_order}};
+  if (!run.reason.empty()) json["reason"] = run.reason;
+  return json;
+}
+
+void add_reasons(Json& json, const Summary& summary) {
+  json["reasons"] = Json::array();
+  long omitted = 0;
+  for (std::size_t i = 0; i < summary.reasons.size(); ++i) {
+    const auto& [status, reason, count] = summary.reasons[i];
+    if (i >= most_reasons)
+      omitted += count;
+    else
+      json["reasons"].push_back(
+          {{"status", to_string(status)}, {"reason", reason}, {"count", count}});
+  }
+  json["reasons_omitted"] = omitted;
+}
+
+void add_latch_orders(Json& json, const Summary& summary) {
+  json["latch_order"] = Json::object();
+  long omitted = summary.runs - summary.without_latch;
+  for (const auto& [order, count] : summary.latch_orders) {
+    json["latch_order"][order] = count;
+    omitted -= count;
+  }
+  json["latch_order_omitted"] = omitted;
+  json["latch_order_missing"] = summary.without_latch;
+}
+
+/// Why a bound of a quantile is null.
+std::string missing_bound(const Summary& summary, const OutputSummary& output) {
+  if (summary.replicates == 1) return std::string(one_replicate);
+  const long count = output.moments.count;
+  const std::string values = counted(count, "value", "values");
+  if (summary.replicates > 1)
+    return fmt::format("{} in {} replicates are too few, or agree too well, for every bound at a "
+                       "confidence of {}",
+                       values, summary.replicates, summary.confidence);
+  return fmt::format("{} are too few for every bound at a confidence of {}", values,
+                     summary.confidence);
+}
+
+Json quantiles_json(const Summary& summary, const OutputSummary& output) {
+  Json json = Json::array();
+  for (const auto& [p, value, bounds, error] : output.quantiles) {
+    Json entry{{"p", p},
+               {"value", json_number(value)},
+               {"lower", json_number(bounds.lower)},
+               {"upper", json_number(bounds.upper)}};
+    if (error) {
+      entry["rank_error"] = error->rank;
+      entry["within"] = {error->lower, error->upper};
+    }
+    if (!bounds.lower || !bounds.upper) entry["note"] = missing_bound(summary, output);
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+/// Why a tolerance limit is null.
+std::string missing_limit(const Summary& summary, const ToleranceLimitSpec& spec) {
+  const double c = at_each_of(spec.confidence, summary.looks);
+  const auto least = runs_to_show(spec.probability, c, spec.side == Side::both ? 1 : 0);
+  if (least && summary.runs >= *least)
+    return "no number: too many runs did not deploy or are without a value";
+  return fmt::format("{} runs are too few: it takes {}", summary.runs,
+                     least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
+}
+
+Json tolerance_json(const Summary& summary, const OutputSummary& output) {
+  Json json = Json::array();
+  for (const auto& [spec, limits] : output.tolerance_limits) {
+    Json entry{{"probability", spec.probability},
+               {"confidence", spec.confidence},
+               {"side", side_names[static_cast<std::size_t>(spec.side)]}};
+    if (spec.side != Side::upper) entry["lower"] = json_number(limits.lower);
+    if (spec.side != Side::lower) entry["upper"] = json_number(limits.upper);
+    const bool missing =
+        (spec.side != Side::upper && !limits.lower) || (spec.side != Side::lower && !limits.upper);
+    if (missing) entry["note"] = missing_limit(summary, spec);
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json output_json(const Summary& summary, const OutputSummary& output) {
+  const Moments& m = output.moments;
+  Json json{{"unit", parse_output_name(output.name).unit}};
+  if (output.nominal) json["nominal"] = json_number(output.nominal);
+  json.update({{"count", m.count},
+               {"missing", output.missing},
+               {"mean", json_number(m.mean)},
+               {"mean_error", json_number(output.mean_error)},
+               {"std", json_number(m.std)},
+               {"min", json_number(m.min)},
+               {"max", json_number(m.max)},
+               {"skewness", json_number(m.skewness)},
+               {"kurtosis", json_number(m.kurtosis)},
+               {"quantiles", quantiles_json(summary, output)}});
+  if (!output.tolerance_limits.empty()) json["tolerance"] = tolerance_json(summary, output);
+  return json;
+}
+
+/// The runs that break a requirement, and how to see one again.
+void add_broken(Json& json, const Verdict& verdict) {
+  const auto& broken = verdict.broken;
+  const auto shown = static_cast<std::ptrdiff_t>(std::min(broken.size(), most_broken));
+  json["broken"] = std::vector<long>(broken.begin(), broken.begin() + shown);
+  json["broken_omitted"] = verdict.failures() - shown;
+  if (!broken.empty()) json["replay"] = replay_command("DIR", broken.front());
+}
+
+Json verdict_json(const Summary& summary, const Verdict& verdict) {
+  Json json = write_requirements({&verdict.requirement, 1}).front();
+  json["verdict"] = to_string(verdict.decision);
+  json["margin"] = json_number(verdict.margin);
+  json["evidence"] = evidence(verdict);
+  json["runs"] = verdict.runs;
+  json.update(evidence_json(verdict));
+  if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
+  if (!verdict.requirement.group.empty()) json["confidence_alone"] = verdict.confidence_alone;
+  if (verdict.cut > 0) json["failures"]["peaks_cut"] = verdict.cut;
+  if (summary.looks > 1) json["confidence_at_each_look"] = verdict.confidence;
+  add_broken(json, verdict);
+  return json;
+}
+
+Json requirements_json(const Summary& summary) {
+  Json json = Json::array();
+  for (const Verdict& verdict : summary.requirements)
+    json.push_back(verdict_json(summary, verdict));
+  return json;
+}
+
+Json groups_json(std::span<const GroupVerdict> groups) {
+  Json json = Json::array();
+  for (const GroupVerdict& group : groups)
+    json.push_back({{"group", group.name},
+                    {"confidence", group.confidence},
+                    {"requirements", group.members},
+                    {"passed", group.passed},
+                    {"verdict", to_string(group.decision)}});
+  return json;
+}
+
+/// When the campaign stops, and how far it has come.
+Json until_json(const Summary& summary) {
+  Json goals = Json::array();
+  for (const auto& [goal, width, met] : summary.until) {
+    Json json = write_stopping_rule({goal}).front();
+    if (std::holds_alternative<WidthGoal>(goal)) json["found"] = json_number(width);
+    json["met"] = met;
+    goals.push_back(std::move(json));
+  }
+  return {{"stopped", summary.stopped}, {"checkpoints", summary.looks}, {"widths", goals}};
+}
+
+/// A campaign that was extended: at which numbers of runs it was looked at before, and what that costs.
+Json extended_json(const Summary& summary) {
+  double harmonic = 0; // look k takes α/k
+  for (long look = 1; look <= summary.looks; ++look) harmonic += 1.0 / static_cast<double>(look);
+  return {
+      {"looked_at", summary.looked_at}, {"looks", summary.looks}, {"risk_of_all_looks", harmonic}};
+}
+
+Json correlations_json(const Summary& summary) {
+  Json json = Json::object();
+  for (const auto& [draw, output, value] : summary.correlations)
+    json[draw][output] = {{"count", value.count},
+                          {"pearson", json_number(value.pearson)},
+                          {"spearman", json_number(value.spearman)}};
+  return json;
+}
+
+std::vector<double> densities(const Histogram& histogram) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) result.push_back(histogram.density(i));
+  return result;
+}
+
+} // namespace
+
+Json accuracy_json(const Summary& summary) {
+  if (!summary.accuracy) return nullptr;
+  const Accuracy& accuracy = *summary.accuracy;
+  Json outputs = Json::array();
+  for (std::size_t i = 0; i < accuracy.outputs.size(); ++i)
+    outputs.push_back({{"output", accuracy.outputs[i].output},
+                       {"largest", json_number(accuracy.outputs[i].largest)},
+                       {"rms", json_number(accuracy.outputs[i].rms)},
+                       {"standard_error", json_number(summary.outputs[i].mean_error)}});
+  Json json{{"runs", accuracy.runs},
+            {"method", accuracy.method},
+            {"rtol", accuracy.rtol},
+            {"reference_method", accuracy.reference_method},
+            {"reference_rtol", accuracy.reference_rtol},
+            {"order_in_doubt", std::ssize(accuracy.in_doubt)},
+            {"outputs", std::move(outputs)}};
+  if (!accuracy.in_doubt.empty()) json["in_doubt"] = accuracy.in_doubt;
+  if (accuracy.unreached > 0) json["unreached"] = accuracy.unreached;
+  return json;
+}
+
+Json summary_json(const Summary& summary, const Json& about) {
+  Json json{{stamp_key, about}, {"runs", summary.runs}, {"confidence", summary.confidence}};
+  if (summary.nominal) json["nominal"] = nominal_json(*summary.nominal);
+  json["status"] = statuses_json(summary);
+  add_reasons(json, summary);
+  add_latch_orders(json, summary);
+  if (summary.peaks)
+    json["peaks_final"] = {{"true", summary.peaks->proven},
+                           {"false", summary.peaks->cut},
+                           {"missing", summary.peaks->unknown}};
+  json["outputs"] = Json::object();
+  for (const OutputSummary& output : summary.outputs)
+    json["outputs"][output.name] = output_json(summary, output);
+  json["correlations"] = correlations_json(summary);
+  if (summary.accuracy) json["accuracy"] = accuracy_json(summary);
+  json["requirements"] = requirements_json(summary);
+  if (summary.requirements.size() > 1)
+    json["joint_confidence"] = joint_confidence(summary.requirements);
+  if (const auto groups = judge_groups(summary.requirements); !groups.empty())
+    json["groups"] = groups_json(groups);
+  if (const auto lines = warnings(summary); !lines.empty()) json["warnings"] = lines;
+  if (!summary.until.empty()) json["until"] = until_json(summary);
+  if (!summary.looked_at.empty()) json["extended"] = extended_json(summary);
+  json["definitions"] = definitions(summary);
+  return json;
+}
+
+Json histograms_json(const Summary& summary) {
+  Json json = Json::object();
+  for (const OutputSummary& output : summary.outputs)
+    json[output.name] = {{"unit", parse_output_name(output.name).unit},
+                         {"count", output.moments.count},
+                         {"missing", output.missing},
+                         {"edges", output.histogram.edges},
+                         {"counts", output.histogram.counts},
+                         {"density", densities(output.histogram)}};
+  return json;
+}
+
+std::string histograms_csv(const Summary& summary) {
+  std::string csv = "output,lower,upper,count,density\n";
+  for (const OutputSummary& output : summary.outputs) {
+    const Histogram& histogram = output.histogram;
+    for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+      append_csv_cell(csv, output.name);
+      append_csv_cells(csv, histogram.edges[i], histogram.edges[i + 1], histogram.counts[i],
+                       histogram.density(i));
+      csv += '\n';
+    }
+  }
+  return csv;
+}
+
+} // namespace wingspread

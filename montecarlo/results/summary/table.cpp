@@ -1,0 +1,319 @@
+#include "montecarlo/results/summary/table.hpp"
+
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+
+namespace wingspread {
+
+namespace {
+
+constexpr std::size_t most_lines = 8; ///< of reasons and of latch orders
+constexpr std::size_t columns_per_block = 6, label_width = 19, number_width = 11; // of outputs
+
+std::string percent_bounds(const Bounds& bounds) {
+  if (!bounds.lower || !bounds.upper) return "–";
+  return percent_range(*bounds.lower, *bounds.upper);
+}
+
+double share_of(long count, long runs) {
+  return static_cast<double>(count) / static_cast<double>(runs);
+}
+
+std::string outcomes(const Summary& summary) {
+  const std::string bounds = fmt::format("{:g} % bounds", 100 * summary.confidence);
+  std::string text =
+      fmt::format("\n{:<50}{:>10}{:>12}{:>26}\n", "OUTCOME", "runs", "share", bounds);
+  for (const StatusShare& share : summary.statuses)
+    text += fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", spaced(to_string(share.status)),
+                        share.count, percent(share.rate), percent_bounds(share.bounds));
+  if (summary.nominal)
+    text +=
+        fmt::format("  {:<48}{}\n", "the nominal wing", spaced(to_string(summary.nominal->status)));
+  if (summary.replicates == 1) text += fmt::format("  {}\n", one_replicate);
+  return text;
+}
+
+std::string reasons(const Summary& summary) {
+  if (summary.reasons.empty()) return "";
+  std::string text = fmt::format("\n{:<12}{:>8}  {}\n", "WHY", "runs", "reason");
+  const std::size_t shown = std::min(summary.reasons.size(), most_lines);
+  for (const auto& [status, reason, count] : std::span(summary.reasons).first(shown))
+    text +=
+        fmt::format("  {:<10}{:>8}  {}\n", spaced(to_string(status)), count, wrapped(reason, 22));
+  if (shown < summary.reasons.size())
+    text +=
+        fmt::format("  and {} other reasons, in summary.json\n", summary.reasons.size() - shown);
+  return text;
+}
+
+std::string latch_orders(const Summary& summary) {
+  std::string text = fmt::format("\n{:<50}{:>10}{:>12}\n", "LATCH ORDER", "runs", "share");
+  const auto line = [&](std::string_view order, long count) {
+    text += fmt::format("{}{:>10}{:>12}\n", in_column(fmt::format("  {}", order), 50), count,
+                        percent(share_of(count, summary.runs)));
+  };
+  const std::size_t shown = std::min(summary.latch_orders.size(), most_lines);
+  long others = summary.runs - summary.without_latch;
+  for (const auto& [order, count] : std::span(summary.latch_orders).first(shown)) {
+    line(order, count);
+    others -= count;
+  }
+  if (others > 0)
+    line(fmt::format("{} other orders", summary.latch_order_kinds - static_cast<long>(shown)),
+         others);
+  if (summary.without_latch > 0) line("no latch", summary.without_latch);
+  return text;
+}
+
+/// A column of numbers in the table of outputs.
+struct NumberColumn {
+  std::string heading;
+  std::function<double(const OutputSummary&)> value;
+};
+
+std::vector<NumberColumn> number_columns(const Summary& summary) {
+  std::vector<NumberColumn> columns{{"mean", [](const OutputSummary& o) { return o.moments.mean; }},
+                                    {"std", [](const OutputSummary& o) { return o.moments.std; }}};
+  if (summary.nominal)
+    columns.insert(columns.begin(), {"nominal", [](const OutputSummary& o) { return *o.nominal; }});
+  if (summary.outputs.empty()) return columns;
+  const auto& quantiles = summary.outputs.front().quantiles;
+  for (std::size_t i = 0; i < quantiles.size(); ++i)
+    columns.push_back(
+        {quantiles[i].p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * quantiles[i].p),
+         [i](const OutputSummary& o) { return o.quantiles[i].value; }});
+  return columns;
+}
+
+std::string label(const OutputName& name) {
+  return name.quantity == "rate_at" ? "rate at " + name.other : spaced(name.quantity);
+}
+
+/// With a digit less where five leave no blank before the column.
+std::string in_number_column(double value) {
+  const std::string text = in_digits(value);
+  const bool fits = count_characters(text) < number_width;
+  return right_aligned(fits ? text : fmt::format("{:#.4g}", value), number_width);
+}
+
+std::string output_line(const OutputSummary& output, std::span<const NumberColumn> columns) {
+  const OutputName name = parse_output_name(output.name);
+  std::string text = fmt::format("{}{:<6}{:>9}", in_column("  " + label(name), label_width),
+                                 name.unit, output.moments.count);
+  for (const NumberColumn& column : columns) text += in_number_column(column.value(output));
+  return text + '\n';
+}
+
+std::string output_block(const Summary& summary, std::span<const NumberColumn> columns) {
+  std::string text = fmt::format("\n{:<{}}{:<6}{:>9}", "OUTPUT", label_width, "unit", "runs");
+  for (const NumberColumn& column : columns) text += right_aligned(column.heading, number_width);
+  text += '\n';
+  for (const char* previous = nullptr; const OutputSummary& output : summary.outputs) {
+    const std::string hinge = parse_output_name(output.name).hinge;
+    if (!previous || hinge != parse_output_name(previous).hinge)
+      text += fmt::format("{}\n", hinge.empty() ? "wing" : hinge);
+    text += output_line(output, columns);
+    previous = output.name.c_str();
+  }
+  return text;
+}
+
+/// As many blocks as it takes to keep the lines within the width.
+std::string outputs(const Summary& summary) {
+  if (summary.outputs.empty()) return "";
+  const std::vector<NumberColumn> columns = number_columns(summary);
+  std::string text;
+  for (std::size_t first = 0; first < columns.size(); first += columns_per_block) {
+    const std::size_t count = std::min(columns_per_block, columns.size() - first);
+    text += output_block(summary, std::span(columns).subspan(first, count));
+  }
+  const auto incomplete = [](const OutputSummary& output) { return output.missing > 0; };
+  if (std::ranges::any_of(summary.outputs, incomplete))
+    text += fmt::format("\nEach output over the runs in which it happened, of {}.\n", summary.runs);
+  return text;
+}
+
+/// An error: two digits.
+std::string in_two_digits(double error) {
+  return std::isnan(error) ? "–" : fmt::format("{:.2g}", error);
+}
+
+/// What the integration contributes to each output, beside what the number of runs does.
+std::string accuracy(const Summary& summary) {
+  if (!summary.accuracy) return "";
+  const Accuracy& found = *summary.accuracy;
+  std::string text =
+      fmt::format("\n{:<38}{:<6}{:>14}{:>14}{:>18}{:>10}\n", "ACCURACY of the integration", "unit",
+                  "largest error", "RMS error", "error of the mean", "RMS/that");
+  for (std::size_t i = 0; i < found.outputs.size(); ++i) {
+    const auto& [name, runs, largest, rms] = found.outputs[i];
+    const double sampling = summary.outputs[i].mean_error, share = 100 * rms / sampling;
+    text += fmt::format(
+        "{}{:<6}{}{}{}{}\n", in_column("  " + name, 38), parse_output_name(name).unit,
+        right_aligned(in_two_digits(largest), 14), right_aligned(in_two_digits(rms), 14),
+        right_aligned(in_two_digits(sampling), 18),
+        right_aligned(std::isfinite(share) ? fmt::format("{:.1g} %", share) : "–", 10));
+  }
+  std::string note = fmt::format(
+      "{} of {} runs again by {} at rtol {:g} ({} at {:g} before): status or order of "
+      "latching in doubt in {}.",
+      found.runs, summary.runs, found.reference_method, found.reference_rtol, found.method,
+      found.rtol, found.in_doubt.empty() ? "none" : fmt::format("{}", found.in_doubt.size()));
+  if (!found.in_doubt.empty())
+    note += fmt::format(" They are runs {}.", fmt::join(found.in_doubt, ", "));
+  if (found.unreached > 0)
+    note += fmt::format(" {} more could not be finished so.", found.unreached);
+  return text + "  " + wrapped(note, 2) + '\n';
+}
+
+std::string in_digits_if_any(const std::optional<double>& value) {
+  return value ? in_digits(*value) : "–";
+}
+
+/// A line for each output and each limit asked for.
+std::string tolerance(const Summary& summary) {
+  std::string text;
+  for (const OutputSummary& output : summary.outputs)
+    for (const auto& [spec, limits] : output.tolerance_limits) {
+      const std::string content =
+          fmt::format("{:.10g} % at {:.10g} %", 100 * spec.probability, 100 * spec.confidence);
+      text += fmt::format("{}{}{:>14}{:>14}\n", in_column("  " + output.name, 44),
+                          in_column(content, 28),
+                          spec.side == Side::upper ? "" : in_digits_if_any(limits.lower),
+                          spec.side == Side::lower ? "–" : in_digits_if_any(limits.upper));
+    }
+  if (text.empty()) return "";
+  return fmt::format("\n{:<44}{:<28}{:>14}{:>14}\n", "TOLERANCE LIMITS", "content, confidence",
+                     "lower", "upper") +
+         text;
+}
+
+/// The worst of the runs that break a requirement, and how to see the first again.
+std::string broken_runs(const Verdict& verdict, std::string_view folder) {
+  constexpr std::size_t most = 6;
+  if (verdict.broken.empty() || folder.empty()) return "";
+  std::string text = "    " + replay_command(folder, verdict.broken.front());
+  for (std::size_t i = 1; i < std::min(verdict.broken.size(), most); ++i)
+    text += fmt::format("{}{}", i == 1 ? "   and " : ", ", verdict.broken[i]);
+  return text + (verdict.broken.size() > most ? ", …\n" : "\n");
+}
+
+/// Which requirements hold together at the confidence that they share.
+std::string groups(const Summary& summary) {
+  std::string text;
+  for (const auto& [name, confidence, members, passed, decision] :
+       judge_groups(summary.requirements))
+    text += fmt::format("  group {}: {}: {} of {} pass, all together at {:.10g} %\n", name,
+                        to_string(decision), passed, members, 100 * confidence);
+  return text;
+}
+
+std::string requirements(const Summary& summary, std::string_view folder) {
+  if (summary.requirements.empty()) return "";
+  std::string text = fmt::format("\n{:<46}{:<10}{:>8}{:>8}{:>13}{:>13}\n", "REQUIREMENT", "verdict",
+                                 "broken", "may", "observed", "guaranteed");
+  for (const Verdict& verdict : summary.requirements) {
+    const bool share = verdict.requirement.output == deployed_output;
+    text += fmt::format(
+        "{}{:<10}{:>8}{:>8}{:>13}{:>13}\n", in_column("  " + to_string(verdict.requirement), 46),
+        to_string(verdict.decision), verdict.failures(),
+        verdict.allowed ? std::to_string(*verdict.allowed) : "–",
+        share ? percent(verdict.share) : in_digits_if_any(verdict.observed),
+        share ? percent(verdict.guaranteed_share) : in_digits_if_any(verdict.guaranteed));
+    if (verdict.decision != Decision::pass) text += "    " + wrapped(evidence(verdict), 4) + '\n';
+    text += broken_runs(verdict, folder);
+  }
+  text += groups(summary);
+  const auto passes = [](const Verdict& verdict) { return verdict.decision == Decision::pass; };
+  if (std::ranges::count_if(summary.requirements, passes) > 1)
+    text +=
+        fmt::format("  Those that pass hold each for itself; all together at {:.10g} % or more.\n",
+                    100 * joint_confidence(summary.requirements));
+  return text;
+}
+
+std::string warning_lines(const Summary& summary) {
+  const std::vector<std::string> lines = warnings(summary);
+  std::string text = lines.empty() ? "" : "\nWARNING\n";
+  for (const std::string& line : lines) text += "  " + wrapped(line, 2) + '\n';
+  return text;
+}
+
+std::string stopping(const Summary& summary) {
+  if (summary.until.empty()) return "";
+  std::string text =
+      fmt::format("\n{:<58}{:>20}{:>20}\n", "UNTIL THE INTERVAL'S WIDTH IS", "found", "reached");
+  for (const auto& [goal, width, met] : summary.until) {
+    const bool decision = std::holds_alternative<DecisionGoal>(goal);
+    const std::string found = decision ? (met ? "decided" : "open") : in_digits_if_any(width);
+    text += fmt::format("{}{:>20}{:>20}\n", in_column("  " + to_string(goal), 58), found,
+                        met ? "yes" : "no");
+  }
+  return text;
+}
+
+std::string files(const Summary& summary, std::string_view folder) {
+  if (folder.empty()) return "";
+  return fmt::format("\nFILES  {}: {}, summary.json, histograms.json, histograms.csv\n", folder,
+                     summary.without_rows ? "broken_runs.csv, extremes.csv" : "runs.csv");
+}
+
+/// Neighbouring bins put together, so that at most `most` are left.
+Histogram coarser(const Histogram& histogram, std::size_t most) {
+  const std::size_t group = (histogram.counts.size() + most - 1) / most;
+  if (group <= 1) return histogram;
+  Histogram result{{histogram.edges.front()}, {}};
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    if (i % group == 0) {
+      result.counts.push_back(0);
+      result.edges.push_back(0);
+    }
+    result.counts.back() += histogram.counts[i];
+    result.edges.back() = histogram.edges[i + 1];
+  }
+  return result;
+}
+
+/// A bar of `eighths` eighths of a column.
+std::string bar(long eighths) {
+  constexpr std::array partial{"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
+  std::string text;
+  for (long full = 0; full < eighths / 8; ++full) text += "█";
+  return text + partial[static_cast<std::size_t>(eighths % 8)];
+}
+
+} // namespace
+
+std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
+  return std::string(title) + '\n' + outcomes(summary) + reasons(summary) + latch_orders(summary) +
+         outputs(summary) + accuracy(summary) + tolerance(summary) + requirements(summary, folder) +
+         stopping(summary) + warning_lines(summary) + files(summary, folder);
+}
+
+std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,
+                           int width) {
+  std::string text = unit.empty() ? std::string(name) : fmt::format("{}, {}", name, unit);
+  text += histogram.counts.empty() ? "\n  no values\n" : "\n";
+  if (histogram.counts.empty()) return text;
+  const Histogram bins = coarser(histogram, 20);
+  double highest = 0;
+  for (std::size_t i = 0; i < bins.counts.size(); ++i) highest = std::max(highest, bins.density(i));
+  const double eighths = 8.0 * (width - 24);
+  for (std::size_t i = 0; i < bins.counts.size(); ++i)
+    text += fmt::format("{:>12.6g} │{:<{}}{:>9}\n", bins.edges[i],
+                        bar(std::lround(eighths * bins.density(i) / highest)), width - 23,
+                        bins.counts[i]);
+  return text + fmt::format("{:>12.6g} ┘\n", bins.edges.back());
+}
+
+} // namespace wingspread

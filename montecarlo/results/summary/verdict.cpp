@@ -1,0 +1,270 @@
+#include "montecarlo/results/summary/verdict.hpp"
+
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// As good as infinite: a static margin where nothing resists.
+constexpr double no_number = std::numeric_limits<double>::max();
+
+/// How bad a run is: its value seen from the limit's side, so that larger is worse; the limit in
+/// the same way. Of "deployed", 0 where it did.
+struct Badness {
+  long run;
+  double value;
+};
+
+double sign_of(const Requirement& requirement) { return requirement.min ? -1 : 1; }
+
+double limit_of(const Requirement& requirement) {
+  if (requirement.max) return *requirement.max;
+  return requirement.min ? -*requirement.min : 0;
+}
+
+const Column* column_of(const Results& results, std::span<const Column> besides,
+                        const Requirement& requirement) {
+  for (const std::span<const Column> columns : {std::span(results.outputs), besides})
+    if (const auto found = std::ranges::find(columns, requirement.output, &Column::name);
+        found != columns.end())
+      return &*found;
+  assert(requirement.output == deployed_output);
+  return nullptr;
+}
+
+/// What is asked of an output's values before they are compared.
+struct Reading {
+  bool absolute = false;
+  bool is_peak = false; ///< one that t_end cut says nothing
+};
+
+Reading reading_of(const Column* column, bool absolute) {
+  return {absolute, column && is_peak(column->name)};
+}
+
+bool is_cut(const Results& results, std::size_t row, const Reading& how) {
+  return how.is_peak && results.peaks_final[row] == PeaksFinal::no;
+}
+
+/// The value, where the run deployed and has one that counts; else infinite.
+double value_or_infinite(const Results& results, std::size_t row, double value,
+                         const Reading& how) {
+  if (results.status[row] != Status::deployed || std::isnan(value) || is_cut(results, row, how))
+    return infinity;
+  return how.absolute ? std::abs(value) : value;
+}
+
+/// The numbers of the runs that break it, the worst first; those that are equally bad by their number.
+Spilled<long> breaking(const Requirement& requirement, const Results& results, const Column* column,
+                       long& cut) {
+  const double sign = sign_of(requirement), limit = limit_of(requirement);
+  const Reading how = reading_of(column, requirement.absolute);
+  Spilled<long> broken; // first those that are worse than any number, as they come: by their number
+  std::vector<Badness> beyond;
+  for (std::size_t row = 0; row < results.size(); ++row) {
+    const double value = value_or_infinite(results, row, column ? column->values[row] : 0, how);
+    if (value == infinity) {
+      broken.push_back(results.runs[row]);
+      cut += results.status[row] == Status::deployed && is_cut(results, row, how) ? 1 : 0;
+    } else if (sign * value > limit) {
+      beyond.push_back({results.runs[row], sign * value});
+    }
+  }
+  results.release();
+  std::ranges::sort(beyond, [](const Badness& a, const Badness& b) {
+    return a.value != b.value ? a.value > b.value : a.run < b.run;
+  });
+  for (const auto& [run, value] : beyond) broken.push_back(run);
+  return broken;
+}
+
+Decision decide(const Verdict& verdict) {
+  if (verdict.allowed)
+    return verdict.failures() <= *verdict.allowed ? Decision::pass : Decision::fail;
+  return verdict.disproved ? Decision::fail : Decision::undecided;
+}
+
+/// Fills in what is said of the output's own values.
+void add_values(const RankedOutput& output, Verdict& verdict) {
+  const Requirement& requirement = verdict.requirement;
+  const auto value_at = [&](long place) -> std::optional<double> { // the worst has place 0
+    const auto index = static_cast<std::size_t>(place);
+    const auto values = requirement.min ? output.worst_below() : output.worst_above();
+    const double value = values[requirement.min ? index : values.size() - 1 - index];
+    return std::abs(value) < no_number ? std::optional(value) : std::nullopt;
+  };
+  if (verdict.runs > 0)
+    verdict.observed =
+        value_at(verdict.runs - quantile_rank(verdict.runs, requirement.probability));
+  if (verdict.allowed) verdict.guaranteed = value_at(*verdict.allowed);
+  if (verdict.guaranteed)
+    verdict.margin = limit_of(requirement) - sign_of(requirement) * *verdict.guaranteed;
+  const auto numbers = output.numbers();
+  if (!numbers.empty())
+    verdict.beyond_zero = beyond_zero(numbers.front(), numbers.back(), requirement);
+}
+
+/// @param ranks      the output's; null for "deployed"
+/// @param confidence to be shown at by itself, were there one look
+Verdict judge_one(const Requirement& requirement, const Results& results, const Column* column,
+                  const RankedOutput* ranks, double confidence, long looks) {
+  Verdict verdict;
+  verdict.requirement = requirement;
+  verdict.runs = static_cast<long>(results.size());
+  verdict.broken = breaking(requirement, results, column, verdict.cut);
+  conclude(confidence, looks, verdict);
+  if (ranks)
+    add_values(*ranks, verdict);
+  else if (verdict.allowed)
+    verdict.margin = verdict.guaranteed_share - requirement.probability;
+  return verdict;
+}
+
+} // namespace
+
+std::string_view to_string(Decision decision) {
+  switch (decision) {
+  case Decision::pass:
+    return "pass";
+  case Decision::fail:
+    return "fail";
+  case Decision::undecided:
+    break;
+  }
+  return "undecided";
+}
+
+void conclude(double confidence, long looks, Verdict& verdict) {
+  verdict.confidence_alone = confidence;
+  verdict.confidence = at_each_of(confidence, looks);
+  const double p = verdict.requirement.probability, c = verdict.confidence;
+  const long n = verdict.runs, broken = verdict.failures();
+  verdict.allowed = allowed_failures(n, p, c);
+  verdict.least_runs = runs_to_show(p, c, 0);
+  verdict.disproved = is_disproved(n, p, c, broken);
+  verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
+  verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
+  verdict.decision = decide(verdict);
+}
+
+std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
+                                                 const Requirement& requirement) {
+  const double limit = requirement.max ? *requirement.max : requirement.min.value_or(0);
+  const bool apart = (limit > 0 && largest < 0) || (limit < 0 && least > 0);
+  return apart ? std::optional(std::array{least, largest}) : std::nullopt;
+}
+
+RankedOutput::RankedOutput(const Results& results, const Column& output, bool absolute) {
+  const std::size_t runs = results.size();
+  const Reading how = reading_of(&output, absolute);
+  values_.reserve(runs);
+  for (std::size_t row = 0; row < runs; ++row) {
+    const double value = value_or_infinite(results, row, output.values[row], how);
+    if (value != infinity) values_.push_back(value);
+  }
+  results.release();
+  std::ranges::sort(values_);
+  worse_ = runs - values_.size();
+  if (worse_ == 0) return;
+  values_.insert(values_.begin(), worse_, -infinity);
+  values_.insert(values_.end(), worse_, infinity);
+}
+
+Verdict judge(const Requirement& requirement, const Results& results, long looks) {
+  return std::move(judge_all({&requirement, 1}, results, looks).front());
+}
+
+std::vector<Verdict> judge_all(std::span<const Requirement> requirements, const Results& results,
+                               long looks, std::span<const Column> besides) {
+  std::vector<Verdict> verdicts(requirements.size());
+  std::vector<bool> judged(requirements.size(), false);
+  for (std::size_t first = 0; first < requirements.size(); ++first) {
+    if (judged[first]) continue;
+    const Requirement& like = requirements[first];
+    const Column* column = column_of(results, besides, like);
+    std::optional<RankedOutput> ranks;
+    if (column) ranks.emplace(results, *column, like.absolute);
+    for (std::size_t k = first; k < requirements.size(); ++k) {
+      const Requirement& own = requirements[k];
+      if (own.output != like.output || own.absolute != like.absolute) continue;
+      verdicts[k] = judge_one(own, results, column, ranks ? &*ranks : nullptr,
+                              confidence_alone(requirements, own), looks);
+      judged[k] = true;
+    }
+  }
+  return verdicts;
+}
+
+bool is_decided(const Verdict& verdict) {
+  return verdict.decision == Decision::pass || verdict.disproved;
+}
+
+double joint_confidence(std::span<const Verdict> verdicts) {
+  std::vector<double> confidences;
+  for (const Verdict& verdict : verdicts) confidences.push_back(verdict.confidence_alone);
+  return joint_confidence(confidences);
+}
+
+std::vector<GroupVerdict> judge_groups(std::span<const Verdict> verdicts) {
+  std::vector<GroupVerdict> groups;
+  for (const Verdict& verdict : verdicts) {
+    const auto& [name, confidence] =
+        std::pair(verdict.requirement.group, verdict.requirement.confidence);
+    if (name.empty()) continue;
+    auto group = std::ranges::find(groups, name, &GroupVerdict::name);
+    if (group == groups.end())
+      group = groups.insert(group, {name, confidence, 0, 0, Decision::pass});
+    ++group->members;
+    group->passed += verdict.decision == Decision::pass ? 1 : 0;
+    if (verdict.decision == Decision::fail) group->decision = Decision::fail;
+    if (verdict.decision == Decision::undecided && group->decision == Decision::pass)
+      group->decision = Decision::undecided;
+  }
+  return groups;
+}
+
+std::string evidence(const Verdict& verdict) {
+  const long broken = verdict.failures();
+  std::string found =
+      fmt::format("{} of {} {} {} it", broken, verdict.runs, verdict.runs == 1 ? "run" : "runs",
+                  broken == 1 ? "breaks" : "break");
+  if (verdict.cut > 0)
+    found += fmt::format(" ({} of them because t_end cut {})", verdict.cut,
+                         verdict.cut == 1 ? "its peaks" : "their peaks");
+  if (verdict.allowed) {
+    const bool open = verdict.decision == Decision::fail && !verdict.disproved;
+    return fmt::format("{}, and {} may{}", found, *verdict.allowed,
+                       open ? ": not shown, and not disproved either" : "");
+  }
+  if (verdict.disproved) return found + ": disproved";
+  const std::string least = verdict.least_runs
+                                ? fmt::format("it takes {}", *verdict.least_runs)
+                                : fmt::format("it takes more than {}", most_runs_sized);
+  return fmt::format("{} runs cannot show it, even if none breaks it: {} ({})", verdict.runs, least,
+                     found);
+}
+
+std::string replay_command(std::string_view folder, long run) {
+  return fmt::format("wingspread replay {} --run {}", folder, run);
+}
+
+Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec, long looks) {
+  return tolerance_limits(spec.side == Side::lower ? output.worst_below() : output.worst_above(),
+                          spec.side, spec.probability, at_each_of(spec.confidence, looks));
+}
+
+} // namespace wingspread

@@ -1,0 +1,170 @@
+#include "montecarlo/analyses/margin/margin_findings.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+constexpr long runs_of_case = 100;
+
+/// A verdict of which so many runs break the requirement, and 5 may.
+Verdict verdict(const char* output, long broken) {
+  Verdict made;
+  made.requirement.output = output;
+  made.runs = runs_of_case;
+  made.allowed = 5;
+  made.decision = broken <= 5 ? Decision::pass : Decision::fail;
+  for (long run = 0; run < broken; ++run) made.broken.push_back(run);
+  return made;
+}
+
+/// A case in which so many runs did not deploy.
+CaseLook case_of(long stalled, std::vector<Verdict> verdicts) {
+  CaseLook look;
+  look.statuses[static_cast<std::size_t>(Status::deployed)] = runs_of_case - stalled;
+  look.statuses[static_cast<std::size_t>(Status::stalled)] = stalled;
+  look.verdicts = std::move(verdicts);
+  return look;
+}
+
+/// Of the two requirements of one_panel_margin: stalled runs break both.
+ScaleLook look(long stalled, long too_fast) {
+  return {case_of(stalled,
+                  {verdict("deployed", stalled), verdict("root.latch_rate", stalled + too_fast)})};
+}
+
+} // namespace
+
+TEST_CASE("what fails by runs alone that did not deploy is said once", "[margin]") {
+  CHECK(telling(look(8, 0)) == Failing{0});
+  CHECK(telling(look(8, 1)) == Failing{0, 1});
+  CHECK(telling(look(0, 8)) == Failing{1});
+  CHECK(telling(look(3, 2)).empty());
+  // Where "deployed" is not required, the first that fails for want of it stands for the others; and
+  // in each case by itself.
+  const CaseLook unasked =
+      case_of(8, {verdict("root.latch_rate", 8), verdict("tip.latch_rate", 8)});
+  CHECK(telling({unasked, unasked}) == Failing{0, 2});
+  // Where it is, it stands for them wherever it is named.
+  CHECK(telling({case_of(8, {verdict("root.latch_rate", 8), verdict("deployed", 8)})}) ==
+        Failing{1});
+}
+
+TEST_CASE("an edge says what sets it, and what fails there by the same runs", "[margin]") {
+  MarginSearch search;
+  search.seen = {{0.5, look(9, 0)}, {0.8, look(0, 0)}, {1.2, look(1, 3)}, {1.5, look(0, 7)}};
+  const auto windows = windows_of(looks_of(search));
+  REQUIRE(windows.size() == 1);
+  const MarginEdge lower = lower_edge(search, windows.front());
+  CHECK((lower.passing == 0.8 && lower.failing == 0.5));
+  CHECK(lower.set_by == std::vector<std::size_t>{0});
+  CHECK(lower.as_well == std::vector<std::size_t>{1});
+  const MarginEdge upper = upper_edge(search, windows.front());
+  CHECK((upper.passing == 1.2 && upper.failing == 1.5));
+  CHECK(upper.set_by == std::vector<std::size_t>{1});
+  CHECK(upper.as_well.empty());
+  search.seen.erase(1.5);
+  const auto open = windows_of(looks_of(search));
+  const MarginEdge end = upper_edge(search, open.front());
+  CHECK((end.passing == 1.2 && !end.failing && end.set_by.empty()));
+}
+
+TEST_CASE("each condition's edges have a word", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(100));
+  MarginResult result;
+  result.cases = {{"nominal", {}}};
+  const auto kinds = [&](const std::map<double, ScaleLook>& seen) {
+    MarginSearch search;
+    search.seen = seen;
+    std::vector<std::string_view> found_kinds;
+    for (const ConditionFinding& found : condition_findings(campaign, result, search)) {
+      found_kinds.push_back(found.kind);
+      CHECK((found.which_case == "nominal" && !found.out_of_order));
+    }
+    return found_kinds;
+  };
+  using Words = std::vector<std::string_view>;
+  const ScaleLook good = look(0, 0), stalls = look(9, 0), fast = look(0, 9);
+  CHECK(kinds({{1, good}, {2, good}}) == Words{"always", "always"});
+  CHECK(kinds({{1, stalls}, {2, good}}) == Words{"lower", "lower"});
+  CHECK(kinds({{1, good}, {2, fast}}) == Words{"always", "upper"});
+  CHECK(kinds({{1, stalls}, {2, good}, {3, fast}}) == Words{"lower", "both"});
+  CHECK(kinds({{1, fast}, {2, fast}}) == Words{"always", "never"});
+  CHECK(kinds({{1, good}, {2, fast}, {3, good}}) == Words{"always", "several"});
+}
+
+// At 1 three runs are too fast and none at 0.8; there two stall, and none at 1.
+TEST_CASE("what a recommended scale gives up is what is worse there than at present", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(100));
+  MarginResult result;
+  result.cases = {{"nominal", {}}};
+  MarginSearch search;
+  search.seen = {{0.8, look(2, 0)}, {1, look(0, 3)}};
+  CHECK(concessions(campaign, result, search).empty());
+  search.recommended = 0.8;
+  const auto given_up = concessions(campaign, result, search);
+  REQUIRE(given_up.size() == 1);
+  CHECK(given_up[0].condition == 0); // the stalled; of the rates 2 are broken in place of 3
+  CHECK((given_up[0].present->broken.empty() && given_up[0].recommended->broken.size() == 2));
+  search.seen[1] = look(2, 0); // as many, but nearer to the limit, which is one from below
+  search.seen[1][0].quantiles = {std::numeric_limits<double>::quiet_NaN(), -0.5};
+  search.seen[0.8][0].quantiles = {std::numeric_limits<double>::quiet_NaN(), -0.6};
+  search.seen[0.8][0].verdicts[1].requirement.min = -0.8;
+  const auto nearer = concessions(campaign, result, search);
+  REQUIRE(nearer.size() == 1);
+  CHECK(nearer[0].condition == 1);
+  search.recommended = 1;
+  CHECK(concessions(campaign, result, search).empty());
+}
+
+TEST_CASE("why nothing is recommended is said, case by case", "[margin]") {
+  MarginSearch search;
+  search.seen = {{0.0625, look(0, 0)}, {16, look(0, 0)}};
+  CHECK(why_withheld(search).empty());
+  search.withheld = Withheld::no_window;
+  CHECK(why_withheld(search) == "no scale that was looked at meets all requirements");
+  search.withheld = Withheld::no_lower_edge;
+  CHECK(why_withheld(search) == "nothing fails down to 0.0625: no edge was found, and how far down "
+                                "the springs may go is not known");
+  search.withheld = Withheld::no_upper_edge;
+  CHECK(why_withheld(search) == "nothing fails up to 16: no edge was found, for nothing that is "
+                                "required limits the springs from above");
+  search.withheld = Withheld::short_of_torque;
+  search.passed_over = Shortfall{0.7, "root", MarginKind::nasa, -0.1, 0.25};
+  CHECK(
+      why_withheld(search) ==
+      "only weaker springs meet all requirements, and their static margins fall short: NASA margin "
+      "of root -0.10, now +0.25");
+}
+
+TEST_CASE("springs are recommended where they were sized together, and have a window", "[margin]") {
+  Json json = one_panel_margin(100);
+  MarginResult result;
+  result.searches.emplace_back();
+  CHECK(recommending(campaign_of(json), result) == nullptr);
+  CHECK_FALSE(is_met(result));
+  result.searches.front().recommended = 1.2;
+  CHECK(recommending(campaign_of(json), result) == &result.searches.front());
+  CHECK_FALSE(is_met(result)); // not confirmed
+  result.searches.front().confirmation = look(0, 0);
+  CHECK(is_met(result));
+  json["margin"]["mode"] = "each";
+  CHECK(recommending(campaign_of(json), result) == nullptr);
+}
+
+// Two requirements at 98 % in two cases: four conditions, of which each has its risk at every edge.
+TEST_CASE("all requirements, cases and edges together have the confidence that their risks leave",
+          "[margin]") {
+  Json json = one_panel_margin(100);
+  for (Json& requirement : json["requirements"]) requirement["confidence"] = 0.98;
+  const Campaign campaign = campaign_of(json);
+  MarginResult result;
+  result.cases = {{"nominal", {}}, {"root spring out", {}}};
+  CHECK(confirmation_confidence(campaign, result) == Approx(0.92).epsilon(1e-12));
+  CHECK(window_confidence(campaign, result, {0.8, 1.2, 0.7, 1.3}) == Approx(0.84).epsilon(1e-12));
+  CHECK(window_confidence(campaign, result, {0.8, 1.2, 0.7, {}}) == Approx(0.92).epsilon(1e-12));
+  CHECK(window_confidence(campaign, result, {0.8, 1.2, {}, {}}) == 1);
+}

@@ -1,0 +1,121 @@
+#include "montecarlo/analyses/margin/margin_study.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("with one of m springs lost, the weakest springs are m/(m − 1) times as strong",
+          "[margin]") {
+  Json json = one_panel_margin(300);
+  json["margin"]["range"] = {0.5, 4};
+  json["margin"]["tolerance"] = 0.002;
+  json["requirements"].erase(1);
+  const auto weakest = [&](const Json& cases, int springs) {
+    json["margin"]["cases"] = cases;
+    json["margin"]["springs_per_hinge"] = springs;
+    const MarginResult result = margin_of(campaign_of(json));
+    return only_window(windows_of(looks_of(result.searches.front()))).lower;
+  };
+  const double whole = weakest({"nominal"}, 2);
+  CHECK(weakest({"nominal", "one_spring_out"}, 2) == Approx(2 * whole).epsilon(0.005));
+  CHECK(weakest({"one_spring_out"}, 4) == Approx(whole * 4 / 3).epsilon(0.005));
+}
+
+TEST_CASE("cases are those of the hinges whose springs are sized, each in turn", "[margin]") {
+  Json json = quick_campaign(60);
+  json["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.9, "confidence": 0.9 }])");
+  json["margin"] = parse_json(R"({
+    "scale": ["hinges.root.spring.torque_stowed", "hinges.tip.spring.torque_latched"],
+    "range": [0.9, 1.1], "points": 2, "cases": ["nominal", "one_spring_out"] })");
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  REQUIRE(result.cases.size() == 3);
+  CHECK(result.cases[0].name == "nominal");
+  CHECK(result.cases[1].name == "root spring out");
+  CHECK(result.cases[2].name == "tip spring out");
+  REQUIRE(result.cases[2].weakened.size() == 2); // both torques, though one of them is sized
+  CHECK(path_of(campaign.scene, result.cases[2].weakened[0]) == "hinges.tip.spring.torque_stowed");
+  CHECK(result.searches[0].seen.at(1).size() == 3);
+}
+
+// The margin of a draw is 0.2 a s/(3 f) − 1 at the scale s: required to be 0 for 97 % of all, that takes s so large that
+// no more than the allowed number of draws have less.
+TEST_CASE("a required static margin bounds the window, count by count", "[margin]") {
+  Json json = one_panel_margin(300);
+  json["scene"]["hinges"][0]["friction"] = {
+      {"model", "exact"}, {"coulomb", 0.08}, {"static", 0.08}};
+  json["dispersions"][1]["distribution"]["std"] = 0.008;
+  json["requirements"][0] = {{"motorization", "NASA"}, {"probability", 0.97}, {"confidence", 0.9}};
+  json["requirements"][1]["min"] = -4;
+  json["margin"]["cases"] = {"nominal", "one_spring_out"};
+  json["margin"]["range"] = {0.9, 2};
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  const MarginSearch& search = result.searches.front();
+  const auto conditions = conditions_of(campaign, result);
+  REQUIRE(conditions.size() ==
+          3); // the margin is of the whole wing, and not of the one that lost a spring
+  CHECK((conditions[2].which_case == 1 && conditions[2].requirement == 1));
+  const RunPlan plan(campaign);
+  std::vector<double> draws(campaign.dispersions.size());
+  for (const auto& [scale, look] : search.seen) {
+    long broken = 0;
+    for (long run = 0; run < 300; ++run) {
+      plan.draw(run, draws);
+      broken += 0.2 * scale * draws[0] < 3 * (0.08 + draws[1]) ? 1 : 0;
+    }
+    CAPTURE(scale);
+    CHECK(std::ssize(verdict_of(look, conditions[0]).broken) == broken);
+  }
+  const Window window = only_window(windows_of(looks_of(search)));
+  CHECK((window.lower > 1.2 && window.lower < 1.7));
+  CHECK(looks_of(search).at(*window.below).contains(0));
+  CHECK(*search.recommended > 1);
+}
+
+// Cold, the friction is twice what it is: the weakest springs are those of the cold case, and the strongest those of the
+// other, whose wing comes faster.
+TEST_CASE("requirements are held in every case of the campaign", "[margin]") {
+  Json json = one_panel_margin(300);
+  json["scene"]["hinges"][0]["friction"] = {{"model", "exact"}, {"coulomb", 0.4}, {"static", 0.4}};
+  json["requirements"][1]["min"] = -1.4;
+  const auto window_of_cases = [&](const Json& cases) {
+    Json own = json;
+    if (!cases.empty()) own["cases"] = cases;
+    const MarginResult result = margin_of(campaign_of(own));
+    return std::pair{only_window(windows_of(looks_of(result.searches.front()))), result};
+  };
+  const Json cold = parse_json(R"({ "name": "cold", "scale": { "hinges.root.friction.coulomb": 1.5,
+                                                               "hinges.root.friction.static": 1.5 } })");
+  const Json warm =
+      parse_json(R"({ "name": "warm", "scale": { "hinges.root.latch.stiffness": 1 } })");
+  const Window ambient = window_of_cases(Json::array()).first;
+  const Window only_cold = window_of_cases(Json::array({cold})).first;
+  const auto [both, result] = window_of_cases(Json::array({cold, warm}));
+  CHECK(only_cold.lower > 1.3 * ambient.lower);
+  CHECK(both.lower == Approx(only_cold.lower).epsilon(0.01));
+  CHECK(both.upper == Approx(ambient.upper).epsilon(0.01));
+  REQUIRE(result.cases.size() == 2);
+  CHECK((result.cases[0].name == "cold" && result.cases[1].name == "warm"));
+  CHECK(result.searches[0].seen.at(1).size() == 2);
+}
+
+TEST_CASE("requirements that cannot be met together leave no window", "[margin]") {
+  Json json = one_panel_margin(300);
+  json["requirements"][1]["min"] = -0.2;
+  const Campaign campaign = campaign_of(json);
+  const MarginSearch search = margin_of(campaign).searches.front();
+  const Looks looks = looks_of(search);
+  CHECK(windows_of(looks).empty());
+  CHECK_FALSE(search.recommended);
+  CHECK_FALSE(search.confirmation);
+  CHECK_FALSE(is_confirmed(search));
+  // the closed form on a fine grid: it is true
+  const long allowed = *allowed_failures(300, 0.97, 0.9);
+  for (double scale = 0.5; scale <= 2; scale *= 1.002)
+    CHECK(closed_form(campaign, scale, 0.2).too_fast > allowed);
+  CHECK(closed_by(looks) == std::vector<std::size_t>{1});
+}

@@ -1,0 +1,285 @@
+#include "montecarlo/analyses/margin/margin_study.hpp"
+#include "montecarlo/analyses/margin/motorization_study.hpp"
+#include "montecarlo/analyses/margin/scaled_springs.hpp"
+#include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <set>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+long broken(const MarginSearch& search, double scale, std::size_t requirement,
+            std::size_t which = 0) {
+  return std::ssize(search.seen.at(scale)[which].verdicts[requirement].broken);
+}
+
+} // namespace
+
+TEST_CASE("the window is where the closed form has it, count by count", "[margin][parallel]") {
+  const Campaign campaign = campaign_of(one_panel_margin(600));
+  const MarginResult result = margin_of(campaign);
+  REQUIRE(result.searches.size() == 1);
+  const MarginSearch& search = result.searches.front();
+  for (const auto& [scale, look] : search.seen) {
+    const ClosedForm exact = closed_form(campaign, scale);
+    CAPTURE(scale);
+    CHECK(broken(search, scale, 0) == exact.not_deployed);
+    CHECK(broken(search, scale, 1) == exact.too_fast);
+  }
+  const long allowed = *allowed_failures(600, 0.97, 0.9); // of either requirement
+  const auto meets = [&](double scale) {
+    const ClosedForm exact = closed_form(campaign, scale);
+    return exact.not_deployed <= allowed && exact.too_fast <= allowed;
+  };
+  const Looks looks = looks_of(search);
+  const Window window = only_window(windows_of(looks));
+  CHECK((meets(window.lower) && !meets(*window.below)));
+  CHECK((meets(window.upper) && !meets(*window.above)));
+  CHECK(window.lower / *window.below <= 1.01);
+  CHECK(*window.above / window.upper <= 1.01);
+  CHECK(looks.at(*window.below).contains(0)); // the one does not deploy
+  CHECK(looks.at(*window.above) == Failing{1});
+  CHECK(window.upper / window.lower > 1.1);
+  CHECK(meets(*search.recommended));
+  CHECK(is_confirmed(search));
+  CHECK(result.runs == 600 * (std::ssize(search.seen) + 1));
+  CHECK(result.failed == 0);
+  // every draw has one scale from which on it deploys, and one from which on it is too fast
+  for (const MarginCondition& condition : conditions_of(campaign, result)) {
+    CHECK(out_of_order(search, condition, *search.recommended).lower == 0);
+    CHECK(out_of_order(search, condition, *search.recommended).upper == 0);
+  }
+}
+
+// A narrow window: at its middle about 2 % of the draws do not deploy, and as many are too fast.
+TEST_CASE("the confirmation is by other draws, of a seed that nobody takes next", "[margin]") {
+  Json json = one_panel_margin(300);
+  for (Json& torque : json["scene"]["hinges"][0]["spring"]) torque = 0.75 * torque.get<double>();
+  for (Json& requirement : json["requirements"]) requirement["probability"] = 0.9;
+  json["requirements"][1]["min"] = -0.5;
+  const MarginResult result = margin_of(campaign_of(json));
+  const MarginSearch& search = result.searches.front();
+  REQUIRE(search.recommended);
+  const auto broken = [&](std::uint64_t seed, std::size_t k) {
+    json["sampling"]["seed"] = seed;
+    const Campaign sized = scaled(campaign_of(json), search.scaled, *search.recommended);
+    return judge(sized.requirements[k], rows_of(RunPlan(sized), {0, 300})).broken;
+  };
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Spilled<long>& confirmed = search.confirmation->front().verdicts[k].broken;
+    CHECK(confirmed.size() >= 2);
+    CHECK(confirmed == broken(result.confirmation_seed, k));
+    for (const std::uint64_t next : {3, 4, 5}) CHECK_FALSE(confirmed == broken(next, k));
+  }
+}
+
+TEST_CASE("seeds of confirmation are their campaign's own, and far from its neighbours",
+          "[margin]") {
+  std::set<std::uint64_t> seeds;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    seeds.insert(confirmation_seed(seed));
+    CHECK(confirmation_seed(seed) > 1'000'000); // by chance below it once in 10¹³
+  }
+  CHECK(seeds.size() == 1000);
+  CHECK(confirmation_seed(3) == confirmation_seed(3));
+}
+
+TEST_CASE("a campaign at the edges, run for itself, agrees on either side", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(400));
+  const MarginSearch search = margin_of(campaign).searches.front();
+  const Window window = only_window(windows_of(looks_of(search)));
+  for (const auto& [scale, passes] :
+       {std::pair{window.lower, true}, std::pair{*window.below, false},
+        std::pair{window.upper, true}, std::pair{*window.above, false}}) {
+    const Folder folder;
+    // read back from its own file, with all of the outputs that the margin had no need of
+    const Campaign sized =
+        read_campaign(scaled(campaign, search.scaled, scale).resolved.dump(), "");
+    CHECK(run_into(folder.path() / "r", sized) == 400);
+    const Json summary = parse_json_file(folder.path() / "r" / summary_file);
+    bool all = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Json& verdict = summary["requirements"][k];
+      all = all && verdict["verdict"] == "pass";
+      CHECK(verdict["broken"] == Json(search.seen.at(scale)[0].verdicts[k].broken));
+    }
+    CHECK(all == passes);
+  }
+}
+
+TEST_CASE("hinge by hinge, each has a window of its own", "[margin]") {
+  Json json = quick_campaign(60);
+  json["requirements"] = parse_json(R"([
+    { "output": "root.latch_time", "max": 5.2, "probability": 0.9, "confidence": 0.9 } ])");
+  json["margin"] = parse_json(R"({
+    "scale": ["hinges.tip.spring.torque_stowed", "hinges.*.spring.torque_latched",
+              "hinges.root.spring.torque_stowed"],
+    "range": [0.5, 1.5], "points": 5, "mode": "each" })");
+  const Campaign campaign = campaign_of(json);
+  const MarginResult result = margin_of(campaign);
+  REQUIRE(result.searches.size() == 3);
+  CHECK(result.searches[0].name == "tip"); // in the order of their first mention
+  CHECK(result.searches[1].name == "root");
+  CHECK(result.searches[2].name == "mid");
+  CHECK(result.searches[0].scaled.size() == 2);
+  CHECK(result.searches[2].scaled.size() == 1);
+  // the same at 1, where nothing is scaled, and not elsewhere
+  const auto guaranteed = [&](std::size_t k, double scale) {
+    return result.searches[k].seen.at(scale)[0].verdicts[0].guaranteed;
+  };
+  CHECK(guaranteed(0, 1) == guaranteed(1, 1));
+  CHECK(guaranteed(0, 1.5) != guaranteed(1, 1.5));
+  CHECK(guaranteed(1, 1.5) < guaranteed(1, 1)); // a stronger root is sooner there
+}
+
+TEST_CASE("a campaign without a margin, requirements or runs enough is refused, all at once",
+          "[margin]") {
+  Json json = one_panel_margin(70);
+  json.erase("margin");
+  json["requirements"][1]["probability"] = 0.999;
+  CHECK(message_of([&] { return margin_of(campaign_of(json)).runs; }) ==
+        "/margin: found nothing, expected what to size\n"
+        "/sampling/runs: found 70, expected at least 76: fewer cannot show \"deployed, 97 % at "
+        "90 %\"\n"
+        "/sampling/runs: found 70, expected at least 2302: fewer cannot show \"root.latch_rate ≥ "
+        "-0.8 rad/s, 99.9 % at 90 %\"");
+  json = one_panel_margin(100);
+  json.erase("requirements");
+  CHECK(message_of([&] { return margin_of(campaign_of(json)).runs; }) ==
+        "/requirements: found none, expected at least one: it is they that make a window");
+}
+
+TEST_CASE("its progress never runs backwards nor beyond the end, and ends there", "[margin]") {
+  Json json = one_panel_margin(100);
+  json["cases"] = parse_json(R"([
+    { "name": "ambient", "scale": { "hinges.root.latch.stiffness": 1 } },
+    { "name": "cold", "scale": { "hinges.root.friction.coulomb": 1.02,
+                                 "hinges.root.friction.static": 1.02 } } ])");
+  const Campaign campaign = campaign_of(json);
+  MarginResult result;
+  ThreadEvaluator evaluator({.threads = 1}, never);
+  StudyProgress last;
+  double share = 0;
+  bool falls = true;
+  find_margin(
+      campaign, evaluator,
+      [&](const StudyProgress& now) {
+        falls = falls && (last.look == 0 || now.most_looks <= last.most_looks);
+        CHECK(now.runs <= now.most_runs);
+        CHECK(now.look <= now.most_looks);
+        CHECK(now.most_runs == now.most_looks * 2 * 100);
+        const double its = static_cast<double>(now.runs) / static_cast<double>(now.most_runs);
+        CHECK(its >= share);
+        share = its;
+        last = now;
+      },
+      result);
+  CHECK(falls);
+  CHECK(share == 1);
+  CHECK(last.runs == result.runs);
+  CHECK(last.look == std::ssize(result.searches[0].seen) + 1); // and the confirmation
+}
+
+TEST_CASE("the first looks in shards are those that the study takes first, run for run",
+          "[margin]") {
+  struct Spy final : Evaluator {
+    std::map<std::string, std::vector<ResultRow>> looks; // by the scale and the case
+    ThreadEvaluator threads{{.threads = 1}, never};
+    long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override {
+      const auto keep = [&](const Batch& batch) {
+        auto& rows = looks[plan.campaign().resolved.dump()];
+        rows.insert(rows.end(), batch.rows.begin(), batch.rows.end());
+        sink.take(batch);
+      };
+      return threads.make(plan, range, {keep});
+    }
+    [[nodiscard]] const Occupancy& occupancy() const override { return threads.occupancy(); }
+  } whole, parts;
+  const Campaign campaign = campaign_of(one_panel_margin(100));
+  MarginResult result;
+  find_margin(
+      campaign, whole, [](const StudyProgress&) {}, result);
+  long runs = 0;
+  for (long i = 1; i <= 3; ++i)
+    runs += make_first_looks(campaign, {i, 3}, parts, [&](const StudyProgress& now) {
+      CHECK(now.most_looks == 13);
+      CHECK(now.look <= 13);
+    });
+  CHECK(runs == 13 * 100); // the scales of the grid, among them 1
+  CHECK(parts.looks.size() == 13);
+  for (const auto& [look, rows] : parts.looks) {
+    REQUIRE(whole.looks.contains(look));
+    const auto& theirs = whole.looks[look];
+    REQUIRE(rows.size() == theirs.size());
+    const auto text = [](const std::vector<ResultRow>& all) {
+      std::string lines;
+      for (const ResultRow& row : all) append_row(lines, row);
+      return lines;
+    };
+    CHECK(text(rows) == text(theirs));
+  }
+}
+
+TEST_CASE("an interruption ends it, and keeps the scales that were finished", "[margin]") {
+  const Campaign campaign = campaign_of(one_panel_margin(200));
+  std::atomic<bool> stop = false;
+  MarginResult result;
+  ThreadEvaluator evaluator({.threads = 1}, stop);
+  const auto watch = [&](const StudyProgress& so_far) { stop = so_far.runs >= 500; };
+  CHECK_THROWS_AS(find_margin(campaign, evaluator, watch, result), Stopped);
+  const MarginSearch& search = result.searches.front();
+  CHECK(search.seen.size() == 2);
+  CHECK(search.seen.contains(0.5));
+  CHECK_FALSE(search.recommended);
+}
+
+namespace {
+
+/// A wing that deploys by its momentum where it has hardly any torque left at rest: the spring's last torque, 0.09 N·m,
+/// against a friction of 0.1. It deploys down to some 0.1 of its springs, and strikes too hard a little above 1: the range
+/// down to 0.5 has no lower edge.
+Json driven_by_momentum() {
+  Json json = one_panel_margin(400);
+  Json& root = json["scene"]["hinges"][0];
+  root["spring"] = {{"torque_stowed", 2.0}, {"torque_latched", 0.09}};
+  root["friction"] = {{"model", "exact"}, {"coulomb", 0.1}, {"static", 0.1}};
+  json["dispersions"][1]["distribution"]["std"] = 0.005;
+  json["requirements"][1]["min"] = -1.15;
+  return json;
+}
+
+} // namespace
+
+// The campaign of a range without a lower edge: once the mean of 0.5 and the upper edge was recommended, weaker springs.
+TEST_CASE("where the lower edge lies outside of the range no weaker springs are advised",
+          "[margin]") {
+  const MarginResult result = margin_of(campaign_of(driven_by_momentum()));
+  const MarginSearch& search = result.searches.front();
+  const Window window = only_window(windows_of(looks_of(search)));
+  CHECK(failing(search.seen.at(0.5)).empty());
+  CHECK((window.lower < 0.5 && window.below && window.above)); // found beyond it
+  CHECK((window.upper > 1 && window.upper < 1.5));
+  REQUIRE(search.recommended);
+  CHECK(*search.recommended >= 1);
+  const MotorizationStudy present =
+      study_motorization(result.campaigns[0], result.campaigns[0].scene);
+  CHECK(present.drives[0].worst[0] < 0); // why: it is short of torque at rest as it is
+  CHECK(present.drives[0].worst[1] < 0);
+}
+
+TEST_CASE("where no edge is found as far as one may look, nothing is recommended", "[margin]") {
+  Json json = driven_by_momentum();
+  json["margin"]["widest"] = {0.5, 16};
+  const MarginSearch search = margin_of(campaign_of(json)).searches.front();
+  CHECK_FALSE(search.recommended);
+  CHECK_FALSE(search.confirmation);
+  CHECK(search.withheld == Withheld::no_lower_edge);
+  CHECK(search.seen.begin()->first == 0.5);
+}

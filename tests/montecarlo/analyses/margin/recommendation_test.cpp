@@ -1,0 +1,133 @@
+#include "montecarlo/analyses/margin/recommendation.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+
+namespace {
+
+constexpr long runs_of_look = 1000;
+
+/// A requirement of which so many of 1000 runs break it, and 10 may.
+Verdict verdict(double broken) {
+  Verdict made;
+  made.requirement.probability = 0.99;
+  made.runs = runs_of_look;
+  made.allowed = 10;
+  for (long run = 0; run < std::lround(broken); ++run) made.broken.push_back(run);
+  made.decision = made.broken.size() <= 10 ? Decision::pass : Decision::fail;
+  return made;
+}
+
+/// A wing that weak springs do not deploy, and strong ones strike: so many runs at a scale.
+struct Wing {
+  double (*weak)(double), (*strong)(double);
+  std::vector<double> scales;
+  double short_below = 0; ///< of static margins
+  int looks = 0;
+
+  [[nodiscard]] ScaleLook at(double scale) const {
+    return {CaseLook{{}, {verdict(weak(scale)), verdict(strong(scale))}}};
+  }
+  [[nodiscard]] MarginSearch recommended() {
+    MarginSearch search;
+    for (const double scale : scales) search.seen[scale] = at(scale);
+    const auto look = [&](double scale) { search.seen[scale] = at(scale), ++looks; };
+    const auto shortfall = [&](double scale) -> std::optional<Shortfall> {
+      if (scale >= short_below) return std::nullopt;
+      return Shortfall{scale, "root", MarginKind::ecss, scale - short_below, 1 - short_below};
+    };
+    recommend({0.01, look, shortfall}, search);
+    return search;
+  }
+};
+
+double line(double at, double zero, double slope) { return std::max(0.0, slope * (at - zero)); }
+
+} // namespace
+
+TEST_CASE("strain is what breaks over what may", "[margin]") {
+  CHECK(strain(verdict(5)) == Approx(0.5).epsilon(1e-13));
+  CHECK(strain({CaseLook{{}, {verdict(1), verdict(7)}}, CaseLook{{}, {verdict(3)}}}) ==
+        Approx(0.7).epsilon(1e-13));
+}
+
+// Weak springs break 40 (1.2 − s) runs and strong ones 20 (s − 0.8): as many at s = 1.0667, and not in the middle of
+// the window, √(0.95 · 1.3) = 1.11.
+TEST_CASE("the scale is the one whose worse side is best, and is searched for", "[margin]") {
+  Wing wing{[](double s) { return 40 * (1.2 - s) < 0 ? 0 : 40 * (1.2 - s); },
+            [](double s) { return line(s, 0.8, 20); },
+            {0.9, 0.95, 1.15, 1.3, 1.33}};
+  wing.weak = [](double s) { return line(-s, -1.2, 40); };
+  const MarginSearch search = wing.recommended();
+  REQUIRE(search.recommended);
+  CHECK(*search.recommended ==
+        Approx(1.0667).epsilon(0.02)); // 5 of either: whole runs, 0.0125 and 0.025 apart
+  CHECK(search.withheld == Withheld::nothing);
+  CHECK_FALSE(search.passed_over);
+  CHECK(wing.looks <= 20);
+  CHECK(strain(search.seen.at(*search.recommended)) <= 0.6);
+}
+
+TEST_CASE("of several that are equally good the present springs are kept", "[margin]") {
+  Wing wing{[](double s) { return line(-s, -0.7, 100); },
+            [](double s) { return line(s, 1.1, 100); },
+            {0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.1, 1.2, 1.3}};
+  CHECK(wing.recommended().recommended == 1.0);
+  CHECK(wing.looks == 0);
+}
+
+TEST_CASE("where the present springs are not as good, the middle of what is", "[margin]") {
+  Wing wing{[](double s) { return line(-s, -1.2, 100); },
+            [](double s) { return line(s, 1.6, 100); },
+            {1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8}};
+  CHECK(*wing.recommended().recommended == Approx(std::sqrt(1.2 * 1.6)).epsilon(1e-3));
+  CHECK(wing.looks == 1);
+}
+
+TEST_CASE("a middle that fails splits the window, and the wider part is taken", "[margin]") {
+  Wing wing{[](double s) { return s < 1.2 || (s > 1.38 && s < 1.4) ? 50.0 : 0.0; },
+            [](double s) { return line(s, 1.6, 100); },
+            {1, 1.2, 1.6, 1.7, 1.8}};
+  const MarginSearch search = wing.recommended();
+  REQUIRE(search.recommended);
+  CHECK(failing(search.seen.at(*search.recommended)).empty());
+}
+
+TEST_CASE("without both edges nothing is recommended", "[margin]") {
+  Wing wing{[](double) { return 0.0; },
+            [](double s) { return line(s, 1.1, 100); },
+            {0.5, 0.7, 1, 1.1, 1.3}};
+  MarginSearch search = wing.recommended();
+  CHECK_FALSE(search.recommended);
+  CHECK(search.withheld == Withheld::no_lower_edge);
+  wing.weak = [](double s) { return line(-s, -0.7, 100); };
+  wing.strong = [](double) { return 0.0; };
+  search = wing.recommended();
+  CHECK_FALSE(search.recommended);
+  CHECK(search.withheld == Withheld::no_upper_edge);
+  wing.strong = [](double) { return 900.0; };
+  CHECK(wing.recommended().withheld == Withheld::no_window);
+  CHECK(wing.looks == 0);
+}
+
+// At 0.6 no run breaks anything and at 1 some do, but weaker springs would be short of torque at rest.
+TEST_CASE("weaker springs that fall short at rest are passed over, and said", "[margin]") {
+  Wing wing{[](double s) { return line(-s, -0.5, 100); },
+            [](double s) { return line(s, 0.9, 50); },
+            {0.3, 0.4, 0.5, 0.6, 0.8, 1, 1.1, 1.2},
+            1};
+  const MarginSearch search = wing.recommended();
+  CHECK(search.recommended == 1.0);
+  REQUIRE(search.passed_over);
+  CHECK(search.passed_over->scale == 0.5);
+  CHECK(to_string(*search.passed_over) == "ECSS margin of root -0.50, now +0.00");
+  wing.strong = [](double s) { return line(s, 0.7, 100); }; // nothing but weaker springs will do
+  wing.scales = {0.3, 0.4, 0.5, 0.6, 0.8, 0.9, 1, 1.1};
+  const MarginSearch none = wing.recommended();
+  CHECK_FALSE(none.recommended);
+  CHECK(none.withheld == Withheld::short_of_torque);
+  CHECK(none.passed_over);
+}

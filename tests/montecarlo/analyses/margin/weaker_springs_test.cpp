@@ -1,0 +1,30 @@
+#include "montecarlo/analyses/margin/weaker_springs.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+// The spring's least is 0.2 a N·m at the latch, against friction of 0.02: by ECSS 0.8 · 0.2 a/(2 · 3 · 0.02) − 1, a/0.75 − 1;
+// by NASA and the others 0.2 a/(3 · 0.02) − 1.
+TEST_CASE("what weaker springs leave of the static margins, by hand", "[margin]") {
+  Json json = one_panel_margin(100);
+  json["scene"]["hinges"][0]["friction"] = {{"coulomb", 0.02}};
+  json["dispersions"] = Json::array();
+  const Campaign campaign = campaign_of(json);
+  const std::vector<SceneParameter>& springs = campaign.margin->scaled;
+  CHECK_FALSE(shortfall_at({&campaign, 1}, springs, 1));
+  CHECK_FALSE(shortfall_at({&campaign, 1}, springs, 0.76));
+  CHECK_FALSE(shortfall_at({&campaign, 1}, springs, 2));
+  const auto shortfall = shortfall_at({&campaign, 1}, springs, 0.6);
+  REQUIRE(shortfall);
+  CHECK((shortfall->drive == "root" && shortfall->kind == MarginKind::ecss));
+  CHECK(shortfall->margin == Approx(0.6 / 0.75 - 1).epsilon(1e-12));
+  CHECK(shortfall->present == Approx(1 / 0.75 - 1).epsilon(1e-12));
+  CHECK(to_string(*shortfall) == "ECSS margin of root -0.20, now +0.33");
+  const auto lowered = lowered_margins({&campaign, 1}, springs, 0.9);
+  REQUIRE(lowered.size() == 4); // ECSS, NASA, GEVS, AIAA
+  CHECK(lowered[1].margin == Approx(0.18 / 0.06 - 1).epsilon(1e-12));
+  CHECK(lowered_margins({&campaign, 1}, springs, 1.1).empty());
+}

@@ -1,0 +1,98 @@
+#include "montecarlo/analyses/sensitivity/rank_report.hpp"
+#include "montecarlo/foundation/formats/json.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("rank correlations as JSON, CSV and a table", "[parallel]") {
+  const Campaign campaign = campaign_of(quick_campaign(60));
+  const RankSensitivity all = rank_sensitivity(rows_of(RunPlan(campaign), {0, 60}), 0.9);
+  const Json json = parse_json(json_text(sensitivity_json(all, {{"seed", 7}})));
+  CHECK(json["wingspread"]["seed"] == 7);
+  CHECK(json["runs"] == 60);
+  CHECK(json["confidence"] == 0.9);
+  const Json& spring = json["outputs"]["root.latch_time"]["dispersions"]["root_spring"];
+  CHECK(spring["prcc"]["value"].get<double>() == all.outputs[0].effects[0].partial.value);
+  CHECK(spring["prcc"]["lower"] < spring["prcc"]["value"]);
+  CHECK(spring["spearman"]["upper"] > spring["spearman"]["value"]);
+
+  const std::string csv = sensitivity_csv(all);
+  CHECK(csv.starts_with("output,dispersion,count,missing,spearman,spearman_lower,spearman_upper,"
+                        "prcc,prcc_lower,prcc_upper\nroot.latch_time,root_spring,60,0,"));
+  CHECK(std::ranges::count(csv, '\n') == 1 + std::ssize(all.outputs) * std::ssize(all.dispersions));
+
+  const std::string table = sensitivity_table(all, "title");
+  CHECK(table.starts_with("title\n\nroot.latch_time, s · 60 runs\n  dispersion"));
+  const auto block = table.find("root.latch_time");
+  CHECK(table.find("root_spring", block) < table.find("mass.panel_1", block)); // it matters most
+}
+
+TEST_CASE("what is undefined is null, an empty cell and a dash; many are cut short and counted") {
+  RankSensitivity all;
+  OutputRanks output{"x.latch_time", 3, 2, {}, true};
+  for (int j = 0; j < 12; ++j) {
+    all.dispersions.push_back(std::string("d") += std::to_string(j));
+    const double value = j == 0 ? std::nan("") : j / 20.0;
+    output.effects.push_back({{value, {}}, {std::nan(""), {}}});
+  }
+  all.outputs.push_back(output);
+  all.unvaried = {"d0"};
+  const Json json = sensitivity_json(all, {});
+  CHECK(json["outputs"]["x.latch_time"]["dispersions"]["d0"]["prcc"]["value"].is_null());
+  CHECK(sensitivity_csv(all).find("x.latch_time,d1,3,2,0.050000000000000003,,,,,\n") !=
+        std::string::npos);
+  const std::string table = sensitivity_table(all, "t");
+  CHECK(table.find("· 2 without it left out") != std::string::npos);
+  CHECK(table.find("d11") < table.find("d10")); // entangled: by Spearman's
+  CHECK(table.find("  and 4 others, none above 0.150\n") != std::string::npos);
+  CHECK(table.find("–") != std::string::npos);
+  const auto said = warnings(all);
+  REQUIRE(said.size() == 2);
+  CHECK(said[0] == "the draws of \"d0\" do not vary");
+  CHECK(said[1].starts_with("two dispersions rank the runs alike"));
+}
+
+TEST_CASE("what a dispersion does with others is not hidden by what it does by itself") {
+  RankSensitivity all;
+  all.dispersions = {"alone", "together", "nothing"};
+  const auto effect = [](double spearman, double partial) {
+    return RankEffect{{spearman, {}}, {partial, {}}};
+  };
+  all.outputs.push_back(
+      {"x.latch_time", 90, 0, {effect(0.3, 0.4), effect(0.77, 0.05), effect(0.02, 0.03)}, false});
+  all.collinear = {"together"};
+  const std::string table = sensitivity_table(all, "t");
+  CHECK(table.find("together") < table.find("alone"));
+  CHECK(table.find("alone") < table.find("nothing"));
+  CHECK(table.find("0.770", table.find("together")) < table.find("alone"));
+  CHECK(sensitivity_json(all, {})["follow_from_others"] == Json::array({"together"}));
+  CHECK(warnings(all) ==
+        std::vector<std::string>{
+            "the draws of \"together\" go together with those of others: what they do "
+            "together is in Spearman's coefficients, and not in the partial ones"});
+}
+
+TEST_CASE("the report says what its bounds are") {
+  const auto definition = [](int replicates, long looks) {
+    RankSensitivity all;
+    all.replicates = replicates;
+    all.looks = looks;
+    return sensitivity_json(all, {})["definitions"]["bounds"].get<std::string>();
+  };
+  CHECK(definition(0, 1) ==
+        "spearman: Fisher's z, variance (1 + r^2/2)/(n - 3); prcc: jackknife over "
+        "16 parts of the runs, Fisher's z, Student's t; two-sided");
+  CHECK(definition(0, 5) ==
+        definition(0, 1) +
+            ", at a confidence of 0.99 each, to hold at whichever of 5 checkpoints the "
+            "campaign stops");
+  CHECK(definition(8, 1) ==
+        "jackknife over 8 independent replicates, Fisher's z, Student's t, two-sided");
+  CHECK(definition(1, 1) == one_replicate);
+  RankSensitivity one;
+  one.replicates = 1;
+  CHECK(warnings(one) == std::vector<std::string>{std::string(one_replicate)});
+}

@@ -1,0 +1,64 @@
+#include "montecarlo/analyses/sensitivity/saltelli.hpp"
+#include "montecarlo/analyses/sensitivity/sobol_indices.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+std::vector<double> draws(const RunPlan& plan, long run) {
+  std::vector<double> values(plan.names().draws.size());
+  plan.draw(run, values);
+  return values;
+}
+
+} // namespace
+
+TEST_CASE("AB_i is A with one coordinate of B, by every design") {
+  for (const char* design : {"random", "latin_hypercube", "sobol"}) {
+    Json json = quick_campaign(32);
+    json["sampling"]["design"] = design;
+    const Campaign campaign = campaign_of(json);
+    const RunPlan plan = saltelli_plan(campaign, 32), own(campaign);
+    const std::size_t d = campaign.dispersions.size();
+    std::set<double> seen;
+    for (long row = 0; row < 32; ++row) {
+      const long first = row * static_cast<long>(d + 2);
+      const std::vector<double> a = draws(plan, first), b = draws(plan, first + 1);
+      for (std::size_t i = 0; i < d; ++i) {
+        seen.insert({a[i], b[i]});
+        std::vector<double> expected = a;
+        expected[i] = b[i];
+        CHECK(draws(plan, first + 2 + static_cast<long>(i)) == expected);
+      }
+      if (design == std::string("random")) CHECK(a == draws(own, row));
+    }
+    CHECK(seen.size() == 32 * 2 * d); // no draw twice
+  }
+}
+
+TEST_CASE("a point says which row it is of") {
+  CHECK(saltelli_point(0, 3).row == 0);
+  CHECK(saltelli_point(4, 3).place == 4);
+  CHECK(saltelli_point(5, 3).row == 1);
+  CHECK(saltelli_runs(100, 3) == 500);
+  CHECK_THROWS_WITH(saltelli_runs(std::numeric_limits<long>::max() / 2, 3),
+                    Catch::Contains("--samples") && Catch::Contains("each takes 5 runs"));
+}
+
+TEST_CASE("nothing to vary, and what varies together, is refused") {
+  Json json = quick_campaign(10);
+  json["correlations"] = {{{"between", {"root_spring", "mass.panel_1"}}, {"spearman", 0.5}}};
+  const Campaign correlated = campaign_of(json);
+  CHECK_THROWS_WITH(saltelli_plan(correlated, 8),
+                    Catch::Contains("/correlations: found 1 of them, expected independent"));
+  json.erase("correlations");
+  json.erase("dispersions");
+  const Campaign bare = campaign_of(json);
+  CHECK_THROWS_WITH(saltelli_plan(bare, 8), Catch::Contains("/dispersions: found none"));
+}

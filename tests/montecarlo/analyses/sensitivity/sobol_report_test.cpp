@@ -1,0 +1,60 @@
+#include "montecarlo/analyses/sensitivity/saltelli.hpp"
+#include "montecarlo/analyses/sensitivity/sobol_report.hpp"
+#include "montecarlo/foundation/formats/json.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("Sobol' indices as JSON, CSV and a table; what changes nothing is named", "[parallel]") {
+  Json json = quick_campaign(1);
+  json["dispersions"].push_back({{"name", "none"},
+                                 {"distribution", {{"type", "constant"}, {"value", 1}}},
+                                 {"apply", "scale"},
+                                 {"to", {"hinges.tip.latch.damping"}}});
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan = saltelli_plan(campaign, 12);
+  const long runs = saltelli_runs(12, campaign.dispersions.size());
+  const SobolSensitivity all =
+      sobol_sensitivity(rows_of(plan, {0, runs}), 12, "random", {.resamples = 50});
+  CHECK(all.idle() == std::vector<std::string>{"none"});
+  CHECK(warnings(all) == std::vector<std::string>{"no output of any run changes with \"none\""});
+  const Json read = parse_json(json_text(sensitivity_json(all, {})));
+  CHECK(read["samples"] == 12);
+  CHECK(read["runs"] == runs);
+  CHECK(read["partial"] == false);
+  CHECK(read["moves_nothing"] == Json::array({"none"}));
+  const Json& effects = read["outputs"]["root.latch_time"]["dispersions"];
+  CHECK(effects["none"]["total"]["value"] == 0);
+  CHECK(effects["root_spring"]["total"]["value"] > effects["none"]["total"]["value"]);
+  CHECK(sensitivity_csv(all).starts_with(
+      "output,dispersion,rows,incomplete,first,first_lower,first_upper,"
+      "total,total_lower,total_upper\nroot.latch_time,root_spring,12,0,"));
+  CHECK(sensitivity_table(all, "title").find("sum of the first-order") != std::string::npos);
+}
+
+TEST_CASE("an output without indices, and bounds that there are not, are told of") {
+  Json json = quick_campaign(1);
+  json["integration"]["t_end"] = 6.75; // some do not come to it
+  json["sampling"]["design"] = "sobol";
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan = saltelli_plan(campaign, 16);
+  const long runs = saltelli_runs(16, campaign.dispersions.size());
+  const SobolSensitivity all =
+      sobol_sensitivity(rows_of(plan, {0, runs}), 16, "sobol", {.replicates = 1});
+  const Json output = sensitivity_json(all, {})["outputs"]["deployment_time"];
+  const long incomplete = output["incomplete"];
+  CHECK((output["rows"] == 16 && 0 < incomplete && incomplete <= 16));
+  CHECK(output["dispersions"]["root_spring"]["total"]["value"].is_null());
+  CHECK(sensitivity_json(all, {})["definitions"]["bounds"] == one_replicate);
+  CHECK_THAT(sensitivity_table(all, "title"),
+             Catch::Contains("deployment_time, s · 16 rows · " + std::to_string(incomplete) +
+                             " in which some point is without it: no indices"));
+  const auto said = warnings(all);
+  REQUIRE(said.size() >= 2);
+  CHECK(said[0] == one_replicate);
+  CHECK_THAT(said[1], Catch::Contains("\"deployment_time\"") &&
+                          Catch::Contains("did not happen at some points of the design"));
+}

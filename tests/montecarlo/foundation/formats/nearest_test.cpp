@@ -1,0 +1,33 @@
+#include "montecarlo/foundation/formats/nearest.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+TEST_CASE("The edit distance counts insertions, deletions and substitutions", "[nearest]") {
+  struct Case {
+    const char *a, *b;
+    std::size_t distance;
+  };
+  const auto [a, b, distance] =
+      GENERATE(values<Case>({{"", "", 0},
+                             {"mass", "mass", 0},
+                             {"mass", "mas", 1},
+                             {"", "abc", 3},
+                             {"mass", "moss", 1},
+                             {"kitten", "sitting", 3}})); // the textbook pair
+  CAPTURE(a, b);
+  CHECK(edit_distance(a, b) == distance);
+  CHECK(edit_distance(b, a) == distance);
+}
+
+TEST_CASE("The nearest word is suggested only when it is near", "[nearest]") {
+  const std::vector<std::string> known{"mass", "inertia", "mast"};
+  CHECK(nearest("masss", known) == "mass");
+  CHECK(nearest("innertia", known) == "inertia");
+  CHECK(nearest("stiffness", known).empty());
+  CHECK(nearest("", known).empty());
+  CHECK(nearest("mass", {}).empty());
+  CHECK(did_you_mean("inertio", known) == " (did you mean \"inertia\"?)");
+  CHECK(did_you_mean("x", known).empty());
+}

@@ -1,0 +1,67 @@
+#include "montecarlo/foundation/formats/text_layout.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+#include <sstream>
+
+using namespace wingspread;
+
+TEST_CASE("characters are counted, not bytes", "[text_layout]") {
+  CHECK(count_characters("") == 0);
+  CHECK(count_characters("N·m ≤ 5 µs") == 10);
+  CHECK(count_characters("𝛼β") == 2);
+}
+
+TEST_CASE("what is too long is cut between characters, and says so", "[text_layout]") {
+  CHECK(shortened("hinge", 5) == "hinge");
+  CHECK(shortened("hinges", 5) == "hing…");
+  CHECK(shortened("äöüß€", 5) == "äöüß€");
+  CHECK(shortened("äöüß€…", 5) == "äöüß…");
+  CHECK(shortened("aé", 1) == "…");
+}
+
+TEST_CASE("a paragraph is broken at blanks, within the width of a table", "[text_layout]") {
+  CHECK(paragraph("").empty());
+  CHECK(paragraph("two  words\n") == "  two words\n");
+  CHECK(paragraph("a b", 98) == std::string(98, ' ') + "a\n" + std::string(98, ' ') + "b\n");
+  std::string long_text;
+  for (int i = 0; i < 49; ++i) long_text += "µ ";
+  const std::string full = "  " + long_text.substr(0, long_text.size() - 1) + '\n';
+  CHECK(count_characters(full) == 100); // 99 and the line feed
+  CHECK(paragraph(long_text) == full);
+  CHECK(paragraph(long_text + "x").ends_with("µ\n  x\n")); // x would stand in column 101
+}
+
+TEST_CASE("a name fills its column, or a line of its own before it", "[text_layout]") {
+  CHECK(in_column("µm", 4) == "µm  ");
+  CHECK(in_column("µµm", 4) == "µµm ");
+  CHECK(in_column("hinge", 5) == "hinge\n     ");
+  CHECK(right_aligned("·1", 4) == "  ·1");
+  CHECK(right_aligned("1234", 4) == " 1234");
+}
+
+TEST_CASE("numbers in five digits", "[text_layout]") {
+  CHECK(in_digits(2) == "2.0000");
+  CHECK(in_digits(-123456) == "-1.2346e+05");
+  CHECK(in_digits(12345) == "12345.0");
+  CHECK(in_digits(std::numeric_limits<double>::quiet_NaN()) == "–");
+}
+
+TEST_CASE("text that goes on a line is broken at blanks, and no word is cut", "[text_layout]") {
+  CHECK(wrapped("", 3).empty());
+  CHECK(wrapped("a  b", 3) == "a b");
+  const std::string word(60, 'w');
+  CHECK(wrapped(word + " x " + word, 10) == word + " x\n" + std::string(10, ' ') + word);
+  CHECK(wrapped(word + word, 10) == word + word);
+}
+
+TEST_CASE("shares in percent, and counted things", "[text_layout]") {
+  CHECK(percent(0.123456) == "12.346 %");
+  CHECK(percent(0.126, 0) == "13 %");
+  CHECK(percent(std::numeric_limits<double>::quiet_NaN()) == "–");
+  CHECK(percent_range(0.005, 0.5) == "0.500 – 50.000 %");
+  CHECK(spaced("timed_out") == "timed out");
+  CHECK(counted(1, "body", "bodies") == "1 body");
+  CHECK(counted(0, "body", "bodies") == "0 bodies");
+}

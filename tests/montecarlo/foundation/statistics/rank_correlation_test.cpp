@@ -1,0 +1,72 @@
+#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/statistics/rank_correlation.hpp"
+#include "tests/montecarlo/sample_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+// Python 3.11, math: tanh(atanh(r) ∓ 1.959963984540054 √((1 + r²/2)/(n − 3))).
+TEST_CASE("bounds of Spearman's coefficient: worked by hand") {
+  const Bounds bounds = rank_correlation_bounds(0.5, 103, 0.95);
+  CHECK(*bounds.lower == Approx(0.32874503087588147).epsilon(1e-12));
+  CHECK(*bounds.upper == Approx(0.6394198469997987).epsilon(1e-12));
+  const Bounds other = rank_correlation_bounds(-0.8, 43, 0.95);
+  CHECK(*other.lower == Approx(-0.8966099745203255).epsilon(1e-12));
+  CHECK(*other.upper == Approx(-0.6306936680956227).epsilon(1e-12));
+}
+
+TEST_CASE("few rows have no bounds, and a coefficient of 1 is its own") {
+  CHECK(!rank_correlation_bounds(0.5, 3, 0.95).lower);
+  CHECK(rank_correlation_bounds(0.5, 4, 0.95).lower);
+  CHECK(*rank_correlation_bounds(1, 100, 0.95).lower == 1);
+}
+
+// By hand: with C = [1 c; c 1], the textbook's r_0 = (a − c b)/√((1 − c²)(1 − b²)).
+TEST_CASE("partial coefficients of two columns from their correlations") {
+  const PartialCorrelations partial({{1, 2, 3, 4}, {2, 1, 4, 3}}); // c = 0.6
+  CHECK((partial.varying() == 2 && !partial.entangled()));
+  const std::vector<double> r = partial.given(std::vector{0.5, -0.2});
+  CHECK(r[0] == Approx((0.5 + 0.6 * 0.2) / std::sqrt(0.64 * 0.96)).epsilon(1e-13));
+  CHECK(r[1] == Approx((-0.2 - 0.6 * 0.5) / std::sqrt(0.64 * 0.75)).epsilon(1e-13));
+}
+
+TEST_CASE("a column that does not vary has no partial coefficient, and twins have none either") {
+  const PartialCorrelations fixed({{1, 2, 3, 4}, {7, 7, 7, 7}});
+  CHECK((fixed.varying() == 1 && !fixed.entangled()));
+  CHECK(fixed.given(std::vector<double>{0.5, NAN})[0] == 0.5);
+  CHECK(std::isnan(fixed.given(std::vector<double>{0.5, NAN})[1]));
+  const PartialCorrelations twins({{1, 2, 3, 4}, {8, 6, 4, 2}});
+  CHECK(twins.entangled());
+  CHECK(std::isnan(twins.given(std::vector{0.5, -0.5})[0]));
+}
+
+// By hand: of two columns with c = 0.6, C⁻¹_jj = 1/(1 − 0.36), and 1 − (4 − 1)/((4 − 2) C⁻¹_jj) = 0.04.
+TEST_CASE("how far a column follows from the others") {
+  const PartialCorrelations partial({{1, 2, 3, 4}, {2, 1, 4, 3}, {7, 7, 7, 7}});
+  const std::vector<double> explained = partial.explained();
+  CHECK(explained[0] == Approx(0.04).epsilon(1e-12));
+  CHECK(explained[1] == Approx(0.04).epsilon(1e-12));
+  CHECK(std::isnan(explained[2]));
+  CHECK(std::isnan(PartialCorrelations({{1, 2, 3, 4}, {8, 6, 4, 2}}).explained()[0]));
+}
+
+TEST_CASE("partial coefficients have the same bits for any number of threads", "[parallel]") {
+  constexpr std::size_t columns = 12, pairs = columns * columns / 2;
+  const auto enough = static_cast<std::size_t>(operations_worth_a_team) / pairs;
+  for (const std::size_t rows : {std::size_t{100}, enough - 1, enough + 1}) {
+    std::vector<Spilled<double>> drawn;
+    for (std::size_t j = 0; j < columns; ++j)
+      drawn.emplace_back(uniforms(40 + j, static_cast<int>(rows)));
+    const std::vector<double> plain(columns, 0.1);
+    const PartialCorrelations alone(drawn, 1);
+    for (const int threads : {2, 3, 8}) {
+      const PartialCorrelations together(drawn, threads);
+      CHECK(together.given(plain) == alone.given(plain));
+      CHECK(together.explained() == alone.explained());
+    }
+  }
+}

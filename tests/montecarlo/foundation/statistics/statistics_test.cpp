@@ -1,0 +1,129 @@
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "tests/montecarlo/sample_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// NIST's NumAcc: `centre`, then centre − 0.1 and centre + 0.1 alternating, 1001 values.
+std::vector<double> numacc(double centre, double below, double above) {
+  std::vector<double> values{centre};
+  for (int i = 0; i < 500; ++i) values.insert(values.end(), {below, above});
+  return values;
+}
+
+} // namespace
+
+TEST_CASE("the compensated sum keeps what a plain one loses") {
+  Sum sum;
+  for (const double term : {1.0, 1e100, 1.0, -1e100}) sum.add(term); // Neumaier's own example
+  CHECK(sum.value() == 2);
+}
+
+// NIST Statistical Reference Datasets, univariate summary statistics, certified values
+// (itl.nist.gov/div898/strd/univ): exact for the decimal data. The data as doubles are off by half
+// a unit in the last place of their mean, which limits the standard deviation.
+TEST_CASE("moments: NIST's certified mean and standard deviation") {
+  const auto check = [](const std::vector<double>& values, double mean, double std) {
+    const Moments m = moments(values);
+    CHECK(m.mean == within(mean, 4 * epsilon));
+    CHECK(m.std == within(std, 4 * epsilon * (1 + std::abs(mean) / std)));
+  };
+  check({10000001, 10000003, 10000002}, 10000002, 1);                 // NumAcc1
+  check(numacc(1.2, 1.1, 1.3), 1.2, 0.1);                             // NumAcc2
+  check(numacc(1000000.2, 1000000.1, 1000000.3), 1000000.2, 0.1);     // NumAcc3
+  check(numacc(10000000.2, 10000000.1, 10000000.3), 10000000.2, 0.1); // NumAcc4
+}
+
+TEST_CASE("moments: small noise on a mean of 1e9 costs nothing") {
+  std::vector<double> noise, values;
+  for (const double u : uniforms(3, 10000)) {
+    noise.push_back(std::round(u * 1024) / 1024); // 1e9 + noise is exact
+    values.push_back(1e9 + noise.back());
+  }
+  const Moments m = moments(values), expected = moments(noise);
+  CHECK(m.mean == within(1e9 + expected.mean, epsilon));
+  CHECK(m.std == within(expected.std, 8 * epsilon));
+  CHECK(m.skewness == Approx(expected.skewness).margin(1e-12));
+  CHECK(m.kurtosis == within(expected.kurtosis, 1e-12));
+}
+
+// Microsoft's documentation of Excel's SKEW and KURT prints 0.359543 and −0.151799637; the digits
+// beyond are scipy 1.10.1's, skew(x, bias=False) and kurtosis(x, bias=False).
+TEST_CASE("moments: published skewness and kurtosis") {
+  const Moments m = moments(std::vector<double>{3, 4, 5, 2, 3, 4, 5, 6, 4, 7});
+  CHECK(m.count == 10);
+  CHECK(m.skewness == within(0.35954307140679753, 16 * epsilon));
+  CHECK(m.kurtosis == within(-0.15179963720841405, 64 * epsilon));
+  CHECK((m.min == 2 && m.max == 7));
+  const Moments pi = moments(std::vector<double>{3, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5}); // scipy 1.10.1
+  CHECK(pi.mean == 4);
+  CHECK(pi.std == within(std::sqrt(5.6), 4 * epsilon));
+  CHECK(pi.skewness == within(0.664049771572406, 16 * epsilon));
+  CHECK(pi.kurtosis == within(0.6505102040816322, 64 * epsilon));
+}
+
+TEST_CASE("moments: what a sample does not define is NaN") {
+  CHECK(std::isnan(moments({}).mean));
+  CHECK(moments({}).count == 0);
+  const Moments one = moments(std::vector{5.0});
+  CHECK((one.mean == 5 && one.min == 5 && one.max == 5));
+  CHECK((std::isnan(one.std) && std::isnan(one.skewness) && std::isnan(one.kurtosis)));
+  const Moments two = moments(std::vector{5.0, 7.0});
+  CHECK(two.std == within(std::sqrt(2.0), epsilon));
+  CHECK((std::isnan(two.skewness) && std::isnan(two.kurtosis)));
+  CHECK(std::isnan(moments(std::vector{5.0, 7.0, 8.0}).kurtosis));
+  const Moments constant = moments(std::vector(7, 0.1));
+  CHECK((constant.mean == 0.1 && constant.std == 0));
+  CHECK((std::isnan(constant.skewness) && std::isnan(constant.kurtosis)));
+}
+
+TEST_CASE("moments follow an affine map, over all magnitudes") {
+  std::vector<double> values = uniforms(4, 999);
+  for (double& value : values) value *= value;
+  const Moments m = moments(values);
+  for (const double scale : {1e-200, 1e-3, -2.0, 1e150}) {
+    std::vector<double> mapped;
+    for (const double value : values) mapped.push_back(scale * value);
+    const Moments after = moments(mapped);
+    CHECK(after.mean == within(scale * m.mean, 8 * epsilon));
+    CHECK(after.std == within(std::abs(scale) * m.std, 8 * epsilon));
+    CHECK(after.skewness == within(std::copysign(m.skewness, scale * m.skewness), 1e-12));
+    CHECK(after.kurtosis == within(m.kurtosis, 1e-12));
+  }
+}
+
+TEST_CASE("quantile ranks are ⌈np⌉ whatever round-off does to np") {
+  for (long n = 1; n <= 400; ++n)
+    for (long percent = 0; percent <= 100; ++percent)
+      REQUIRE(quantile_rank(n, static_cast<double>(percent) / 100) ==
+              std::max(1L, (n * percent + 99) / 100));
+  CHECK(quantile_rank(1'000'000, 0.99865) == 998650);
+  CHECK(quantile_rank(10, std::nextafter(0.3, 1) + 1e-12) == 4);
+}
+
+TEST_CASE("quantiles invert the empirical distribution function") {
+  std::vector<double> sorted = uniforms(5, 101);
+  for (double& value : sorted) value = std::round(20 * value); // ties
+  std::ranges::sort(sorted);
+  for (const double p : {0.001, 0.1, 0.25, 0.5, 0.77, 0.999}) {
+    const double q = quantile(sorted, p);
+    const auto share = [&](auto end) { return static_cast<double>(end - sorted.begin()) / 101; };
+    CHECK(share(std::ranges::upper_bound(sorted, q)) >= p);
+    CHECK(share(std::ranges::lower_bound(sorted, q)) < p);
+  }
+  CHECK(quantile(std::vector{1.0, 2.0, 3.0, 4.0}, 0.5) == 2);
+  CHECK(std::isnan(quantile({}, 0.5)));
+}
+
+TEST_CASE("sorted_present leaves NaN out") {
+  CHECK(sorted_present(std::vector{3.0, none, -1.0, none}) == std::vector{-1.0, 3.0});
+}

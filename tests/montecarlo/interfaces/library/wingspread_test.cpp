@@ -1,0 +1,181 @@
+#include "montecarlo/interfaces/library/wingspread.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numeric>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+api::Input as_input(const Json& json) { return api::from_text(json.dump()); }
+
+bool same_bits(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+} // namespace
+
+TEST_CASE("the library's tables have the bits of the runs, for any number of threads",
+          "[parallel]") {
+  const Json json = full_campaign(60);
+  const Campaign campaign = campaign_of(json);
+  const Results expected = rows_of(RunPlan(campaign), {0, 60});
+  for (const int threads : {1, 2}) {
+    const api::Table table = api::run(as_input(json), {.threads = threads});
+    REQUIRE(table.size() == 60);
+    CHECK(table.is_complete());
+    CHECK(std::ranges::equal(table.runs(), expected.runs));
+    for (const auto* columns : {&expected.draws, &expected.outputs})
+      for (const Column& column : *columns)
+        CHECK(std::ranges::equal(table.numbers(column.name), column.values, same_bits));
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      const auto text = [&](const char* column) {
+        return table.words(column).texts[table.words(column).codes[i]];
+      };
+      CHECK(text("status") == to_string(expected.status[i]));
+      CHECK(text("latch_order") == expected.latch_order[i]);
+      CHECK(text("peaks_final") == to_string(expected.peaks_final[i]));
+      CHECK(table.reason(i) == expected.reason[i]);
+    }
+  }
+}
+
+TEST_CASE("a table says which columns it has, and keeps them as long as a copy lives") {
+  std::span<const double> times;
+  std::optional<api::Table> copy;
+  {
+    const api::Table table = api::run(as_input(quick_campaign(20)), {.runs = 3, .seed = 11});
+    CHECK(table.size() == 3);
+    CHECK(table.columns().front() == "run");
+    CHECK(table.draws() ==
+          std::vector<std::string>{"root_spring", "mass.panel_1", "mass.panel_2", "mass.panel_3"});
+    CHECK(table.outputs().back() == "deployment_time");
+    CHECK(parse_json(table.campaign())["sampling"]["seed"] == 11);
+    CHECK(message_of([&] { return table.numbers("root.latch_tim"); }) ==
+          "found \"root.latch_tim\", expected a column of numbers (did you mean "
+          "\"root.latch_time\"?)");
+    CHECK(message_of([&] { return table.words("peaks_final"); }) ==
+          "found \"peaks_final\", expected a column of words");
+    times = table.numbers("deployment_time");
+    copy = table;
+  }
+  CHECK(std::ranges::all_of(times, [](double time) { return time > 1 && time < 60; }));
+}
+
+TEST_CASE("a results folder is read as the table that its campaign gives") {
+  const Folder folder;
+  Json json = full_campaign(30);
+  (void)run_into(folder.path() / "all", campaign_of(json));
+  (void)run_into(folder.path() / "part", campaign_of(json), {.stop_after = 1});
+  const api::Table made = api::run(as_input(json)), all = api::read(folder.path() / "all");
+  CHECK(all.is_complete());
+  CHECK(all.campaign() == made.campaign());
+  for (const std::string& output : made.outputs())
+    CHECK(std::ranges::equal(all.numbers(output), made.numbers(output), same_bits));
+  const api::Table part = api::read(folder.path() / "part");
+  CHECK_FALSE(part.is_complete());
+  CHECK(part.size() < 30);
+  CHECK(message_of([&] { return api::read(folder.path() / "none"); }) ==
+        (folder.path() / "none").string() + ": found no such folder, expected a results folder");
+}
+
+TEST_CASE("a campaign of the library stops by its rule, and when it is told to") {
+  Json json = quick_campaign(4000);
+  json["outputs"] = {"latch_time"};
+  json["until"] = Json{parse_stopping_goal("deployed 0.1").value()};
+  CHECK(api::run(as_input(json)).size() == 1000);
+  const std::atomic<bool> now = true;
+  const api::Table stopped = api::run(as_input(json), {.stop = &now});
+  CHECK(stopped.size() == 0);
+  CHECK_FALSE(stopped.is_complete());
+}
+
+TEST_CASE("of a campaign with cases the library runs the one that is named") {
+  Json json = quick_campaign(8);
+  json["cases"] = parse_json(R"([ { "name": "hot", "scale": { "hinges.*.spring.scale": 1.2 } },
+                                  { "name": "cold", "scale": { "hinges.*.spring.scale": 0.8 } } ])");
+  const auto mean = [&](const char* name) {
+    const api::Table table = api::run(as_input(json), {.of_case = name});
+    const auto times = table.numbers("deployment_time");
+    return std::accumulate(times.begin(), times.end(), 0.0) / 8;
+  };
+  CHECK(mean("hot") < mean("cold"));
+  CHECK(message_of([&] { return api::run(as_input(json)); }).find("cold") != std::string::npos);
+}
+
+TEST_CASE("a deployment of the library is that of simulate, with its trajectory") {
+  const Scene scene = read_scene_file(three_panel_file());
+  Goal goal;
+  goal.to_t_end = true;
+  Integration integration;
+  integration.t_end = 8;
+  const Outcome expected = Deployment().run(scene, integration, goal);
+  const api::Outcome outcome = api::simulate(api::from_file(three_panel_file()), {.t_end = 8}, 0.5);
+  CHECK(outcome.status == to_string(expected.status));
+  REQUIRE(outcome.latches.size() == expected.latches.size());
+  CHECK(outcome.latches[0].time == expected.latches[0].time);
+  CHECK(outcome.latches[0].hinge == scene.hinges[expected.latches[0].hinge].name);
+  CHECK(outcome.peak_moment[0].value == expected.peak_moment[0].value);
+  CHECK(outcome.angles == expected.final.angles);
+  CHECK(parse_json(outcome.json)["work"]["steps"] == expected.work.steps);
+  REQUIRE(outcome.trajectory.size() == 13);
+  CHECK(outcome.trajectory[1].name == "root.angle");
+  CHECK(outcome.trajectory[0].values.size() == 17);
+  CHECK(outcome.trajectory[0].values[3] == 1.5);
+  CHECK(outcome.trajectory[1].values[0] == scene.hinges[0].stowed);
+}
+
+TEST_CASE("a model's rows are deployments of their own, in lanes or alone", "[parallel]") {
+  const api::Input input = api::from_file(three_panel_file());
+  const std::vector<std::string> outputs{"deployment_time", "root.peak_moment"};
+  const api::Model model(input, {"hinges.*.spring.scale", "bodies.panel_1.mass"}, outputs,
+                         {.t_end = 20});
+  CHECK(model.nominal() == std::vector<double>{1, 10});
+  CHECK(model.parameters() == 2);
+  const std::vector<double> x{1, 10, 1.2, 10, 1, -1, 0.9, 11, 1, NAN};
+  std::vector<double> y(10), alone(2);
+  for (const int threads : {1, 2}) {
+    CHECK(model.evaluate(x, y, threads));
+    for (std::size_t row = 0; row < 5; ++row) {
+      CHECK(model.evaluate(std::span(x).subspan(2 * row, 2), alone, 1));
+      CHECK(same_bits(alone[0], y[2 * row]));
+      CHECK(same_bits(alone[1], y[2 * row + 1]));
+    }
+    CHECK(y[2] < y[0]);      // a stronger spring is faster
+    CHECK(std::isnan(y[4])); // a mass below zero
+    CHECK(std::isnan(y[8]));
+  }
+  const auto nominal = api::simulate(input, {.t_end = 20});
+  CHECK(y[0] == nominal.latches.back().time);
+  const std::atomic<bool> now = true;
+  CHECK_FALSE(model.evaluate(x, y, 1, &now));
+}
+
+TEST_CASE("what the library is asked and cannot do is refused with every problem") {
+  const api::Input input = api::from_file(three_panel_file());
+  CHECK(message_of([&] {
+          return api::Model(input,
+                            {"bodies.panel_1.mass", "bodies.*.mass", "hinges.rot.spring.scale"},
+                            {"root.latch_tim"});
+        }) ==
+        "paths[1]: found bodies.panel_1.mass a second time, expected each parameter once\n"
+        "paths[2]: found string \"hinges.rot.spring.scale\", expected the path of a parameter "
+        "(did you mean \"hinges.root.spring.scale\"?)\n"
+        "outputs[0]: found \"root.latch_tim\", expected an output of the scene (did you mean "
+        "\"root.latch_time\"?)");
+  CHECK(message_of([&] {
+          return api::run(as_input(quick_campaign(5)), {.runs = 0, .threads = -1});
+        }) == "--runs: found 0, expected an integer from 1 to 2147483647\n"
+              "--threads: found -1, expected an integer from 1 to 1024, or 0");
+  CHECK(message_of([&] { return api::simulate(input, {.latch = "soft"}); }) ==
+        "--latch: found soft, expected event, or smoothed:EPS with EPS in rad, e.g. smoothed:1e-4");
+  CHECK(message_of([&] {
+          return api::simulate(input, {.rtol = -1});
+        }).starts_with("--rtol: found -1"));
+  CHECK(message_of([&] { return api::simulate(input, {}, -1.0); }) ==
+        "--dt: found -1, expected a number, s, > 0");
+  CHECK(message_of([&] { return api::Model(input, {}, {}); }) ==
+        "paths: found none, expected at least one parameter's path");
+}

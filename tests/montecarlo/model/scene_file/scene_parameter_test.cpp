@@ -1,0 +1,240 @@
+#include "montecarlo/model/scene_file/scene_json.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+
+using namespace wingspread;
+
+namespace {
+
+Scene scene_with(const char* pointer, const char* value) {
+  return read_scene(test::spoil(test::small_scene(), {pointer, value, ""}));
+}
+
+constexpr const char* free_base = R"({"motion": "free", "mass": 1, "inertia": 2,
+  "position": [3, 4], "velocity": [5, 6], "angle": 7, "rate": 8})";
+constexpr const char* prescribed_base = R"({"motion": "prescribed", "acceleration": [1, 2],
+  "angular_acceleration": 3, "angle": 4, "rate": 5})";
+
+} // namespace
+
+TEST_CASE("A path leads to its parameter", "[parameter]") {
+  struct Case {
+    const char* path;
+    double value;
+    const char* unit;
+  };
+  const Scene scene = scene_with("/base", "{\"motion\": \"fixed\"}");
+  const auto [path, value, unit] =
+      GENERATE(values<Case>({{"bodies.inner.mass", 10, "kg"},
+                             {"bodies.outer.inertia", 0.25, "kg·m²"},
+                             {"hinges.mid.parent_point.0", 0.5, "m"},
+                             {"hinges.mid.parent_point.1", -0.02, "m"},
+                             {"hinges.root.child_point.0", -0.5, "m"},
+                             {"hinges.root.child_point.1", 0.02, "m"},
+                             {"hinges.root.angle.stowed", 1.5, "rad"},
+                             {"hinges.mid.angle.latched", 0, "rad"},
+                             {"hinges.root.initial_rate", -0.1, "rad/s"},
+                             {"hinges.root.spring.torque_stowed", 2, "N·m"},
+                             {"hinges.root.spring.torque_latched", 1.4, "N·m"},
+                             {"hinges.root.harness.torque_stowed", 0.1, "N·m"},
+                             {"hinges.root.harness.torque_latched", 0.2, "N·m"},
+                             {"hinges.root.friction.coulomb", 0.1, "N·m"},
+                             {"hinges.root.friction.viscous", 0.01, "N·m·s/rad"},
+                             {"hinges.root.friction.regularization_rate", 0.002, "rad/s"},
+                             {"hinges.root.latch.stiffness", 10000, "N·m/rad"},
+                             {"hinges.root.latch.damping", 100, "N·m·s/rad"}}));
+  CAPTURE(path);
+  const ParameterMatches found = resolve(scene, path);
+  REQUIRE(found.matches.size() == 1);
+  CHECK(found.expected.empty());
+  CHECK(found.matches[0].parameter.in(scene) == value);
+  CHECK(path_of(scene, found.matches[0].parameter) == path);
+  CHECK(unit_of(found.matches[0].parameter) == unit);
+}
+
+TEST_CASE("A path leads to every parameter of a real hinge", "[parameter]") {
+  struct Case {
+    const char* path;
+    double value;
+    const char* unit;
+  };
+  const Scene scene = read_scene(test::real_scene());
+  const auto [path, value, unit] =
+      GENERATE(values<Case>({{"hinges.root.spring.scale", 1.1, ""},
+                             {"hinges.root.spring.offset", -0.05, "N·m"},
+                             {"hinges.root.harness.scale", 0.9, ""},
+                             {"hinges.mid.harness.offset", 0, "N·m"},
+                             {"hinges.root.friction.scale", 1.5, ""},
+                             {"hinges.root.damper.coefficient", 3, "N·m·(s/rad)^p"},
+                             {"hinges.root.damper.exponent", 0.45, ""},
+                             {"hinges.root.damper.regularization_rate", 1e-5, "rad/s"},
+                             {"hinges.mid.damper.peak_torque", 2, "N·m"},
+                             {"hinges.mid.damper.peak_rate", 4, "rad/s"},
+                             {"hinges.root.damper.window.0", 1, "rad"},
+                             {"hinges.root.damper.window.1", 0.25, "rad"},
+                             {"hinges.root.damper.scale", 0.7, ""},
+                             {"hinges.root.stop.stiffness", 500, "N·m/rad"},
+                             {"hinges.root.stop.dissipation", 0.2, "s/rad"},
+                             {"hinges.root.stop.gap", 0.01, "rad"},
+                             {"hinges.root.latch.backlash", 0.002, "rad"},
+                             {"synchronisations.loop.ratio", 2, ""},
+                             {"synchronisations.loop.stiffness", 300, "N·m/rad"},
+                             {"synchronisations.cam.damping", 0, "N·m·s/rad"},
+                             {"synchronisations.loop.preload", 8, "N·m"},
+                             {"environment.gravity.0", 0.1, "m/s²"},
+                             {"environment.gravity.1", -9.81, "m/s²"},
+                             {"environment.air_density", 1.2, "kg/m³"},
+                             {"bodies.inner.plate.width", 2, "m"},
+                             {"bodies.inner.plate.drag_coefficient", 1.9, ""}}));
+  CAPTURE(path);
+  const ParameterMatches found = resolve(scene, path);
+  REQUIRE(found.matches.size() == 1);
+  CHECK(found.matches[0].parameter.in(scene) == value);
+  CHECK(path_of(scene, found.matches[0].parameter) == path);
+  CHECK(unit_of(found.matches[0].parameter) == unit);
+}
+
+TEST_CASE("A real hinge has no parameters but its own", "[parameter]") {
+  struct Case {
+    const char *path, *expected;
+  };
+  const Scene scene = read_scene(test::real_scene());
+  const auto [path, expected] = GENERATE(values<Case>(
+      {{"hinges.root.spring.torque_stowed",
+        "a hinge whose spring has no table (scale and offset disperse one)"},
+       {"hinges.root.harness.torque_latched",
+        "a hinge whose harness has no table (scale and offset disperse one)"},
+       {"hinges.mid.damper.coefficient", "a hinge with a viscous or a power-law damper"},
+       {"hinges.mid.damper.exponent", "a hinge with a power-law damper"},
+       {"hinges.root.damper.peak_torque", "a hinge with an eddy-current damper"},
+       {"hinges.mid.damper.window.1", "a hinge whose damper has a window"},
+       {"hinges.mid.stop.gap", "a hinge that has a stop"},
+       {"hinges.mid.latch.backlash", "a hinge that has a latch"},
+       {"bodies.outer.plate.width", "a body that has a plate"},
+       {"synchronisations.cam.ratio", "a synchronisation whose ratio is a number"},
+       {"synchronisations.cam.preload", "a synchronisation that has a preload"},
+       {"synchronisations.lop.stiffness",
+        "the path of a parameter (did you mean \"synchronisations.loop.stiffness\"?)"},
+       {"environment.gravity",
+        "the path of a parameter (did you mean \"environment.gravity.0\"?)"}}));
+  CAPTURE(path);
+  const ParameterMatches found = resolve(scene, path);
+  CHECK(found.matches.empty());
+  CHECK(found.expected == expected);
+}
+
+TEST_CASE("A path into the base leads to what its motion has", "[parameter]") {
+  struct Case {
+    const char *base, *path;
+    double value;
+  };
+  const auto [base, path, value] =
+      GENERATE(values<Case>({{free_base, "base.mass", 1},
+                             {free_base, "base.inertia", 2},
+                             {free_base, "base.position.0", 3},
+                             {free_base, "base.position.1", 4},
+                             {free_base, "base.velocity.0", 5},
+                             {free_base, "base.velocity.1", 6},
+                             {free_base, "base.angle", 7},
+                             {free_base, "base.rate", 8},
+                             {prescribed_base, "base.acceleration.0", 1},
+                             {prescribed_base, "base.acceleration.1", 2},
+                             {prescribed_base, "base.angular_acceleration", 3},
+                             {prescribed_base, "base.angle", 4},
+                             {prescribed_base, "base.rate", 5}}));
+  const Scene scene = scene_with("/base", base);
+  const ParameterMatches found = resolve(scene, path);
+  CAPTURE(path);
+  REQUIRE(found.matches.size() == 1);
+  CHECK(found.matches[0].name.empty());
+  CHECK(found.matches[0].parameter.in(scene) == value);
+  CHECK(path_of(scene, found.matches[0].parameter) == path);
+}
+
+TEST_CASE("Every parameter of a scene has a place of its own", "[parameter]") {
+  Json document = test::spoil(GENERATE(true, false) ? test::real_scene() : test::small_scene(),
+                              {"/base", GENERATE(free_base, prescribed_base), ""});
+  document =
+      test::spoil(document, {"/hinges/1/friction", R"({"model": "exact", "static": 1})", ""});
+  Scene scene = read_scene(document);
+  std::set<const double*> places;
+  const std::vector<std::string> paths = parameter_paths(scene);
+  for (const std::string& path : paths) {
+    const ParameterMatches found = resolve(scene, path);
+    REQUIRE(found.matches.size() == 1);
+    double& parameter = found.matches[0].parameter.in(scene);
+    parameter = static_cast<double>(places.size()) + 0.5;
+    CHECK(found.matches[0].parameter.in(std::as_const(scene)) == parameter);
+    places.insert(&parameter);
+  }
+  CHECK(places.size() == paths.size());
+}
+
+TEST_CASE("A parameter found in one scene is the same in its copies", "[parameter]") {
+  const Scene scene = read_scene(test::small_scene());
+  Scene copy = scene;
+  resolve(scene, "bodies.outer.mass").matches[0].parameter.in(copy) = 77;
+  CHECK(copy.bodies[1].mass == 77);
+  CHECK(scene.bodies[1].mass == 8);
+}
+
+TEST_CASE("A star stands for every name that has the parameter", "[parameter]") {
+  struct Case {
+    const char* path;
+    std::vector<std::string> names;
+  };
+  const Scene scene = scene_with("/hinges/1/friction", R"({"model": "exact", "static": 1})");
+  const Case given = GENERATE(values<Case>({{"bodies.*.mass", {"inner", "outer"}},
+                                            {"hinges.*.spring.torque_stowed", {"root", "mid"}},
+                                            {"hinges.*.latch.damping", {"root"}},
+                                            {"hinges.*.friction.static", {"mid"}},
+                                            {"hinges.r*.spring.scale", {"root"}},
+                                            {"hinges.*o*t.spring.scale", {"root"}},
+                                            {"hinges.mid*.spring.scale", {"mid"}},
+                                            {"hinges.**.spring.scale", {"root", "mid"}},
+                                            {"bodies.*n*r.mass", {"inner"}},
+                                            {"bodies.*nner*r.mass", {}},
+                                            {"bodies.o.mass", {}}}));
+  std::vector<std::string> names;
+  for (const ParameterMatch& match : resolve(scene, given.path).matches)
+    names.push_back(match.name);
+  CHECK(names == given.names);
+}
+
+TEST_CASE("A path that leads nowhere tells what was probably meant", "[parameter]") {
+  struct Case {
+    const char *path, *expected;
+  };
+  const Scene scene = scene_with("/hinges/0/friction", R"({"model": "exact"})");
+  const auto [path, expected] = GENERATE(values<Case>(
+      {{"bodies.iner.mass", "the path of a parameter (did you mean \"bodies.inner.mass\"?)"},
+       {"bodies.inner.maas", "the path of a parameter (did you mean \"bodies.inner.mass\"?)"},
+       {"bodies.*.maas", "the path of a parameter (did you mean \"bodies.*.mass\"?)"},
+       {"body.inner.mass", "the path of a parameter (did you mean \"bodies.inner.mass\"?)"},
+       {"hinges.root.spring.torque_latch",
+        "the path of a parameter (did you mean \"hinges.root.spring.torque_latched\"?)"},
+       {"hinges.root.child_point",
+        "the path of a parameter (did you mean \"hinges.root.child_point.0\"?)"},
+       {"hinges.ot*.initial_rate",
+        "the path of a parameter (did you mean \"hinges.root.initial_rate\"?)"},
+       {"hinges.r*.initial_rat",
+        "the path of a parameter (did you mean \"hinges.r*.initial_rate\"?)"},
+       {"hinges.mid.latch.damping", "a hinge that has a latch"},
+       {"hinges.mid.friction.static", "a hinge whose friction has a static level"},
+       {"hinges.root.friction.regularization_rate", "a hinge with the regularized friction model"},
+       {"base.mass", "a base whose motion is \"free\""},
+       {"base.acceleration.0",
+        "a base whose motion is \"prescribed\", with no table of it (table.scale disperses one)"},
+       {"base.angle", "a base that is not fixed"},
+       {"base.rate", "a base that is not fixed, with no table of its rate"},
+       {"", "the path of a parameter"},
+       {"wings", "the path of a parameter"}}));
+  CAPTURE(path);
+  const ParameterMatches found = resolve(scene, path);
+  CHECK(found.matches.empty());
+  CHECK(found.expected == expected);
+}

@@ -1,0 +1,133 @@
+#include "montecarlo/model/static_margins/drive.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace wingspread;
+
+namespace {
+
+Hinge hinge_of(const char* name, int body, double travel, double torque, double friction) {
+  Hinge hinge;
+  hinge.name = name;
+  hinge.child = body;
+  hinge.stowed = travel;
+  hinge.spring = {torque, torque};
+  hinge.friction.coulomb = friction;
+  return hinge;
+}
+
+Synchronisation loop_of(int first, int second, double ratio) {
+  Synchronisation loop;
+  loop.first = first, loop.second = second, loop.ratio = ratio;
+  loop.stiffness = 100;
+  return loop;
+}
+
+/// Three hinges, of which loops keep the second to twice the first, and the third to the second.
+Scene looped() {
+  Scene scene;
+  scene.hinges = {hinge_of("root", 0, 1, 3, 0.5), hinge_of("mid", 1, 2, 0, 0.2),
+                  hinge_of("tip", 2, 2, 0.5, 0.1)};
+  for (Hinge& hinge : scene.hinges) hinge.latch = Latch{.stiffness = 1e4, .damping = 100};
+  scene.synchronisations = {loop_of(0, 1, 2), loop_of(1, 2, 1)};
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("hinges without loops drive alone, and those without spring and latch not at all",
+          "[motorization]") {
+  Scene scene = looped();
+  scene.synchronisations.clear();
+  scene.hinges[1].latch.reset();
+  const std::vector<HingeDrive> drives = drives_of(scene);
+  REQUIRE(drives.size() == 2);
+  CHECK(name_of(drives[0], scene) == "root");
+  CHECK(name_of(drives[1], scene) == "tip");
+}
+
+// For a radian of the root mid and tip turn two: T = 3 + 2·0 + 2·0.5, FR = 0.5 + 2·0.2 + 2·0.1 N·m.
+TEST_CASE("hinges in loops have their margin together, each by its gear", "[motorization]") {
+  const Scene scene = looped();
+  const std::vector<HingeDrive> drives = drives_of(scene);
+  REQUIRE(drives.size() == 1);
+  CHECK(name_of(drives[0], scene) == "root+mid+tip");
+  MotorizationSpec spec = default_motorization(scene);
+  spec.torques[1].adhesion = 0.05; // at mid, twice as far from the root
+  const MotorizationTerms terms = terms_at(scene, drives[0], 0.3, spec);
+  CHECK(terms.available == Approx(4).epsilon(1e-14));
+  CHECK(terms.friction == Approx(1.1).epsilon(1e-14));
+  CHECK(terms.adhesion == Approx(0.1).epsilon(1e-14));
+  CHECK(least_margins(scene, drives[0], spec)[1] == Approx(4 / (3 * 1.2) - 1).epsilon(1e-13));
+}
+
+TEST_CASE("whichever of a loop leads, the margin is the same", "[motorization]") {
+  Scene scene = looped();
+  scene.hinges[1].spring = {0.4, -0.3}; // pulls back from 4/7 of its way on
+  const MotorizationSpec spec = default_motorization(scene);
+  const Margins forward = least_margins(scene, drives_of(scene).front(), spec);
+  scene.synchronisations[0] = loop_of(1, 0, 0.5);
+  const std::vector<HingeDrive> drives = drives_of(scene);
+  REQUIRE(drives.size() == 1);
+  CHECK(name_of(drives[0], scene) == "mid+root+tip");
+  const Margins backward = least_margins(scene, drives[0], spec);
+  for (std::size_t kind = 0; kind < forward.size(); ++kind)
+    CHECK(backward[kind] == Approx(forward[kind]).epsilon(1e-12));
+  // and against the direction in which the loops are given
+  HingeDrive turned{{2, 1, 0}, {{0, 1, false}, {1, 0, true}}};
+  const Margins from_tip = least_margins(scene, turned, spec);
+  for (std::size_t kind = 0; kind < forward.size(); ++kind)
+    CHECK(from_tip[kind] == Approx(forward[kind]).epsilon(1e-12));
+}
+
+TEST_CASE("a loop without stiffness ties nothing", "[motorization]") {
+  Scene scene = looped();
+  scene.synchronisations[0].stiffness = 0;
+  const std::vector<HingeDrive> drives = drives_of(scene);
+  REQUIRE(drives.size() == 2);
+  CHECK(name_of(drives[0], scene) == "root");
+  CHECK(name_of(drives[1], scene) == "mid+tip");
+}
+
+TEST_CASE("a hinge that a loop turns backwards resists by its spring", "[motorization]") {
+  Scene scene = looped();
+  scene.hinges.pop_back();
+  scene.synchronisations.pop_back();
+  scene.synchronisations[0].ratio = -1;
+  scene.hinges[1].spring = {0.7, 0.7};
+  const MotorizationTerms terms =
+      terms_at(scene, drives_of(scene).front(), 0.5, default_motorization(scene));
+  CHECK((terms.available == 3 && terms.spring == 0.7));
+  CHECK(terms.friction == 0.7); // 0.5 and 0.2
+}
+
+TEST_CASE("a loop by a table has its gear from place to place, and its least is found",
+          "[motorization]") {
+  Scene scene = looped();
+  scene.hinges.pop_back();
+  scene.synchronisations.pop_back();
+  Synchronisation& loop = scene.synchronisations[0];
+  loop.table = std::make_shared<const Curve>(std::vector{0.0, 0.5, 1.0}, std::vector{0.0, 0.5, 2.0},
+                                             Interpolation::linear, Beyond::straight);
+  const MotorizationSpec spec = default_motorization(scene);
+  const HingeDrive drive = drives_of(scene).front();
+  CHECK(terms_at(scene, drive, 0.25, spec).friction == Approx(0.5 + 0.2).epsilon(1e-14));
+  CHECK(terms_at(scene, drive, 0.75, spec).friction == Approx(0.5 + 3 * 0.2).epsilon(1e-14));
+  Margins at{};
+  const Margins least = least_margins(scene, drive, spec, &at);
+  CHECK(least[1] == Approx(3 / (3 * 1.1) - 1).epsilon(1e-13));
+  CHECK(at[1] >= 0.5);
+  const std::vector<double> places = places_of_least(scene, drive);
+  CHECK(std::ranges::count(places, 0.5) >= 1); // where the gear changes
+}
+
+TEST_CASE("each hinge of a loop is looked at where its own torques turn", "[motorization]") {
+  Scene scene = looped();
+  scene.hinges[2].spring = {0.5, -0.5}; // turns at half its way, as far as the root's
+  const std::vector<double> points = turning_points(scene, drives_of(scene).front());
+  CHECK(std::ranges::any_of(points, [](double x) { return std::abs(x - 0.5) < 1e-12; }));
+  CHECK((points.front() == 0 && points.back() == 1));
+}

@@ -1,0 +1,103 @@
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/report/data/causes_json.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+#include "tests/montecarlo/report/data/page_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <numeric>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("a scatter shows the extreme runs and some of all the others", "[page]") {
+  std::mt19937_64 random(2);
+  std::vector<double> x(5000), y(5000);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = uniform(random), y[i] = uniform(random);
+  x[17] = nothing;
+  x[4000] = 9;
+  y[1234] = -9;
+  const auto rows = scatter_rows(column_of("x", x), column_of("y", y), 400);
+  CHECK(rows.size() <= 400);
+  CHECK(rows.size() > 350);
+  CHECK(std::ranges::is_sorted(rows));
+  CHECK(std::ranges::count(rows, 17u) == 0);
+  CHECK(std::ranges::count(rows, 4000u) == 1);
+  CHECK(std::ranges::count(rows, 1234u) == 1);
+  const auto inner = std::ranges::count_if(rows, [&](std::size_t row) {
+    return x[row] > 0.1 && x[row] < 0.9 && y[row] > 0.1 && y[row] < 0.9;
+  });
+  CHECK(inner > 100); // 240 evenly chosen ones, of which 64 % lie there
+  const std::vector<double> few{3, nothing, 1};
+  CHECK(scatter_rows(column_of("x", few), column_of("y", few), 400) ==
+        std::vector<std::size_t>{0, 2});
+}
+
+TEST_CASE("the strongest pairs come first, at most two of an output", "[page]") {
+  const auto source = made(quick_campaign(200));
+  const auto pairs = strongest_pairs(*source, 8);
+  REQUIRE(pairs.size() == 8);
+  std::map<std::size_t, int> of_output;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i > 0) CHECK(std::abs(pairs[i].spearman) <= std::abs(pairs[i - 1].spearman));
+    CHECK(++of_output[pairs[i].output] <= 2);
+    CHECK(pairs[i].output < source->results.outputs.size()); // `deployed` is no axis
+  }
+  const Json scatter = scatters_json(*source, {}, 1).front();
+  CHECK(scatter["draw"] == source->results.draws[pairs[0].draw].name);
+  const auto density = scatter["density"].get<std::vector<long>>();
+  REQUIRE(density.size() == 1024);
+  CHECK(std::accumulate(density.begin(), density.end(), 0L) == 200);
+  CHECK(scatter["points"]["run"].size() == 200);
+}
+
+TEST_CASE("a density counts row by row of y", "[page]") {
+  const auto source = made(quick_campaign(50));
+  const Json scatter = scatters_json(*source, {}, 2).front();
+  const auto x = scatter["points"]["x"].get<std::vector<double>>();
+  const auto y = scatter["points"]["y"].get<std::vector<double>>();
+  const auto x_edges = scatter["x_edges"].get<std::vector<double>>();
+  const auto y_edges = scatter["y_edges"].get<std::vector<double>>();
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(y) - y.begin());
+  const auto column =
+      static_cast<std::size_t>(std::ranges::upper_bound(x_edges, x[top]) - x_edges.begin() - 1);
+  CHECK(y[top] == Approx(y_edges.back()).epsilon(1e-6));
+  CHECK(scatter["density"][31 * 32 + std::min<std::size_t>(column, 31)] >= 1);
+}
+
+TEST_CASE("correlations of the page are the summary's", "[page]") {
+  const auto source = made(quick_campaign(60));
+  const Json json = correlations_json(*source, {});
+  CHECK(json["draws"].size() == source->results.draws.size());
+  CHECK(json["outputs"].size() == source->results.outputs.size());
+  for (const auto& [draw, output, value] : source->summary.correlations) {
+    if (output == "deployed") continue;
+    const auto d =
+        std::find(json["draws"].begin(), json["draws"].end(), Json(draw)) - json["draws"].begin();
+    const auto o = std::find(json["outputs"].begin(), json["outputs"].end(), Json(output)) -
+                   json["outputs"].begin();
+    CHECK(json["spearman"][d][o] == page_number(value.spearman, 3));
+    CHECK(json["pearson"][d][o] == page_number(value.pearson, 3));
+  }
+  CHECK(correlations_json(*made(quick_campaign(1)), {}).is_null());
+}
+
+TEST_CASE("effects come strongest first, and there are none of a single run", "[page]") {
+  const auto source = made(quick_campaign(100));
+  const Json json = effects_json(*source, {});
+  CHECK(json["kind"] == "rank");
+  CHECK(json["runs"] == 100);
+  std::string output;
+  double last = 0;
+  for (const Json& effect : json["effects"]) {
+    const auto size = [&](const char* key) {
+      return effect[key].is_null() ? 0 : std::abs(effect[key].get<double>());
+    };
+    const double strength = std::max(size("spearman"), size("prcc"));
+    if (effect["output"] == output) CHECK(strength <= last + 1e-4); // of four digits
+    output = effect["output"];
+    last = strength;
+  }
+  CHECK(effects_json(*made(quick_campaign(1)), {}).is_null());
+}

@@ -1,0 +1,107 @@
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/report/data/differences.hpp"
+#include "tests/montecarlo/report/data/page_support.hpp"
+#include "tests/montecarlo/sample_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+SameRuns rows_from_0(std::size_t count) {
+  SameRuns rows;
+  for (std::size_t row = 0; row < count; ++row) {
+    rows.first.push_back(row);
+    rows.second.push_back(row);
+  }
+  return rows;
+}
+
+} // namespace
+
+TEST_CASE("a paired difference is that of the runs' differences, by hand", "[page]") {
+  const Column a = column_of("x", {1, 2, nothing, 3, 4, 7}),
+               b = column_of("x", {2, 4, 9, 3, 5, nothing});
+  const Difference found = paired_difference(a, b, rows_from_0(6), {}, 0.95);
+  CHECK(found.runs == 4);
+  CHECK(found.value == 1);                                         // of 1, 2, 0, 1
+  const double width = 3.182446305284263 * std::sqrt(2.0 / 3) / 2; // t of 3
+  CHECK(*found.bounds.lower == Approx(1 - width).epsilon(1e-12));
+  CHECK(*found.bounds.upper == Approx(1 + width).epsilon(1e-12));
+  const Difference replicated =
+      paired_difference(a, b, rows_from_0(6), {2, {0, 0, 0, 1, 1, 1}}, 0.95);
+  // replicates' sums of deviations: 0 + 1 and -1 + 0; s² = 2 · (1 + 1)/16
+  CHECK(*replicated.bounds.upper - 1 == Approx(12.706204736174698 * 0.5).epsilon(1e-10)); // t of 1
+  CHECK(!paired_difference(a, b, rows_from_0(1), {}, 0.95).bounds.lower);
+  CHECK(std::isnan(paired_difference(a, b, {}, {}, 0.95).value));
+}
+
+TEST_CASE("an unpaired difference has Welch's interval, by hand", "[page]") {
+  const Moments a = moments(std::vector<double>{1, 2, 3, 4, 5}),
+                b = moments(std::vector<double>{2, 6, 10});
+  const Difference found = unpaired_difference(a, b, 0.95);
+  CHECK(found.value == 3);
+  // variances of the means 0.5 and 16/3; degrees (35/6)²/(0.25/4 + 256/18) = 2.38, t of 2
+  CHECK(*found.bounds.upper == Approx(3 + 4.302652729749464 * std::sqrt(35.0 / 6)).epsilon(1e-12));
+}
+
+TEST_CASE("bounds of differences of shares hold as often as they say", "[page]") {
+  const Difference by_hand = paired_share_difference(1, 3, 100, 0.9);
+  CHECK(by_hand.value == 0.02);
+  CHECK(*by_hand.bounds.lower ==
+        clopper_pearson(3, 100, 0.95).lower - clopper_pearson(1, 100, 0.95).upper);
+  const Difference equal = paired_share_difference(0, 0, 1000, 0.95);
+  CHECK(equal.value == 0);
+  CHECK(*equal.bounds.upper == Approx(0.004372).epsilon(1e-3)); // 1 − 0.0125^(1/1000): not nothing
+  std::mt19937_64 random(3);
+  constexpr int trials = 2000;
+  int held = 0, wrong_way = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    long first = 0, second = 0;
+    for (int k = 0; k < 50; ++k) first += uniform(random) < 0.2, second += uniform(random) < 0.5;
+    const Difference found = unpaired_share_difference(first, 50, second, 50, 0.9);
+    held += *found.bounds.lower <= 0.3 && 0.3 <= *found.bounds.upper;
+    wrong_way += *found.bounds.lower <= -0.3;
+  }
+  CHECK(held >= (0.9 - band(0.9, trials)) * trials);
+  CHECK(wrong_way < trials / 2); // second less first, and no idle bounds
+  CHECK(unpaired_share_difference(10, 50, 50, 50, 0.9).value == 0.8);
+}
+
+TEST_CASE("rows of one run stand beside each other", "[page]") {
+  Results a(ResultNames{{}, {}, false}), b = a;
+  for (const long run : {0, 1, 3, 4, 8}) a.append({run, Status::deployed, {}, {}, "", ""});
+  for (const long run : {1, 2, 3, 8, 9}) b.append({run, Status::deployed, {}, {}, "", ""});
+  const SameRuns rows = same_runs(a, b);
+  CHECK(rows.first == std::vector<std::size_t>{1, 2, 4});
+  CHECK(rows.second == std::vector<std::size_t>{0, 2, 3});
+}
+
+TEST_CASE("sets are paired where their draws are the same", "[page]") {
+  const auto first = made(quick_campaign(30));
+  Json json = quick_campaign(20);
+  json["scene"]["hinges"][0]["spring"]["torque_stowed"] =
+      json["scene"]["hinges"][0]["spring"]["torque_stowed"].get<double>() * 1.001;
+  const auto stronger = made(json);
+  const Json paired = comparison_json(*first, *stronger, {0, 1});
+  CHECK(paired["paired"] == true);
+  CHECK(paired["sets"] == Json{0, 1});
+  CHECK(paired["text"] == "set − set, the same draws");
+  const Json& time = paired["outputs"].back();
+  CHECK(time["output"] == "deployment_time");
+  CHECK(time["runs"] == 20);
+  double sum = 0;
+  for (std::size_t run = 0; run < 20; ++run)
+    sum += stronger->results.outputs.back().values[run] - first->results.outputs.back().values[run];
+  CHECK(time["difference"].get<double>() == Approx(sum / 20).epsilon(1e-6));
+  json["sampling"]["seed"] = 8;
+  const Json apart = comparison_json(*first, *made(json), {0, 1});
+  CHECK(apart["paired"] == false);
+  CHECK(apart["text"] == "set − set, draws of their own");
+  const auto width = [](const Json& entry) {
+    return entry["upper"].get<double>() - entry["lower"].get<double>();
+  };
+  CHECK(width(time) < 0.5 * width(apart["outputs"].back())); // what pairing is for
+}

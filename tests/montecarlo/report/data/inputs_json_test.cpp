@@ -1,0 +1,49 @@
+#include "montecarlo/report/data/inputs_json.hpp"
+#include "tests/montecarlo/report/data/page_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+const Json& entry(const Json& list, const char* key, const std::string& value) {
+  const auto found = std::ranges::find(
+      list, value, [key](const Json& each) { return each[key].get<std::string>(); });
+  REQUIRE(found != list.end());
+  return *found;
+}
+
+} // namespace
+
+TEST_CASE("inputs say what a case changes, of the scene and of laws", "[page]") {
+  Json json = quick_campaign(5);
+  json["cases"] = parse_json(R"([ { "name": "heavy", "scale": { "bodies.panel_1.inertia": 1.5 },
+    "distributions": { "root_spring": { "type": "constant", "value": 0.9 } } } ])");
+  const Campaign whole = campaign_of(json);
+  const Campaign heavy = campaigns_of(whole).front();
+  const auto source = source_of(heavy, rows_of(RunPlan(heavy), {0, 5}));
+  source->before_case = whole;
+  const Json inputs = inputs_json(*source, {});
+  const Json& inertia = entry(inputs["scene"], "path", "bodies.panel_1.inertia");
+  CHECK(inertia["label"] == "panel 1 inertia");
+  CHECK(inertia["unit"] == "kg·m²");
+  CHECK(inertia["value"] == whole.scene.bodies[0].inertia);
+  CHECK(inertia["case_value"].get<double>() == Approx(1.5 * whole.scene.bodies[0].inertia));
+  CHECK(entry(inputs["scene"], "path", "bodies.panel_1.mass")["case_value"].is_null());
+  const Json& spring = entry(inputs["dispersions"], "draw", "root_spring");
+  CHECK(spring["law"] == "constant (value 0.9)");
+  CHECK(spring["law_before_case"] == "normal (mean 1, std 0.05)");
+  CHECK(spring["paths"].size() == 2);
+  CHECK(spring["apply"] == "scale");
+  CHECK(spring["unit"] == "");
+  const Json& mass = entry(inputs["dispersions"], "draw", "mass.panel_2");
+  CHECK(mass["law"] == "uniform (lower 9, upper 11)");
+  CHECK(mass["law_before_case"].is_null());
+  CHECK(mass["low"] == 9.02); // 1 % and 99 % of it
+  CHECK(mass["high"] == 10.98);
+  CHECK(mass["unit"] == "kg");
+  CHECK(mass["nominal"] == 10.0);
+  CHECK(entry(inputs["settings"], "label", "seed")["value"] == "7");
+}

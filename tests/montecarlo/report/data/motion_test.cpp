@@ -1,0 +1,100 @@
+#include "montecarlo/report/data/motion.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+
+namespace {
+
+const MotionLayout one{1};
+
+/// A hinge at a cubic of time, with its rate; its moment is t.
+Sample sample_at(double t) {
+  Sample sample;
+  sample.t = t;
+  sample.angles = {1 + t * (2 - t * (3 - t))};
+  sample.rates = {2 - 6 * t + 3 * t * t};
+  sample.moments = {t};
+  return sample;
+}
+
+std::vector<MotionSample> recorded(MotionRecorder& recorder, int steps, double end) {
+  const Observer observer = recorder.observer();
+  for (int k = 0; k <= steps; ++k) observer(sample_at(end * k / steps));
+  return recorder.samples();
+}
+
+} // namespace
+
+TEST_CASE("between steps a cubic motion is met exactly", "[page]") {
+  MotionRecorder recorder(1);
+  const auto samples = recorded(recorder, 1, 2);
+  REQUIRE(samples.size() == 2);
+  for (const double t : {0.1, 1.0, 1.7}) {
+    const MotionSample middle = between(samples[0], samples[1], one, t);
+    CHECK(middle.values[one.angle(0)] == Approx(sample_at(t).angles[0]).epsilon(1e-13));
+    CHECK(middle.values[one.rate(0)] == Approx(sample_at(t).rates[0]).epsilon(1e-13));
+    CHECK(middle.values[one.moment(0)] == Approx(t).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("a run of many steps is thinned, and keeps its ends", "[page]") {
+  MotionRecorder recorder(1);
+  const auto samples = recorded(recorder, 100'000, 2);
+  CHECK(samples.size() <= (1 << 14) + 1);
+  CHECK(samples.size() > 1 << 12);
+  CHECK(samples.front().t == 0);
+  CHECK(samples.back().t == 2);
+  double widest = 0;
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    REQUIRE(samples[k].t > samples[k - 1].t);
+    widest = std::max(widest, samples[k].t - samples[k - 1].t);
+  }
+  CHECK(widest < 4 * 2.0 / (1 << 12)); // evenly
+}
+
+TEST_CASE("the page's samples stand where something happens, both sides of a latch among them",
+          "[page]") {
+  MotionRecorder recorder(1);
+  const Observer observer = recorder.observer();
+  const auto jump = [&](double t, double moment) {
+    Sample sample = sample_at(0);
+    sample.t = t;
+    sample.rates = {0};
+    sample.moments = {moment};
+    observer(sample);
+  };
+  jump(0, 0);
+  jump(1, 0);
+  jump(1, 5); // the engagement
+  for (int k = 1; k <= 1000; ++k) jump(1 + 1e-3 * k, 5 * std::cos(0.1 * k));
+  jump(100, 5 * std::cos(100.0)); // nothing more
+  pin_only(recorder.samples(), std::vector<double>{1.0});
+  const auto samples = resample(recorder.samples(), one, 100);
+  CHECK(samples.size() <= 104);
+  CHECK(samples.size() > 60);
+  CHECK(samples.front().t == 0);
+  CHECK(samples.back().t == 100);
+  const auto at_latch = std::ranges::count(samples, 1.0, &MotionSample::t);
+  CHECK(at_latch == 2);
+  const auto ringing =
+      std::ranges::count_if(samples, [](const MotionSample& s) { return s.t > 1 && s.t <= 2; });
+  CHECK(ringing >= 40); // half of them by moments
+  double last = -1;
+  for (const MotionSample& sample : samples) {
+    CHECK(sample.t >= last);
+    last = sample.t;
+  }
+}
+
+TEST_CASE("few steps are filled up between", "[page]") {
+  MotionRecorder recorder(1);
+  (void)recorded(recorder, 2, 2);
+  const auto samples = resample(recorder.samples(), one, 50);
+  CHECK(samples.size() >= 45);
+  CHECK(samples.size() <= 51);
+  for (const MotionSample& sample : samples)
+    CHECK(sample.values[0] == Approx(sample_at(sample.t).angles[0]).margin(1e-12));
+}

@@ -1,0 +1,120 @@
+#include "montecarlo/report/data/motions_json.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/results/results_folder/replay.hpp"
+#include "tests/montecarlo/report/data/page_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// Rows that no one ran, of a campaign with every output: deployment time, root's moment and status of each.
+struct Invented {
+  Status status;
+  double time, moment;
+};
+
+std::unique_ptr<PageSource> invented(const Json& json, const std::vector<Invented>& rows) {
+  const Campaign campaign = campaign_of(json);
+  Results results(RunPlan(campaign).names());
+  long run = 0;
+  for (const Invented& each : rows) {
+    ResultRow row{
+        run++,
+        each.status,
+        std::vector<double>(results.draws.size(), 1.0),
+        std::vector<double>(results.outputs.size(), each.status == Status::failed ? nothing : 1.0),
+        "root",
+        "",
+        PeaksFinal::yes};
+    for (std::size_t i = 0; i < results.outputs.size(); ++i) {
+      if (results.outputs[i].name == "root.peak_moment") row.outputs[i] = each.moment;
+      if (results.outputs[i].name == "deployment_time") row.outputs[i] = each.time;
+    }
+    results.append(row);
+  }
+  return source_of(campaign, std::move(results));
+}
+
+std::vector<std::pair<std::string, long>> names_of(const std::vector<ChosenRun>& runs) {
+  std::vector<std::pair<std::string, long>> names;
+  for (const ChosenRun& each : runs) names.emplace_back(each.label, each.run);
+  return names;
+}
+
+const std::vector<Invented> six{
+    {Status::deployed, 5, 10},          {Status::deployed, 4, 30},
+    {Status::deployed, 6, 20},          {Status::stalled, nothing, 5},
+    {Status::failed, nothing, nothing}, {Status::timed_out, nothing, 6}};
+
+} // namespace
+
+TEST_CASE("the runs worth seeing, by hand", "[page]") {
+  Json json = full_campaign(6);
+  json["requirements"] = parse_json(R"([
+    { "name": "S-1", "output": "root.peak_moment", "max": 100, "probability": 0.2, "confidence": 0.5 },
+    { "output": "deployed", "probability": 0.2, "confidence": 0.5 } ])");
+  const auto source = invented(json, six);
+  const auto chosen = chosen_runs(*source);
+  // the median of 4, 5, 6; what breaks both requirements worst is a run that did not deploy
+  CHECK(names_of(chosen) ==
+        std::vector<std::pair<std::string, long>>{
+            {"median run", 0}, {"worst: S-1", 3}, {"timed out", 5}, {"failed", 4}});
+}
+
+TEST_CASE("where nothing breaks a requirement its worst run is the nearest to the limit",
+          "[page]") {
+  Json json = full_campaign(3);
+  json["requirements"] = parse_json(R"([
+    { "output": "root.peak_moment", "max": 100, "probability": 0.2, "confidence": 0.5 },
+    { "output": "deployment_time", "min": 1, "probability": 0.2, "confidence": 0.5 } ])");
+  const auto chosen = chosen_runs(*invented(
+      json, {{Status::deployed, 5, 10}, {Status::deployed, 6, 30}, {Status::deployed, 4, 20}}));
+  CHECK(names_of(chosen) ==
+        std::vector<std::pair<std::string, long>>{
+            {"median run", 0}, {"worst: root.peak_moment", 1}, {"worst: deployment_time", 2}});
+}
+
+TEST_CASE("without requirements the largest peaks stand for the worst", "[page]") {
+  const auto chosen = chosen_runs(
+      *invented(full_campaign(3),
+                {{Status::deployed, 5, 10}, {Status::deployed, 6, 30}, {Status::deployed, 4, 20}}));
+  REQUIRE(chosen.size() == 2);
+  CHECK(chosen[1].label == "largest root.peak_moment");
+  CHECK(chosen[1].run == 1); // which has the largest time too, once
+  const auto failed = chosen_runs(*invented(
+      full_campaign(2), {{Status::failed, nothing, nothing}, {Status::failed, nothing, nothing}}));
+  REQUIRE(failed.size() == 1);
+  CHECK(failed[0].label == "failed");
+  CHECK(failed[0].run == 0);
+}
+
+TEST_CASE("motions are the runs made again, and the same on any number of threads", "[page]") {
+  const auto source = made(quick_campaign(20));
+  const Json motions = motions_json(*source, {}, 1);
+  CHECK(motions == motions_json(*source, {}, 2));
+  REQUIRE(motions.size() == 3); // nominal, median, slowest
+  CHECK(motions[0]["label"] == "nominal");
+  CHECK(motions[0]["run"].is_null());
+  for (const Json& motion : motions) {
+    CAPTURE(motion["label"]);
+    CHECK(motion["t"].size() <= 406);
+    CHECK(motion["angles"].size() == 3);
+    for (const char* key : {"angles", "rates", "moments"})
+      for (const Json& hinge : motion[key]) CHECK(hinge.size() == motion["t"].size());
+    CHECK(motion["base"].is_null());
+    for (const Json& latch : motion["latches"])
+      CHECK(std::ranges::count(motion["t"], latch["time"]) == 2);
+  }
+  const long run = motions[1]["run"];
+  CHECK(motions[1]["replay"] == "wingspread replay results/set --run " + std::to_string(run));
+  const double recorded = source->results.outputs[0].values[static_cast<std::size_t>(run)];
+  CHECK(source->results.outputs[0].name == "root.latch_time");
+  const auto root = std::ranges::find(motions[1]["latches"], 0,
+                                      [](const Json& latch) { return latch["hinge"].get<int>(); });
+  CHECK((*root)["time"] == rounded(recorded));
+  source->stored.foreign = true;
+  CHECK(motions_json(*source, {}, 1).empty());
+}

@@ -1,0 +1,85 @@
+#include "montecarlo/model/input_checks/placement.hpp"
+#include "montecarlo/report/data/wing_json.hpp"
+#include "tests/montecarlo/report/data/page_support.hpp"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+Eigen::Vector2d point_of(const Json& json) {
+  return {json[0].get<double>(), json[1].get<double>()};
+}
+
+/// Where the page puts the centres of mass: by the rule of DATA.md alone.
+std::vector<Eigen::Vector2d> posed(const Json& wing, const std::vector<double>& angles) {
+  struct Frame {
+    Eigen::Vector2d origin;
+    double angle;
+  };
+  std::map<int, Frame> frames; // by the hinge that carries the body
+  std::vector<Eigen::Vector2d> centres;
+  for (const Json& body : wing["bodies"]) {
+    const int h = body["hinge"];
+    Frame frame{{0, 0}, 0};
+    if (h >= 0) {
+      const Frame& parent = frames.at(wing["hinges"][h]["parent"]);
+      frame = {parent.origin + Eigen::Rotation2Dd(parent.angle) * point_of(body["joint_in_parent"]),
+               parent.angle + angles[static_cast<std::size_t>(h)]};
+    }
+    frames[h] = frame;
+    if (h >= 0)
+      centres.emplace_back(frame.origin +
+                           Eigen::Rotation2Dd(frame.angle) * point_of(body["centre"]));
+  }
+  return centres;
+}
+
+} // namespace
+
+TEST_CASE("the page's rule of poses puts bodies where they are", "[page]") {
+  for (const char* file : {"three_panel.json", "two_wing_free.json", "yoke_wing.json"}) {
+    const auto path = std::filesystem::path(WINGSPREAD_SOURCE_DIR) / "studies/scenes" / file;
+    if (!std::filesystem::exists(path)) continue;
+    CAPTURE(file);
+    Scene scene = read_scene_file(path);
+    scene.base = {}; // in the origin, as the page's base is
+    const Json wing = wing_json(scene);
+    const std::vector<int> order = outward_order(scene);
+    for (const auto& angles : {stowed_angles(scene), latched_angles(scene)}) {
+      const auto centres = posed(wing, angles);
+      const auto placed = place_bodies(scene, angles);
+      REQUIRE(centres.size() == placed.size());
+      for (std::size_t k = 0; k < centres.size(); ++k) // to the page's seven digits of each link
+        CHECK((centres[k] - placed[static_cast<std::size_t>(
+                                       scene.hinges[static_cast<std::size_t>(order[k])].child)]
+                                .position)
+                  .norm() < 1e-5);
+    }
+  }
+}
+
+TEST_CASE("a panel reaches from hinge to hinge, as thick as these stand off its middle", "[page]") {
+  const Scene scene = read_scene_file(three_panel_file()); // hinges at ±0.505, ±0.02
+  for (int body = 0; body < 3; ++body) {
+    const BodyOutline outline = body_outline(scene, body);
+    REQUIRE(outline.points.size() == 4);
+    CHECK(outline.closed);
+    for (const Eigen::Vector2d& corner : outline.points) {
+      CHECK(std::abs(corner.x()) == Approx(0.505));
+      CHECK(std::abs(corner.y()) == Approx(0.02));
+    }
+  }
+  CHECK(wing_span(scene) == Approx(3.03).epsilon(1e-12));
+}
+
+TEST_CASE("a body whose hinges lie off any line is drawn as lines to them", "[page]") {
+  Scene scene = read_scene_file(three_panel_file());
+  scene.hinges[1].parent_point = {0.2, 0.9};
+  const BodyOutline outline = body_outline(scene, 0);
+  CHECK(!outline.closed);
+  CHECK(outline.points.back() == Eigen::Vector2d(0.2, 0.9));
+}

@@ -1,0 +1,128 @@
+#include "montecarlo/report/data/page_detail.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+#include "montecarlo/report/page/glossary.hpp"
+#include "montecarlo/report/page/html_page.hpp"
+#include "montecarlo/report/page/page_files.hpp"
+#include "montecarlo/report/page/static_margins_json.hpp"
+#include "montecarlo/report/page/study_set.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("the page has all of its files, and asks no network", "[page]") {
+  const std::string before(page_before_data), behind(page_behind_data);
+  CHECK(before.starts_with("<!DOCTYPE html>"));
+  CHECK(before.find("default-src 'none'") != before.npos);
+  CHECK((before + behind).find("<!-- data -->") == std::string::npos);
+  for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http"})
+    CHECK((before + behind).find(outside) == std::string::npos);
+  CHECK(behind.find("Copyright: 2010-2017, Mike Bostock") !=
+        behind.npos); // d3's licence, before d3
+  CHECK(behind.find("https://d3js.org v5") > behind.find("Redistribution and use"));
+  const std::filesystem::path folder =
+      std::filesystem::path(WINGSPREAD_SOURCE_DIR) / "montecarlo/report/text/page";
+  long scripts = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".js" && entry.path().extension() != ".css") continue;
+    CAPTURE(entry.path());
+    ++scripts;
+    CHECK((before + behind).find(read_text(entry.path()).value()) != std::string::npos);
+  }
+  CHECK(scripts > 1);
+}
+
+TEST_CASE("the block stands between the page's halves", "[page]") {
+  const std::string page = html_page({{"title", "a < b"}});
+  CHECK(page.find(
+            "<script type=\"application/json\" id=\"data\">{\"title\":\"a \\u003c b\"}</script>") !=
+        page.npos);
+  CHECK(page.ends_with(page_behind_data));
+}
+
+TEST_CASE("the page of a large scene or of many sets keeps to its size", "[page]") {
+  const auto numbers = [](const PageExtent& extent) { // of all sets, at the most
+    const PageDetail d = page_detail(extent);
+    const std::size_t output = 9 * d.bins + 4 * d.knots + 7 * d.checkpoints + 8 * d.effects;
+    const std::size_t outputs = std::min(extent.outputs, d.outputs);
+    return extent.sets *
+           (outputs * output + 2 * outputs * d.correlated_draws +
+            d.motions * 3 * extent.hinges * d.motion_samples +
+            extent.hinges * (14 * d.envelope_times + d.latch_times) + d.scatters * 2690);
+  };
+  CHECK(page_detail({1, 6, 40}).bins == 80); // a usual wing has all
+  CHECK(page_detail({1, 3, 13}).motion_samples == 400);
+  for (const PageExtent& extent :
+       {PageExtent{1, 40, 281}, PageExtent{12, 5, 26}, PageExtent{12, 40, 281}})
+    CHECK(numbers(extent) * 9 <
+          5'000'000); // counts, of two digits or so, are more than half of them
+}
+
+TEST_CASE("static margins of the page, by hand", "[page][motorization]") {
+  Json json = one_panel_margin(50);
+  json["scene"]["hinges"][0]["friction"] = {
+      {"model", "exact"}, {"coulomb", 0.05}, {"static", 0.05}};
+  const Campaign campaign = campaign_of(json);
+  const Json margins = static_margins_json(campaign);
+  CHECK(margins["kind"] == "NASA");
+  REQUIRE(margins["hinges"].size() == 1);
+  const Json& hinge = margins["hinges"][0];
+  CHECK(hinge["angle"].size() == 21);
+  CHECK(hinge["margin"].size() == 21);
+  CHECK(hinge["margin"].back() == page_number(0.2 / (3 * 0.05) - 1, 5)); // at the latch
+  CHECK(hinge["least"] == hinge["margin"].back());
+  CHECK(hinge["lower"].get<double>() < hinge["least"].get<double>());
+}
+
+TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]") {
+  const Folder folder;
+  folder.write(
+      "margin.json",
+      R"({ "wingspread": { "version": "0", "seed": 18446744073709551615, "hash": "h" }, "scene": "wing",
+    "searches": [ { "name": "joint", "window": { "lower": { "scale": 0.9, "range_end": false },
+      "upper": { "scale": 2, "range_end": true } }, "recommended": { "scale": 1.2 }, "why_none": null } ] })");
+  folder.write("margin.csv",
+               "search,scale,case,runs,requirement,verdict,broken\n"
+               "joint,0.5,nominal,100,\"A, b\",fail,100\njoint,1,nominal,100,\"A, b\",pass,1\n"
+               "joint,0.5,cold,100,\"A, b\",undecided,0\njoint,1,cold,100,\"A, b\",pass,0\n");
+  CHECK(is_study_folder(folder.path()));
+  const auto sets = study_sets_json(folder.path(), "m");
+  REQUIRE(sets.size() == 1);
+  CHECK(sets[0]["seed"] == "18446744073709551615"); // whole, as text
+  const Json& margin = sets[0]["margin"];
+  CHECK(margin["scales"] == Json{0.5, 1.0});
+  CHECK(margin["window"] == Json{0.9, nullptr}); // the end of the range is no edge
+  CHECK(margin["recommended"] == 1.2);
+  REQUIRE(margin["requirements"].size() == 2);
+  CHECK(margin["requirements"][0]["passed"] == Json{0.0, 0.99});
+  CHECK(margin["requirements"][0]["verdict"] == Json{"failed", "passed"});
+  CHECK(margin["requirements"][0]["upper"][0].get<double>() ==
+        Approx(1 - std::pow(0.025, 0.01)).epsilon(1e-4));
+  CHECK(margin["requirements"][1]["text"] == "A, b · cold");
+  CHECK(margin["requirements"][1]["verdict"][0] == "open");
+  CHECK(sets[0]["wing"].is_null());
+  CHECK(sets[0]["outputs"].empty());
+  folder.write("margin.json", "{ \"searches\": [ {} ] }");
+  CHECK(message_of([&] {
+          return study_sets_json(folder.path(), "m");
+        }).find("expected the files of a study as it left them") != std::string::npos);
+}
+
+TEST_CASE("every output that a campaign can have is in the glossary", "[page]") {
+  const Json glossary = glossary_json();
+  const Scene scene = read_scene_file(std::filesystem::path(WINGSPREAD_SOURCE_DIR) /
+                                      "studies/scenes/two_wing_free.json");
+  for (const OutputColumn& column : output_columns(scene, all_outputs())) {
+    const std::string hinge =
+        column.hinge < 0 ? "" : scene.hinges[static_cast<std::size_t>(column.hinge)].name + '.';
+    std::string name = hinge.empty() ? column.name : "HINGE." + column.name.substr(hinge.size());
+    if (column.other >= 0) name = "HINGE.rate_at.OTHER";
+    CAPTURE(column.name);
+    REQUIRE(glossary.contains(name));
+    CHECK(!glossary[name]["unit"].get<std::string>().empty());
+  }
+}

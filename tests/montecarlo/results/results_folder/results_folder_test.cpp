@@ -1,0 +1,216 @@
+#include "montecarlo/results/results_folder/replay.hpp"
+#include "montecarlo/results/results_folder/results_folder.hpp"
+#include "montecarlo/results/results_folder/version.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("a stored campaign reads back with its stamp") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(10));
+  const std::optional<Shard> shard = GENERATE(std::optional<Shard>{}, std::optional(Shard{2, 3}));
+  const Stamp stamp = stamp_of(campaign, shard);
+  folder.write(campaign_file, campaign_text(campaign, stamp));
+  const StoredCampaign stored = read_stored_campaign(folder.path());
+  CHECK(stored.stamp == stamp);
+  CHECK(stored.stamp.version == version());
+  CHECK(stored.stamp.seed == 7);
+  CHECK(stored.stamp.hash == campaign_hash(campaign.resolved));
+  CHECK(stored.campaign.resolved == campaign.resolved);
+  CHECK(campaign_text(stored.campaign, stored.stamp) == campaign_text(campaign, stamp));
+  CHECK(stored.runs() == shard_runs(10, shard));
+}
+
+TEST_CASE("what is no results folder is refused, with the reason") {
+  const Folder folder;
+  const std::string path = folder.path().string();
+  const auto read = [&] { return read_stored_campaign(folder.path()); };
+  CHECK(message_of([&] { return read_stored_campaign(folder.path() / "no"); }) ==
+        path + "/no: found no such folder, expected a results folder");
+  CHECK(message_of(read) == path + ": found no campaign.json in it, expected a results folder: one "
+                                   "that `wingspread run` or `merge` wrote");
+
+  const Campaign campaign = campaign_of(quick_campaign(10));
+  const Json good = parse_json(campaign_text(campaign, stamp_of(campaign, Shard{1, 2})));
+  const std::string hash = campaign_hash(campaign.resolved);
+  const auto [pointer, value, message] = GENERATE(values<Spoiled>(
+      {{"/wingspread", "",
+        "/wingspread: found nothing, expected what `wingspread run` wrote: version, seed and hash"},
+       {"/wingspread", "3",
+        "/wingspread: found 3, expected what `wingspread run` wrote: version, seed and hash"},
+       {"/wingspread/version", "",
+        "/wingspread/version: found nothing, expected a string, the program's version"},
+       {"/wingspread/hash", "1",
+        "/wingspread/hash: found 1, expected a string, the campaign's hash"},
+       {"/wingspread/shard/index", "3", "/wingspread/shard: found 3 of 2, expected 1 ≤ index ≤ of"},
+       {"/wingspread/shard/of", "",
+        "/wingspread/shard/of: found nothing, expected an integer, ≥ index\n"
+        "FILE: /wingspread/shard: found 1 of 0, expected 1 ≤ index ≤ of"}}));
+  const auto file = folder.write(campaign_file, spoil(good, {pointer, value, message}).dump());
+  std::string expected = file.string() + ": " + message;
+  if (const auto at = expected.find("FILE"); at != std::string::npos)
+    expected.replace(at, 4, file.string());
+  CHECK(message_of(read) == expected);
+}
+
+TEST_CASE("a campaign that was changed after it was run is refused") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(10));
+  const Json good = parse_json(campaign_text(campaign, stamp_of(campaign, {})));
+  const auto change = GENERATE(values<Spoiled>({{"/sampling/seed", "8", ""},
+                                                {"/wingspread/seed", "8", ""},
+                                                {"/scene/bodies/0/mass", "11", ""}}));
+  const auto file = folder.write(campaign_file, spoil(good, change).dump());
+  const std::string message = message_of([&] { return read_stored_campaign(folder.path()); });
+  CHECK(message.starts_with(file.string() + ": /wingspread/hash: found \""));
+  CHECK(message.ends_with("expected a campaign that nobody changed after it was run"));
+}
+
+TEST_CASE("a run that is not the folder's is refused") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(quick_campaign(10));
+  (void)run_into(folder.path() / "all", campaign);
+  (void)run_into(folder.path() / "part", campaign, {.shard = Shard{2, 2}});
+  const auto file = folder.path() / "part" / runs_file;
+  std::filesystem::copy_file(folder.path() / "all" / runs_file, file,
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(message_of([&] {
+          return read_stored_results(read_stored_campaign(folder.path() / "part"));
+        }) == file.string() + ": found run 0, expected runs from 5 up to 9, those of shard 2/2");
+}
+
+TEST_CASE("the statistics of the stored rows are those of the rows in memory, byte for byte") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  (void)run_into(path, campaign_of(full_campaign(40)));
+  const auto before = contents(path);
+  CHECK(before.size() == 5);
+  const StoredCampaign stored = read_stored_campaign(path);
+  for (const char* file : {summary_file, histograms_json_file, histograms_csv_file})
+    std::filesystem::remove(path / file);
+  const Summary summary =
+      write_statistics(stored, read_stored_results(stored).results, stored.campaign.statistics);
+  CHECK(contents(path) == before);
+  long sum = 0;
+  for (const StatusShare& share : summary.statuses) sum += share.count;
+  CHECK(sum == 40);
+}
+
+TEST_CASE("results that lack runs say so in their summary") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  const long made = run_into(path, campaign_of(quick_campaign(200)), {.stop_after = 20});
+  const Json about = parse_json_file(path / summary_file)["wingspread"];
+  CHECK(about["partial"] == Json{{"done", made}, {"of", 200}});
+  (void)run_into(path, campaign_of(quick_campaign(200)), {.resume = true});
+  CHECK_FALSE(parse_json_file(path / summary_file)["wingspread"].contains("partial"));
+}
+
+TEST_CASE("requirements are judged from the folder, and those of a file in their place") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  Json json = quick_campaign(300);
+  json["requirements"] = parse_json(R"([
+    { "output": "root.latch_time", "max": 20, "probability": 0.99, "confidence": 0.9 } ])");
+  (void)run_into(path, campaign_of(json));
+  const Json judged = parse_json_file(path / summary_file)["requirements"];
+  REQUIRE(judged.size() == 1);
+  CHECK(judged[0]["verdict"] == "pass");
+  StoredCampaign stored = read_stored_campaign(path);
+  CHECK(write_requirements(stored.campaign.requirements) == json["requirements"]);
+  const auto file = folder.write("q.json", R"([
+    { "output": "deployed", "probability": 0.999, "confidence": 0.9 } ])");
+  stored.campaign.requirements = read_requirements_file(file, stored.campaign);
+  const Summary summary =
+      write_statistics(stored, read_stored_results(stored).results, stored.campaign.statistics);
+  CHECK(summary.requirements.at(0).decision == Decision::undecided);
+  folder.write("q.json", R"([ { "output": "root.x", "probability": 0.9, "confidence": 0.9 } ])");
+  CHECK(message_of([&] { return read_requirements_file(file, stored.campaign); }) ==
+        file.string() +
+            ": /0/output: found string \"root.x\", expected an output of the campaign, "
+            "or \"deployed\"\n" +
+            file.string() +
+            ": /0: found neither max nor min, expected one of them (for both, two requirements)");
+}
+
+TEST_CASE("a campaign without a stamp is another tool's, and read in full") {
+  const Folder folder;
+  folder.write(campaign_file, quick_campaign(3).dump());
+  std::string csv = "status,run,latch_order";
+  Campaign campaign = campaign_of(quick_campaign(3));
+  if (GENERATE(true, false)) campaign.outputs.erase(OutputFamily::overtravel); // may be missing
+  const ResultNames names = RunPlan(campaign).names();
+  for (const auto* list : {&names.outputs, &names.draws})
+    for (const std::string& name : *list) csv += "," + name;
+  for (const char* run : {"0", "1", "2"}) { // the last line without an end
+    csv += std::string("\r\ndeployed,") + run + ",root";
+    for (std::size_t i = 0; i < names.outputs.size() + names.draws.size(); ++i) csv += ",1.5";
+  }
+  folder.write(runs_file, csv);
+  CHECK(message_of([&] { return read_stored_campaign(folder.path()); }).find("/wingspread") !=
+        std::string::npos);
+  const StoredCampaign stored = read_any_campaign(folder.path());
+  CHECK(stored.foreign);
+  const Results results = read_stored_results(stored).results;
+  CHECK(results.size() == 3);
+  (void)write_statistics(stored, results, campaign.statistics);
+  const Json summary = parse_json_file(folder.path() / summary_file);
+  CHECK(summary["wingspread"]["foreign"] == true);
+  CHECK_FALSE(summary["wingspread"].contains("partial"));
+  CHECK(summary["outputs"]["root.latch_time"]["mean"] == 1.5);
+}
+
+TEST_CASE("tolerance limits are of the runs in the folder") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  Json json = quick_campaign(100);
+  json["statistics"] = {
+      {"tolerance", {{{"probability", 0.95}, {"confidence", 0.95}, {"side", "both"}}}}};
+  (void)run_into(path, campaign_of(json));
+  const Json output = parse_json_file(path / summary_file)["outputs"]["root.latch_time"];
+  CHECK(output["tolerance"][0]["lower"] == output["min"]); // order 1 of 100 runs
+  CHECK(output["tolerance"][0]["upper"] == output["max"]);
+}
+
+TEST_CASE("a folder from before peaks were told to be final opens as it is") {
+  const Folder folder;
+  const auto path = folder.path() / "r";
+  Json json = quick_campaign(20);
+  json["outputs"] = {"peak_moment"};
+  json["integration"]["t_end"] = 7; // some still ring then: their peaks are not proven
+  json["requirements"] = parse_json(R"([
+    { "output": "root.peak_moment", "max": 1e6, "probability": 0.8, "confidence": 0.9 } ])");
+  Campaign campaign = campaign_of(json);
+  (void)run_into(path, campaign);
+  const Json now = parse_json_file(path / summary_file);
+  long cut = 0, open = 0, all_cut = 0;
+  const Results rows = read_stored_results(read_stored_campaign(path)).results;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool deployed = rows.status[i] == Status::deployed;
+    all_cut += rows.peaks_final[i] == PeaksFinal::no ? 1 : 0;
+    cut += deployed && rows.peaks_final[i] == PeaksFinal::no ? 1 : 0;
+    open += deployed ? 0 : 1;
+  }
+  REQUIRE(cut > 0);
+  CHECK(now["peaks_final"]["false"] == all_cut);
+  CHECK(now["requirements"][0]["failures"] ==
+        Json{{"seen", cut + open}, {"allowed", 1}, {"peaks_cut", cut}});
+  campaign.outputs.erase(OutputFamily::peaks_final); // as they were
+  campaign.resolved["outputs"] = write_outputs(campaign.outputs);
+  const auto old = folder.path() / "old";
+  (void)run_into(old, campaign);
+  const std::string header = read_text(old / runs_file).value().substr(0, 200);
+  CHECK(header.find("peaks_final") == std::string::npos);
+  const StoredCampaign stored = read_stored_campaign(old);
+  CHECK_FALSE(stored.campaign.outputs.contains(OutputFamily::peaks_final));
+  const Summary summary =
+      write_statistics(stored, read_stored_results(stored).results, stored.campaign.statistics);
+  CHECK_FALSE(summary.peaks);
+  CHECK(std::ssize(summary.requirements[0].broken) == open);
+  CHECK(ReplayRequest(stored, 3).replay({}).differences.empty());
+  CHECK(ReplayRequest(read_stored_campaign(path), 3).replay({}).differences.empty());
+}

@@ -1,0 +1,36 @@
+#include "montecarlo/results/results_folder/stamp.hpp"
+#include "montecarlo/results/results_folder/version.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("shards are consecutive and make up the whole") {
+  CHECK(shard_runs(100, {}) == RunRange{0, 100});
+  CHECK(shard_runs(10, Shard{2, 3}) == RunRange{3, 6});
+  for (const long runs : {1L, 7L, 100L, 1'000'000'000'000'000'000L})
+    for (const long of : {1L, 3L, 7L, 64L, most_shards}) {
+      long next = 0;
+      for (long i = 1; i <= std::min(of, 100L); ++i) {
+        const RunRange range = shard_runs(runs, Shard{i, of});
+        CHECK(range.first == next);
+        CHECK(std::abs(range.size() - runs / of) <= 1);
+        next = range.last;
+      }
+      CHECK(shard_runs(runs, Shard{of, of}).last == runs);
+    }
+}
+
+TEST_CASE("a stamp reads back from its JSON, and has its keys in one order") {
+  const Campaign campaign = campaign_of(quick_campaign(10));
+  const Stamp stamp = stamp_of(campaign, Shard{2, 3});
+  CHECK(stamp_json(stamp).dump() ==
+        R"({"version":")" + std::string(version()) + R"(","seed":7,"hash":")" +
+            campaign_hash(campaign.resolved) + R"(","shard":{"index":2,"of":3}})");
+  const Json document{{stamp_key, stamp_json(stamp)}};
+  std::vector<Problem> problems;
+  CHECK(read_stamp(JsonCursor(document, "", problems)) == stamp);
+  CHECK(problems.empty());
+}

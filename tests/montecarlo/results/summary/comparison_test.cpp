@@ -1,0 +1,92 @@
+#include "montecarlo/results/summary/comparison.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+using namespace wingspread;
+
+namespace {
+
+/// Twenty runs of which so many are late, and one requirement on that.
+CaseSummary case_of(const std::string& name, long late) {
+  Results results(ResultNames{{}, {"deployment_time"}});
+  for (long run = 0; run < 20; ++run)
+    results.append({run, Status::deployed, {}, {run < late ? 9.0 : 5.0}, "root", ""});
+  CaseSummary its{name, summarize(results, {})};
+  its.summary.requirements =
+      judge_all(std::vector<Requirement>{{"T-1", "deployment_time", 8.0, {}, 0.8, 0.9}}, results);
+  return its;
+}
+
+/// The same requirement, decided otherwise.
+CaseSummary decided(const std::string& name, Decision decision, std::optional<double> margin) {
+  CaseSummary its = case_of(name, 0);
+  its.summary.requirements[0].decision = decision;
+  its.summary.requirements[0].margin = margin;
+  return its;
+}
+
+} // namespace
+
+TEST_CASE("the worst case fails, or has the least margin", "[comparison]") {
+  const CaseSummary pass = decided("a", Decision::pass, 1),
+                    tight = decided("b", Decision::pass, 0.1),
+                    open = decided("c", Decision::undecided, {}),
+                    fail = decided("d", Decision::fail, -1);
+  CHECK(worst_case({pass, tight}, 0) == 1);
+  CHECK(worst_case({pass, open, tight}, 0) == 1);
+  CHECK(worst_case({open, fail, pass}, 0) == 1);
+  CHECK(worst_case({fail, decided("e", Decision::fail, {})}, 0) == 1); // beyond any number
+  CHECK(worst_case({pass, decided("e", Decision::pass, 1)}, 0) == 0);
+}
+
+TEST_CASE("cases.json has every requirement with its worst case, and every output by case",
+          "[comparison]") {
+  const Json json = cases_json({case_of("hot", 0), case_of("cold", 20)}, "about");
+  CHECK(json["wingspread"] == "about");
+  const Json& requirement = json["requirements"][0];
+  CHECK(requirement["name"] == "T-1");
+  CHECK(requirement["max"] == 8.0);
+  CHECK(requirement["worst"] == "cold");
+  CHECK(requirement["verdict"] == "fail");
+  CHECK(requirement["cases"]["hot"]["verdict"] == "pass");
+  CHECK(requirement["cases"]["cold"]["failures"]["seen"] == 20);
+  CHECK(json["outputs"]["deployment_time"]["cold"]["mean"] == 9.0);
+  CHECK(json["outputs"]["deployment_time"]["hot"]["mean"] == 5.0);
+  CHECK(json["joint_confidence"] == Approx(0.8).epsilon(1e-15));
+  CHECK(json["cases"]["cold"]["status"]["deployed"]["count"] == 20);
+}
+
+TEST_CASE("cases stand side by side", "[comparison]") {
+  std::vector<CaseSummary> cases{case_of("hot", 0), case_of("cold", 20)};
+  cases[1].summary.nominal = NominalRun{Status::deployed, "root", ""};
+  cases[1].summary.outputs[0].nominal = 7.5;
+  CHECK(cases_table(cases, "title", "out") ==
+        "title\n"
+        "\nOUTCOME                                                 hot         cold\n"
+        "  runs                                                   20           20\n"
+        "  deployed                                        100.000 %    100.000 %\n"
+        "  stalled                                           0.000 %      0.000 %\n"
+        "  timed out                                         0.000 %      0.000 %\n"
+        "  invalid                                           0.000 %      0.000 %\n"
+        "  failed                                            0.000 %      0.000 %\n"
+        "  the nominal wing                                        –     deployed\n"
+        "\nOUTPUT                                                  hot         cold\n"
+        "deployment_time, s\n"
+        "  nominal                                                 –       7.5000\n"
+        "  mean                                               5.0000       9.0000\n"
+        "  1 %                                                5.0000       9.0000\n"
+        "  99 %                                               5.0000       9.0000\n"
+        "\nREQUIREMENT, runs that break it (and may)               hot         cold\n"
+        "T-1: deployment_time ≤ 8 s, 80 % at 90 %\n"
+        "  worst: cold                                          pass         fail\n"
+        "                                                  0 (may 1)   20 (may 1)\n"
+        "\nFILES  out: cases.json, and a results folder for each case\n");
+  cases[0].partial = true;
+  cases[0].name = "a_case_with_a_long_name";
+  while (cases.size() < 5) cases.push_back(cases[1]);
+  const std::string more = cases_table(cases, "title", "out");
+  CHECK_THAT(more, Catch::Contains(" a_case_with_a_long_name"));
+  CHECK_THAT(more, Catch::Contains("\na_case_with_a_long_name lacks runs of the campaign\n"));
+}

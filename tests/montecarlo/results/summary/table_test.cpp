@@ -1,0 +1,248 @@
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/results/summary/table.hpp"
+#include "tests/montecarlo/sample_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> result;
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+Results some_results() {
+  Results results(ResultNames{{"k"},
+                              {"root.latch_time", "root.rate_at.a_hinge_with_a_long_name",
+                               "tip.peak_moment", "deployment_time"}});
+  for (long run = 0; run < 100; ++run) {
+    const bool stalls = run % 10 == 9;
+    const double x = static_cast<double>(run);
+    results.append({run,
+                    stalls ? Status::stalled : Status::deployed,
+                    {x},
+                    {stalls ? none : 10 + x / 100, -1.23456e-7 * x, 1e6 + x, stalls ? none : 12},
+                    stalls ? "" : "root>tip",
+                    stalls ? "friction holds bodies.panel_1" : ""});
+  }
+  return results;
+}
+
+} // namespace
+
+TEST_CASE("the table shows outcomes, reasons, latch orders, outputs by hinge, and the files") {
+  const std::string table =
+      summary_table(summarize(some_results(), {}), "three_panel, 100 runs", "out");
+  for (const char* part : {"three_panel, 100 runs\n",
+                           "OUTCOME",
+                           "95 % bounds",
+                           "deployed",
+                           "timed out",
+                           "90.000 %",
+                           "82.378 – 95.100 %",
+                           "friction holds bodies.panel_1",
+                           "LATCH ORDER",
+                           "root>tip",
+                           "no latch",
+                           "mean",
+                           "std",
+                           "1 %",
+                           "median",
+                           "99 %",
+                           "\nroot\n  latch time",
+                           "N·m",
+                           "\ntip\n",
+                           "\nwing\n",
+                           "Each output over the runs in which it happened, of 100.",
+                           "FILES  out: runs.csv, summary.json, histograms.json, histograms.csv\n"})
+    CHECK_THAT(table, Catch::Contains(part));
+  CHECK_THAT(table, Catch::Contains("  stalled" + std::string(49, ' ') + "10    10.000 %"));
+}
+
+TEST_CASE("the table stays within its width and leaves no blanks behind") {
+  StatisticsSpec spec;
+  spec.quantiles = {0.00135, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.99865};
+  Results results = some_results();
+  results.append({100,
+                  Status::failed,
+                  {0},
+                  {none, none, none, none},
+                  "tip>root",
+                  "it took more steps, one after the other, than anybody had thought of, and then "
+                  "some more of them"});
+  const std::string table = summary_table(summarize(results, spec), "a title", "");
+  for (const std::string& line : lines(table)) {
+    INFO(line);
+    CHECK(count_characters(line) <= table_width);
+    CHECK((line.empty() || line.back() != ' '));
+  }
+  CHECK(contains(table, "99.865 %"));
+  CHECK_THAT(table, Catch::Contains("than anybody had thought of, and then\n" +
+                                    std::string(22, ' ') + "some more of them\n"));
+  CHECK_FALSE(contains(table, "FILES"));
+}
+
+TEST_CASE("no name is cut off: one that has no room has a line of its own") {
+  const std::string order(120, 'o'), hinge(110, 'h');
+  Results results(ResultNames{{}, {hinge + ".latch_time", "root.rate_at." + hinge}});
+  results.append({0, Status::failed, {}, {1, 2}, order, std::string(90, 'r')});
+  Summary summary = summarize(results, {});
+  summary.requirements = judge_all(
+      std::vector<Requirement>{{std::string(60, 'n'), hinge + ".latch_time", 3.0, {}, 0.9, 0.9}},
+      results);
+  const std::string table = summary_table(summary, std::string(150, 't'), "");
+  CHECK_FALSE(contains(table, "…"));
+  CHECK(contains(table, std::string(150, 't') + "\n"));
+  CHECK(contains(table, "  " + order + "\n" + std::string(50, ' ') + "         1"));
+  CHECK(contains(table, "\n" + hinge + "\n  latch time"));
+  CHECK(contains(table, "  rate at " + hinge + "\n" + std::string(19, ' ') + "rad/s "));
+  CHECK(contains(table, "  failed           1  " + std::string(90, 'r') + "\n"));
+  CHECK(contains(table, "  " + std::string(60, 'n') + ": " + hinge +
+                            ".latch_time ≤ 3 s, 90 % at 90 %\n" + std::string(46, ' ') + "fail"));
+}
+
+TEST_CASE("the nominal run stands beside the statistics") {
+  Summary summary = summarize(some_results(), {});
+  CHECK_FALSE(contains(summary_table(summary, "", ""), "nominal"));
+  summary.nominal = NominalRun{Status::timed_out, "root", "t_end came first"};
+  for (OutputSummary& output : summary.outputs) output.nominal = none;
+  summary.outputs[0].nominal = 10.5;
+  const std::string table = summary_table(summary, "", "");
+  CHECK(contains(table, "\n  the nominal wing" + std::string(32, ' ') + "timed out\n"));
+  CHECK(contains(table, "OUTPUT             unit       runs    nominal       mean"));
+  CHECK(contains(table, "  latch time       s            90     10.500     10.490"));
+  CHECK(contains(table, "  deployment time  s            90          –     12.000"));
+}
+
+TEST_CASE("the table of nothing is still a table") {
+  const std::string table = summary_table(summarize(Results(ResultNames{{}, {}}), {}), "none", "");
+  CHECK(contains(table, "deployed"));
+  CHECK_FALSE(contains(table, "nan"));
+  CHECK_FALSE(contains(table, "OUTPUT"));
+}
+
+TEST_CASE("the table counts the latch orders and reasons that it leaves out") {
+  Results results(ResultNames{{}, {}});
+  for (long run = 0; run < 12; ++run)
+    results.append({run,
+                    Status::invalid,
+                    {},
+                    {},
+                    "order" + std::to_string(run),
+                    "reason" + std::to_string(run)});
+  const std::string table = summary_table(summarize(results, {}), "", "");
+  CHECK(contains(table, "and 4 other reasons, in summary.json"));
+  CHECK(contains(table, "4 other orders" + std::string(43, ' ') + "4    33.333 %"));
+}
+
+TEST_CASE("a drawn histogram: one line per bin, its count, and a bar as long as its density") {
+  const std::string drawn =
+      draw_histogram("root.latch_time", "s", {{0, 1, 2, 4}, {10, 20, 20}}, 64);
+  const std::vector<std::string> rows = lines(drawn);
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[0] == "root.latch_time, s");
+  const auto full = [&](std::size_t row) {
+    long count = 0;
+    for (std::size_t at = rows[row].find("█"); at != std::string::npos;
+         at = rows[row].find("█", at + 1))
+      ++count;
+    return count;
+  };
+  CHECK((full(1) == 20 && full(2) == 40 && full(3) == 20));
+  for (std::size_t row = 1; row <= 3; ++row) CHECK(count_characters(rows[row]) == 64);
+  CHECK(rows[2].ends_with("       20"));
+}
+
+TEST_CASE("a drawn histogram puts bins together and loses no count") {
+  Histogram histogram{{0}, {}};
+  for (int i = 0; i < 50; ++i) {
+    histogram.edges.push_back(i + 1);
+    histogram.counts.push_back(i);
+  }
+  const std::vector<std::string> rows = lines(draw_histogram("x", "", histogram, 80));
+  REQUIRE(rows.size() == 1 + 17 + 1); // groups of three
+  CHECK(rows[0] == "x");
+  long sum = 0;
+  for (std::size_t row = 1; row <= 17; ++row)
+    sum += std::stol(rows[row].substr(rows[row].rfind(' ') + 1));
+  CHECK(sum == histogram.total());
+  for (std::size_t row = 1; row <= 17; ++row)
+    CHECK(std::stod(rows[row]) == 3 * static_cast<double>(row - 1)); // its lower edge
+  CHECK(std::stod(rows[18]) == 50);
+  CHECK(draw_histogram("x", "N", {}, 80) == "x, N\n  no values\n");
+}
+
+TEST_CASE("the table shows what the campaign asks for, and which runs to look at") {
+  const Results results = some_results();
+  Summary summary = summarize(results, {});
+  const Requirement peak{"", "tip.peak_moment", 2e6, {}, .8, .9},
+      deploys{"", "deployed", {}, {}, .99, .9};
+  summary.requirements = {judge(peak, results), judge(deploys, results)};
+  summary.outputs[2].tolerance_limits = {{{.95, .9, Side::upper}, {{}, 1000098.}}};
+  summary.until = {{WidthGoal{"deployed", {}, .01, false}, .127, false},
+                   {DecisionGoal{"T-1"}, {}, true}};
+  const std::string table = summary_table(summary, "t", "out");
+  for (const char* part :
+       {"  tip.peak_moment ≤ 2000000 N·m, 80 % at 90 % pass            10      14   1.0001e+06",
+        "  deployed, 99 % at 90 %                      fail            10       –     90.000 %",
+        "    10 of 100 runs break it: disproved\n",
+        "    wingspread replay out --run 9   and 19, 29, 39, 49, 59, …\n",
+        "  tip.peak_moment                           95 % at 90 %", "UNTIL THE INTERVAL'S WIDTH IS",
+        "  deployed 0.01",
+        "  requirement T-1                                                      decided"})
+    CHECK_THAT(table, Catch::Contains(part));
+  for (const std::string& line : lines(table)) CHECK(count_characters(line) <= table_width);
+  CHECK_THAT(table, !Catch::Contains("all together"));
+  summary.requirements[1] = summary.requirements[0];
+  CHECK_THAT(
+      summary_table(summary, "t", "out"),
+      Catch::Contains("  Those that pass hold each for itself; all together at 80 % or more.\n"));
+}
+
+TEST_CASE("the table says what the integration contributes") {
+  Summary summary = summarize(some_results(), {});
+  CHECK_FALSE(contains(summary_table(summary, "t", "out"), "ACCURACY"));
+  summary.outputs[0].mean_error = 0.02;
+  summary.accuracy = Accuracy{.runs = 10,
+                              .method = "auto",
+                              .rtol = 1e-8,
+                              .reference_method = "dopri5",
+                              .reference_rtol = 1e-11,
+                              .in_doubt = {},
+                              .unreached = 0,
+                              .outputs = {{"root.latch_time", 9, 1.26e-9, 4e-10},
+                                          {"root.rate_at.a_hinge_with_a_long_name", 0, none, none},
+                                          {"tip.peak_moment", 10, 0, 0},
+                                          {"deployment_time", 9, 0.5, 0.25}}};
+  const std::vector<std::string> all = lines(summary_table(summary, "t", "out"));
+  const auto begin = std::ranges::find_if(
+      all, [](const std::string& line) { return line.starts_with("ACCURACY"); });
+  REQUIRE(all.end() - begin > 8);
+  CHECK(begin[0] == "ACCURACY of the integration           unit   largest error     RMS error "
+                    "error of the mean  RMS/that");
+  const auto blanks = [](std::size_t count) { return std::string(count, ' '); };
+  CHECK(begin[1] == "  root.latch_time" + blanks(21) + "s" + blanks(12) + "1.3e-09" + blanks(9) +
+                        "4e-10" + blanks(14) + "0.02" + blanks(3) + "2e-06 %");
+  CHECK(begin[3].starts_with(blanks(38) + "rad/s" + blanks(14) + "–"));
+  CHECK(begin[6] == "  10 of 100 runs again by dopri5 at rtol 1e-11 (auto at 1e-08 before): status "
+                    "or order of latching");
+  CHECK(begin[7] == "  in doubt in none.");
+  summary.accuracy->in_doubt = {17, 40};
+  summary.accuracy->unreached = 3;
+  CHECK(contains(summary_table(summary, "t", "out"),
+                 "order of latching\n  in doubt in 2. They are runs 17, 40. 3 more could not be "
+                 "finished so.\n"));
+}

@@ -1,0 +1,75 @@
+#include "montecarlo/results/summary/summary_json.hpp"
+#include "montecarlo/results/summary/table.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+
+Results four_runs() {
+  Results results(ResultNames{{}, {"root.latch_rate"}, true});
+  const std::vector<PeaksFinal> finals{PeaksFinal::yes, PeaksFinal::no, PeaksFinal::yes,
+                                       PeaksFinal::unknown};
+  for (long run = 0; run < 4; ++run)
+    results.append({run,
+                    Status::deployed,
+                    {},
+                    {-1.25 - 0.25 * static_cast<double>(run)},
+                    "",
+                    "",
+                    finals[static_cast<std::size_t>(run)]});
+  return results;
+}
+
+} // namespace
+
+TEST_CASE("what is to be warned of stands in the table and in summary.json") {
+  const Results results = four_runs();
+  Summary summary = summarize(results, {});
+  summary.peaks = count_peaks_final(results);
+  CHECK((summary.peaks->proven == 2 && summary.peaks->cut == 1 && summary.peaks->unknown == 1));
+  summary.requirements = {judge({"", "root.latch_rate", 1.5, {}, .5, .5}, results)};
+  const std::vector<std::string> expected{
+      "in 1 of 4 runs t_end cut the peaks: they may still rise, and break every requirement on a "
+      "peak",
+      "root.latch_rate ≤ 1.5 rad/s, 50 % at 50 %: every value, -2 to -1.25, is on the other side "
+      "of zero from the limit; \"abs\": true limits the magnitude"};
+  CHECK(warnings(summary) == expected);
+  const Json json = summary_json(summary, {});
+  CHECK(json["warnings"] == Json(expected));
+  CHECK(json["peaks_final"] == Json{{"true", 2}, {"false", 1}, {"missing", 1}});
+  CHECK(json["definitions"].contains("peaks_final"));
+  const std::size_t end = expected[1].find(" from"); // of the table's line
+  CHECK_THAT(summary_table(summary, "four", ""),
+             Catch::Contains("\nWARNING\n  " + expected[0] + "\n  " + expected[1].substr(0, end) +
+                             "\n  " + expected[1].substr(end + 1) + "\n"));
+}
+
+TEST_CASE("nothing is warned of where there is nothing, or it was not recorded") {
+  Results results(ResultNames{{}, {"root.latch_rate"}});
+  results.append({0, Status::deployed, {}, {-1.}, "", ""});
+  const Summary summary = summarize(results, {});
+  CHECK(warnings(summary).empty());
+  CHECK_FALSE(summary_json(summary, {}).contains("warnings"));
+  CHECK_FALSE(summary_json(summary, {}).contains("peaks_final"));
+}
+
+TEST_CASE("a group is told in the table and in summary.json") {
+  const Results results = four_runs();
+  Summary summary = summarize(results, {});
+  std::vector<Requirement> both(2, {"", "root.latch_rate", 0, {}, .2, .4});
+  both[0].group = both[1].group = "rates";
+  summary.requirements = judge_all(both, results);
+  CHECK_THAT(summary_table(summary, "four", ""),
+             Catch::Contains("  group rates: pass: 2 of 2 pass, all together at 40 %\n"));
+  const Json json = summary_json(summary, {});
+  CHECK(json["groups"][0] == Json{{"group", "rates"},
+                                  {"confidence", .4},
+                                  {"requirements", 2},
+                                  {"passed", 2},
+                                  {"verdict", "pass"}});
+  CHECK(json["requirements"][1]["confidence_alone"].get<double>() == Approx(.7).epsilon(1e-15));
+  CHECK(json["definitions"].contains("groups"));
+}
