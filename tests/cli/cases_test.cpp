@@ -280,9 +280,8 @@ TEST_CASE("shards of cases: what is missing of any case, a preview, and the whol
 TEST_CASE("on a terminal one line tells of all cases, and does not run backwards", "[cases]") {
   const Cases cases(2000);
   const std::string typed = cases.folder.path() / "typed";
-  const std::string command = std::string("script -qec '") + WINGSPREAD_BINARY + " run " +
-                              cases.file + " --out " + cases.out + " --threads 1' " + typed +
-                              " > /dev/null";
+  const std::string command = std::string("script -qec '") + program_path + " run " + cases.file +
+                              " --out " + cases.out + " --threads 1' " + typed + " > /dev/null";
   (void)std::system(command.c_str());
   std::istringstream text(read_text(typed).value());
   long last = 0, lines = 0;

@@ -11,10 +11,12 @@ extern char** environ;
 
 namespace wingspread::test {
 
+const char* const program_path = WINGSPREAD_BINARY;
+
 Program::Program(const Folder& folder, const std::vector<std::string>& arguments,
                  const std::filesystem::path& out)
     : out_(out.empty() ? folder.path() / "stdout.txt" : out), error_(folder.path() / "stderr.txt") {
-  std::vector<std::string> words{WINGSPREAD_BINARY};
+  std::vector<std::string> words{program_path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

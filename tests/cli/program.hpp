@@ -10,6 +10,9 @@
 
 namespace wingspread::test {
 
+/// The absolute path of the program under test.
+extern const char* const program_path;
+
 /// What a finished program leaves behind.
 struct Finished {
   int code; ///< exit status; 128 + N when signal N ended it

@@ -4,6 +4,7 @@
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "tests/montecarlo/spec_support.hpp"
+#include "tests/support/source_folder.hpp"
 
 #include <atomic>
 #include <map>
@@ -11,7 +12,7 @@
 namespace wingspread::test {
 
 inline std::filesystem::path three_panel_file() {
-  return std::filesystem::path(WINGSPREAD_SOURCE_DIR) / "studies/scenes/three_panel.json";
+  return std::filesystem::path(source_folder) / "studies/scenes/three_panel.json";
 }
 
 /// The seed scene with a spring and all masses dispersed; ends at the last latch, in 0.2 ms or so.

@@ -2,6 +2,7 @@
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "montecarlo/report/text/trajectory.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/support/source_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +14,7 @@ using namespace wingspread::test;
 
 namespace {
 
-const std::filesystem::path root = WINGSPREAD_SOURCE_DIR;
+const std::filesystem::path root = source_folder;
 
 /// With HINGE for the scene's own names, and OTHER behind rate_at; empty for a name alone.
 std::string general(std::string name) {

@@ -1,6 +1,7 @@
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/examine.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/support/source_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +14,7 @@ using namespace wingspread::test;
 
 namespace {
 
-const std::filesystem::path studies = std::filesystem::path(WINGSPREAD_SOURCE_DIR) / "studies";
+const std::filesystem::path studies = std::filesystem::path(source_folder) / "studies";
 
 std::vector<Notice> examine_file(const std::filesystem::path& file) {
   const std::variant<Scene, Campaign> read = read_file(file);

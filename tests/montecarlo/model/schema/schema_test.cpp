@@ -2,6 +2,7 @@
 #include "montecarlo/model/scene_file/scene_json.hpp"
 #include "montecarlo/model/schema/schema.hpp"
 #include "tests/montecarlo/spec_support.hpp"
+#include "tests/support/source_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -12,7 +13,7 @@ using namespace wingspread::test;
 
 namespace {
 
-const std::filesystem::path studies = std::filesystem::path(WINGSPREAD_SOURCE_DIR) / "studies";
+const std::filesystem::path studies = std::filesystem::path(source_folder) / "studies";
 
 std::vector<Problem> problems_of_scene(const Json& document) {
   std::vector<Problem> problems;

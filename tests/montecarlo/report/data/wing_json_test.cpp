@@ -1,6 +1,7 @@
 #include "montecarlo/model/input_checks/placement.hpp"
 #include "montecarlo/report/data/wing_json.hpp"
 #include "tests/montecarlo/report/data/page_support.hpp"
+#include "tests/support/source_folder.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -42,7 +43,7 @@ std::vector<Eigen::Vector2d> posed(const Json& wing, const std::vector<double>& 
 
 TEST_CASE("the page's rule of poses puts bodies where they are", "[page]") {
   for (const char* file : {"three_panel.json", "two_wing_free.json", "yoke_wing.json"}) {
-    const auto path = std::filesystem::path(WINGSPREAD_SOURCE_DIR) / "studies/scenes" / file;
+    const auto path = std::filesystem::path(source_folder) / "studies/scenes" / file;
     if (!std::filesystem::exists(path)) continue;
     CAPTURE(file);
     Scene scene = read_scene_file(path);

@@ -6,6 +6,7 @@
 #include "montecarlo/report/page/static_margins_json.hpp"
 #include "montecarlo/report/page/study_set.hpp"
 #include "tests/montecarlo/margin_support.hpp"
+#include "tests/support/source_folder.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -25,7 +26,7 @@ TEST_CASE("the page has all of its files, and asks no network", "[page]") {
         behind.npos); // d3's licence, before d3
   CHECK(behind.find("https://d3js.org v5") > behind.find("Redistribution and use"));
   const std::filesystem::path folder =
-      std::filesystem::path(WINGSPREAD_SOURCE_DIR) / "montecarlo/report/text/page";
+      std::filesystem::path(source_folder) / "montecarlo/report/page";
   long scripts = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".js" && entry.path().extension() != ".css") continue;
@@ -114,7 +115,7 @@ TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]")
 
 TEST_CASE("every output that a campaign can have is in the glossary", "[page]") {
   const Json glossary = glossary_json();
-  const Scene scene = read_scene_file(std::filesystem::path(WINGSPREAD_SOURCE_DIR) /
+  const Scene scene = read_scene_file(std::filesystem::path(source_folder) /
                                       "studies/scenes/two_wing_free.json");
   for (const OutputColumn& column : output_columns(scene, all_outputs())) {
     const std::string hinge =
