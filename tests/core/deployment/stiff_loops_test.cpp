@@ -1,5 +1,6 @@
 // Loops whose strands go slack, and loops as stiff as cables are, against the dense formulation.
 #include "tests/core/deployment/real_runs.hpp"
+#include "tests/support/random_cases.hpp"
 
 #include <algorithm>
 
@@ -71,7 +72,8 @@ TEST_CASE("a strand that goes slack costs no accuracy: default tolerances agains
   features.softest = 100, features.stiffest = 3e3;
   Errors slack, taut;
   int kinks = 0;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  const int cases = random_cases(24, 6);
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(cases); ++seed) {
     Scene scene = looped(seed, features);
     for (Synchronisation& loop : scene.synchronisations)
       loop.preload = 0.003 * loop.stiffness, loop.damping *= 0.1;
@@ -90,7 +92,7 @@ TEST_CASE("a strand that goes slack costs no accuracy: default tolerances agains
           taut.rate, taut.moment, taut.force, taut.angle);
   // 167 kinks: times 6e-10, rates 2.8e-8, peaks 1.3e-7, angles 3.2e-8 rad; taut 1e-12, 3e-10, 9e-9,
   // 1e-9. What README promises holds without an event: step control meets a kink as any other error.
-  CHECK(kinks > 100);
+  CHECK(kinks > 4 * cases);
   CHECK(slack.time < 1e-7);
   CHECK(slack.rate < 1e-7);
   CHECK(slack.moment < 1e-6);
@@ -100,12 +102,13 @@ TEST_CASE("a strand that goes slack costs no accuracy: default tolerances agains
   CHECK(taut.moment < 1e-7);
 }
 
-TEST_CASE("150 random wings with loops as stiff as cables agree with the dense formulation") {
+TEST_CASE("random wings with loops as stiff as cables agree with the dense formulation") {
   RealFeatures features = nothing;
   features.loops = features.preloads = features.tables = true;
   features.softest = 1e3, features.stiffest = 1e6;
   double worst[] = {0, 0};
-  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+  const auto cases = static_cast<std::uint64_t>(random_cases(150, 30));
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     const Scene scene = looped(seed, features);
     ReferenceOptions options;
     options.t_end = 0.15;

@@ -1,0 +1,45 @@
+# The steps that tests/run and tests/nightly are made of. Sourced by both, from the repository's root.
+
+export OMP_WAIT_POLICY=passive # a thread that waits sleeps: spinning, it would take the processor from other tests
+
+tests_from=() # the build whose test objects the sanitizers' builds link
+
+# build_and_test PRESET TARGETS [ctest's options …]
+build_and_test() {
+  local preset=$1 targets=$2
+  shift 2
+  echo "== $preset"
+  cmake --preset "$preset" "${tests_from[@]}" "${cmake_options[@]}" >/dev/null
+  # shellcheck disable=SC2086 # the targets are words
+  cmake --build --preset "$preset" --target $targets
+  # one more than there are processors: some tests wait, for a browser, for ranks, for an interruption
+  ctest --test-dir "build/$preset" --no-tests=error --output-on-failure --parallel "$(($(nproc) + 1))" "$@"
+}
+
+check_rooms() {
+  echo "== rooms"
+  /usr/bin/python3 tests/rooms.py
+}
+
+check_format() {
+  echo "== clang-format"
+  git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+}
+
+# check_tidy [clang-tidy's options …]: the checks of .clang-tidy on the product's files
+check_tidy() {
+  echo "== clang-tidy"
+  # GCC's precompiled headers, warning names and unique symbols mean nothing to clang
+  cmake --preset release -B build/lint -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DWINGSPREAD_TESTS=OFF >/dev/null
+  cmake --build build/lint --target wingspread_build_stamp >/dev/null
+  sed -i 's/ -fno-gnu-unique//' build/lint/compile_commands.json
+  # Files as they are compiled, several at once: GCC reports what shadows. Left out: files that montecarlo/CMakeLists.txt
+  # excuses, and the report's page, which the build writes.
+  python3 -c 'import json, sys; print(*sorted({unit["file"] for unit in json.load(open(sys.argv[1]))}), sep="\n")' \
+    build/lint/compile_commands.json | grep -E '/(core|distributions|montecarlo)/' |
+    grep -vE '(model/scene_file/scene_parameter|results/results_folder/merge|foundation/statistics/(binomial|replicate)_bounds|montecarlo/page_files)\.cpp$' |
+    xargs -P "$(nproc)" -n 1 clang-tidy -p build/lint --quiet --warnings-as-errors='*' \
+      --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-shadow "$@"
+}
+
+fuzz_replays='fuzz_scene_replay fuzz_campaign_replay fuzz_rows_replay fuzz_command_replay'
