@@ -29,7 +29,7 @@ COPY = SOURCE / "build/mutants/source"
 BUILD = SOURCE / "build/mutants/build"
 RESULTS = pathlib.Path(os.environ.get("MUTANTS_RESULTS", SOURCE / "build/mutants/results.json"))
 PARTS = ["core", "distributions", "montecarlo", "cli"]  # test_PART
-COPIED = ["CMakeLists.txt", "core", "distributions", "montecarlo", "tests", "studies"]
+COPIED = ["CMakeLists.txt", "LICENSE", "core", "distributions", "montecarlo", "tests", "studies"]
 
 
 def fail(message):
