@@ -1,4 +1,4 @@
-// Where work is best spent: on more runs, or on a tighter tolerance. The error of a campaign's mean has two parts,
+// Should work go into more runs, or into a tighter tolerance? The error of a campaign's mean has two parts,
 //
 //     sampling      σ / √N                         by N runs, σ the output's standard deviation
 //     integration   | mean of e |                  by a tolerance, e the error of a run; | mean of e | ≤ RMS of e
@@ -70,7 +70,7 @@ std::vector<double> values_of(const std::vector<ResultRow>& rows, std::size_t ou
   return values;
 }
 
-/// How far the means of blocks of N runs lie from the mean of all, beside σ/√N.
+/// Adds the spread of the means of blocks of N runs about the mean of all, beside σ/√N.
 void add_sampling(const std::string& name, const std::string& output,
                   const std::vector<double>& values, Tables& tables) {
   const Moments all = moments(values);
@@ -86,7 +86,7 @@ void add_sampling(const std::string& name, const std::string& output,
   }
 }
 
-/// Errors e of runs of the same outcome.
+/// Errors e of one output, over runs with the reference's status and latch order.
 struct Errors {
   double mean = 0, rms = 0, largest = 0;
 };
