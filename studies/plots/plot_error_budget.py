@@ -1,4 +1,4 @@
-"""Draws speed against numerical and statistical error together, from what studies/drivers/error_budget.cpp wrote.
+"""Draws work against numerical and statistical error together, from the files of studies/drivers/error_budget.cpp.
 
     /usr/bin/python3 studies/plots/plot_error_budget.py results/error_budget
 
@@ -28,7 +28,7 @@ class Tolerance:
         self.mean = max(abs(row["mean error"]) / row["sigma"] for row in rows)
 
     def total(self, runs):
-        """Of a mean by so many runs: sampling, and the error that is the same in all of them."""
+        """The error of a mean of n runs over σ: sampling, and the mean error of the runs."""
         return math.hypot(1 / math.sqrt(runs), self.mean)
 
 
@@ -47,7 +47,7 @@ def draw_work(axes, tolerances, spread):
 
 
 def draw_tolerances(axes, tolerances):
-    """What a run's tolerance leaves, beside what the number of runs does."""
+    """Draws the errors of a run against its tolerance, beside sampling errors."""
     rtols = [its.rtol for its in tolerances]
     axes.plot(rtols, [its.rms for its in tolerances], "o-", color="tab:blue", label="a run's RMS error", markersize=4)
     axes.plot(rtols, [its.mean for its in tolerances], "s--", color="tab:blue", label="mean error of runs", markersize=4, alpha=0.7)
@@ -55,7 +55,7 @@ def draw_tolerances(axes, tolerances):
         sampling = 1 / math.sqrt(n)
         axes.axhline(sampling, color="0.45", linewidth=1)
         axes.text(min(rtols), 1.25 * sampling, f"sampling error, N = 1e{round(math.log10(n))}", fontsize=8, color="0.3", ha="right")
-        if n > 1e2:  # of the first it is where the last has its sampling error
+        if n > 1e2:  # for N = 1e2 the line would cover the one of N = 1e6
             axes.axhline(0.01 * sampling, color="0.45", linewidth=1, linestyle=":")
             axes.text(min(rtols), 0.0125 * sampling, f"1 % of it, N = 1e{round(math.log10(n))}", fontsize=8, color="0.3", ha="right")
     axes.set_xscale("log"), axes.set_yscale("log"), axes.invert_xaxis()
@@ -77,7 +77,7 @@ def draw_gain(axes, tolerances):
 
 
 def mean_spread(rows):
-    """Of the block means over σ, by the blocks' number of runs, averaged over the outputs."""
+    """RMS over outputs of the block means' spread over σ, by the number of runs of a block."""
     spread = {}
     for runs in distinct(rows, "runs"):
         ratios = [row["spread"] / row["sigma"] for row in rows if row["runs"] == runs and row["sigma"] > 0]
