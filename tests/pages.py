@@ -1,11 +1,12 @@
-"""Reads the product's pages (*.md) as a newcomer would, and fails where they mislead.
+"""Checks the pages (*.md) of the repository: links, commands, and the README's scene and campaign.
 
-    /usr/bin/python3 tests/pages.py ROOT PROGRAM FOLDER      FOLDER is made anew, for the README's own files
+    /usr/bin/python3 tests/pages.py ROOT PROGRAM FOLDER      FOLDER is emptied, for the README's files
 
-- every link within the repository leads to a file, and to a heading where it names one
-- every command line of the pages, `wingspread COMMAND … --option`, is one that the program's --help knows
-- README's scene and campaign, written to files under the names that its commands use, are accepted, run, and meet what
-  the campaign requires
+- every link within the repository leads to a file, and to an existing heading if it names one
+- every command line `wingspread COMMAND … --option` of the pages is known to the program's --help
+- the README's scene and campaign are accepted without warnings, run, and meet the campaign's requirements
+
+tests/examples.py checks the README's programs.
 """
 
 import functools
@@ -19,7 +20,7 @@ NAMES = {'{ "name": "one_panel"': "one_panel.json", '{ "scene": "one_panel.json"
 
 
 def anchor(heading):
-    """What a heading is linked to by: lower case, without punctuation, spaces as hyphens."""
+    """Returns the anchor of a heading: lower case, without punctuation, spaces as hyphens."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
@@ -31,9 +32,9 @@ def broken_links(page, root):
         name, _, place = target.partition("#")
         file = page.parent / name if name else page
         if not file.exists():
-            yield f"{page.relative_to(root)}: links to {target}, which is not there"
+            yield f"{page.relative_to(root)}: links to {target}, which does not exist"
         elif place and place not in map(anchor, re.findall(r"(?m)^#+ (.*)$", file.read_text(encoding="utf-8"))):
-            yield f"{page.relative_to(root)}: links to {target}, whose heading is not there"
+            yield f"{page.relative_to(root)}: links to {target}: no such heading"
 
 
 def unknown_options(page, root, program):

@@ -1,5 +1,5 @@
-/// What a job of many ranks is made of, measured: how long each run of a campaign takes, and what rank 0 has to do for
-/// a message and for each row in it. `simulate_ranks.py` reads what it writes.
+/// Measures the costs of a job of many ranks: the time of each run of a campaign, and the time that rank 0 spends on
+/// a message and on each row in it. `simulate_ranks.py` reads the files.
 ///
 ///   rank_costs [--quick] [--out DIR]      of studies/campaigns/seed.json
 ///
@@ -7,7 +7,6 @@
 ///   costs.csv       name, value
 #include "montecarlo/engine/mpi/messages.hpp"
 #include "montecarlo/engine/runs/in_order.hpp"
-#include "montecarlo/foundation/platform/live_histogram.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/row_writer.hpp"
 #include "studies/support/study.hpp"
@@ -38,7 +37,7 @@ template <class Work> double seconds_of(const Work& work) {
   return now() - began;
 }
 
-/// The messages of a rank that makes chunks of so many runs.
+/// The messages of a rank that makes `runs` runs in chunks of `in_chunk`.
 std::vector<std::string> reports(const RunPlan& plan, long runs, long in_chunk) {
   std::vector<std::string> messages;
   for (long first = 0; first < runs; first += in_chunk) {
@@ -55,7 +54,7 @@ std::vector<std::string> reports(const RunPlan& plan, long runs, long in_chunk) 
   return messages;
 }
 
-/// What rank 0 does with them: unpacks, puts in order, writes, keeps. @return seconds, the least of several
+/// Rank 0 unpacks the messages, puts their rows in order and writes them. @return s, the least of nine passes
 double take_in(const RunPlan& plan, const std::vector<std::string>& messages,
                const std::filesystem::path& file) {
   double least = 1e9;
@@ -63,14 +62,7 @@ double take_in(const RunPlan& plan, const std::vector<std::string>& messages,
     std::filesystem::remove(file);
     RowWriter writer(file, plan.names());
     writer.open(plan.names());
-    LiveHistogram histogram("deployment_time", "s");
-    const BatchSink sink{[&](const Batch& batch) {
-                           writer.add(batch);
-                           for (const ResultRow& row : batch.rows)
-                             histogram.add(row.outputs.back());
-                           (void)histogram.text();
-                         },
-                         true};
+    const BatchSink sink{[&](const Batch& batch) { writer.add(batch); }, true};
     InOrder in_order(sink, 1024);
     least = std::min(least, seconds_of([&] {
                        for (const std::string& message : messages) {

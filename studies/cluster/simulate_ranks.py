@@ -1,12 +1,11 @@
-"""At how many ranks does rank 0 become the limit, and what chunk size moves that? A simulation of the message pattern.
+"""Simulates the messages of MPI ranks: at how many ranks is rank 0 the limit, and how does the chunk size move that?
 
     /usr/bin/python3 studies/cluster/simulate_ranks.py [--costs DIR] [--out DIR] [--figure FILE]
 
-DIR holds what `rank_costs` measures: the times of single runs, with the slow ones (run_times.csv), and rank 0's costs of
-a message and of a row (costs.csv). Every rank has one thread, and four chunks in store beside the one that it makes; when
-it begins a chunk it asks for another, with what it has finished, as montecarlo/engine/mpi does. Rank 0 takes messages in one
-after the other, each at its cost, and sends the answer. What MPI itself takes of it, and the network's latency and
-bandwidth, are those of a usual cluster, and may be given. Prints a table, writes simulation.csv, draws the chart.
+DIR holds the files of `rank_costs`: times of single runs (run_times.csv), and rank 0's costs of a message and of a row
+(costs.csv). Every rank has one thread and four chunks in store beside the current one. When it begins a chunk it sends its
+finished rows and asks for another, as montecarlo/engine/mpi does. Rank 0 handles messages one after the other. MPI's own
+time, latency and bandwidth are those of a usual cluster; options change them. Prints a table, writes simulation.csv, draws a chart.
 """
 
 import argparse
@@ -20,7 +19,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "plots"))
 
 RANKS = (64, 1024, 16384)
 CHUNKS = (1, 4, 32, 256)
-IN_STORE = 4  # chunks a rank has beside the one that it makes
+IN_STORE = 4  # chunks that a rank has beside the current one
 
 
 def read_costs(folder):
@@ -45,7 +44,7 @@ class Job:
         self.cost_of = {rows: costs["message_s"] + rows * costs["row_s"] for rows in (0, size)}
 
     def run(self):
-        """@return efficiency: the share of the ranks' time in which they made runs; how busy rank 0 was"""
+        """Returns the efficiency (share of the ranks' time spent on runs) and the busy share of rank 0."""
         store, waits = [0] * self.ranks, [True] * self.ranks
         events, order, free, busy, worked = [], 0, 0.0, 0.0, 0.0
 

@@ -1,6 +1,5 @@
-// How long an acceleration evaluation takes against the number of bodies, and how long whole runs
-// take. Prints JSON. Each figure is the least of several repetitions in this one process; compare
-// ratios, for machines are noisy.
+// Measures the time of an acceleration evaluation against the number of bodies, and the time of whole runs.
+// Prints JSON. Each figure is the least of several repetitions in one process. Compare ratios: times scatter.
 //
 //   build/release/studies/benchmark                      everything
 //   build/release/studies/benchmark --quick              a tenth of the repetitions
@@ -34,8 +33,7 @@ template <class Function> double round_of(long count, Function& f) {
   return taken.count() / static_cast<double>(count);
 }
 
-/// Least time of one call of f, ns,
-/// over five rounds of about 50 ms (or of one call, if that is longer).
+/// Least time of one call of f, ns, over five rounds of about 50 ms, or of one call if it takes longer.
 template <class Function> double time_of(Function f) {
   const double once = round_of(1, f), some = round_of(1 + static_cast<long>(1e5 / once), f);
   const long count = 1 + static_cast<long>(5e7 * effort / some);
@@ -45,7 +43,7 @@ template <class Function> double time_of(Function f) {
   return best;
 }
 
-/// A clock to read the rest by: additions that each need the last, one a cycle on most processors.
+/// A yardstick for the other times: dependent additions, one a cycle on most processors.
 double cycles_per_ns() {
   unsigned long x = 1;
   const double block = time_of([&] {

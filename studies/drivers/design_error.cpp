@@ -1,4 +1,4 @@
-// How the error of a campaign's statistics falls with the number of runs, design by design: mean,
+// Measures how the error of a campaign's statistics falls with the number of runs, for each design: mean,
 // standard deviation and quantiles of the latch rates.
 //
 //   build/release/studies/design_error                 16 replicates of 64 … 4096 runs each
@@ -85,7 +85,7 @@ std::vector<double> of_replicate(const std::vector<double>& column, long replica
   return values;
 }
 
-/// Of a statistic over the replicates.
+/// Mean and spread of one statistic over the replicates.
 struct Error {
   double rms;      ///< about the reference
   double spread;   ///< standard deviation over the replicates
@@ -99,7 +99,7 @@ Error error_of(std::span<const double> found, double reference) {
   return {std::sqrt(squares / static_cast<double>(found.size())), m.std, m.mean - reference};
 }
 
-/// A row of the table.
+/// One row of the table.
 struct Point {
   DesignKind design;
   long n;
@@ -181,8 +181,8 @@ std::string csv_text(const std::vector<Point>& points, const Study& study, long 
   return text;
 }
 
-/// What the other designs gain at the largest number of runs: ratios of the replicates' variances.
-/// Of the mean of independent draws the variance is known, σ²/n, and no estimate taken.
+/// Prints the gain of the other designs at the largest number of runs: ratios of the replicates' variances.
+/// The variance of the mean of independent draws is known, σ²/n, and not estimated.
 void print_gains(const std::vector<Point>& points, const Study& study, long n) {
   std::map<std::tuple<DesignKind, std::string, std::size_t>, double> spread;
   for (const Point& point : points)
@@ -214,7 +214,7 @@ int carry_out(const Options& options) {
   return 0;
 }
 
-/// The mode's numbers where none are given.
+/// The defaults of the mode, full or quick, for options that are not given.
 void complete(Options& options) {
   const auto or_else = [](long& number, long fallback) { number = number > 0 ? number : fallback; };
   or_else(options.replicates, options.quick ? 8 : 16);

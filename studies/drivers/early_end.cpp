@@ -1,10 +1,10 @@
-// What an early end of runs saves, and whether it loses anything: every run of several campaigns as a
-// campaign makes it, and again to its t_end. No bit of a latch, a peak or an overtravel may differ.
+// Measures the work that an early end of runs saves, and checks that no result is lost. Every run of several campaigns is
+// made as a campaign makes it, and again to its t_end. No bit of a latch, a peak or an overtravel may differ.
 //
 //   build/release/studies/early_end                 some ten thousand runs of each campaign; minutes
 //   build/release/studies/early_end --quick         a hundred of each
 //
-// Exits 1 where anything was lost.
+// Exits 1 if any bit differs.
 
 #include "core/deployment.hpp"
 #include "montecarlo/engine/runs/run_plan.hpp"
@@ -23,8 +23,8 @@ using namespace wingspread;
 
 namespace {
 
-/// A campaign, how many of its runs, and how far these go: at some campaigns' own t_end a wing has been
-/// at rest for most of the time.
+/// A campaign, its number of runs, and their t_end, s. Some campaigns' own t_end is far later: the wing would be at
+/// rest for most of the time.
 struct Case {
   const char* campaign;
   long runs;
@@ -57,7 +57,7 @@ bool same(const std::vector<Peak>& a, const std::vector<Peak>& b) {
   });
 }
 
-/// Whether the whole run has nothing that the early one has not.
+/// Whether the run to t_end has the latches, peaks and overtravels of the early one.
 bool nothing_lost(const Outcome& early, const Outcome& whole) {
   const bool latches =
       std::equal(early.latches.begin(), early.latches.end(), whole.latches.begin(),

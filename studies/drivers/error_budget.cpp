@@ -1,17 +1,16 @@
-// Where work is best spent: on more runs, or on a tighter tolerance. The error of a campaign's mean has two parts,
+// Should work go into more runs, or into a tighter tolerance? The error of a campaign's mean has two parts,
 //
 //     sampling      σ / √N                         by N runs, σ the output's standard deviation
 //     integration   | mean of e |                  by a tolerance, e the error of a run; | mean of e | ≤ RMS of e
 //
-// and N runs at a tolerance cost N times a run's evaluations. Measured for several campaigns: σ; the block
-// means' spread against σ/√N; e against a reference at rtol 1e-12 by another method; evaluations and time; and which
-// tolerance "auto" takes for N from 1e2 to 1e6.
+// and N runs at a tolerance cost N times a run's evaluations. Measured for three campaigns: σ; the spread of block
+// means against σ/√N; e against a reference at rtol 1e-12 by another method; evaluations and time.
 //
 //   build/release/studies/error_budget                 20,000 runs of each campaign for σ, 200 for errors; minutes
 //   build/release/studies/error_budget --quick         400 and 16
 
 #include "core/deployment.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
+#include "montecarlo/engine/accuracy/accuracy.hpp"
 #include "montecarlo/engine/runs/runner.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
@@ -42,7 +41,6 @@ struct Tables {
   study::Table errors{"campaign", "rtol",  "runs", "in doubt",   "evaluations", "cpu [us]",
                       "output",   "sigma", "rms",  "mean error", "largest"};
   study::Table sampling{"campaign", "output", "runs", "blocks", "spread", "sigma"};
-  study::Table chosen{"campaign", "runs", "rtol"};
 };
 
 Integration at_tolerance(Integration how, const char* method, double rtol) {
@@ -72,7 +70,7 @@ std::vector<double> values_of(const std::vector<ResultRow>& rows, std::size_t ou
   return values;
 }
 
-/// How far the means of blocks of N runs lie from the mean of all, beside σ/√N.
+/// Adds the spread of the means of blocks of N runs about the mean of all, beside σ/√N.
 void add_sampling(const std::string& name, const std::string& output,
                   const std::vector<double>& values, Tables& tables) {
   const Moments all = moments(values);
@@ -88,7 +86,7 @@ void add_sampling(const std::string& name, const std::string& output,
   }
 }
 
-/// Errors e of runs of the same outcome.
+/// Errors e of one output, over runs with the reference's status and latch order.
 struct Errors {
   double mean = 0, rms = 0, largest = 0;
 };
@@ -127,17 +125,6 @@ void study_tolerance(Campaign campaign, const std::string& name, double rtol,
              evaluations, microseconds, found.in_doubt.size(), sizes.repeated);
 }
 
-void study_choice(Campaign campaign, const std::string& name, Tables& tables) {
-  for (const std::int64_t runs : {100, 1000, 10'000, 100'000, 1'000'000}) {
-    campaign.sampling.runs = runs;
-    campaign.tolerance = ToleranceChoice{};
-    settle_tolerance(campaign, {});
-    tables.chosen.add({name, static_cast<double>(runs), campaign.integration.rtol});
-    fmt::print("{:16} {:8} runs: \"auto\" takes rtol {:g}\n", name, runs,
-               campaign.integration.rtol);
-  }
-}
-
 void study_campaign(const std::string& name, const Sizes& sizes, Tables& tables) {
   Campaign campaign = read_campaign_file(fmt::format("studies/campaigns/{}.json", name));
   campaign.cases.clear();
@@ -158,7 +145,6 @@ void study_campaign(const std::string& name, const Sizes& sizes, Tables& tables)
                  first_runs(sizes.repeated), {});
   for (const double rtol : tolerances)
     study_tolerance(campaign, name, rtol, reference, sigma, sizes, tables);
-  study_choice(campaign, name, tables);
 }
 
 void study_all(const study::StudyOptions& options) {
@@ -167,7 +153,6 @@ void study_all(const study::StudyOptions& options) {
   for (const char* name : campaigns) study_campaign(name, sizes, tables);
   tables.errors.write(options.folder / "error_budget.csv");
   tables.sampling.write(options.folder / "sampling.csv");
-  tables.chosen.write(options.folder / "chosen.csv");
 }
 
 } // namespace

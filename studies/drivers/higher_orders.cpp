@@ -27,7 +27,7 @@ namespace {
 template <class T> using Verner98Formula = EmbeddedPair<T, Verner98>;
 template <class T> using Verner87Formula = EmbeddedPair<T, Verner87>;
 
-/// The way between two events.
+/// The motion between two events.
 struct Stretch {
   double from, to;
   int engages = 0; ///< the hinge whose latch engages at its start, of the wing; 0: none
@@ -66,7 +66,7 @@ template <class T> Wing<T> wing_of(const Scene& scene) {
   return wing;
 }
 
-/// A wing that goes from stretch to stretch.
+/// A wing that is integrated from stretch to stretch.
 template <class T> struct Wanderer {
   static constexpr int bodies = 3;
   using AnySystem = System<T, Chain<bodies>, BaseMotion::fixed>;
@@ -89,7 +89,7 @@ template <class T> struct Wanderer {
   }
 };
 
-/// What a way from release to a stretch's end took, and led to.
+/// Cost and end state of a motion from release to a stretch's end.
 struct Walk {
   std::vector<long> evaluations, steps;    ///< up to the end of each stretch
   std::vector<std::vector<double>> states; ///< there
@@ -104,7 +104,7 @@ struct Walk {
 
 constexpr double first_try = 2e-3; ///< s, of every stretch, whatever the method
 
-/// By a formula with the step control of core/methods.
+/// Integrates by a formula with the step control of core/methods.
 template <class T, template <class> class Formula>
 Walk walk(Wanderer<T>& wing, const std::vector<Stretch>& way, double rtol, int /*order*/) {
   Formula<T> formula;
@@ -143,7 +143,7 @@ Walk walk(Wanderer<T>& wing, const std::vector<Stretch>& way, double rtol, int /
   return made;
 }
 
-/// By Taylor series of an order; steps by the last two coefficients [Jorba & Zou 2005].
+/// Integrates by Taylor series of one order; steps by the last two coefficients [Jorba & Zou 2005].
 template <class T>
 Walk walk_by_series(Wanderer<T>& wing, const std::vector<Stretch>& way, double rtol, int order) {
   constexpr int n = Wanderer<T>::bodies;
@@ -189,7 +189,7 @@ double error_of(const Walk& got, const Walk& reference, std::size_t count) {
   return worst;
 }
 
-/// The way's parts that the table has columns for.
+/// The parts of the motion that are columns of the table.
 struct Extent {
   const char* name;
   std::size_t stretches; ///< from release
@@ -212,7 +212,7 @@ template <class Call> double least_time(int rounds, Call&& call) {
   return best;
 }
 
-/// A method at all tolerances.
+/// One method at all tolerances.
 struct Method {
   std::string name;
   int order; ///< of a series
@@ -234,7 +234,7 @@ std::vector<Method> all_methods() {
 
 using Curve = std::vector<Point>;
 
-/// A figure of a curve at an error, between its points; NaN where it has none.
+/// Work at a given error, interpolated between a curve's points; NaN outside them.
 double at_error(const Curve& curve, double error, double Point::*figure) {
   double best = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 1; k < curve.size(); ++k) {
@@ -295,7 +295,7 @@ void print_extent(const Study& study, const Extent& extent, Table& table) {
   }
 }
 
-/// By how much a pair misses what its order asks of it: row sums and quadratures of t^k.
+/// The largest violation of a pair's order conditions: row sums and quadratures of t^k.
 template <class Pair> double residual() {
   double worst = 0;
   for (int i = 0; i < Pair::stages; ++i) {

@@ -1,5 +1,5 @@
-// What the smoothed latch makes of the peak moments and latch rates, against its width ε, and how
-// it tends to the event latch.
+// Measures peak moments and latch rates of the smoothed latch against its width ε, and its convergence to the event
+// latch.
 //
 //   build/release/studies/latch_model                    results/latch_model, some minutes
 //   build/release/studies/latch_model --quick            three widths
@@ -55,7 +55,7 @@ Figures oracle_figures(const Scene& scene, double epsilon) {
 
 double relative(double got, double expected) { return (got - expected) / std::abs(expected); }
 
-/// One width: what it does to every hinge.
+/// One width: changes of peak moment and latch rate at every hinge.
 void add_width(Table& table, const Scene& scene, const Figures& event, double epsilon) {
   const Figures smoothed = smoothed_figures(scene, "dop853", epsilon);
   const Disagreement check = disagreement(oracle_figures(scene, epsilon), smoothed);

@@ -1,24 +1,22 @@
-"""How much memory a campaign holds, against its number of runs.
+"""Measures the memory of each command against the number of runs.
 
     /usr/bin/python3 studies/drivers/memory.py            some fifteen minutes; results/memory takes 10 GB while it lasts,
                                                   and temporary files 5 GB
-    /usr/bin/python3 studies/drivers/memory.py --quick    seconds; fails where memory grows faster than it may
+    /usr/bin/python3 studies/drivers/memory.py --quick    seconds; fails if memory grows too fast
 
-Measurements of whole programs on two threads, by the most memory that each ever held (ru_maxrss, which counts what
-is resident of mapped files):
+Whole programs on two threads, by their peak resident memory (ru_maxrss, resident pages of mapped files included):
 
-    run       of the seed wing without friction to its last latch
-    resume    of such runs whose last twentieth is cut off
-    merge     of ten shards of such runs
-    replay    of one run of them
-    analyze   of rows with all of the seed campaign's columns: those of a shorter run again and again, under new
-              numbers
-    judge     the same with a hundred requirements, on four outputs
-    export    of such rows to HDF5
-    margin    of the wing of `run`, which is not given the time to deploy, at three scales; and its static margins at 21
-              places of the travel of each hinge, draw by draw
+    run       the seed wing without friction to its last latch
+    resume    the same, with the last twentieth of the rows cut off
+    merge     ten shards of such runs
+    replay    one of these runs
+    analyze   rows with all columns of the seed campaign: the rows of a shorter run repeated under new numbers
+    judge     the same with a hundred requirements on four outputs
+    export    such rows to HDF5
+    margin    the wing of `run` at three scales, stopped before it deploys; static margins at 21 angles of each hinge
+              for each draw
 
-They are printed, and written to memory.csv in the folder.
+Prints the figures and writes them to memory.csv in the folder.
 """
 
 import argparse
@@ -39,7 +37,7 @@ MIB = 1024  # ru_maxrss is in KiB
 
 
 def measure(command, *arguments):
-    """Runs the program; its seconds and the most MiB that it held."""
+    """Runs the program. Returns its wall time, s, and its peak memory, MiB."""
     start = time.monotonic()
     process = os.posix_spawn(command, [command, *map(str, arguments)], os.environ | {"OMP_NUM_THREADS": "2"},
                              file_actions=[(os.POSIX_SPAWN_OPEN, fd, os.devnull, os.O_WRONLY, 0) for fd in (1, 2)])
@@ -50,7 +48,7 @@ def measure(command, *arguments):
 
 
 def write_cheap_campaign(folder):
-    """A campaign whose runs cost little, so that there can be many of them."""
+    """Writes a campaign of cheap runs, so that there can be many."""
     campaign = json.loads(CAMPAIGN.read_text())
     campaign["scene"] = json.loads(CHEAP_SCENE.read_text())
     campaign["dispersions"] = [each for each in campaign["dispersions"] if each["name"] in CHEAP_DISPERSIONS]
@@ -88,7 +86,7 @@ def measure_replay(program, folder, runs):
 
 
 def repeat_rows(source, folder, runs):
-    """A folder of so many rows: those of `source` again and again, under new numbers."""
+    """Writes a results folder of `runs` rows: the rows of `source` repeated under new numbers."""
     folder.mkdir()
     campaign = json.loads((source / "campaign.json").read_text())
     del campaign["wingspread"]  # nobody's stamp: its runs are not its draws'
@@ -117,7 +115,7 @@ def measure_export(program, folder, runs):
 
 
 def measure_judge(program, folder, runs):
-    """Requirements that from one run in ten down to none breaks."""
+    """Judges a hundred requirements, broken by one run in ten down to none."""
     requirements = [{"output": output, "max": low + (high - low) * k / 24, "probability": 0.9, "confidence": 0.9}
                     for output, low, high in (("root.peak_moment", 256, 300), ("root.latch_time", 5.12, 6),
                                               ("tip.peak_moment", 310, 600), ("mid.latch_rate", 0.9, 3))
@@ -141,7 +139,7 @@ def measure_margin(program, folder, runs):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--quick", action="store_true", help="few runs; exit code 1 where memory grows too fast")
+    parser.add_argument("--quick", action="store_true", help="few runs; exit code 1 if memory grows too fast")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/memory"))
     parser.add_argument("--program", default="build/release/wingspread")
     options = parser.parse_args()

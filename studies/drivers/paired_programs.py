@@ -1,12 +1,12 @@
-"""Two programs, or more, in turn on the same campaigns: processor time a run, and how much faster the last is than the first.
+"""Runs two or more programs in turn on the same campaigns. Prints processor time a run, and the last program's speed over the first's.
 
     /usr/bin/python3 studies/drivers/paired_programs.py before/wingspread build/release/wingspread
     /usr/bin/python3 studies/drivers/paired_programs.py --pairs 9 --campaigns seed yoke_wing -- before/wingspread build/release/wingspread
     /usr/bin/python3 studies/drivers/paired_programs.py --quick build/release/wingspread build/release/wingspread   # seconds
 
-One thread, all outputs, default accuracy, no runs repeated for accuracy; yoke_wing's case "ambient". The user time of a campaign of 5/4 N runs less
-that of one of N/4 leaves out what starts and ends a program and counts statistics and rows in. Ratios are of neighbours in time: their
-median, and the range of the middle half. It exits 1 where a program fails.
+One thread, all outputs, default accuracy, no runs repeated for accuracy; yoke_wing's case "ambient". The user time of a campaign of 5/4 N runs minus
+the user time of N/4 runs excludes the start and end of a program, and includes statistics and rows. Ratios compare neighbours in time; the
+table has their median and the range of the middle half. Exits 1 if a program fails.
 """
 
 import argparse
@@ -32,7 +32,7 @@ RUNS = {
 
 
 def user_seconds(program, campaign, runs, folder):
-    """Of the whole program; its results are thrown away."""
+    """User time of the whole program, s; its results are deleted."""
     out = pathlib.Path(folder) / "out"
     options = ["--case", "ambient"] if campaign.stem == "yoke_wing" else []
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
@@ -61,7 +61,7 @@ def without_repeats(campaign, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("programs", nargs="+", help="paths; the first is what the last is compared with")
+    parser.add_argument("programs", nargs="+", help="paths; the last is compared with the first")
     parser.add_argument("--campaigns", nargs="+", default=list(RUNS), choices=list(RUNS), metavar="NAME")
     parser.add_argument("--pairs", type=int, default=5)
     parser.add_argument("--untouched", action="store_true", help="the campaigns as they are, for programs that repeat no runs")

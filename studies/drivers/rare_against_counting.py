@@ -1,13 +1,12 @@
-"""Whether `wingspread rare` is right: its estimates against counting, on the seed campaign's rubbing wing.
+"""Compares the estimates of `wingspread rare` with counting, on the seed campaign's wing with friction.
 
     /usr/bin/python3 studies/drivers/rare_against_counting.py            some ten minutes of two cores
-    /usr/bin/python3 studies/drivers/rare_against_counting.py --quick    seconds: a tenth of everything, which shows little
+    /usr/bin/python3 studies/drivers/rare_against_counting.py --quick    seconds: a tenth of all numbers; shows little
 
-One campaign of many runs counts the events, all at once; then each is estimated by many independent subset
-simulations. The table, also in rare_against_counting.csv, has both with their standard errors, and the difference in
-units of the two together: beyond 3 it is no chance. The spread of the simulations stands beside what each claims of
-itself (by the correlation along its chains), and how many of them would have to be averaged before the difference
-that is seen counted for as much as their spread.
+One campaign of many runs counts all events. Then many independent subset simulations estimate each event. The table, also in
+rare_against_counting.csv, has both with their standard errors, and their difference in units of the combined standard error: beyond 3
+is no chance. It also has the spread of the simulations beside the spread that each claims (by the correlation along its chains), and
+the number of simulations whose averaged spread would equal the difference.
 """
 
 import argparse
@@ -36,7 +35,7 @@ def campaign_in(folder, seed):
 
 
 def count(program, folder, runs):
-    """How many of the runs have each event; one without the output has it, as in `rare`."""
+    """Counts the runs with each event. A run without the output counts as having it, as in `rare`."""
     subprocess.run([program, "run", campaign_in(folder, 1), "--runs", str(runs), "--out", folder / "counted"],
                    check=True, stdout=subprocess.DEVNULL)
     hits = [0] * len(EVENTS)
@@ -49,7 +48,7 @@ def count(program, folder, runs):
 
 
 def estimate(program, folder, event, samples, repeats):
-    """The probabilities and the variations claimed of independent subset simulations."""
+    """Returns the probabilities and claimed variations of independent subset simulations."""
     output, limit = event
     result = subprocess.run([program, "rare", campaign_in(folder, 2), "--output", output, "--above", str(limit),
                              "--samples", str(samples), "--repeats", str(repeats), "--json"],

@@ -1,12 +1,12 @@
-"""Campaigns without rows (run --no-rows) against those with them, and how much memory and disk they take.
+"""Compares campaigns without rows (run --no-rows) with campaigns with rows: results, memory and disk.
 
     /usr/bin/python3 studies/drivers/rowless.py                    a million runs with rows and without, ten million without
     /usr/bin/python3 studies/drivers/rowless.py --longest 100000000 --first-latch
     /usr/bin/python3 studies/drivers/rowless.py --quick            seconds; ten thousand
 
-It exits 1 where a count, an extreme or a verdict differs, a moment differs by more than rounding, a quantile is not where it
-is said to be, a bound does not hold that of the rows, or memory grows with the number of runs. The runs are those of the wing
-of drivers/memory.py, to its last latch; with --first-latch the root alone has a latch, which is where they end. Figures are printed, and written to rowless.csv in the folder.
+Exits 1 if a count, an extreme or a verdict differs, a moment differs by more than rounding, a quantile lies outside its stated
+interval, a bound does not contain the bound of the rows, or memory grows with the number of runs. The wing is that of drivers/memory.py,
+run to its last latch; with --first-latch only the root has a latch. Prints the figures and writes rowless.csv in the folder.
 """
 
 import argparse
@@ -25,7 +25,7 @@ MOST_GROWTH_MIB = 7  # for each output, whatever the number of runs: more runs f
 
 
 def faults_between(full, found):
-    """What is not as it has to be in a summary without rows, beside that of the rows."""
+    """Lists the faults of a summary without rows, compared with the summary of the rows."""
     faults = []
 
     def expect(holds, what):
@@ -57,7 +57,7 @@ def faults_between(full, found):
 
 
 def worst_rank_error(summary):
-    """Of all quantiles, as a share of the values."""
+    """The largest rank error of all quantiles, as a share of the values."""
     return max(q["rank_error"] / output["count"] for output in summary["outputs"].values()
                for q in output["quantiles"] if "rank_error" in q)
 

@@ -3,8 +3,7 @@
     /usr/bin/python3 studies/drivers/same_bytes.py before/wingspread build/release/wingspread
     /usr/bin/python3 studies/drivers/same_bytes.py --runs 2000 --campaigns seed stall -- before/wingspread build/release/wingspread
 
-A change that should move no number is checked against the program before it. Left out of the comparison: timing.json, and
-the program's version in the stamp of each JSON file. The script also compares trajectories of each scene. It prints one
+Shows that a change of the code moves no number. The comparison leaves out timing.json and the program's version in JSON files. The script also compares trajectories of each scene. It prints one
 line for each campaign and scene, names every file that differs, and exits 1 if any does.
 """
 

@@ -1,5 +1,5 @@
-// The largest step that is stable on the latched seed wing: measured by stepping, near rest and
-// through the motion that follows the last latch, and from |R(hλ)| ≤ 1.
+// Finds the largest stable step of each method on the latched seed wing: by stepping near rest, by stepping
+// through the motion after the last latch, and from |R(hλ)| ≤ 1.
 //
 //   build/release/studies/stability_map                  results/stability_map
 //   build/release/studies/stability_map --quick          a coarse map
@@ -21,7 +21,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double shortest = 1.5e-3, longest = 0.5; ///< s: steps that are tried
 constexpr double scan = 1.05;                      ///< from one tried step to the next
 
-/// The largest step up to which all are stable, to five digits; NaN where even the longest is.
+/// The largest step below which all steps are stable, to five digits; NaN if even the longest is stable.
 /// @param stable(h)
 template <class Stable> double largest_step(const Stable& stable) {
   double below = shortest, above = shortest;
@@ -41,7 +41,7 @@ struct Limit {
   Eigenvalue mode{none, none};
 };
 
-/// By |R(hλ)| ≤ 1 for every mode of the wing.
+/// The limit by |R(hλ)| ≤ 1 for every mode of the wing.
 Limit theoretical_limit(const FixedStepMethod& method, const std::vector<Eigenvalue>& modes) {
   constexpr double rounding = 1e-9;
   Limit least;
@@ -53,19 +53,19 @@ Limit theoretical_limit(const FixedStepMethod& method, const std::vector<Eigenva
   return least;
 }
 
-/// A start on the latched wing, and how long it is followed.
+/// An initial state of the latched wing, and the duration of the test.
 struct Motion {
   State<double> x;
   double duration;   ///< s
   long fewest_steps; ///< taken, however long that is
 };
 
-/// Kinetic energy and what latches and springs store above rest, J: it can only fall.
+/// Kinetic energy and the energy of latches and springs above rest, J. Exact motions never increase it.
 double energy_above(LinearWing& wing, const State<double>& x, double at_rest) {
   return kinetic_energy(wing.system(), x, 0.0) + potential_energy(wing.system(), x, 0.0) - at_rest;
 }
 
-/// Whether the motion has less energy at its end, over a tenth of the steps, than at its start.
+/// Whether the mean energy of the last tenth of the steps is below that of the first.
 bool stays_bounded(LinearWing& wing, const FixedStepMethod& method, const Motion& motion,
                    double h) {
   const double at_rest = potential_energy(wing.system(), wing.rest(), 0.0);
@@ -83,9 +83,8 @@ bool stays_bounded(LinearWing& wing, const FixedStepMethod& method, const Motion
   return last <= first;
 }
 
-/// How far from 0 a half-axis of the plane of z is stable, to 0.01; NaN where all of it is. Growth
-/// that a million steps would not show counts as none: on the imaginary axis most explicit formulas
-/// grow, by a power of |z|.
+/// Length of the stable part of a half-axis of the z plane, to 0.01; NaN if all of it is stable. Growth below 1e-6 a
+/// step counts as none: on the imaginary axis most explicit formulas grow by a power of |z|.
 double axis_limit(const FixedStepMethod& method, const std::complex<double>& direction) {
   constexpr double rounding = 1e-6, step = 0.01, end = 20;
   for (double size = step; size < end; size += step)
@@ -106,7 +105,7 @@ State<double> after_last_latch(const Scene& scene, const LinearWing& wing) {
   return wing.state(at->angles, at->rates);
 }
 
-/// Near rest every mode moves, so little that nothing but the linear terms matter.
+/// Near rest: every mode moves, with amplitudes so small that only linear terms matter.
 Motion near_rest(const LinearWing& wing, long steps) {
   Motion motion{wing.rest(), 0, steps};
   const std::size_t n = motion.x.size() / 2;
@@ -114,7 +113,7 @@ Motion near_rest(const LinearWing& wing, long steps) {
   return motion;
 }
 
-/// All that is found of a method.
+/// All limits of one method.
 struct Limits {
   double near_rest, moving; ///< measured, s
   Limit theory;
@@ -187,8 +186,7 @@ void write_limits(const std::vector<FixedStepMethod>& methods, const std::vector
   table.write(file);
 }
 
-/// Where a method's map is drawn: for the implicit ones, whose unstable regions lie in the right
-/// half-plane, further out.
+/// Window of a method's map. Implicit methods are unstable in the right half-plane, so their window is larger.
 struct Window {
   double left, right, top;
 };

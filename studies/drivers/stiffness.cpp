@@ -1,5 +1,4 @@
-// What a run costs, and how far it is off, against the stiffness and damping of the latches; and
-// why a wing that rings cannot be cheap.
+// Measures cost and error of runs against the stiffness and damping of the latches, and the cost of ringing.
 //
 //   build/release/studies/stiffness                      results/stiffness, some ten minutes
 //   build/release/studies/stiffness --quick              four latches, three methods
@@ -23,7 +22,7 @@ using namespace wingspread::study;
 
 namespace {
 
-/// A latch, and what the seed wing does with it.
+/// A latch, and the reference run of the seed wing with it.
 struct Point {
   double stiffness, damping; ///< N·m/rad, N·m·s/rad
   Scene scene;
@@ -75,7 +74,7 @@ Figures product_figures(const Scene& scene, const std::string& method, double rt
   return figures_of(deployment.run(scene, how, goal_of(Extent::moments)), scene.hinges.size());
 }
 
-/// By another formulation, in absolute angles, and another integrator.
+/// The same run by another formulation, in absolute angles, and another integrator.
 Figures cvode_figures(const Scene& scene, double damping, double rtol) {
   oracle::ReferenceOptions options;
   options.rtol = rtol, options.atol = 0.1 * rtol, options.t_end = seed_t_end;
@@ -83,7 +82,7 @@ Figures cvode_figures(const Scene& scene, double damping, double rtol) {
   return figures_of(oracle::cvode_run(scene, options), scene.hinges.size());
 }
 
-/// dop853 makes the references; fehlberg78 and CVODE say how far they can be trusted.
+/// References by dop853; their differences from fehlberg78 and CVODE bound their error.
 class References {
 public:
   explicit References(const Plan& plan) : plan_(plan) {}
@@ -142,7 +141,7 @@ std::string ending(const Measurement& m) {
   return m.failures > 0 ? "failed" : m.mismatches > 0 ? "other order" : "deployed";
 }
 
-/// "–" for what is not.
+/// The number as text, "–" for NaN.
 std::string shown(double value, const char* form) {
   return std::isnan(value) ? "–" : fmt::format(fmt::runtime(form), value);
 }
@@ -178,7 +177,7 @@ void print_cost_header(const char* title) {
 
 // ---- ringing
 
-/// What each method spends on one oscillation that never dies: evaluations a cycle.
+/// Evaluations of each method for one cycle of an undamped oscillation.
 void measure_price(const Plan& plan, const std::filesystem::path& file) {
   const PureTone tone = pure_tone();
   Table table{"method", "rtol", "evaluations a cycle", "phase error [cycles]"};
@@ -203,7 +202,7 @@ void measure_price(const Plan& plan, const std::filesystem::path& file) {
   table.write(file);
 }
 
-/// What `auto` spends on each oscillation.
+/// Evaluations of `auto` for each oscillation.
 void measure_ringing(const std::vector<Point>& points, const Plan& plan,
                      const std::filesystem::path& file) {
   Table table{"k [N·m/rad]",
@@ -246,8 +245,7 @@ FigureErrors change(const Figures& from, const Figures& to) {
   return errors;
 }
 
-/// What the ringing is worth: the later latches
-/// when it is damped away, and when the stiffness is another.
+/// How far ringing changes the later latches: with the ringing damped away, and with another stiffness.
 void measure_worth(const std::vector<Point>& corner, const Plan& plan,
                    const std::filesystem::path& file) {
   Table table{"k [N·m/rad]", "d [N·m·s/rad]", "k scaled by", "d scaled by",
@@ -295,7 +293,7 @@ void measure_costs(const std::vector<Point>& points, const Plan& plan,
   table.write(file);
 }
 
-/// Whether any method, at any tolerance, gives a wing that rings for a little.
+/// Errors and costs of all methods at all tolerances for wings that ring.
 void measure_corner(const std::vector<Point>& corner, const Plan& plan,
                     const std::filesystem::path& file) {
   print_cost_header("Wings that ring, at every tolerance");

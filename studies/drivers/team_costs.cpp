@@ -1,6 +1,6 @@
-// What a team of threads costs and gives by the work that there is for it, with the processors free and with as many
-// other threads that want them all. Means, as it is the slow ones that are waited for. What comes of it is
-// `operations_worth_a_team` (montecarlo/foundation/platform/team.hpp).
+// Measures cost and gain of a thread pool against the amount of work, on free processors and beside as many busy
+// threads. Prints means, because the slowest thread decides. `operations_worth_a_team`
+// (montecarlo/foundation/platform/team.hpp) follows from the figures.
 //
 //   build/release/studies/team_costs
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t tasks = 8; // as many as a campaign has dispersions, say
 
-/// Threads that leave no processor idle for as long as this lives.
+/// Busy threads on all processors during the lifetime of this object.
 class Others {
 public:
   explicit Others(int count) {
@@ -42,7 +42,7 @@ private:
   std::vector<std::thread> threads_;
 };
 
-/// Σ x², compensated: what most statistics are made of. An operation is one such term.
+/// Compensated Σ x², the inner loop of most statistics. One operation is one term.
 double work(const std::vector<double>& x) {
   double sum = 0, rest = 0;
   for (const double each : x) {
@@ -53,7 +53,7 @@ double work(const std::vector<double>& x) {
   return sum;
 }
 
-/// Of all tasks on so many threads, µs.
+/// Mean time of all tasks on `threads` threads, µs.
 double mean_time(int threads, std::size_t operations, double seconds) {
   const std::vector<double> x(operations / tasks, 1.1);
   std::vector<double> sums(tasks);

@@ -1,6 +1,5 @@
-// How many deployments a second: packs of runs against the scalar path, against what an engineer
-// writes with Boost.Odeint, and against tolerance, lanes, threads and bodies. Everything is timed
-// in this one process; read the ratios, for machines are noisy.
+// Measures deployments a second: packs of runs against one run at a time, against a program that an engineer writes with
+// Boost.Odeint, and against tolerance, lanes, threads and bodies. All times are of one process. Compare ratios.
 //
 //   build/release/studies/throughput            a table, and results/throughput/*.csv, .json
 //   build/release/studies/throughput --quick    a tenth of the runs
@@ -67,7 +66,7 @@ double error_of(const Outcome& out, const Outcome& exact) {
   return worst;
 }
 
-/// Its peaks are not judged: they are sampled, which no tolerance mends.
+/// Peaks of the peer are not judged: it samples them, and no tolerance improves that.
 double error_of(const PlainOutcome& out, const Outcome& exact) {
   double worst = 0;
   for (const LatchEvent& latch : exact.latches)
@@ -79,8 +78,7 @@ double error_of(const PlainOutcome& out, const Outcome& exact) {
 const std::vector<double> tolerances{3e-4, 1e-4, 3e-5, 1e-5,  3e-6,  1e-6,  3e-7,  1e-7,  3e-8,
                                      1e-8, 3e-9, 1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 3e-12, 1e-12};
 
-/// The loosest tolerance with which no error of 32 units is above the level;
-/// `judge(rtol)` is the largest.
+/// The loosest tolerance at which the largest error of 32 units, `judge(rtol)`, stays below the level.
 template <class Judge> double loosest(double level, Judge judge) {
   for (const double rtol : tolerances)
     if (judge(rtol) <= level) return rtol;
@@ -249,7 +247,7 @@ private:
     table.write(options_.folder / "tolerance.csv");
   }
 
-  /// A folded stack of n like panels, its first seconds.
+  /// A folded stack of n equal panels, its first seconds.
   void against_bodies() {
     fmt::print("\nagainst bodies: ns an evaluation a run, whole steps\n");
     Table table({"bodies", "set", "ns an evaluation", "ns an evaluation and body"});

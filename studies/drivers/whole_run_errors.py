@@ -1,4 +1,4 @@
-"""Errors of whole runs by one method and another: what the integration alone leaves in every output of a campaign.
+"""Measures the integration's errors in every output of a campaign, by one method and another.
 
     /usr/bin/python3 studies/drivers/whole_run_errors.py                     # studies/campaigns/work_precision.json, 3,000 runs
     /usr/bin/python3 studies/drivers/whole_run_errors.py --runs 30000 taylor:1e-8 dop853:1e-8
@@ -6,7 +6,7 @@
     /usr/bin/python3 studies/drivers/whole_run_errors.py --quick             # seconds; 200 runs, one tolerance
 
 Every campaign is run with all its outputs by each METHOD:RTOL (atol a hundredth of it) and by dop853 at 1e-13, row against
-row: RMS and largest error of each kind of output, relative to the output's mean size. It exits 1 where a run's status differs,
+row: RMS and largest error of each kind of output, relative to the output's mean size. Exits 1 if a run's status differs
 or an RMS error is above 100 times the tolerance.
 """
 
@@ -25,7 +25,7 @@ KINDS = ("latch_time", "latch_rate", "peak_moment", "peak_force", "overtravel")
 
 
 def rows_by(program, campaign, choice, folder):
-    """The rows of the campaign by a method at a tolerance."""
+    """Runs the campaign by a method at a tolerance and returns its rows."""
     method, rtol = choice.split(":")
     integration = campaign.get("integration", {}) | {"method": method, "rtol": float(rtol), "atol": 1e-2 * float(rtol)}
     path = folder / "campaign.json"

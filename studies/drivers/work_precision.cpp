@@ -1,5 +1,5 @@
-// Work against precision: what every method, and SUNDIALS CVODE on the same right-hand side, costs
-// at every tolerance, and how far it then is from references that share nothing with core/.
+// Measures cost and error of every method, and of SUNDIALS CVODE on the same right-hand side, at every tolerance.
+// References share nothing with core/.
 //
 //   build/release/studies/work_precision                 64 scenes of each case; the references
 //                                                        take long once
@@ -44,7 +44,7 @@ constexpr long max_steps = 100'000; // more than any useful point of the chart t
 
 const char* name_of(Extent extent) { return extent == Extent::first_latch ? "A" : "B"; }
 
-/// What the command line asks for.
+/// The options of the command line.
 struct Options {
   std::vector<std::string> cases; ///< none: all
   std::string out;                ///< folder
@@ -54,7 +54,7 @@ struct Options {
   std::vector<std::string> methods; ///< none: all
 };
 
-/// What the mode makes of it.
+/// Sizes of the study, full or quick.
 struct Plan {
   std::vector<double> tolerances; ///< rtol; atol is a hundredth of it
   std::vector<double> steps;      ///< s; for methods with a fixed step
@@ -100,7 +100,7 @@ std::vector<Scene> dispersed_scenes(const Campaign& campaign, long count) {
 
 // ---- references
 
-/// The largest disagreement of some references with the primary ones.
+/// The largest difference between other references and the primary ones.
 struct Agreement {
   int scenes = 0, other_order = 0;
   double time = 0, rate = 0, moment = 0, force = 0;
@@ -115,7 +115,7 @@ struct Agreement {
   }
 };
 
-/// What every series is measured on.
+/// Scenes and references that every method is measured on.
 struct Study {
   Case of;
   Plan plan;
@@ -131,13 +131,13 @@ void print(const Agreement& off, const char* name, Source source) {
   std::fflush(stdout);
 }
 
-/// On stderr, on a line that does not stay.
+/// Prints progress to stderr, on a line that is overwritten.
 void show_progress(const char* name, Source source, int scene) {
   fmt::print(stderr, "  {} {} {}   \r", name, to_string(source), scene);
 }
 
-/// Has the primary references of the first scenes checked by others.
-/// @param tolerance beyond which they are not sound
+/// Compares the primary references of the first scenes with other references.
+/// @param tolerance largest difference that is accepted
 void check_references(ReferenceStore& store, const ReferenceSettings& other, int scenes,
                       double tolerance, Study& study) {
   Agreement agreement;
@@ -214,7 +214,7 @@ std::vector<Series> all_series(const std::vector<std::string>& wanted) {
   return some;
 }
 
-/// A row of the chart's table.
+/// One row of the chart's table.
 struct Point {
   std::string method, of; ///< the case
   Extent extent;
@@ -282,7 +282,7 @@ void print_some(const std::vector<Point>& curve) {
   for (const std::size_t k : all ? std::array{0, 1, 2} : std::array{1, 4, 7}) print(curve[k]);
 }
 
-/// The lines that an earlier study left of a case's series, or of cases, not measured now.
+/// Lines of an earlier study's file, of cases and methods that are not measured now.
 std::string lines_of_others(const std::filesystem::path& file, const std::vector<Series>& series,
                             const Case& of) {
   std::ifstream in(file, std::ios::binary);
@@ -305,7 +305,7 @@ void print_header(std::size_t scenes) {
              scenes, "method", "rtol/step", "time", "rate", "moment", "force", "evals", "us");
 }
 
-/// @param others lines of the file that stay
+/// @param others lines to keep in the file
 void measure_all(const std::vector<Series>& all, const Study& study,
                  const std::filesystem::path& file, const std::string& others) {
   print_header(study.scenes.size());

@@ -1,4 +1,4 @@
-"""What the chart scripts share: numbers from CSV, a look for every method, files."""
+"""Shared by the chart scripts: reading CSV, a style for every method, saving figures."""
 
 import csv
 import io
@@ -33,7 +33,7 @@ def read_rows(path):
 
 
 def distinct(rows, key):
-    """The values of a column, each once, as they come."""
+    """The distinct values of a column, in order of appearance."""
     return list(dict.fromkeys(row[key] for row in rows))
 
 
@@ -53,14 +53,14 @@ def styles(methods):
 
 
 def legend_below(figure, axes, columns):
-    """One legend for all panels, under them; room is left by its height."""
+    """Draws one legend for all panels below them, and leaves room for its height."""
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncol=min(columns, len(labels)), fontsize=9, frameon=False)
     return 0.01 + 0.03 * math.ceil(len(labels) / columns)
 
 
 def save(figure, path):
-    """To path.svg, and to path.png in 64 colours, a third of the size."""
+    """Saves path.svg, and path.png in 64 colours (a third of the size)."""
     path = os.fspath(path)
     figure.savefig(f"{path}.svg")
     pixels = io.BytesIO()

@@ -1,4 +1,4 @@
-"""Draws the charts of the studies stiffness, latch_model and stability_map: of whichever the folder holds.
+"""Draws the charts of the studies stiffness, latch_model and stability_map, whichever a folder holds.
 
     /usr/bin/python3 studies/plots/plot_accuracy.py results/stiffness results/latch_model results/stability_map
 
@@ -34,7 +34,7 @@ def log_axes(axes, x, y):
 
 
 def share_limits(grid):
-    """Rows have one scale, labelled on the left alone."""
+    """Gives each row of panels one scale, labelled on the left."""
     for row in grid:
         low, high = min(a.get_ylim()[0] for a in row), max(a.get_ylim()[1] for a in row)
         for axes in row:
@@ -48,7 +48,7 @@ def share_limits(grid):
 
 
 def mark_failures(axes, rows, look, height):
-    """A cross at this height, 1 being the top edge, where a run failed or latched in another order."""
+    """Draws a cross (height 1 is the top edge) where a run failed or latched in another order."""
     for row in rows:
         if row["ending"] != "deployed":
             axes.plot([row["k"]], [height], transform=axes.get_xaxis_transform(), marker="x", color=look["color"],
@@ -83,7 +83,7 @@ def draw_stiffness(rows, rtol, folder):
 
 
 def draw_table(axes, rows, key, title, form, colours):
-    """A value for every k and d, written in its cell."""
+    """Draws a table of k against d with a value in each cell."""
     stiffnesses, dampings = distinct(rows, "k"), distinct(rows, "d")
     values = {(row["k"], row["d"]): row[key] for row in rows}
     cells = [[values[k, d] for k in stiffnesses] for d in dampings]
@@ -100,7 +100,7 @@ def draw_table(axes, rows, key, title, form, colours):
 
 
 def draw_cost_a_cycle(axes, rows, prices):
-    """Cost against oscillations, beside what one oscillation costs when there is nothing else."""
+    """Draws cost against oscillations, beside the price of a single undamped oscillation."""
     for rtol, colour in zip(distinct(rows, "rtol"), (TAB10[0], TAB10[3])):
         its = [row for row in rows if row["rtol"] == rtol]
         axes.plot([max(row["cycles"], 1) for row in its], [row["evaluations"] for row in its], "o", color=colour,
@@ -127,7 +127,7 @@ def draw_ringing(rows, prices, folder):
 
 
 def draw_corner(rows, ringing, folder):
-    """Error against cost of wings that ring, and the threefold cost of the seed wing."""
+    """Draws error against cost of wings that ring, and three times the cost of the seed wing."""
     methods, look = distinct(rows, "method"), styles(distinct(rows, "method"))
     rtol = min(distinct(ringing, "rtol"))
     budget = 3 * next(r["evaluations"] / r["cost over nominal"] for r in ringing if r["rtol"] == rtol)

@@ -1,4 +1,4 @@
-"""Draws the window of spring strength: what `wingspread margin` saw at every scale, with both edges.
+"""Draws the window of spring strength: the results of `wingspread margin` at every scale, with both edges.
 
     /usr/bin/python3 studies/plots/plot_margin.py results/margin
 
@@ -32,7 +32,7 @@ def draw_window(axes, search):
 
 
 def mark(axes, rows, values):
-    """A full dot where the requirement is met, a cross where it is not."""
+    """Draws a dot where the requirement is met, a cross where it is not."""
     for verdicts, colour, marker in ((("pass",), PASS, "o"), (("fail", "undecided"), FAIL, "x")):
         chosen = [(row["scale"], value) for row, value in zip(rows, values) if row["verdict"] in verdicts]
         if chosen:

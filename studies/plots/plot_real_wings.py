@@ -1,4 +1,4 @@
-"""What real hinges change on the yoke wing: its stops, loops, measured springs and damper taken away one by one.
+"""Simulates the yoke wing without its stops, loops, measured springs and damper, one by one, and draws the changes.
 
     /usr/bin/python3 studies/plots/plot_real_wings.py [PROGRAM]        build/release/wingspread by default
 
@@ -47,7 +47,7 @@ def without_damper(scene):
 
 
 def loops_of(stiffness):
-    """Of this stiffness, damped alike, never slack."""
+    """The scene with loops of this stiffness, equally damped, never slack."""
     def change(scene):
         for loop in scene["synchronisations"]:
             loop["damping"] *= math.sqrt(stiffness / loop["stiffness"])
@@ -71,7 +71,7 @@ def linear_springs(scene):
 
 
 def made(name, *changes):
-    """The scene's file, as changed."""
+    """Writes the changed scene and returns its path."""
     scene = load()
     for change in changes:
         change(scene)
@@ -84,7 +84,7 @@ def made(name, *changes):
 
 
 def simulate(path):
-    """Its outcome and trajectory."""
+    """Simulates the scene and returns outcome and trajectory."""
     rows = path.with_suffix(".csv")
     done = subprocess.run([PROGRAM, "simulate", path, "--json", "--t-end", str(T_END), "--out", rows],
                           capture_output=True, text=True, check=True)
@@ -92,7 +92,7 @@ def simulate(path):
 
 
 def campaign(path):
-    """The summary of RUNS dispersed runs, and their rows."""
+    """Makes RUNS dispersed runs and returns their summary and rows."""
     whole = json.loads(pathlib.Path("studies/campaigns/yoke_wing.json").read_text())
     has = json.loads(path.read_text())
     kept = {"spring": True, "friction": True, "harness": True, "mass": True, "latch_damping": True,

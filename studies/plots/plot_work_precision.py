@@ -1,4 +1,4 @@
-"""Draws the work-precision charts of a results folder, and finds who is cheapest at which error.
+"""Draws the work-precision charts of a results folder, and finds the cheapest method at each error.
 
     /usr/bin/python3 studies/plots/plot_work_precision.py results/work_precision
 
@@ -21,7 +21,7 @@ CASES = {"event": "event latch", "smoothed": "smoothed latch", "rubbing": "harne
          "near_stall": "the same, near stall", "sticking": "harness, exact friction"}
 FIGURES = {"": ("event", "smoothed"), "_friction": ("rubbing", "near_stall", "sticking")}  # rows, by the name's end
 LEVELS = [10.0 ** -decade for decade in range(3, 10)]
-FLOOR = 1e-16  # below it an error of doubles means nothing
+FLOOR = 1e-16  # below this an error of doubles is round-off
 
 
 def read_points(path):
@@ -37,7 +37,7 @@ def read_points(path):
 
 
 def read_disagreement(folder):
-    """How far the references of two precisions are apart at most, by case and quantity."""
+    """The largest difference between references of two precisions, by case and quantity."""
     apart = {}
     for case in CASES:
         path = folder / f"references_{case}.csv"
@@ -57,7 +57,7 @@ def read_disagreement(folder):
 def front(points, error, cost):
     """A method's worthwhile points, cheapest first: (log error, log cost), errors falling.
 
-    Points at which any scene failed or latched otherwise are none: nobody can rely on them.
+    Points at which a scene failed or latched in another order are left out.
     """
     usable = sorted((point[cost], max(error(point), FLOOR)) for point in points
                     if point["bad"] == 0 and not math.isnan(error(point)) and not math.isnan(point[cost]))
@@ -222,7 +222,7 @@ def print_envelope(case, rows):
 
 
 def print_tolerances(case, points):
-    """What `auto` and cash_karp54 do at each tolerance: the largest errors, and evaluations."""
+    """Prints largest errors and evaluations of `auto` and cash_karp54 at each tolerance."""
     by_tolerance = {method: {p["tolerance"]: p for p in select(points, case, "B").get(method, [])}
                     for method in ("auto", "cash_karp54")}
     print(f"\nauto and cash_karp54 at equal rtol: largest errors, evaluations; whole run, {CASES[case]}")

@@ -1,13 +1,13 @@
-"""A spring out of a deployment that was filmed, and what its uncertainty means for the flight.
+"""Fits a spring to a filmed deployment, and carries the fit's uncertainty into a campaign of the flight wing.
 
     PYTHONPATH=build/release/python /usr/bin/python3 studies/python/fit_spring.py [--plot FILE.png]
 
-A panel of known inertia was let go on a rig, and its angle was read off a film. Which torques does its spring have,
-stowed and latched, how well are they known, and how much of the scatter of the wing's deployment is that?
+A panel of known inertia was released on a rig, and its angle was read off a film. The script estimates the spring's torques,
+stowed and latched, with their covariance, and the scatter of the wing's deployment that follows from it.
 
-The measurement here is made up: SciPy's solve_ivp integrates the rig's equation of motion, which is written below and
-not taken from wingspread, and noise is added; so the true spring is known and the answer can be checked. To use a film
-of your own, put its times and angles in place of measure().
+The measurement is synthetic: SciPy's solve_ivp integrates the rig's equation of motion, written below and not taken from
+wingspread, and noise is added. So the true spring is known and the answer is checked. For a film of your own, replace
+measure() by its times and angles.
 """
 
 import argparse

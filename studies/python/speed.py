@@ -1,12 +1,12 @@
-"""How fast the Python module makes a campaign's runs, against the program: pairs of runs, one after the other.
+"""Compares the speed of the Python module with the program's, on a campaign, in pairs of runs.
 
     PYTHONPATH=build/release/python /usr/bin/python3 studies/python/speed.py build/release/wingspread
         [--campaign FILE] [--runs N] [--pairs P] [--least 0.9]
 
 Of each pair one is `wingspread run`, by its own clock: the runs and their rows alone (timing.json), and the whole
 program, statistics and files included. The other is wingspread.run in this process, reading the campaign and making
-the arrays included. Their order alternates, so that what else the machine does falls on both. Prints the medians of the
-ratios; exits 1 where the module has less than `--least` of the program's rate while it makes runs.
+the arrays included. Their order alternates, so that other load on the machine falls on both. Prints the medians of the
+ratios; exits 1 if the module has less than `--least` of the program's rate.
 """
 
 import argparse

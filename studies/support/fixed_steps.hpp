@@ -1,5 +1,4 @@
-/// The methods with one step for ever: no step control, no events. What their stability is
-/// measured on.
+/// The methods with a constant step, without step control and events: for measurements of stability.
 #pragma once
 
 #include "studies/support/linear_wing.hpp"
@@ -11,16 +10,16 @@
 
 namespace wingspread::study {
 
-/// x ← x one step of h later.
+/// Advances x by one step of h.
 using Step = std::function<void(LinearWing::AnySystem& system, State<double>& x, double h)>;
 
-/// A formula.
+/// One formula with a constant step.
 struct FixedStepMethod {
   std::string name;            ///< from methods()
   int order;                   ///< as methods() counts it: of Adams' the prediction's
   double evaluations;          ///< a step
   std::function<Step()> start; ///< a new sequence of steps; forgets what a multistep method keeps
-  /// Growth a step for a mode λ of z = hλ.
+  /// Growth in one step of a mode λ, z = hλ.
   std::function<double(std::complex<double> z)> growth;
 };
 

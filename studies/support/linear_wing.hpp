@@ -7,7 +7,7 @@
 /// | K, D   | stiffness and damping of the hinges, diagonal      | n×n   | N·m/rad … |
 /// | λ      | eigenvalues of [0 E; −M⁻¹K −M⁻¹D]                  | 2n    | 1/s       |
 ///
-/// At rest it is exact: no moment is left that the turning of the panels could redirect.
+/// The model is exact at rest, where no moment remains that turning panels could redirect.
 #pragma once
 
 #include "core/mechanics/system.hpp"
@@ -19,7 +19,7 @@
 
 namespace wingspread::study {
 
-/// A pair of eigenvalues that oscillate, by the one above the real axis, or a real one.
+/// A complex pair, given by the eigenvalue above the real axis, or a real eigenvalue.
 using Eigenvalue = std::complex<double>;
 
 /// A wing on a fixed base with its right-hand side, latches engaged one by one or all.
@@ -45,8 +45,7 @@ public:
   /// Where springs and engaged latches balance, at rest. @pre all are engaged
   [[nodiscard]] State<double> rest() const;
 
-  /// λ of the hinges whose latch is engaged, the others free to turn: those that oscillate once a
-  /// pair, slowest first.
+  /// λ of the hinges with engaged latches, the others free to turn: one of each complex pair, slowest first.
   [[nodiscard]] std::vector<Eigenvalue> eigenvalues(const State<double>& x);
 
 private:

@@ -49,13 +49,13 @@ template <class P, int N> struct PackKernel {
     });
   }
 
-  /// The next evaluation waits for this one, and is where it was.
+  /// Makes the next evaluation depend on this one, at the same state.
   void depend() {
     for (int i = 0; i < N; ++i) angles[i] = fused(P(1e-30), accelerations[i], angles[i]);
   }
 };
 
-/// Of so many packs in turn.
+/// Time of one evaluation, `packs` packs made in turn.
 template <class P, int N, int packs, bool dependent> [[nodiscard]] double time_of_packs() {
   using Clock = std::chrono::steady_clock;
   std::array<PackKernel<P, N>, packs> kernels;

@@ -1,4 +1,4 @@
-/// What the work-precision study judges a run by, and how far two runs are apart in it.
+/// The figures by which the work-precision study judges a run, and the differences of two runs in them.
 #pragma once
 
 #include <algorithm>
@@ -51,8 +51,8 @@ struct Errors {
 struct FigureErrors {
   Errors time, rate, moment, force;
 
-  /// Adds those of all hinges that latched in `got`, and of all peaks that both have.
-  /// @pre what latched in `got` latched in `expected`
+  /// Adds the errors of all hinges that latched in `got`, and of all peaks that both runs have.
+  /// @pre hinges that latched in `got` latched in `expected`
   void add(const Figures& got, const Figures& expected) {
     for (const int hinge : got.order) {
       time.add(got.time[hinge], expected.time[hinge]);

@@ -1,5 +1,4 @@
-/// One point of the work-precision chart: how far a method with one tolerance is from the
-/// references, and what that costs.
+/// One point of the work-precision chart: error against the references, and cost, of one method at one tolerance.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -14,7 +13,7 @@ namespace wingspread::study {
 /// Makes one run of a scene.
 using Run = std::function<Outcome(const Scene& scene, const Integration& how, const Goal& goal)>;
 
-/// How far a run goes, and what is asked of it.
+/// End and outputs of a run.
 enum class Extent {
   first_latch, ///< A: to the first latch
   moments,     ///< to t_end, with peak moments

@@ -27,7 +27,7 @@ struct ReferenceSettings {
   double t_end = 12;                 ///< s
 };
 
-/// What the file holds of one.
+/// One reference as the file holds it.
 struct ReferenceRow {
   std::string key; ///< of the scene's parameters and the settings
   int scene = 0;   ///< number of the campaign's run

@@ -1,4 +1,4 @@
-/// How much a wing rings after its latches, which every method has to follow cycle by cycle.
+/// Counts the oscillations of a wing after its latches, which every method has to follow cycle by cycle.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -20,7 +20,7 @@ struct Ringing {
   double seen = 0;
 };
 
-/// A panel on one latch without damping: nothing but one oscillation, for ever.
+/// A panel on one latch without damping: one oscillation that does not decay.
 struct PureTone {
   Scene scene;
   double omega;  ///< rad/s

@@ -1,4 +1,4 @@
-/// What the drivers share: their command line, their tables, the seed wing.
+/// Shared by the drivers: command line, tables, the seed wing.
 /// Run from the repository's root.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace wingspread::study {
 
-/// What the command line asks for.
+/// The options of the command line.
 struct StudyOptions {
   bool quick = false;
   std::filesystem::path folder; ///< exists
@@ -34,7 +34,7 @@ public:
   /// @pre as many as there are columns
   void add(std::initializer_list<Cell> cells);
 
-  /// @throws SpecError when that cannot be done
+  /// @throws SpecError if the file cannot be written
   void write(const std::filesystem::path& file) const;
 
 private:
@@ -50,7 +50,7 @@ private:
 /// The seed wing with every latch of this stiffness, N·m/rad, and damping, N·m·s/rad.
 [[nodiscard]] Scene seed_wing(double stiffness, double damping);
 
-/// A folded stack of n like panels, without latches.
+/// A folded stack of n equal panels, without latches.
 [[nodiscard]] Scene stack(int n);
 
 inline constexpr double seed_t_end = 12; ///< s: more than five after the last latch

@@ -1,5 +1,5 @@
-/// The Taylor series of a chain's motion, coefficient by coefficient: what a Taylor method for the
-/// wing would cost and give. A fixed base and linear hinge moments.
+/// The Taylor series of a chain's motion, coefficient by coefficient, to measure cost and accuracy of a Taylor method.
+/// Fixed base, linear hinge moments.
 ///
 /// In absolute angles θ_j, ω = θ̇, α = ω̇, Δ = θ_k − θ_j:
 ///

@@ -1,4 +1,4 @@
-/// Timed runs of a wing, for the throughput study: which units, how far, and what they took.
+/// Timed runs of a wing, for the throughput study.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -26,7 +26,7 @@ private:
   Scene drawing_;
 };
 
-/// How far runs go, and what they look at.
+/// End and outputs of the runs.
 struct What {
   const char* name;
   Goal goal;

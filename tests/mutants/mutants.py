@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Would the tests notice a fault? Puts many into the program, one at a time, and counts those that no test sees.
+"""Puts faults into the program, one at a time, and counts those that no test notices.
 
-The faults stand in mutants.json: in FILE the text FROM becomes TO (where FROM is not the only one of its kind, in the
-text AT). All are compiled into one copy of the program, in build/mutants, and the environment's WINGSPREAD_MUTANT says
-which is on. Each then meets the tests of its own room, those of its folder, and all others, until one fails; one that
-takes five times as long as the tests without it is seen too.
+mutants.json lists the faults: in FILE the text FROM becomes TO (AT: a longer text, if FROM is not unique). All faults are
+compiled into one copy of the program in build/mutants; the environment variable WINGSPREAD_MUTANT switches one on. A
+fault meets the tests of its own room, of its folder, and all others, until one fails. A fault that makes the tests five
+times slower counts as noticed. Faults whose text no longer occurs in the code are named, left out, and give exit code 1.
 
     tests/mutants/mutants.py                 all of them: some 20 minutes on two cores, after the build
     tests/mutants/mutants.py --only 17,30    these
     tests/mutants/mutants.py --list          what they are
 
-A fault that changes nothing that anybody could see is no fault: "equivalent" says why, and it does not count. "costs"
-says of one that it changes no result but the time that it takes. What is found is kept in build/mutants/results.json.
+"equivalent" explains why a fault changes no result; it does not count. "costs" marks a fault that changes only the time.
+Results are kept in build/mutants/results.json.
 """
 import argparse
 import json
@@ -29,7 +29,7 @@ COPY = SOURCE / "build/mutants/source"
 BUILD = SOURCE / "build/mutants/build"
 RESULTS = pathlib.Path(os.environ.get("MUTANTS_RESULTS", SOURCE / "build/mutants/results.json"))
 PARTS = ["core", "distributions", "montecarlo", "cli"]  # test_PART
-COPIED = ["CMakeLists.txt", "core", "distributions", "montecarlo", "tests", "studies"]
+COPIED = ["CMakeLists.txt", "LICENSE", "core", "distributions", "montecarlo", "tests", "studies"]
 
 
 def fail(message):
@@ -37,11 +37,18 @@ def fail(message):
 
 
 def once(text, part, where):
-    """Where the part begins, which must be there once."""
+    """The offset of the part, which must occur once."""
     count = text.count(part)
     if count != 1:
-        fail(f"{where}: the text stands there {count} times: {part}")
+        fail(f"{where}: the text occurs {count} times: {part}")
     return text.index(part)
+
+
+def is_stale(mutant):
+    """Whether the mutant's text no longer occurs exactly once in its file: the code has changed."""
+    path = SOURCE / mutant["file"]
+    at = mutant.get("at", mutant["from"])
+    return not path.is_file() or path.read_text(encoding="utf-8").count(at) != 1 or at.count(mutant["from"]) != 1
 
 
 def put_in(text, number, mutant):
@@ -78,7 +85,8 @@ def make_copy(mutants):
     names = [name for name in listed if (SOURCE / name).is_file()]
     faults = {}
     for number, mutant in enumerate(mutants, 1):
-        faults.setdefault(mutant["file"], []).append((number, mutant))
+        if not is_stale(mutant):
+            faults.setdefault(mutant["file"], []).append((number, mutant))
     for name in names:
         content = (SOURCE / name).read_bytes()
         if name in faults:
@@ -256,6 +264,10 @@ def main():
             m = mutants[n - 1]
             print(f"{n:4} {m['file']}: {m['from']}  ->  {m['to']}")
         return
+    stale = [n for n, mutant in enumerate(mutants, 1) if is_stale(mutant)]
+    for n in stale:
+        print(f"{n:4} is stale: its text does not occur once in {mutants[n - 1]['file']}: "
+              f"{mutants[n - 1].get('at', mutants[n - 1]['from'])}", file=sys.stderr)
     if not arguments.no_build:
         make_copy(mutants)
         build(arguments.jobs)
@@ -265,13 +277,15 @@ def main():
     for number in chosen:
         mutant = mutants[number - 1]
         known = results.get(str(number))
-        if "equivalent" in mutant or (arguments.new and known and known["killed_by"]):
+        if number in stale or "equivalent" in mutant or (arguments.new and known and known["killed_by"]):
             continue
         killed_by = meet(number, mutant, clock, arguments.far)
         results[str(number)] = {"mutant": key(mutant), "killed_by": killed_by}
         print(f"{number:4} {mutant['file']}: {killed_by or 'SURVIVES'}", flush=True)
         RESULTS.write_text(json.dumps(results, indent=1))
     report(mutants, results)
+    if stale:
+        fail(f"{len(stale)} mutants are stale and were left out: mend their texts in mutants.json")
 
 
 if __name__ == "__main__":
