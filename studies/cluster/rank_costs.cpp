@@ -7,7 +7,6 @@
 ///   costs.csv       name, value
 #include "montecarlo/engine/mpi/messages.hpp"
 #include "montecarlo/engine/runs/in_order.hpp"
-#include "montecarlo/foundation/platform/live_histogram.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/row_writer.hpp"
 #include "studies/support/study.hpp"
@@ -63,14 +62,7 @@ double take_in(const RunPlan& plan, const std::vector<std::string>& messages,
     std::filesystem::remove(file);
     RowWriter writer(file, plan.names());
     writer.open(plan.names());
-    LiveHistogram histogram("deployment_time", "s");
-    const BatchSink sink{[&](const Batch& batch) {
-                           writer.add(batch);
-                           for (const ResultRow& row : batch.rows)
-                             histogram.add(row.outputs.back());
-                           (void)histogram.text();
-                         },
-                         true};
+    const BatchSink sink{[&](const Batch& batch) { writer.add(batch); }, true};
     InOrder in_order(sink, 1024);
     least = std::min(least, seconds_of([&] {
                        for (const std::string& message : messages) {

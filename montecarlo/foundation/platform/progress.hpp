@@ -14,7 +14,6 @@ struct Tally {
   long invalid = 0; ///< runs with an unphysical draw
   long failed = 0;  ///< runs whose integration could not go on
   long stalled = 0, timed_out = 0;
-  std::string picture{};    ///< a line below it; may be empty
   long look = 0, looks = 0; ///< of a study: the one that is under way, and how many there will be
   bool at_most = false;     ///< that and the total are known by an upper bound, which falls
 };
@@ -33,7 +32,7 @@ struct StudyProgress {
 /// @param seconds since this session began
 [[nodiscard]] std::string progress_line(const Tally& tally, double seconds);
 
-/// Keeps that line and the picture up to date. Writes nothing at all when the stream is not a terminal.
+/// Keeps that line up to date. Writes nothing at all when the stream is not a terminal.
 class Progress {
 public:
   explicit Progress(std::FILE* stream);
@@ -56,7 +55,7 @@ private:
   std::FILE* stream_; ///< null when there is no one to look
   Clock::time_point start_ = Clock::now(), last_{};
   double share_ = 0; ///< that was shown
-  bool shown_ = false, pictured_ = false;
+  bool shown_ = false;
 };
 
 /// Whether a stream is a terminal.

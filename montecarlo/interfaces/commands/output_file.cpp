@@ -1,4 +1,4 @@
-#include "montecarlo/interfaces/terminal/output_file.hpp"
+#include "montecarlo/interfaces/commands/output_file.hpp"
 
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Those of results folders that are not JSON.
+/// Files of results folders that are not JSON: those are refused anyway.
 constexpr std::array<std::string_view, 10> own_files{runs_file,
                                                      histograms_csv_file,
                                                      statistics_file,
@@ -41,7 +41,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, none_there) && !none_there;
 }
 
-/// The files of empirical laws, wherever they stand.
+/// Collects the files of empirical laws in a campaign's JSON.
 void find_tables(const Json& part, const fs::path& directory, std::vector<fs::path>& tables) {
   if (part.is_object() && part.contains("type"))
     if (const auto file = part.find("file"); file != part.end() && file->is_string())
@@ -50,7 +50,7 @@ void find_tables(const Json& part, const fs::path& directory, std::vector<fs::pa
     for (const Json& each : part) find_tables(each, directory, tables);
 }
 
-/// The files that a campaign, or that of a results folder, names; none of what its reader will refuse.
+/// The files that a campaign (or the campaign of a results folder) names; none if its reader will refuse it.
 std::vector<fs::path> named_files(const fs::path& read) {
   const fs::path file = fs::is_directory(read) ? read / campaign_file : read;
   std::vector<fs::path> named;
@@ -71,17 +71,17 @@ std::vector<fs::path> named_files(const fs::path& read) {
 void refuse_overwriting(const fs::path& out, const std::vector<fs::path>& read) {
   if (out.empty()) return;
   const auto refuse = [&](const char* what) {
-    throw SpecError(
-        {{"", "--out", '"' + out.string() + "\", " + what, "another file: it would be lost"}});
+    throw SpecError({{"", "--out", '"' + out.string() + "\", " + what,
+                      "another file: this one would be lost"}});
   };
   for (const fs::path& each : read) {
-    if (is_same_file(out, each)) refuse("which is read");
-    if (fs::is_directory(each) && is_own_file(out, each)) refuse("one of the results folder's own");
+    if (is_same_file(out, each)) refuse("which this command reads");
+    if (fs::is_directory(each) && is_own_file(out, each)) refuse("a file of the results folder");
   }
   if (!fs::is_regular_file(out)) return;
   for (const fs::path& each : read)
     for (const fs::path& named : named_files(each))
-      if (is_same_file(out, named)) refuse("which is read");
+      if (is_same_file(out, named)) refuse("which this command reads");
   if (out.extension() == ".json") refuse("a JSON file");
 }
 
