@@ -210,14 +210,14 @@ the joint confidence of all verdicts and both edges.
 
   mode                joint: all springs together (default); each: one hinge after the other
   widest              how far the range may be widened; default: an eighth and eight times
-  points, tolerance   number of scales in the first grid, default 13; accuracy of an edge, default 0.01
+  points, tolerance   scales of the first grid, default 13; accuracy of an edge, default 0.01
   cases               ["nominal"], ["nominal", "one_spring_out"]: each hinge loses one of
   springs_per_hinge   its springs in turn; default 2
   motorization        factors of the static margins, by ECSS, NASA, GEVS and AIAA
 
-The folder gets margin.json, margin.csv (results at every scale), motorization.csv (static margins at
-every angle of the travel) and recommended.json, the campaign with the recommended springs. Until the
-study is finished the folder also has looks.log, a checkpoint of all runs so far: after an
+The folder gets margin.json, margin.csv (results at every scale), motorization.csv (static margins
+at every angle of the travel) and recommended.json, the campaign with the recommended springs. Until
+the study is finished the folder also has looks.log, a checkpoint of all runs so far: after an
 interruption, a crash or a kill the same command with --resume gives the same bytes.
 
 The first scales (the grid, and 1) depend on nothing and are most of the work; their results decide

@@ -152,7 +152,7 @@ void add_rare_options(CLI::App& command, RareCommandOptions& options) {
   command.add_option("campaign", options.campaign, "The campaign, a JSON file")->required();
   command
       .add_option("--output", options.output,
-                  "The output with a limit; default: the event is that the wing does not deploy")
+                  "The output with a limit; default: the event is not deployed")
       ->type_name("NAME");
   command.add_option("--above", options.above, "The event: a value above this limit, in SI units")
       ->type_name("X");

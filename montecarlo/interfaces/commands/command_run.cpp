@@ -133,14 +133,14 @@ campaign's confidence. Several goals must be reached together:
   "root.peak_moment@0.99 2%"   the same, as a share of the quantile
   "deployed 0.01"              the share of runs that deploy (or stall, …: any status)
   "requirement deployed"       the requirement, by name or output, has passed or failed
-The goals are checked after 1000, 2000, 4000, … runs and nowhere else, so a campaign always stops at
-the same run; its number of runs is the maximum. Each of these interim analyses adds a chance of a
-wrong answer, so all bounds and verdicts share their risk among them and hold wherever the campaign
-stops. --until excludes shards, and draws that depend on each other.
+The goals are checked after 1000, 2000, 4000, … runs and nowhere else, so a campaign always stops
+at the same run; its number of runs is the maximum. Each of these interim analyses adds a chance of
+a wrong answer, so all bounds and verdicts share their risk among them and hold wherever the
+campaign stops. --until excludes shards, and draws that depend on each other.
 
 If a requirement is not met, do not add runs of the same draws until it passes: that inflates the
-risk of a wrong verdict. Use --until, or a new --seed and a number of runs fixed beforehand. --resume
-with more --runs counts as a further interim analysis, and the verdicts allow for it.
+risk of a wrong verdict. Use --until, or a new --seed and a number of runs fixed beforehand.
+--resume with more --runs counts as a further interim analysis, and the verdicts allow for it.
 
 With --no-rows there is no runs.csv, and memory and disk space do not grow with the number of runs.
 Counts, moments, verdicts and the 4096 largest and smallest values of every output are the same as

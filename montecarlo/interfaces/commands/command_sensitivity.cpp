@@ -236,8 +236,8 @@ Bounds of draws that depend on each other (latin_hypercube, sobol) come from the
 replicates; one replicate gives none. An output that is missing at some point of a design has no
 Sobol' indices.
 
-The runs of a design can be made in shards, each with --out and --shard; `wingspread merge` gives the
-folder that making all runs at once gives, byte for byte.
+The runs of a design can be made in shards, each with --out and --shard; `wingspread merge` gives
+the folder that making all runs at once gives, byte for byte.
 
 Both analyses list the most important dispersion first and write sensitivity.json and
 sensitivity.csv into the folder. A warning names each dispersion that moves no output.
