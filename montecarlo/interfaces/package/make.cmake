@@ -20,16 +20,17 @@ function(make_man_page command)
   string(REGEX REPLACE "^(Wingspread: )?([^\n]*[^.\n])\\.?\n.*" "\\2" brief "${help}")
   # SOURCE_DATE_EPOCH: the page shows its month; the same source gives the same bytes
   execute_process(COMMAND ${CMAKE_COMMAND} -E env SOURCE_DATE_EPOCH=1767225600 LC_ALL=C.UTF-8
-    ${HELP2MAN} --locale=C.UTF-8 --no-info --version-string=${VERSION} --name=${brief} --output=${OUT}/man/${name}.1
+    ${HELP2MAN} --locale=C.UTF-8 --no-info --version-string=${version} "--name=${brief}" --output=${OUT}/man/${name}.1
     ${OUT}/man/${name} COMMAND_ERROR_IS_FATAL ANY)
   compress(${OUT}/man/${name}.1 ${OUT}/man/${name}.1.gz)
   file(REMOVE ${OUT}/man/${name} ${OUT}/man/${name}.1)
 endfunction()
 
 if(HELP2MAN)
+  string(REGEX REPLACE "-1$" "" version ${VERSION})
   make_man_page("")
   execute_process(COMMAND ${PROGRAM} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX MATCH "\nSubcommands:\n.*\n\n" list "${help}")
+  string(REGEX MATCH "\nSubcommands:(\n  [^\n]*)+" list "${help}")
   string(REGEX MATCHALL "\n  [a-z]+" commands "${list}")
   foreach(command ${commands})
     string(STRIP ${command} command)

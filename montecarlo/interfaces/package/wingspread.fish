@@ -11,7 +11,7 @@ function __wingspread_candidates
         set type (printf '%s\n' $help | sed -n '/^Options:/,/^$/s/^  \(-[a-z],\)\?'$words[-1]' \([^ ][^ ]*\).*/\2/p')
     end
     if test -z "$type"; and string match -q -- '-*' $word
-        printf '%s\n' $help | sed -n '/^Options:/,/^$/s/^  \(-[a-z],\)\?\(--[a-z-]*\).*   *\(.*\)/\2\t\3/p'
+        printf '%s\n' $help | sed -n '/^Options:/,/^$/s/^  \(-[a-z],\)\?\(--[a-z-]*\)\(.*  \)\?/\2\t/p'
         return
     end
     if test -z "$type"; and test (count $words) -gt 1

@@ -17,7 +17,7 @@ _wingspread() {
   fi
   case $type in
     "")
-      found=(${(f)"$(sed -n '/^Options:/,/^$/s/^  \(-[a-z],\)\?\(--[a-z-]*\).*   *\(.*\)/\2:\3/p' <<<"$help")"})
+      found=(${(f)"$(sed -n '/^Options:/,/^$/s/^  \(-[a-z],\)\?\(--[a-z-]*\)\(.*  \)\?/\2:/p' <<<"$help")"})
       [[ $PREFIX == -* ]] && _describe option found ;;
     TEXT|FILE*|DIR*) _files ;;
     *\{*\}*) found=(${(s:,:)${type#*\{}%%\}*}); compadd -a found ;; # TEXT:{scene,campaign}
