@@ -1,4 +1,4 @@
-/// The program that mpirun starts: on rank 0 it is the one of every day, on the others it makes runs for that.
+/// The program for mpirun: rank 0 runs the command line, the other ranks make runs for rank 0.
 #include "montecarlo/analyses/rare/limit_state.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/engine/mpi/mpi_wire.hpp"
@@ -12,7 +12,7 @@
 namespace wingspread {
 namespace {
 
-int work(int argc, char** argv) {
+int run_rank(int argc, char** argv) {
   const std::unique_ptr<Wire> wire = mpi_wire();
   if (wire->rank() > 0) {
     const Interrupt interrupt;
@@ -26,7 +26,7 @@ int work(int argc, char** argv) {
 
 } // namespace
 
-// In place of the library's.
+// Replaces the library's evaluator_of.
 std::unique_ptr<Evaluator> evaluator_of(const Crew& crew, const std::atomic<bool>& stop) {
   std::unique_ptr<Wire> wire = mpi_wire();
   if (wire->size() == 1) return std::make_unique<ThreadEvaluator>(crew, stop);
@@ -36,9 +36,9 @@ std::unique_ptr<Evaluator> evaluator_of(const Crew& crew, const std::atomic<bool
 } // namespace wingspread
 
 int main(int argc, char** argv) {
-  int provided = 0; // all calls are made by this thread
+  int provided = 0; // not checked: only this thread calls MPI
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
-  const int code = wingspread::work(argc, argv);
+  const int code = wingspread::run_rank(argc, argv);
   MPI_Finalize();
   return code;
 }

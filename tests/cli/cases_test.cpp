@@ -11,7 +11,7 @@ using namespace wingspread::test;
 
 namespace {
 
-/// A quick campaign with a temperature and three cases: a cold one that gives way, the wing as it is, and a heavy one.
+/// A quick campaign with a temperature and three cases: cold (weaker springs), ambient (the nominal wing) and heavy.
 Json campaign_with_cases(int runs) {
   Json campaign = quick_campaign(runs);
   campaign["dispersions"].push_back(parse_json(R"({

@@ -1,4 +1,4 @@
-// What the machine refuses, and what endangers data that are there.
+// Full disks, missing permissions, damaged files: errors without loss of data.
 #include "montecarlo/foundation/platform/folder_lock.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "tests/cli/program.hpp"

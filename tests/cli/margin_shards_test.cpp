@@ -1,4 +1,4 @@
-// A study of margins whose first looks were made in shards.
+// Margin studies that make the runs at their first scales in shards.
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/results/checkpoint/shard_looks.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"

@@ -1,4 +1,4 @@
-/// Runs the program as a user does, and keeps what it says.
+/// Runs the program as a user does, and keeps its output.
 #pragma once
 
 #include "tests/montecarlo/campaign_support.hpp"
@@ -14,7 +14,7 @@ namespace wingspread::test {
 /// The absolute path of the program under test.
 extern const char* const program_path;
 
-/// What a finished program leaves behind.
+/// The exit status and outputs of a finished program.
 struct Finished {
   int code; ///< exit status; 128 + N when signal N ended it
   std::string out, error;

@@ -19,7 +19,7 @@ Json requiring(std::initializer_list<double> limits) {
   return json;
 }
 
-/// A place to run campaigns and look at what came of them.
+/// A folder to run campaigns in and read their results from.
 struct RequirementsPlace {
   Folder folder{};
   std::string out = (folder.path() / "r").string();
@@ -285,7 +285,7 @@ TEST_CASE(
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.error,
              HasFacts({"error: --until: found string \"D-3\"", "did you mean \"D-1\"?"}));
-  // 13 of 20 runs deploy, which shows nothing of it: another look, or another seed
+  // 13 of 20 runs deploy, which does not decide the requirement
   json["requirements"][1]["probability"] = 0.65;
   const std::string close = program.file(json);
   const auto open = program({"run", close, "--out", program.out + "3", "--runs", "20"});

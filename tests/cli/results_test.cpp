@@ -20,7 +20,7 @@ struct DoneCampaign {
   }
 };
 
-/// What the program names on lines of their own, run as it stands.
+/// Runs the commands that the program printed, one per line.
 void run_named(const Folder& folder, const std::string& text) {
   for (const std::string& line : lines_of(text)) {
     if (!line.starts_with("  wingspread ")) continue;

@@ -146,13 +146,11 @@ TEST_CASE("shards of a design are merged to the folder that one process makes, b
   const auto shard = make("part2", {"--shard", "2/3"}); // the design's rows are cut through
   CHECK(shard.code == 0);
   CHECK(shard.out == at("part2") + "/design.json\n" + at("part2") + "/design_runs.csv\n");
-  CHECK(shard.error ==
-        "note: shard 2/3 of the design's runs: `wingspread merge` puts all shards together\n");
+  CHECK_THAT(shard.error, HasFacts({"note: shard 2/3", "`wingspread merge`"}));
   CHECK(make("part1", {"--shard", "1/3"}).code == 0);
-  CHECK(run_program(folder, {"sensitivity", at("part1")}).error ==
-        "error: " + at("part1") +
-            ": found shard 1/3 of a design, expected all of its runs: `wingspread merge` puts "
-            "shards together\n");
+  CHECK_THAT(
+      run_program(folder, {"sensitivity", at("part1")}).error,
+      HasFacts({"error: " + at("part1") + ": found shard 1/3 of a design", "`wingspread merge`"}));
   const auto missing = run_program(folder, {"merge", at("part2"), at("part1"), "--out", at("out")});
   CHECK(missing.code == 2);
   const std::string command =

@@ -19,7 +19,7 @@
 
 namespace wingspread {
 
-/// What to run, where and how.
+/// Says which campaign to run, where and how.
 struct RunRequest {
   Campaign campaign; ///< with all changes that options make to it
   std::filesystem::path out;

@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-/// What a session took to make runs.
+/// How long a session took to make runs.
 struct SessionTiming {
   Tally tally;        ///< at its end
   double seconds = 0; ///< wall time

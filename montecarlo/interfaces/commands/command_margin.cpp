@@ -102,7 +102,7 @@ ShardMaker maker_of(const MarginOptions& options) {
   return maker;
 }
 
-/// Makes a shard of the first interim analyses, which depend on no other. @return the exit status
+/// Makes a shard of the runs at the first scales, which depend on no result. @return the exit status
 int make_margin_shard(const Campaign& campaign, const MarginOptions& options, const Shard& shard) {
   if (!options.from.empty())
     throw SpecError({{"", "--from", "--from together with --shard", "only one of them"}});

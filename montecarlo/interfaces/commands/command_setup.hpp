@@ -1,4 +1,4 @@
-/// What all commands need to add themselves to the command line.
+/// Adds commands to the command line, and options for the machine that makes the runs.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"

@@ -13,7 +13,7 @@ class App;
 
 namespace wingspread {
 
-/// What the command does once its options are parsed. Returns the exit status.
+/// Carries out the command with the parsed options. Returns the exit status.
 using Action = std::function<int()>;
 
 void add_run(CLI::App& app, Action& action);

@@ -79,8 +79,7 @@ void print_warnings(const std::vector<Notice>& warnings, bool strict) {
 
 void add_set_option(CLI::App& command, std::vector<std::string>& changes) {
   command
-      .add_option("--set", changes,
-                  "Change the nominal scene, e.g. hinges.root.spring.scale=0.9")
+      .add_option("--set", changes, "Change the nominal scene, e.g. hinges.root.spring.scale=0.9")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
 }
