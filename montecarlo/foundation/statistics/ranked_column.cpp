@@ -1,7 +1,9 @@
 #include "montecarlo/foundation/statistics/ranked_column.hpp"
 
 #include "montecarlo/foundation/platform/team.hpp"
-#include "montecarlo/foundation/statistics/number_sort.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+
+#include <boost/sort/pdqsort/pdqsort.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -27,7 +29,9 @@ RankedColumn::RankedColumn(const Spilled<double>& values) : values_(&values) {
     if (!std::isnan(values[row])) sorted.push_back({values[row], static_cast<std::uint32_t>(row)});
   values.release();
   complete_ = sorted.size() == values.size();
-  sort_by_number(std::span(sorted), [](const Placed& placed) { return placed.value; });
+  boost::sort::pdqsort_branchless(
+      sorted.begin(), sorted.end(),
+      [](const Placed& a, const Placed& b) { return a.value < b.value; });
   std::vector<std::uint32_t> doubled(values.size(), 0);
   for (std::size_t first = 0, end = 0; first < sorted.size(); first = end) {
     while (end < sorted.size() && sorted[end].value == sorted[first].value) ++end;

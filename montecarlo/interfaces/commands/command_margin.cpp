@@ -1,7 +1,6 @@
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/margin/margin_study.hpp"
 #include "montecarlo/analyses/margin/scaled_springs.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
@@ -142,7 +141,6 @@ int margin_shard(const Campaign& campaign, const MarginOptions& options, const S
 int margin_study(const MarginOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
-  settle_tolerance(campaign, crew_of(options.crew));
   if (const auto shard = parse_shard(options.shard)) return margin_shard(campaign, options, *shard);
   const Json about = about_study(campaign, std::nullopt);
   StudyFolder folder(options.out, about, margin_json_file, options.resume);

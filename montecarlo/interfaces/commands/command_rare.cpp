@@ -1,5 +1,4 @@
 #include "montecarlo/analyses/rare/rare_report.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
@@ -133,7 +132,6 @@ int rare(const RareCommandOptions& given) {
   options.event = event_of(given);
   Campaign campaign = chosen_case(read_campaign_file(given.campaign), given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
-  settle_tolerance(campaign, crew_of(given.crew));
   options.confidence = confidence_of(given, campaign.statistics);
   const auto folder = open_folder(given, options, campaign);
   if (folder && folder->is_finished())

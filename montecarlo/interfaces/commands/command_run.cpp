@@ -1,4 +1,3 @@
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
@@ -108,6 +107,7 @@ std::size_t watched_output(const RunPlan& plan) {
 /// What there is before the first run is made. @return false when it was stopped in the pilot
 bool begin(const FolderWriter& folder, Evaluator& /*evaluator*/, Tally& tally) {
   count(folder.results(), tally);
+  tally.before = tally.done;
   return true;
 }
 bool begin(RowlessFolder& folder, Evaluator& evaluator, Tally& tally) {
@@ -118,6 +118,7 @@ bool begin(RowlessFolder& folder, Evaluator& evaluator, Tally& tally) {
   tally.failed = made.count_of(Status::failed);
   tally.stalled = made.count_of(Status::stalled);
   tally.timed_out = made.count_of(Status::timed_out);
+  tally.before = folder.resumed();
   return true;
 }
 
@@ -129,7 +130,6 @@ bool make_remaining(Folder& folder, const RunPlan& plan, const Crew& crew,
   const auto evaluator = evaluator_of(crew, interrupt.flag());
   Tally tally{.total = folder.stored().runs().size()};
   if (!begin(folder, *evaluator, tally)) return true;
-  tally.before = tally.done;
   const std::size_t watched = watched_output(plan);
   const std::string& name = plan.names().outputs[watched];
   LiveHistogram histogram(name, parse_output_name(name).unit);
@@ -263,34 +263,6 @@ int run_cases(const Campaign& campaign, const RunOptions& options) {
   return worst;
 }
 
-/// The tolerance that the campaign in the folder was given when it was begun, if it is the same one.
-void take_over_tolerance(Campaign& campaign, const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder / campaign_file)) return;
-  const Campaign there = read_stored_campaign(folder).campaign;
-  if (!there.tolerance || !there.tolerance->pilot) return;
-  if (there.tolerance->pilot->seed != campaign.sampling.seed ||
-      there.tolerance->share != campaign.tolerance->share)
-    return;
-  campaign.integration = there.integration;
-  campaign.tolerance = there.tolerance;
-  campaign.resolved["integration"] = write_integration(campaign.integration, campaign.tolerance);
-}
-
-/// Chooses the tolerance where that is left to the campaign. One that goes on keeps its own.
-void settle(Campaign& campaign, const RunOptions& options) {
-  if (!campaign.tolerance || campaign.tolerance->pilot) return;
-  if (options.resume) take_over_tolerance(campaign, options.out);
-  settle_tolerance(campaign, crew_of(options.crew));
-  const TolerancePilot& pilot = *campaign.tolerance->pilot;
-  fmt::print(stderr, "note: rtol {:g}, by a pilot of {} runs\n", campaign.integration.rtol,
-             pilot.runs);
-  if (!pilot.reached)
-    fmt::print(stderr,
-               "warning: no tolerance keeps errors within {:g} % of the sampling error: it is "
-               "the tightest\n",
-               100 * campaign.tolerance->share);
-}
-
 int run(const RunOptions& options) {
   (void)crew_of(options.crew); // refused before anything is read
   Campaign campaign = read_campaign_file(options.campaign);
@@ -298,7 +270,6 @@ int run(const RunOptions& options) {
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   override_until(campaign, options.until);
   heed(examine(campaign, options.campaign), options.strict);
-  settle(campaign, options);
   if (!options.no_rows && !campaign.cases.empty()) return run_cases(campaign, options);
   if (campaign.cases.empty()) (void)chosen_cases(campaign, options.cases); // there are none
   OverallProgress progress(shard_runs(campaign.sampling.runs, parse_shard(options.shard)).size());

@@ -1,7 +1,6 @@
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
 #include "montecarlo/analyses/sensitivity/sobol_report.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
@@ -144,7 +143,6 @@ SaltelliDesign new_design(const SensitivityOptions& options, const Crew& crew) {
   SaltelliDesign design{chosen_case(read_campaign_file(options.from), options.of_case),
                         options.samples.value_or(1000), std::nullopt};
   override_sampling(design.campaign, std::nullopt, options.seed);
-  settle_tolerance(design.campaign, crew);
   return design;
 }
 

@@ -115,19 +115,26 @@ bool RowlessFolder::begin(Evaluator& evaluator) {
   if (is_rowless(stored_.folder)) {
     StoredTally read = read_tally(stored_);
     tally_.emplace(std::move(read.tally));
+    resumed_ = tally_->runs();
     open_broken(read.broken_bytes);
     return true;
   }
   Results pilot(plan_->names());
+  Batch own; // the pilot's runs that this shard has to make anyway
   const RunRange range{0, std::min<long>(grid_pilot_runs, plan_->campaign().sampling.runs)};
+  const RunRange runs = stored_.runs();
   const auto keep = [&](const Batch& batch) {
-    for (const ResultRow& row : batch.rows) pilot.append(row);
+    for (const ResultRow& row : batch.rows) {
+      pilot.append(row);
+      if (runs.first <= row.run && row.run < runs.last) own.rows.push_back(row);
+    }
   };
   if (evaluator.make(*plan_, range, {keep}) < range.size()) return false;
   tally_.emplace(plan_->campaign(), plan_->names(), pilot);
   write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
-  write_file(stored_.folder / statistics_file, tally_text(stored_, *tally_, 0));
   open_broken(0);
+  add(own);
+  save();
   return true;
 }
 

@@ -20,7 +20,8 @@ namespace wingspread {
 
 inline constexpr const char* extremes_file = "extremes.csv";
 
-/// Runs that are made beforehand to see where values fall; they are made again when their turn comes.
+/// The pilot: the campaign's first runs, whose values decide where the bins lie. Every shard makes all of them and counts
+/// those of its own range.
 inline constexpr long grid_pilot_runs = 4096;
 
 /// The statistics of such a folder as far as they go.
@@ -60,6 +61,8 @@ public:
   [[nodiscard]] const StoredCampaign& stored() const { return stored_; }
   [[nodiscard]] const RunTally& tally() const { return *tally_; }
   [[nodiscard]] long count() const { return tally_ ? tally_->runs() : 0; }
+  /// Runs that an earlier session had made.
+  [[nodiscard]] long resumed() const { return resumed_; }
 
   void add(const Batch& batch);
   /// All is on the device. Once, behind the last batch.
@@ -76,6 +79,7 @@ private:
   std::optional<RunTally> tally_;
   std::optional<OutputFile> broken_;
   std::uint64_t broken_bytes_ = 0;
+  long resumed_ = 0;
   Clock::time_point saved_ = Clock::now();
 };
 

@@ -133,12 +133,8 @@ bool RunTally::add_requirements(const ResultRow& row, std::span<const double> ma
     const double value = q < required_.size()             ? seen_[q]
                          : row.status == Status::deployed ? 0
                                                           : infinity;
-    const double sign = requirement.min ? -1 : 1;
-    const double limit = requirement.max   ? *requirement.max
-                         : requirement.min ? -*requirement.min
-                                           : 0;
-    const double badness = value == infinity ? infinity : sign * value;
-    if (!(badness > limit)) continue;
+    const double badness = value == infinity ? infinity : sign_of(requirement) * value;
+    if (!(badness > limit_of(requirement))) continue;
     breaks = true;
     ++tallies_[r].failures;
     tallies_[r].worst.add(badness, row.run);
@@ -156,11 +152,7 @@ void RunTally::add_texts(const ResultRow& row) {
     orders_.emplace(row.latch_order, 1);
   else
     ++other_orders_;
-  if (row.reason.empty()) return;
-  const ReasonPattern pattern = pattern_of(row.reason);
-  Reason& reason = reasons_.try_emplace({row.status, pattern.words}, Reason{pattern}).first->second;
-  widen(reason.pattern, pattern);
-  ++reason.count;
+  reasons_.add(row.status, row.reason);
 }
 
 void RunTally::add_correlations(const ResultRow& row) {
@@ -195,11 +187,7 @@ void RunTally::add(const RunTally& other) {
   }
   if (correlations_) correlations_->add(*other.correlations_);
   for (const auto& [order, count] : other.orders_) orders_[order] += count;
-  for (const auto& [key, theirs] : other.reasons_) {
-    Reason& reason = reasons_.try_emplace(key, Reason{theirs.pattern}).first->second;
-    widen(reason.pattern, theirs.pattern);
-    reason.count += theirs.count;
-  }
+  reasons_.add(other.reasons_);
 }
 
 } // namespace wingspread

@@ -83,12 +83,7 @@ public:
   [[nodiscard]] const std::map<std::string, long>& latch_orders() const { return orders_; }
   [[nodiscard]] long other_orders() const { return other_orders_; }
   [[nodiscard]] const std::array<long, 3>& peaks() const { return peaks_; } ///< by PeaksFinal
-  struct Reason {
-    ReasonPattern pattern;
-    long count = 0;
-  };
-  using Reasons = std::map<std::pair<Status, std::vector<std::string>>, Reason>; ///< by words
-  [[nodiscard]] const Reasons& reasons() const { return reasons_; }
+  [[nodiscard]] const ReasonCounts& reasons() const { return reasons_; }
   /// Each draw with each output and, as the last, `deployed`; nothing where there are too many of them.
   [[nodiscard]] const std::optional<CoMoments>& correlations() const { return correlations_; }
 
@@ -116,7 +111,7 @@ private:
   std::optional<CoMoments> correlations_;
   std::map<std::string, long> orders_;
   long other_orders_ = 0;
-  Reasons reasons_;
+  ReasonCounts reasons_;
   std::vector<double> draw_z_, output_z_, seen_; ///< of one run; the last: required outputs
 };
 

@@ -61,8 +61,8 @@ void RunTally::write(StateWriter& to) const {
     put_count(to, count);
   }
   put_count(to, other_orders_);
-  to.put(std::uint64_t{reasons_.size()});
-  for (const auto& [key, reason] : reasons_) {
+  to.put(std::uint64_t{reasons_.groups.size()});
+  for (const auto& [key, reason] : reasons_.groups) {
     to.put(static_cast<std::uint8_t>(key.first));
     put_texts(to, key.second);
     put_texts(to, reason.pattern.numbers);
@@ -103,13 +103,13 @@ RunTally::RunTally(const Campaign& campaign, const ResultNames& names, StateRead
   get_count(from, other_orders_);
   for (std::size_t left = from.get_count(2 * sizeof(std::uint64_t)); left > 0; --left) {
     const auto status = static_cast<Status>(from.get<std::uint8_t>());
-    Reason reason;
+    ReasonCounts::Group reason;
     reason.pattern.words = get_texts(from);
     reason.pattern.numbers = get_texts(from);
     if (reason.pattern.numbers.size() + 1 != reason.pattern.words.size())
       throw from.broken("reasons");
     get_count(from, reason.count);
-    reasons_.emplace(std::pair(status, reason.pattern.words), std::move(reason));
+    reasons_.groups.emplace(std::pair(status, reason.pattern.words), std::move(reason));
   }
 }
 

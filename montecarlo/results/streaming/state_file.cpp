@@ -1,21 +1,12 @@
 #include "montecarlo/results/streaming/state_file.hpp"
 
+#include "distributions/random_stream.hpp"
+
 #include <utility>
 
 namespace wingspread {
-namespace {
-
-/// FNV-1a. Source: G. Fowler, L. C. Noll, K.-P. Vo, http://www.isthe.com/chongo/tech/comp/fnv/
-std::uint64_t sum_of(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-  return sum;
-}
-
-} // namespace
-
 std::string StateWriter::finish() && {
-  put(sum_of(bytes_));
+  put(stream_name(bytes_).hash);
   return std::move(bytes_);
 }
 
@@ -25,7 +16,7 @@ StateReader::StateReader(std::string bytes, std::string file)
   if (bytes_.size() < sizeof sum) throw broken("a whole file");
   std::memcpy(&sum, bytes_.data() + bytes_.size() - sizeof sum, sizeof sum);
   bytes_.resize(bytes_.size() - sizeof sum);
-  if (sum_of(bytes_) != sum) throw broken("what its sum says");
+  if (stream_name(bytes_).hash != sum) throw broken("what its sum says");
 }
 
 std::string StateReader::get_text() {

@@ -47,30 +47,16 @@ std::pair<double, long> edge_near(const std::vector<Bin>& bins, double wanted) {
              : std::pair(next->upper, next->below + next->count);
 }
 
-/// Freedman and Diaconis' number of bins, as of histogram.hpp.
-int bins_wanted(const RankedPopulation& values, const Bins& bins) {
-  if (const int* fixed = std::get_if<int>(&bins)) return *fixed;
-  const long n = values.count();
-  const double spread = values.max() - values.min();
-  if (spread == 0) return 1;
-  const double iqr =
-      values.at(quantile_rank(n, 0.75)).value - values.at(quantile_rank(n, 0.25)).value;
-  const auto count = static_cast<double>(n);
-  const double wanted =
-      iqr > 0 ? std::ceil(spread / (2 * iqr) * std::cbrt(count)) : std::ceil(std::log2(count)) + 1;
-  return static_cast<int>(std::clamp(wanted, 1.0, double{most_auto_bins}));
-}
-
 /// Bins of nearly equal width: their edges are where counts are known exactly.
 Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
   if (values.count() == 0) return {};
-  if (values.min() == values.max())
-    return histogram(std::vector{values.min()}, 1).edges.empty()
-               ? Histogram{}
-               : Histogram{histogram(std::vector{values.min()}, 1).edges, {values.count()}};
+  const long n = values.count();
+  if (values.min() == values.max()) return {histogram(std::vector{values.min()}, 1).edges, {n}};
+  const double iqr =
+      values.at(quantile_rank(n, 0.75)).value - values.at(quantile_rank(n, 0.25)).value;
+  const int wanted = count_bins(bins, n, values.max() - values.min(), iqr);
   Histogram result{{values.min()}, {}};
   long below = 0;
-  const int wanted = bins_wanted(values, bins);
   for (int i = 1; i < wanted; ++i) {
     const auto [edge, count] = edge_near(
         values.bins(), std::lerp(values.min(), values.max(), static_cast<double>(i) / wanted));
@@ -80,7 +66,7 @@ Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
     below = count;
   }
   result.edges.push_back(values.max());
-  result.counts.push_back(values.count() - below);
+  result.counts.push_back(n - below);
   return result;
 }
 
@@ -126,12 +112,11 @@ std::optional<double> number_of(const std::optional<OrderStatistic>& found,
   return (*found).*which;
 }
 
-/// As tolerance_limits (wilks.hpp), at the outer edges.
+/// As tolerance_limits (wilks.hpp), at the outer edges of the bins.
 Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSpec& spec,
                  long looks) {
-  const auto allowed = allowed_failures(runs, spec.probability, at_each_of(spec.confidence, looks));
-  if (!allowed) return {};
-  const long order = spec.side == Side::both ? (*allowed + 1) / 2 : *allowed + 1;
+  const long order =
+      tolerance_order(runs, spec.side, spec.probability, at_each_of(spec.confidence, looks));
   if (order == 0) return {};
   Bounds limits;
   if (spec.side != Side::upper)
@@ -160,8 +145,7 @@ void add_values(const RankedRequired& values, Verdict& verdict) {
     verdict.guaranteed = is_min ? std::max(*verdict.guaranteed, *requirement.min)
                                 : std::min(*verdict.guaranteed, *requirement.max);
   if (verdict.guaranteed)
-    verdict.margin =
-        is_min ? *verdict.guaranteed - *requirement.min : *requirement.max - *verdict.guaranteed;
+    verdict.margin = limit_of(requirement) - sign_of(requirement) * *verdict.guaranteed;
   if (values.numbers().count() > 0)
     verdict.beyond_zero = beyond_zero(values.numbers().min(), values.numbers().max(), requirement);
 }
@@ -193,21 +177,9 @@ std::vector<Verdict> verdicts_of(const Campaign& campaign, const RunTally& tally
 
 void add_counts(const RunTally& tally, double confidence, Summary& summary) {
   const long n = tally.runs();
-  for (const Status status : statuses) {
-    const long count = tally.count_of(status);
-    Bounds bounds;
-    if (n > 0) {
-      const Interval interval = clopper_pearson(count, n, confidence);
-      bounds = {interval.lower, interval.upper};
-    }
-    summary.statuses.push_back(
-        {status, count, static_cast<double>(count) / static_cast<double>(n), bounds});
-  }
-  for (const auto& [key, reason] : tally.reasons())
-    summary.reasons.push_back({key.first, to_string(reason.pattern), reason.count});
-  std::ranges::stable_sort(summary.reasons, [](const ReasonCount& a, const ReasonCount& b) {
-    return a.status != b.status ? a.status < b.status : a.count > b.count;
-  });
+  for (const Status status : statuses)
+    summary.statuses.push_back(status_share(status, tally.count_of(status), n, confidence));
+  summary.reasons = tally.reasons().sorted();
   for (const auto& [order, count] : tally.latch_orders())
     if (order.empty())
       summary.without_latch = count;

@@ -1,8 +1,12 @@
 /// Reasons that differ in nothing but their numbers: what many runs have in common.
 #pragma once
 
+#include "core/outcome.hpp"
+
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace wingspread {
@@ -21,5 +25,27 @@ void widen(ReasonPattern& pattern, const ReasonPattern& other);
 
 /// "bodies.panel_1.mass is …, expected > 0"
 [[nodiscard]] std::string to_string(const ReasonPattern& pattern);
+
+/// How many runs of one status gave a reason; "…" in place of numbers in which the runs differ.
+struct ReasonCount {
+  Status status;
+  std::string reason;
+  long count = 0;
+};
+
+/// Counts runs by status and reason. Reasons that differ only in their numbers are counted together.
+struct ReasonCounts {
+  struct Group {
+    ReasonPattern pattern;
+    long count = 0;
+  };
+  std::map<std::pair<Status, std::vector<std::string>>, Group> groups{}; ///< by status and words
+
+  /// Counts a run; an empty reason is not counted.
+  void add(Status status, std::string_view reason);
+  void add(const ReasonCounts& other);
+  /// By status, then the most frequent first, then by text.
+  [[nodiscard]] std::vector<ReasonCount> sorted() const;
+};
 
 } // namespace wingspread

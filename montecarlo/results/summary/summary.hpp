@@ -13,6 +13,7 @@
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/campaign_settings.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
+#include "montecarlo/results/summary/reason_pattern.hpp"
 #include "montecarlo/results/summary/replication.hpp"
 #include "montecarlo/results/summary/stopping.hpp"
 #include "montecarlo/results/summary/verdict.hpp"
@@ -31,12 +32,8 @@ struct StatusShare {
   Bounds bounds;
 };
 
-/// How many runs of one status gave this reason; "…" for the numbers in which theirs differ.
-struct ReasonCount {
-  Status status;
-  std::string reason;
-  long count = 0;
-};
+/// The share of a status, with Clopper–Pearson bounds for independent runs; no bounds without runs.
+[[nodiscard]] StatusShare status_share(Status status, long count, long runs, double confidence);
 
 /// Of latch orders the most frequent, up to this many: long chains may latch otherwise in each run.
 inline constexpr std::size_t most_latch_orders = 1000;

@@ -29,13 +29,6 @@ struct Badness {
   double value;
 };
 
-double sign_of(const Requirement& requirement) { return requirement.min ? -1 : 1; }
-
-double limit_of(const Requirement& requirement) {
-  if (requirement.max) return *requirement.max;
-  return requirement.min ? -*requirement.min : 0;
-}
-
 const Column* column_of(const Results& results, std::span<const Column> besides,
                         const Requirement& requirement) {
   for (const std::span<const Column> columns : {std::span(results.outputs), besides})
@@ -136,6 +129,13 @@ Verdict judge_one(const Requirement& requirement, const Results& results, const 
 
 } // namespace
 
+double sign_of(const Requirement& requirement) { return requirement.min ? -1 : 1; }
+
+double limit_of(const Requirement& requirement) {
+  if (requirement.max) return *requirement.max;
+  return requirement.min ? -*requirement.min : 0;
+}
+
 std::string_view to_string(Decision decision) {
   switch (decision) {
   case Decision::pass:
@@ -177,7 +177,7 @@ RankedOutput::RankedOutput(const Results& results, const Column& output, bool ab
     if (value != infinity) values_.push_back(value);
   }
   results.release();
-  std::ranges::sort(values_);
+  sort_values(values_);
   worse_ = runs - values_.size();
   if (worse_ == 0) return;
   values_.insert(values_.begin(), worse_, -infinity);

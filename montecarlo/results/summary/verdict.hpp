@@ -56,6 +56,10 @@ struct Verdict {
   [[nodiscard]] long failures() const { return static_cast<long>(broken.size()) + not_listed; }
 };
 
+/// A run breaks a requirement if sign_of · value > limit_of: sign −1 for a `min`, whose limit is negated too.
+[[nodiscard]] double sign_of(const Requirement& requirement);
+[[nodiscard]] double limit_of(const Requirement& requirement);
+
 /// Concludes from the runs that break it: all of a verdict but what is said of values.
 /// @param confidence to be shown at by itself, were there one look
 /// @pre requirement, runs, broken, not_listed and cut are known
