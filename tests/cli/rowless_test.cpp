@@ -1,5 +1,5 @@
 // run --no-rows, as a user has it.
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>

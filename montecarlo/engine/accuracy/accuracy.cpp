@@ -2,7 +2,7 @@
 
 #include "montecarlo/engine/accuracy/chosen_runs.hpp"
 #include "montecarlo/engine/runs/runner.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ Accuracy compare_rows(const ResultNames& names, std::span<const ResultRow> rows,
 }
 
 std::vector<ResultRow> make_again(const Campaign& campaign, const Integration& integration,
-                                  std::span<const long> runs, const Crew& crew) {
+                                  std::span<const long> runs, const ThreadPool& pool) {
   Campaign again = campaign;
   again.integration = integration;
   const RunPlan plan(again);
@@ -123,14 +123,14 @@ std::vector<ResultRow> make_again(const Campaign& campaign, const Integration& i
     const auto place = std::ranges::lower_bound(runs, row.run) - runs.begin();
     rows[static_cast<std::size_t>(place)] = std::move(row);
   };
-  on_team(
-      team_size(crew.threads), [&] { (void)Runner(plan).run_all(crew.set, next, keep); },
+  run_on_threads(
+      thread_count(pool.threads), [&] { (void)Runner(plan).run_all(pool.set, next, keep); },
       [&] { claimed = runs.size(); });
   return rows;
 }
 
 Accuracy compare_with_reference(const Campaign& campaign, std::span<const ResultRow> rows,
-                                const Crew& crew) {
+                                const ThreadPool& pool) {
   const ResultNames names = RunPlan(campaign).names();
   std::vector<long> runs;
   std::ranges::transform(rows, std::back_inserter(runs), &ResultRow::run);
@@ -138,9 +138,9 @@ Accuracy compare_with_reference(const Campaign& campaign, std::span<const Result
   const long steps = steps_allowed(campaign, runs);
   for (Integration reference : references_of(campaign.integration)) {
     reference.max_steps = steps;
-    std::vector<ResultRow> made = make_again(campaign, reference, std::span(runs).first(1), crew);
+    std::vector<ResultRow> made = make_again(campaign, reference, std::span(runs).first(1), pool);
     if (made.front().status == Status::failed) continue;
-    std::ranges::move(make_again(campaign, reference, std::span(runs).subspan(1), crew),
+    std::ranges::move(make_again(campaign, reference, std::span(runs).subspan(1), pool),
                       std::back_inserter(made));
     accuracy = compare_rows(names, rows, made);
     accuracy.reference_method = reference.method;
@@ -158,7 +158,7 @@ std::size_t count_repeated(const Campaign& campaign, std::size_t runs) {
 }
 
 std::optional<Accuracy> measure_accuracy(const Campaign& campaign, const Results& results,
-                                         const Crew& crew) {
+                                         const ThreadPool& pool) {
   const auto began = std::chrono::steady_clock::now();
   std::vector<ResultRow> rows;
   const std::size_t count = count_repeated(campaign, results.size());
@@ -167,7 +167,7 @@ std::optional<Accuracy> measure_accuracy(const Campaign& campaign, const Results
       rows.push_back(results.row(row));
   results.release();
   if (rows.empty()) return std::nullopt;
-  Accuracy accuracy = compare_with_reference(campaign, rows, crew);
+  Accuracy accuracy = compare_with_reference(campaign, rows, pool);
   accuracy.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return accuracy.runs > 0 ? std::optional(std::move(accuracy)) : std::nullopt;

@@ -51,24 +51,25 @@ struct Accuracy {
 
 /// Rows of a campaign again, each as the campaign would have it by this integration.
 /// @param runs their numbers
-/// @param crew how; the rows do not depend on it
+/// @param pool how; the rows do not depend on it
 [[nodiscard]] std::vector<ResultRow> make_again(const Campaign& campaign,
                                                 const Integration& integration,
-                                                std::span<const long> runs, const Crew& crew);
+                                                std::span<const long> runs, const ThreadPool& pool);
 
 /// Compares rows with the first reference that can be had: one by which the first run fails, in a hundred
 /// times the steps that runs take as they are, is too dear or not able, and the next one is tried.
 /// @param rows of the campaign, at its own integration; at least one, in the order of their runs
 /// @return `runs` is 0 when none can be had
 [[nodiscard]] Accuracy compare_with_reference(const Campaign& campaign,
-                                              std::span<const ResultRow> rows, const Crew& crew);
+                                              std::span<const ResultRow> rows,
+                                              const ThreadPool& pool);
 
 /// How many of N runs are made again: a tenth of them, one at least, and no more than the campaign says.
 [[nodiscard]] std::size_t count_repeated(const Campaign& campaign, std::size_t runs);
 
 /// How accurate these results are. Nothing where the campaign wants none, or no run could be made again.
 /// Cost: some five to ten times that of the runs' own. @pre the results are the campaign's own
-[[nodiscard]] std::optional<Accuracy> measure_accuracy(const Campaign& campaign,
-                                                       const Results& results, const Crew& crew);
+[[nodiscard]] std::optional<Accuracy>
+measure_accuracy(const Campaign& campaign, const Results& results, const ThreadPool& pool);
 
 } // namespace wingspread

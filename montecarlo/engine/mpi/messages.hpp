@@ -9,8 +9,8 @@
 ///   leave   the job is done
 #pragma once
 
-#include "montecarlo/engine/mpi/parcel.hpp"
-#include "montecarlo/engine/runs/chunk_team.hpp"
+#include "montecarlo/engine/mpi/serializer.hpp"
+#include "montecarlo/engine/runs/chunk_scheduler.hpp"
 
 #include <string>
 #include <string_view>
@@ -18,13 +18,15 @@
 
 namespace wingspread {
 
-enum class Told : unsigned char { open, chunk, stop, close, leave, report, closed };
+enum class MessageKind : unsigned char { open, chunk, stop, close, leave, report, closed };
 
 /// What a message is; taken out of it first.
-[[nodiscard]] inline Told kind_of(Unpacker& message) { return message.take<Told>(); }
+[[nodiscard]] inline MessageKind kind_of(Deserializer& message) {
+  return message.take<MessageKind>();
+}
 
 /// A message of no more than its kind.
-[[nodiscard]] std::string word(Told kind);
+[[nodiscard]] std::string word(MessageKind kind);
 
 /// How a plan's runs are to be made, and of what a rank makes the plan again.
 struct PlanDescription {
@@ -37,13 +39,14 @@ struct PlanDescription {
   bool operator==(const PlanDescription&) const = default;
 };
 [[nodiscard]] std::string open_message(const PlanDescription& description);
-[[nodiscard]] PlanDescription take_description(Unpacker& message);
+[[nodiscard]] PlanDescription take_description(Deserializer& message);
 
 /// @param plan whose points go with it, if it has its own
 [[nodiscard]] std::string chunk_message(const Chunk& chunk, const RunPlan& plan);
-[[nodiscard]] Chunk take_chunk(Unpacker& message);
+[[nodiscard]] Chunk take_chunk(Deserializer& message);
 /// The points that come behind a chunk, run by run. @param dispersions of each
-[[nodiscard]] std::vector<Tails> take_points(Unpacker& message, long runs, std::size_t dispersions);
+[[nodiscard]] std::vector<Tails> take_points(Deserializer& message, long runs,
+                                             std::size_t dispersions);
 
 struct FinishedChunk {
   Chunk chunk;
@@ -57,7 +60,7 @@ struct Report {
   bool stopped = false; ///< it was told so by a signal of its own
 };
 [[nodiscard]] std::string report_message(const Report& report);
-[[nodiscard]] Report take_report(Unpacker& message);
+[[nodiscard]] Report take_report(Deserializer& message);
 
 /// How it went with a plan.
 struct Closing {
@@ -65,6 +68,6 @@ struct Closing {
   std::string failure{}; ///< what broke it off; empty: nothing
 };
 [[nodiscard]] std::string closed_message(const Closing& closing);
-[[nodiscard]] Closing take_closing(Unpacker& message);
+[[nodiscard]] Closing take_closing(Deserializer& message);
 
 } // namespace wingspread

@@ -12,7 +12,7 @@
 namespace wingspread {
 
 /// @return none of a plan that cannot be told: its measure has no recipe
-[[nodiscard]] std::optional<PlanDescription> describe(const RunPlan& plan, const Crew& crew,
+[[nodiscard]] std::optional<PlanDescription> describe(const RunPlan& plan, const ThreadPool& pool,
                                                       bool wants_csv);
 
 /// The plan again, made of its description. Its runs have the bits of the first one's.
@@ -27,11 +27,11 @@ public:
 
   [[nodiscard]] const PlanDescription& description() const { return description_; }
   [[nodiscard]] const RunPlan& plan() const { return *plan_; }
-  /// The crew that it asks for, with the instructions that this processor has.
-  [[nodiscard]] Crew crew() const;
+  /// The pool that it asks for, with the instructions that this processor has.
+  [[nodiscard]] ThreadPool pool() const;
 
   /// Takes the points of a chunk that has come, behind it in the message; and forgets them when it is done. On any thread.
-  void expect(const Chunk& chunk, Unpacker& message);
+  void expect(const Chunk& chunk, Deserializer& message);
   void forget(const Chunk& chunk);
 
 private:

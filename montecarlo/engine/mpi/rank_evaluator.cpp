@@ -2,7 +2,7 @@
 
 #include "montecarlo/engine/mpi/plan_copy.hpp"
 #include "montecarlo/foundation/formats/machine_error.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <fmt/format.h>
 
@@ -17,23 +17,23 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// Between looks at the wire when nothing came: while this rank's threads make runs they are not to be disturbed, and
+/// Between looks at the transport when nothing came: while this rank's threads make runs they are not to be disturbed, and
 /// the others have chunks in store; when they have none left, an answer is wanted.
 constexpr microseconds between_looks{4000}, at_the_end{50};
 
 /// One plan's chunks, handed out to the ranks that ask for them.
 class Dispatch {
 public:
-  Dispatch(Wire& wire, const RunPlan& plan, RunRange range, RangeDesk& desk)
-      : wire_(wire), plan_(plan), range_(range), desk_(desk), left_(range.size()),
-        others_(static_cast<std::size_t>(wire.size())) {}
+  Dispatch(Transport& transport, const RunPlan& plan, RunRange range, RangeQueue& desk)
+      : transport_(transport), plan_(plan), range_(range), desk_(desk), left_(range.size()),
+        others_(static_cast<std::size_t>(transport.size())) {}
 
   /// @param ranks of the others, how many; the first of them
   void open(const PlanDescription& description, long ranks) {
     const std::string message = open_message(description);
     for (int rank = 1; rank <= ranks; ++rank) {
       other(rank).is_open = true;
-      wire_.send(rank, message);
+      transport_.send(rank, message);
     }
     open_ = ranks;
   }
@@ -42,7 +42,7 @@ public:
   void run(const std::atomic<bool>& own_done) {
     while (open_ > 0) {
       bool something = false;
-      while (const auto message = wire_.receive()) {
+      while (const auto message = transport_.receive()) {
         take(*message);
         something = true;
       }
@@ -68,10 +68,10 @@ private:
   [[nodiscard]] Other& other(int rank) { return others_[static_cast<std::size_t>(rank)]; }
 
   void take(const Message& message) {
-    Unpacker bytes(message.bytes);
-    const Told kind = kind_of(bytes);
-    if (kind == Told::report) take_in(message.from, take_report(bytes));
-    if (kind == Told::closed) close(message.from, take_closing(bytes));
+    Deserializer bytes(message.bytes);
+    const MessageKind kind = kind_of(bytes);
+    if (kind == MessageKind::report) take_in(message.from, take_report(bytes));
+    if (kind == MessageKind::closed) close(message.from, take_closing(bytes));
   }
 
   void take_in(int from, Report&& report) {
@@ -109,7 +109,7 @@ private:
         --others_[i].wanted;
         others_[i].held += chunk->runs.size();
         left_ = range_.last - chunk->runs.last;
-        wire_.send(static_cast<int>(i), chunk_message(*chunk, plan_));
+        transport_.send(static_cast<int>(i), chunk_message(*chunk, plan_));
         handed = true;
       }
     }
@@ -122,15 +122,16 @@ private:
       Other& each = others_[i];
       if (!each.is_open) continue;
       if (stopped && !std::exchange(each.told_stop, true))
-        wire_.send(static_cast<int>(i), word(Told::stop));
-      if (!std::exchange(each.told_close, true)) wire_.send(static_cast<int>(i), word(Told::close));
+        transport_.send(static_cast<int>(i), word(MessageKind::stop));
+      if (!std::exchange(each.told_close, true))
+        transport_.send(static_cast<int>(i), word(MessageKind::close));
     }
   }
 
-  Wire& wire_;
+  Transport& transport_;
   const RunPlan& plan_;
   const RunRange range_;
-  RangeDesk& desk_;
+  RangeQueue& desk_;
   long left_;                 ///< runs that were not claimed when a chunk was last handed out
   std::vector<Other> others_; ///< by rank; the first is this one
   long open_ = 0;
@@ -142,18 +143,18 @@ private:
 } // namespace
 
 long RankEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
-  const int team = team_size(crew_.threads);
-  const auto description = describe(plan, crew_, sink.wants_csv);
+  const int team = thread_count(pool_.threads);
+  const auto description = describe(plan, pool_, sink.wants_csv);
   // As many ranks as there can be chunks for, and this one.
-  const long ranks = description ? std::min<long>(wire_->size() - 1, range.size() / team) : 0;
-  RangeDesk desk(range, static_cast<int>((ranks + 1) * team), sink, stop_);
-  Dispatch dispatch(*wire_, plan, range, desk);
+  const long ranks = description ? std::min<long>(transport_->size() - 1, range.size() / team) : 0;
+  RangeQueue desk(range, static_cast<int>((ranks + 1) * team), sink, stop_);
+  Dispatch dispatch(*transport_, plan, range, desk);
   if (ranks > 0) dispatch.open(*description, ranks);
   std::exception_ptr thrown;
   std::atomic<bool> own_done = false;
   std::thread own([&] {
     try {
-      occupancy_ += make_chunks(plan, crew_, sink.wants_csv, desk);
+      occupancy_ += make_chunks(plan, pool_, sink.wants_csv, desk);
     } catch (...) {
       thrown = std::current_exception();
       desk.break_off();
@@ -168,8 +169,9 @@ long RankEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& s
   return desk.done();
 }
 
-void dismiss(Wire& wire) {
-  for (int rank = 1; rank < wire.size(); ++rank) wire.send(rank, word(Told::leave));
+void dismiss(Transport& transport) {
+  for (int rank = 1; rank < transport.size(); ++rank)
+    transport.send(rank, word(MessageKind::leave));
 }
 
 } // namespace wingspread

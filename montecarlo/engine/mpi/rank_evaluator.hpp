@@ -1,7 +1,7 @@
 /// The ranks of a job, as what makes the runs of a command.
 #pragma once
 
-#include "montecarlo/engine/mpi/wire.hpp"
+#include "montecarlo/engine/mpi/transport.hpp"
 #include "montecarlo/engine/runs/evaluator.hpp"
 
 #include <memory>
@@ -13,23 +13,24 @@ namespace wingspread {
 class RankEvaluator final : public Evaluator {
 public:
   /// @param stop once true, no further run is begun on any rank
-  RankEvaluator(std::unique_ptr<Wire> wire, Crew crew, const std::atomic<bool>& stop)
-      : wire_(std::move(wire)), crew_(crew), stop_(stop) {}
+  RankEvaluator(std::unique_ptr<Transport> transport, ThreadPool pool,
+                const std::atomic<bool>& stop)
+      : transport_(std::move(transport)), pool_(pool), stop_(stop) {}
 
   /// @throws besides, MachineError for what goes wrong on another rank
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
 
   [[nodiscard]] const Occupancy& occupancy() const override { return occupancy_; }
-  [[nodiscard]] int ranks() const override { return wire_->size(); }
+  [[nodiscard]] int ranks() const override { return transport_->size(); }
 
 private:
-  std::unique_ptr<Wire> wire_;
-  Crew crew_;
+  std::unique_ptr<Transport> transport_;
+  ThreadPool pool_;
   const std::atomic<bool>& stop_;
   Occupancy occupancy_{};
 };
 
 /// Tells all others that the job is done: serve() returns there. For rank 0.
-void dismiss(Wire& wire);
+void dismiss(Transport& transport);
 
 } // namespace wingspread

@@ -1,7 +1,7 @@
 #include "montecarlo/engine/mpi/serve.hpp"
 
 #include "montecarlo/engine/mpi/plan_copy.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// How long to wait before the next look at the wire, which takes some 25 µs of the processor: while threads make runs
+/// How long to wait before the next look at the transport, which takes some 25 µs of the processor: while threads make runs
 /// they are not to be disturbed, and whenever one takes a chunk from the store there is a look besides; while they have
 /// nothing to do, an answer is wanted.
 constexpr microseconds while_busy{8000}, while_idle{50};
@@ -28,17 +28,17 @@ constexpr long first_store = 4, most_store = 64;
 
 /// Waits for a message: the longer, the longer none has come. Then an answer is had at once where messages follow each
 /// other, and a rank that has nothing to do while rank 0 works out statistics leaves the processor to it.
-Message next_message(Wire& wire) {
+Message next_message(Transport& transport) {
   for (microseconds wait = while_idle;; wait = std::min(2 * wait, while_busy)) {
-    if (auto message = wire.receive()) return std::move(*message);
+    if (auto message = transport.receive()) return std::move(*message);
     std::this_thread::sleep_for(wait);
   }
 }
 
 /// The chunks that a rank has in store, and those that its team has finished.
-class StoreDesk final : public ChunkDesk {
+class LocalQueue final : public ChunkQueue {
 public:
-  explicit StoreDesk(const std::atomic<bool>& stop) : stop_(stop) {}
+  explicit LocalQueue(const std::atomic<bool>& stop) : stop_(stop) {}
 
   [[nodiscard]] std::optional<Chunk> claim() override {
     const std::lock_guard lock(mutex_);
@@ -112,34 +112,34 @@ private:
   bool ended_ = false, has_claimed_ = false, was_short_ = false;
 };
 
-/// One plan, from its opening to its closing. This thread is on the wire, a team beside it makes the runs.
+/// One plan, from its opening to its closing. This thread is on the transport, a team beside it makes the runs.
 class Session {
 public:
-  Session(Wire& wire, PlanCopy& copy, const std::atomic<bool>& stop)
-      : wire_(wire), copy_(copy), stop_(stop), desk_(stop),
-        threads_(team_size(copy.crew().threads)) {}
+  Session(Transport& transport, PlanCopy& copy, const std::atomic<bool>& stop)
+      : transport_(transport), copy_(copy), stop_(stop), desk_(stop),
+        threads_(thread_count(copy.pool().threads)) {}
 
   void run() {
     std::thread team([this] { work(); });
     while (!team_done_) {
-      while (const auto message = wire_.receive()) heed(Unpacker(message->bytes));
+      while (const auto message = transport_.receive()) heed(Deserializer(message->bytes));
       report();
       if (!team_done_) desk_.pause();
     }
     team.join();
     report();
     while (!closing_) { // it ended by itself: a signal, an exception
-      const Message message = next_message(wire_);
-      heed(Unpacker(message.bytes));
+      const Message message = next_message(transport_);
+      heed(Deserializer(message.bytes));
     }
-    wire_.send(0, closed_message(end_));
+    transport_.send(0, closed_message(end_));
   }
 
 private:
   void work() noexcept {
     try {
       end_.occupancy =
-          make_chunks(copy_.plan(), copy_.crew(), copy_.description().wants_csv, desk_);
+          make_chunks(copy_.plan(), copy_.pool(), copy_.description().wants_csv, desk_);
     } catch (const std::bad_alloc&) {
       end_.failure = "found no memory left, expected more of it";
     } catch (const std::exception& error) {
@@ -149,19 +149,19 @@ private:
     desk_.break_off();
   }
 
-  void heed(Unpacker message) {
+  void heed(Deserializer message) {
     switch (kind_of(message)) {
-    case Told::chunk: {
+    case MessageKind::chunk: {
       const Chunk chunk = take_chunk(message);
       copy_.expect(chunk, message);
       desk_.add(chunk);
       --asked_;
       break;
     }
-    case Told::stop:
+    case MessageKind::stop:
       desk_.break_off();
       break;
-    case Told::close:
+    case MessageKind::close:
       closing_ = true;
       desk_.end();
       break;
@@ -180,13 +180,13 @@ private:
     report.stopped = (stop_ || team_done_) && !closing_ && !std::exchange(told_, true);
     if (report.finished.empty() && report.wanted == 0 && !report.stopped) return;
     asked_ += report.wanted;
-    wire_.send(0, report_message(report));
+    transport_.send(0, report_message(report));
   }
 
-  Wire& wire_;
+  Transport& transport_;
   PlanCopy& copy_;
   const std::atomic<bool>& stop_;
-  StoreDesk desk_;
+  LocalQueue desk_;
   const long threads_;
   long store_each_ = first_store;
   long asked_ = 0; ///< chunks that were asked for and have not come
@@ -196,35 +196,36 @@ private:
 };
 
 /// Says what is wrong with a plan, and waits until rank 0 closes it.
-void refuse(Wire& wire, const std::string& why) {
-  wire.send(0, report_message({.stopped = true}));
+void refuse(Transport& transport, const std::string& why) {
+  transport.send(0, report_message({.stopped = true}));
   while (true) {
-    const Message message = next_message(wire);
-    Unpacker bytes(message.bytes);
-    if (kind_of(bytes) == Told::close) return wire.send(0, closed_message({.failure = why}));
+    const Message message = next_message(transport);
+    Deserializer bytes(message.bytes);
+    if (kind_of(bytes) == MessageKind::close)
+      return transport.send(0, closed_message({.failure = why}));
   }
 }
 
 } // namespace
 
-void serve(Wire& wire, const MeasureMaker& make_measure, const std::atomic<bool>& stop) {
+void serve(Transport& transport, const MeasureMaker& make_measure, const std::atomic<bool>& stop) {
   std::optional<PlanCopy> copy; // of the last plan, which often comes again
   while (true) {
-    const Message message = next_message(wire);
-    Unpacker bytes(message.bytes);
-    const Told kind = kind_of(bytes);
-    if (kind == Told::leave) return;
-    if (kind != Told::open) continue;
+    const Message message = next_message(transport);
+    Deserializer bytes(message.bytes);
+    const MessageKind kind = kind_of(bytes);
+    if (kind == MessageKind::leave) return;
+    if (kind != MessageKind::open) continue;
     PlanDescription description = take_description(bytes);
     try {
       if (!copy || copy->description() != description)
         copy.emplace(std::move(description), make_measure);
     } catch (const std::exception& error) {
       copy.reset();
-      refuse(wire, error.what());
+      refuse(transport, error.what());
       continue;
     }
-    Session(wire, *copy, stop).run();
+    Session(transport, *copy, stop).run();
   }
 }
 

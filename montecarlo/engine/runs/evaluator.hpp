@@ -52,7 +52,7 @@ public:
 };
 
 /// How this machine makes them.
-struct Crew {
+struct ThreadPool {
   int threads = 0;                                ///< 0: as many as OpenMP offers
   InstructionSet set = instruction_sets().back(); ///< how many runs a thread makes at once
 };
@@ -64,14 +64,14 @@ class ThreadEvaluator final : public Evaluator {
 public:
   /// @param stop once true, no further run is begun; what is done up to the first run that is
   ///   missing is still handed on
-  ThreadEvaluator(Crew crew, const std::atomic<bool>& stop) : crew_(crew), stop_(stop) {}
+  ThreadEvaluator(ThreadPool pool, const std::atomic<bool>& stop) : pool_(pool), stop_(stop) {}
 
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
 
   [[nodiscard]] const Occupancy& occupancy() const override { return occupancy_; }
 
 private:
-  Crew crew_;
+  ThreadPool pool_;
   const std::atomic<bool>& stop_;
   Occupancy occupancy_{};
 };

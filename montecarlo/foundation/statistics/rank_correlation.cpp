@@ -1,7 +1,7 @@
 #include "montecarlo/foundation/statistics/rank_correlation.hpp"
 
 #include "distributions/copula.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/foundation/statistics/two_sided.hpp"
 
@@ -51,7 +51,7 @@ PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& col
     }
   Matrix correlations = Matrix::Identity(index(varying_.size()), index(varying_.size()));
   const auto pairs = static_cast<double>(varying_.size() * varying_.size()) / 2;
-  const int team = team_for(threads, pairs * static_cast<double>(rows_));
+  const int team = threads_worth(threads, pairs * static_cast<double>(rows_));
   for_each_task(team, varying_.size(), [&](std::size_t i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double products =

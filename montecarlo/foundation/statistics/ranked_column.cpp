@@ -1,6 +1,6 @@
 #include "montecarlo/foundation/statistics/ranked_column.hpp"
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <boost/sort/pdqsort/pdqsort.hpp>
@@ -76,7 +76,7 @@ std::vector<RankedColumn> rank_columns(std::span<const Spilled<double>* const> c
   const std::size_t rows = columns.empty() ? 0 : columns.front()->size();
   const std::size_t bytes = 44 * rows; // 36 of vectors
   const double operations = sorting_operations(rows) * static_cast<double>(columns.size());
-  for_each_task(team_within(team_for(threads, operations), bytes), columns.size(),
+  for_each_task(threads_within_memory(threads_worth(threads, operations), bytes), columns.size(),
                 [&](std::size_t i) { ranked[i].emplace(*columns[i]); });
   std::vector<RankedColumn> result;
   for (auto& column : ranked) result.push_back(std::move(*column));

@@ -6,7 +6,7 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/live_histogram.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/commands/commands.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/overall_progress.hpp"
@@ -15,7 +15,7 @@
 #include "montecarlo/model/input_checks/examine.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -58,7 +58,7 @@ std::string math_library() {
 }
 
 /// timing.json: what this session did and on what.
-std::string timing_text(const Tally& tally, double seconds, const Crew& crew,
+std::string timing_text(const Tally& tally, double seconds, const ThreadPool& crew,
                         const Evaluator& evaluator, bool interrupted) {
   const long made = tally.done - tally.before;
   const Occupancy& lanes = evaluator.occupancy();
@@ -66,7 +66,7 @@ std::string timing_text(const Tally& tally, double seconds, const Crew& crew,
                     {"math_library", math_library()},
                     {"processors", std::thread::hardware_concurrency()},
                     {"ranks", evaluator.ranks()},
-                    {"threads", team_size(crew.threads)},
+                    {"threads", thread_count(crew.threads)},
                     {"instruction_set", to_string(crew.set)},
                     {"lanes", lanes_of(crew.set)},
                     {"lane_occupancy", lanes.tries > 0 ? Json(static_cast<double>(lanes.busy) /
@@ -110,9 +110,9 @@ bool begin(const FolderWriter& folder, Evaluator& /*evaluator*/, Tally& tally) {
   tally.before = tally.done;
   return true;
 }
-bool begin(RowlessFolder& folder, Evaluator& evaluator, Tally& tally) {
+bool begin(StreamingFolder& folder, Evaluator& evaluator, Tally& tally) {
   if (!folder.begin(evaluator)) return false;
-  const RunTally& made = folder.tally();
+  const StreamingStatistics& made = folder.statistics();
   tally.done = made.runs();
   tally.invalid = made.count_of(Status::invalid);
   tally.failed = made.count_of(Status::failed);
@@ -124,7 +124,7 @@ bool begin(RowlessFolder& folder, Evaluator& evaluator, Tally& tally) {
 
 /// Makes the runs that are left. @return whether it was interrupted
 template <class Folder>
-bool make_remaining(Folder& folder, const RunPlan& plan, const Crew& crew,
+bool make_remaining(Folder& folder, const RunPlan& plan, const ThreadPool& crew,
                     const Interrupt& interrupt, OverallProgress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const auto evaluator = evaluator_of(crew, interrupt.flag());
@@ -185,9 +185,9 @@ Summary write_summary(const FolderWriter& folder, int threads, const std::string
   }
 }
 
-Summary write_summary(const RowlessFolder& folder, int /*threads*/, const std::string& /*kept*/) {
-  return write_tally_statistics(folder.stored(), folder.tally(),
-                                folder.stored().campaign.statistics);
+Summary write_summary(const StreamingFolder& folder, int /*threads*/, const std::string& /*kept*/) {
+  return write_streaming_statistics(folder.stored(), folder.statistics(),
+                                    folder.stored().campaign.statistics);
 }
 
 /// Adds to timing.json what it took to know the accuracy.
@@ -277,7 +277,7 @@ int run(const RunOptions& options) {
     progress.pause();
     return show_results(stored, summary, options.display);
   };
-  return options.no_rows ? run_into<RowlessFolder>(campaign, options.out, options, progress, show)
+  return options.no_rows ? run_into<StreamingFolder>(campaign, options.out, options, progress, show)
                          : run_into<FolderWriter>(campaign, options.out, options, progress, show);
 }
 

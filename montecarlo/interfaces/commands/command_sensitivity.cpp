@@ -116,7 +116,7 @@ int sobol_again(const SensitivityOptions& options) {
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
-bool make_runs_of(const RunPlan& plan, RunRange own, RunRange remaining, const Crew& crew,
+bool make_runs_of(const RunPlan& plan, RunRange own, RunRange remaining, const ThreadPool& crew,
                   const BatchSink& sink) {
   const Interrupt interrupt;
   Progress progress(stderr);
@@ -139,14 +139,14 @@ SaltelliDesign design_again(const SensitivityOptions& options) {
   return read_design_file(options.from);
 }
 
-SaltelliDesign new_design(const SensitivityOptions& options, const Crew& crew) {
+SaltelliDesign new_design(const SensitivityOptions& options, const ThreadPool& crew) {
   SaltelliDesign design{chosen_case(read_campaign_file(options.from), options.of_case),
                         options.samples.value_or(1000), std::nullopt};
   override_sampling(design.campaign, std::nullopt, options.seed);
   return design;
 }
 
-SaltelliDesign design_of(const SensitivityOptions& options, const Crew& crew) {
+SaltelliDesign design_of(const SensitivityOptions& options, const ThreadPool& crew) {
   if (!options.shard.empty() && options.out.empty())
     throw SpecError({{"", "--shard", "no --out", "the folder for its runs"}});
   SaltelliDesign design =
@@ -166,7 +166,7 @@ int show_shard(const SaltelliDesign& design, const Results& results,
 }
 
 int sobol_new(const SensitivityOptions& options) {
-  const Crew crew = crew_of(options.crew);
+  const ThreadPool crew = crew_of(options.crew);
   const SaltelliDesign design = design_of(options, crew);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());

@@ -18,7 +18,7 @@ namespace {
 }
 
 void refuse_unsuitable(const std::filesystem::path& folder, const char* last, bool resume) {
-  const bool has_log = std::filesystem::exists(folder / looks_file);
+  const bool has_log = std::filesystem::exists(folder / checkpoint_file);
   if (!resume && has_log)
     refuse_folder(folder, "a study that was interrupted",
                   "a new or an empty folder (--resume goes on with this one)");
@@ -36,28 +36,28 @@ StudyFolder::StudyFolder(std::filesystem::path folder, const Json& about, const 
   refuse_unsuitable(folder_, last, resume);
   lock_.emplace(folder_);
   refuse_unsuitable(folder_, last, resume); // the folder may be another by now
-  const bool finished =
-      std::filesystem::exists(folder_ / last) && !std::filesystem::exists(folder_ / looks_file);
+  const bool finished = std::filesystem::exists(folder_ / last) &&
+                        !std::filesystem::exists(folder_ / checkpoint_file);
   if (finished)
     refuse_other_study(folder_ / last, parse_json_file(folder_ / last), about);
   else
-    log_.emplace(folder_ / looks_file, about);
+    log_.emplace(folder_ / checkpoint_file, about);
 }
 
 void StudyFolder::finish() {
-  const std::filesystem::path file = folder_ / looks_file;
+  const std::filesystem::path file = folder_ / checkpoint_file;
   log_.reset();
   if (unlink(file.c_str()) != 0 && errno != ENOENT)
     refuse_path(file, errno, "a file that can be taken away");
   sync_folder(folder_);
 }
 
-void warn_if_damaged(const LookLog& log, const std::filesystem::path& folder) {
+void warn_if_damaged(const Checkpoint& log, const std::filesystem::path& folder) {
   if (log.was_damaged())
     fmt::print(stderr,
                "warning: {} was damaged behind run {} of the study: those that followed were made "
                "again\n",
-               (folder / looks_file).string(), log.read());
+               (folder / checkpoint_file).string(), log.read());
 }
 
 } // namespace wingspread

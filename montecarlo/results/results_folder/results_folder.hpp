@@ -56,7 +56,7 @@ struct StoredCampaign {
 [[nodiscard]] StoredCampaign read_any_campaign(const std::filesystem::path& folder);
 
 /// Whether the folder's runs were made without keeping their rows.
-[[nodiscard]] bool is_rowless(const std::filesystem::path& folder);
+[[nodiscard]] bool is_streaming_folder(const std::filesystem::path& folder);
 /// The file of the folder's rows: of all runs or, where these were not kept, of those that went wrong.
 [[nodiscard]] std::string rows_file(const std::filesystem::path& folder);
 /// @throws SpecError when they were
@@ -81,7 +81,7 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
 
 /// The statistics of the rows, their confidence shared out among the looks that the campaign may take, with all that it
 /// asks for besides.
-/// @param threads as of team_size (team.hpp)
+/// @param threads as of thread_count (team.hpp)
 [[nodiscard]] Summary stored_summary(const StoredCampaign& stored, const Results& results,
                                      const StatisticsSpec& spec, int threads = 0);
 
@@ -94,7 +94,7 @@ void write_summary_files(const StoredCampaign& stored, const Summary& summary);
 /// Works out the statistics of the rows and writes the three files of them. Results that lack some
 /// of the folder's runs are labelled so: "partial" in summary.json's stamp. Of all of this program's own runs (not
 /// of a shard) some are made again, to say how accurate they are.
-/// @param threads as of team_size (team.hpp)
+/// @param threads as of thread_count (team.hpp)
 /// @throws SpecError when they cannot be written
 Summary write_statistics(const StoredCampaign& stored, const Results& results,
                          const StatisticsSpec& spec, int threads = 0);

@@ -1,6 +1,6 @@
 #include "montecarlo/results/summary/summary.hpp"
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/replicate_bounds.hpp"
 #include "montecarlo/results/summary/reason_pattern.hpp"
@@ -118,8 +118,8 @@ void summarize_columns(const Results& results, const StatisticsSpec& spec,
   summary.outputs.resize(results.outputs.size());
   const std::size_t tasks = 1 + results.outputs.size();
   const int team =
-      team_for(threads, sorting_operations(results.size()) * static_cast<double>(tasks));
-  for_each_task(team_within(team, bytes), tasks, [&](std::size_t task) {
+      threads_worth(threads, sorting_operations(results.size()) * static_cast<double>(tasks));
+  for_each_task(threads_within_memory(team, bytes), tasks, [&](std::size_t task) {
     if (task == 0)
       summary.reasons = count_reasons(results);
     else

@@ -122,7 +122,7 @@ struct Summary {
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes a run for
 /// each thread, and no more threads than 1 GiB has room for; what is read of the results is
 /// released. Temporary files: 4 bytes a run for each column, and 12 where values are missing.
-/// @param threads as of team_size (team.hpp); the summary does not depend on them
+/// @param threads as of thread_count (team.hpp); the summary does not depend on them
 /// @pre replication.of_row is as long as the results unless there are no replicates
 [[nodiscard]] Summary summarize(const Results& results, const StatisticsSpec& spec,
                                 const Replication& replication = {}, int threads = 0);

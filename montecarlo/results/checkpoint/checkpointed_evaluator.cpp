@@ -1,8 +1,8 @@
-#include "montecarlo/results/checkpoint/logged_evaluator.hpp"
+#include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 
 namespace wingspread {
 
-long LoggedEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
+long CheckpointedEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
   const long logged = log_.enter(plan, range, sink, stop_);
   if (logged == range.size() || stop_) return logged;
   const auto keep = [&](const Batch& batch) {

@@ -1,4 +1,4 @@
-#include "montecarlo/engine/mpi/mpi_wire.hpp"
+#include "montecarlo/engine/mpi/mpi_transport.hpp"
 
 #include <limits>
 #include <list>
@@ -9,14 +9,14 @@ namespace wingspread {
 namespace {
 
 /// Errors of MPI end the job: its default (MPI_ERRORS_ARE_FATAL) is left as it is.
-class MpiWire final : public Wire {
+class MpiTransport final : public Transport {
 public:
-  MpiWire() {
+  MpiTransport() {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
   /// Waits until all has been sent.
-  ~MpiWire() override {
+  ~MpiTransport() override {
     for (Sending& each : sending_) MPI_Wait(&each.request, MPI_STATUS_IGNORE);
   }
 
@@ -68,6 +68,6 @@ private:
 
 } // namespace
 
-std::unique_ptr<Wire> mpi_wire() { return std::make_unique<MpiWire>(); }
+std::unique_ptr<Transport> mpi_transport() { return std::make_unique<MpiTransport>(); }
 
 } // namespace wingspread

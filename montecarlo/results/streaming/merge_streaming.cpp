@@ -1,7 +1,7 @@
 /// Shards without rows, put together.
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ void refuse_unlike(const std::vector<StoredCampaign>& parts) {
   long next = 0;
   for (const StoredCampaign& part : parts) {
     const std::string folder = part.folder.string();
-    if (!is_rowless(part.folder))
+    if (!is_streaming_folder(part.folder))
       problems.push_back({folder, "", "a folder with rows", "folders of --no-rows, as the others"});
     if (part.stamp.hash != first.stamp.hash || part.stamp.version != first.stamp.version)
       problems.push_back(
@@ -57,15 +57,16 @@ std::uint64_t append_broken(const StoredCampaign& part, std::uint64_t bytes, boo
 
 } // namespace
 
-Summary merge_rowless(const std::vector<std::filesystem::path>& folders,
-                      const std::filesystem::path& out) {
+Summary merge_streaming(const std::vector<std::filesystem::path>& folders,
+                        const std::filesystem::path& out) {
   std::vector<StoredCampaign> parts;
   for (const std::filesystem::path& folder : folders) parts.push_back(read_stored_campaign(folder));
   std::ranges::sort(parts, {}, [](const StoredCampaign& part) { return part.runs().first; });
   refuse_unlike(parts);
   refuse_used_folder(out, "a new or an empty folder");
   for (const StoredCampaign& part : parts)
-    if (const long done = read_tally(part).tally.runs(); done < part.runs().size())
+    if (const long done = read_streaming_statistics(part).statistics.runs();
+        done < part.runs().size())
       throw SpecError(
           {{part.folder.string(), "", fmt::format("{} of {} runs", done, part.runs().size()),
             "all of them: `wingspread run` with --no-rows and --resume goes on"}});
@@ -73,20 +74,21 @@ Summary merge_rowless(const std::vector<std::filesystem::path>& folders,
   const StoredCampaign whole{out, parts.front().campaign, stamp_of(parts.front().campaign, {})};
   write_file(out / campaign_file, campaign_text(whole.campaign, whole.stamp));
   OutputFile broken(out / broken_runs_file, OutputFile::From::beginning);
-  std::optional<StoredTally> all;
+  std::optional<StoredStatistics> all;
   for (const StoredCampaign& part : parts) {
-    StoredTally read = read_tally(part);
+    StoredStatistics read = read_streaming_statistics(part);
     const std::uint64_t bytes = append_broken(part, read.broken_bytes, !all, broken);
     if (all)
-      all->tally.add(read.tally);
+      all->statistics.add(read.statistics);
     else
-      all.emplace(StoredTally{std::move(read.tally)});
+      all.emplace(StoredStatistics{std::move(read.statistics)});
     all->broken_bytes += bytes;
   }
   broken.sync();
   broken.close();
-  write_file(out / statistics_file, tally_text(whole, all->tally, all->broken_bytes));
-  return write_tally_statistics(whole, all->tally, whole.campaign.statistics);
+  write_file(out / statistics_file,
+             streaming_statistics_text(whole, all->statistics, all->broken_bytes));
+  return write_streaming_statistics(whole, all->statistics, whole.campaign.statistics);
 }
 
 } // namespace wingspread

@@ -1,6 +1,6 @@
-#include "montecarlo/engine/runs/chunk_team.hpp"
+#include "montecarlo/engine/runs/chunk_scheduler.hpp"
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <algorithm>
 #include <map>
@@ -20,7 +20,7 @@ long most_ahead(int threads) { return std::max(1024L, 8L * threads); }
 /// One thread's chunks: the one that its runs come from, and those that wait for their last runs.
 class OpenChunks {
 public:
-  OpenChunks(ChunkDesk& desk, bool wants_csv) : desk_(desk), wants_csv_(wants_csv) {}
+  OpenChunks(ChunkQueue& desk, bool wants_csv) : desk_(desk), wants_csv_(wants_csv) {}
 
   [[nodiscard]] std::optional<long> next() {
     if (desk_.stopped()) return std::nullopt;
@@ -70,7 +70,7 @@ private:
     desk_.finish(chunk.chunk, std::move(chunk.batch), complete);
   }
 
-  ChunkDesk& desk_;
+  ChunkQueue& desk_;
   bool wants_csv_;
   std::map<long, Open> chunks_; ///< by number
   Open* open_ = nullptr;
@@ -78,7 +78,8 @@ private:
 
 } // namespace
 
-Occupancy make_chunks(const RunPlan& plan, const Crew& crew, bool wants_csv, ChunkDesk& desk) {
+Occupancy make_chunks(const RunPlan& plan, const ThreadPool& pool, bool wants_csv,
+                      ChunkQueue& desk) {
   std::mutex adding;
   Occupancy all{};
   const auto work = [&] {
@@ -87,21 +88,21 @@ Occupancy make_chunks(const RunPlan& plan, const Crew& crew, bool wants_csv, Chu
     const auto next = [&] { return chunks.next(); };
     const auto keep = [&](ResultRow&& row) { chunks.take(std::move(row)); };
     Occupancy full{};
-    do full += runner.run_all(crew.set, next, keep);
+    do full += runner.run_all(pool.set, next, keep);
     while (desk.wait_for_more());
     chunks.close();
     const std::lock_guard lock(adding);
     all += full;
   };
-  on_team(team_size(crew.threads), work, [&] { desk.break_off(); });
+  run_on_threads(thread_count(pool.threads), work, [&] { desk.break_off(); });
   return all;
 }
 
-RangeDesk::RangeDesk(RunRange range, int threads, const BatchSink& sink,
-                     const std::atomic<bool>& stop)
+RangeQueue::RangeQueue(RunRange range, int threads, const BatchSink& sink,
+                       const std::atomic<bool>& stop)
     : threads_(threads), stop_(stop), in_order_(sink, most_ahead(threads)), next_{0, range} {}
 
-std::optional<Chunk> RangeDesk::claim() {
+std::optional<Chunk> RangeQueue::claim() {
   const std::lock_guard lock(claiming_);
   if (stopped() || next_.runs.size() <= 0 || !in_order_.may_begin(next_.number))
     return std::nullopt;
@@ -112,7 +113,7 @@ std::optional<Chunk> RangeDesk::claim() {
 }
 
 // A thread that has run out of chunks because one run keeps the others waiting has a rest.
-bool RangeDesk::wait_for_more() {
+bool RangeQueue::wait_for_more() {
   long chunk = 0;
   {
     const std::lock_guard lock(claiming_);
@@ -123,7 +124,7 @@ bool RangeDesk::wait_for_more() {
   return true;
 }
 
-bool RangeDesk::is_exhausted() const {
+bool RangeQueue::is_exhausted() const {
   const std::lock_guard lock(claiming_);
   return next_.runs.size() <= 0;
 }

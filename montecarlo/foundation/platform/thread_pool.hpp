@@ -8,7 +8,7 @@ namespace wingspread {
 
 /// How many threads there will be for `wanted`: as many, or for 0 as many as OpenMP offers
 /// (OMP_NUM_THREADS, or the processor's).
-[[nodiscard]] int team_size(int wanted);
+[[nodiscard]] int thread_count(int wanted);
 /// The most threads that a user can ask for.
 inline constexpr int most_threads = 1024;
 
@@ -17,16 +17,16 @@ inline constexpr int most_threads = 1024;
 /// its turn, and spins meanwhile. `studies/drivers/team_costs.cpp` on two processors that two other threads and other
 /// programs wanted (23 November 2026): 2¹⁶ operations took 0.51 ms on one thread and 6.8 ms on two, 2²² 28 ms and 29 ms,
 /// 2²⁴ 206 ms and 85 ms.
-inline constexpr double operations_worth_a_team = 1 << 22;
+inline constexpr double operations_worth_threads = 1 << 22;
 
-/// How many threads there will be for `wanted` and work of so many operations in all: team_size's, or one.
-[[nodiscard]] int team_for(int wanted, double operations);
+/// How many threads there will be for `wanted` and work of so many operations in all: thread_count's, or one.
+[[nodiscard]] int threads_worth(int wanted, double operations);
 
 /// Calls `work` once on each thread of a team of up to that many, and returns when all are done.
 /// The first exception that leaves a call is kept off the team, and thrown again from here.
 /// @param on_exception called at once when one is caught, to make the other calls come to an end
-void on_team(int threads, const std::function<void()>& work,
-             const std::function<void()>& on_exception);
+void run_on_threads(int threads, const std::function<void()>& work,
+                    const std::function<void()>& on_exception);
 
 /// Calls task(0), task(1), … task(count − 1), each once, on a team of up to that many threads; no
 /// task may depend on another. What a task throws is thrown from here, when all threads are done.
@@ -34,6 +34,6 @@ void for_each_task(int threads, std::size_t count, const std::function<void(std:
 
 /// How many threads there will be for `wanted` when each takes so many bytes, and all of them no
 /// more than 1 GiB; at least one.
-[[nodiscard]] int team_within(int wanted, std::size_t bytes_each);
+[[nodiscard]] int threads_within_memory(int wanted, std::size_t bytes_each);
 
 } // namespace wingspread

@@ -1,7 +1,7 @@
-#include "montecarlo/results/checkpoint/shard_looks.hpp"
+#include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
-#include "montecarlo/results/checkpoint/look_id.hpp"
+#include "montecarlo/results/checkpoint/analysis_id.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
 
@@ -13,9 +13,9 @@ namespace {
 
 /// What its log says of whose it is.
 Stamp stamp_in(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / looks_file;
+  const std::filesystem::path path = folder / checkpoint_file;
   if (!std::filesystem::exists(path))
-    throw SpecError({{folder.string(), "", "no " + std::string(looks_file) + " in it",
+    throw SpecError({{folder.string(), "", "no " + std::string(checkpoint_file) + " in it",
                       "a shard of a study: what it was made into with --shard"}});
   const Json about = about_of_log(path);
   std::vector<Problem> problems;
@@ -55,31 +55,31 @@ std::vector<Part> parts_of(const std::vector<std::filesystem::path>& folders, lo
 
 } // namespace
 
-ShardLooks::ShardLooks(const std::vector<std::filesystem::path>& folders, const Json& about,
-                       long runs, const ShardMaker& maker, Evaluator& inner,
-                       const std::atomic<bool>& stop)
+ShardCheckpoints::ShardCheckpoints(const std::vector<std::filesystem::path>& folders,
+                                   const Json& about, long runs, const ShardMaker& maker,
+                                   Evaluator& inner, const std::atomic<bool>& stop)
     : inner_(inner), stop_(stop) {
   if (folders.empty()) return;
   for (const std::filesystem::path& folder : folders) // whose they are comes first
-    (void)LookLog(folder / looks_file, about_shard(about, *stamp_in(folder).shard));
+    (void)Checkpoint(folder / checkpoint_file, about_shard(about, *stamp_in(folder).shard));
   for (const Part& part : parts_of(folders, runs, maker)) {
     const Shard shard = *part.stamp.shard;
     if (part.own.size() > 0)
-      shards_.emplace_back(shard, part.folder / looks_file, about_shard(about, shard));
+      shards_.emplace_back(shard, part.folder / checkpoint_file, about_shard(about, shard));
   }
 }
 
-bool ShardLooks::have(const RunPlan& plan, RunRange range) const {
+bool ShardCheckpoints::have(const RunPlan& plan, RunRange range) const {
   return !shards_.empty() && std::ranges::all_of(shards_, [&](const ShardLog& each) {
-    return each.log.has_next(plan, part_of_look(range, each.shard));
+    return each.log.has_next(plan, part_of_analysis(range, each.shard));
   });
 }
 
-long ShardLooks::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
+long ShardCheckpoints::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
   if (!have(plan, range)) return inner_.make(plan, range, sink);
   long handed_on = 0;
   for (ShardLog& each : shards_) {
-    const RunRange part = part_of_look(range, each.shard);
+    const RunRange part = part_of_analysis(range, each.shard);
     const long got = each.log.enter(plan, part, sink, stop_);
     handed_on += got;
     read_ += got;
@@ -91,14 +91,14 @@ long ShardLooks::make(const RunPlan& plan, RunRange range, const BatchSink& sink
   return handed_on;
 }
 
-RunRange part_of_look(RunRange range, const Shard& shard) {
+RunRange part_of_analysis(RunRange range, const Shard& shard) {
   const RunRange part = shard_runs(range.size(), shard);
   return {range.first + part.first, range.first + part.last};
 }
 
 bool is_shard_folder(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / looks_file) &&
-         about_of_log(folder / looks_file)[stamp_key].contains("shard");
+  return std::filesystem::exists(folder / checkpoint_file) &&
+         about_of_log(folder / checkpoint_file)[stamp_key].contains("shard");
 }
 
 } // namespace wingspread

@@ -1,7 +1,7 @@
 /// The looks of a study in a file: read as far as they go, and from there on written.
 ///
 ///   record 1     JSON: whose log it is
-///   'L' · text   a look begins (look_id.hpp)
+///   'L' · text   a look begins (analysis_id.hpp)
 ///   'R' …        its rows (row_records.hpp)
 #pragma once
 
@@ -24,12 +24,12 @@ void refuse_other_study(const std::filesystem::path& file, const Json& there, co
 /// What a log says of whose it is. @throws SpecError when it does not
 [[nodiscard]] Json about_of_log(const std::filesystem::path& file);
 
-class LookLog {
+class Checkpoint {
 public:
   /// Opens the file, if it is there; it is made with the first look.
   /// @param about whose log it is: an object; it has to be the same to go on
   /// @throws SpecError when it is another's, with each value that differs, or no log
-  LookLog(std::filesystem::path file, Json about);
+  Checkpoint(std::filesystem::path file, Json about);
 
   /// Enters the next look, and hands on what there is of its rows.
   /// @param stop once true, no more are handed on

@@ -9,6 +9,6 @@ namespace wingspread {
 
 /// A text that another look does not have: of the campaign as it is run (its hash), what is kept of a run, the range,
 /// and the draws of its first and its last run, for a study may put its runs at points of its own.
-[[nodiscard]] std::string look_id(const RunPlan& plan, RunRange range);
+[[nodiscard]] std::string analysis_id(const RunPlan& plan, RunRange range);
 
 } // namespace wingspread

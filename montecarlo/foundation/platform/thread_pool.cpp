@@ -1,4 +1,4 @@
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -51,10 +51,10 @@ struct Shift {
 
 } // namespace
 
-int team_size(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
+int thread_count(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
 
-int team_for(int wanted, double operations) {
-  return operations < operations_worth_a_team ? 1 : team_size(wanted);
+int threads_worth(int wanted, double operations) {
+  return operations < operations_worth_threads ? 1 : thread_count(wanted);
 }
 
 namespace {
@@ -72,29 +72,29 @@ namespace {
 
 } // namespace
 
-void on_team(int threads, const std::function<void()>& work,
-             const std::function<void()>& on_exception) {
+void run_on_threads(int threads, const std::function<void()>& work,
+                    const std::function<void()>& on_exception) {
   Shift shift{work, on_exception};
-  start_and_join(team_size(threads), shift);
+  start_and_join(thread_count(threads), shift);
   if (shift.first) std::rethrow_exception(shift.first);
 }
 
 void for_each_task(int threads, std::size_t count, const std::function<void(std::size_t)>& task) {
   std::atomic<std::size_t> next = 0;
   const auto most = static_cast<int>(std::clamp<std::size_t>(count, 1, 1024));
-  on_team(
-      std::min(team_size(threads), most),
+  run_on_threads(
+      std::min(thread_count(threads), most),
       [&] {
         for (std::size_t i = next++; i < count; i = next++) task(i);
       },
       [&] { next = count; });
 }
 
-int team_within(int wanted, std::size_t bytes_each) {
+int threads_within_memory(int wanted, std::size_t bytes_each) {
   constexpr std::size_t most_bytes = std::size_t{1} << 30;
   const auto most = static_cast<int>(
       std::clamp<std::size_t>(most_bytes / std::max<std::size_t>(bytes_each, 1), 1, 1024));
-  return std::min(team_size(wanted), most);
+  return std::min(thread_count(wanted), most);
 }
 
 } // namespace wingspread

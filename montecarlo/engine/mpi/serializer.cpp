@@ -1,4 +1,4 @@
-#include "montecarlo/engine/mpi/parcel.hpp"
+#include "montecarlo/engine/mpi/serializer.hpp"
 
 #include <cassert>
 #include <utility>
@@ -9,7 +9,7 @@ namespace {
 /// `unknown`, `no`, `yes`, or that there is no such column.
 constexpr signed char no_finality = -1;
 
-void put_row(Packer& packer, const ResultRow& row) {
+void put_row(Serializer& packer, const ResultRow& row) {
   packer.put(row.status);
   packer.put(row.peaks_final ? static_cast<signed char>(*row.peaks_final) : no_finality);
   packer.put(row.draws);
@@ -20,27 +20,27 @@ void put_row(Packer& packer, const ResultRow& row) {
 
 } // namespace
 
-void Packer::put(const Batch& batch) {
+void Serializer::put(const Batch& batch) {
   put(batch.rows.size());
   for (const ResultRow& row : batch.rows) put_row(*this, row);
   put(batch.csv);
 }
 
-std::string_view Unpacker::take_bytes(std::size_t count) {
+std::string_view Deserializer::take_bytes(std::size_t count) {
   assert(count <= bytes_.size());
   const std::string_view taken = bytes_.substr(0, count);
   bytes_.remove_prefix(count);
   return taken;
 }
 
-std::vector<double> Unpacker::take_numbers() {
+std::vector<double> Deserializer::take_numbers() {
   std::vector<double> values(take<std::size_t>());
   const std::string_view bytes = take_bytes(values.size() * sizeof(double));
   if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
   return values;
 }
 
-ResultRow Unpacker::take_row(long run) {
+ResultRow Deserializer::take_row(long run) {
   ResultRow row;
   row.run = run;
   row.status = take<Status>();
@@ -53,7 +53,7 @@ ResultRow Unpacker::take_row(long run) {
   return row;
 }
 
-Batch Unpacker::take_batch(long first) {
+Batch Deserializer::take_batch(long first) {
   Batch batch;
   const auto rows = take<std::size_t>();
   batch.rows.reserve(rows);

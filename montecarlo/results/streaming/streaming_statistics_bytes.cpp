@@ -1,5 +1,5 @@
-/// RunTally as bytes.
-#include "montecarlo/results/streaming/run_tally.hpp"
+/// StreamingStatistics as bytes.
+#include "montecarlo/results/streaming/streaming_statistics.hpp"
 
 namespace wingspread {
 namespace {
@@ -34,7 +34,7 @@ Scale get_scale(StateReader& from) {
 
 } // namespace
 
-void RunTally::write(StateWriter& to) const {
+void StreamingStatistics::write(StateWriter& to) const {
   put_count(to, runs_);
   for (const long count : status_) put_count(to, count);
   for (const long count : peaks_) put_count(to, count);
@@ -48,7 +48,7 @@ void RunTally::write(StateWriter& to) const {
     values.write(to);
     put_count(to, worse);
   }
-  for (const auto& [failures, cut, worst] : tallies_) {
+  for (const auto& [failures, cut, worst] : requirement_counts_) {
     put_count(to, failures);
     put_count(to, cut);
     worst.write(to);
@@ -70,8 +70,9 @@ void RunTally::write(StateWriter& to) const {
   }
 }
 
-RunTally::RunTally(const Campaign& campaign, const ResultNames& names, StateReader& from)
-    : RunTally(campaign, names) {
+StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultNames& names,
+                                         StateReader& from)
+    : StreamingStatistics(campaign, names) {
   get_count(from, runs_);
   for (long& count : status_) get_count(from, count);
   for (long& count : peaks_) get_count(from, count);
@@ -89,7 +90,7 @@ RunTally::RunTally(const Campaign& campaign, const ResultNames& names, StateRead
     get_count(from, population.worse);
     populations_.push_back(std::move(population));
   }
-  for (auto& [failures, cut, worst] : tallies_) {
+  for (auto& [failures, cut, worst] : requirement_counts_) {
     get_count(from, failures);
     get_count(from, cut);
     worst.read(from);

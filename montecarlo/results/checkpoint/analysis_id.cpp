@@ -1,4 +1,4 @@
-#include "montecarlo/results/checkpoint/look_id.hpp"
+#include "montecarlo/results/checkpoint/analysis_id.hpp"
 
 #include "montecarlo/foundation/formats/csv.hpp"
 
@@ -16,7 +16,7 @@ void append_draws(std::string& text, const RunPlan& plan, long run) {
 
 } // namespace
 
-std::string look_id(const RunPlan& plan, RunRange range) {
+std::string analysis_id(const RunPlan& plan, RunRange range) {
   std::string kept;
   for (const std::string& output : plan.names().outputs) kept += output + ';';
   if (plan.names().peaks_final) kept += peaks_final_column;

@@ -1,4 +1,4 @@
-#include "montecarlo/results/streaming/run_tally.hpp"
+#include "montecarlo/results/streaming/streaming_statistics.hpp"
 
 #include "montecarlo/results/summary/overtravel.hpp"
 #include "montecarlo/results/summary/static_margins.hpp"
@@ -53,7 +53,8 @@ std::vector<RequiredOutput> required_outputs(const Campaign& campaign, const Res
   return found;
 }
 
-RunTally::RunTally(const Campaign& campaign, const ResultNames& names) : campaign_(&campaign) {
+StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultNames& names)
+    : campaign_(&campaign) {
   // Columns of static margins in the order of static_margin_columns, of which the names are all that is asked for.
   const std::vector<Column> margins = static_margin_columns(campaign, Results(names));
   required_ = required_outputs(campaign, names, names_of(margins));
@@ -67,17 +68,18 @@ RunTally::RunTally(const Campaign& campaign, const ResultNames& names) : campaig
       return each.output == requirement.output && each.absolute == requirement.absolute;
     });
     population_of_.push_back(static_cast<std::size_t>(found - required_.begin()));
-    tallies_.push_back({0, 0, Extremes(Extremes::End::highest, most_broken)});
+    requirement_counts_.push_back({0, 0, Extremes(Extremes::End::highest, most_broken)});
   }
-  if (names.draws.size() * (names.outputs.size() + 1) <= most_tally_pairs)
+  if (names.draws.size() * (names.outputs.size() + 1) <= most_streaming_pairs)
     correlations_.emplace(names.draws.size(), names.outputs.size() + 1);
   draw_z_.resize(names.draws.size());
   output_z_.resize(names.outputs.size() + 1);
   seen_.resize(required_.size());
 }
 
-RunTally::RunTally(const Campaign& campaign, const ResultNames& names, const Results& pilot)
-    : RunTally(campaign, names) {
+StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultNames& names,
+                                         const Results& pilot)
+    : StreamingStatistics(campaign, names) {
   const std::vector<Column> margins = static_margin_columns(campaign, pilot);
   for (const Column& column : pilot.outputs) {
     const std::vector<double> values(column.values.begin(), column.values.end());
@@ -90,7 +92,7 @@ RunTally::RunTally(const Campaign& campaign, const ResultNames& names, const Res
         scale_of(std::vector<double>(column.values.begin(), column.values.end())));
 }
 
-bool RunTally::add(const ResultRow& row, std::span<const double> margins) {
+bool StreamingStatistics::add(const ResultRow& row, std::span<const double> margins) {
   ++runs_;
   ++status_[static_cast<std::size_t>(row.status)];
   ++peaks_[static_cast<std::size_t>(row.peaks_final.value_or(PeaksFinal::unknown))];
@@ -100,7 +102,7 @@ bool RunTally::add(const ResultRow& row, std::span<const double> margins) {
   return add_requirements(row, margins) || row.status != Status::deployed;
 }
 
-void RunTally::add_outputs(const ResultRow& row) {
+void StreamingStatistics::add_outputs(const ResultRow& row) {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const double value = row.outputs[i];
     if (std::isnan(value)) continue;
@@ -111,7 +113,7 @@ void RunTally::add_outputs(const ResultRow& row) {
   }
 }
 
-bool RunTally::add_requirements(const ResultRow& row, std::span<const double> margins) {
+bool StreamingStatistics::add_requirements(const ResultRow& row, std::span<const double> margins) {
   const bool is_cut = row.peaks_final == PeaksFinal::no;
   for (std::size_t q = 0; q < required_.size(); ++q) {
     const RequiredOutput& required = required_[q];
@@ -127,7 +129,7 @@ bool RunTally::add_requirements(const ResultRow& row, std::span<const double> ma
       ++populations_[q].worse;
   }
   bool breaks = false;
-  for (std::size_t r = 0; r < tallies_.size(); ++r) {
+  for (std::size_t r = 0; r < requirement_counts_.size(); ++r) {
     const Requirement& requirement = campaign_->requirements[r];
     const std::size_t q = population_of_[r];
     const double value = q < required_.size()             ? seen_[q]
@@ -136,16 +138,16 @@ bool RunTally::add_requirements(const ResultRow& row, std::span<const double> ma
     const double badness = value == infinity ? infinity : sign_of(requirement) * value;
     if (!(badness > limit_of(requirement))) continue;
     breaks = true;
-    ++tallies_[r].failures;
-    tallies_[r].worst.add(badness, row.run);
+    ++requirement_counts_[r].failures;
+    requirement_counts_[r].worst.add(badness, row.run);
     const bool of_peak = q < required_.size() && is_peak_[q];
     if (badness == infinity && row.status == Status::deployed && of_peak && is_cut)
-      ++tallies_[r].cut;
+      ++requirement_counts_[r].cut;
   }
   return breaks;
 }
 
-void RunTally::add_texts(const ResultRow& row) {
+void StreamingStatistics::add_texts(const ResultRow& row) {
   if (const auto known = orders_.find(row.latch_order); known != orders_.end())
     ++known->second;
   else if (orders_.size() < most_order_kinds)
@@ -155,7 +157,7 @@ void RunTally::add_texts(const ResultRow& row) {
   reasons_.add(row.status, row.reason);
 }
 
-void RunTally::add_correlations(const ResultRow& row) {
+void StreamingStatistics::add_correlations(const ResultRow& row) {
   for (std::size_t i = 0; i < draw_z_.size(); ++i) draw_z_[i] = draw_scales_[i].of(row.draws[i]);
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     output_z_[i] = outputs_[i].scale.of(row.outputs[i]);
@@ -164,7 +166,7 @@ void RunTally::add_correlations(const ResultRow& row) {
   correlations_->add(draw_z_, output_z_);
 }
 
-void RunTally::add(const RunTally& other) {
+void StreamingStatistics::add(const StreamingStatistics& other) {
   if (other_orders_ + other.other_orders_ > 0)
     throw SpecError({{"", "", "more than " + std::to_string(most_order_kinds) + " latch orders",
                       "fewer: the rest of them was counted together and cannot be taken apart"}});
@@ -180,10 +182,10 @@ void RunTally::add(const RunTally& other) {
     populations_[q].values.add(other.populations_[q].values);
     populations_[q].worse += other.populations_[q].worse;
   }
-  for (std::size_t r = 0; r < tallies_.size(); ++r) {
-    tallies_[r].failures += other.tallies_[r].failures;
-    tallies_[r].cut += other.tallies_[r].cut;
-    tallies_[r].worst.add(other.tallies_[r].worst);
+  for (std::size_t r = 0; r < requirement_counts_.size(); ++r) {
+    requirement_counts_[r].failures += other.requirement_counts_[r].failures;
+    requirement_counts_[r].cut += other.requirement_counts_[r].cut;
+    requirement_counts_[r].worst.add(other.requirement_counts_[r].worst);
   }
   if (correlations_) correlations_->add(*other.correlations_);
   for (const auto& [order, count] : other.orders_) orders_[order] += count;

@@ -1,7 +1,7 @@
 /// Looks of which the shards of a study were made before, on other machines.
 #pragma once
 
-#include "montecarlo/results/checkpoint/look_log.hpp"
+#include "montecarlo/results/checkpoint/checkpoint.hpp"
 #include "montecarlo/results/results_folder/parts.hpp"
 
 #include <atomic>
@@ -16,16 +16,16 @@ namespace wingspread {
 inline constexpr const char* shard_file = "shard.json";
 
 /// Hands on looks that all shards have, each its part of the runs, and has the others made.
-class ShardLooks final : public Evaluator {
+class ShardCheckpoints final : public Evaluator {
 public:
   /// @param folders the shards', in any order; none: all looks are made
-  /// @param about   whose study it is (look_log.hpp): each shard's is the same with the shard in its stamp
+  /// @param about   whose study it is (checkpoint.hpp): each shard's is the same with the shard in its stamp
   /// @param runs    of a look
   /// @param inner   makes what they have not
   /// @throws MissingRuns (parts.hpp) when shards are missing or not finished, SpecError when they are no shards of
   ///   this study
-  ShardLooks(const std::vector<std::filesystem::path>& folders, const Json& about, long runs,
-             const ShardMaker& maker, Evaluator& inner, const std::atomic<bool>& stop);
+  ShardCheckpoints(const std::vector<std::filesystem::path>& folders, const Json& about, long runs,
+                   const ShardMaker& maker, Evaluator& inner, const std::atomic<bool>& stop);
 
   /// @throws besides what `inner` does, SpecError when a shard's rows do not come out the same here
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
@@ -38,7 +38,7 @@ private:
     ShardLog(Shard of, const std::filesystem::path& file, Json about)
         : shard(of), log(file, std::move(about)) {}
     Shard shard;
-    LookLog log;
+    Checkpoint log;
   };
 
   [[nodiscard]] bool have(const RunPlan& plan, RunRange range) const;
@@ -50,7 +50,7 @@ private:
 };
 
 /// The part of a look's runs that is a shard's.
-[[nodiscard]] RunRange part_of_look(RunRange range, const Shard& shard);
+[[nodiscard]] RunRange part_of_analysis(RunRange range, const Shard& shard);
 
 /// Whether the folder is that of a study's shard, finished or not.
 [[nodiscard]] bool is_shard_folder(const std::filesystem::path& folder);

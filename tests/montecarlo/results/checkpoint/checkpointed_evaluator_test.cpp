@@ -1,5 +1,5 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
-#include "montecarlo/results/checkpoint/logged_evaluator.hpp"
+#include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/row_records.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
@@ -24,8 +24,8 @@ public:
                   const Json& about = {{"study", "three looks"}}) {
     std::atomic<bool> stop = false;
     ThreadEvaluator threads({.threads = 1}, stop);
-    LookLog log(log_file, about);
-    LoggedEvaluator evaluator(threads, log, stop);
+    Checkpoint log(log_file, about);
+    CheckpointedEvaluator evaluator(threads, log, stop);
     std::string lines;
     double scale = 1;
     for (int look = 0; look < 3; ++look) {
@@ -210,7 +210,7 @@ TEST_CASE("the folder of a study: new, gone on with, finished") {
   CHECK_FALSE(open(true, about)); // nothing was done, nothing is left
   CHECK_FALSE(std::filesystem::exists(path));
   std::filesystem::create_directory(path);
-  const std::string whole = study.run(path / looks_file, 8, about);
+  const std::string whole = study.run(path / checkpoint_file, 8, about);
   CHECK_THROWS_WITH(open(false, about),
                     path.string() + ": found a study that was interrupted, expected a new or an "
                                     "empty folder (--resume goes on with this one)");
@@ -222,7 +222,7 @@ TEST_CASE("the folder of a study: new, gone on with, finished") {
     write_file(path / "last.json", about.dump());
     own.finish();
   }
-  CHECK_FALSE(std::filesystem::exists(path / looks_file));
+  CHECK_FALSE(std::filesystem::exists(path / checkpoint_file));
   CHECK(open(true, about));
   CHECK_THROWS_WITH(open(true, {{"samples", 200}}),
                     Catch::Contains("last.json: /samples: found 100"));

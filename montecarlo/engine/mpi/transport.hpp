@@ -12,14 +12,14 @@ struct Message {
   std::string bytes;
 };
 
-/// A rank's end of the wire. Messages from one rank to another arrive in the order in which they were sent. Of one
+/// A rank's end of the transport. Messages from one rank to another arrive in the order in which they were sent. Of one
 /// thread's use.
-class Wire {
+class Transport {
 public:
-  Wire() = default;
-  Wire(const Wire&) = delete;
-  Wire& operator=(const Wire&) = delete;
-  virtual ~Wire() = default;
+  Transport() = default;
+  Transport(const Transport&) = delete;
+  Transport& operator=(const Transport&) = delete;
+  virtual ~Transport() = default;
 
   /// Which one this is: 0, 1, … size() − 1.
   [[nodiscard]] virtual int rank() const = 0;

@@ -1,4 +1,4 @@
-#include "montecarlo/results/streaming/tally_summary.hpp"
+#include "montecarlo/results/streaming/streaming_summary.hpp"
 
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
@@ -70,8 +70,8 @@ Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
   return result;
 }
 
-OutputSummary output_summary(const std::string& name, const RunTally::Output& output, long runs,
-                             const StatisticsSpec& spec) {
+OutputSummary output_summary(const std::string& name, const StreamingStatistics::Output& output,
+                             long runs, const StatisticsSpec& spec) {
   OutputSummary summary{name, {}, 0, runs - output.values.count(), {}, {}};
   const RankedPopulation values(output.values);
   summary.moments = output.sums.moments(output.scale, output.values.min(), output.values.max());
@@ -150,24 +150,24 @@ void add_values(const RankedRequired& values, Verdict& verdict) {
     verdict.beyond_zero = beyond_zero(values.numbers().min(), values.numbers().max(), requirement);
 }
 
-std::vector<Verdict> verdicts_of(const Campaign& campaign, const RunTally& tally,
+std::vector<Verdict> verdicts_of(const Campaign& campaign, const StreamingStatistics& statistics,
                                  const std::vector<RankedRequired>& ranked, long looks) {
   std::vector<Verdict> verdicts;
   for (std::size_t r = 0; r < campaign.requirements.size(); ++r) {
     const Requirement& requirement = campaign.requirements[r];
-    const RequirementTally& counted = tally.requirements()[r];
+    const RequirementCounts& counted = statistics.requirements()[r];
     Verdict verdict;
     verdict.requirement = requirement;
-    verdict.runs = tally.runs();
+    verdict.runs = statistics.runs();
     for (const RunValue& worst : counted.worst.sorted()) verdict.broken.push_back(worst.run);
     verdict.not_listed = counted.failures - std::ssize(verdict.broken);
     verdict.cut = counted.cut;
     conclude(confidence_alone(campaign.requirements, requirement), looks, verdict);
-    const auto found = std::ranges::find_if(tally.required(), [&](const RequiredOutput& each) {
+    const auto found = std::ranges::find_if(statistics.required(), [&](const RequiredOutput& each) {
       return each.output == requirement.output && each.absolute == requirement.absolute;
     });
-    if (found != tally.required().end())
-      add_values(ranked[static_cast<std::size_t>(found - tally.required().begin())], verdict);
+    if (found != statistics.required().end())
+      add_values(ranked[static_cast<std::size_t>(found - statistics.required().begin())], verdict);
     else if (verdict.allowed)
       verdict.margin = verdict.guaranteed_share - requirement.probability;
     verdicts.push_back(std::move(verdict));
@@ -175,12 +175,12 @@ std::vector<Verdict> verdicts_of(const Campaign& campaign, const RunTally& tally
   return verdicts;
 }
 
-void add_counts(const RunTally& tally, double confidence, Summary& summary) {
-  const long n = tally.runs();
+void add_counts(const StreamingStatistics& statistics, double confidence, Summary& summary) {
+  const long n = statistics.runs();
   for (const Status status : statuses)
-    summary.statuses.push_back(status_share(status, tally.count_of(status), n, confidence));
-  summary.reasons = tally.reasons().sorted();
-  for (const auto& [order, count] : tally.latch_orders())
+    summary.statuses.push_back(status_share(status, statistics.count_of(status), n, confidence));
+  summary.reasons = statistics.reasons().sorted();
+  for (const auto& [order, count] : statistics.latch_orders())
     if (order.empty())
       summary.without_latch = count;
     else
@@ -191,23 +191,24 @@ void add_counts(const RunTally& tally, double confidence, Summary& summary) {
     summary.latch_orders.resize(most_latch_orders);
 }
 
-void add_correlations(const ResultNames& names, const RunTally& tally, Summary& summary) {
-  if (!tally.correlations()) return;
+void add_correlations(const ResultNames& names, const StreamingStatistics& statistics,
+                      Summary& summary) {
+  if (!statistics.correlations()) return;
   for (std::size_t i = 0; i < names.draws.size(); ++i)
     for (std::size_t j = 0; j <= names.outputs.size(); ++j)
       summary.correlations.push_back({names.draws[i],
                                       j < names.outputs.size() ? names.outputs[j] : "deployed",
-                                      tally.correlations()->of(i, j)});
+                                      statistics.correlations()->of(i, j)});
 }
 
 /// As overtravels (overtravel.hpp) counts them of rows.
-void add_overtravels(const Scene& scene, const ResultNames& names, const RunTally& tally,
-                     Summary& summary) {
+void add_overtravels(const Scene& scene, const ResultNames& names,
+                     const StreamingStatistics& statistics, Summary& summary) {
   for (const Hinge& hinge : scene.hinges) {
     const auto found = std::ranges::find(names.outputs, hinge.name + ".overtravel");
     if (hinge.stop || found == names.outputs.end()) continue;
-    const RunTally::Output& output =
-        tally.outputs()[static_cast<std::size_t>(found - names.outputs.begin())];
+    const StreamingStatistics::Output& output =
+        statistics.outputs()[static_cast<std::size_t>(found - names.outputs.begin())];
     if (output.beyond_stowed > 0)
       summary.overtravels.push_back({hinge.name, output.beyond_stowed, output.values.max()});
   }
@@ -215,41 +216,41 @@ void add_overtravels(const Scene& scene, const ResultNames& names, const RunTall
 
 } // namespace
 
-Summary tally_summary(const StoredCampaign& stored, const RunTally& tally,
-                      const StatisticsSpec& spec) {
+Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistics& statistics,
+                          const StatisticsSpec& spec) {
   const Campaign& campaign = stored.campaign;
   const ResultNames names = RunPlan(campaign).names();
   Summary summary;
-  summary.runs = tally.runs();
+  summary.runs = statistics.runs();
   summary.confidence = spec.confidence;
   summary.without_rows = true;
-  add_counts(tally, spec.confidence, summary);
+  add_counts(statistics, spec.confidence, summary);
   for (std::size_t i = 0; i < names.outputs.size(); ++i)
     summary.outputs.push_back(
-        output_summary(names.outputs[i], tally.outputs()[i], tally.runs(), spec));
-  add_correlations(names, tally, summary);
+        output_summary(names.outputs[i], statistics.outputs()[i], statistics.runs(), spec));
+  add_correlations(names, statistics, summary);
   std::vector<RankedRequired> ranked;
-  for (const RequiredPopulation& population : tally.required_values())
+  for (const RequiredPopulation& population : statistics.required_values())
     ranked.emplace_back(population);
-  summary.requirements = verdicts_of(campaign, tally, ranked, summary.looks);
+  summary.requirements = verdicts_of(campaign, statistics, ranked, summary.looks);
   for (std::size_t q = 0; q < ranked.size(); ++q) {
-    const RequiredOutput& required = tally.required()[q];
+    const RequiredOutput& required = statistics.required()[q];
     if (required.absolute || required.column >= names.outputs.size()) continue;
     for (const ToleranceLimitSpec& limit : spec.tolerance_limits)
       summary.outputs[required.column].tolerance_limits.push_back(
-          {limit, limits_of(ranked[q], tally.runs(), limit, summary.looks)});
+          {limit, limits_of(ranked[q], statistics.runs(), limit, summary.looks)});
   }
   add_nominal(campaign, summary);
-  add_overtravels(campaign.scene, names, tally, summary);
+  add_overtravels(campaign.scene, names, statistics, summary);
   if (names.peaks_final) {
-    const auto& peaks = tally.peaks();
+    const auto& peaks = statistics.peaks();
     const auto of = [&](PeaksFinal final) { return peaks[static_cast<std::size_t>(final)]; };
     summary.peaks = {of(PeaksFinal::yes), of(PeaksFinal::no), of(PeaksFinal::unknown)};
   }
   return summary;
 }
 
-std::string extremes_csv(const ResultNames& names, const RunTally& tally) {
+std::string extremes_csv(const ResultNames& names, const StreamingStatistics& statistics) {
   std::string csv = "output,end,rank,run,value\n";
   const auto add = [&](const std::string& name, const char* end, const Extremes& extremes) {
     long rank = 0;
@@ -260,8 +261,8 @@ std::string extremes_csv(const ResultNames& names, const RunTally& tally) {
     }
   };
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
-    add(names.outputs[i], "lowest", tally.outputs()[i].values.lowest());
-    add(names.outputs[i], "highest", tally.outputs()[i].values.highest());
+    add(names.outputs[i], "lowest", statistics.outputs()[i].values.lowest());
+    add(names.outputs[i], "highest", statistics.outputs()[i].values.highest());
   }
   return csv;
 }

@@ -13,7 +13,7 @@
 namespace wingspread {
 
 /// Puts values behind each other.
-class Packer {
+class Serializer {
 public:
   template <class T>
   requires(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>) void put(const T& value) {
@@ -39,10 +39,10 @@ private:
 };
 
 /// Takes them out again, in the same order. @pre what is asked for was put there
-class Unpacker {
+class Deserializer {
 public:
   /// @pre the bytes outlive it
-  explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
+  explicit Deserializer(std::string_view bytes) : bytes_(bytes) {}
 
   template <class T>
   requires std::is_trivially_copyable_v<T>

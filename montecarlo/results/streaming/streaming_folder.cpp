@@ -1,8 +1,8 @@
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
-#include "montecarlo/results/streaming/tally_summary.hpp"
+#include "montecarlo/results/streaming/streaming_summary.hpp"
 #include "montecarlo/results/summary/static_margins.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 
@@ -54,18 +54,19 @@ void refuse_without_rows(const Campaign& campaign) {
     refuse("a campaign that was extended", "a number of runs that is fixed beforehand");
 }
 
-std::string tally_text(const StoredCampaign& stored, const RunTally& tally,
-                       std::uint64_t broken_bytes) {
+std::string streaming_statistics_text(const StoredCampaign& stored,
+                                      const StreamingStatistics& statistics,
+                                      std::uint64_t broken_bytes) {
   StateWriter to;
   to.put(magic);
   to.put(std::string_view(stored.stamp.hash));
   to.put(std::string_view(stored.stamp.version));
   to.put(broken_bytes);
-  tally.write(to);
+  statistics.write(to);
   return std::move(to).finish();
 }
 
-StoredTally read_tally(const StoredCampaign& stored) {
+StoredStatistics read_streaming_statistics(const StoredCampaign& stored) {
   const std::filesystem::path path = stored.folder / statistics_file;
   InputFile in(path);
   StateReader from({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()},
@@ -74,21 +75,24 @@ StoredTally read_tally(const StoredCampaign& stored) {
   if (from.get_text() != stored.stamp.hash) throw from.broken("of the campaign beside it");
   (void)from.get_text();
   const auto broken_bytes = from.get<std::uint64_t>();
-  StoredTally read{RunTally(stored.campaign, RunPlan(stored.campaign).names(), from), broken_bytes};
+  StoredStatistics read{
+      StreamingStatistics(stored.campaign, RunPlan(stored.campaign).names(), from), broken_bytes};
   if (!from.at_end()) throw from.broken("and nothing more");
   return read;
 }
 
-Summary write_tally_statistics(const StoredCampaign& stored, const RunTally& tally,
-                               const StatisticsSpec& spec) {
-  Summary summary = tally_summary(stored, tally, spec);
+Summary write_streaming_statistics(const StoredCampaign& stored,
+                                   const StreamingStatistics& statistics,
+                                   const StatisticsSpec& spec) {
+  Summary summary = streaming_summary(stored, statistics, spec);
   write_summary_files(stored, summary);
-  write_file(stored.folder / extremes_file, extremes_csv(RunPlan(stored.campaign).names(), tally));
+  write_file(stored.folder / extremes_file,
+             extremes_csv(RunPlan(stored.campaign).names(), statistics));
   return summary;
 }
 
-RowlessFolder::RowlessFolder(std::filesystem::path folder, const RunPlan& plan,
-                             const std::optional<Shard>& shard, bool resume)
+StreamingFolder::StreamingFolder(std::filesystem::path folder, const RunPlan& plan,
+                                 const std::optional<Shard>& shard, bool resume)
     : plan_(&plan), stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)} {
   refuse_without_rows(stored_.campaign);
   constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
@@ -111,11 +115,11 @@ RowlessFolder::RowlessFolder(std::filesystem::path folder, const RunPlan& plan,
                       "one that was begun with --no-rows"}});
 }
 
-bool RowlessFolder::begin(Evaluator& evaluator) {
-  if (is_rowless(stored_.folder)) {
-    StoredTally read = read_tally(stored_);
-    tally_.emplace(std::move(read.tally));
-    resumed_ = tally_->runs();
+bool StreamingFolder::begin(Evaluator& evaluator) {
+  if (is_streaming_folder(stored_.folder)) {
+    StoredStatistics read = read_streaming_statistics(stored_);
+    statistics_.emplace(std::move(read.statistics));
+    resumed_ = statistics_->runs();
     open_broken(read.broken_bytes);
     return true;
   }
@@ -130,7 +134,7 @@ bool RowlessFolder::begin(Evaluator& evaluator) {
     }
   };
   if (evaluator.make(*plan_, range, {keep}) < range.size()) return false;
-  tally_.emplace(plan_->campaign(), plan_->names(), pilot);
+  statistics_.emplace(plan_->campaign(), plan_->names(), pilot);
   write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
   open_broken(0);
   add(own);
@@ -139,7 +143,7 @@ bool RowlessFolder::begin(Evaluator& evaluator) {
 }
 
 /// Behind what the statistics know of it.
-void RowlessFolder::open_broken(std::uint64_t bytes) {
+void StreamingFolder::open_broken(std::uint64_t bytes) {
   const std::filesystem::path path = stored_.folder / broken_runs_file;
   std::error_code why;
   const std::uint64_t there =
@@ -157,28 +161,29 @@ void RowlessFolder::open_broken(std::uint64_t bytes) {
   broken_bytes_ = header.size();
 }
 
-RunRange RowlessFolder::remaining() const {
+RunRange StreamingFolder::remaining() const {
   const RunRange runs = stored_.runs();
   return {runs.first + count(), runs.last};
 }
 
-void RowlessFolder::add(const Batch& batch) {
+void StreamingFolder::add(const Batch& batch) {
   const std::vector<std::vector<double>> margins = margins_of(*plan_, batch);
   std::string csv;
   for (std::size_t i = 0; i < batch.rows.size(); ++i)
-    if (tally_->add(batch.rows[i], margins[i])) append_row(csv, batch.rows[i]);
+    if (statistics_->add(batch.rows[i], margins[i])) append_row(csv, batch.rows[i]);
   if (!csv.empty()) broken_->write(csv);
   broken_bytes_ += csv.size();
   if (Clock::now() - saved_ > std::chrono::seconds(30)) save();
 }
 
-void RowlessFolder::save() {
+void StreamingFolder::save() {
   broken_->sync(); // before what says how long it is
-  write_file(stored_.folder / statistics_file, tally_text(stored_, *tally_, broken_bytes_));
+  write_file(stored_.folder / statistics_file,
+             streaming_statistics_text(stored_, *statistics_, broken_bytes_));
   saved_ = Clock::now();
 }
 
-void RowlessFolder::finish() {
+void StreamingFolder::finish() {
   if (!broken_) return; // stopped in the pilot
   save();
   broken_->close();

@@ -1,5 +1,5 @@
 // The statistics without rows against those of the rows themselves: of made-up runs, of which there can be many.
-#include "montecarlo/results/streaming/tally_summary.hpp"
+#include "montecarlo/results/streaming/streaming_summary.hpp"
 #include "montecarlo/results/summary/static_margins.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
@@ -76,23 +76,23 @@ struct Both {
     margins = static_margin_columns(stored.campaign, rows);
   }
 
-  [[nodiscard]] RunTally empty_tally() const {
+  [[nodiscard]] StreamingStatistics empty_tally() const {
     Results pilot(names);
     for (std::size_t i = 0; i < 4096; ++i) pilot.append(rows.row(i));
     return {stored.campaign, names, pilot};
   }
 
-  void add(RunTally& tally, std::size_t row, long* kept = nullptr) const {
+  void add(StreamingStatistics& statistics, std::size_t row, long* kept = nullptr) const {
     std::vector<double> of_row;
     for (const Column& column : margins) of_row.push_back(column.values[row]);
-    const bool is_kept = tally.add(rows.row(row), of_row);
+    const bool is_kept = statistics.add(rows.row(row), of_row);
     if (kept && is_kept) ++*kept;
   }
 
-  [[nodiscard]] RunTally whole_tally(long* kept = nullptr) const {
-    RunTally tally = empty_tally();
-    for (std::size_t row = 0; row < rows.size(); ++row) add(tally, row, kept);
-    return tally;
+  [[nodiscard]] StreamingStatistics whole_tally(long* kept = nullptr) const {
+    StreamingStatistics statistics = empty_tally();
+    for (std::size_t row = 0; row < rows.size(); ++row) add(statistics, row, kept);
+    return statistics;
   }
 };
 
@@ -101,9 +101,9 @@ const Both& both() {
   return made;
 }
 
-std::string bytes_of(const RunTally& tally) {
+std::string bytes_of(const StreamingStatistics& statistics) {
   StateWriter to;
-  tally.write(to);
+  statistics.write(to);
   return std::move(to).finish();
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("without rows: counts, moments and correlations are those of the rows"
   const Both& made = both();
   const StatisticsSpec& spec = made.stored.campaign.statistics;
   const Summary full = summarize(made.rows, spec),
-                found = tally_summary(made.stored, made.whole_tally(), spec);
+                found = streaming_summary(made.stored, made.whole_tally(), spec);
   REQUIRE(found.runs == made_up);
   for (std::size_t i = 0; i < full.statuses.size(); ++i) {
     CHECK(found.statuses[i].count == full.statuses[i].count);
@@ -157,7 +157,7 @@ TEST_CASE("without rows: quantiles are within what they say, and bounds hold tho
   const Both& made = both();
   const StatisticsSpec& spec = made.stored.campaign.statistics;
   const Summary full = summarize(made.rows, spec),
-                found = tally_summary(made.stored, made.whole_tally(), spec);
+                found = streaming_summary(made.stored, made.whole_tally(), spec);
   for (std::size_t i = 0; i < full.outputs.size(); ++i) {
     CAPTURE(full.outputs[i].name);
     for (std::size_t k = 0; k < spec.quantiles.size(); ++k) {
@@ -187,8 +187,8 @@ TEST_CASE("without rows: quantiles are within what they say, and bounds hold tho
 TEST_CASE("without rows: verdicts are those of the rows, and what they guarantee is no less safe") {
   const Both& made = both();
   long kept = 0;
-  const RunTally tally = made.whole_tally(&kept);
-  const Summary found = tally_summary(made.stored, tally, made.stored.campaign.statistics);
+  const StreamingStatistics statistics = made.whole_tally(&kept);
+  const Summary found = streaming_summary(made.stored, statistics, made.stored.campaign.statistics);
   const std::vector<Verdict> full = judge_campaign(made.stored.campaign, made.rows);
   REQUIRE(found.requirements.size() == full.size());
   std::set<long> broken;
@@ -224,7 +224,7 @@ TEST_CASE("without rows: verdicts are those of the rows, and what they guarantee
 TEST_CASE("without rows: tolerance limits hold those of the rows") {
   const Both& made = both();
   const StatisticsSpec& spec = made.stored.campaign.statistics;
-  const Summary found = tally_summary(made.stored, made.whole_tally(), spec);
+  const Summary found = streaming_summary(made.stored, made.whole_tally(), spec);
   for (std::size_t i = 0; i < found.outputs.size(); ++i) {
     const RankedOutput ranks(made.rows, made.rows.outputs[i]);
     REQUIRE(found.outputs[i].tolerance_limits.size() == 3);
@@ -243,12 +243,12 @@ TEST_CASE("without rows: the same bytes in any order, however runs are shared ou
   std::vector<std::size_t> order(made.rows.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::shuffle(order.begin(), order.end(), std::mt19937(1));
-  RunTally parts[3] = {made.empty_tally(), made.empty_tally(), made.empty_tally()};
+  StreamingStatistics parts[3] = {made.empty_tally(), made.empty_tally(), made.empty_tally()};
   for (std::size_t i = 0; i < order.size(); ++i)
     made.add(parts[i < 11 ? 0 : i < 30'001 ? 1 : 2], order[i]);
   parts[2].add(parts[0]);
   StateReader from(bytes_of(parts[2]), "state");
-  RunTally read(made.stored.campaign, made.names, from);
+  StreamingStatistics read(made.stored.campaign, made.names, from);
   CHECK(from.at_end());
   read.add(parts[1]);
   CHECK(bytes_of(read) == whole);

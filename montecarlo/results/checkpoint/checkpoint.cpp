@@ -1,7 +1,7 @@
-#include "montecarlo/results/checkpoint/look_log.hpp"
+#include "montecarlo/results/checkpoint/checkpoint.hpp"
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
-#include "montecarlo/results/checkpoint/look_id.hpp"
+#include "montecarlo/results/checkpoint/analysis_id.hpp"
 #include "montecarlo/results/checkpoint/row_records.hpp"
 #include "montecarlo/results/results_folder/replay.hpp"
 
@@ -43,7 +43,7 @@ Json about_of_log(const std::filesystem::path& file) {
   return about_in(in, file);
 }
 
-LookLog::LookLog(std::filesystem::path file, Json about)
+Checkpoint::Checkpoint(std::filesystem::path file, Json about)
     : file_(std::move(file)), about_(std::move(about)) {
   if (!std::filesystem::exists(file_)) return;
   in_.emplace(file_);
@@ -53,16 +53,16 @@ LookLog::LookLog(std::filesystem::path file, Json about)
   read_ahead();
 }
 
-void LookLog::read_ahead() {
+void Checkpoint::read_ahead() {
   if (in_->next()) return;
   end_ = in_->end();
   damaged_ = in_->tail() == RecordsTail::damaged;
   in_.reset();
 }
 
-bool LookLog::has(char mark) const { return in_ && in_->record().starts_with(mark); }
+bool Checkpoint::has(char mark) const { return in_ && in_->record().starts_with(mark); }
 
-SpecError LookLog::other_look(const std::string& id) const {
+SpecError Checkpoint::other_look(const std::string& id) const {
   return SpecError(
       {{file_.string(), "",
         fmt::format("look {}: {}", looks_, has(look_mark) ? in_->record().substr(1) : "cut short"),
@@ -70,11 +70,11 @@ SpecError LookLog::other_look(const std::string& id) const {
              "again)"}});
 }
 
-bool LookLog::has_next(const RunPlan& plan, RunRange range) const {
-  return in_ && in_->record() == look_mark + look_id(plan, range);
+bool Checkpoint::has_next(const RunPlan& plan, RunRange range) const {
+  return in_ && in_->record() == look_mark + analysis_id(plan, range);
 }
 
-void LookLog::begin(const std::string& id) {
+void Checkpoint::begin(const std::string& id) {
   if (!out_ && end_)
     out_.emplace(file_, *end_);
   else if (!out_)
@@ -82,9 +82,9 @@ void LookLog::begin(const std::string& id) {
   out_->add(look_mark + id);
 }
 
-long LookLog::enter(const RunPlan& plan, RunRange range, const BatchSink& sink,
-                    const std::atomic<bool>& stop) {
-  const std::string id = look_id(plan, range);
+long Checkpoint::enter(const RunPlan& plan, RunRange range, const BatchSink& sink,
+                       const std::atomic<bool>& stop) {
+  const std::string id = analysis_id(plan, range);
   ++looks_;
   if (!in_) {
     begin(id);
@@ -107,7 +107,7 @@ long LookLog::enter(const RunPlan& plan, RunRange range, const BatchSink& sink,
   return range.size() - left.size();
 }
 
-void LookLog::add(const Batch& batch) {
+void Checkpoint::add(const Batch& batch) {
   if (!out_) out_.emplace(file_, *end_);
   for_each_record(batch.rows, [&](std::string_view record) { out_->add(record); });
   rows_ += std::ssize(batch.rows);
@@ -115,7 +115,7 @@ void LookLog::add(const Batch& batch) {
   sync();
 }
 
-void LookLog::sync() {
+void Checkpoint::sync() {
   if (out_) out_->sync();
   synced_ = Clock::now();
 }

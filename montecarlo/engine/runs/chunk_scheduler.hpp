@@ -16,12 +16,12 @@ struct Chunk {
 };
 
 /// Where threads get their chunks, and where they leave them. Called on any thread.
-class ChunkDesk {
+class ChunkQueue {
 public:
-  ChunkDesk() = default;
-  ChunkDesk(const ChunkDesk&) = delete;
-  ChunkDesk& operator=(const ChunkDesk&) = delete;
-  virtual ~ChunkDesk() = default;
+  ChunkQueue() = default;
+  ChunkQueue(const ChunkQueue&) = delete;
+  ChunkQueue& operator=(const ChunkQueue&) = delete;
+  virtual ~ChunkQueue() = default;
 
   /// The next chunk to be made; none when there is none now.
   [[nodiscard]] virtual std::optional<Chunk> claim() = 0;
@@ -38,16 +38,17 @@ public:
 /// Makes the desk's chunks until there will be none any more. Threads fill their lanes from one chunk after the other
 /// without a pause. @return how full the lanes were
 /// @throws what a run does (out of memory), and what the desk throws
-Occupancy make_chunks(const RunPlan& plan, const Crew& crew, bool wants_csv, ChunkDesk& desk);
+Occupancy make_chunks(const RunPlan& plan, const ThreadPool& pool, bool wants_csv,
+                      ChunkQueue& desk);
 
 /// The chunks of a range, claimed in order and handed on in order. Large ones at first, and the fewer runs are left,
 /// the smaller (guided self-scheduling, Polychronopoulos & Kuck, IEEE Trans. Comput. 36 (1987) 1425), so that all
 /// finish together.
-class RangeDesk final : public ChunkDesk {
+class RangeQueue final : public ChunkQueue {
 public:
   /// @param threads that claim chunks, whosever they are
   /// @param stop    once true, no further run is begun
-  RangeDesk(RunRange range, int threads, const BatchSink& sink, const std::atomic<bool>& stop);
+  RangeQueue(RunRange range, int threads, const BatchSink& sink, const std::atomic<bool>& stop);
 
   [[nodiscard]] std::optional<Chunk> claim() override;
   [[nodiscard]] bool wait_for_more() override;

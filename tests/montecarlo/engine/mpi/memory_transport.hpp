@@ -1,4 +1,4 @@
-/// A wire between the threads of a test, each of which plays a rank.
+/// A transport between the threads of a test, each of which plays a rank.
 #pragma once
 
 #include "montecarlo/analyses/rare/limit_state.hpp"
@@ -21,9 +21,10 @@ struct Mailboxes {
   std::vector<std::deque<Message>> waiting;
 };
 
-class MemoryWire final : public Wire {
+class MemoryTransport final : public Transport {
 public:
-  MemoryWire(std::shared_ptr<Mailboxes> boxes, int rank) : boxes_(std::move(boxes)), rank_(rank) {}
+  MemoryTransport(std::shared_ptr<Mailboxes> boxes, int rank)
+      : boxes_(std::move(boxes)), rank_(rank) {}
   [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int size() const override { return static_cast<int>(boxes_->waiting.size()); }
   void send(int to, std::string bytes) override {
@@ -52,20 +53,22 @@ public:
       : boxes_(std::make_shared<Mailboxes>(ranks)) {
     for (int rank = 1; rank < ranks; ++rank)
       others_.emplace_back([this, rank, &stop_others] {
-        MemoryWire wire(boxes_, rank);
-        serve(wire, measure_of_recipe, stop_others);
+        MemoryTransport transport(boxes_, rank);
+        serve(transport, measure_of_recipe, stop_others);
       });
   }
   ~Job() {
-    dismiss(*wire());
+    dismiss(*transport());
     for (std::thread& each : others_) each.join();
   }
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  [[nodiscard]] std::unique_ptr<Wire> wire() { return std::make_unique<MemoryWire>(boxes_, 0); }
+  [[nodiscard]] std::unique_ptr<Transport> transport() {
+    return std::make_unique<MemoryTransport>(boxes_, 0);
+  }
   [[nodiscard]] RankEvaluator evaluator(int threads, const std::atomic<bool>& stop = never) {
-    return {wire(), {.threads = threads}, stop};
+    return {transport(), {.threads = threads}, stop};
   }
 
 private:

@@ -1,4 +1,4 @@
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,12 +8,12 @@
 using namespace wingspread;
 
 TEST_CASE("a team has the threads asked for", "[parallel]") {
-  CHECK(team_size(3) == 3);
-  CHECK(team_size(0) >= 1);
+  CHECK(thread_count(3) == 3);
+  CHECK(thread_count(0) >= 1);
   for (const int threads : {1, 2, 5}) {
     std::atomic<int> calls = 0;
     int plain = 0; // written by one thread, read after the team: no race
-    on_team(
+    run_on_threads(
         threads,
         [&] {
           if (calls++ == 0) plain = threads;
@@ -27,7 +27,7 @@ TEST_CASE("a team has the threads asked for", "[parallel]") {
 TEST_CASE("an exception of a thread comes out of the team", "[parallel]") {
   std::atomic<bool> told = false;
   const auto fail = [] { throw std::runtime_error("no more memory"); };
-  CHECK_THROWS_WITH(on_team(3, fail, [&] { told = true; }), "no more memory");
+  CHECK_THROWS_WITH(run_on_threads(3, fail, [&] { told = true; }), "no more memory");
   CHECK(told);
 }
 
@@ -45,13 +45,13 @@ TEST_CASE("each task is done once, and what one throws comes out", "[parallel]")
 }
 
 TEST_CASE("little work is one thread's") {
-  CHECK(team_for(8, 1000) == 1);
-  CHECK(team_for(8, operations_worth_a_team) == 8);
-  CHECK(team_for(0, operations_worth_a_team) == team_size(0));
+  CHECK(threads_worth(8, 1000) == 1);
+  CHECK(threads_worth(8, operations_worth_threads) == 8);
+  CHECK(threads_worth(0, operations_worth_threads) == thread_count(0));
 }
 
 TEST_CASE("a team is as large as its memory allows") {
-  CHECK(team_within(4, 1000) == 4);
-  CHECK(team_within(4, std::size_t{1} << 29) == 2);
-  CHECK(team_within(4, std::size_t{1} << 40) == 1);
+  CHECK(threads_within_memory(4, 1000) == 4);
+  CHECK(threads_within_memory(4, std::size_t{1} << 29) == 2);
+  CHECK(threads_within_memory(4, std::size_t{1} << 40) == 1);
 }

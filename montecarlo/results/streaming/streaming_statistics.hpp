@@ -22,7 +22,7 @@ namespace wingspread {
 /// Latch orders beyond so many kinds, in the order in which they come, are counted together.
 inline constexpr std::size_t most_order_kinds = 100'000;
 /// Draws times outputs beyond which no correlations are kept: their sums would take hundreds of MB.
-inline constexpr std::size_t most_tally_pairs = 40'000;
+inline constexpr std::size_t most_streaming_pairs = 40'000;
 
 /// An output as a requirement or a tolerance limit reads it: over all runs, those that are worse than any number apart.
 struct RequiredOutput {
@@ -38,7 +38,7 @@ struct RequiredOutput {
                                                            const std::vector<std::string>& margins);
 
 /// What breaks a requirement.
-struct RequirementTally {
+struct RequirementCounts {
   long failures = 0, cut = 0; ///< cut: of them, deployed runs whose peak t_end cut
   Extremes worst;             ///< how bad they are; infinite where worse than any number
 };
@@ -48,19 +48,19 @@ struct RequiredPopulation {
   long worse = 0; ///< runs that are worse than any number
 };
 
-class RunTally {
+class StreamingStatistics {
 public:
   /// Empty. @param pilot the campaign's first runs, from which it takes where values fall
-  RunTally(const Campaign& campaign, const ResultNames& names, const Results& pilot);
+  StreamingStatistics(const Campaign& campaign, const ResultNames& names, const Results& pilot);
   /// As it was written. @throws SpecError when it is damaged or of another campaign
-  RunTally(const Campaign& campaign, const ResultNames& names, StateReader& from);
+  StreamingStatistics(const Campaign& campaign, const ResultNames& names, StateReader& from);
 
   /// @param margins the run's static margins that are required, in the order of static_margin_columns
   /// @return whether the run is one to be kept: it did not deploy, or breaks a requirement
   bool add(const ResultRow& row, std::span<const double> margins);
   /// @pre of the same campaign, other runs
   /// @throws SpecError when too many kinds of latch orders were counted for the two to be put together
-  void add(const RunTally& other);
+  void add(const StreamingStatistics& other);
   void write(StateWriter& to) const;
 
   [[nodiscard]] long runs() const { return runs_; }
@@ -79,7 +79,9 @@ public:
   [[nodiscard]] const std::vector<RequiredPopulation>& required_values() const {
     return populations_;
   }
-  [[nodiscard]] const std::vector<RequirementTally>& requirements() const { return tallies_; }
+  [[nodiscard]] const std::vector<RequirementCounts>& requirements() const {
+    return requirement_counts_;
+  }
   [[nodiscard]] const std::map<std::string, long>& latch_orders() const { return orders_; }
   [[nodiscard]] long other_orders() const { return other_orders_; }
   [[nodiscard]] const std::array<long, 3>& peaks() const { return peaks_; } ///< by PeaksFinal
@@ -88,7 +90,7 @@ public:
   [[nodiscard]] const std::optional<CoMoments>& correlations() const { return correlations_; }
 
 private:
-  RunTally(const Campaign& campaign, const ResultNames& names);
+  StreamingStatistics(const Campaign& campaign, const ResultNames& names);
   void add_outputs(const ResultRow& row);
   bool add_requirements(const ResultRow& row, std::span<const double> margins);
   void add_texts(const ResultRow& row);
@@ -104,7 +106,7 @@ private:
   std::vector<RequiredOutput> required_;
   std::vector<bool> is_peak_; ///< of each of them
   std::vector<RequiredPopulation> populations_;
-  std::vector<RequirementTally> tallies_;
+  std::vector<RequirementCounts> requirement_counts_;
   std::vector<std::size_t>
       population_of_; ///< each requirement's; none of "deployed": as many as there are
   std::vector<Scale> draw_scales_;

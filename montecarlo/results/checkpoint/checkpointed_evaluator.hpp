@@ -2,19 +2,19 @@
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
-#include "montecarlo/results/checkpoint/look_log.hpp"
+#include "montecarlo/results/checkpoint/checkpoint.hpp"
 
 #include <atomic>
 
 namespace wingspread {
 
 /// What it hands on does not depend on how much of it was in the log.
-class LoggedEvaluator final : public Evaluator {
+class CheckpointedEvaluator final : public Evaluator {
 public:
   /// @param inner makes what is not in the log
   /// @param stop  once true, nothing more is read of it
   /// @pre all of them outlive it
-  LoggedEvaluator(Evaluator& inner, LookLog& log, const std::atomic<bool>& stop)
+  CheckpointedEvaluator(Evaluator& inner, Checkpoint& log, const std::atomic<bool>& stop)
       : inner_(inner), log_(log), stop_(stop) {}
 
   /// @throws besides what `inner` does, what the log does
@@ -23,7 +23,7 @@ public:
 
 private:
   Evaluator& inner_;
-  LookLog& log_;
+  Checkpoint& log_;
   const std::atomic<bool>& stop_;
 };
 
