@@ -139,18 +139,18 @@ SaltelliDesign design_again(const SensitivityOptions& options) {
   return read_design_file(options.from);
 }
 
-SaltelliDesign new_design(const SensitivityOptions& options, const ThreadPool& crew) {
+SaltelliDesign new_design(const SensitivityOptions& options) {
   SaltelliDesign design{chosen_case(read_campaign_file(options.from), options.of_case),
                         options.samples.value_or(1000), std::nullopt};
   override_sampling(design.campaign, std::nullopt, options.seed);
   return design;
 }
 
-SaltelliDesign design_of(const SensitivityOptions& options, const ThreadPool& crew) {
+SaltelliDesign design_of(const SensitivityOptions& options) {
   if (!options.shard.empty() && options.out.empty())
     throw SpecError({{"", "--shard", "no --out", "the folder for its runs"}});
   SaltelliDesign design =
-      is_design_file(options.from) ? design_again(options) : new_design(options, crew);
+      is_design_file(options.from) ? design_again(options) : new_design(options);
   design.shard = parse_shard(options.shard);
   return design;
 }
@@ -167,7 +167,7 @@ int show_shard(const SaltelliDesign& design, const Results& results,
 
 int sobol_new(const SensitivityOptions& options) {
   const ThreadPool crew = crew_of(options.crew);
-  const SaltelliDesign design = design_of(options, crew);
+  const SaltelliDesign design = design_of(options);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
   if (runs > most_runs)
