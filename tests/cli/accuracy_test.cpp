@@ -55,7 +55,7 @@ TEST_CASE("a campaign says what its integration contributes") {
   REQUIRE(begin != std::string::npos);
   const std::vector<std::string> lines = lines_of(out.substr(begin + 1));
   CHECK(lines[0] == "ACCURACY of the integration           unit   largest error     RMS error "
-                    "error of the mean  RMS/that");
+                    "std error of mean     ratio");
   CHECK(lines[1].starts_with("  root.latch_time                     s     "));
   CHECK(out.find("\n  6 of 60 runs again by dopri5 at rtol 1e-10 (auto at 1e-06 before): status or "
                  "order of latching") != std::string::npos);

@@ -76,9 +76,8 @@ TEST_CASE("margin goes on from shards of its first looks to the bytes of one pro
   const Finished damaged = shards.margin("out2", from);
   CHECK(damaged.code == 2);
   CHECK_THAT(damaged.error,
-             Catch::Contains(log.string() +
-                             ": found rows that were cut off or damaged, expected all "
-                             "rows of a shard that was finished"));
+             Catch::Contains(log.string() + ": found missing or damaged rows, expected all "
+                                            "rows of a finished shard"));
 }
 
 TEST_CASE("shards that are missing, unfinished, of another study or no shards are refused") {
@@ -137,7 +136,7 @@ TEST_CASE("a study from shards goes on after a kill with the same shards", "[par
   const Finished without = shards.margin("cut", {"--resume"});
   CHECK(without.code == 2);
   CHECK_THAT(without.error,
-             Catch::Contains("look 1: campaign ") &&
+             Catch::Contains("analysis 1: campaign ") &&
                  Catch::Contains("(shards that it was given with --from are to be given again)"));
   from.push_back("--resume");
   CHECK(shards.margin("cut", from).out == whole.out);

@@ -17,13 +17,14 @@
 namespace wingspread {
 namespace {
 
-constexpr double tighter = 1e-3; ///< a reference's tolerance, as a share of the campaign's
-constexpr double tightest_explicit = 1e-13; ///< below it round-off says what a step's error is
-constexpr double tightest_implicit = 1e-12; ///< seulex takes ten times the steps below it
+constexpr double tighter = 1e-3; ///< tolerance of a reference, as a share of the campaign's
+constexpr double tightest_explicit =
+    1e-13; ///< below, round-off dominates the error estimate of a step
+constexpr double tightest_implicit = 1e-12; ///< below, seulex takes ten times the steps
 constexpr double loosest = 1e-10;
 constexpr long times_the_steps = 100, least_steps = 20'000;
 
-/// The nearest number of three decimal digits: 1e-11, where a product is 1.0000000000000001e-11.
+/// Rounds to three decimal digits: 1e-11 in place of a product of 1.0000000000000001e-11.
 double in_three_digits(double x) {
   std::array<char, 32> text{};
   char* const first = text.data();
@@ -33,7 +34,7 @@ double in_three_digits(double x) {
   return x;
 }
 
-/// Tolerances together: atol keeps its ratio to rtol.
+/// Sets rtol and scales atol with it.
 Integration with_tolerance(Integration integration, std::string method, double rtol) {
   integration.method = std::move(method);
   integration.atol *= rtol / integration.rtol;
@@ -41,7 +42,8 @@ Integration with_tolerance(Integration integration, std::string method, double r
   return integration;
 }
 
-/// The same outcome: errors are of numbers then.
+/// Whether two runs have the same status, latch order and outputs that happened: only then do their numbers differ by
+/// an error.
 bool agree(const ResultRow& a, const ResultRow& b) {
   const auto happened_alike = [](double x, double y) { return std::isnan(x) == std::isnan(y); };
   return a.status == b.status && a.latch_order == b.latch_order &&
@@ -65,7 +67,9 @@ OutputAccuracy error_of(const std::string& name, std::size_t column,
   return found;
 }
 
-/// Steps that a reference may take, by what some of the runs take as they are.
+/// Step limit of a reference: 100 times the steps of three of the runs, at least 20,000. Heuristic: dopri5 at a
+/// tolerance 1000 times tighter takes about 4 times the steps of a non-stiff run, and far more than 100 times those
+/// of a stiff one. A smaller factor would reject usable references, a larger one wastes time on stiff runs.
 long steps_allowed(const Campaign& campaign, std::span<const long> runs) {
   const RunPlan plan(campaign);
   Runner runner(plan);

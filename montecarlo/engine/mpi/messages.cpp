@@ -4,7 +4,7 @@
 
 namespace wingspread {
 
-std::string word(MessageKind kind) {
+std::string bare_message(MessageKind kind) {
   Serializer packer;
   packer.put(kind);
   return packer.take();
@@ -22,7 +22,7 @@ std::string open_message(const PlanDescription& description) {
   return packer.take();
 }
 
-PlanDescription take_description(Deserializer& message) {
+PlanDescription read_description(Deserializer& message) {
   PlanDescription description;
   description.campaign = message.take_text();
   description.recipe = message.take_text();
@@ -47,9 +47,9 @@ std::string chunk_message(const Chunk& chunk, const RunPlan& plan) {
   return packer.take();
 }
 
-Chunk take_chunk(Deserializer& message) { return message.take<Chunk>(); }
+Chunk read_chunk(Deserializer& message) { return message.take<Chunk>(); }
 
-std::vector<Tails> take_points(Deserializer& message, long runs, std::size_t dispersions) {
+std::vector<Tails> read_points(Deserializer& message, long runs, std::size_t dispersions) {
   std::vector<Tails> points(static_cast<std::size_t>(runs) * dispersions);
   for (Tails& u : points) u = message.take<Tails>();
   return points;
@@ -69,7 +69,7 @@ std::string report_message(const Report& report) {
   return packer.take();
 }
 
-Report take_report(Deserializer& message) {
+Report read_report(Deserializer& message) {
   Report report;
   report.wanted = message.take<long>();
   report.stopped = message.take<bool>();
@@ -90,7 +90,7 @@ std::string closed_message(const Closing& closing) {
   return packer.take();
 }
 
-Closing take_closing(Deserializer& message) {
+Closing read_closing(Deserializer& message) {
   Closing closing;
   closing.occupancy = message.take<Occupancy>();
   closing.failure = message.take_text();

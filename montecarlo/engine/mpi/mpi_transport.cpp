@@ -8,14 +8,14 @@
 namespace wingspread {
 namespace {
 
-/// Errors of MPI end the job: its default (MPI_ERRORS_ARE_FATAL) is left as it is.
+/// Errors of MPI end the job: MPI's default handler (MPI_ERRORS_ARE_FATAL) stays.
 class MpiTransport final : public Transport {
 public:
   MpiTransport() {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
-  /// Waits until all has been sent.
+  /// Waits until everything was sent.
   ~MpiTransport() override {
     for (Sending& each : sending_) MPI_Wait(&each.request, MPI_STATUS_IGNORE);
   }
@@ -48,7 +48,7 @@ public:
 private:
   static constexpr int tag = 0;
 
-  /// What is under way has to stay where it is.
+  /// A message being sent; MPI needs its bytes in place until then.
   struct Sending {
     std::string bytes;
     MPI_Request request = MPI_REQUEST_NULL;

@@ -1,4 +1,4 @@
-/// The transport of a job that mpirun has started.
+/// The transport of a job that mpirun started.
 #pragma once
 
 #include "montecarlo/engine/mpi/transport.hpp"
@@ -7,7 +7,7 @@
 
 namespace wingspread {
 
-/// @pre MPI is initialised, and this is the thread that has done it
+/// @pre MPI was initialised by this thread
 [[nodiscard]] std::unique_ptr<Transport> mpi_transport();
 
 } // namespace wingspread

@@ -9,8 +9,8 @@
 namespace wingspread {
 namespace {
 
-/// What runs depend on, and no more. Stamped, as the campaign of results that there are: its outputs are those that
-/// it has, and no others are added.
+/// The parts of a campaign that runs depend on. Stamped like stored results, so that no outputs are added when it is
+/// read.
 std::string text_of(const Campaign& campaign) {
   Json json = campaign.resolved;
   for (const char* key :
@@ -50,7 +50,7 @@ ThreadPool PlanCopy::pool() const {
 
 void PlanCopy::expect(const Chunk& chunk, Deserializer& message) {
   if (!description_.own_points) return;
-  Points points{chunk.runs, take_points(message, chunk.runs.size(), campaign_.dispersions.size())};
+  Points points{chunk.runs, read_points(message, chunk.runs.size(), campaign_.dispersions.size())};
   const std::lock_guard lock(guard_);
   points_.emplace(chunk.runs.first, std::move(points));
 }

@@ -6,7 +6,7 @@
 namespace wingspread {
 namespace {
 
-/// `unknown`, `no`, `yes`, or that there is no such column.
+/// Means that the column peaks_final does not exist.
 constexpr signed char no_finality = -1;
 
 void put_row(Serializer& packer, const ResultRow& row) {

@@ -1,4 +1,4 @@
-/// Values as bytes, and back: numbers bit by bit, for all ranks of a job are machines of one kind.
+/// Values as bytes and back. Numbers are copied bit by bit, because all ranks run on machines of one kind.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -12,7 +12,7 @@
 
 namespace wingspread {
 
-/// Puts values behind each other.
+/// Appends values to a byte string.
 class Serializer {
 public:
   template <class T>
@@ -38,10 +38,10 @@ private:
   std::string bytes_;
 };
 
-/// Takes them out again, in the same order. @pre what is asked for was put there
+/// Reads values back in the same order. @pre each value read was written there
 class Deserializer {
 public:
-  /// @pre the bytes outlive it
+  /// @pre the bytes outlive this object
   explicit Deserializer(std::string_view bytes) : bytes_(bytes) {}
 
   template <class T>
@@ -53,7 +53,7 @@ public:
   }
   [[nodiscard]] std::string take_text() { return std::string(take_bytes(take<std::size_t>())); }
   [[nodiscard]] std::vector<double> take_numbers();
-  /// @param first the run of its first row
+  /// @param first run of the first row
   [[nodiscard]] Batch take_batch(long first);
   [[nodiscard]] bool is_empty() const { return bytes_.empty(); }
 

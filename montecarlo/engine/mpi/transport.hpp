@@ -1,4 +1,4 @@
-/// Messages between the ranks of a job. Knows nothing of who carries them.
+/// The transport between ranks: asynchronous messages of bytes.
 #pragma once
 
 #include <optional>
@@ -6,14 +6,14 @@
 
 namespace wingspread {
 
-/// What a rank was sent.
+/// A received message.
 struct Message {
   int from = 0;
   std::string bytes;
 };
 
-/// A rank's end of the transport. Messages from one rank to another arrive in the order in which they were sent. Of one
-/// thread's use.
+/// A rank's connection to the others. Messages from one rank to another arrive in the order sent. For one thread
+/// only.
 class Transport {
 public:
   Transport() = default;
@@ -21,12 +21,12 @@ public:
   Transport& operator=(const Transport&) = delete;
   virtual ~Transport() = default;
 
-  /// Which one this is: 0, 1, … size() − 1.
+  /// This rank: 0, 1, … size() − 1.
   [[nodiscard]] virtual int rank() const = 0;
   [[nodiscard]] virtual int size() const = 0;
-  /// Sends it and does not wait until it has arrived.
+  /// Sends without waiting for arrival.
   virtual void send(int to, std::string bytes) = 0;
-  /// A message that has arrived; none when there is none now.
+  /// A message that has arrived; nothing if there is none now.
   [[nodiscard]] virtual std::optional<Message> receive() = 0;
 };
 

@@ -1,4 +1,4 @@
-/// A team of threads that makes runs chunk by chunk, wherever the chunks come from and go to.
+/// A scheduler for runs: threads claim chunks of runs, wherever the chunks come from and go to.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -9,13 +9,13 @@
 
 namespace wingspread {
 
-/// Consecutive runs that one thread makes, and their number among the chunks of a range.
+/// Consecutive runs made by one thread, numbered within a range.
 struct Chunk {
   long number = 0;
   RunRange runs{};
 };
 
-/// Where threads get their chunks, and where they leave them. Called on any thread.
+/// Where threads claim chunks and return them finished. Called on any thread.
 class ChunkQueue {
 public:
   ChunkQueue() = default;
@@ -23,31 +23,31 @@ public:
   ChunkQueue& operator=(const ChunkQueue&) = delete;
   virtual ~ChunkQueue() = default;
 
-  /// The next chunk to be made; none when there is none now.
+  /// The next chunk to make; nothing if none is available now.
   [[nodiscard]] virtual std::optional<Chunk> claim() = 0;
-  /// Waits until there may be one again. @return false when there will be none any more
+  /// Waits until claim() may succeed again. @return false if no more chunks will come
   [[nodiscard]] virtual bool wait_for_more() = 0;
-  /// Whether no further run is to be begun.
+  /// Whether no further run may begin.
   [[nodiscard]] virtual bool stopped() const = 0;
-  /// @param complete false when it was broken off, for it was stopped
+  /// Returns a finished chunk. @param complete false if a stop cut the chunk short
   virtual void finish(const Chunk& chunk, Batch&& batch, bool complete) = 0;
-  /// An exception has left a thread: no further run is to be begun.
+  /// Called after an exception left a thread: no further run may begin.
   virtual void break_off() = 0;
 };
 
-/// Makes the desk's chunks until there will be none any more. Threads fill their lanes from one chunk after the other
-/// without a pause. @return how full the lanes were
-/// @throws what a run does (out of memory), and what the desk throws
+/// Makes the queue's chunks until no more will come. A thread fills its lanes from one chunk after the other without
+/// a pause.
+/// @return how full the lanes were
+/// @throws what a run throws (out of memory), and what the queue throws
 Occupancy make_chunks(const RunPlan& plan, const ThreadPool& pool, bool wants_csv,
-                      ChunkQueue& desk);
+                      ChunkQueue& queue);
 
-/// The chunks of a range, claimed in order and handed on in order. Large ones at first, and the fewer runs are left,
-/// the smaller (guided self-scheduling, Polychronopoulos & Kuck, IEEE Trans. Comput. 36 (1987) 1425), so that all
-/// finish together.
+/// The chunks of a range, claimed and delivered in order. Chunks shrink as fewer runs are left, so that all threads
+/// end together (guided self-scheduling, Polychronopoulos & Kuck, IEEE Trans. Comput. 36 (1987) 1425).
 class RangeQueue final : public ChunkQueue {
 public:
-  /// @param threads that claim chunks, whosever they are
-  /// @param stop    once true, no further run is begun
+  /// @param threads that claim chunks, on all machines together
+  /// @param stop    once true, no further run begins
   RangeQueue(RunRange range, int threads, const BatchSink& sink, const std::atomic<bool>& stop);
 
   [[nodiscard]] std::optional<Chunk> claim() override;
@@ -61,7 +61,7 @@ public:
 
   /// Whether all chunks were claimed.
   [[nodiscard]] bool is_exhausted() const;
-  /// Runs handed on. @pre all threads are done
+  /// Runs delivered. @pre all threads have ended
   [[nodiscard]] long done() const { return in_order_.done(); }
 
 private:
@@ -70,7 +70,7 @@ private:
   InOrder in_order_;
   std::atomic<bool> broken_ = false;
   mutable std::mutex claiming_;
-  Chunk next_; ///< its number, and the runs that are left; guarded by claiming_
+  Chunk next_; ///< next number, and the runs left; guarded by claiming_
 };
 
 } // namespace wingspread

@@ -6,9 +6,9 @@
 namespace wingspread {
 
 long ThreadEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
-  RangeQueue desk(range, thread_count(pool_.threads), sink, stop_);
-  occupancy_ += make_chunks(plan, pool_, sink.wants_csv, desk);
-  return desk.done();
+  RangeQueue queue(range, thread_count(pool_.threads), sink, stop_);
+  occupancy_ += make_chunks(plan, pool_, sink.wants_csv, queue);
+  return queue.done();
 }
 
 } // namespace wingspread

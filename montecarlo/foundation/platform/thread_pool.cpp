@@ -6,11 +6,10 @@
 #include <mutex>
 #include <omp.h>
 
-// GCC's OpenMP runtime synchronises with futexes that the thread sanitizer does not see: it would
-// take the team's start and end for races. So these two edges are told to it, by release() and
-// acquire(). One store is out of their reach: the compiler hands the team the address of what it
-// shares just before the start, behind release(). The function that does it, which touches nothing
-// else of the team's, is therefore not instrumented; all that it calls is.
+// GCC's OpenMP runtime synchronises with futexes, which the thread sanitizer does not see: it would report the start and
+// the end of the threads as races. release() and acquire() tell it of both. One store escapes them: the compiler passes
+// the address of the shared data after release(), just before the start. So start_and_join, which touches nothing else
+// of the shared data, is not instrumented; everything it calls is.
 #ifdef __SANITIZE_THREAD__
 extern "C" {
 void __tsan_acquire(void* address);
@@ -31,8 +30,8 @@ void release() {}
 namespace wingspread {
 namespace {
 
-/// What the team shares.
-struct Shift {
+/// The data that the threads share.
+struct SharedWork {
   const std::function<void()>& work;
   const std::function<void()>& on_exception;
   std::mutex mutex{};
@@ -59,12 +58,12 @@ int threads_worth(int wanted, double operations) {
 
 namespace {
 
-[[gnu::no_sanitize_thread]] void start_and_join(int threads, Shift& shift) {
+[[gnu::no_sanitize_thread]] void start_and_join(int threads, SharedWork& shared_work) {
   release();
-#pragma omp parallel num_threads(threads) default(none) shared(shift)
+#pragma omp parallel num_threads(threads) default(none) shared(shared_work)
   {
     acquire();
-    shift.one_thread();
+    shared_work.one_thread();
     release();
   }
   acquire();
@@ -74,9 +73,9 @@ namespace {
 
 void run_on_threads(int threads, const std::function<void()>& work,
                     const std::function<void()>& on_exception) {
-  Shift shift{work, on_exception};
-  start_and_join(thread_count(threads), shift);
-  if (shift.first) std::rethrow_exception(shift.first);
+  SharedWork shared_work{work, on_exception};
+  start_and_join(thread_count(threads), shared_work);
+  if (shared_work.first) std::rethrow_exception(shared_work.first);
 }
 
 void for_each_task(int threads, std::size_t count, const std::function<void(std::size_t)>& task) {

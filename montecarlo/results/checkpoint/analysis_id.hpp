@@ -1,4 +1,4 @@
-/// What identifies a look: the runs that a study asked for at once.
+/// Identifies the runs that a study asks for at once.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -7,8 +7,8 @@
 
 namespace wingspread {
 
-/// A text that another look does not have: of the campaign as it is run (its hash), what is kept of a run, the range,
-/// and the draws of its first and its last run, for a study may put its runs at points of its own.
+/// A text unique to these runs: the hash of the campaign, the outputs kept, the range, and the draws of its first and
+/// last run (a study may place runs at points of its own).
 [[nodiscard]] std::string analysis_id(const RunPlan& plan, RunRange range);
 
 } // namespace wingspread

@@ -12,13 +12,13 @@
 namespace wingspread {
 namespace {
 
-constexpr char look_mark = 'L';
+constexpr char analysis_mark = 'L';
 
-/// What the first record says.
-Json about_in(RecordReader& in, const std::filesystem::path& file) {
+/// The first record: which study it is.
+Json read_about(RecordReader& in, const std::filesystem::path& file) {
   if (!in.next())
-    throw SpecError({{file.string(), "", "a log whose first record is damaged",
-                      "one that says whose it is (it is of no use: take it away to begin anew)"}});
+    throw SpecError({{file.string(), "", "a checkpoint whose first record is damaged",
+                      "one that names its study (remove the file to start again)"}});
   return parse_json(in.record(), file.string());
 }
 
@@ -33,23 +33,23 @@ void refuse_other_study(const std::filesystem::path& file, const Json& there, co
     if (found.is_array()) found = found.size();
     if (found != value)
       problems.push_back(
-          {file.string(), pointer, found.dump(), value.dump() + ", to go on with what is there"});
+          {file.string(), pointer, found.dump(), value.dump() + ", to continue what is there"});
   }
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
 Json about_of_log(const std::filesystem::path& file) {
   RecordReader in(file);
-  return about_in(in, file);
+  return read_about(in, file);
 }
 
 Checkpoint::Checkpoint(std::filesystem::path file, Json about)
     : file_(std::move(file)), about_(std::move(about)) {
   if (!std::filesystem::exists(file_)) return;
   in_.emplace(file_);
-  const Json there = about_in(*in_, file_);
+  const Json there = read_about(*in_, file_);
   refuse_other_study(file_, there, about_);
-  refuse_other_study(file_, about_, there); // what there is, and is not ours
+  refuse_other_study(file_, about_, there); // values recorded there that we do not have
   read_ahead();
 }
 
@@ -62,16 +62,15 @@ void Checkpoint::read_ahead() {
 
 bool Checkpoint::has(char mark) const { return in_ && in_->record().starts_with(mark); }
 
-SpecError Checkpoint::other_look(const std::string& id) const {
-  return SpecError(
-      {{file_.string(), "",
-        fmt::format("look {}: {}", looks_, has(look_mark) ? in_->record().substr(1) : "cut short"),
-        id + ": what this study asks for (shards that it was given with --from are to be given "
-             "again)"}});
+SpecError Checkpoint::other_analysis(const std::string& id) const {
+  return SpecError({{file_.string(), "",
+                     fmt::format("analysis {}: {}", analyses_,
+                                 has(analysis_mark) ? in_->record().substr(1) : "cut short"),
+                     id + ": what this study asks for (pass the same shards with --from again)"}});
 }
 
 bool Checkpoint::has_next(const RunPlan& plan, RunRange range) const {
-  return in_ && in_->record() == look_mark + analysis_id(plan, range);
+  return in_ && in_->record() == analysis_mark + analysis_id(plan, range);
 }
 
 void Checkpoint::begin(const std::string& id) {
@@ -79,18 +78,18 @@ void Checkpoint::begin(const std::string& id) {
     out_.emplace(file_, *end_);
   else if (!out_)
     out_.emplace(file_, about_.dump());
-  out_->add(look_mark + id);
+  out_->add(analysis_mark + id);
 }
 
 long Checkpoint::enter(const RunPlan& plan, RunRange range, const BatchSink& sink,
                        const std::atomic<bool>& stop) {
   const std::string id = analysis_id(plan, range);
-  ++looks_;
+  ++analyses_;
   if (!in_) {
     begin(id);
     return 0;
   }
-  if (in_->record() != look_mark + id) throw other_look(id);
+  if (in_->record() != analysis_mark + id) throw other_analysis(id);
   read_ahead();
   RunRange left = range;
   while (has(rows_mark) && !stop) {
@@ -103,7 +102,7 @@ long Checkpoint::enter(const RunPlan& plan, RunRange range, const BatchSink& sin
       for (const ResultRow& row : batch.rows) append_row(batch.csv, row);
     sink.take(batch);
   }
-  if (in_ && !stop && (left.size() > 0 || !has(look_mark))) throw other_look(id);
+  if (in_ && !stop && (left.size() > 0 || !has(analysis_mark))) throw other_analysis(id);
   return range.size() - left.size();
 }
 

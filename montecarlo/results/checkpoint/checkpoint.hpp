@@ -1,7 +1,11 @@
-/// The looks of a study in a file: read as far as they go, and from there on written.
+/// The checkpoint of a study (`margin`, `rare`): every row it was given, so that an interrupted study can continue.
 ///
-///   record 1     JSON: whose log it is
-///   'L' · text   a look begins (analysis_id.hpp)
+/// A study asks for runs analysis by analysis, and its next question depends on the rows so far. It is deterministic:
+/// given the same rows in the same order, it continues where it was. A checkpoint takes 40 to 150 bytes per run and
+/// is read in constant memory.
+///
+///   record 1     JSON: which study the checkpoint belongs to
+///   'L' · text   an analysis begins (analysis_id.hpp)
 ///   'R' …        its rows (row_records.hpp)
 #pragma once
 
@@ -17,43 +21,44 @@
 
 namespace wingspread {
 
-/// @param there what a file says of whose it is; an array in place of a number says it by how many it has
-/// @throws SpecError with each of our values that differs from it
+/// @param there identity that a file records; an array stands for its length
+/// @throws SpecError with each of our values that differs
 void refuse_other_study(const std::filesystem::path& file, const Json& there, const Json& ours);
 
-/// What a log says of whose it is. @throws SpecError when it does not
+/// The study a checkpoint belongs to. @throws SpecError if its first record is damaged
 [[nodiscard]] Json about_of_log(const std::filesystem::path& file);
 
+/// Reads the recorded analyses of a study, and then appends new ones.
 class Checkpoint {
 public:
-  /// Opens the file, if it is there; it is made with the first look.
-  /// @param about whose log it is: an object; it has to be the same to go on
-  /// @throws SpecError when it is another's, with each value that differs, or no log
+  /// Opens the file if it exists; else the first analysis creates it.
+  /// @param about which study it is: an object; equal to the recorded one
+  /// @throws SpecError if it belongs to another study, with each value that differs, or is no checkpoint
   Checkpoint(std::filesystem::path file, Json about);
 
-  /// Enters the next look, and hands on what there is of its rows.
-  /// @param stop once true, no more are handed on
-  /// @return how many were
-  /// @throws SpecError when the log goes on with another look, or with rows that do not come out the same here
+  /// Begins the next analysis, and delivers its recorded rows.
+  /// @param stop once true, no more rows are delivered
+  /// @return rows delivered
+  /// @throws SpecError if the checkpoint continues with another analysis, or its draws differ on this machine
   long enter(const RunPlan& plan, RunRange range, const BatchSink& sink,
              const std::atomic<bool>& stop);
 
-  /// Whether the next look in it is this one.
+  /// Whether the next recorded analysis is this one.
   [[nodiscard]] bool has_next(const RunPlan& plan, RunRange range) const;
 
-  /// Adds the next rows of the look. Every five seconds it sees to it that they are on the device.
-  /// @pre all that there was of it was handed on
-  /// @throws as refuse_path (machine_error.hpp) does when they cannot be written
+  /// Appends rows of the analysis. Writes to the device every five seconds.
+  /// @pre all its recorded rows were delivered
+  /// @throws as refuse_path (machine_error.hpp) if the file cannot be written
   void add(const Batch& batch);
 
-  /// Sees to it that all is on the device.
+  /// Writes everything to the device.
   void sync();
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  /// How many rows were read so far, and how many are in it.
+  /// Rows read so far; rows in the file.
   [[nodiscard]] long read() const { return read_; }
   [[nodiscard]] long rows() const { return rows_; }
-  /// Whether what followed the rows that were read was damaged, and was cut off.
+  /// Whether records after those read were damaged and cut off.
   [[nodiscard]] bool was_damaged() const { return damaged_; }
 
 private:
@@ -62,15 +67,15 @@ private:
   void read_ahead();
   void begin(const std::string& id);
   [[nodiscard]] bool has(char mark) const;
-  [[nodiscard]] SpecError other_look(const std::string& id) const;
+  [[nodiscard]] SpecError other_analysis(const std::string& id) const;
 
   std::filesystem::path file_;
   Json about_;
-  std::optional<RecordReader> in_; ///< as long as there is a record that is not used
+  std::optional<RecordReader> in_; ///< while unused records are left
   std::optional<RecordWriter> out_;
-  std::optional<RecordsEnd> end_; ///< of what was read, where it is to be gone on with
+  std::optional<RecordsEnd> end_; ///< of the records read: where to append
   Clock::time_point synced_ = Clock::now();
-  long looks_ = 0, rows_ = 0, read_ = 0;
+  long analyses_ = 0, rows_ = 0, read_ = 0;
   bool damaged_ = false;
 };
 

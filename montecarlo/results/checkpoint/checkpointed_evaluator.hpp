@@ -1,4 +1,4 @@
-/// Runs out of a log as far as it goes; then made, and logged.
+/// An evaluator that takes rows from a checkpoint first, then makes the rest and records them.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -8,16 +8,16 @@
 
 namespace wingspread {
 
-/// What it hands on does not depend on how much of it was in the log.
+/// Delivers the same batches however many rows the checkpoint has.
 class CheckpointedEvaluator final : public Evaluator {
 public:
-  /// @param inner makes what is not in the log
-  /// @param stop  once true, nothing more is read of it
-  /// @pre all of them outlive it
+  /// @param inner makes the runs that the checkpoint does not have
+  /// @param stop  once true, no more is read
+  /// @pre all arguments outlive this object
   CheckpointedEvaluator(Evaluator& inner, Checkpoint& log, const std::atomic<bool>& stop)
       : inner_(inner), log_(log), stop_(stop) {}
 
-  /// @throws besides what `inner` does, what the log does
+  /// @throws what `inner` and the checkpoint throw
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
   [[nodiscard]] const Occupancy& occupancy() const override { return inner_.occupancy(); }
 

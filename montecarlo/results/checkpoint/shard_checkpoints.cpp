@@ -11,12 +11,12 @@
 namespace wingspread {
 namespace {
 
-/// What its log says of whose it is.
+/// The stamp in a shard's checkpoint.
 Stamp stamp_in(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / checkpoint_file;
   if (!std::filesystem::exists(path))
     throw SpecError({{folder.string(), "", "no " + std::string(checkpoint_file) + " in it",
-                      "a shard of a study: what it was made into with --shard"}});
+                      "a shard of a study: the folder of --out with --shard"}});
   const Json about = about_of_log(path);
   std::vector<Problem> problems;
   Stamp stamp = read_stamp(JsonCursor(about, path.string(), problems));
@@ -30,13 +30,13 @@ bool is_finished(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / shard_file);
 }
 
-/// The study's own with a shard in its stamp.
+/// The study's identity with a shard in its stamp.
 Json about_shard(Json about, const Shard& shard) {
   about[stamp_key]["shard"] = {{"index", shard.index}, {"of", shard.of}};
   return about;
 }
 
-/// All of the shards, each once and finished; in order.
+/// All shards in order. @throws unless each is there once and finished
 std::vector<Part> parts_of(const std::vector<std::filesystem::path>& folders, long runs,
                            const ShardMaker& maker) {
   std::vector<Part> parts;
@@ -60,7 +60,7 @@ ShardCheckpoints::ShardCheckpoints(const std::vector<std::filesystem::path>& fol
                                    Evaluator& inner, const std::atomic<bool>& stop)
     : inner_(inner), stop_(stop) {
   if (folders.empty()) return;
-  for (const std::filesystem::path& folder : folders) // whose they are comes first
+  for (const std::filesystem::path& folder : folders) // first of all: do they belong to this study?
     (void)Checkpoint(folder / checkpoint_file, about_shard(about, *stamp_in(folder).shard));
   for (const Part& part : parts_of(folders, runs, maker)) {
     const Shard shard = *part.stamp.shard;
@@ -85,8 +85,8 @@ long ShardCheckpoints::make(const RunPlan& plan, RunRange range, const BatchSink
     read_ += got;
     if (stop_) break;
     if (got < part.size())
-      throw SpecError({{each.log.file().string(), "", "rows that were cut off or damaged",
-                        "all rows of a shard that was finished: begin it anew"}});
+      throw SpecError({{each.log.file().string(), "", "missing or damaged rows",
+                        "all rows of a finished shard: make it again"}});
   }
   return handed_on;
 }

@@ -1,4 +1,4 @@
-/// Looks of which the shards of a study were made before, on other machines.
+/// Analyses whose runs were made before in shards, on other machines.
 #pragma once
 
 #include "montecarlo/results/checkpoint/checkpoint.hpp"
@@ -12,25 +12,25 @@
 
 namespace wingspread {
 
-/// A study's shard: its part of the runs of those looks that do not depend on what others came to. Written last.
+/// Written last in a study's shard. A shard holds its part of those analyses that do not depend on other results.
 inline constexpr const char* shard_file = "shard.json";
 
-/// Hands on looks that all shards have, each its part of the runs, and has the others made.
+/// Delivers the analyses that all shards have, each shard's part in turn; `inner` makes the others.
 class ShardCheckpoints final : public Evaluator {
 public:
-  /// @param folders the shards', in any order; none: all looks are made
-  /// @param about   whose study it is (checkpoint.hpp): each shard's is the same with the shard in its stamp
-  /// @param runs    of a look
-  /// @param inner   makes what they have not
-  /// @throws MissingRuns (parts.hpp) when shards are missing or not finished, SpecError when they are no shards of
-  ///   this study
+  /// @param folders the shards', in any order; none: `inner` makes everything
+  /// @param about   which study it is (checkpoint.hpp); a shard has the same with the shard in its stamp
+  /// @param runs    of an analysis
+  /// @param inner   makes what the shards do not have
+  /// @throws MissingRuns (parts.hpp) if shards are missing or unfinished, SpecError if they are no shards of this
+  ///   study
   ShardCheckpoints(const std::vector<std::filesystem::path>& folders, const Json& about, long runs,
                    const ShardMaker& maker, Evaluator& inner, const std::atomic<bool>& stop);
 
-  /// @throws besides what `inner` does, SpecError when a shard's rows do not come out the same here
+  /// @throws what `inner` throws, and SpecError if a shard's draws differ on this machine
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
   [[nodiscard]] const Occupancy& occupancy() const override { return inner_.occupancy(); }
-  /// How many rows the shards gave.
+  /// Rows that the shards supplied.
   [[nodiscard]] long read() const { return read_; }
 
 private:
@@ -49,10 +49,10 @@ private:
   long read_ = 0;
 };
 
-/// The part of a look's runs that is a shard's.
+/// A shard's part of the runs of an analysis.
 [[nodiscard]] RunRange part_of_analysis(RunRange range, const Shard& shard);
 
-/// Whether the folder is that of a study's shard, finished or not.
+/// Whether the folder holds a study's shard, finished or not.
 [[nodiscard]] bool is_shard_folder(const std::filesystem::path& folder);
 
 } // namespace wingspread

@@ -20,12 +20,11 @@ namespace {
 void refuse_unsuitable(const std::filesystem::path& folder, const char* last, bool resume) {
   const bool has_log = std::filesystem::exists(folder / checkpoint_file);
   if (!resume && has_log)
-    refuse_folder(folder, "a study that was interrupted",
-                  "a new or an empty folder (--resume goes on with this one)");
+    refuse_folder(folder, "an interrupted study",
+                  "a new or an empty folder (--resume continues this one)");
   if (!resume) return refuse_used_folder(folder, "a new or an empty folder");
   if (!has_log && !std::filesystem::exists(folder / last) && !is_new_folder(folder))
-    refuse_folder(folder, "no study that was interrupted",
-                  "one to go on with, or a new or an empty folder");
+    refuse_folder(folder, "no interrupted study", "one to continue, or a new or an empty folder");
 }
 
 } // namespace
@@ -35,7 +34,7 @@ StudyFolder::StudyFolder(std::filesystem::path folder, const Json& about, const 
     : folder_(std::move(folder)) {
   refuse_unsuitable(folder_, last, resume);
   lock_.emplace(folder_);
-  refuse_unsuitable(folder_, last, resume); // the folder may be another by now
+  refuse_unsuitable(folder_, last, resume); // it may have changed before the lock
   const bool finished = std::filesystem::exists(folder_ / last) &&
                         !std::filesystem::exists(folder_ / checkpoint_file);
   if (finished)
@@ -54,10 +53,10 @@ void StudyFolder::finish() {
 
 void warn_if_damaged(const Checkpoint& log, const std::filesystem::path& folder) {
   if (log.was_damaged())
-    fmt::print(stderr,
-               "warning: {} was damaged behind run {} of the study: those that followed were made "
-               "again\n",
-               (folder / checkpoint_file).string(), log.read());
+    fmt::print(
+        stderr,
+        "warning: {} was damaged after run {} of the study: the runs after it were repeated\n",
+        (folder / checkpoint_file).string(), log.read());
 }
 
 } // namespace wingspread

@@ -13,10 +13,10 @@ std::string StateWriter::finish() && {
 StateReader::StateReader(std::string bytes, std::string file)
     : bytes_(std::move(bytes)), file_(std::move(file)) {
   std::uint64_t sum = 0;
-  if (bytes_.size() < sizeof sum) throw broken("a whole file");
+  if (bytes_.size() < sizeof sum) throw broken("at least a checksum");
   std::memcpy(&sum, bytes_.data() + bytes_.size() - sizeof sum, sizeof sum);
   bytes_.resize(bytes_.size() - sizeof sum);
-  if (stream_name(bytes_).hash != sum) throw broken("what its sum says");
+  if (stream_name(bytes_).hash != sum) throw broken("the checksum matches");
 }
 
 std::string StateReader::get_text() {
@@ -26,7 +26,7 @@ std::string StateReader::get_text() {
 
 std::size_t StateReader::get_count(std::size_t bytes) {
   const auto count = get<std::uint64_t>();
-  if (count > (bytes_.size() - at_) / bytes) throw broken("as many as it says");
+  if (count > (bytes_.size() - at_) / bytes) throw broken("as many items as announced");
   return static_cast<std::size_t>(count);
 }
 
@@ -36,7 +36,7 @@ SpecError StateReader::broken(std::string_view what) const {
 }
 
 const char* StateReader::take(std::size_t count) {
-  if (count > bytes_.size() - at_) throw broken("more of it");
+  if (count > bytes_.size() - at_) throw broken("more bytes");
   const char* there = bytes_.data() + at_;
   at_ += count;
   return there;

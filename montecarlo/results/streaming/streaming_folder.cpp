@@ -45,9 +45,8 @@ std::vector<std::vector<double>> margins_of(const RunPlan& plan, const Batch& ba
 
 void refuse_without_rows(const Campaign& campaign) {
   if (campaign.sampling.design != DesignKind::random)
-    refuse("draws that depend on each other",
-           "the design \"random\": bounds from replicates take the rows");
-  if (!campaign.until.empty()) refuse("goals to stop at", "none: they are looked at in the rows");
+    refuse("dependent draws", "the design \"random\": bounds from replicates need the rows");
+  if (!campaign.until.empty()) refuse("stopping goals", "none: interim analyses need the rows");
   if (!campaign.cases.empty())
     refuse("a campaign with cases", "one without: run each case's campaign by itself");
   if (!campaign.sampling.extended_from.empty())
@@ -71,13 +70,13 @@ StoredStatistics read_streaming_statistics(const StoredCampaign& stored) {
   InputFile in(path);
   StateReader from({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()},
                    path.string());
-  if (from.get_text() != magic) throw from.broken("of this version of wingspread");
-  if (from.get_text() != stored.stamp.hash) throw from.broken("of the campaign beside it");
+  if (from.get_text() != magic) throw from.broken("a format of this version");
+  if (from.get_text() != stored.stamp.hash) throw from.broken("the campaign of campaign.json");
   (void)from.get_text();
   const auto broken_bytes = from.get<std::uint64_t>();
   StoredStatistics read{
       StreamingStatistics(stored.campaign, RunPlan(stored.campaign).names(), from), broken_bytes};
-  if (!from.at_end()) throw from.broken("and nothing more");
+  if (!from.at_end()) throw from.broken("no bytes after the end");
   return read;
 }
 
@@ -108,7 +107,7 @@ StreamingFolder::StreamingFolder(std::filesystem::path folder, const RunPlan& pl
   if (there.campaign.sampling.runs != stored_.campaign.sampling.runs)
     throw SpecError({{(stored_.folder / campaign_file).string(), "/sampling/runs",
                       std::to_string(there.campaign.sampling.runs),
-                      fmt::format("{}: without rows no runs are added to those that were asked for",
+                      fmt::format("{}: a campaign without rows cannot be extended",
                                   stored_.campaign.sampling.runs)}});
   if (std::filesystem::exists(stored_.folder / runs_file))
     throw SpecError({{stored_.folder.string(), "", "a folder of a campaign that keeps its rows",

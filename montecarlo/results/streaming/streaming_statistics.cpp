@@ -169,7 +169,7 @@ void StreamingStatistics::add_correlations(const ResultRow& row) {
 void StreamingStatistics::add(const StreamingStatistics& other) {
   if (other_orders_ + other.other_orders_ > 0)
     throw SpecError({{"", "", "more than " + std::to_string(most_order_kinds) + " latch orders",
-                      "fewer: the rest of them was counted together and cannot be taken apart"}});
+                      "fewer: the rest was counted together and cannot be split"}});
   runs_ += other.runs_;
   for (std::size_t i = 0; i < status_.size(); ++i) status_[i] += other.status_[i];
   for (std::size_t i = 0; i < peaks_.size(); ++i) peaks_[i] += other.peaks_[i];

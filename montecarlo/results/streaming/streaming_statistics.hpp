@@ -1,8 +1,8 @@
-/// All that is kept of a campaign's runs where their rows are not: counts, sums, extremes.
+/// Streaming statistics: all that is kept of a campaign's runs with --no-rows. Counts, exact sums and extremes.
 ///
-/// It does not depend on the order in which runs are added, nor on how they are shared out among several of these that are
-/// added together: everything in it is a whole number, a sum without rounding, or chosen by value and run. So the same runs
-/// give the same bytes on any number of threads, whatever was interrupted, and from shards.
+/// They do not depend on the order of the runs or on how runs are split among objects that are added together: every
+/// member is a whole number, an exact sum, or chosen by value and run. So the same runs give the same bytes on any
+/// number of threads, after interruptions, and from shards.
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
@@ -19,47 +19,49 @@
 
 namespace wingspread {
 
-/// Latch orders beyond so many kinds, in the order in which they come, are counted together.
+/// Further kinds of latch orders, in order of appearance, are counted together. Heuristic: 100,000 texts take some 10
+/// MB; with more kinds, merging shards is refused, because the rest cannot be split.
 inline constexpr std::size_t most_order_kinds = 100'000;
-/// Draws times outputs beyond which no correlations are kept: their sums would take hundreds of MB.
+/// No correlations for more pairs of draws and outputs than this. A pair takes 5 exact sums of 552 bytes: 40,000
+/// pairs are 110 MB.
 inline constexpr std::size_t most_streaming_pairs = 40'000;
 
-/// An output as a requirement or a tolerance limit reads it: over all runs, those that are worse than any number apart.
+/// An output used by a requirement or a tolerance limit, over all runs. Runs worse than any number are counted apart.
 struct RequiredOutput {
   std::string output;
   bool absolute = false;
-  std::size_t column = 0; ///< of the outputs, and behind them of the static margins
+  std::size_t column = 0; ///< index into the outputs, followed by the static margins
   bool operator==(const RequiredOutput&) const = default;
 };
 
-/// Those of a campaign, each once. @param margins names of the static margins' columns
+/// The required outputs of a campaign, each once. @param margins names of the static margins' columns
 [[nodiscard]] std::vector<RequiredOutput> required_outputs(const Campaign& campaign,
                                                            const ResultNames& names,
                                                            const std::vector<std::string>& margins);
 
-/// What breaks a requirement.
+/// The runs that break a requirement.
 struct RequirementCounts {
-  long failures = 0, cut = 0; ///< cut: of them, deployed runs whose peak t_end cut
-  Extremes worst;             ///< how bad they are; infinite where worse than any number
+  long failures = 0, cut = 0; ///< `cut`: deployed runs among them whose peak t_end cut
+  Extremes worst;             ///< worst values; infinite if worse than any number
 };
 
 struct RequiredPopulation {
   Population values;
-  long worse = 0; ///< runs that are worse than any number
+  long worse = 0; ///< runs worse than any number
 };
 
 class StreamingStatistics {
 public:
-  /// Empty. @param pilot the campaign's first runs, from which it takes where values fall
+  /// Empty. @param pilot the campaign's first runs, which decide where bins lie
   StreamingStatistics(const Campaign& campaign, const ResultNames& names, const Results& pilot);
-  /// As it was written. @throws SpecError when it is damaged or of another campaign
+  /// Reads what write() wrote. @throws SpecError if it is damaged or of another campaign
   StreamingStatistics(const Campaign& campaign, const ResultNames& names, StateReader& from);
 
-  /// @param margins the run's static margins that are required, in the order of static_margin_columns
-  /// @return whether the run is one to be kept: it did not deploy, or breaks a requirement
+  /// @param margins the run's required static margins, in the order of static_margin_columns
+  /// @return whether the run's row is to be kept: it did not deploy, or breaks a requirement
   bool add(const ResultRow& row, std::span<const double> margins);
-  /// @pre of the same campaign, other runs
-  /// @throws SpecError when too many kinds of latch orders were counted for the two to be put together
+  /// @pre of the same campaign and other runs
+  /// @throws SpecError if more than most_order_kinds latch orders were counted
   void add(const StreamingStatistics& other);
   void write(StateWriter& to) const;
 
@@ -72,7 +74,7 @@ public:
     Population values;
     Scale scale;
     PowerSums sums;
-    long beyond_stowed = 0; ///< of an overtravel, those beyond most_overtravel
+    long beyond_stowed = 0; ///< of an overtravel: values beyond most_overtravel
   };
   [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
   [[nodiscard]] const std::vector<RequiredOutput>& required() const { return required_; }
@@ -86,7 +88,7 @@ public:
   [[nodiscard]] long other_orders() const { return other_orders_; }
   [[nodiscard]] const std::array<long, 3>& peaks() const { return peaks_; } ///< by PeaksFinal
   [[nodiscard]] const ReasonCounts& reasons() const { return reasons_; }
-  /// Each draw with each output and, as the last, `deployed`; nothing where there are too many of them.
+  /// Each draw with each output and, last, with `deployed`; nothing if there are too many pairs.
   [[nodiscard]] const std::optional<CoMoments>& correlations() const { return correlations_; }
 
 private:

@@ -1,4 +1,4 @@
-/// The statistics of runs whose rows are not there.
+/// The summary of streaming statistics.
 #pragma once
 
 #include "montecarlo/results/results_folder/results_folder.hpp"
@@ -8,15 +8,15 @@
 
 namespace wingspread {
 
-/// What the runs come to, as stored_summary (results_folder.hpp) has it of rows. Counts, moments, extremes and verdicts are
-/// the same but for rounding; a quantile that is not among the extremes says how far off it may be, and its bounds, and those
-/// of tolerance limits, are taken at the outer edges of the bins that they lie in: they hold no less, and are a little wider.
-/// There is no Spearman's correlation, and no accuracy.
+/// The same summary as stored_summary (results_folder.hpp) makes of rows. Counts, moments, extremes and verdicts
+/// agree but for rounding. A quantile that is not among the extremes carries its error. Its bounds, and tolerance
+/// limits, are taken at the outer edges of their bins: they hold with no less confidence and are slightly wider.
+/// Spearman's correlation and the accuracy are left out.
 [[nodiscard]] Summary streaming_summary(const StoredCampaign& stored,
                                         const StreamingStatistics& statistics,
                                         const StatisticsSpec& spec);
 
-/// extremes.csv: `output,end,rank,run,value`, a line for each value that is kept, from the end inwards.
+/// extremes.csv: `output,end,rank,run,value`, a line for each kept value, the most extreme first.
 [[nodiscard]] std::string extremes_csv(const ResultNames& names,
                                        const StreamingStatistics& statistics);
 

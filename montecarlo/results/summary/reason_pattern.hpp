@@ -1,4 +1,4 @@
-/// Reasons that differ in nothing but their numbers: what many runs have in common.
+/// Groups reasons that differ only in their numbers.
 #pragma once
 
 #include "core/outcome.hpp"
@@ -11,16 +11,16 @@
 
 namespace wingspread {
 
-/// A reason cut at its numbers: words[0], numbers[0], words[1], … , the last of the words.
-/// A digit within a name ("panel_1", "parent_point.0") is no number.
+/// A reason cut at its numbers: words[0], numbers[0], words[1], …, last words. A digit within a name ("panel_1",
+/// "parent_point.0") is no number.
 struct ReasonPattern {
   std::vector<std::string> words;
-  std::vector<std::string> numbers; ///< one fewer than the words; "…" where reasons differ
+  std::vector<std::string> numbers; ///< one fewer than words; "…" if reasons differ
 };
 
 [[nodiscard]] ReasonPattern pattern_of(std::string_view reason);
 
-/// Widens a pattern to take in another with the same words.
+/// Replaces the numbers in which `other` differs by "…". @pre the same words
 void widen(ReasonPattern& pattern, const ReasonPattern& other);
 
 /// "bodies.panel_1.mass is …, expected > 0"

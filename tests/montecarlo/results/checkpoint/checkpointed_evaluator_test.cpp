@@ -118,7 +118,7 @@ TEST_CASE("rows of other draws, of another place and of another length are refus
   const std::vector<ResultRow> rows{Runner(plan).run(3), Runner(plan).run(4)};
   for_each_record(rows, [&](std::string_view record) {
     CHECK(rows_of_record(record, plan, {3, 5}, "log").size() == 2);
-    const auto refused = Catch::Contains("log: found rows from run 3 on with other draws");
+    const auto refused = Catch::Contains("log: found rows with other draws from run 3 on");
     CHECK_THROWS_WITH(rows_of_record(record, other_plan, {3, 5}, "log"), refused);
     CHECK_THROWS_WITH(rows_of_record(record, plan, {3, 4}, "log"), refused);
     CHECK_THROWS_AS(rows_of_record(record, plan, {2, 5}, "log"), SpecError);
@@ -181,19 +181,18 @@ TEST_CASE("the log of another study is refused, with what differs") {
   other["wingspread"]["seed"] = 8;
   other["samples"] = 200;
   CHECK_THROWS_WITH(study.run(log, 1, other),
-                    log + ": /wingspread/seed: found 7, expected 8, to go on with what is there\n" +
-                        log + ": /samples: found 100, expected 200, to go on with what is there");
+                    log + ": /wingspread/seed: found 7, expected 8, to continue what is there\n" +
+                        log + ": /samples: found 100, expected 200, to continue what is there");
   other = ours;
   other["event"] = "stalled"; // of another kind
   CHECK_THROWS_WITH(study.run(log, 1, other),
-                    log +
-                        ": /event: found null, expected \"stalled\", to go on with what is there");
+                    log + ": /event: found null, expected \"stalled\", to continue what is there");
   CHECK_THROWS_AS(study.run(log, 1, {{"samples", 100}}), SpecError);
   // the same by its words, and other runs all the same: as by another library of mathematics
   Json changed = quick_campaign(6);
   changed["dispersions"][0]["distribution"]["std"] = 0.06;
   CHECK_THROWS_WITH(Study(changed).run(log, 1, ours),
-                    Catch::Contains(log + ": found look 1: campaign ") &&
+                    Catch::Contains(log + ": found analysis 1: campaign ") &&
                         Catch::Contains("what this study asks for"));
   CHECK(bytes_of(log) == before);
 }
@@ -211,9 +210,9 @@ TEST_CASE("the folder of a study: new, gone on with, finished") {
   CHECK_FALSE(std::filesystem::exists(path));
   std::filesystem::create_directory(path);
   const std::string whole = study.run(path / checkpoint_file, 8, about);
-  CHECK_THROWS_WITH(open(false, about),
-                    path.string() + ": found a study that was interrupted, expected a new or an "
-                                    "empty folder (--resume goes on with this one)");
+  CHECK_THROWS_WITH(open(false, about), path.string() +
+                                            ": found an interrupted study, expected a new or an "
+                                            "empty folder (--resume continues this one)");
   CHECK_FALSE(open(true, about));
   CHECK_THROWS_WITH(open(true, {{"samples", 200}}), Catch::Contains("/samples: found 100"));
   {
@@ -230,5 +229,5 @@ TEST_CASE("the folder of a study: new, gone on with, finished") {
                                                         "expected a new or an empty folder");
   std::filesystem::remove(path / "last.json");
   write_file(path / "other.csv", "a\n");
-  CHECK_THROWS_WITH(open(true, about), Catch::Contains("found no study that was interrupted"));
+  CHECK_THROWS_WITH(open(true, about), Catch::Contains("found no interrupted study"));
 }
