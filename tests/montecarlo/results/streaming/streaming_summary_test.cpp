@@ -76,7 +76,7 @@ struct Both {
     margins = static_margin_columns(stored.campaign, rows);
   }
 
-  [[nodiscard]] StreamingStatistics empty_tally() const {
+  [[nodiscard]] StreamingStatistics empty_statistics() const {
     Results pilot(names);
     for (std::size_t i = 0; i < 4096; ++i) pilot.append(rows.row(i));
     return {stored.campaign, names, pilot};
@@ -89,8 +89,8 @@ struct Both {
     if (kept && is_kept) ++*kept;
   }
 
-  [[nodiscard]] StreamingStatistics whole_tally(long* kept = nullptr) const {
-    StreamingStatistics statistics = empty_tally();
+  [[nodiscard]] StreamingStatistics whole_statistics(long* kept = nullptr) const {
+    StreamingStatistics statistics = empty_statistics();
     for (std::size_t row = 0; row < rows.size(); ++row) add(statistics, row, kept);
     return statistics;
   }
@@ -118,7 +118,7 @@ TEST_CASE("without rows: counts, moments and correlations are those of the rows"
   const Both& made = both();
   const StatisticsSpec& spec = made.stored.campaign.statistics;
   const Summary full = summarize(made.rows, spec),
-                found = streaming_summary(made.stored, made.whole_tally(), spec);
+                found = streaming_summary(made.stored, made.whole_statistics(), spec);
   REQUIRE(found.runs == made_up);
   for (std::size_t i = 0; i < full.statuses.size(); ++i) {
     CHECK(found.statuses[i].count == full.statuses[i].count);
@@ -157,7 +157,7 @@ TEST_CASE("without rows: quantiles are within what they say, and bounds hold tho
   const Both& made = both();
   const StatisticsSpec& spec = made.stored.campaign.statistics;
   const Summary full = summarize(made.rows, spec),
-                found = streaming_summary(made.stored, made.whole_tally(), spec);
+                found = streaming_summary(made.stored, made.whole_statistics(), spec);
   for (std::size_t i = 0; i < full.outputs.size(); ++i) {
     CAPTURE(full.outputs[i].name);
     for (std::size_t k = 0; k < spec.quantiles.size(); ++k) {
@@ -187,7 +187,7 @@ TEST_CASE("without rows: quantiles are within what they say, and bounds hold tho
 TEST_CASE("without rows: verdicts are those of the rows, and what they guarantee is no less safe") {
   const Both& made = both();
   long kept = 0;
-  const StreamingStatistics statistics = made.whole_tally(&kept);
+  const StreamingStatistics statistics = made.whole_statistics(&kept);
   const Summary found = streaming_summary(made.stored, statistics, made.stored.campaign.statistics);
   const std::vector<Verdict> full = judge_campaign(made.stored.campaign, made.rows);
   REQUIRE(found.requirements.size() == full.size());
@@ -224,7 +224,7 @@ TEST_CASE("without rows: verdicts are those of the rows, and what they guarantee
 TEST_CASE("without rows: tolerance limits hold those of the rows") {
   const Both& made = both();
   const StatisticsSpec& spec = made.stored.campaign.statistics;
-  const Summary found = streaming_summary(made.stored, made.whole_tally(), spec);
+  const Summary found = streaming_summary(made.stored, made.whole_statistics(), spec);
   for (std::size_t i = 0; i < found.outputs.size(); ++i) {
     const RankedOutput ranks(made.rows, made.rows.outputs[i]);
     REQUIRE(found.outputs[i].tolerance_limits.size() == 3);
@@ -239,11 +239,12 @@ TEST_CASE("without rows: tolerance limits hold those of the rows") {
 
 TEST_CASE("without rows: the same bytes in any order, however runs are shared out, and read back") {
   const Both& made = both();
-  const std::string whole = bytes_of(made.whole_tally());
+  const std::string whole = bytes_of(made.whole_statistics());
   std::vector<std::size_t> order(made.rows.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::shuffle(order.begin(), order.end(), std::mt19937(1));
-  StreamingStatistics parts[3] = {made.empty_tally(), made.empty_tally(), made.empty_tally()};
+  StreamingStatistics parts[3] = {made.empty_statistics(), made.empty_statistics(),
+                                  made.empty_statistics()};
   for (std::size_t i = 0; i < order.size(); ++i)
     made.add(parts[i < 11 ? 0 : i < 30'001 ? 1 : 2], order[i]);
   parts[2].add(parts[0]);
