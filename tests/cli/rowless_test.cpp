@@ -1,5 +1,5 @@
 // run --no-rows, as a user has it.
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
@@ -48,6 +48,8 @@ TEST_CASE("run --no-rows says what run says, and keeps the rows of broken runs a
   CHECK(none.error == rows.error);
   const std::filesystem::path folder = made.none;
   CHECK_FALSE(std::filesystem::exists(folder / runs_file));
+  const Json timing = parse_json_file(folder / timing_file);
+  CHECK((timing["runs"] == 10'000 && timing["runs_before"] == 0)); // the pilot's are this session's
   const Json full = parse_json_file(std::filesystem::path(made.rows) / summary_file),
              found = parse_json_file(folder / summary_file);
   for (const char* key : {"runs", "status", "reasons", "latch_order", "nominal"})

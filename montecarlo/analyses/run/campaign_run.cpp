@@ -6,7 +6,7 @@
 #include "montecarlo/foundation/formats/machine_error.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -53,28 +53,29 @@ bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, Ta
   tally.failed = std::ranges::count(results.status, Status::failed);
   tally.stalled = std::ranges::count(results.status, Status::stalled);
   tally.timed_out = std::ranges::count(results.status, Status::timed_out);
+  tally.before = tally.done;
   return true;
 }
-bool count_earlier_runs(RowlessFolder& folder, Evaluator& evaluator, Tally& tally) {
+bool count_earlier_runs(StreamingFolder& folder, Evaluator& evaluator, Tally& tally) {
   if (!folder.begin(evaluator)) return false;
-  const RunTally& made = folder.tally();
+  const StreamingStatistics& made = folder.statistics();
   tally.done = made.runs();
   tally.invalid = made.count_of(Status::invalid);
   tally.failed = made.count_of(Status::failed);
   tally.stalled = made.count_of(Status::stalled);
   tally.timed_out = made.count_of(Status::timed_out);
+  tally.before = folder.resumed();
   return true;
 }
 
 /// Makes the runs that a folder lacks, and writes timing.json. @return whether they were interrupted
 template <class Folder>
-bool complete_runs(Folder& folder, const RunPlan& plan, const Crew& crew,
+bool complete_runs(Folder& folder, const RunPlan& plan, const ThreadPool& crew,
                    const RunCallbacks& callbacks, OverallTally& overall) {
   const auto start = std::chrono::steady_clock::now();
   const auto evaluator = evaluator_of(crew, callbacks.begin_runs());
   Tally tally{.total = folder.stored().runs().size()};
   if (!count_earlier_runs(folder, *evaluator, tally)) return true;
-  tally.before = tally.done;
   const auto show = [&](const Tally& own) { callbacks.show_progress(overall.with(own)); };
   show(tally);
   const bool interrupted = make_runs(folder, plan, *evaluator, tally, show);
@@ -89,9 +90,9 @@ Summary write_folder_statistics(const FolderWriter& folder, int threads) {
   const StoredCampaign& stored = folder.stored();
   return write_statistics(stored, folder.results(), stored.campaign.statistics, threads);
 }
-Summary write_folder_statistics(const RowlessFolder& folder, int /*threads*/) {
-  return write_tally_statistics(folder.stored(), folder.tally(),
-                                folder.stored().campaign.statistics);
+Summary write_folder_statistics(const StreamingFolder& folder, int /*threads*/) {
+  return write_streaming_statistics(folder.stored(), folder.statistics(),
+                                    folder.stored().campaign.statistics);
 }
 
 /// Makes the runs and the statistics of one results folder. @return false when they were interrupted
@@ -155,12 +156,12 @@ CampaignResults run_campaign(const RunRequest& request, const RunCallbacks& call
   if (campaign.cases.empty()) (void)chosen_cases(campaign, request.cases); // refuses any name
   OverallTally overall(shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;
-  const auto run = request.streaming ? run_folder<RowlessFolder> : run_folder<FolderWriter>;
+  const auto run = request.streaming ? run_folder<StreamingFolder> : run_folder<FolderWriter>;
   run(campaign, request.out, request, callbacks, overall, results);
   return results;
 }
 
-Results run_in_memory(const StoredCampaign& stored, const RunPlan& plan, const Crew& crew,
+Results run_in_memory(const StoredCampaign& stored, const RunPlan& plan, const ThreadPool& crew,
                       const std::atomic<bool>& stop) {
   RowsInMemory rows(stored, plan.names());
   const auto evaluator = evaluator_of(crew, stop);

@@ -33,7 +33,7 @@ private:
 
 /// Makes the runs that `rows` still lacks. A campaign that may stop early makes them up to its next checkpoint, then
 /// asks `rows` again.
-/// @param rows  FolderWriter, RowlessFolder or RowsInMemory
+/// @param rows  FolderWriter, StreamingFolder or RowsInMemory
 /// @param tally counts of the runs that `rows` has already; updated with every batch
 /// @param show  is given the tally after every batch, on one thread at a time
 /// @return whether the evaluator was stopped before the last run

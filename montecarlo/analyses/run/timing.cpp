@@ -2,7 +2,7 @@
 
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json_parse.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ std::string math_library() {
 } // namespace
 
 void write_timing(const std::filesystem::path& folder, const SessionTiming& timing,
-                  const Crew& crew, const Evaluator& evaluator) {
+                  const ThreadPool& crew, const Evaluator& evaluator) {
   const long made = timing.tally.done - timing.tally.before;
   const Occupancy& lanes = evaluator.occupancy();
   const Json occupancy =
@@ -45,7 +45,7 @@ void write_timing(const std::filesystem::path& folder, const SessionTiming& timi
                                               {"math_library", math_library()},
                                               {"processors", std::thread::hardware_concurrency()},
                                               {"ranks", evaluator.ranks()},
-                                              {"threads", team_size(crew.threads)},
+                                              {"threads", thread_count(crew.threads)},
                                               {"instruction_set", to_string(crew.set)},
                                               {"lanes", lanes_of(crew.set)},
                                               {"lane_occupancy", occupancy},

@@ -10,8 +10,8 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/checkpoint/logged_evaluator.hpp"
-#include "montecarlo/results/checkpoint/shard_looks.hpp"
+#include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
+#include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 
 #include <fmt/format.h>
@@ -79,7 +79,7 @@ int judge_finished_margin(const Json& study) {
 }
 
 /// Keeps what an interrupted study has: finished scales in margin.csv, all runs in the checkpoint.
-int keep_unfinished(const Campaign& campaign, const MarginResult& result, LookLog& log,
+int keep_unfinished(const Campaign& campaign, const MarginResult& result, Checkpoint& log,
                     const std::filesystem::path& out) {
   write_file(out / margin_csv_file, margin_csv(campaign, result));
   log.sync();
@@ -110,7 +110,7 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
   StudyFolder folder(options.out, about, shard_file, options.resume);
   const Interrupt interrupt;
   const auto maker = evaluator_of(crew_of(options.machine), interrupt.flag());
-  LoggedEvaluator evaluator(*maker, folder.log(), interrupt.flag());
+  CheckpointedEvaluator evaluator(*maker, folder.log(), interrupt.flag());
   Progress progress(stderr);
   try {
     const long runs =
@@ -148,9 +148,9 @@ int run_margin_study(const MarginOptions& options) {
     return judge_finished_margin(show_finished(options.out / margin_json_file, options.json));
   const Interrupt interrupt;
   const auto maker = evaluator_of(crew_of(options.machine), interrupt.flag());
-  LoggedEvaluator logged(*maker, folder.log(), interrupt.flag());
-  ShardLooks evaluator(options.from, about, campaign.sampling.runs, maker_of(options), logged,
-                       interrupt.flag());
+  CheckpointedEvaluator logged(*maker, folder.log(), interrupt.flag());
+  ShardCheckpoints evaluator(options.from, about, campaign.sampling.runs, maker_of(options), logged,
+                             interrupt.flag());
   Progress progress(stderr);
   MarginResult result;
   try {

@@ -8,7 +8,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/checkpoint/logged_evaluator.hpp"
+#include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
@@ -133,7 +133,7 @@ int rare(const RareCommandOptions& given) {
     return report_finished_rare(show_finished(given.out / rare_json_file, given.json));
   const Interrupt interrupt;
   const auto maker = evaluator_of(crew_of(given.machine), interrupt.flag());
-  std::optional<LoggedEvaluator> logged;
+  std::optional<CheckpointedEvaluator> logged;
   if (folder) logged.emplace(*maker, folder->log(), interrupt.flag());
   Evaluator& evaluator = logged ? *logged : *maker;
   Progress progress(stderr);

@@ -112,7 +112,7 @@ int analyze_design_folder(const SensitivityOptions& options) {
 }
 
 /// Makes the remaining runs of a design. @return whether they were interrupted
-bool make_design_runs(const RunPlan& plan, RunRange own, RunRange remaining, const Crew& crew,
+bool make_design_runs(const RunPlan& plan, RunRange own, RunRange remaining, const ThreadPool& crew,
                       const BatchSink& sink) {
   const Interrupt interrupt;
   Progress progress(stderr);
@@ -164,7 +164,7 @@ int show_shard(const SaltelliDesign& design, const Results& results,
 
 /// Makes a design's runs, then its Sobol' indices.
 int run_design(const SensitivityOptions& options) {
-  const Crew crew = crew_of(options.machine);
+  const ThreadPool crew = crew_of(options.machine);
   const SaltelliDesign design = design_of(options);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());

@@ -1,6 +1,6 @@
 #include "montecarlo/interfaces/commands/command_setup.hpp"
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,7 +49,7 @@ void add_machine_options(CLI::App& command, MachineOptions& options) {
       ->type_name("NAME");
 }
 
-Crew crew_of(const MachineOptions& options) {
+ThreadPool crew_of(const MachineOptions& options) {
   return {options.threads, instruction_set(options.isa, options.lanes)};
 }
 

@@ -1,5 +1,5 @@
 #include "montecarlo/analyses/run/campaign_run.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/table.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"

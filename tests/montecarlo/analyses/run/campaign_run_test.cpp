@@ -1,5 +1,5 @@
 #include "montecarlo/analyses/run/campaign_run.hpp"
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -137,7 +137,7 @@ TEST_CASE("streaming keeps statistics and no rows") {
   const CampaignResults results = caller.run(
       {.campaign = campaign_of(quick_campaign(40)), .out = folder.path() / "r", .streaming = true});
   CHECK(results.folders.at(0).summary.runs == 40);
-  CHECK(is_rowless(folder.path() / "r"));
+  CHECK(is_streaming_folder(folder.path() / "r"));
   CHECK(caller.tallies.back().done == 40);
 }
 
