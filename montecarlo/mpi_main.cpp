@@ -13,24 +13,24 @@ namespace wingspread {
 namespace {
 
 int run_rank(int argc, char** argv) {
-  const std::unique_ptr<Transport> wire = mpi_transport();
-  if (wire->rank() > 0) {
+  const std::unique_ptr<Transport> transport = mpi_transport();
+  if (transport->rank() > 0) {
     const Interrupt interrupt;
-    serve(*wire, measure_of_recipe, interrupt.flag());
+    serve(*transport, measure_of_recipe, interrupt.flag());
     return 0;
   }
   const int code = command_line(argc, argv);
-  dismiss(*wire);
+  dismiss(*transport);
   return code;
 }
 
 } // namespace
 
 // Replaces the library's evaluator_of.
-std::unique_ptr<Evaluator> evaluator_of(const ThreadPool& crew, const std::atomic<bool>& stop) {
-  std::unique_ptr<Transport> wire = mpi_transport();
-  if (wire->size() == 1) return std::make_unique<ThreadEvaluator>(crew, stop);
-  return std::make_unique<RankEvaluator>(std::move(wire), crew, stop);
+std::unique_ptr<Evaluator> evaluator_of(const ThreadPool& pool, const std::atomic<bool>& stop) {
+  std::unique_ptr<Transport> transport = mpi_transport();
+  if (transport->size() == 1) return std::make_unique<ThreadEvaluator>(pool, stop);
+  return std::make_unique<RankEvaluator>(std::move(transport), pool, stop);
 }
 
 } // namespace wingspread

@@ -70,10 +70,10 @@ bool count_earlier_runs(StreamingFolder& folder, Evaluator& evaluator, Tally& ta
 
 /// Makes the runs that a folder lacks, and writes timing.json. @return whether they were interrupted
 template <class Folder>
-bool complete_runs(Folder& folder, const RunPlan& plan, const ThreadPool& crew,
+bool complete_runs(Folder& folder, const RunPlan& plan, const ThreadPool& pool,
                    const RunCallbacks& callbacks, OverallTally& overall) {
   const auto start = std::chrono::steady_clock::now();
-  const auto evaluator = evaluator_of(crew, callbacks.begin_runs());
+  const auto evaluator = evaluator_of(pool, callbacks.begin_runs());
   Tally tally{.total = folder.stored().runs().size()};
   if (!count_earlier_runs(folder, *evaluator, tally)) return true;
   const auto show = [&](const Tally& own) { callbacks.show_progress(overall.with(own)); };
@@ -82,7 +82,7 @@ bool complete_runs(Folder& folder, const RunPlan& plan, const ThreadPool& crew,
   folder.finish();
   overall.add_case(tally);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  write_timing(folder.stored().folder, {tally, seconds.count(), interrupted}, crew, *evaluator);
+  write_timing(folder.stored().folder, {tally, seconds.count(), interrupted}, pool, *evaluator);
   return interrupted;
 }
 
@@ -103,12 +103,12 @@ bool run_folder(const Campaign& campaign, const std::filesystem::path& out,
   const RunPlan plan(campaign);
   Folder folder(out, plan, request.shard, request.resume);
   RunsKept runs{.of_case = campaign.of_case, .total = folder.stored().runs().size()};
-  runs.interrupted = complete_runs(folder, plan, request.crew, callbacks, overall);
+  runs.interrupted = complete_runs(folder, plan, request.pool, callbacks, overall);
   runs.kept = folder.count();
   const bool wanted = callbacks.begin_statistics(runs);
   if (wanted && !(runs.interrupted && runs.kept == 0)) {
     try {
-      Summary summary = write_folder_statistics(folder, request.crew.threads);
+      Summary summary = write_folder_statistics(folder, request.pool.threads);
       add_accuracy_timing(out, summary);
       results.folders.push_back({folder.stored(), std::move(summary)});
     } catch (const MachineError& error) {
@@ -161,10 +161,10 @@ CampaignResults run_campaign(const RunRequest& request, const RunCallbacks& call
   return results;
 }
 
-Results run_in_memory(const StoredCampaign& stored, const RunPlan& plan, const ThreadPool& crew,
+Results run_in_memory(const StoredCampaign& stored, const RunPlan& plan, const ThreadPool& pool,
                       const std::atomic<bool>& stop) {
   RowsInMemory rows(stored, plan.names());
-  const auto evaluator = evaluator_of(crew, stop);
+  const auto evaluator = evaluator_of(pool, stop);
   Tally tally;
   make_runs(rows, plan, *evaluator, tally, [](const Tally&) {});
   return std::move(rows).take();

@@ -25,7 +25,7 @@ struct RunRequest {
   std::filesystem::path out;
   std::vector<std::string> cases{}; ///< names of the cases to run; empty: all
   std::optional<Shard> shard{};
-  ThreadPool crew{};
+  ThreadPool pool{};
   bool resume = false;
   bool streaming = false; ///< keeps statistics and the rows of broken runs, no other rows
 };
@@ -76,6 +76,6 @@ struct CampaignResults {
 /// @param stop once true, no further run begins; the rows made so far are returned
 /// @pre `stored` has no folder and no shard
 [[nodiscard]] Results run_in_memory(const StoredCampaign& stored, const RunPlan& plan,
-                                    const ThreadPool& crew, const std::atomic<bool>& stop);
+                                    const ThreadPool& pool, const std::atomic<bool>& stop);
 
 } // namespace wingspread

@@ -34,7 +34,7 @@ std::string math_library() {
 } // namespace
 
 void write_timing(const std::filesystem::path& folder, const SessionTiming& timing,
-                  const ThreadPool& crew, const Evaluator& evaluator) {
+                  const ThreadPool& pool, const Evaluator& evaluator) {
   const long made = timing.tally.done - timing.tally.before;
   const Occupancy& lanes = evaluator.occupancy();
   const Json occupancy =
@@ -45,9 +45,9 @@ void write_timing(const std::filesystem::path& folder, const SessionTiming& timi
                                               {"math_library", math_library()},
                                               {"processors", std::thread::hardware_concurrency()},
                                               {"ranks", evaluator.ranks()},
-                                              {"threads", thread_count(crew.threads)},
-                                              {"instruction_set", to_string(crew.set)},
-                                              {"lanes", lanes_of(crew.set)},
+                                              {"threads", thread_count(pool.threads)},
+                                              {"instruction_set", to_string(pool.set)},
+                                              {"lanes", lanes_of(pool.set)},
                                               {"lane_occupancy", occupancy},
                                               {"runs", made},
                                               {"runs_before", timing.tally.before},

@@ -18,7 +18,7 @@ struct SessionTiming {
 
 /// Writes timing.json into a results folder: host, threads, instruction set, lane occupancy, runs and seconds.
 void write_timing(const std::filesystem::path& folder, const SessionTiming& timing,
-                  const ThreadPool& crew, const Evaluator& evaluator);
+                  const ThreadPool& pool, const Evaluator& evaluator);
 
 /// Adds to timing.json how many runs and seconds the estimate of accuracy took; nothing without such an estimate.
 void add_accuracy_timing(const std::filesystem::path& folder, const Summary& summary);

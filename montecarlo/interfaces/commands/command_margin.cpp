@@ -109,7 +109,7 @@ int make_margin_shard(const Campaign& campaign, const MarginOptions& options, co
   const Json about = about_study(campaign, shard);
   StudyFolder folder(options.out, about, shard_file, options.resume);
   const Interrupt interrupt;
-  const auto maker = evaluator_of(crew_of(options.machine), interrupt.flag());
+  const auto maker = evaluator_of(pool_of(options.machine), interrupt.flag());
   CheckpointedEvaluator evaluator(*maker, folder.log(), interrupt.flag());
   Progress progress(stderr);
   try {
@@ -147,7 +147,7 @@ int run_margin_study(const MarginOptions& options) {
   if (folder.is_finished())
     return judge_finished_margin(show_finished(options.out / margin_json_file, options.json));
   const Interrupt interrupt;
-  const auto maker = evaluator_of(crew_of(options.machine), interrupt.flag());
+  const auto maker = evaluator_of(pool_of(options.machine), interrupt.flag());
   CheckpointedEvaluator logged(*maker, folder.log(), interrupt.flag());
   ShardCheckpoints evaluator(options.from, about, campaign.sampling.runs, maker_of(options), logged,
                              interrupt.flag());

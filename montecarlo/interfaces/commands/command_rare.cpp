@@ -132,7 +132,7 @@ int rare(const RareCommandOptions& given) {
   if (folder && folder->is_finished())
     return report_finished_rare(show_finished(given.out / rare_json_file, given.json));
   const Interrupt interrupt;
-  const auto maker = evaluator_of(crew_of(given.machine), interrupt.flag());
+  const auto maker = evaluator_of(pool_of(given.machine), interrupt.flag());
   std::optional<CheckpointedEvaluator> logged;
   if (folder) logged.emplace(*maker, folder->log(), interrupt.flag());
   Evaluator& evaluator = logged ? *logged : *maker;

@@ -46,7 +46,7 @@ RunRequest request_of(const RunOptions& options) {
                      .out = options.out,
                      .cases = options.cases,
                      .shard = parse_shard(options.shard),
-                     .crew = crew_of(options.machine),
+                     .pool = pool_of(options.machine),
                      .resume = options.resume,
                      .streaming = options.no_rows};
   request.campaign = read_campaign_file(options.campaign);

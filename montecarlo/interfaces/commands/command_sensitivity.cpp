@@ -112,7 +112,7 @@ int analyze_design_folder(const SensitivityOptions& options) {
 }
 
 /// Makes the remaining runs of a design. @return whether they were interrupted
-bool make_design_runs(const RunPlan& plan, RunRange own, RunRange remaining, const ThreadPool& crew,
+bool make_design_runs(const RunPlan& plan, RunRange own, RunRange remaining, const ThreadPool& pool,
                       const BatchSink& sink) {
   const Interrupt interrupt;
   Progress progress(stderr);
@@ -123,7 +123,7 @@ bool make_design_runs(const RunPlan& plan, RunRange own, RunRange remaining, con
     tally.done += std::ssize(batch.rows);
     progress.show(tally);
   };
-  return evaluator_of(crew, interrupt.flag())->make(plan, remaining, {keep, sink.wants_csv}) <
+  return evaluator_of(pool, interrupt.flag())->make(plan, remaining, {keep, sink.wants_csv}) <
          remaining.size();
 }
 
@@ -164,7 +164,7 @@ int show_shard(const SaltelliDesign& design, const Results& results,
 
 /// Makes a design's runs, then its Sobol' indices.
 int run_design(const SensitivityOptions& options) {
-  const ThreadPool crew = crew_of(options.machine);
+  const ThreadPool pool = pool_of(options.machine);
   const SaltelliDesign design = design_of(options);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
@@ -180,7 +180,7 @@ int run_design(const SensitivityOptions& options) {
   };
   const RunRange own = runs_of(design);
   const RunRange remaining{own.first + (folder ? folder->count() : 0), own.last};
-  const bool interrupted = make_design_runs(plan, own, remaining, crew, {keep, folder.has_value()});
+  const bool interrupted = make_design_runs(plan, own, remaining, pool, {keep, folder.has_value()});
   if (folder) folder->finish();
   if (interrupted) {
     fmt::print(stderr, "interrupted: {}\n",

@@ -49,7 +49,7 @@ void add_machine_options(CLI::App& command, MachineOptions& options) {
       ->type_name("NAME");
 }
 
-ThreadPool crew_of(const MachineOptions& options) {
+ThreadPool pool_of(const MachineOptions& options) {
   return {options.threads, instruction_set(options.isa, options.lanes)};
 }
 

@@ -33,6 +33,6 @@ struct MachineOptions {
 void add_machine_options(CLI::App& command, MachineOptions& options);
 
 /// @throws CLI::ValidationError when this processor lacks the instruction set or the lanes
-[[nodiscard]] ThreadPool crew_of(const MachineOptions& options);
+[[nodiscard]] ThreadPool pool_of(const MachineOptions& options);
 
 } // namespace wingspread

@@ -47,7 +47,7 @@ TEST_CASE("a campaign's runs and statistics are in its folder", "[parallel]") {
   const Campaign campaign = campaign_of(full_campaign(60));
   Caller caller;
   const CampaignResults results =
-      caller.run({.campaign = campaign, .out = folder.path() / "r", .crew = {.threads = 2}});
+      caller.run({.campaign = campaign, .out = folder.path() / "r", .pool = {.threads = 2}});
   (void)run_into(folder.path() / "expected", campaign);
   CHECK(contents(folder.path() / "r") == contents(folder.path() / "expected"));
   CHECK_FALSE(results.interrupted);
@@ -68,7 +68,7 @@ TEST_CASE("a run that is stopped keeps its runs, and resuming completes the fold
   const Folder folder;
   const RunRequest request{.campaign = campaign_of(quick_campaign(600)),
                            .out = folder.path() / "r",
-                           .crew = {.threads = 2}};
+                           .pool = {.threads = 2}};
   Caller stopping{.stop_after = 100};
   const CampaignResults part = stopping.run(request);
   REQUIRE(part.interrupted);
