@@ -1,7 +1,7 @@
-/// The program that mpirun starts: on rank 0 it is the one of every day, on the others it makes runs for that.
+/// The program for mpirun: rank 0 runs the command line, the other ranks make runs for rank 0.
 #include "montecarlo/analyses/rare/limit_state.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
-#include "montecarlo/engine/mpi/mpi_wire.hpp"
+#include "montecarlo/engine/mpi/mpi_transport.hpp"
 #include "montecarlo/engine/mpi/rank_evaluator.hpp"
 #include "montecarlo/engine/mpi/serve.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
@@ -12,33 +12,33 @@
 namespace wingspread {
 namespace {
 
-int work(int argc, char** argv) {
-  const std::unique_ptr<Wire> wire = mpi_wire();
-  if (wire->rank() > 0) {
+int run_rank(int argc, char** argv) {
+  const std::unique_ptr<Transport> transport = mpi_transport();
+  if (transport->rank() > 0) {
     const Interrupt interrupt;
-    serve(*wire, measure_of_recipe, interrupt.flag());
+    serve(*transport, measure_of_recipe, interrupt.flag());
     return 0;
   }
   const int code = command_line(argc, argv);
-  dismiss(*wire);
+  dismiss(*transport);
   return code;
 }
 
 } // namespace
 
-// In place of the library's.
-std::unique_ptr<Evaluator> evaluator_of(const Crew& crew, const std::atomic<bool>& stop) {
-  std::unique_ptr<Wire> wire = mpi_wire();
-  if (wire->size() == 1) return std::make_unique<ThreadEvaluator>(crew, stop);
-  return std::make_unique<RankEvaluator>(std::move(wire), crew, stop);
+// Replaces the library's evaluator_of.
+std::unique_ptr<Evaluator> evaluator_of(const ThreadPool& pool, const std::atomic<bool>& stop) {
+  std::unique_ptr<Transport> transport = mpi_transport();
+  if (transport->size() == 1) return std::make_unique<ThreadEvaluator>(pool, stop);
+  return std::make_unique<RankEvaluator>(std::move(transport), pool, stop);
 }
 
 } // namespace wingspread
 
 int main(int argc, char** argv) {
-  int provided = 0; // all calls are made by this thread
+  int provided = 0; // not checked: only this thread calls MPI
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
-  const int code = wingspread::work(argc, argv);
+  const int code = wingspread::run_rank(argc, argv);
   MPI_Finalize();
   return code;
 }

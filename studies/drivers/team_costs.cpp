@@ -1,10 +1,10 @@
 // Measures cost and gain of a thread pool against the amount of work, on free processors and beside as many busy
-// threads. Prints means, because the slowest thread decides. `operations_worth_a_team`
-// (montecarlo/foundation/platform/team.hpp) follows from the figures.
+// threads. Prints means, because the slowest thread decides. `operations_worth_threads`
+// (montecarlo/foundation/platform/thread_pool.hpp) follows from the figures.
 //
 //   build/release/studies/team_costs
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <fmt/format.h>
 
@@ -70,7 +70,7 @@ double mean_time(int threads, std::size_t operations, double seconds) {
 } // namespace
 
 int main() {
-  const int all = team_size(0);
+  const int all = thread_count(0);
   fmt::print("{:>12}{:>24}{:>24}\n", "", "processors free, µs", "all wanted, µs");
   fmt::print("{:>12}{:>12}{:>12}{:>12}{:>12}\n", "operations", "1 thread", fmt::format("{}", all),
              "1 thread", fmt::format("{}", all));

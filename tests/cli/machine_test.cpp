@@ -1,4 +1,4 @@
-// What the machine refuses, and what endangers data that are there.
+// Full disks, missing permissions, damaged files: errors without loss of data.
 #include "montecarlo/foundation/platform/folder_lock.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "tests/cli/program.hpp"
@@ -54,10 +54,7 @@ TEST_CASE("what is printed to a full device is not taken for done") {
     CAPTURE(command);
     const auto [code, out, error] = run_program(folder, command, "/dev/full");
     CHECK(code == 4);
-    CHECK_THAT(
-        error,
-        Catch::Contains("error: standard output: found No space left on device, expected room for "
-                        "what is printed\n"));
+    CHECK_THAT(error, HasFacts({"error: standard output: found No space left on device"}));
   }
 }
 
@@ -67,8 +64,7 @@ TEST_CASE("a file on a full device is the machine's refusal") {
   for (const char* command : {"sample", "simulate"}) {
     const auto [code, out, error] = run_program(folder, {command, campaign, "--out", "/dev/full"});
     CHECK(code == 4);
-    CHECK(error ==
-          "error: /dev/full: found No space left on device, expected a file that can be written\n");
+    CHECK_THAT(error, HasFacts({"error: /dev/full: found No space left on device"}));
   }
 }
 
@@ -130,11 +126,9 @@ TEST_CASE("a folder in which a process is at work is refused by all that write t
     const auto [code, out, error] = run_program(folder, command);
     CHECK(code == 4);
     CHECK(out.empty());
-    CHECK_THAT(
-        error,
-        Catch::StartsWith("error: " + folder.path().string()) &&
-            Catch::Contains(": found process " + std::to_string(getpid()) + " on ") &&
-            Catch::EndsWith(" at work in it, expected a folder that no other process writes to\n"));
+    CHECK_THAT(error, Catch::StartsWith("error: " + folder.path().string()) &&
+                          Catch::Contains(": found process " + std::to_string(getpid()) + " on ") &&
+                          Catch::Contains("no other process"));
   }
   auto after = contents(path), design_after = contents(design);
   CHECK(after.erase(lock_file) == 1);
@@ -194,12 +188,9 @@ TEST_CASE("without room for statistics a campaign goes on, and says so") {
   const auto [code, out, error] = run_program(folder, {"run", file, "--out", path, "--resume"});
   CHECK(code == 4);
   CHECK(out.empty());
-  CHECK(error == "error: " + missing +
-                     ": found No such file or directory, expected room for temporary data (TMPDIR "
-                     "names another "
-                     "folder)\nerror: 33000 of 33000 runs are kept, without their statistics: "
-                     "`wingspread analyze " +
-                     path + "` makes them where there is room\n");
+  CHECK_THAT(error, HasFacts({"error: " + missing + ": found No such file or directory", "TMPDIR",
+                              "\nerror: 33000 of 33000 runs are kept",
+                              "`wingspread analyze " + path + "`"}));
   CHECK(lines_in(std::filesystem::path(path) / runs_file) == 33'001);
   CHECK_FALSE(std::filesystem::exists(std::filesystem::path(path) / summary_file));
   setenv("TMPDIR", folder.path().c_str(), 1);

@@ -130,7 +130,7 @@ TEST_CASE("margin says which requirements leave no window, and exits 1") {
       {"output", "root.peak_moment"}, {"max", 40}, {"probability", 0.97}, {"confidence", 0.9}};
   const auto [code, text, error] = program.margin(json);
   CHECK(code == 1);
-  CHECK(error == "not met: joint: no scale that was looked at meets all requirements\n");
+  CHECK_THAT(error, HasFacts({"not met: joint: no scale", "meets all requirements\n"}));
   CHECK_THAT(text, Catch::Contains("EMPTY: no scale meets all requirements.\n"));
   const Json search = program.found()["searches"][0];
   CHECK(search["window"].is_null());
@@ -148,11 +148,8 @@ TEST_CASE("margin, hinge by hinge, reports each") {
   const auto finished = program.margin(json);
   CHECK(finished.code == 1);
   CHECK_THAT(finished.out, Catch::Contains("hinge root alone") &&
-                               Catch::Contains("hinge mid alone") &&
-                               Catch::Contains("no edge: nothing fails this far"));
-  CHECK_THAT(finished.error, Catch::Contains("not met: root: nothing fails up to 8.8: no edge was "
-                                             "found, for nothing that is required limits the "
-                                             "springs from above\n"));
+                               Catch::Contains("hinge mid alone") && Catch::Contains("no edge"));
+  CHECK_THAT(finished.error, HasFacts({"not met: root: nothing fails up to 8.8", "no edge"}));
   CHECK(program.found()["searches"].size() == 3);
 }
 
@@ -192,11 +189,7 @@ TEST_CASE("margin interrupted keeps the scales that were finished", "[parallel]"
     const Finished finished = running.finish();
     if (finished.code == 128 + SIGINT && finished.error.empty()) continue; // before it was armed
     REQUIRE(finished.code == 130);
-    CHECK_THAT(finished.error,
-               Catch::StartsWith("interrupted: ") &&
-                   Catch::EndsWith(" runs are kept; the same command with --resume "
-                                   "goes on (the scales that were finished are in " +
-                                   csv + ")\n"));
+    CHECK_THAT(finished.error, HasFacts({"interrupted: ", " runs are kept", "--resume", csv}));
     CHECK_FALSE(std::filesystem::exists(program.out + "/margin.json"));
     kept = lines_of(*read_text(csv));
     REQUIRE(kept.front() == all.front()); // the header
@@ -220,8 +213,8 @@ TEST_CASE("run judges static margins by the side of what its runs do, and analyz
   const auto [code, text, error] =
       program({"run", program.file(json), "--out", program.out, "--table"});
   CHECK(code == 1);
-  CHECK_THAT(error, Catch::Contains("not met: T-1: NASA margin of every hinge ≥ 0, 90 % at 90 %: "
-                                    "fail: 100 of 100 runs break it, and 5 may\n"));
+  CHECK_THAT(error, HasFacts({"not met: T-1: NASA margin of every hinge ≥ 0, 90 % at 90 %", "fail",
+                              "100 of 100 runs", "5"}));
   const Json verdict = parse_json_file(program.out + "/summary.json")["requirements"][1];
   CHECK(verdict["motorization"] == "NASA");
   CHECK(verdict["hinge"] == "*");

@@ -1,8 +1,9 @@
-/// Runs the program as a user does, and keeps what it says.
+/// Runs the program as a user does, and keeps its output.
 #pragma once
 
 #include "tests/montecarlo/campaign_support.hpp"
 
+#include <catch2/catch.hpp>
 #include <sys/types.h>
 
 #include <string>
@@ -13,7 +14,7 @@ namespace wingspread::test {
 /// The absolute path of the program under test.
 extern const char* const program_path;
 
-/// What a finished program leaves behind.
+/// The exit status and outputs of a finished program.
 struct Finished {
   int code; ///< exit status; 128 + N when signal N ended it
   std::string out, error;
@@ -36,6 +37,29 @@ private:
 /// Starts it and waits for its end.
 [[nodiscard]] Finished run_program(const Folder& folder, const std::vector<std::string>& arguments,
                                    const std::filesystem::path& out = {});
+
+/// Matches a text that has all of these facts, in this order. The words around them may change.
+class HasFacts final : public Catch::MatcherBase<std::string> {
+public:
+  HasFacts(std::initializer_list<std::string> facts) : facts_(facts) {}
+  [[nodiscard]] bool match(const std::string& text) const override {
+    std::size_t at = 0;
+    for (const std::string& fact : facts_) {
+      at = text.find(fact, at);
+      if (at == std::string::npos) return false;
+      at += fact.size();
+    }
+    return true;
+  }
+  [[nodiscard]] std::string describe() const override {
+    std::string text = "has in this order:";
+    for (const std::string& fact : facts_) text += " \"" + fact + '"';
+    return text;
+  }
+
+private:
+  std::vector<std::string> facts_;
+};
 
 /// Lines of a text.
 [[nodiscard]] std::vector<std::string> lines_of(const std::string& text);

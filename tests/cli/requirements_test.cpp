@@ -19,7 +19,7 @@ Json requiring(std::initializer_list<double> limits) {
   return json;
 }
 
-/// A place to run campaigns and look at what came of them.
+/// A folder to run campaigns in and read their results from.
 struct RequirementsPlace {
   Folder folder{};
   std::string out = (folder.path() / "r").string();
@@ -45,8 +45,8 @@ TEST_CASE("size answers the table's questions") {
   };
   const auto wilks = size({"--probability", "0.9973", "--confidence", "0.9", "--order", "2"});
   CHECK((wilks.code == 0 && wilks.error.empty()));
-  CHECK(wilks.out == "1440 runs show a probability of 0.9973 with confidence 0.9: 1 may break the "
-                     "requirement\n(one-sided tolerance limits of order 2)\n");
+  CHECK_THAT(wilks.out,
+             HasFacts({"1440 runs", "0.9973", "confidence 0.9", "1 ", "one-sided", "order 2"}));
   const auto number = [&](std::vector<std::string> options, const char* key) {
     options.emplace_back("--json");
     const auto [code, out, error] = size(options);
@@ -62,10 +62,8 @@ TEST_CASE("size answers the table's questions") {
             .is_null());
   CHECK(number({"--width", ".1", "--confidence", ".95"}, "runs") == 402);
   CHECK(number({"--width", ".01", "--confidence", ".95", "--proportion", ".02"}, "runs") == 3221);
-  CHECK(
-      size({"--probability", ".99865", "--confidence", ".9", "--runs", "1000"}).out ==
-      "1000 runs cannot show a probability of 0.99865 with confidence 0.9, even if none breaks the "
-      "requirement: it takes 1705\n");
+  CHECK_THAT(size({"--probability", ".99865", "--confidence", ".9", "--runs", "1000"}).out,
+             HasFacts({"1000 runs cannot show", "0.99865", "confidence 0.9", "1705\n"}));
 }
 
 TEST_CASE("size refuses what it cannot answer") {
@@ -101,16 +99,15 @@ TEST_CASE("a requirement that is met, one that is not, and one that cannot be de
   const auto failed =
       program({"run", program.file(requiring({6, 1})), "--out", program.out + "2", "--table"});
   CHECK(failed.code == 1);
-  CHECK(failed.error == "not met: root.latch_time ≤ 1 s, 90 % at 90 %: fail: 60 of 60 runs break "
-                        "it, and 2 may\n");
+  CHECK_THAT(failed.error,
+             HasFacts({"not met: root.latch_time ≤ 1 s, 90 % at 90 %", "fail", "60 of 60", "2"}));
   CHECK_THAT(failed.out, Catch::Contains("REQUIREMENT") &&
                              Catch::Contains("    wingspread replay " + program.out + "2 --run "));
 
   const auto undecided =
       program({"run", program.file(requiring({6})), "--out", program.out + "3", "--runs", "20"});
   CHECK(undecided.code == 1);
-  CHECK_THAT(undecided.error, Catch::Contains("undecided: 20 runs cannot show it, even if none "
-                                              "breaks it: it takes 22"));
+  CHECK_THAT(undecided.error, HasFacts({"undecided", "20 runs cannot show", "22"}));
 }
 
 TEST_CASE("the run that a verdict names can be replayed as it says") {
@@ -177,9 +174,8 @@ TEST_CASE("analyze takes the runs of another tool, with a campaign beside them")
   std::ofstream(there / runs_file) << csv.substr(0, csv.rfind('\n'));
   const auto refused = program({"analyze", program.out});
   CHECK(refused.code == 2);
-  CHECK(refused.error == "error: " + (there / runs_file).string() +
-                             ": found 29 runs, expected all 30 of the campaign: whatever became of "
-                             "them\n");
+  CHECK_THAT(refused.error,
+             HasFacts({"error: " + (there / runs_file).string() + ": found 29 runs", "30"}));
 }
 
 TEST_CASE("a shard is not held to requirements, and what is merged of them is") {
@@ -229,10 +225,10 @@ TEST_CASE("run --until stops at a checkpoint, the same when it was interrupted",
   };
   const auto finished = run(program.out, {"--threads", "2", "--table"});
   CHECK((finished.code == 0 && finished.error.empty()));
-  CHECK_THAT(finished.out,
-             Catch::StartsWith("three_panel · 1000 runs · random, seed 7 · stopped, of "
-                               "2000 at most\n") &&
-                 Catch::Contains("root.latch_time@0.5 2%"));
+  CHECK_THAT(
+      finished.out,
+      Catch::StartsWith("three_panel · 1000 runs · random, seed 7 · stopped, of at most 2000\n") &&
+          Catch::Contains("root.latch_time@0.5 2%"));
   CHECK(program.summary()["runs"] == 1000);
   // Left in the middle, as by a crash.
   const std::filesystem::path left = program.out + "2", whole = program.out;
@@ -263,9 +259,8 @@ TEST_CASE("run --until refuses what cannot be reached for, by its option") {
         "error: --until: found a relative_width, expected a width, for a share of runs\n");
   CHECK_THAT(refusal({"--until", "soon"}),
              Catch::StartsWith("error: --until: found \"soon\", expected e.g. "));
-  CHECK(refusal({"--until", "deployed 0.1", "--shard", "1/2"}) ==
-        "error: found shard 1/2 of a campaign that may stop early, expected all runs: only they "
-        "tell when to stop\n");
+  CHECK_THAT(refusal({"--until", "deployed 0.1", "--shard", "1/2"}),
+             HasFacts({"error: found shard 1/2 of a campaign that may stop early"}));
 }
 
 TEST_CASE(
@@ -282,29 +277,25 @@ TEST_CASE(
       program({"run", campaign, "--out", program.out, "--until", "requirement D-1", "--table"});
   CHECK(decided.code == 1);
   CHECK_THAT(decided.out, Catch::Contains("· 1000 runs ·") &&
-                              Catch::Contains("stopped, of 1200 at most") &&
+                              Catch::Contains("stopped, of at most 1200") &&
                               Catch::Contains("requirement D-1"));
   CHECK_THAT(decided.error, !Catch::Contains("note: "));
   const auto unknown =
       program({"run", campaign, "--out", program.out + "2", "--until", "requirement D-3"});
   CHECK(unknown.code == 2);
-  CHECK(unknown.error ==
-        "error: --until: found string \"D-3\", expected a requirement of the campaign, "
-        "by its name or its output (did you mean \"D-1\"?)\n");
-  // 13 of 20 runs deploy, which shows nothing of it: another look, or another seed
+  CHECK_THAT(unknown.error,
+             HasFacts({"error: --until: found string \"D-3\"", "did you mean \"D-1\"?"}));
+  // 13 of 20 runs deploy, which does not decide the requirement
   json["requirements"][1]["probability"] = 0.65;
   const std::string close = program.file(json);
   const auto open = program({"run", close, "--out", program.out + "3", "--runs", "20"});
   CHECK(open.code == 1);
-  CHECK_THAT(open.error, Catch::Contains("7 of 20 runs break it, and 3 may: not shown, and not "
-                                         "disproved either\n"
-                                         "note: more runs of the same draws are another look at "
-                                         "them. To decide what is open, state it as --until "
-                                         "\"requirement D-2\" or take another --seed, with a "
-                                         "number of runs fixed beforehand\n"));
+  CHECK_THAT(open.error, HasFacts({"7 of 20 runs", "3", "\nnote: ", "inflates the risk",
+                                   "--until \"requirement D-2\"", "--seed"}));
   const auto longer =
       program({"run", close, "--out", program.out + "3", "--runs", "40", "--resume", "--table"});
-  CHECK_THAT(longer.out, Catch::Contains("· 40 runs ·") && Catch::Contains("· look 2, after 20"));
+  CHECK_THAT(longer.out,
+             Catch::Contains("· 40 runs ·") && Catch::Contains("· interim analysis 2, after 20"));
 }
 
 TEST_CASE("what holds for independent draws is refused with Sobol' points, by its place") {

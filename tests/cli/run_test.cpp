@@ -89,9 +89,9 @@ TEST_CASE("a bad campaign is refused with all of its problems, and nothing is wr
   const auto [code, out, error] = setting.run(setting.out);
   CHECK(code == 2);
   CHECK(out.empty());
-  CHECK(error == "error: " + setting.campaign +
-                     ": /scene/bodies/1/mass: found -1, expected > 0\nerror: " + setting.campaign +
-                     ": /sampling/runs: found 0, expected an integer, ≥ 1\n");
+  CHECK_THAT(error,
+             HasFacts({"error: " + setting.campaign + ": /scene/bodies/1/mass: found -1",
+                       "> 0\nerror: " + setting.campaign + ": /sampling/runs: found 0", "≥ 1\n"}));
   CHECK_FALSE(std::filesystem::exists(setting.out));
 }
 
@@ -101,13 +101,12 @@ TEST_CASE("a folder in use is refused, and one that cannot be made") {
   const auto [code, out, error] = setting.run(setting.out);
   CHECK(code == 2);
   CHECK(out.empty());
-  CHECK(error == "error: " + setting.out +
-                     ": found a folder with files in it, expected a new or an empty folder "
-                     "(--resume continues a campaign)\n");
+  CHECK_THAT(error,
+             HasFacts({"error: " + setting.out + ": found a folder with files in it", "--resume"}));
   const auto below_file = setting.run(setting.campaign + "/r");
   CHECK(below_file.code == 2);
-  CHECK(below_file.error == "error: " + setting.campaign +
-                                "/r: found Not a directory, expected a folder that can be made\n");
+  CHECK_THAT(below_file.error,
+             HasFacts({"error: " + setting.campaign + "/r: found Not a directory"}));
 }
 
 TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
@@ -123,13 +122,12 @@ TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
   for (const auto& [status, share] : summary["status"].items()) sum += share["count"].get<long>();
   CHECK(sum == 30);
   // Φ(−10/6), by scipy 1.10.1
-  CHECK(error == "warning: " + setting.campaign +
-                     ": /dispersions/1: found a probability of 0.0478 that a draw takes below 0 "
-                     "bodies.panel_1.mass, usual is less than 1e-09: a law that ends before "
-                     "(lognormal, or \"truncate\")\nerror: " +
-                     summary["status"]["failed"]["count"].dump() +
-                     " of 30 runs failed numerically; " + setting.out +
-                     "/summary.json has their reasons\n");
+  CHECK_THAT(error, HasFacts({"warning: " + setting.campaign + ": /dispersions/1: found", "0.0478",
+                              "bodies.panel_1.mass", "1e-09", "\"truncate\"",
+                              "\nerror: " + summary["status"]["failed"]["count"].dump() +
+                                  " of 30 runs failed numerically",
+                              setting.out + "/summary.json"}));
+  CHECK(lines_of(error).size() == 2);
 }
 
 TEST_CASE("runs that stall are counted with their reasons, and are no failures") {
@@ -175,8 +173,9 @@ TEST_CASE("an interrupted run keeps what is done, and resuming completes it", "[
     CHECK(summary["runs"] == done);
     CHECK(summary["wingspread"]["partial"] == Json{{"done", done}, {"of", 4000}});
   }
-  CHECK(error == "interrupted: " + std::to_string(done) +
-                     " of 4000 runs are kept; the same command with --resume goes on\n");
+  CHECK_THAT(error, HasFacts({"interrupted: " + std::to_string(done) + " of 4000 runs are kept",
+                              "--resume"}));
+  CHECK(lines_of(error).size() == 1);
   CHECK(parse_json_file(path / timing_file)["interrupted"] == true);
 
   const auto resumed = setting.run(setting.out, {"--resume", "--threads", "2"});

@@ -82,8 +82,7 @@ TEST_CASE("rare says how likely, by which levels, and whether counting would hav
   CHECK(with({"--lanes", "1"}).out == one.out);
   const auto none = with({"--isa", "scalar", "--lanes", "8"});
   CHECK(none.code == 2);
-  CHECK_THAT(none.error, Catch::Contains("--isa scalar --lanes 8: this processor has not got that; "
-                                         "it offers (lanes): scalar (1)"));
+  CHECK_THAT(none.error, HasFacts({"--isa scalar --lanes 8", "processor", "scalar (1)"}));
   const Json found = parse_json(one.out);
   CHECK(found["event"] == "root.latch_time > 6");
   CHECK(found["repeats"].size() == 2);
@@ -147,13 +146,11 @@ TEST_CASE("shards of a design are merged to the folder that one process makes, b
   const auto shard = make("part2", {"--shard", "2/3"}); // the design's rows are cut through
   CHECK(shard.code == 0);
   CHECK(shard.out == at("part2") + "/design.json\n" + at("part2") + "/design_runs.csv\n");
-  CHECK(shard.error ==
-        "note: shard 2/3 of the design's runs: `wingspread merge` puts all shards together\n");
+  CHECK_THAT(shard.error, HasFacts({"note: shard 2/3", "`wingspread merge`"}));
   CHECK(make("part1", {"--shard", "1/3"}).code == 0);
-  CHECK(run_program(folder, {"sensitivity", at("part1")}).error ==
-        "error: " + at("part1") +
-            ": found shard 1/3 of a design, expected all of its runs: `wingspread merge` puts "
-            "shards together\n");
+  CHECK_THAT(
+      run_program(folder, {"sensitivity", at("part1")}).error,
+      HasFacts({"error: " + at("part1") + ": found shard 1/3 of a design", "`wingspread merge`"}));
   const auto missing = run_program(folder, {"merge", at("part2"), at("part1"), "--out", at("out")});
   CHECK(missing.code == 2);
   const std::string command =
@@ -183,8 +180,8 @@ TEST_CASE("shards of a design are merged to the folder that one process makes, b
   CHECK(merged.out == whole.out);
   CHECK(contents(at("out")) == contents(at("whole")));
   CHECK(run_program(folder, {"merge", at("part1"), at("part1"), "--out", at("o2")}).code == 2);
-  CHECK(run_program(folder, {"sensitivity", file, "--shard", "1/2"}).error ==
-        "error: --shard: found no --out, expected the folder for its runs\n");
+  CHECK_THAT(run_program(folder, {"sensitivity", file, "--shard", "1/2"}).error,
+             HasFacts({"error: --shard: found --shard without --out"}));
   CHECK(run_program(folder, {"sensitivity", at("part2") + "/design.json", "--samples", "9"}).code ==
         2);
 }

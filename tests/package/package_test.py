@@ -20,6 +20,8 @@ import unittest
 ROOT = pathlib.Path(__file__).parent.parent.parent
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 PROGRAM = BUILD / "wingspread"
+COMPLETIONS = ROOT / "montecarlo/interfaces/package"
+WITH_PROGRAM = {**os.environ, "PATH": f"{BUILD}:{os.environ['PATH']}"}
 
 
 def output_of(*words, **options):
@@ -50,24 +52,24 @@ class Completions(InFolder):
 
     def bash(self, line):
         words = line.split(" ")
-        script = (f"source <({PROGRAM} completion bash); COMP_WORDS=({' '.join(words) or ''}"
+        script = (f"source {COMPLETIONS}/wingspread.bash; COMP_WORDS=({' '.join(words) or ''}"
                   f"{' ' + chr(39) * 2 if words[-1] == '' else ''}); COMP_CWORD={len(words) - 1}; _wingspread; "
                   "for word in \"${COMPREPLY[@]}\"; do echo \"$word\"; done")
-        return output_of("bash", "--norc", "-c", script, cwd=self.folder).splitlines()
+        return output_of("bash", "--norc", "-c", script, cwd=self.folder, env=WITH_PROGRAM).splitlines()
 
     def fish(self, line):
-        script = f"{PROGRAM} completion fish | source; complete -C '{line}'"
-        home = {**os.environ, "HOME": str(self.folder), "XDG_CONFIG_HOME": str(self.folder / "here")}
+        script = f"source {COMPLETIONS}/wingspread.fish; complete -C '{line}'"
+        home = {**WITH_PROGRAM, "HOME": str(self.folder), "XDG_CONFIG_HOME": str(self.folder / "here")}
         said = output_of("fish", "--no-config", "-c", script, cwd=self.folder, env=home)
         return [candidate.split("\t")[0].rstrip("/") for candidate in said.splitlines()]
 
     def zsh(self, line):
         """What the line becomes when the tabulator key is pressed, in a terminal."""
-        (self.folder / "here/_wingspread").write_text(output_of(PROGRAM, "completion", "zsh"))
+        shutil.copy(COMPLETIONS / "wingspread.zsh", self.folder / "here/_wingspread")
         child, terminal = pty.fork()
         if child == 0:
             os.chdir(self.folder)
-            os.execvpe("zsh", ["zsh", "-f", "-i"], {**os.environ, "TERM": "dumb", "PS1": "", "COLUMNS": "200"})
+            os.execvpe("zsh", ["zsh", "-f", "-i"], {**WITH_PROGRAM, "TERM": "dumb", "PS1": "", "COLUMNS": "200"})
         said = ""
 
         def until(mark, seconds=20):
@@ -119,15 +121,16 @@ class Completions(InFolder):
         self.assertEqual(self.zsh("wingspread simulate --latch e"), "wingspread simulate --latch event")
         self.assertEqual(self.zsh("wingspread run --out he"), "wingspread run --out here/")
 
-    def test_every_option_of_help_is_known_to_every_shell(self):
-        scripts = {shell: output_of(PROGRAM, "completion", shell) for shell in ("bash", "zsh", "fish")}
+    def test_every_option_of_help_is_offered(self):
         for command in commands():
-            for option in re.findall(r"(?m)^  (?:-h,)?--([a-z-]+)", output_of(PROGRAM, command, "--help")):
-                self.assertRegex(scripts["bash"], rf"(?s)  {command}\)\n    options=\"[^\"]*--{option}[ \"]")
-                self.assertRegex(scripts["zsh"], rf"(?s)    {command}\)\n(?:(?!;;).)*--{option}\[")
-                self.assertRegex(scripts["fish"], rf"from {command}'[^\n]* -l {option}[ \n]")
+            options = re.findall(r"(?m)^  (?:-h,)?(--[a-z-]+)", output_of(PROGRAM, command, "--help"))
+            self.assertGreater(len(options), 0)
+            self.assertEqual([each for each in self.bash(f"wingspread {command} -") if each != "-h"], options)
+            if shutil.which("fish"):
+                self.assertEqual(sorted(self.fish(f"wingspread {command} --")), sorted(options))
 
 
+@unittest.skipUnless(shutil.which("help2man"), "no help2man")
 class Pages(InFolder):
     def test_man_reads_every_page_without_a_complaint(self):
         pages = sorted((BUILD / "package/man").iterdir())
@@ -144,17 +147,13 @@ class Pages(InFolder):
     def test_a_page_says_what_help_says(self):
         for command in commands():
             with gzip.open(BUILD / f"package/man/wingspread-{command}.1.gz", "rt", encoding="utf-8") as file:
-                page = file.read().replace("\\-", "-").replace("\\&", "").replace("\\e", "\\")
+                page = re.sub(r"\\f\(CW|\\f.|\\,|\\/", "", file.read().replace("\\-", "-").replace("\\&", ""))
             shown = output_of(PROGRAM, command, "--help")
+            self.assertIn(f"wingspread-{command} - {shown.splitlines()[0]}", page)
             for option in re.findall(r"(?m)^  (?:-h,)?(--[a-z-]+)", shown):
-                self.assertIn(f"\\fB{option}\\fR", page)
-            example = shown.split("Example:\n")[1].rstrip()
-            self.assertIn(example, page)
-
-    def test_a_page_of_no_command_is_refused(self):
-        done = subprocess.run([PROGRAM, "man", "--of", "rnu"], capture_output=True, text=True, check=False)
-        self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("rnu", done.stderr)
+                self.assertIn(option, page)
+            for line in shown.split("Example:\n")[1].strip().splitlines():
+                self.assertIn(line.strip(), page)
 
 
 @unittest.skipUnless(shutil.which("dpkg-deb") and shutil.which("dpkg-shlibdeps"), "no Debian")
@@ -195,7 +194,8 @@ class Packages(unittest.TestCase):
     def test_it_has_what_debian_expects(self):
         names = {line.split()[-1] for line in output_of("dpkg-deb", "--contents",
                                                         self.packages["wingspread"]).splitlines()}
-        for name in ("bin/wingspread", "share/man/man1/wingspread.1.gz", "share/man/man1/wingspread-run.1.gz",
+        pages = ("share/man/man1/wingspread.1.gz", "share/man/man1/wingspread-run.1.gz")
+        for name in (*(pages if shutil.which("help2man") else ()), "bin/wingspread",
                      "share/bash-completion/completions/wingspread", "share/zsh/vendor-completions/_wingspread",
                      "share/fish/vendor_completions.d/wingspread.fish", "share/doc/wingspread/copyright",
                      "share/wingspread/scene.schema.json", "share/wingspread/campaign.schema.json",

@@ -48,7 +48,7 @@ Tally tally_of(const StudyProgress& progress, long before) {
 
 std::string progress_line(const Tally& tally, double seconds) {
   std::string text = bar(share_of(tally));
-  if (tally.looks > 0) text += fmt::format(" look {} of at most {} ·", tally.look, tally.looks);
+  if (tally.looks > 0) text += fmt::format(" analysis {} of at most {} ·", tally.look, tally.looks);
   text += tally.at_most ? fmt::format(" {} of at most {} runs", tally.done, tally.total)
                         : fmt::format(" {}/{} runs", tally.done, tally.total);
   const double rate = static_cast<double>(tally.done - tally.before) / seconds;
@@ -69,8 +69,8 @@ Progress::Progress(std::FILE* stream) : stream_(is_terminal(stream) ? stream : n
 Progress::~Progress() { pause(); }
 
 void Progress::pause() {
-  if (shown_) fmt::print(stream_, "{}", pictured_ ? "\n\n" : "\n");
-  shown_ = pictured_ = false;
+  if (shown_) fmt::print(stream_, "\n");
+  shown_ = false;
 }
 
 double Progress::seconds() const {
@@ -86,10 +86,6 @@ void Progress::show(const Tally& tally) {
   last_ = now;
   shown_ = true;
   fmt::print(stream_, "\r{}\x1b[K", progress_line(tally, seconds())); // \x1b[K: clear what is left
-  if (!tally.picture.empty()) {
-    fmt::print(stream_, "\n{}\x1b[K\x1b[A", tally.picture); // \x1b[A: up again
-    pictured_ = true;
-  }
   std::fflush(stream_);
 }
 

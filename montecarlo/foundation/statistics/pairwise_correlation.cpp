@@ -1,6 +1,6 @@
 #include "montecarlo/foundation/statistics/pairwise_correlation.hpp"
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <algorithm>
@@ -105,7 +105,7 @@ std::vector<KeptColumn> keep_columns(std::span<const RankedColumn> columns,
   constexpr double operations = 8; // of a row: two standards, and what is kept
   const double all =
       operations * static_cast<double>(which.size() * columns.front().values().size());
-  for_each_task(team_within(team_for(threads, all), bytes), which.size(),
+  for_each_task(threads_within_memory(threads_worth(threads, all), bytes), which.size(),
                 [&](std::size_t i) { kept[i].emplace(columns[which[i]], keep); });
   std::vector<KeptColumn> result;
   for (auto& column : kept) result.push_back(std::move(*column));
@@ -189,7 +189,7 @@ Correlation correlation_of(const KeptColumn& x, const KeptColumn& y, const Produ
 /// By x and then y.
 std::vector<Correlation> correlate(const ColumnGroup& group, int threads) {
   const std::size_t pairs = group.x.size() * group.y.size();
-  const int team = team_for(threads, 2 * static_cast<double>(pairs * group.x.front().size()));
+  const int team = threads_worth(threads, 2 * static_cast<double>(pairs * group.x.front().size()));
   const auto parts = std::min<std::size_t>(pairs, static_cast<std::size_t>(team));
   std::vector<Correlation> result(pairs);
   for_each_task(team, parts, [&](std::size_t part) {

@@ -48,11 +48,23 @@ struct Moments {
 /// Cost O(n). Source: D. N. Joanes, C. A. Gill, The Statistician 47 (1998) 183–189.
 [[nodiscard]] Moments moments(std::span<const double> values);
 
+/// Sets skewness and kurtosis from central moments m_2 > 0, m_3, m_4 in any one unit. @pre the count is set
+void set_shape(double m2, double m3, double m4, Moments& moments);
+
 /// Whether not all values are the same.
 [[nodiscard]] bool varies(std::span<const double> values);
 
 /// The values that are not NaN, smallest first. Cost O(n log n).
 [[nodiscard]] std::vector<double> sorted_present(std::span<const double> values);
+
+/// Sorts in place, smallest first, −0 before 0. Cost O(n log n): 25 ms for 10⁶ normal values, where std::sort takes 100 to
+/// 130 ms, 5 s of a campaign of 10⁶ runs with 50 columns. @pre no NaN
+void sort_values(std::span<double> values);
+
+/// Cost of sorting n values and of using each once, in the operations of team.hpp.
+[[nodiscard]] constexpr double sorting_operations(std::size_t items) {
+  return 16 * static_cast<double>(items);
+}
 
 /// ⌈np⌉, at least 1: the rank of the sample quantile. An np that round-off alone keeps from a whole
 /// number counts as that number (100 · 0.07 is 7).

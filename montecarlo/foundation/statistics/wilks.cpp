@@ -77,11 +77,14 @@ std::optional<long> runs_for_width(double width, double confidence, double propo
   return least_runs(0, [&](long n) { return expected_width(n, confidence, proportion) <= width; });
 }
 
-Bounds tolerance_limits(std::span<const double> sorted, Side side, double p, double c) {
-  const long n = std::ssize(sorted);
+long tolerance_order(long n, Side side, double p, double c) {
   const auto allowed = allowed_failures(n, p, c);
-  if (!allowed) return {};
-  const long order = side == Side::both ? (*allowed + 1) / 2 : *allowed + 1;
+  if (!allowed) return 0;
+  return side == Side::both ? (*allowed + 1) / 2 : *allowed + 1;
+}
+
+Bounds tolerance_limits(std::span<const double> sorted, Side side, double p, double c) {
+  const long n = std::ssize(sorted), order = tolerance_order(n, side, p, c);
   if (order == 0) return {};
   const auto finite = [&](long index) {
     const double value = sorted[static_cast<std::size_t>(index)];

@@ -46,6 +46,9 @@ inline constexpr long most_runs_sized = 1'000'000'000'000;
 [[nodiscard]] std::optional<long> runs_for_width(double width, double confidence,
                                                  double proportion);
 
+/// The order r of the tolerance limits of n values; 0 if n is too small for any.
+[[nodiscard]] long tolerance_order(long n, Side side, double p, double c);
+
 /// The tolerance limits of n values: the narrowest that (1) allows, so that a share p of all that
 /// could be drawn lies within them with confidence c. Two-sided ones leave out the same number on
 /// either side. None where n is too small, or where the limit falls on an infinite value.

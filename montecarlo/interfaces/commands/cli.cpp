@@ -22,17 +22,23 @@
 namespace wingspread {
 namespace {
 
+constexpr const char* description =
+    "Wingspread: Monte Carlo simulation of the deployment of spacecraft solar wings.\n"
+    "Shows how far a deployment may differ from the drawing, and whether it meets its "
+    "requirements.";
+
 constexpr const char* footer = R"(Example:
   wingspread check campaign.json
   wingspread run campaign.json --out results/first
   wingspread replay results/first --run 17
 
 Exit codes: 0 done, requirements met; 1 done, a requirement is not shown to be met; 2 bad input,
-nothing was done; 3 some runs failed numerically; 4 the machine refused (no room, memory or
-permission), what is done is kept; 130 interrupted, what is done is kept (run again with --resume).)";
+nothing was done; 3 some runs failed numerically; 4 the machine refused (no disk space, memory or
+permission), finished runs are kept; 130 interrupted, finished runs are kept (continue with
+--resume).)";
 
-/// Every line of the message, marked as an error. @return the code
-int refuse(std::string_view message, int code = exit_code::bad_input) {
+/// Prints every line of the message as an error. @return the code
+int print_error(std::string_view message, int code = exit_code::bad_input) {
   const std::string shown = printable(message);
   message = shown;
   while (!message.empty()) {
@@ -43,9 +49,9 @@ int refuse(std::string_view message, int code = exit_code::bad_input) {
   return code;
 }
 
-/// Where the program was started without one of its three standard files, a file of results could get its number,
-/// and be printed into. What is opened in its place can be neither read nor written.
-void hold_standard_files() {
+/// Opens missing standard files. Without that a file of results could get the number of standard output and be printed
+/// into. The placeholder can be neither read nor written.
+void open_standard_files() {
   while (true) {
     const int file = open("/dev/null", O_PATH | O_CLOEXEC);
     if (file > STDERR_FILENO) close(file);
@@ -53,16 +59,16 @@ void hold_standard_files() {
   }
 }
 
-/// The exit status, unless what was printed did not get out.
-int after_output(int code) {
+/// Flushes standard output. @return the code, or machine_refused when that fails
+int flush_output(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   const std::string why = std::generic_category().message(errno);
-  return refuse("standard output: found " + why + ", expected room for what is printed",
-                exit_code::machine_refused);
+  return print_error("standard output: found " + why + ", expected room for the output",
+                     exit_code::machine_refused);
 }
 
-/// The command that was named, for "see wingspread run --help".
-std::string command_named(const CLI::App& app) {
+/// "wingspread run": the command that --help is asked of.
+std::string name_of_command(const CLI::App& app) {
   std::string named = app.get_name();
   for (const CLI::App* command : app.get_subcommands()) named += ' ' + command->get_name();
   return named;
@@ -70,47 +76,34 @@ std::string command_named(const CLI::App& app) {
 
 } // namespace
 
-int carry_out(const Action& action) {
+int run_action(const Action& action) {
   try {
     return action();
   } catch (const MachineError& error) {
-    return refuse(error.what(), exit_code::machine_refused);
+    return print_error(error.what(), exit_code::machine_refused);
   } catch (const std::system_error& error) { // of standard output, of threads
-    return refuse(error.what(), exit_code::machine_refused);
+    return print_error(error.what(), exit_code::machine_refused);
   } catch (const std::bad_alloc&) {
-    return refuse("found no memory left, expected more of it", exit_code::machine_refused);
+    return print_error("found no memory left, expected more memory", exit_code::machine_refused);
   } catch (const std::exception& error) {
-    return refuse(error.what());
+    return print_error(error.what());
   }
 }
 
 std::span<const Command> all_commands() {
-  static constexpr Command all[] = {{"run", add_run},
-                                    {"simulate", add_simulate},
-                                    {"replay", add_replay},
-                                    {"check", add_check},
-                                    {"sample", add_sample},
-                                    {"analyze", add_analyze},
-                                    {"merge", add_merge},
-                                    {"size", add_size},
-                                    {"sensitivity", add_sensitivity},
-                                    {"rare", add_rare},
-                                    {"margin", add_margin},
-                                    {"report", add_report},
-                                    {"export", add_export},
-                                    {"methods", add_methods},
-                                    {"schema", add_schema},
-                                    {"version", add_version},
-                                    {"completion", add_completion},
-                                    {"man", add_man}};
+  static constexpr Command all[] = {
+      {"run", add_run},        {"simulate", add_simulate}, {"replay", add_replay},
+      {"check", add_check},    {"sample", add_sample},     {"analyze", add_analyze},
+      {"merge", add_merge},    {"size", add_size},         {"sensitivity", add_sensitivity},
+      {"rare", add_rare},      {"margin", add_margin},     {"report", add_report},
+      {"export", add_export},  {"methods", add_methods},   {"schema", add_schema},
+      {"version", add_version}};
   return all;
 }
 
-Understood understand(int argc, const char* const* argv, std::span<const Command> commands) {
-  CLI::App app(
-      "Wingspread: how far the deployment of a spacecraft's solar wing may stray from the "
-      "drawing.\nA Monte Carlo campaign over what varies in it, one run at a time or many.",
-      "wingspread");
+ParsedArguments parse_arguments(int argc, const char* const* argv,
+                                std::span<const Command> commands) {
+  CLI::App app(description, "wingspread");
   app.footer(footer);
   app.set_version_flag("--version", version_text());
   Action action;
@@ -120,18 +113,19 @@ Understood understand(int argc, const char* const* argv, std::span<const Command
   } catch (const CLI::Success& asked) { // --help, --version
     return {{}, app.exit(asked)};
   } catch (const CLI::ParseError& error) {
-    return {{}, refuse(fmt::format("{}\nsee {} --help", error.what(), command_named(app)))};
+    return {{}, print_error(fmt::format("{}\nsee {} --help", error.what(), name_of_command(app)))};
   }
-  if (!action) return {{}, refuse("no command is given\nsee wingspread --help")};
+  if (!action) return {{}, print_error("no command is given\nsee wingspread --help")};
   return {action};
 }
 
 int command_line(int argc, const char* const* argv) {
-  hold_standard_files();
-  // a file that may grow no more (ulimit -f, which some clusters set) is then an error like a full disk, and no silent end
+  open_standard_files();
+  // With ulimit -f, which some clusters set, a file that is too long raises this signal, which ends the program without a
+  // message. Ignored, it is an error like a full disk.
   (void)std::signal(SIGXFSZ, SIG_IGN);
-  const Understood understood = understand(argc, argv);
-  return after_output(understood.action ? carry_out(understood.action) : understood.code);
+  const ParsedArguments parsed = parse_arguments(argc, argv);
+  return flush_output(parsed.action ? run_action(parsed.action) : parsed.code);
 }
 
 } // namespace wingspread

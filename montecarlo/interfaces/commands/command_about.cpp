@@ -1,18 +1,54 @@
 #include "montecarlo/foundation/formats/json.hpp"
-#include "montecarlo/interfaces/commands/commands.hpp"
+#include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/model/schema/schema.hpp"
 #include "montecarlo/report/text/method_list.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <memory>
 
 namespace wingspread {
 namespace {
 
-int list_methods(bool json) {
-  fmt::print("{}", json ? json_text(methods_json(methods())) : methods_text(methods()));
+struct MethodsOptions {
+  bool json = false;
+};
+
+int list_methods(const MethodsOptions& options) {
+  fmt::print("{}", options.json ? json_text(methods_json(methods())) : methods_text(methods()));
+  return exit_code::done;
+}
+
+void add_methods_options(CLI::App& command, MethodsOptions& options) {
+  command.add_flag("--json", options.json, "Print JSON, not text");
+  command.footer("Example:\n  wingspread methods");
+}
+
+struct SchemaOptions {
+  std::string of;
+};
+
+int print_schema(const SchemaOptions& options) {
+  const bool scene = options.of == "scene";
+  fmt::print("{}", json_text((scene ? scene_schema() : campaign_schema()).schema));
+  return exit_code::done;
+}
+
+void add_schema_options(CLI::App& command, SchemaOptions& options) {
+  command.add_option("of", options.of, "scene or campaign")
+      ->required()
+      ->check(CLI::IsMember({"scene", "campaign"}));
+  command.footer(
+      R"(An editor with this schema completes keys, describes them, and marks unknown keys and wrong types.
+`wingspread check` also checks values against each other.
+
+Example:
+  wingspread schema scene > scene.schema.json)");
+}
+
+struct NoOptions {};
+
+int print_version(const NoOptions& /*options*/) {
+  fmt::print("{}\n", version_text());
   return exit_code::done;
 }
 
@@ -21,23 +57,23 @@ int list_methods(bool json) {
 std::string version_text() { return fmt::format("wingspread {}", version()); }
 
 void add_methods(CLI::App& app, Action& action) {
-  const auto json = std::make_shared<bool>(false);
-  CLI::App* command =
-      app.add_subcommand("methods", "The integration methods, and what they can do");
-  command->add_flag("--json", *json, "Print them as JSON");
-  command->footer("Example:\n  wingspread methods");
-  command->callback([json, &action] { action = [json] { return list_methods(*json); }; });
+  add_command<MethodsOptions>(app, action, "methods",
+                              "List the integration methods and their properties",
+                              add_methods_options, list_methods);
+}
+
+void add_schema(CLI::App& app, Action& action) {
+  add_command<SchemaOptions>(app, action, "schema",
+                             "Print the JSON Schema of scenes or campaigns, for editors",
+                             add_schema_options, print_schema);
 }
 
 void add_version(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("version", "The program's version");
-  command->footer("Example:\n  wingspread version");
-  command->callback([&action] {
-    action = [] {
-      fmt::print("{}\n", version_text());
-      return exit_code::done;
-    };
-  });
+  const auto add_options = [](CLI::App& command, NoOptions&) {
+    command.footer("Example:\n  wingspread version");
+  };
+  add_command<NoOptions>(app, action, "version", "Print the program's version", add_options,
+                         print_version);
 }
 
 } // namespace wingspread

@@ -1,15 +1,13 @@
-#include "montecarlo/interfaces/commands/commands.hpp"
+#include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
 #include "montecarlo/model/input_checks/examine.hpp"
 #include "montecarlo/model/input_checks/placement.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <variant>
 #include <vector>
 
@@ -31,7 +29,7 @@ std::variant<Scene, Campaign> read_changed(const CheckOptions& options) {
   return read;
 }
 
-/// What it holds, and where its bodies are.
+/// Describes the scene or the campaign, and where its bodies are.
 std::string text_of(const Scene& scene) { return describe(scene) + describe_placement(scene); }
 std::string text_of(const Campaign& campaign) {
   return describe(campaign) + describe_placement(campaign.scene);
@@ -45,30 +43,32 @@ std::vector<Notice> examine_file(const std::variant<Scene, Campaign>& read,
 
 int check(const CheckOptions& options) {
   const std::variant<Scene, Campaign> read = read_changed(options);
-  const std::vector<Notice> notices = examine_file(read, options.file);
-  if (options.strict) heed(notices, true);
+  const std::vector<Notice> warnings = examine_file(read, options.file);
+  if (options.strict) print_warnings(warnings, true);
   fmt::print("{}", std::visit([](const auto& spec) { return text_of(spec); }, read));
-  heed(notices, false); // last, where it is seen
+  print_warnings(warnings, false); // last, where the user sees them
   return exit_code::done;
+}
+
+void add_check_options(CLI::App& command, CheckOptions& options) {
+  command.add_option("file", options.file, "The scene or campaign, a JSON file")->required();
+  add_strict_option(command, options.strict);
+  add_set_option(command, options.set);
+  command.footer(
+      R"(Reports all errors together, each with its place in the file; the exit code is then 2. Warnings on
+standard error name input that can be run but looks wrong: angles in degrees, springs that push
+away from their latch, bodies in the same place, laws that change a sign, and the like.
+
+Example:
+  wingspread check campaign.json)");
 }
 
 } // namespace
 
 void add_check(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = app.add_subcommand(
-      "check", "Validate a scene or a campaign; say what it holds, and what looks wrong");
-  command->add_option("file", options->file, "The scene or campaign, a JSON file")->required();
-  add_strict_option(*command, options->strict);
-  add_set_option(*command, options->set);
-  command->footer(
-      R"(All problems are reported together, each with its place; the exit code is then 2. What can be
-run but looks wrong is warned of on standard error: angles in degrees, springs that push away from
-their latch, bodies in each other's place, laws that turn a sign, and the like.
-
-Example:
-  wingspread check campaign.json)");
-  command->callback([options, &action] { action = [options] { return check(*options); }; });
+  add_command<CheckOptions>(app, action, "check",
+                            "Validate and describe a scene or a campaign; warn of what looks wrong",
+                            add_check_options, check);
 }
 
 } // namespace wingspread

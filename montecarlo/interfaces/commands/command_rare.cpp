@@ -1,19 +1,17 @@
 #include "montecarlo/analyses/rare/rare_report.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
-#include "montecarlo/interfaces/commands/commands.hpp"
+#include "montecarlo/interfaces/commands/command_setup.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/checkpoint/logged_evaluator.hpp"
+#include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,11 +30,12 @@ struct RareCommandOptions {
   std::optional<std::uint64_t> seed;
   std::optional<double> confidence;
   RareOptions rare;
-  CrewOptions crew;
+  MachineOptions machine;
   bool resume = false, json = false;
 };
 
-/// @throws SpecError unless there is an output with one finite limit, or neither
+/// The event whose probability is asked for.
+/// @throws SpecError unless the options name an output with one finite limit, or neither
 RareEvent event_of(const RareCommandOptions& options) {
   const int limits = int(options.above.has_value()) + int(options.below.has_value());
   const double limit = options.above.value_or(options.below.value_or(0));
@@ -44,8 +43,8 @@ RareEvent event_of(const RareCommandOptions& options) {
     throw SpecError({{"", "--output",
                       fmt::format("{} with {} limits",
                                   options.output.empty() ? "none" : options.output, limits),
-                      "an output with --above or --below and a finite limit, or none of them for "
-                      "the wing not to deploy"}});
+                      "an output with either --above or --below and a finite limit; or none of the "
+                      "three, and the event is that the wing does not deploy"}});
   return {options.output, limit, options.above.has_value()};
 }
 
@@ -53,25 +52,26 @@ std::string refuse_odd_samples(const std::string& text) {
   return text.ends_with('0') ? "" : fmt::format("found {}, expected a multiple of 10", text);
 }
 
-int warn_of_failures(const RareResult& result) {
+/// Warns of invalid and failed runs. @return the exit status
+int report_broken_runs(const RareResult& result) {
   const long invalid = result.statuses[static_cast<std::size_t>(Status::invalid)];
   const long failed = result.statuses[static_cast<std::size_t>(Status::failed)];
   if (invalid > 0)
-    fmt::print(stderr, "warning: {} of {} runs had an unphysical draw, and count as the event\n",
+    fmt::print(stderr, "warning: {} of {} runs have an unphysical draw and count as the event\n",
                invalid, result.estimate.evaluations);
   return report_failed(failed, result.estimate.evaluations, ", and count as the event");
 }
 
 void warn_if_doubtful(const RareResult& result) {
   if (std::ranges::any_of(result.estimates, &SubsetEstimate::stuck))
-    fmt::print(stderr, "warning: some levels had runs that are all as far from the event as each "
-                       "other, so the way to it was not found\n");
+    fmt::print(stderr, "warning: at some levels all runs are equally far from the event, so the "
+                       "simulation could not approach it\n");
   if (result.estimate.from_spread > 2 * result.estimate.from_chains)
-    fmt::print(stderr, "warning: the repeats differ by more than their chains account for: take "
+    fmt::print(stderr, "warning: the repeats scatter more than their Markov chains explain: use "
                        "more --samples\n");
 }
 
-/// Whose study it is.
+/// Identifies the study: a folder with other values is refused.
 Json about_study(const RareOptions& options, const Campaign& campaign) {
   return {{stamp_key, stamp_json(stamp_of(campaign, {}))},
           {"event", describe(options.event)},
@@ -80,42 +80,36 @@ Json about_study(const RareOptions& options, const Campaign& campaign) {
           {"repeats", options.repeats}};
 }
 
-/// Its folder, where there is one.
+/// Opens the study's folder. @return null without --out
 std::unique_ptr<StudyFolder> open_folder(const RareCommandOptions& given,
                                          const RareOptions& options, const Campaign& campaign) {
   if (given.resume && given.out.empty())
-    throw SpecError({{"", "--resume", "no --out", "the folder to go on with"}});
+    throw SpecError(
+        {{"", "--resume", "--resume without --out", "the folder to continue in --out"}});
   if (given.out.empty()) return nullptr;
   return std::make_unique<StudyFolder>(given.out, about_study(options, campaign), rare_json_file,
                                        given.resume);
 }
 
-/// What there is to say of a study that was finished before.
-int conclude_finished_rare(const Json& study) {
+/// Reports failed runs of a study that an earlier session finished. @return the exit status
+int report_finished_rare(const Json& study) {
   return report_failed(study["statuses"].value("failed", 0L), study.value("runs", 0L),
                        ", and count as the event");
 }
 
+/// Keeps the checkpoint of an interrupted study. @return the exit status
 int keep_unfinished(StudyFolder* folder) {
   if (folder) folder->log().sync();
   fmt::print(stderr, "interrupted: {}\n",
-             folder ? fmt::format("{} runs are kept; the same command with --resume goes on",
+             folder ? fmt::format("{} runs are kept; the same command with --resume continues",
                                   folder->log().rows())
                     : "nothing is kept without --out");
   return exit_code::interrupted;
 }
 
-/// What the options make of the campaign's own.
-double confidence_of(const RareCommandOptions& given, StatisticsSpec spec) {
-  Json settings = Json::object();
-  if (given.confidence) settings["confidence"] = *given.confidence;
-  override_settings(settings, [&](const JsonCursor& at) { read_statistics(at, spec); });
-  return spec.confidence;
-}
-
-/// Says what it came to, and finishes its folder.
-int conclude(const RareResult& result, const RareOptions& options, const Campaign& campaign,
-             const RareCommandOptions& given, StudyFolder* folder) {
+/// Prints the result and completes the folder. @return the exit status
+int write_result(const RareResult& result, const RareOptions& options, const Campaign& campaign,
+                 const RareCommandOptions& given, StudyFolder* folder) {
   const Json about = stamp_json(stamp_of(campaign, {}));
   const std::string json = json_text(rare_json(result, options, campaign, about));
   if (folder) {
@@ -125,7 +119,7 @@ int conclude(const RareResult& result, const RareOptions& options, const Campaig
   }
   fmt::print("{}", given.json ? json : rare_text(result, options, campaign));
   warn_if_doubtful(result);
-  return warn_of_failures(result);
+  return report_broken_runs(result);
 }
 
 int rare(const RareCommandOptions& given) {
@@ -133,14 +127,13 @@ int rare(const RareCommandOptions& given) {
   options.event = event_of(given);
   Campaign campaign = chosen_case(read_campaign_file(given.campaign), given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
-  settle_tolerance(campaign, crew_of(given.crew));
-  options.confidence = confidence_of(given, campaign.statistics);
+  options.confidence = confidence_of(given.confidence, campaign.statistics);
   const auto folder = open_folder(given, options, campaign);
   if (folder && folder->is_finished())
-    return conclude_finished_rare(show_finished(given.out / rare_json_file, given.json));
+    return report_finished_rare(show_finished(given.out / rare_json_file, given.json));
   const Interrupt interrupt;
-  const auto maker = evaluator_of(crew_of(given.crew), interrupt.flag());
-  std::optional<LoggedEvaluator> logged;
+  const auto maker = evaluator_of(pool_of(given.machine), interrupt.flag());
+  std::optional<CheckpointedEvaluator> logged;
   if (folder) logged.emplace(*maker, folder->log(), interrupt.flag());
   Evaluator& evaluator = logged ? *logged : *maker;
   Progress progress(stderr);
@@ -149,61 +142,65 @@ int rare(const RareCommandOptions& given) {
       progress.show(tally_of(so_far, folder ? folder->log().read() : 0));
     };
     const RareResult result = estimate_rare_event(campaign, options, evaluator, show);
-    return conclude(result, options, campaign, given, folder.get());
+    return write_result(result, options, campaign, given, folder.get());
   } catch (const Stopped&) {
     return keep_unfinished(folder.get());
   }
 }
 
-} // namespace
-
-void add_rare(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<RareCommandOptions>();
-  CLI::App* command = app.add_subcommand(
-      "rare", "Probabilities too small to count: not deployed, or an output beyond a limit");
-  command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
+void add_rare_options(CLI::App& command, RareCommandOptions& options) {
+  command.add_option("campaign", options.campaign, "The campaign, a JSON file")->required();
   command
-      ->add_option("--output", options->output,
-                   "The output with a limit; not to be deployed if left out")
+      .add_option("--output", options.output,
+                  "The output with a limit; default: the event is not deployed")
       ->type_name("NAME");
-  command->add_option("--above", options->above, "The event: a value above this")->type_name("X");
-  command->add_option("--below", options->below, "The event: a value below this")->type_name("X");
+  command.add_option("--above", options.above, "The event: a value above this limit, in SI units")
+      ->type_name("X");
+  command.add_option("--below", options.below, "The event: a value below this limit, in SI units")
+      ->type_name("X");
   command
-      ->add_option("--samples", options->rare.samples,
-                   "Runs of a level, a multiple of 10; 2000 if left out")
+      .add_option("--samples", options.rare.samples,
+                  "Runs of a level, a multiple of 10; default: 2000")
       ->check(CLI::Range(100L, most_samples).description(""))
       ->check(refuse_odd_samples)
       ->type_name("N");
-  command->add_option("--repeats", options->rare.repeats, "Independent ones; 5 if left out")
+  command
+      .add_option("--repeats", options.rare.repeats, "Number of independent repeats; default: 5")
       ->check(CLI::Range(1L, most_repeats).description(""))
       ->type_name("R");
-  command->add_option("--out", options->out,
-                      "A folder for rare.json, which `report` draws: new, or empty");
-  command->add_flag("--resume", options->resume,
-                    "Go on where an earlier one with the same --out stopped");
-  add_seed_option(*command, options->seed);
-  add_case_option(*command, options->of_case);
-  command->add_option("--confidence", options->confidence, "Of the bounds, e.g. 0.99");
-  add_crew_options(*command, options->crew);
-  command->add_flag("--json", options->json, "Print JSON in place of text");
-  command->footer(
-      R"(Subset simulation: runs that came nearest to the event are the start of chains that go nearer
-still, level by level, each a tenth as likely as the one before. It takes some ten thousand runs for
-one in a million. The variation is the estimate's standard deviation as a share of it; the repeats
-are independent, and show it too. On average it is too large by 0.4 of a repeat's squared variation,
-which more --samples reduce and more --repeats do not. Draws are independent ones, whatever the
-campaign's design. Where no way led to the event, what is printed is the estimated probability of
-the last level: more than the event's, but no proof of it.
+  command.add_option("--out", options.out,
+                     "A folder for rare.json, which `report` draws: new or empty");
+  command.add_flag("--resume", options.resume, "Continue an interrupted study in --out");
+  add_seed_option(command, options.seed);
+  add_case_option(command, options.of_case);
+  add_confidence_option(command, options.confidence);
+  add_machine_options(command, options.machine);
+  command.add_flag("--json", options.json, "Print JSON, not text");
+  command.footer(
+      R"(Estimates probabilities that are too small to count runs, by subset simulation: the runs nearest to
+the event start Markov chains that come nearer, level by level; each level is a tenth as likely as
+the one before. A probability of one in a million takes some ten thousand runs.
+  The coefficient of variation is the estimate's standard deviation as a share of the estimate; the
+independent repeats show it too. The estimate is biased high by 0.4 of one repeat's squared
+coefficient of variation: more --samples reduce the bias, more --repeats do not. Draws are
+independent, whatever the campaign's design. If the simulation does not reach the event, it prints
+the estimated probability of the last level: an estimated upper bound, not guaranteed.
+  A run without the output (it stalled before, or failed) counts as the event.
 
-A run that has no such output (it stalled before, or failed) counts as the event.
-
-With --out all runs so far are in the folder's looks.log until it is finished: after an
-interruption, a crash or a kill the same command with --resume goes on to the same bytes.
+With --out the folder has looks.log, a checkpoint of all runs, until the study is finished: after an
+interruption, a crash or a kill the same command with --resume gives the same bytes.
 
 Example:
   wingspread rare campaign.json
   wingspread rare campaign.json --output root.peak_moment --above 400 --samples 4000 --out rare)");
-  command->callback([options, &action] { action = [options] { return rare(*options); }; });
+}
+
+} // namespace
+
+void add_rare(CLI::App& app, Action& action) {
+  add_command<RareCommandOptions>(app, action, "rare",
+                                  "Estimate small probabilities: not deployed, or a limit exceeded",
+                                  add_rare_options, rare);
 }
 
 } // namespace wingspread

@@ -1,17 +1,15 @@
 #include "montecarlo/engine/runs/run_plan.hpp"
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
-#include "montecarlo/interfaces/commands/commands.hpp"
+#include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/interfaces/commands/output_file.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
-#include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <functional>
-#include <memory>
 
 namespace wingspread {
 namespace {
@@ -22,7 +20,7 @@ struct SampleOptions {
   SamplingOptions sampling;
 };
 
-/// `run`, then a column for each draw; the lines go to the sink in blocks.
+/// Writes CSV with the columns `run` and one for each dispersion, in blocks, to the sink.
 void write_draws(const RunPlan& plan, const std::function<void(std::string_view)>& sink) {
   constexpr std::size_t block_bytes = 1 << 16;
   std::string block = "run";
@@ -57,20 +55,22 @@ int sample(const SampleOptions& options) {
   return exit_code::done;
 }
 
-} // namespace
-
-void add_sample(CLI::App& app, Action& action) {
-  const auto options = std::make_shared<SampleOptions>();
-  CLI::App* command = app.add_subcommand("sample", "The draws of a campaign alone, as CSV");
-  command->add_option("campaign", options->campaign, "The campaign, a JSON file")->required();
-  add_sampling_options(*command, options->sampling);
-  add_case_option(*command, options->of_case);
-  command->add_option("--out", options->out, "Write to this file, not to standard output");
-  command->footer(R"(They are the draws that `run` applies, to the last bit.
+void add_sample_options(CLI::App& command, SampleOptions& options) {
+  command.add_option("campaign", options.campaign, "The campaign, a JSON file")->required();
+  add_sampling_options(command, options.sampling);
+  add_case_option(command, options.of_case);
+  command.add_option("--out", options.out, "Write to this file; default: standard output");
+  command.footer(R"(These are the draws that `run` uses, to the last bit.
 
 Example:
   wingspread sample campaign.json --runs 100 > draws.csv)");
-  command->callback([options, &action] { action = [options] { return sample(*options); }; });
+}
+
+} // namespace
+
+void add_sample(CLI::App& app, Action& action) {
+  add_command<SampleOptions>(app, action, "sample", "Print a campaign's draws as CSV",
+                             add_sample_options, sample);
 }
 
 } // namespace wingspread

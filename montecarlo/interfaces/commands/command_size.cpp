@@ -1,12 +1,10 @@
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/foundation/statistics/wilks.hpp"
-#include "montecarlo/interfaces/commands/commands.hpp"
+#include "montecarlo/interfaces/commands/command_setup.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <memory>
 #include <optional>
 
 namespace wingspread {
@@ -23,7 +21,7 @@ SpecError too_many(const char* expected) {
   return SpecError({{"", "", fmt::format("more than {} runs", most_runs_sized), expected}});
 }
 
-/// Runs that may break it, of those that leave out `order` values on one side or on both.
+/// How many runs may break the requirement: order − 1 for one-sided limits, 2·order − 1 for two-sided.
 long failures_of(const SizeOptions& options) {
   if (options.failures) return *options.failures;
   const long order = options.order.value_or(1);
@@ -35,25 +33,26 @@ struct Answer {
   std::string text;
 };
 
-/// How many runs show P ≥ p.
+/// The number of runs that shows P ≥ p.
 Answer runs_needed(const SizeOptions& options) {
   const double p = *options.probability, c = options.confidence;
   const long k = failures_of(options);
   const auto runs = runs_to_show(p, c, k);
   if (!runs) throw too_many("a probability and an order that fewer can show");
   const long order = options.two_sided ? (k + 1) / 2 : k + 1;
-  return {{{"probability", p},
-           {"confidence", c},
-           {"order", order},
-           {"two_sided", options.two_sided},
-           {"failures", k},
-           {"runs", *runs}},
-          fmt::format("{} runs show a probability of {} with confidence {}: {} may break the "
-                      "requirement\n({}-sided tolerance limits of order {})\n",
-                      *runs, p, c, k, options.two_sided ? "two" : "one", order)};
+  return {
+      {{"probability", p},
+       {"confidence", c},
+       {"order", order},
+       {"two_sided", options.two_sided},
+       {"failures", k},
+       {"runs", *runs}},
+      fmt::format("{} runs show a probability of {} with confidence {}: {} of them may break the "
+                  "requirement\n({}-sided tolerance limits of order {})\n",
+                  *runs, p, c, k, options.two_sided ? "two" : "one", order)};
 }
 
-/// How many of so many runs may fail.
+/// How many of --runs may break the requirement.
 Answer failures_allowed(const SizeOptions& options) {
   const double p = *options.probability, c = options.confidence;
   const auto allowed = allowed_failures(*options.runs, p, c);
@@ -68,13 +67,13 @@ Answer failures_allowed(const SizeOptions& options) {
                               "confidence {}\n",
                               *allowed, *options.runs, p, c)};
   return {json, fmt::format("{} runs cannot show a probability of {} with confidence {}, even if "
-                            "none breaks the requirement: it takes {}\n",
+                            "none breaks the requirement: that takes {}\n",
                             *options.runs, p, c,
                             least ? std::to_string(*least)
                                   : fmt::format("more than {}", most_runs_sized))};
 }
 
-/// How many runs make a share known to within a width.
+/// The number of runs that bounds a share to within --width.
 Answer runs_for_share(const SizeOptions& options) {
   const double width = *options.width, proportion = options.proportion.value_or(0.5);
   const auto runs = runs_for_width(width, options.confidence, proportion);
@@ -112,35 +111,46 @@ CLI::Validator between(double lower, double upper, bool inclusive) {
 CLI::Validator from(long least) { return CLI::Range(least, most_runs_sized).description(""); }
 
 void add_questions(CLI::App& command, SizeOptions& options) {
-  auto* probability =
-      command.add_option("--probability", options.probability, "That is to be shown, e.g. 0.9973")
-          ->check(between(0, 1, false));
-  command.add_option("--confidence", options.confidence, "One-sided, or of --width's interval")
+  auto* probability = command
+                          .add_option("--probability", options.probability,
+                                      "The probability to be shown, e.g. 0.9973")
+                          ->check(between(0, 1, false));
+  command
+      .add_option("--confidence", options.confidence,
+                  "The confidence: one-sided, or of the interval of --width")
       ->required()
       ->check(between(0, 1, false));
-  auto* order = command
-                    .add_option("--order", options.order,
-                                "Of the tolerance limit: 1 for the largest value, 2 for the next")
-                    ->check(from(1))
-                    ->needs(probability);
-  auto* two_sided = command.add_flag("--two-sided", options.two_sided, "Limits on either side")
-                        ->needs(probability);
-  auto* failures =
-      command.add_option("--failures", options.failures, "Runs that may break it: order - 1")
-          ->check(from(0))
-          ->needs(probability)
-          ->excludes(order)
-          ->excludes(two_sided);
-  command.add_option("--runs", options.runs, "Ask how many of so many may break it")
+  auto* order =
+      command
+          .add_option("--order", options.order,
+                      "Order of the tolerance limit: 1 for the largest value, 2 for the next")
+          ->check(from(1))
+          ->needs(probability);
+  auto* two_sided =
+      command.add_flag("--two-sided", options.two_sided, "Tolerance limits on both sides")
+          ->needs(probability);
+  auto* failures = command
+                       .add_option("--failures", options.failures,
+                                   "Runs that may break the requirement; default: order - 1")
+                       ->check(from(0))
+                       ->needs(probability)
+                       ->excludes(order)
+                       ->excludes(two_sided);
+  command
+      .add_option("--runs", options.runs,
+                  "Ask how many of this number of runs may break the requirement")
       ->check(from(1))
       ->needs(probability)
       ->excludes(order)
       ->excludes(two_sided)
       ->excludes(failures);
-  auto* width = command.add_option("--width", options.width, "Of a share's confidence interval")
-                    ->check(between(0, 1, false))
-                    ->excludes(probability);
-  command.add_option("--proportion", options.proportion, "The share expected; a half, the worst")
+  auto* width =
+      command.add_option("--width", options.width, "Width of a share's confidence interval")
+          ->check(between(0, 1, false))
+          ->excludes(probability);
+  command
+      .add_option("--proportion", options.proportion,
+                  "The share expected; default: 0.5, which takes the most runs")
       ->check(between(0, 1, true))
       ->needs(width);
 }
@@ -149,10 +159,10 @@ void add_questions(CLI::App& command, SizeOptions& options) {
 
 void add_size(CLI::App& app, Action& action) {
   const auto options = std::make_shared<SizeOptions>();
-  CLI::App* command = app.add_subcommand("size", "How many runs it takes to show what is required");
+  CLI::App* command = app.add_subcommand("size", "Compute how many runs show what is required");
   add_questions(*command, *options);
   command->add_flag("--json", options->json, "Print the answer as JSON");
-  command->footer(R"(All of it holds for independent draws: the design "random".
+  command->footer(R"(The answers hold for independent draws: the design "random".
 
 Example:
   wingspread size --probability 0.9973 --confidence 0.9 --order 2

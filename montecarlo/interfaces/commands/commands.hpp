@@ -1,4 +1,4 @@
-/// The commands. Each `add_` adds one to the command line, with its options and its help.
+/// The commands. Each `add_` function adds one to the command line, with its options and its help.
 #pragma once
 
 #include "montecarlo/interfaces/terminal/exit_code.hpp"
@@ -13,7 +13,7 @@ class App;
 
 namespace wingspread {
 
-/// What is to be done once the command line is understood; returns the exit status.
+/// Carries out the command with the parsed options. Returns the exit status.
 using Action = std::function<int()>;
 
 void add_run(CLI::App& app, Action& action);
@@ -32,12 +32,9 @@ void add_export(CLI::App& app, Action& action);
 void add_methods(CLI::App& app, Action& action);
 void add_version(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
-// For packages; --help does not list them.
-void add_completion(CLI::App& app, Action& action);
-void add_man(CLI::App& app, Action& action);
 
-/// Shows the Sobol' indices of a design whose runs are all in the folder, and writes their files, as making the runs
-/// does. @return the exit status
+/// Prints the Sobol' indices of a folder that has all runs of a design, and writes sensitivity.json and
+/// sensitivity.csv into it. @return the exit status
 int show_design(const std::filesystem::path& folder);
 
 /// "wingspread 0.1.0".

@@ -1,9 +1,9 @@
-# The library for other programs: libwingspread.a, which holds core, distributions and montecarlo, its headers, and
-# what find_package(wingspread) reads. No flag of ours goes with it.
+# The library for other programs: libwingspread.a (core, distributions and montecarlo), its headers and its CMake package.
+# It passes no compiler flags on.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-# The public headers, which include each other by other names where they are installed.
+# Copies of the public headers that include each other as <wingspread/NAME>.
 set(public_include ${PROJECT_BINARY_DIR}/include)
 foreach(header interfaces/library/wingspread.hpp foundation/formats/spec_error.hpp foundation/formats/machine_error.hpp)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${header})
@@ -15,7 +15,7 @@ endforeach()
 
 add_library(wingspread_library STATIC
   $<TARGET_OBJECTS:wingspread_core> $<TARGET_OBJECTS:wingspread_distributions> $<TARGET_OBJECTS:wingspread_montecarlo>)
-# What core/CMakeLists.txt makes of its instruction sets is no object that CMake knows core by.
+# core/CMakeLists.txt links the objects of its instruction sets itself, so TARGET_OBJECTS leaves them out.
 get_target_property(core_sources wingspread_core SOURCES)
 list(FILTER core_sources INCLUDE REGEX "\\.o$")
 target_sources(wingspread_library PRIVATE ${core_sources})

@@ -1,11 +1,10 @@
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/analyses/run/campaign_run.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/table.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/overrides.hpp"
 #include "montecarlo/model/input_checks/examine.hpp"
-#include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +14,7 @@
 namespace wingspread::api {
 namespace {
 
-void check(const RunOptions& options) {
+void check_options(const RunOptions& options) {
   std::vector<Problem> problems;
   if (options.runs && (*options.runs < 1 || *options.runs > most_runs))
     problems.push_back({"", "--runs", std::to_string(*options.runs),
@@ -26,50 +25,29 @@ void check(const RunOptions& options) {
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
-std::vector<std::string> notices_of(const Campaign& campaign, const std::filesystem::path& file) {
-  std::vector<std::string> notices;
-  for (const Notice& notice : examine(campaign, file)) notices.push_back(to_string(notice));
-  return notices;
-}
-
-/// The next runs to be made: as of FolderWriter::remaining.
-RunRange remaining(const StoredCampaign& stored, const Results& results) {
-  const RunRange runs = stored.runs();
-  const long done = std::ssize(results.runs);
-  if (is_complete(stored, results)) return {done, done};
-  return {done, stored.campaign.until.empty() ? runs.last : next_checkpoint(done, runs.size())};
-}
-
-Results make_runs(const StoredCampaign& stored, const RunPlan& plan, const RunOptions& options) {
-  const std::atomic<bool> never = false;
-  ThreadEvaluator evaluator({.threads = options.threads}, options.stop ? *options.stop : never);
-  Results results(plan.names());
-  const auto keep = [&](const Batch& batch) {
-    for (const ResultRow& row : batch.rows) results.append(row);
-  };
-  for (bool stopped = false; !stopped;) {
-    const RunRange next = remaining(stored, results);
-    if (next.size() == 0) break;
-    stopped = evaluator.make(plan, next, {keep, false}) < next.size();
-  }
-  return results;
+std::vector<std::string> warnings_of(const Campaign& campaign, const std::filesystem::path& file) {
+  std::vector<std::string> warnings;
+  for (const Notice& notice : examine(campaign, file)) warnings.push_back(to_string(notice));
+  return warnings;
 }
 
 } // namespace
 
 Table run(const Input& input, const RunOptions& options) {
-  check(options);
+  check_options(options);
   Campaign campaign = read_campaign_input(input);
   change_scene(campaign, options.set);
   override_sampling(campaign, options.runs, options.seed);
-  std::vector<std::string> notices = notices_of(campaign, input.file);
-  settle_tolerance(campaign, {.threads = options.threads});
+  std::vector<std::string> warnings = warnings_of(campaign, input.file);
   if (!campaign.cases.empty() || !options.of_case.empty())
     campaign = chosen_case(campaign, options.of_case);
   Stamp stamp = stamp_of(campaign, {});
   const StoredCampaign stored{{}, std::move(campaign), std::move(stamp)};
   const RunPlan plan(stored.campaign);
-  return table_of(stored, plan.names(), make_runs(stored, plan, options), std::move(notices));
+  const std::atomic<bool> never = false;
+  Results rows = run_in_memory(stored, plan, {.threads = options.threads},
+                               options.stop ? *options.stop : never);
+  return table_of(stored, plan.names(), std::move(rows), std::move(warnings));
 }
 
 Table read(const std::filesystem::path& folder, const std::string& of_case) {

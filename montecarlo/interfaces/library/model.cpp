@@ -1,6 +1,6 @@
 #include "core/deployment.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/model/campaign/outputs.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<OutputColumn>& columns) {
   return names;
 }
 
-/// The parameters of each path.
+/// Finds the parameters of each path; appends what is wrong to `problems`.
 std::vector<std::vector<SceneParameter>> find_parameters(const std::vector<std::string>& paths,
                                                          const Scene& scene,
                                                          std::vector<Problem>& problems) {
@@ -58,7 +58,7 @@ std::vector<OutputColumn> find_outputs(const std::vector<std::string>& wanted, c
   return columns;
 }
 
-/// The families that cost something, of those that the columns are of.
+/// The output families that a run must compute for these columns; all others cost nothing.
 Outputs families_of(const std::vector<OutputColumn>& columns) {
   using Quantity = OutputColumn::Quantity;
   Outputs families;
@@ -83,11 +83,11 @@ struct Model::Prepared {
   std::vector<double> nominal;
   Goal goal;
 
-  void set(std::span<const double> x, Scene& scene) const {
+  void set_parameters(std::span<const double> x, Scene& scene) const {
     for (std::size_t j = 0; j < parameters.size(); ++j)
       for (const SceneParameter& parameter : parameters[j]) parameter.in(scene) = x[j];
   }
-  void take(const wingspread::Outcome& outcome, std::span<double> y) const {
+  void write_outputs(const wingspread::Outcome& outcome, std::span<double> y) const {
     for (std::size_t j = 0; j < columns.size(); ++j) y[j] = output_of(columns[j], outcome);
   }
 };
@@ -129,18 +129,19 @@ bool Model::evaluate(std::span<const double> x, std::span<double> y, int threads
     if (broken || (stop && *stop)) return std::nullopt;
     const long row = begun++;
     if (row >= rows) return std::nullopt;
-    model.set(x.subspan(static_cast<std::size_t>(row) * d, d), scene);
+    model.set_parameters(x.subspan(static_cast<std::size_t>(row) * d, d), scene);
     return row;
   };
   const auto done = [&](long row, wingspread::Outcome&& outcome) {
-    model.take(outcome, y.subspan(static_cast<std::size_t>(row) * m, m));
+    model.write_outputs(outcome, y.subspan(static_cast<std::size_t>(row) * m, m));
     ++ended;
   };
   const auto work = [&] {
     DeploymentPack(instruction_sets().back(), model.task.integration, model.goal)
         .run(model.task.scene, next, done);
   };
-  on_team(static_cast<int>(std::min<long>(team_size(threads), rows)), work, [&] { broken = true; });
+  run_on_threads(static_cast<int>(std::min<long>(thread_count(threads), rows)), work,
+                 [&] { broken = true; });
   return ended == rows;
 }
 

@@ -1,4 +1,4 @@
-/// One deployment that somebody asked for: of which scene, and integrated how.
+/// Reads an Input, and applies Settings to it.
 #pragma once
 
 #include "core/outcome.hpp"
@@ -12,25 +12,25 @@
 
 namespace wingspread {
 
-/// @throws SpecError with all that is wrong
+/// Reads a scene or a campaign. @throws SpecError with all problems
 [[nodiscard]] std::variant<Scene, Campaign> read_input(const api::Input& input);
-/// @throws SpecError with all that is wrong; also when it is a scene
+/// Reads a campaign. @throws SpecError with all problems, also for a scene
 [[nodiscard]] Campaign read_campaign_input(const api::Input& input);
 
-/// A scene to be run by itself.
+/// One deployment to simulate.
 struct Task {
   Scene scene;
   Integration integration;
 };
 
 /// Settings that are not given are the campaign's, or for a scene the defaults of a campaign.
-/// @throws SpecError with what is wrong, which names the options of `wingspread simulate`
+/// @throws SpecError that names the options of `wingspread simulate`
 [[nodiscard]] Task task_of(std::variant<Scene, Campaign> input, const api::Settings& settings);
 
-/// Why a text is neither "event" nor "smoothed:EPS"; empty when it is.
+/// An error text unless the argument is "event" or "smoothed:EPS"; then empty.
 [[nodiscard]] std::string refuse_latch(const std::string& text);
 
-/// Of a trajectory's times. @throws SpecError unless it is a number, s, > 0
+/// @throws SpecError unless the interval of a trajectory, s, is a number > 0
 void check_interval(double interval);
 
 } // namespace wingspread

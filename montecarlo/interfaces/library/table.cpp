@@ -37,7 +37,7 @@ SpecError no_column(std::string_view column, std::string_view kind,
 } // namespace
 
 Table table_of(const StoredCampaign& stored, const ResultNames& names, Results&& results,
-               std::vector<std::string> notices) {
+               std::vector<std::string> warnings) {
   auto data = std::make_shared<Table::Data>();
   data->complete = is_complete(stored, results);
   data->names = names;
@@ -46,7 +46,7 @@ Table table_of(const StoredCampaign& stored, const ResultNames& names, Results&&
                                std::array{PeaksFinal::unknown, PeaksFinal::no, PeaksFinal::yes});
   data->latch_orders = texts_of(results.latch_order);
   data->campaign = campaign_text(stored.campaign, stored.stamp);
-  data->notices = std::move(notices);
+  data->warnings = std::move(warnings);
   data->results = std::move(results);
   return Table(std::move(data));
 }
@@ -88,6 +88,6 @@ bool Table::is_complete() const { return data_->complete; }
 
 const std::string& Table::campaign() const { return data_->campaign; }
 
-const std::vector<std::string>& Table::notices() const { return data_->notices; }
+const std::vector<std::string>& Table::notices() const { return data_->warnings; }
 
 } // namespace wingspread::api

@@ -1,4 +1,4 @@
-/// What is behind the library's tables.
+/// The data of a library table.
 #pragma once
 
 #include "montecarlo/interfaces/library/wingspread.hpp"
@@ -10,7 +10,7 @@
 
 namespace wingspread::api {
 
-/// Texts and codes of a column, in memory.
+/// A column of repeated texts: row i has texts[codes[i]].
 struct WordColumn {
   std::vector<std::string> texts;
   std::vector<std::uint32_t> codes;
@@ -21,13 +21,13 @@ struct Table::Data {
   Results results;
   WordColumn status, peaks_final;
   std::vector<std::string> latch_orders; ///< the texts of results.latch_order
-  std::string campaign;                  ///< as campaign.json has it
-  std::vector<std::string> notices;
+  std::string campaign;                  ///< the text of campaign.json
+  std::vector<std::string> warnings;
   bool complete = false;
 };
 
-/// @param stored of whose runs these are
+/// Makes a table of results. @param stored the campaign of these runs
 [[nodiscard]] Table table_of(const StoredCampaign& stored, const ResultNames& names,
-                             Results&& results, std::vector<std::string> notices);
+                             Results&& results, std::vector<std::string> warnings);
 
 } // namespace wingspread::api

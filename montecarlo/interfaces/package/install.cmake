@@ -1,21 +1,23 @@
-# What a package has beside the program and the library: man pages, completions and schemas, which the program prints
-# itself, the scenes and campaigns as examples, and who holds which rights.
+# Files of a package beside the program and the library: man pages, completions, JSON Schemas, the scenes and campaigns
+# as examples, changelogs and licences.
 include(GNUInstallDirs)
 set(made ${PROJECT_BINARY_DIR}/package)
 find_program(WINGSPREAD_GZIP gzip)
+find_program(WINGSPREAD_HELP2MAN help2man)
 set(WINGSPREAD_MAINTAINER "The wingspread authors <wingspread@localhost>" CACHE STRING "Who makes the packages")
 
 if(WINGSPREAD_GZIP AND NOT CMAKE_CROSSCOMPILING AND NOT WINGSPREAD_SANITIZE AND NOT WINGSPREAD_MPI)
-  add_custom_command(OUTPUT ${made}/made COMMENT "Man pages and completions" VERBATIM
+  if(NOT WINGSPREAD_HELP2MAN)
+    message(STATUS "The man pages are left out: help2man is missing (Debian: help2man)")
+  endif()
+  add_custom_command(OUTPUT ${made}/made COMMENT "Man pages and schemas" VERBATIM
     COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:wingspread> -DOUT=${made} -DGZIP=${WINGSPREAD_GZIP}
+            -DHELP2MAN=${WINGSPREAD_HELP2MAN}
             -DCHANGELOG=${PROJECT_SOURCE_DIR}/CHANGELOG.md -DVERSION=${PROJECT_VERSION}-1
             -DMAINTAINER=${WINGSPREAD_MAINTAINER} -P ${CMAKE_CURRENT_LIST_DIR}/make.cmake
     DEPENDS wingspread ${CMAKE_CURRENT_LIST_DIR}/make.cmake ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
   add_custom_target(wingspread_package_files ALL DEPENDS ${made}/made)
   install(DIRECTORY ${made}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-  install(FILES ${made}/wingspread.bash DESTINATION share/bash-completion/completions RENAME wingspread COMPONENT program)
-  install(FILES ${made}/wingspread.zsh DESTINATION share/zsh/vendor-completions RENAME _wingspread COMPONENT program)
-  install(FILES ${made}/wingspread.fish DESTINATION share/fish/vendor_completions.d COMPONENT program)
   install(FILES ${made}/scene.schema.json ${made}/campaign.schema.json DESTINATION share/wingspread COMPONENT program)
   foreach(package "program wingspread" "development libwingspread-dev" "python python3-wingspread")
     separate_arguments(package)
@@ -25,6 +27,11 @@ if(WINGSPREAD_GZIP AND NOT CMAKE_CROSSCOMPILING AND NOT WINGSPREAD_SANITIZE AND 
       COMPONENT ${component})
   endforeach()
 endif()
+
+set(package ${CMAKE_CURRENT_LIST_DIR})
+install(FILES ${package}/wingspread.bash DESTINATION share/bash-completion/completions RENAME wingspread COMPONENT program)
+install(FILES ${package}/wingspread.zsh DESTINATION share/zsh/vendor-completions RENAME _wingspread COMPONENT program)
+install(FILES ${package}/wingspread.fish DESTINATION share/fish/vendor_completions.d COMPONENT program)
 
 # Our licence, and those of what is compiled into the program, as Debian's packages of them state them.
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE rights)

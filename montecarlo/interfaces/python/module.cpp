@@ -1,5 +1,5 @@
-// The Python module's native half: the library (library/wingspread.hpp) in Python's types, nothing more. What people
-// call is in wingspread/__init__.py.
+// The native half of the Python module: exposes the C++ library (library/wingspread.hpp). Users call
+// wingspread/__init__.py, which calls this.
 #include "montecarlo/interfaces/library/wingspread.hpp"
 
 #include <pybind11/numpy.h>
@@ -16,12 +16,12 @@ namespace py = pybind11;
 namespace wingspread::api {
 namespace {
 
-/// Rows that are made without a look at Ctrl-C: a fraction of a second's.
+/// Up to this many rows evaluate does not check for Ctrl-C: they take a fraction of a second.
 constexpr py::ssize_t few_rows = 256;
 
-/// Work in a thread of its own, without the GIL, while this one looks out for Ctrl-C.
-/// @param work takes the flag that tells it to stop
-template <class Work> auto interruptible(const Work& work) {
+/// Runs `work` in a thread of its own, without the GIL, while this thread checks for Ctrl-C.
+/// @param work is called with a flag that, once true, tells it to stop
+template <class Work> auto run_interruptibly(const Work& work) {
   std::atomic<bool> stop = false;
   auto future = std::async(std::launch::async, [&] { return work(stop); });
   const auto is_done = [&](std::chrono::milliseconds most) {
@@ -38,7 +38,7 @@ template <class Work> auto interruptible(const Work& work) {
   return future.get();
 }
 
-/// A view of what the owner holds, not to be written to.
+/// A read-only numpy view of memory that the owner keeps alive.
 template <class T> py::array view(std::span<const T> values, const py::object& owner) {
   py::array_t<T> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
@@ -65,15 +65,15 @@ py::list reasons_of(const Table& table) {
 Table run_it(const Input& input, std::optional<std::int64_t> runs,
              std::optional<std::uint64_t> seed, int threads, const std::string& of_case,
              const std::vector<std::string>& set) {
-  return interruptible([&](const std::atomic<bool>& stop) {
+  return run_interruptibly([&](const std::atomic<bool>& stop) {
     return run(input, {runs, seed, threads, of_case, set, &stop});
   });
 }
 
 py::tuple simulate_it(const Input& input, const Settings& settings,
                       std::optional<double> interval) {
-  const Outcome outcome =
-      interruptible([&](const std::atomic<bool>&) { return simulate(input, settings, interval); });
+  const Outcome outcome = run_interruptibly(
+      [&](const std::atomic<bool>&) { return simulate(input, settings, interval); });
   py::dict trajectory;
   for (const Series& series : outcome.trajectory)
     trajectory[py::str(series.name)] =
@@ -96,7 +96,7 @@ py::array evaluate_it(const Model& model, const Numbers& x, int threads) {
     const py::gil_scoped_release release;
     (void)model.evaluate(from, to, threads);
   } else {
-    (void)interruptible(
+    (void)run_interruptibly(
         [&](const std::atomic<bool>& stop) { return model.evaluate(from, to, threads, &stop); });
   }
   return y;
@@ -127,15 +127,15 @@ void add_errors(py::module_& module) {
 } // namespace
 
 PYBIND11_MODULE(_native, module) {
-  module.doc() = "wingspread's library in Python's types; use wingspread";
+  module.doc() = "The native half of wingspread; use the module wingspread";
   add_errors(module);
   module.def("version", &version, "The library's version");
 
-  py::class_<Input>(module, "Input", "A scene or a campaign as it is written")
+  py::class_<Input>(module, "Input", "A scene or a campaign in JSON")
       .def_static("from_file", &from_file, py::arg("file"))
       .def_static("from_text", &from_text, py::arg("json"), py::arg("directory"));
 
-  py::class_<Settings>(module, "Settings", "What is asked of one deployment")
+  py::class_<Settings>(module, "Settings", "Settings of one deployment")
       .def(py::init([](std::vector<std::string> set, std::string of_case,
                        std::optional<std::string> method, std::optional<std::string> latch,
                        std::optional<double> step, std::optional<double> rtol,
@@ -162,8 +162,8 @@ PYBIND11_MODULE(_native, module) {
       .def_property_readonly("notices", &Table::notices)
       .def("runs", &runs_of, "The runs' numbers, a view")
       .def("numbers", &numbers_of, py::arg("column"), "A draw or an output, a view")
-      .def("words", &words_of, py::arg("column"), "Codes, a view, and the texts they stand for")
-      .def("reasons", &reasons_of, "Why runs are not deployed");
+      .def("words", &words_of, py::arg("column"), "A view of codes, and the texts that they index")
+      .def("reasons", &reasons_of, "Why the wing did not deploy, by run");
 
   py::class_<Model>(module, "Model", "A wing as a function of some of its parameters")
       .def(py::init<const Input&, const std::vector<std::string>&, std::vector<std::string>,
@@ -172,13 +172,14 @@ PYBIND11_MODULE(_native, module) {
       .def_property_readonly("outputs", &Model::outputs)
       .def_property_readonly("nominal", &Model::nominal)
       .def("evaluate", &evaluate_it, py::arg("x"), py::arg("threads"),
-           "A row of outputs for each row of parameters");
+           "Returns a row of outputs for each row of parameters");
 
   module.def("run", &run_it, py::arg("input"), py::arg("runs"), py::arg("seed"), py::arg("threads"),
              py::arg("of_case"), py::arg("set"), "Makes a campaign's runs");
   module.def("simulate", &simulate_it, py::arg("input"), py::arg("settings"), py::arg("interval"),
-             "The outcome as JSON, and the trajectory's columns");
-  module.def("read", &read, py::arg("folder"), py::arg("of_case"), "A results folder's rows");
+             "Returns the outcome as JSON, and the trajectory's columns");
+  module.def("read", &read, py::arg("folder"), py::arg("of_case"),
+             "Reads the rows of a results folder");
 }
 
 } // namespace wingspread::api

@@ -1,15 +1,11 @@
-/// Options that several commands have, and settings that are given as options.
+/// Options that several commands share, and the settings that they fill.
 #pragma once
 
-#include "montecarlo/engine/runs/evaluator.hpp"
-#include "montecarlo/foundation/formats/json_reader.hpp"
-#include "montecarlo/model/campaign/campaign.hpp"
 #include "montecarlo/model/campaign/overrides.hpp"
 #include "montecarlo/model/input_checks/notice.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,41 +17,35 @@ class App;
 
 namespace wingspread {
 
-/// What replaces the campaign's own sampling.
+/// Replacements for the campaign's "sampling".
 struct SamplingOptions {
   std::optional<std::int64_t> runs;
   std::optional<std::uint64_t> seed;
 };
+/// Adds --runs and --seed.
+void add_sampling_options(CLI::App& command, SamplingOptions& sampling);
 void add_seed_option(CLI::App& command, std::optional<std::uint64_t>& seed);
 
-/// How the runs are made, which changes nothing about their results.
-struct CrewOptions {
-  int threads = 0; ///< 0: all processors
-  int lanes = 0;   ///< 0: as the instruction set has
-  std::string isa; ///< none: the widest
-};
-void add_crew_options(CLI::App& command, CrewOptions& options);
-
-/// @throws CLI::ValidationError where this processor has not got what is asked for
-[[nodiscard]] Crew crew_of(const CrewOptions& options);
-
-/// "2/5"; nothing when it is no shard.
+/// Adds --shard I/N, for parse_shard.
+void add_shard_option(CLI::App& command, std::string& shard, const char* description);
+/// Reads "2/5". @return nothing when the text is no shard
 [[nodiscard]] std::optional<Shard> parse_shard(std::string_view text);
-/// Why the text is none; empty when it is one.
-[[nodiscard]] std::string refuse_shard(const std::string& text);
 
-/// --strict: what is noticed is an error.
+/// Adds --confidence.
+void add_confidence_option(CLI::App& command, std::optional<double>& confidence);
+/// @return the given confidence, or the campaign's own
+/// @throws SpecError unless it is > 0 and < 1
+[[nodiscard]] double confidence_of(const std::optional<double>& given, const StatisticsSpec& own);
+
+/// Adds --strict: warnings become errors.
 void add_strict_option(CLI::App& command, bool& strict);
+/// Prints the warnings of the input checks on standard error, one per line.
+/// @throws SpecError with all of them when `strict`
+void print_warnings(const std::vector<Notice>& warnings, bool strict);
 
-/// Says on standard error what was noticed of the input, a line each.
-/// @throws SpecError with all of it, if it is to be an error
-void heed(const std::vector<Notice>& notices, bool strict);
-
-void add_sampling_options(CLI::App& command, SamplingOptions& sampling);
-
-/// `--set PATH=VALUE`, as often as wanted: the nominal scene changed before anything else.
+/// Adds --set PATH=VALUE, which may be repeated: changes of the nominal scene.
 void add_set_option(CLI::App& command, std::vector<std::string>& changes);
-/// `--case NAME`, where one campaign is wanted.
+/// Adds --case NAME, for commands that take one case.
 void add_case_option(CLI::App& command, std::string& name);
 
 } // namespace wingspread

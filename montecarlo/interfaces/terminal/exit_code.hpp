@@ -1,4 +1,4 @@
-/// What the program's exit status says.
+/// The program's exit codes.
 #pragma once
 
 #include "montecarlo/foundation/platform/interrupt.hpp"

@@ -26,12 +26,13 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
   if (summary.replicates > 0) text += ", " + counted(summary.replicates, "replicate", "replicates");
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
   if (!summary.looked_at.empty())
-    text += fmt::format(" · look {}, after {}", summary.looks, fmt::join(summary.looked_at, ", "));
+    text += fmt::format(" · interim analysis {}, after {}", summary.looks,
+                        fmt::join(summary.looked_at, ", "));
   if (const auto& preview = stored.stamp.preview)
     text += fmt::format(" · PREVIEW: {} of {} runs, {} missing", preview->runs, preview->of,
                         preview->of - preview->runs);
   else if (summary.stopped)
-    text += fmt::format(" · stopped, of {} at most", stored.runs().size());
+    text += fmt::format(" · stopped, of at most {}", stored.runs().size());
   else if (summary.runs < stored.runs().size())
     text += fmt::format(" · partial, of {} runs", stored.runs().size());
   return text;
@@ -43,7 +44,7 @@ void print_histograms(const Summary& summary) {
                                       output.histogram, table_width));
 }
 
-/// Says which requirements are not met. @return whether all are
+/// Prints the requirements that are not met. @return whether all are met
 bool report_requirements(const Summary& summary, const std::string& of_case) {
   bool met = true;
   for (const Verdict& verdict : summary.requirements) {
@@ -56,9 +57,8 @@ bool report_requirements(const Summary& summary, const std::string& of_case) {
   if (std::ranges::any_of(summary.requirements, is_open))
     fmt::print(
         stderr,
-        "note: more runs of the same draws are another look at them. To decide what is open, "
-        "state it as --until \"requirement {}\" or take another --seed, with a number of runs "
-        "fixed beforehand\n",
+        "note: adding runs until a requirement passes inflates the risk. To decide it, use "
+        "--until \"requirement {}\", or another --seed and a number of runs fixed beforehand\n",
         name_of(std::ranges::find_if(summary.requirements, is_open)->requirement));
   return met;
 }
@@ -66,9 +66,10 @@ bool report_requirements(const Summary& summary, const std::string& of_case) {
 } // namespace
 
 void add_display_options(CLI::App& command, Display& display) {
-  command.add_flag("--table", display.table, "Print the table even when it is not to a terminal");
+  command.add_flag("--table", display.table,
+                   "Print the table even if standard output is not a terminal");
   command.add_flag("--histograms", display.histograms,
-                   "Print the table, and each output's histogram below it");
+                   "Print the table and each output's histogram");
 }
 
 int report_failed(long failed, long runs, std::string_view consequence) {
@@ -84,20 +85,21 @@ bool wants_table(const Display& display) {
 namespace {
 
 void print_files(const std::filesystem::path& folder) {
-  for (const char* file : {campaign_file, is_rowless(folder) ? broken_runs_file : runs_file,
-                           summary_file, histograms_json_file, histograms_csv_file})
+  for (const char* file :
+       {campaign_file, is_streaming_folder(folder) ? broken_runs_file : runs_file, summary_file,
+        histograms_json_file, histograms_csv_file})
     fmt::print("{}\n", (folder / file).string());
 }
 
 } // namespace
 
-int refuse_missing(const MissingRuns& missing, std::string_view otherwise) {
+int print_missing(const MissingRuns& missing, std::string_view alternative) {
   constexpr std::size_t most = 1000;
   for (const Problem& problem : missing.problems())
     fmt::print(stderr, "error: {}\n", printable(to_string(problem)));
   const std::vector<std::string>& commands = missing.commands();
   fmt::print(stderr, "made by ({}){}\n", counted(std::ssize(commands), "command", "commands"),
-             otherwise.empty() ? ":" : otherwise);
+             alternative.empty() ? ":" : alternative);
   for (std::size_t i = 0; i < std::min(commands.size(), most); ++i)
     fmt::print(stderr, "  {}\n", commands[i]);
   if (commands.size() > most) fmt::print(stderr, "  … and {} more\n", commands.size() - most);
@@ -112,8 +114,8 @@ void show_table(const StoredCampaign& stored, const Summary& summary, const Disp
 void warn_of_preview(const StoredCampaign& stored) {
   if (const auto& preview = stored.stamp.preview)
     fmt::print(stderr,
-               "warning: {} is a PREVIEW: {} of the campaign's {} runs; {} are missing, and what "
-               "they will change is not known\n",
+               "warning: {} is a PREVIEW: {} of the campaign's {} runs; {} are missing, and the "
+               "results may change\n",
                stored.folder.string(), preview->runs, preview->of, preview->of - preview->runs);
 }
 
@@ -122,7 +124,7 @@ int judge_results(const StoredCampaign& stored, const Summary& summary) {
   warn_of_preview(stored);
   bool met = stored.stamp.shard || report_requirements(summary, name.empty() ? "" : name + ": ");
   if (stored.stamp.preview && !summary.requirements.empty()) {
-    fmt::print(stderr, "not met: a preview shows no requirement to be met\n");
+    fmt::print(stderr, "not met: a preview has no verdicts\n");
     met = false;
   }
   const auto failed = std::ranges::find(summary.statuses, Status::failed, &StatusShare::status);
@@ -151,7 +153,7 @@ void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cas
 Json show_finished(const std::filesystem::path& file, bool whole) {
   Json study = parse_json_file(file);
   fmt::print("{}", whole ? json_text(study) : file.string() + '\n');
-  fmt::print(stderr, "note: the study is finished: nothing was left to do\n");
+  fmt::print(stderr, "note: this study was finished already\n");
   return study;
 }
 

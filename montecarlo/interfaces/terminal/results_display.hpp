@@ -1,4 +1,4 @@
-/// Results shown on standard output: as a table on a terminal, else as the paths of their files.
+/// Prints results: a table on a terminal, otherwise the paths of the files written.
 #pragma once
 
 #include "montecarlo/results/results_folder/cases_folder.hpp"
@@ -12,51 +12,52 @@ class App;
 
 namespace wingspread {
 
-/// How results are shown on standard output.
+/// The options --table and --histograms.
 struct Display {
-  bool table = false;      ///< the table even when standard output is no terminal
-  bool histograms = false; ///< and a drawing of each output's histogram below it
+  bool table = false;      ///< print the table even when standard output is not a terminal
+  bool histograms = false; ///< print the table and each output's histogram
 };
 void add_display_options(CLI::App& command, Display& display);
 
-/// What --help says of it.
-inline constexpr const char* display_help =
-    "Standard output is the table of results if that is a terminal; otherwise the paths of the\n"
-    "files written, one a line.\n";
+/// Describes standard output, for --help.
+inline constexpr const char* display_help = "Standard output is a table of results on a terminal, "
+                                            "otherwise the paths of the files written.\n";
 
-/// Says on standard error that runs failed numerically.
-/// @param consequence behind it, e.g. "; summary.json has their reasons"
+/// Prints an error when runs failed numerically.
+/// @param consequence end of the message, e.g. "; summary.json has their reasons"
 /// @return the exit status
 int report_failed(long failed, long runs, std::string_view consequence = "");
 
-/// Says on standard error what is missing and then, each on a line of its own, the commands that make it.
-/// @param otherwise what can be done without, behind "made by"; empty: nothing
+/// Prints which runs are missing and, one per line, the commands that make them.
+/// @param alternative another way, behind "made by"; may be empty
 /// @return the exit status
-int refuse_missing(const MissingRuns& missing, std::string_view otherwise);
+int print_missing(const MissingRuns& missing, std::string_view alternative);
 
-/// Whether it is the table, and not the paths of files.
+/// Whether to print a table, not the paths of files.
 [[nodiscard]] bool wants_table(const Display& display);
 
-/// The table of the results on standard output, and the histograms below it where they are wanted.
+/// Prints the table of results and, if asked for, the histograms.
 void show_table(const StoredCampaign& stored, const Summary& summary, const Display& display);
 
-/// Says on standard error that a folder is a preview, if it is one.
+/// Prints a warning when the folder is a preview.
 void warn_of_preview(const StoredCampaign& stored);
 
-/// Says on standard error when runs failed and requirements are not met.
-/// @return the exit status: that runs failed numerically comes before a requirement that is not
-///   met, a shard alone is not held to those, and a preview meets none
+/// Prints which runs failed and which requirements are not met. A shard alone is not judged; a preview meets no
+/// requirement.
+/// @return the exit status: failed runs come before requirements
 int judge_results(const StoredCampaign& stored, const Summary& summary);
 
-/// The cases of a campaign side by side, or the paths of their files.
-/// @param whole the folder that has all of them
+/// Prints the comparison of a campaign's cases, or the paths of their files.
+/// @param whole the outer folder
 void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
                 const Display& display);
 
-/// Of a study in whose folder nothing is left to do: its last file, or the path of it. @return what is in it
+/// Prints the result of a study that is finished already: the file's text, or its path.
+/// @return the file's content
 [[nodiscard]] Json show_finished(const std::filesystem::path& file, bool whole);
 
-/// Shows the results, the table or the paths of their files, and says what judge_results says. @return its exit status
+/// Prints the table of results or the paths of the files, and judges the results.
+/// @return the exit status of judge_results
 int show_results(const StoredCampaign& stored, const Summary& summary, const Display& display);
 
 } // namespace wingspread

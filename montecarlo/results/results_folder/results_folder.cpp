@@ -130,16 +130,16 @@ void add_nominal(const Campaign& campaign, Summary& summary) {
     summary.outputs[i].nominal = output_of(columns[i], outcome);
 }
 
-bool is_rowless(const std::filesystem::path& folder) {
+bool is_streaming_folder(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / statistics_file);
 }
 
 std::string rows_file(const std::filesystem::path& folder) {
-  return is_rowless(folder) ? broken_runs_file : runs_file;
+  return is_streaming_folder(folder) ? broken_runs_file : runs_file;
 }
 
 void refuse_rowless(const std::filesystem::path& folder) {
-  if (is_rowless(folder))
+  if (is_streaming_folder(folder))
     throw SpecError(
         {{folder.string(), "", "a campaign that was run with --no-rows",
           fmt::format("one with {}: what is asked for takes every run's row", runs_file)}});

@@ -53,9 +53,7 @@ Moments PowerSums::moments(const Scale& scale, double min, double max) const {
   if (m2 == 0) return result;
   const double m3 = c - 3 * a * b + 2 * a * a * a;
   const double m4 = d - 4 * a * c + 6 * a * a * b - 3 * a * a * a * a;
-  if (count > 2) result.skewness = m3 / (m2 * std::sqrt(m2)) * std::sqrt(n * (n - 1)) / (n - 2);
-  if (count > 3)
-    result.kurtosis = (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (m4 / (m2 * m2) - 3) + 6);
+  set_shape(m2, m3, m4, result);
   return result;
 }
 

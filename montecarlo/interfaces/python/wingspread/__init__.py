@@ -1,4 +1,4 @@
-"""How far the deployment of a spacecraft's solar wing may stray from the drawing.
+"""Monte Carlo simulation of the deployment of spacecraft solar wings.
 
     import wingspread
 
@@ -9,11 +9,11 @@
     y = wingspread.evaluate("three_panel.json", ["hinges.*.spring.scale"], [[0.9], [1.1]], ["deployment_time"])
     runs = wingspread.read("results/first")
 
-SI units and radians throughout. The same seed gives the same bits as `wingspread run`, whatever the number of threads.
-A scene or a campaign is given as the path of its file, as its JSON text, or as what json.load makes of it; files
-that are named in text or dictionaries are relative to the working directory. What is wrong with an input is a
-SpecError, with the text that the program prints; what the machine refuses is a MachineError. What only looks wrong is
-warned of (Notice). Ctrl-C ends a long call.
+All numbers are in SI units and radians. The same seed gives the same bits as `wingspread run`, with any number of
+threads. A scene or a campaign is the path of a file, JSON text, or a dictionary as json.load returns it; files named in
+text or dictionaries are relative to the working directory. Wrong input raises SpecError with the text that the program
+prints; MachineError is raised when the machine refuses something (memory, disk space). Input that only looks wrong gives
+a warning (Notice). Ctrl-C ends a long call.
 """
 
 from __future__ import annotations
@@ -34,29 +34,29 @@ __all__ = ["MachineError", "Model", "Notice", "Simulation", "SpecError", "Table"
 __version__: str = _native.version()
 
 Source = typing.Union[str, "os.PathLike[str]", typing.Mapping[str, typing.Any]]
-"""A path, JSON text, or what json.load makes of it."""
+"""A path, JSON text, or a dictionary as json.load returns it."""
 Changes = typing.Mapping[str, typing.Union[float, str]]
-"""Parameters of the nominal wing by their paths: numbers in SI, or text with a unit ("90 deg")."""
+"""New values for parameters of the nominal wing, by path: numbers in SI units, or text with a unit ("90 deg")."""
 Floats = npt.NDArray[np.float64]
 
 
 class Notice(UserWarning):
-    """What looks wrong in a campaign that can be run."""
+    """Warns of a campaign that can be run but looks wrong."""
 
 
 class Simulation(typing.NamedTuple):
-    """One deployment."""
+    """One simulated deployment."""
 
     outcome: dict[str, typing.Any]
-    """What `wingspread simulate --json` prints: status, latches, peak_moment, peak_force, final, energy, work, …"""
+    """The JSON of `wingspread simulate --json`: status, latches, peak_moment, peak_force, final, energy, work, …"""
     trajectory: dict[str, Floats]
-    """The columns of `wingspread simulate --out`, by their names: t, root.angle, root.rate, root.moment, …"""
+    """The columns of `wingspread simulate --out` by name: t, root.angle, root.rate, root.moment, …"""
 
 
 class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
     """The rows of a campaign: a mapping from the columns of runs.csv to numpy arrays.
 
-    Numbers are views of the table's own memory, read-only; NaN where a quantity did not happen. `status`,
+    Numbers are read-only views of the table's memory; NaN marks a missing value. `status`,
     `latch_order` and `reason` are arrays of str, `peaks_final` of True, False or None. pandas.DataFrame(dict(table))
     is a data frame.
     """
@@ -65,7 +65,7 @@ class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
         self._native = native
 
     def __getitem__(self, column: str) -> npt.NDArray[typing.Any]:
-        """The column of that name; KeyError where there is none."""
+        """Returns the column of this name; raises KeyError if there is none."""
         if column not in self._native.columns:
             raise KeyError(column)
         if column == "run":
@@ -82,7 +82,7 @@ class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
         return iter(self._native.columns)
 
     def __len__(self) -> int:
-        """How many columns there are; `size` is how many rows."""
+        """The number of columns; `size` is the number of rows."""
         return len(self._native.columns)
 
     def __repr__(self) -> str:
@@ -90,44 +90,44 @@ class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
 
     @property
     def size(self) -> int:
-        """How many runs there are."""
+        """The number of runs."""
         return self._native.size
 
     @property
     def draws(self) -> list[str]:
-        """The names of the columns that were drawn."""
+        """The names of the columns with draws."""
         return self._native.draws
 
     @property
     def outputs(self) -> list[str]:
-        """The names of the columns of results that are numbers."""
+        """The names of the columns with numeric outputs."""
         return self._native.outputs
 
     @property
     def is_complete(self) -> bool:
-        """Whether these are all runs; not so of a results folder that is not finished."""
+        """Whether all runs of the campaign are there; False for a results folder that is not finished."""
         return self._native.is_complete
 
     @property
     def campaign(self) -> dict[str, typing.Any]:
-        """The campaign in full, all defaults explicit, with its seed and hash: campaign.json."""
+        """The campaign with all defaults, its seed and its hash: the content of campaign.json."""
         return typing.cast("dict[str, typing.Any]", json.loads(self._native.campaign))
 
     def codes(self, column: str) -> tuple[npt.NDArray[np.uint32], list[str]]:
-        """`status`, `latch_order` or `peaks_final` as codes, a view, and the texts that they stand for."""
+        """Returns `status`, `latch_order` or `peaks_final` as a view of codes and the texts that they index."""
         return self._native.words(column)
 
     def numbers(self, columns: typing.Sequence[str]) -> Floats:
-        """Columns of numbers side by side, as one array[run, column], copied."""
+        """Returns a copy of several columns of numbers as one array[run, column]."""
         return np.column_stack([self._native.numbers(column) for column in columns])
 
 
 def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, threads: int = 0, case: str = "",
         set: Changes | None = None) -> Table:
-    """Makes a campaign's runs, and writes nothing.
+    """Makes a campaign's runs in memory and returns their rows; writes no files.
 
-    runs, seed: in place of the campaign's. threads: 0 for all processors. case: which one, of a campaign that has
-    cases. set: changes of the nominal wing.
+    runs, seed: the number of runs and the seed; default: the campaign's. threads: 0 for all processors.
+    case: the case, required for a campaign with cases. set: changes of the nominal wing.
     """
     table = _native.run(_input_of(campaign), runs, seed, threads, case, _changes_of(set))
     for notice in table.notices:
@@ -136,17 +136,18 @@ def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, t
 
 
 def read(folder: str | os.PathLike[str], *, case: str = "") -> Table:
-    """The rows of a results folder. case: which one, of a campaign that has cases."""
+    """Reads the rows of a results folder. case: the case, required for a campaign with cases."""
     return Table(_native.read(os.fspath(folder), case))
 
 
 def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: float | None = None,
              method: str | None = None, latch: str | None = None, step: float | None = None,
              rtol: float | None = None, atol: float | None = None, t_end: float | None = None) -> Simulation:
-    """Integrates one deployment, of a scene or of a campaign's nominal scene, to its t_end.
+    """Simulates one deployment of a scene, or of a campaign's nominal scene, to its t_end.
 
-    set: changes of the wing. dt: the trajectory's interval, s; every step of the integration without. The others as
-    `wingspread simulate` has them.
+    set: changes of the wing. case: the case, required for a campaign with cases. dt: interval between rows of the
+    trajectory, s; default: every step. method, latch, step (s), rtol, atol (rad and rad/s), t_end (s): as the options
+    of `wingspread simulate`; default: the campaign's.
     """
     settings = _native.Settings(_changes_of(set), case, method, latch, step, rtol, atol, t_end)
     outcome, trajectory = _native.simulate(_input_of(scene), settings, 0.0 if dt is None else dt)
@@ -154,10 +155,10 @@ def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: f
 
 
 class Model:
-    """A wing as a function of some of its parameters, read once and called often: model(x[n, d]) → y[n, m].
+    """A wing as a function of some of its parameters: model(x[n, d]) → y[n, m]. Read once, called often.
 
-    paths: of parameters as dispersions name them, "hinges.*.spring.scale" for all springs. outputs: columns of runs.csv;
-    all but the families rate_at and base_motion without. The others as simulate has them.
+    paths: the d parameters, as dispersions name them; "hinges.*.spring.scale" sets all springs. outputs: the m columns of
+    runs.csv; default: all except rate_at and base_motion. The other arguments are those of simulate.
     """
 
     def __init__(self, scene: Source, paths: typing.Sequence[str], outputs: typing.Sequence[str] = (), *,
@@ -169,18 +170,18 @@ class Model:
 
     @property
     def outputs(self) -> list[str]:
-        """The columns of y."""
+        """The names of the columns of y."""
         return self._native.outputs
 
     @property
     def nominal(self) -> Floats:
-        """The nominal values of the parameters, SI."""
+        """The nominal values of the parameters, in SI units."""
         return np.array(self._native.nominal)
 
     def __call__(self, x: npt.ArrayLike, *, threads: int = 0) -> Floats:
-        """One deployment for each row of x, on all processors and without the GIL.
+        """Simulates one deployment for each row of x, on all processors and without the GIL.
 
-        x: values in SI, that are set. Returns a row of outputs each, NaN where a quantity did not happen or the
+        x: parameters in SI units, shape (n, d). Returns outputs, shape (n, m); NaN for a missing value, or if the
         parameters are unphysical. threads: 0 for all processors.
         """
         return self._native.evaluate(np.asarray(x, dtype=float), threads)
@@ -190,7 +191,7 @@ def evaluate(scene: Source, paths: typing.Sequence[str], x: npt.ArrayLike, outpu
              threads: int = 0, set: Changes | None = None, case: str = "", method: str | None = None,
              latch: str | None = None, step: float | None = None, rtol: float | None = None,
              atol: float | None = None, t_end: float | None = None) -> Floats:
-    """The outputs of one deployment for each row of x: Model(scene, paths, outputs, …)(x), for one call."""
+    """Returns Model(scene, paths, outputs, …)(x): the outputs of one deployment for each row of x."""
     model = Model(scene, paths, outputs, set=set, case=case, method=method, latch=latch, step=step, rtol=rtol,
                   atol=atol, t_end=t_end)
     return model(x, threads=threads)
@@ -207,10 +208,10 @@ def _input_of(source: Source) -> _native.Input:
 
 
 def _plain(value: typing.Any) -> typing.Any:
-    """What numpy holds, for JSON."""
+    """Converts numpy's numbers and arrays for JSON."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
-    raise TypeError(f"found {type(value).__name__}, expected what JSON can hold")
+    raise TypeError(f"found {type(value).__name__}, expected a type that JSON has")
 
 
 def _changes_of(changes: Changes | None) -> list[str]:

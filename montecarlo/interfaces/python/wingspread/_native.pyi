@@ -1,4 +1,4 @@
-"""wingspread's library in Python's types; use wingspread."""
+"""The native half of wingspread; use the module wingspread."""
 
 import os
 

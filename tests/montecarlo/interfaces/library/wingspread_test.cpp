@@ -53,11 +53,11 @@ TEST_CASE("a table says which columns it has, and keeps them as long as a copy l
           std::vector<std::string>{"root_spring", "mass.panel_1", "mass.panel_2", "mass.panel_3"});
     CHECK(table.outputs().back() == "deployment_time");
     CHECK(parse_json(table.campaign())["sampling"]["seed"] == 11);
-    CHECK(message_of([&] { return table.numbers("root.latch_tim"); }) ==
-          "found \"root.latch_tim\", expected a column of numbers (did you mean "
-          "\"root.latch_time\"?)");
-    CHECK(message_of([&] { return table.words("peaks_final"); }) ==
-          "found \"peaks_final\", expected a column of words");
+    CHECK_THAT(message_of([&] { return table.numbers("root.latch_tim"); }),
+               Catch::StartsWith("found \"root.latch_tim\"") &&
+                   Catch::Contains("\"root.latch_time\"?"));
+    CHECK_THAT(message_of([&] { return table.words("peaks_final"); }),
+               Catch::StartsWith("found \"peaks_final\""));
     times = table.numbers("deployment_time");
     copy = table;
   }
@@ -77,8 +77,8 @@ TEST_CASE("a results folder is read as the table that its campaign gives") {
   const api::Table part = api::read(folder.path() / "part");
   CHECK_FALSE(part.is_complete());
   CHECK(part.size() < 30);
-  CHECK(message_of([&] { return api::read(folder.path() / "none"); }) ==
-        (folder.path() / "none").string() + ": found no such folder, expected a results folder");
+  CHECK_THAT(message_of([&] { return api::read(folder.path() / "none"); }),
+             Catch::StartsWith((folder.path() / "none").string() + ": found no such folder"));
 }
 
 TEST_CASE("a campaign of the library stops by its rule, and when it is told to") {
@@ -155,27 +155,26 @@ TEST_CASE("a model's rows are deployments of their own, in lanes or alone", "[pa
 
 TEST_CASE("what the library is asked and cannot do is refused with every problem") {
   const api::Input input = api::from_file(three_panel_file());
-  CHECK(message_of([&] {
-          return api::Model(input,
-                            {"bodies.panel_1.mass", "bodies.*.mass", "hinges.rot.spring.scale"},
-                            {"root.latch_tim"});
-        }) ==
-        "paths[1]: found bodies.panel_1.mass a second time, expected each parameter once\n"
-        "paths[2]: found string \"hinges.rot.spring.scale\", expected the path of a parameter "
-        "(did you mean \"hinges.root.spring.scale\"?)\n"
-        "outputs[0]: found \"root.latch_tim\", expected an output of the scene (did you mean "
-        "\"root.latch_time\"?)");
-  CHECK(message_of([&] {
-          return api::run(as_input(quick_campaign(5)), {.runs = 0, .threads = -1});
-        }) == "--runs: found 0, expected an integer from 1 to 2147483647\n"
-              "--threads: found -1, expected an integer from 1 to 1024, or 0");
-  CHECK(message_of([&] { return api::simulate(input, {.latch = "soft"}); }) ==
-        "--latch: found soft, expected event, or smoothed:EPS with EPS in rad, e.g. smoothed:1e-4");
+  const std::string model = message_of([&] {
+    return api::Model(input, {"bodies.panel_1.mass", "bodies.*.mass", "hinges.rot.spring.scale"},
+                      {"root.latch_tim"});
+  });
+  CHECK_THAT(model, Catch::Contains("paths[1]: found bodies.panel_1.mass a second time") &&
+                        Catch::Contains("\npaths[2]: found string \"hinges.rot.spring.scale\"") &&
+                        Catch::Contains("\"hinges.root.spring.scale\"?") &&
+                        Catch::Contains("\noutputs[0]: found \"root.latch_tim\"") &&
+                        Catch::Contains("\"root.latch_time\"?"));
+  CHECK_THAT(
+      message_of([&] { return api::run(as_input(quick_campaign(5)), {.runs = 0, .threads = -1}); }),
+      Catch::Contains("--runs: found 0") && Catch::Contains("2147483647\n--threads: found -1") &&
+          Catch::Contains("1024, or 0"));
+  CHECK_THAT(message_of([&] { return api::simulate(input, {.latch = "soft"}); }),
+             Catch::StartsWith("--latch: found soft") && Catch::Contains("smoothed:EPS"));
   CHECK(message_of([&] {
           return api::simulate(input, {.rtol = -1});
         }).starts_with("--rtol: found -1"));
-  CHECK(message_of([&] { return api::simulate(input, {}, -1.0); }) ==
-        "--dt: found -1, expected a number, s, > 0");
-  CHECK(message_of([&] { return api::Model(input, {}, {}); }) ==
-        "paths: found none, expected at least one parameter's path");
+  CHECK_THAT(message_of([&] { return api::simulate(input, {}, -1.0); }),
+             Catch::StartsWith("--dt: found -1"));
+  CHECK_THAT(message_of([&] { return api::Model(input, {}, {}); }),
+             Catch::StartsWith("paths: found none"));
 }

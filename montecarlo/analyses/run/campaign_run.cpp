@@ -1,0 +1,173 @@
+#include "montecarlo/analyses/run/campaign_run.hpp"
+
+#include "montecarlo/analyses/run/run_loop.hpp"
+#include "montecarlo/analyses/run/timing.hpp"
+#include "montecarlo/engine/mpi/evaluator_of.hpp"
+#include "montecarlo/foundation/formats/machine_error.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/results_folder/folder_writer.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+/// Adds up the tallies of all cases, which are run one after the other.
+class OverallTally {
+public:
+  /// @param runs of all cases together
+  explicit OverallTally(long runs) : ended_{.total = runs} {}
+
+  /// All cases so far. @param own of the case that is running
+  [[nodiscard]] Tally with(const Tally& own) const {
+    Tally all = ended_;
+    all.done += own.done;
+    all.before += own.before;
+    all.invalid += own.invalid;
+    all.failed += own.failed;
+    all.stalled += own.stalled;
+    all.timed_out += own.timed_out;
+    return all;
+  }
+  /// A case has ended, perhaps before its last run (`until`).
+  void add_case(const Tally& own) {
+    ended_ = with(own);
+    ended_.total -= own.total - own.done;
+  }
+
+private:
+  Tally ended_; ///< counts of the cases that have ended; the total is that of all cases
+};
+
+/// Counts the runs that a folder has before the first one of this session.
+/// @return false when it was stopped before that: streaming statistics begin with a pilot
+bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, Tally& tally) {
+  const Results& results = folder.results();
+  tally.done = std::ssize(results.runs);
+  tally.invalid = std::ranges::count(results.status, Status::invalid);
+  tally.failed = std::ranges::count(results.status, Status::failed);
+  tally.stalled = std::ranges::count(results.status, Status::stalled);
+  tally.timed_out = std::ranges::count(results.status, Status::timed_out);
+  tally.before = tally.done;
+  return true;
+}
+bool count_earlier_runs(StreamingFolder& folder, Evaluator& evaluator, Tally& tally) {
+  if (!folder.begin(evaluator)) return false;
+  const StreamingStatistics& made = folder.statistics();
+  tally.done = made.runs();
+  tally.invalid = made.count_of(Status::invalid);
+  tally.failed = made.count_of(Status::failed);
+  tally.stalled = made.count_of(Status::stalled);
+  tally.timed_out = made.count_of(Status::timed_out);
+  tally.before = folder.resumed();
+  return true;
+}
+
+/// Makes the runs that a folder lacks, and writes timing.json. @return whether they were interrupted
+template <class Folder>
+bool complete_runs(Folder& folder, const RunPlan& plan, const ThreadPool& pool,
+                   const RunCallbacks& callbacks, OverallTally& overall) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto evaluator = evaluator_of(pool, callbacks.begin_runs());
+  Tally tally{.total = folder.stored().runs().size()};
+  if (!count_earlier_runs(folder, *evaluator, tally)) return true;
+  const auto show = [&](const Tally& own) { callbacks.show_progress(overall.with(own)); };
+  show(tally);
+  const bool interrupted = make_runs(folder, plan, *evaluator, tally, show);
+  folder.finish();
+  overall.add_case(tally);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  write_timing(folder.stored().folder, {tally, seconds.count(), interrupted}, pool, *evaluator);
+  return interrupted;
+}
+
+Summary write_folder_statistics(const FolderWriter& folder, int threads) {
+  const StoredCampaign& stored = folder.stored();
+  return write_statistics(stored, folder.results(), stored.campaign.statistics, threads);
+}
+Summary write_folder_statistics(const StreamingFolder& folder, int /*threads*/) {
+  return write_streaming_statistics(folder.stored(), folder.statistics(),
+                                    folder.stored().campaign.statistics);
+}
+
+/// Makes the runs and the statistics of one results folder. @return false when they were interrupted
+template <class Folder>
+bool run_folder(const Campaign& campaign, const std::filesystem::path& out,
+                const RunRequest& request, const RunCallbacks& callbacks, OverallTally& overall,
+                CampaignResults& results) {
+  const RunPlan plan(campaign);
+  Folder folder(out, plan, request.shard, request.resume);
+  RunsKept runs{.of_case = campaign.of_case, .total = folder.stored().runs().size()};
+  runs.interrupted = complete_runs(folder, plan, request.pool, callbacks, overall);
+  runs.kept = folder.count();
+  const bool wanted = callbacks.begin_statistics(runs);
+  if (wanted && !(runs.interrupted && runs.kept == 0)) {
+    try {
+      Summary summary = write_folder_statistics(folder, request.pool.threads);
+      add_accuracy_timing(out, summary);
+      results.folders.push_back({folder.stored(), std::move(summary)});
+    } catch (const MachineError& error) {
+      throw MachineError(fmt::format("{}\n{}, without statistics: `wingspread analyze {}` makes "
+                                     "them once there is room",
+                                     error.what(), describe(runs), out.string()));
+    }
+  }
+  if (wanted && !runs.interrupted) return true;
+  results.interrupted = runs;
+  return false;
+}
+
+CampaignResults run_cases(const RunRequest& request, const RunCallbacks& callbacks) {
+  const Campaign& campaign = request.campaign;
+  const std::vector<CaseSpec> chosen = chosen_cases(campaign, request.cases);
+  const CasesFolder folder(request.out, campaign, request.shard, request.resume);
+  std::filesystem::remove(request.out / cases_file); // it compares runs that are about to change
+  OverallTally overall(std::ssize(chosen) *
+                       shard_runs(campaign.sampling.runs, request.shard).size());
+  CampaignResults results;
+  for (const CaseSpec& spec : chosen)
+    if (!run_folder<FolderWriter>(campaign_of_case(campaign, spec), request.out / spec.name,
+                                  request, callbacks, overall, results))
+      return results;
+  for (const auto& [stored, summary] : results.folders)
+    results.cases.push_back(case_summary(stored, summary));
+  results.cases = complete_cases(folder.stored(), std::move(results.cases));
+  write_cases_file(folder.stored(), results.cases, request.out);
+  results.whole = folder.stored();
+  return results;
+}
+
+} // namespace
+
+std::string describe(const RunsKept& runs) {
+  return fmt::format(
+      "{} of {} {}{} {} kept", runs.kept, runs.total, runs.total == 1 ? "run" : "runs",
+      runs.of_case.empty() ? "" : " of case " + runs.of_case, runs.total == 1 ? "is" : "are");
+}
+
+CampaignResults run_campaign(const RunRequest& request, const RunCallbacks& callbacks) {
+  const Campaign& campaign = request.campaign;
+  if (!request.streaming && !campaign.cases.empty()) return run_cases(request, callbacks);
+  if (campaign.cases.empty()) (void)chosen_cases(campaign, request.cases); // refuses any name
+  OverallTally overall(shard_runs(campaign.sampling.runs, request.shard).size());
+  CampaignResults results;
+  const auto run = request.streaming ? run_folder<StreamingFolder> : run_folder<FolderWriter>;
+  run(campaign, request.out, request, callbacks, overall, results);
+  return results;
+}
+
+Results run_in_memory(const StoredCampaign& stored, const RunPlan& plan, const ThreadPool& pool,
+                      const std::atomic<bool>& stop) {
+  RowsInMemory rows(stored, plan.names());
+  const auto evaluator = evaluator_of(pool, stop);
+  Tally tally;
+  make_runs(rows, plan, *evaluator, tally, [](const Tally&) {});
+  return std::move(rows).take();
+}
+
+} // namespace wingspread

@@ -1,0 +1,53 @@
+/// The run loop: makes the runs that are missing, batch by batch, until none is left or the caller stops it.
+#pragma once
+
+#include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/foundation/platform/progress.hpp"
+#include "montecarlo/results/results_folder/results_folder.hpp"
+
+#include <functional>
+
+namespace wingspread {
+
+/// Counts rows by their status into the tally.
+void count_rows(const Batch& batch, Tally& tally);
+
+/// Rows kept in memory: what FolderWriter is for a results folder.
+class RowsInMemory {
+public:
+  static constexpr bool wants_csv = false;
+
+  /// @pre `stored` has no shard and outlives this object
+  RowsInMemory(const StoredCampaign& stored, const ResultNames& names)
+      : stored_(stored), results_(names) {}
+
+  /// The next runs to make, as FolderWriter::remaining.
+  [[nodiscard]] RunRange remaining() const;
+  void add(const Batch& batch);
+  [[nodiscard]] Results take() && { return std::move(results_); }
+
+private:
+  const StoredCampaign& stored_;
+  Results results_;
+};
+
+/// Makes the runs that `rows` still lacks. A campaign that may stop early makes them up to its next checkpoint, then
+/// asks `rows` again.
+/// @param rows  FolderWriter, StreamingFolder or RowsInMemory
+/// @param tally counts of the runs that `rows` has already; updated with every batch
+/// @param show  is given the tally after every batch, on one thread at a time
+/// @return whether the evaluator was stopped before the last run
+template <class Rows, class Show>
+bool make_runs(Rows& rows, const RunPlan& plan, Evaluator& evaluator, Tally& tally,
+               const Show& show) {
+  const auto keep = [&](const Batch& batch) {
+    rows.add(batch);
+    count_rows(batch, tally);
+    show(tally);
+  };
+  for (RunRange next = rows.remaining(); next.size() > 0; next = rows.remaining())
+    if (evaluator.make(plan, next, {keep, Rows::wants_csv}) < next.size()) return true;
+  return false;
+}
+
+} // namespace wingspread

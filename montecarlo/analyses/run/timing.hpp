@@ -1,0 +1,26 @@
+/// timing.json: what one session did, and on which machine.
+#pragma once
+
+#include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/foundation/platform/progress.hpp"
+#include "montecarlo/results/summary/summary.hpp"
+
+#include <filesystem>
+
+namespace wingspread {
+
+/// How long a session took to make runs.
+struct SessionTiming {
+  Tally tally;        ///< at its end
+  double seconds = 0; ///< wall time
+  bool interrupted = false;
+};
+
+/// Writes timing.json into a results folder: host, threads, instruction set, lane occupancy, runs and seconds.
+void write_timing(const std::filesystem::path& folder, const SessionTiming& timing,
+                  const ThreadPool& pool, const Evaluator& evaluator);
+
+/// Adds to timing.json how many runs and seconds the estimate of accuracy took; nothing without such an estimate.
+void add_accuracy_timing(const std::filesystem::path& folder, const Summary& summary);
+
+} // namespace wingspread

@@ -1,0 +1,56 @@
+#include "montecarlo/interfaces/commands/command_setup.hpp"
+
+#include "montecarlo/foundation/platform/thread_pool.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace wingspread {
+namespace {
+
+/// @throws CLI::ValidationError when this processor lacks it
+InstructionSet instruction_set(const std::string& name, int lanes) {
+  const std::vector<InstructionSet>& sets = instruction_sets();
+  const auto fits = [&](InstructionSet set) {
+    return (name.empty() || name == to_string(set)) && (lanes == 0 || lanes == lanes_of(set));
+  };
+  const auto found = std::find_if(sets.rbegin(), sets.rend(), fits);
+  if (found != sets.rend()) return *found;
+  std::vector<std::string> offered;
+  for (const InstructionSet set : sets)
+    offered.push_back(fmt::format("{} ({})", to_string(set), lanes_of(set)));
+  const std::string asked =
+      name.empty()
+          ? fmt::format("--lanes {}", lanes)
+          : fmt::format("--isa {}{}", name, lanes ? fmt::format(" --lanes {}", lanes) : "");
+  throw CLI::ValidationError(asked,
+                             fmt::format("this processor does not have that; it has (lanes): {}",
+                                         fmt::join(offered, ", ")));
+}
+
+} // namespace
+
+void add_machine_options(CLI::App& command, MachineOptions& options) {
+  command.add_option("--threads", options.threads, "Number of threads; default: all processors")
+      ->check(CLI::Range(1, most_threads).description(""))
+      ->type_name("N");
+  command
+      .add_option("--lanes", options.lanes,
+                  "Runs that one thread makes at once: 1, 2, 4 or 8; default: the most")
+      ->check(CLI::IsMember({1, 2, 4, 8}).description(""))
+      ->type_name("L");
+  command
+      .add_option("--isa", options.isa,
+                  "Instruction set: scalar, neon, avx2 or avx512; default: the widest")
+      ->check(CLI::IsMember({"scalar", "neon", "avx2", "avx512"}).description(""))
+      ->type_name("NAME");
+}
+
+ThreadPool pool_of(const MachineOptions& options) {
+  return {options.threads, instruction_set(options.isa, options.lanes)};
+}
+
+} // namespace wingspread

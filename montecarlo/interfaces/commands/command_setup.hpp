@@ -1,0 +1,38 @@
+/// Adds commands to the command line, and options for the machine that makes the runs.
+#pragma once
+
+#include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/interfaces/commands/commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+
+namespace wingspread {
+
+/// Adds a command to the command line. Its options live as long as the action that uses them.
+/// @param add_options adds options and the footer: void(CLI::App&, Options&)
+/// @param run         carries the command out: int(const Options&), the exit status
+template <class Options, class AddOptions, class Run>
+void add_command(CLI::App& app, Action& action, const char* name, const char* description,
+                 const AddOptions& add_options, const Run& run) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(name, description);
+  add_options(command, *options);
+  command.callback([options, run, &action] { action = [options, run] { return run(*options); }; });
+}
+
+/// How this machine makes the runs. The results do not depend on it.
+struct MachineOptions {
+  int threads = 0; ///< 0: all processors
+  int lanes = 0;   ///< runs that one thread makes at once; 0: the most
+  std::string isa; ///< instruction set; empty: the widest
+};
+/// Adds --threads, --lanes and --isa.
+void add_machine_options(CLI::App& command, MachineOptions& options);
+
+/// @throws CLI::ValidationError when this processor lacks the instruction set or the lanes
+[[nodiscard]] ThreadPool pool_of(const MachineOptions& options);
+
+} // namespace wingspread
