@@ -135,10 +135,9 @@ TEST_CASE("what takes every row refuses a folder without rows; the rest works on
   while (!has(kept)) ++kept;
   while (has(other)) ++other;
   CHECK(replayed(kept).ends_with("\nRun " + std::to_string(kept) +
-                                 " is the one in broken_runs.csv, bit for bit.\n"));
+                                 " equals the one in broken_runs.csv, bit for bit.\n"));
   CHECK(replayed(other).ends_with("\nRun " + std::to_string(other) +
-                                  " is not in broken_runs.csv: there is nothing to compare it "
-                                  "with.\n"));
+                                  " is not in broken_runs.csv: no comparison.\n"));
   const std::string refusal = "error: " + made.none +
                               ": found a campaign that was run with --no-rows, expected one with "
                               "runs.csv: what is asked for "

@@ -1,4 +1,4 @@
-/// A set of runs with all that the page says of it: SET of page/DATA.md.
+/// A set of runs: SET of page/DATA.md.
 #pragma once
 
 #include "montecarlo/report/data/page_detail.hpp"
