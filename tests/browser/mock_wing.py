@@ -102,6 +102,7 @@ def inputs(hinges, case):
     for place, hinge in enumerate(hinges):
         scene += [{"path": f"hinges.{hinge}.angle.stowed", "label": f"{hinge} stowed", "value": turn(hinges, place), "unit": "rad", "case_value": None},
                   {"path": f"hinges.{hinge}.spring.scale", "label": f"{hinge} spring scale", "value": 1, "unit": "", "case_value": 0.95 if case == "cold" else None},
+                  {"path": f"hinges.{hinge}.angle.latched", "label": f"{hinge} latched", "value": -0.0123456, "unit": "rad", "case_value": None},
                   {"path": f"hinges.{hinge}.latch.stiffness", "label": f"{hinge} latch stiffness", "value": 1e4, "unit": "N m/rad", "case_value": None}]
     dispersions = [{"draw": f"{h}.spring", "paths": [f"hinges.{h}.spring.scale"], "law": "normal(mean 1, std 0.03)", "nominal": 1, "low": 0.92, "high": 1.08,
                     "unit": ""} for h in hinges]

@@ -227,7 +227,7 @@ TEST_CASE("run judges static margins by the side of what its runs do, and analyz
   CHECK(program({"analyze", program.out, "--requirements", others}).code == 0);
 }
 
-TEST_CASE("margin says what is given up, and holds its requirements in every case") {
+TEST_CASE("margin states its drawbacks, and holds its requirements in every case") {
   const Place program;
   Json json = one_panel_margin(300);
   for (Json& torque : json["scene"]["hinges"][0]["spring"]) torque = 0.75 * torque.get<double>();
@@ -237,7 +237,7 @@ TEST_CASE("margin says what is given up, and holds its requirements in every cas
                                  "hinges.root.friction.static": 1.02 } } ])");
   const auto [code, text, error] = program.margin(json);
   CHECK(code == 0);
-  CHECK_THAT(text, Catch::Contains("  given up") &&
+  CHECK_THAT(text, Catch::Contains("  drawbacks") &&
                        Catch::Contains("root.latch_rate ≥ -0.8 rad/s, 97 % at 90 % (ambient)") &&
                        Catch::Contains("\nambient\n") && Catch::Contains("\ncold\n") &&
                        Catch::Contains("GSFC-STD-7000A (22 April 2013): critical_design · "

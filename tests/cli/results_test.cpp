@@ -135,7 +135,7 @@ TEST_CASE("replay in words, and its trajectory") {
   const auto [code, out, error] = done.program({"replay", done.path, "--run", "2", "--out", file});
   CHECK(code == 0);
   CHECK(error.empty());
-  CHECK(out.find("\nRun 2 is the one in runs.csv, bit for bit.\n") != std::string::npos);
+  CHECK(out.find("\nRun 2 equals the one in runs.csv, bit for bit.\n") != std::string::npos);
   CHECK(out.find("mass.panel_3") != std::string::npos);
   CHECK(read_text(file).value().starts_with("t,root.angle,root.rate,root.moment,"));
 }

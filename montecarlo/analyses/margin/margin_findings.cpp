@@ -19,7 +19,7 @@ std::string_view kind_of(const std::vector<Window>& holds) {
   return upper ? "upper" : "always";
 }
 
-/// Whether a condition is broken by nothing but runs that did not deploy.
+/// Whether only runs that did not deploy break a condition.
 bool lacks_deployment(const Verdict& verdict, const CaseLook& look) {
   const long deployed = look.statuses[static_cast<std::size_t>(Status::deployed)];
   return std::ssize(verdict.broken) == verdict.runs - deployed;
@@ -35,7 +35,6 @@ MarginEdge edge(const MarginSearch& search, double passing, const std::optional<
   return edge;
 }
 
-/// The confidence of each condition.
 std::vector<double> confidences_of(const Campaign& campaign, const MarginResult& result) {
   std::vector<double> confidences;
   for (const MarginCondition& condition : conditions_of(campaign, result))
@@ -44,7 +43,7 @@ std::vector<double> confidences_of(const Campaign& campaign, const MarginResult&
   return confidences;
 }
 
-/// Whether more runs break it, or those that have its output come nearer to the limit.
+/// Whether more runs break the condition, or its quantile comes nearer to the limit.
 bool is_worse(const Concession& change) {
   const bool nearer = change.recommended->requirement.min
                           ? change.quantile < change.present_quantile
@@ -98,7 +97,8 @@ Failing telling(const ScaleLook& look) {
   Failing all;
   std::size_t first = 0; // condition of the case
   for (const CaseLook& each : look) {
-    std::optional<std::size_t> deployment; // the condition that stands for its want
+    std::optional<std::size_t>
+        deployment; // the condition reported for the runs that did not deploy
     for (std::size_t k = 0; k < each.verdicts.size(); ++k) {
       const Verdict& verdict = each.verdicts[k];
       if (verdict.decision == Decision::pass) continue;

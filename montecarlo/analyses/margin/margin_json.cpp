@@ -16,7 +16,7 @@ Json case_verdict_json(const Verdict& verdict, const std::string& which_case) {
   return json;
 }
 
-/// What was seen of one search.
+/// The JSON of one search.
 class SearchJson {
 public:
   SearchJson(const MarginReport& report, const MarginSearch& search)
@@ -85,7 +85,6 @@ private:
     return json;
   }
 
-  /// A static margin, present and with other springs.
   [[nodiscard]] static Json lowered(const Shortfall& each) {
     return {{"drive", each.drive},
             {"margin", margin_kind_names[static_cast<std::size_t>(each.kind)]},
@@ -136,7 +135,7 @@ private:
               {"verdicts", verdicts(*search_.confirmation)}}}};
   }
 
-  /// The springs as they are; null when the range does not have them.
+  /// The present springs (scale 1); null if scale 1 was not evaluated.
   [[nodiscard]] Json present() const {
     const auto found = looks_.find(1);
     if (found == looks_.end()) return nullptr;

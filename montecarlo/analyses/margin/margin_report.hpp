@@ -1,5 +1,4 @@
-/// The report of a study of margins: margin.json and margin.csv, and text for people. What it says of
-/// static margins is in motorization_report.hpp.
+/// The report of the window search: margin.json, margin.csv and text. Static margins: motorization_report.hpp.
 #pragma once
 
 #include "montecarlo/analyses/margin/margin_findings.hpp"
@@ -16,24 +15,24 @@ inline constexpr const char* motorization_csv_file = "motorization.csv";
 /// The campaign with the recommended springs.
 inline constexpr const char* recommended_file = "recommended.json";
 
-/// All there is to report. The campaign has a margin.
+/// The data of the report. @pre the campaign has a margin
 struct MarginReport {
   const Campaign& campaign;
   const MarginResult& result;
   std::vector<ScaledMotorization> motorization;
 };
 
-/// With the static margins at the present springs, and at those recommended.
+/// Adds the static margins of the present and of the recommended springs.
 /// @pre campaign and result outlive it
 [[nodiscard]] MarginReport margin_report(const Campaign& campaign, const MarginResult& result);
 
-/// @param about the value of "wingspread"
+/// @param about the value of the key "wingspread"
 [[nodiscard]] Json margin_json(const MarginReport& report, const Json& about);
 
-/// A row for each scale that was looked at, case and requirement, upwards: so far as there are any.
+/// One row per evaluated scale (ascending), case and requirement.
 [[nodiscard]] std::string margin_csv(const Campaign& campaign, const MarginResult& result);
 
-/// A report for a terminal: UTF-8, at most 100 columns wide.
+/// The report for a terminal: UTF-8, at most 100 columns wide.
 [[nodiscard]] std::string margin_text(const MarginReport& report);
 
 } // namespace wingspread

@@ -10,7 +10,7 @@
 namespace wingspread {
 namespace {
 
-/// Draws that break the condition at a look, having kept to it at the one before.
+/// The number of draws that break the condition at a scale but not at the one before.
 long relapses(const std::vector<const ScaleLook*>& looks, const MarginCondition& condition) {
   std::set<long> relapsed;
   for (std::size_t k = 1; k < looks.size(); ++k) {

@@ -1,5 +1,4 @@
-/// What the search for the window of spring strength has seen: plain data, and which conditions (a
-/// requirement in a case) hold at which scale.
+/// The data of the window search: the verdicts at every evaluated scale. A condition is a requirement in a case.
 #pragma once
 
 #include "montecarlo/analyses/margin/weaker_springs.hpp"
@@ -16,86 +15,86 @@
 
 namespace wingspread {
 
-/// A state of the wing in which the requirements have to hold.
+/// A state of the wing in which the requirements must hold.
 struct MarginCase {
   std::string name; ///< "nominal", "root spring out", "cold", "cold, root spring out"
-  std::vector<SceneParameter> weakened; ///< torques of which a spring is lost
-  std::size_t campaign = 0;             ///< whose wing it is: index into MarginResult::campaigns
+  std::vector<SceneParameter> weakened; ///< torques that lose one spring
+  std::size_t campaign = 0;             ///< index into MarginResult::campaigns
 };
 
-/// Whether a requirement is held to in a case. Static margins are of whole wings: that of one which has lost a
-/// spring is a margin of its own ("NASA_one_spring_out"), with factors of its own.
+/// Whether a requirement applies in a case. Static margins apply to intact wings only: for a lost spring there is a margin
+/// with its own factors ("NASA_one_spring_out").
 [[nodiscard]] bool applies(const Requirement& requirement, const MarginCase& which);
 
-/// What the runs of one case at one scale came to.
+/// The results of one case's runs at one scale.
 struct CaseLook {
   std::array<long, 5> statuses{}; ///< in the order of Status
   std::vector<Verdict> verdicts;  ///< one for each requirement that applies
-  /// Of each the quantile that is required, over the runs alone that have the output: NaN without any, and of what
-  /// is no output of theirs.
+  /// For each verdict the required quantile over the runs with the output; NaN without such runs.
   std::vector<double> quantiles{};
 };
-using ScaleLook = std::vector<CaseLook>; ///< one for each case
+using ScaleLook = std::vector<CaseLook>; ///< one per case
 
-/// How many of a case's runs deployed.
+/// The share of a case's runs that deployed.
 struct DeployedShare {
   long runs = 0;
   double share = 0; ///< NaN without runs
-  Interval bounds;  ///< of Clopper and Pearson
+  Interval bounds;  ///< Clopper-Pearson
 };
 [[nodiscard]] DeployedShare deployed_share(const CaseLook& look, double confidence);
 
 /// Why no scale is recommended.
 enum class Withheld {
-  nothing,         ///< one is
+  nothing,         ///< a scale is recommended
   no_window,       ///< no scale meets all requirements
-  no_lower_edge,   ///< nothing fails as far down as was looked
-  no_upper_edge,   ///< nothing fails as far up
-  short_of_torque, ///< the whole window is of weaker springs, whose static margins fall short
+  no_lower_edge,   ///< nothing fails down to the lowest evaluated scale
+  no_upper_edge,   ///< nothing fails up to the highest evaluated scale
+  short_of_torque, ///< the window has only weaker springs, and their static margins are below 0
 };
 
-/// What is scaled together, and what was found.
+/// One search: the parameters scaled together, and its results.
 struct MarginSearch {
-  std::string name; ///< of the hinge; "joint" for all together
+  std::string name; ///< the hinge, or "joint" for all parameters together
   std::vector<SceneParameter> scaled;
   std::map<double, ScaleLook> seen{}; ///< by scale
   std::optional<double> recommended{};
   Withheld withheld = Withheld::nothing;
-  std::optional<Shortfall> passed_over{};  ///< what would strain less, but is not to be advised
+  std::optional<Shortfall>
+      passed_over{}; ///< the scale with less strain whose static margin is below 0
   std::optional<ScaleLook> confirmation{}; ///< runs of another seed at the recommended scale
 };
 
 struct MarginResult {
   std::vector<Campaign>
-      campaigns; ///< one for each of the campaign's cases; itself where it has none
+      campaigns; ///< one per case of the campaign; the campaign itself without cases
   std::vector<MarginCase> cases;
   std::vector<MarginSearch> searches;
   std::uint64_t confirmation_seed = 0;
-  long runs = 0;   ///< made in all
-  long failed = 0; ///< numerically
+  long runs = 0;   ///< number of runs made
+  long failed = 0; ///< number of runs that failed numerically
 };
 
-/// A requirement in a case: what the window search knows by a number.
+/// A requirement in a case. The window search knows it by its index in conditions_of().
 struct MarginCondition {
   std::size_t which_case, requirement;
-  std::size_t verdict = 0; ///< among those of the case
+  std::size_t verdict = 0; ///< index among the case's verdicts
 };
 [[nodiscard]] std::vector<MarginCondition> conditions_of(const Campaign& campaign,
                                                          const MarginResult& result);
 
 [[nodiscard]] const Verdict& verdict_of(const ScaleLook& look, const MarginCondition& condition);
 
-/// Of a condition; NaN where there is none.
+/// The quantile of a condition (CaseLook::quantiles); NaN if there is none.
 [[nodiscard]] double quantile_of(const ScaleLook& look, const MarginCondition& condition);
 
-/// The conditions that fail.
+/// The conditions that do not pass at a scale.
 [[nodiscard]] Failing failing(const ScaleLook& look);
 [[nodiscard]] Looks looks_of(const MarginSearch& search);
 
-/// Whether there is a window, and the runs of another seed pass at the recommended scale.
+/// Whether the runs of the confirmation seed pass at the recommended scale.
 [[nodiscard]] bool is_confirmed(const MarginSearch& search);
 
-/// How many draws break a condition at a scale although they keep to it at one further out.
+/// Numbers of draws that break a condition at a scale but not at another scale further out.
 struct OutOfOrder {
   long lower = 0; ///< below the middle
   long upper = 0; ///< above it

@@ -20,10 +20,10 @@ namespace {
 
 void refuse_unsuitable(const Campaign& campaign) {
   std::vector<Problem> problems;
-  if (!campaign.margin) problems.push_back({"", "/margin", "nothing", "what to size"});
+  if (!campaign.margin) problems.push_back({"", "/margin", "nothing", "the parameters to scale"});
   if (campaign.requirements.empty())
     problems.push_back(
-        {"", "/requirements", "none", "at least one: it is they that make a window"});
+        {"", "/requirements", "none", "at least one: the requirements limit the window"});
   for (const Requirement& requirement : campaign.requirements) {
     const auto least = runs_to_show(requirement.probability,
                                     confidence_alone(campaign.requirements, requirement), 0);
@@ -35,7 +35,7 @@ void refuse_unsuitable(const Campaign& campaign) {
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
-/// The families that the requirements are about: a run goes no further than they need.
+/// The output families of the requirements. A run ends when these are known.
 Outputs outputs_for(const std::vector<Requirement>& requirements) {
   Outputs outputs;
   for (const Requirement& requirement : requirements) {
@@ -48,7 +48,7 @@ Outputs outputs_for(const std::vector<Requirement>& requirements) {
   return outputs;
 }
 
-/// Those of one of the campaigns.
+/// Adds the cases of one campaign: nominal, and one per lost spring.
 void add_cases(const Campaign& campaign, std::size_t index, std::vector<MarginCase>& cases) {
   const MarginSpec& spec = *campaign.margin;
   const std::string& name = campaign.of_case;
@@ -63,7 +63,7 @@ void add_cases(const Campaign& campaign, std::size_t index, std::vector<MarginCa
   }
 }
 
-/// What is scaled together: all of it, or hinge by hinge in the order of the first mention.
+/// The searches: one for all parameters, or one per hinge in the order of first mention.
 std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene) {
   if (spec.mode == MarginMode::joint) return {{.name = "joint", .scaled = spec.scaled}};
   std::vector<MarginSearch> searches;
@@ -76,7 +76,7 @@ std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene
   return searches;
 }
 
-/// The quantile that is required, over the runs that have the output; NaN of what is no column of theirs.
+/// The required quantile over the runs with the output; NaN if no column has the output.
 double quantile_over_runs(const Requirement& requirement, const Results& results) {
   const auto column = std::ranges::find(results.outputs, requirement.output, &Column::name);
   std::vector<double> values;
@@ -87,7 +87,7 @@ double quantile_over_runs(const Requirement& requirement, const Results& results
   return quantile(values, requirement.min ? 1 - requirement.probability : requirement.probability);
 }
 
-/// What a case's runs at a scale came to.
+/// The statuses, verdicts and quantiles of a case's runs at one scale.
 CaseLook look_of(const Campaign& campaign, const MarginCase& which, const Results& results) {
   CaseLook look;
   for (const Status status : results.status) ++look.statuses[static_cast<std::size_t>(status)];
@@ -99,21 +99,22 @@ CaseLook look_of(const Campaign& campaign, const MarginCase& which, const Result
   return look;
 }
 
-/// Makes the runs that a search asks for.
-class Looking {
+/// Makes the runs of a search, scale by scale.
+class ScaleRuns {
 public:
-  Looking(Evaluator& evaluator, const std::function<void(const StudyProgress&)>& progress,
-          MarginResult& result)
+  ScaleRuns(Evaluator& evaluator, const std::function<void(const StudyProgress&)>& progress,
+            MarginResult& result)
       : campaigns_(result.campaigns), evaluator_(evaluator), progress_(progress), result_(result) {
     for (Campaign& campaign : campaigns_) campaign.outputs = outputs_for(campaign.requirements);
   }
 
-  /// From now on there will be no more looks than so many in all.
-  void expect(long looks) {
+  /// Bounds the number of scales in all, for the progress display.
+  void limit_scales(long looks) {
     most_ = std::max(looks_ + 1, most_ == 0 ? looks : std::min(most_, looks));
   }
 
-  [[nodiscard]] ScaleLook at(const std::vector<SceneParameter>& parameters, double scale) {
+  /// Makes all cases' runs at a scale and judges them.
+  [[nodiscard]] ScaleLook judge_scale(const std::vector<SceneParameter>& parameters, double scale) {
     ScaleLook look;
     for_each_case(parameters, scale, [&](const Campaign& campaign, const MarginCase& which) {
       look.push_back(runs_of(campaign, which));
@@ -122,8 +123,8 @@ public:
     return look;
   }
 
-  /// Makes a part of the runs, and looks at none.
-  void make(const std::vector<SceneParameter>& parameters, double scale, const Shard& shard) {
+  /// Makes a shard's part of the runs at a scale, without judging them.
+  void make_shard(const std::vector<SceneParameter>& parameters, double scale, const Shard& shard) {
     for_each_case(parameters, scale, [&](const Campaign& campaign, const MarginCase&) {
       const RunRange part = part_of_analysis({0, campaign.sampling.runs}, shard);
       make(RunPlan(campaign), part, part.size(), [](const Batch&) {});
@@ -131,7 +132,7 @@ public:
     ++looks_;
   }
 
-  /// How many were taken.
+  /// The number of scales so far.
   [[nodiscard]] long looks() const { return looks_; }
 
   void use_seed(std::uint64_t seed) {
@@ -139,7 +140,7 @@ public:
   }
 
 private:
-  /// @param take the case's campaign at the scale, and the case
+  /// @param take called with the case's campaign at the scale, and the case
   template <class Take>
   void for_each_case(const std::vector<SceneParameter>& parameters, double scale,
                      const Take& take) {
@@ -167,7 +168,7 @@ private:
     return look;
   }
 
-  /// @param runs of each case in a look
+  /// @param runs of each case at a scale
   void make(const RunPlan& plan, RunRange range, long runs,
             const std::function<void(const Batch&)>& take) {
     const long cases = std::ssize(result_.cases);
@@ -182,14 +183,14 @@ private:
     if (made < range.size()) throw Stopped{};
   }
 
-  std::vector<Campaign> campaigns_; ///< with the outputs that the requirements need
+  std::vector<Campaign> campaigns_; ///< record only the outputs of the requirements
   Evaluator& evaluator_;
   const std::function<void(const StudyProgress&)>& progress_;
   MarginResult& result_;
   long looks_ = 0, most_ = 0;
 };
 
-/// Then these bound the window, and no others speak against weaker springs.
+/// Whether the campaign requires static margins: then these bound the window, and `weaker_springs` adds no bound.
 bool requires_margins(const Campaign& campaign) {
   return std::ranges::any_of(campaign.requirements, [](const Requirement& requirement) {
     return requirement.static_margin.has_value();
@@ -201,7 +202,7 @@ SearchRange range_of(const MarginSpec& spec) {
           spec.edge_tolerance, spec.lowest, spec.highest};
 }
 
-/// What is looked at, before anything is.
+/// The cases and searches, before any run.
 MarginResult prepared(const Campaign& campaign) {
   refuse_unsuitable(campaign);
   MarginResult result;
@@ -213,7 +214,7 @@ MarginResult prepared(const Campaign& campaign) {
   return result;
 }
 
-/// No more looks than this, when one of the searches is under way and those behind it are to come: each is confirmed.
+/// An upper bound of the number of scales in all: finished searches, the current one, those to come, one confirmation each.
 long most_looks_of(const std::vector<MarginSearch>& searches, const MarginSearch& current,
                    const SearchRange& range) {
   long most = std::ssize(searches);
@@ -226,7 +227,7 @@ long most_looks_of(const std::vector<MarginSearch>& searches, const MarginSearch
 
 std::uint64_t confirmation_seed(std::uint64_t seed) {
   return RandomStream(seed, 0,
-                      stream_name("\x7F" // no dispersion's name: those hold no such character
+                      stream_name("\x7F" // a control character: no dispersion has this name
                                   "margin confirmation"))();
 }
 
@@ -235,11 +236,11 @@ void find_margin(const Campaign& campaign, Evaluator& evaluator,
   result = prepared(campaign);
   const MarginSpec& spec = *campaign.margin;
   const SearchRange range = range_of(spec);
-  Looking looking(evaluator, progress, result);
+  ScaleRuns runs(evaluator, progress, result);
   for (MarginSearch& search : result.searches) {
     const auto look = [&](double scale) {
-      looking.expect(most_looks_of(result.searches, search, range));
-      search.seen[scale] = looking.at(search.scaled, scale);
+      runs.limit_scales(most_looks_of(result.searches, search, range));
+      search.seen[scale] = runs.judge_scale(search.scaled, scale);
     };
     (void)search_window(range, [&](double scale) {
       look(scale);
@@ -251,13 +252,13 @@ void find_margin(const Campaign& campaign, Evaluator& evaluator,
     };
     recommend({spec.edge_tolerance, look, shortfall}, search);
   }
-  looking.use_seed(result.confirmation_seed);
+  runs.use_seed(result.confirmation_seed);
   long left = std::ranges::count_if(
       result.searches, [](const MarginSearch& search) { return search.recommended.has_value(); });
   for (MarginSearch& search : result.searches)
     if (search.recommended) {
-      looking.expect(looking.looks() + left--);
-      search.confirmation = looking.at(search.scaled, *search.recommended);
+      runs.limit_scales(runs.looks() + left--);
+      search.confirmation = runs.judge_scale(search.scaled, *search.recommended);
     }
 }
 
@@ -265,10 +266,10 @@ long make_first_looks(const Campaign& campaign, const Shard& shard, Evaluator& e
                       const std::function<void(const StudyProgress&)>& progress) {
   MarginResult result = prepared(campaign);
   const std::vector<double> scales = first_scales(range_of(*campaign.margin));
-  Looking looking(evaluator, progress, result);
-  looking.expect(std::ssize(result.searches) * std::ssize(scales));
+  ScaleRuns runs(evaluator, progress, result);
+  runs.limit_scales(std::ssize(result.searches) * std::ssize(scales));
   for (const MarginSearch& search : result.searches)
-    for (const double scale : scales) looking.make(search.scaled, scale, shard);
+    for (const double scale : scales) runs.make_shard(search.scaled, scale, shard);
   return result.runs;
 }
 

@@ -10,7 +10,7 @@
 namespace wingspread {
 namespace {
 
-/// What was seen of one search, in words.
+/// The text of one search.
 class SearchText {
 public:
   SearchText(const MarginReport& report, const MarginSearch& search)
@@ -23,7 +23,7 @@ public:
     std::string text = fmt::format("\n{}\n", heading());
     text += best ? window(*best) : no_window();
     if (windows.size() > 1) {
-      text += "  There are others, for the requirements come and go:";
+      text += "  Other windows, narrower:";
       for (const Window& other : windows)
         if (&other != best) text += fmt::format(" {} to {}", other.lower, other.upper);
       text += '\n';
@@ -38,13 +38,13 @@ private:
     const std::string what = search_.name == "joint" && spec.mode == MarginMode::joint
                                  ? fmt::format("{} parameters together", search_.scaled.size())
                                  : fmt::format("hinge {} alone", search_.name);
-    std::string text = fmt::format("WINDOW of the springs' scale: {}, looked at from {} to {}",
-                                   what, spec.lower, spec.upper);
+    std::string text = fmt::format("WINDOW of the spring scale: {}, searched from {} to {}", what,
+                                   spec.lower, spec.upper);
     const double lowest = search_.seen.begin()->first, highest = search_.seen.rbegin()->first;
     if (lowest < spec.lower || spec.upper < highest)
-      text += fmt::format(",\n  and further, from {} to {}, for want of an edge or of the present "
-                          "springs",
-                          lowest, highest);
+      text += fmt::format(
+          ",\n  extended to {} … {} to find the edges or to include the present springs", lowest,
+          highest);
     return text;
   }
 
@@ -63,17 +63,17 @@ private:
     return fmt::format("  {:<20}{:>8}  {}\n", label, scale, wrapped(text, 32));
   }
 
-  /// A condition on the labelled line, or below it.
+  /// The name of a condition, behind the label for the first condition and below it for the others.
   [[nodiscard]] std::string first_or_next(bool first, const char* label, double scale,
                                           std::size_t condition) const {
     return first ? line(label, scale, name(condition))
                  : fmt::format("{:32}{}\n", "", wrapped(name(condition), 32));
   }
 
-  /// "at 1.18: pass: 2 of 2000 runs break it, and 2 may".
+  /// "at 1.18: pass: 2 of 2000 runs break it, 2 allowed".
   [[nodiscard]] std::string at(std::size_t condition, double scale) const {
     const Verdict& seen = verdict(condition, scale);
-    return fmt::format("{:34}at {}: {}: {} of {} runs break it, and {} may\n", "", scale,
+    return fmt::format("{:34}at {}: {}: {} of {} runs break it, {} allowed\n", "", scale,
                        to_string(seen.decision), seen.broken.size(), seen.runs,
                        seen.allowed.value_or(0));
   }
@@ -81,14 +81,15 @@ private:
   [[nodiscard]] std::string edge(const char* label, const MarginEdge& edge) const {
     if (!edge.failing)
       return line(label, edge.passing,
-                  "no edge: nothing fails this far, and the search ended here");
+                  "no edge: all requirements are met up to the end of the search");
     std::string text;
     for (const std::size_t condition : edge.set_by)
       text += first_or_next(text.empty(), label, edge.passing, condition) +
               at(condition, edge.passing) + at(condition, *edge.failing);
     if (!edge.as_well.empty())
-      text += fmt::format("{:32}and {} more, by the same runs that do not deploy\n", "",
-                          edge.as_well.size());
+      text += fmt::format(
+          "{:32}{} because those runs do not deploy\n", "",
+          counted(std::ssize(edge.as_well), "other requirement fails", "other requirements fail"));
     return text;
   }
 
@@ -101,7 +102,7 @@ private:
 
   [[nodiscard]] std::string recommended() const {
     if (!search_.recommended)
-      return fmt::format("  {:<20}{:>8}  nothing, for\n", "recommended", "–") +
+      return fmt::format("  {:<20}{:>8}  none:\n", "recommended", "–") +
              below(why_withheld(search_));
     const double scale = *search_.recommended;
     std::string text = line("recommended", scale, confirmation());
@@ -109,48 +110,51 @@ private:
     const Verdict& verdict = verdict_of(search_.seen.at(scale), conditions_[worst].condition);
     text += below(verdict.broken.empty()
                       ? "no run breaks any requirement there"
-                      : fmt::format("the most strained there: {}: {} of {} runs break it",
-                                    name(worst), verdict.broken.size(), verdict.runs));
+                      : fmt::format("closest to its limit: {}: {} of {} runs break it", name(worst),
+                                    verdict.broken.size(), verdict.runs));
     if (search_.passed_over)
-      text += below(fmt::format("{} would strain less, but is not advised: {}",
+      text += below(fmt::format("scale {} breaks fewer runs, but its static margin is too low: {}",
                                 search_.passed_over->scale, to_string(*search_.passed_over)));
     return text;
   }
 
-  /// What the recommended springs give up against the present ones.
+  /// The drawbacks of the recommended springs against the present ones.
   [[nodiscard]] std::string given_up() const {
     if (!search_.recommended) return "";
     const double scale = *search_.recommended;
-    if (scale == 1) return line("given up", 1, "nothing: the present springs are kept");
+    if (scale == 1) return line("drawbacks", 1, "none: the present springs are kept");
     std::string text;
     for (const Concession& each : concessions(report_.campaign, report_.result, search_))
-      text += first_or_next(text.empty(), "given up", scale, each.condition) + change(each);
+      text += first_or_next(text.empty(), "drawbacks", scale, each.condition) + change(each);
     const auto lowered = lowered_margins(report_.result.campaigns, search_.scaled, scale);
     if (const auto least = std::ranges::min_element(lowered, {}, &Shortfall::margin);
         least != lowered.end())
-      text += line(text.empty() ? "given up" : "", scale, "static margins: " + to_string(*least));
-    return text.empty() ? line("given up", scale, "nothing: no requirement is nearer to its limit")
+      text += line(text.empty() ? "drawbacks" : "", scale, "static margins: " + to_string(*least));
+    return text.empty() ? line("drawbacks", scale, "none: no requirement comes closer to its limit")
                         : text;
   }
 
-  /// "at 1: 67 of 3000 runs break it, and of those that have it 99 % come to 230.1; here 1, 264.2".
+  /// "67 of 3000 runs break it now, 1 recommended; 99 % quantile among runs with a value: 230.1 now, 264.2 recommended".
   [[nodiscard]] static std::string change(const Concession& each) {
     const Verdict& before = *each.present;
-    std::string text = fmt::format("at 1: {} of {} runs break it; here {}", before.broken.size(),
-                                   before.runs, each.recommended->broken.size());
+    std::string text =
+        fmt::format("{} of {} runs break it now, {} recommended", before.broken.size(), before.runs,
+                    each.recommended->broken.size());
     if (!std::isnan(each.present_quantile) && !std::isnan(each.quantile))
-      text +=
-          fmt::format("; {:.10g} % of those that have it keep to {:.5g}; here {:.5g}",
-                      100 * before.requirement.probability, each.present_quantile, each.quantile);
+      text += fmt::format(
+          "; {:.10g} % quantile among runs with a value: {:.5g} now, {:.5g} recommended",
+          100 * before.requirement.probability, each.present_quantile, each.quantile);
     return below(text);
   }
 
-  /// What all requirements, and both edges, come to together.
+  /// The joint confidence of all requirements in all cases, at both edges.
   [[nodiscard]] std::string together(const Window& window) const {
     const double confidence = window_confidence(report_.campaign, report_.result, window);
-    return fmt::format("  {:<20}{:>8}  {}\n", "all together",
-                       fmt::format("{:.10g} %", 100 * confidence),
-                       "at least: every requirement, in every case, at each edge");
+    const std::string of = counted(std::ssize(conditions_), "requirement", "requirements");
+    if (!(confidence > 0)) return fmt::format("  joint confidence of {}: no guarantee\n", of);
+    return fmt::format(
+        "  joint confidence of {}: at least {:.10g} %, over all cases and both edges\n", of,
+        100 * confidence);
   }
 
   [[nodiscard]] std::string confirmation() const {
@@ -167,14 +171,14 @@ private:
     return text;
   }
 
-  /// An edge that was not located, for it does not matter to the window, has both of its sides.
+  /// The passing scale; both scales of an edge that was not located because the window does not depend on it.
   [[nodiscard]] std::string between(double passing, double failing) const {
     const double ratio = std::max(passing / failing, failing / passing);
     if (ratio <= 1 + report_.campaign.margin->edge_tolerance) return fmt::format("{}", passing);
     return fmt::format("{} – {}", std::min(passing, failing), std::max(passing, failing));
   }
 
-  /// "1.18 to 1.63", "from 1.18", "up to 1.63"; each stretch of them.
+  /// The scales that pass: "1.18 to 1.63", "from 1.18", "up to 1.63", or several of these.
   [[nodiscard]] std::string holds(std::size_t condition) const {
     if (conditions_[condition].kind == "never") return "nowhere";
     std::string text;
@@ -198,20 +202,20 @@ private:
   }
 
   [[nodiscard]] std::string requirements() const {
-    std::string text = fmt::format("\n{:<54}{:>10}  {}\n", "REQUIREMENT", "disorder", "holds");
+    std::string text = fmt::format("\n{:<52}{:>12}  {}\n", "REQUIREMENT", "out of order", "holds");
     const std::string* previous = nullptr; // case
     for (std::size_t k = 0; k < conditions_.size(); ++k) {
       const auto& each = conditions_[k];
       if (report_.result.cases.size() > 1 && !(previous && *previous == each.which_case))
         text += each.which_case + '\n';
       previous = &each.which_case;
-      text += fmt::format("{}{:>10}  {}\n", in_column("  " + each.requirement, 54), disorder(k),
+      text += fmt::format("{}{:>12}  {}\n", in_column("  " + each.requirement, 52), disorder(k),
                           wrapped(holds(k), 66));
     }
     return text;
   }
 
-  /// Draws that do not go with the others at its edges.
+  /// The number of draws out of order (OutOfOrder) at the condition's edges.
   [[nodiscard]] std::string disorder(std::size_t condition) const {
     const auto& each = conditions_[condition];
     if (!each.out_of_order || each.kind == "always" || each.kind == "never") return "–";
@@ -247,7 +251,7 @@ private:
 
   [[nodiscard]] double confidence() const { return report_.campaign.statistics.confidence; }
 
-  /// The outputs that fail, each once, behind a space, at their column.
+  /// The outputs of the failing requirements, each once, at their column.
   [[nodiscard]] std::string outputs_of(const Failing& failing) const {
     std::vector<std::string> outputs;
     for (const std::size_t condition : failing) {
@@ -271,7 +275,7 @@ private:
 std::string margin_text(const MarginReport& report) {
   const Sampling& sampling = report.campaign.sampling;
   std::string text =
-      fmt::format("{} · margin · {} runs a scale and case, {} in all · {}, seed {}\n",
+      fmt::format("{} · margin · {} runs per scale and case, {} in all · {}, seed {}\n",
                   report.campaign.scene.name, sampling.runs, report.result.runs,
                   design_names[static_cast<std::size_t>(sampling.design)], sampling.seed);
   for (const MarginSearch& search : report.result.searches)

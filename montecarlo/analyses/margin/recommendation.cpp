@@ -13,7 +13,7 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>; // by scale, upwards
 
-/// Neighbouring candidates.
+/// A range of neighbouring candidates, by index.
 struct Stretch {
   std::size_t first, last;
 };
@@ -42,7 +42,7 @@ bool holds_present(const Candidates& candidates, const Stretch& stretch) {
   return candidates[stretch.first].scale <= 1 && 1 <= candidates[stretch.last].scale;
 }
 
-/// That with the present springs, or the widest by ratio.
+/// The stretch with the present springs, else the widest by ratio.
 Stretch best_stretch(const Candidates& candidates) {
   const auto stretches = stretches_of_least(candidates);
   const auto present = std::ranges::find_if(
@@ -53,13 +53,13 @@ Stretch best_stretch(const Candidates& candidates) {
   });
 }
 
-/// Chooses, and looks where it takes more to choose.
+/// Chooses a scale; evaluates more scales while the choice depends on them.
 class Recommendation {
 public:
   Recommendation(const RecommendationMeans& means, MarginSearch& search)
       : means_(means), search_(search) {}
 
-  void make() {
+  void choose() {
     do {
       const auto windows = windows_of(looks_of(search_));
       const Window* window = widest(windows);
@@ -73,7 +73,7 @@ public:
 private:
   void withhold(Withheld why) { search_.withheld = why; }
 
-  /// The best of those that may be advised, unless that takes another look.
+  /// Chooses the best candidate without a shortfall, unless another scale must be evaluated first.
   void choose_from(const Candidates& all) {
     looked_ = false;
     Candidates advisable;
@@ -102,7 +102,7 @@ private:
     return std::clamp(rounded_scale(std::sqrt(lower * upper), means_.tolerance), lower, upper);
   }
 
-  /// Looks into the cell above a candidate, if that is wide. @return whether it did
+  /// Evaluates the middle of the cell above a candidate if the cell is wide. @return whether it did
   bool halve(const Candidates& candidates, std::size_t below) {
     if (below + 1 >= candidates.size()) return false;
     const double from = candidates[below].scale, to = candidates[below + 1].scale;
@@ -121,7 +121,7 @@ private:
     looked_ = true;
   }
 
-  /// What would have been better, or as good and the middle, but for its static margins.
+  /// Notes the candidate with less strain that its static margin ruled out.
   void note_passed_over(const Candidates& all) {
     const auto best = std::ranges::min_element(all, {}, &Candidate::strain);
     const bool better =
@@ -149,7 +149,7 @@ double strain(const ScaleLook& look) {
 }
 
 void recommend(const RecommendationMeans& means, MarginSearch& search) {
-  Recommendation(means, search).make();
+  Recommendation(means, search).choose();
 }
 
 } // namespace wingspread

@@ -1,19 +1,18 @@
-/// Which scale of a window to take: the one whose worse side is best.
+/// The recommended scale of a window: the one with the least strain.
 ///
 /// | symbol   | meaning                                                                        |
 /// |----------|--------------------------------------------------------------------------------|
-/// | k, n     | runs that break a condition at a scale, of all runs there                      |
-/// | 1 − p    | the share that may break it, by its requirement                                |
-/// | σ(s)     | strain, max over the conditions of k / (n (1 − p)), as observed                |
+/// | k, n     | runs that break a condition at a scale, and all runs there                     |
+/// | 1 − p    | the share of runs that may break it, by its requirement                        |
+/// | σ(s)     | strain: max of k / (n (1 − p)) over the conditions, as observed                |
 ///
-/// Weak springs strain the conditions of one side (deployment, static margins), strong ones those of the
-/// other (moments, rates), so that σ has its least between the edges, not in their middle. Where several
-/// neighbouring scales have the least (often 0: nothing fails), the present springs are kept if they are among
-/// them; else the middle of the widest stretch is taken, by ratio. Where even
-/// the least is above 0, or one scale alone has it, the cells beside it are halved down to the tolerance.
+/// Weak springs strain conditions on one side (deployment, static margins), strong springs those on the other (moments,
+/// rates). So σ has its minimum between the edges. If several neighbouring scales have the minimum (often 0: nothing
+/// fails), the present springs are kept if they are among them; else the geometric middle of the widest stretch is taken.
+/// If the minimum is above 0, or one scale alone has it, the cells beside it are halved down to the tolerance.
 ///
-/// Nothing is recommended where the window lacks an edge: it is not known how far the other side is. Scales
-/// that may not be advised (weaker_springs.hpp) are passed over, and the best of them is said.
+/// No scale is recommended if the window lacks an edge, because the distance to that side is unknown. Scales with a static
+/// margin below 0 (weaker_springs.hpp) are passed over; the best of them is reported.
 #pragma once
 
 #include "montecarlo/analyses/margin/margin_result.hpp"
@@ -22,21 +21,21 @@
 
 namespace wingspread {
 
-/// k / (n (1 − p)).
+/// The strain of one condition, k / (n (1 − p)).
 [[nodiscard]] double strain(const Verdict& verdict);
-/// σ of what was seen at a scale.
+/// The strain σ of a scale.
 [[nodiscard]] double strain(const ScaleLook& look);
 
-/// What a recommendation takes.
+/// The functions that a recommendation calls.
 struct RecommendationMeans {
-  double tolerance; ///< of scales, as of the window's edges
-  /// Makes the runs at a scale that was not looked at, and keeps them in `seen`.
+  double tolerance; ///< of scales, relative; the same as of the window's edges
+  /// Makes the runs at a new scale and stores them in MarginSearch::seen.
   std::function<void(double)> look;
-  /// What speaks against advising the scale, if anything.
+  /// The static margin that rules the scale out, if any.
   std::function<std::optional<Shortfall>(double)> shortfall;
 };
 
-/// Sets `recommended`, or why there is none, and what was passed over.
+/// Sets MarginSearch::recommended, or `withheld`, and `passed_over`.
 void recommend(const RecommendationMeans& means, MarginSearch& search);
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// The wing with other springs: a campaign and a scene with parameters multiplied by a factor.
+/// A campaign or a scene with some parameters multiplied by a factor.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
@@ -7,8 +7,8 @@
 
 namespace wingspread {
 
-/// The campaign with one dispersion more, after all others: a constant factor on the parameters,
-/// `margin_scale` by name (or with a number behind it, if that is taken). Its file says so too.
+/// The campaign with one more dispersion at the end: a constant factor on the parameters, named `margin_scale` (or
+/// `margin_scale_2`, … if taken). `resolved` has it too, so that a written campaign file reproduces the runs.
 [[nodiscard]] Campaign scaled(const Campaign& campaign,
                               const std::vector<SceneParameter>& parameters, double scale);
 [[nodiscard]] Scene scaled(Scene scene, const std::vector<SceneParameter>& parameters,

@@ -1,9 +1,9 @@
-/// Whether weaker springs may be advised: deployments that succeed by their momentum do not show that the
-/// springs have torque to spare at rest.
+/// Static margins of weaker springs. A deployment that succeeds by momentum does not show torque to spare at rest, so
+/// weaker springs need static margins as well.
 ///
-/// Where a campaign requires static margins, they bound the window like everything else that it requires.
-/// Where it requires none, springs weaker than the present ones are not advised if the nominal wing then
-/// falls short of a standard (ECSS, NASA, GEVS or AIAA, with the campaign's factors) by more than it does now.
+/// If the campaign requires static margins, these bound the window like every requirement. If not, springs weaker than the
+/// present ones are ruled out when a static margin of the nominal wing (ECSS, NASA, GEVS, AIAA, with the campaign's
+/// factors) decreases and is below 0.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
@@ -16,22 +16,22 @@
 
 namespace wingspread {
 
-/// A static margin that weaker springs make lower.
+/// A static margin that is lower at a scale than with the present springs.
 struct Shortfall {
   double scale = 1;
   std::string drive; ///< "root", "root+mid", "root (cold)"
   MarginKind kind = MarginKind::ecss;
-  double margin = 0;  ///< the nominal wing's least over the travel, at the scale
-  double present = 0; ///< and with the present springs
+  double margin = 0;  ///< least over the travel of the nominal wing, at the scale
+  double present = 0; ///< the same with the present springs
 };
 
-/// All static margins that are lower at a scale than with the present springs, drive by drive. Cost: no runs.
-/// @param campaigns one for each case
+/// All static margins that are lower at a scale than with the present springs, drive by drive. Makes no runs.
+/// @param campaigns one per case
 [[nodiscard]] std::vector<Shortfall> lowered_margins(std::span<const Campaign> campaigns,
                                                      const std::vector<SceneParameter>& parameters,
                                                      double scale);
 
-/// What speaks against the scale: the lowest of those that are below 0; nothing where there is none.
+/// The lowest margin below 0 that rules the scale out; nothing if there is none, or for scales from 1.
 [[nodiscard]] std::optional<Shortfall> shortfall_at(std::span<const Campaign> campaigns,
                                                     const std::vector<SceneParameter>& parameters,
                                                     double scale);

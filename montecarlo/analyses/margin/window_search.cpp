@@ -42,15 +42,16 @@ double further_up(double end, const SearchRange& range) {
   return std::min(rounded_scale(end * std::numbers::sqrt2, range.tolerance), range.highest);
 }
 
-/// Looks that it takes to halve a cell, and all that comes of it, down to the tolerance.
+/// The number of scales needed to halve a cell and all its parts down to the tolerance.
 long most_halvings(double a, double b, double tolerance) {
-  constexpr double for_rounding = 0.01; // of scales to few digits: halves are not quite equal
+  constexpr double for_rounding =
+      0.01; // heuristic: rounded scales make unequal halves; 0 would count one halving too few
   const double wide = std::log(b / a) / std::log1p(tolerance);
   return wide <= 1 ? 0 : (1L << static_cast<int>(std::ceil(std::log2(wide) + for_rounding))) - 1;
 }
 
-/// The scales that there are or may come, but for those within cells. An end that is seen not to be open stays so, for
-/// more looks only add to what holds somewhere: so nothing comes beyond it, even while the grid is being made.
+/// The evaluated and possible scales, without those within cells. A closed end (2) stays closed, because more scales only
+/// add to ⋃ H: no scale follows beyond it, even before the grid is complete.
 std::vector<double> all_ends(const Looks& looks, const SearchRange& range) {
   std::set<double> scales;
   for (const auto& [scale, failing] : looks) scales.insert(scale);
@@ -66,7 +67,7 @@ std::vector<double> all_ends(const Looks& looks, const SearchRange& range) {
   return {scales.begin(), scales.end()};
 }
 
-/// The search as it goes on.
+/// The search in progress.
 class Search {
 public:
   Search(const SearchRange& range, const std::function<Failing(double)>& judge)
@@ -84,10 +85,10 @@ private:
     for (const double scale : first_scales(range_)) look(scale);
   }
 
-  /// Beyond ends that are no edges.
+  /// Extends the range at open ends (2).
   void widen() {
     for (std::size_t before = 0;
-         before != looks_.size();) { // what holds at one end matters at the other
+         before != looks_.size();) { // a condition that holds at one end can close the other
       before = looks_.size();
       while (looks_.begin()->first > range_.lowest && is_open(looks_, looks_.begin()->second))
         look(further_down(looks_.begin()->first, range_));
@@ -100,7 +101,7 @@ private:
     if (!looks_.contains(scale)) looks_[scale] = judge_(scale);
   }
 
-  /// Halves the wide cells that `wanted` names until there are none. @return whether there were any
+  /// Halves the wide cells that `wanted` selects until there are none. @return whether there were any
   bool refine(const Cell& wanted) {
     const std::size_t before = looks_.size();
     for (auto a = looks_.begin(); std::next(a) != looks_.end();) {
@@ -108,7 +109,7 @@ private:
       const bool wide = b->first > a->first * (1 + range_.tolerance);
       const double middle = rounded_scale(std::sqrt(a->first * b->first), range_.tolerance);
       if (wide && wanted(a->second, b->second) && a->first < middle && middle < b->first)
-        look(middle); // and this cell again, which is smaller now
+        look(middle); // then this cell again, now half as wide
       else
         ++a;
     }
@@ -120,7 +121,7 @@ private:
   Looks looks_;
 };
 
-/// Whether the conditions are never held to at once.
+/// Whether at least one of the conditions fails at every scale.
 bool closes(const Looks& looks, const Failing& conditions) {
   return std::ranges::all_of(looks,
                              [&](const auto& look) { return share_any(conditions, look.second); });
@@ -151,7 +152,8 @@ std::vector<double> first_scales(const SearchRange& range) {
 }
 
 long most_looks(const Looks& looks, const SearchRange& range) {
-  constexpr long middles = 2; // of a stretch of scales that are equally good
+  constexpr long middles =
+      2; // a recommendation evaluates at most two middles of stretches with equal strain
   const bool has_window = !windows_of(looks).empty();
   const std::vector<double> ends = all_ends(looks, range);
   long most = std::ssize(ends) + middles;

@@ -34,14 +34,17 @@ Goal goal_for(const std::optional<OutputColumn>& column) {
   return goal;
 }
 
-/// Increasing and above 0 everywhere; the share itself unless it is small.
-double bent(double share) {
+/// Maps a share to a value above 0, monotonically: the identity above the knee, an exponential below it with the same
+/// value and slope there.
+double positive_part(double share) {
+  // heuristic: a knee far above 0.01 hides differences between runs near the event, a much smaller one makes their g
+  // equal in double precision; neither biases the estimate, both cost runs
   constexpr double knee = 0.01;
   return share > knee ? share : knee * std::exp(share / knee - 1);
 }
 
-/// By how much the hinge's drive exceeds its static friction where it is stowed, N·m.
-double release(const Hinge& hinge) {
+/// The hinge's drive minus its static friction at the stowed angle, N·m.
+double release_reserve(const Hinge& hinge) {
   return torque_at(hinge.spring, hinge, 0) - torque_at(hinge.harness, hinge, 0) -
          static_level_at(hinge, 0);
 }
@@ -50,8 +53,8 @@ bool can_stick_stowed(const Hinge& hinge) {
   return hinge.latch && hinge.friction.model == FrictionModel::exact && hinge.initial_rate == 0;
 }
 
-/// The largest part of its travel that a hinge with a latch has left.
-double travel_left(const Scene& scene, const Outcome& outcome) {
+/// The largest remaining share of travel of a hinge with an open latch; 1 if unknown.
+double remaining_travel(const Scene& scene, const Outcome& outcome) {
   double most = 0;
   for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
     const Hinge& hinge = scene.hinges[i];
@@ -61,7 +64,7 @@ double travel_left(const Scene& scene, const Outcome& outcome) {
       most = std::max(most, std::abs((outcome.final.angles[i] - hinge.latched) /
                                      (hinge.stowed - hinge.latched)));
   }
-  return most > 0 ? most : 1; // not known: it did not come to an end
+  return most > 0 ? most : 1; // the final state is unknown
 }
 
 } // namespace
@@ -87,7 +90,7 @@ LimitState::LimitState(const Campaign& campaign, RareEvent event)
   goal_ = goal_for(column_);
   if (std::ranges::none_of(scene.hinges, [](const Hinge& hinge) { return bool(hinge.latch); }))
     throw SpecError({{"", "/scene/hinges", "none with a latch",
-                      "a wing that can be deployed, or --output with a limit"}});
+                      "a hinge with a latch, or --output with a limit"}});
   const Outcome nominal = Deployment().run(scene, campaign.integration, goal_);
   if (nominal.status != Status::deployed) return;
   energy_ = std::max(nominal.energy.final, 1e-9 * std::abs(nominal.energy.initial));
@@ -117,11 +120,11 @@ double LimitState::of_deployed(const Scene& scene, const Outcome& outcome) const
   const double time = (campaign_->integration.t_end - outcome.t_end) / time_;
   double least = std::min(outcome.energy.final / energy_, time);
   for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
-    const double nominal = release(campaign_->scene.hinges[i]);
+    const double nominal = release_reserve(campaign_->scene.hinges[i]);
     if (can_stick_stowed(scene.hinges[i]) && nominal > 0)
-      least = std::min(least, release(scene.hinges[i]) / nominal);
+      least = std::min(least, release_reserve(scene.hinges[i]) / nominal);
   }
-  return bent(least);
+  return positive_part(least);
 }
 
 double LimitState::of(const Scene& scene, const Outcome& outcome) const {
@@ -130,7 +133,7 @@ double LimitState::of(const Scene& scene, const Outcome& outcome) const {
     return event_.above ? event_.limit - value : value - event_.limit;
   }
   return outcome.status == Status::deployed ? of_deployed(scene, outcome)
-                                            : -travel_left(scene, outcome);
+                                            : -remaining_travel(scene, outcome);
 }
 
 } // namespace wingspread

@@ -13,8 +13,7 @@
 namespace wingspread {
 namespace {
 
-/// Φ(z) and 1 − Φ(z), and neither of them 0. By 1 − Φ beyond the middle: Φ alone could not tell the
-/// points beyond 8.2 from each other.
+/// Φ(z) and 1 − Φ(z), both above 0. Beyond z = 8.2 Φ rounds to 1, so points there differ in 1 − Φ alone.
 Tails unit_point(double z) {
   constexpr double least = std::numeric_limits<double>::min();
   const auto [below, above] = tails(Normal{}, z);
@@ -47,8 +46,8 @@ public:
     Status status;
   };
 
-  /// What the runs at the points come to, in their order. @throws Stopped
-  /// @param told how many there have been of them
+  /// g and status of the runs at the points, in their order. @throws Stopped
+  /// @param told called with the number of finished runs
   [[nodiscard]] std::vector<Judged> judge(std::span<const NormalPoint> points,
                                           const std::function<void(long)>& told) {
     points_ = points;
@@ -74,7 +73,7 @@ public:
 
 private:
   Evaluator& evaluator_;
-  std::span<const NormalPoint> points_; ///< that the plan's runs are made at
+  std::span<const NormalPoint> points_; ///< the points of the plan's runs
   RunPlan plan_;
 };
 
@@ -111,7 +110,8 @@ RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& opti
   for (long k = 0; k < options.repeats; ++k) {
     const SubsetOptions subset{options.samples, options.smallest, campaign.sampling.seed,
                                static_cast<std::uint64_t>(k)};
-    most = made + (options.repeats - k) * most_evaluations(subset); // less once one ends early
+    most = made + (options.repeats - k) *
+                      most_evaluations(subset); // an upper bound: a repeat may end early
     result.estimates.push_back(subset_simulation(g, campaign.dispersions.size(), subset));
   }
   result.estimate = combined(result.estimates, options.confidence);

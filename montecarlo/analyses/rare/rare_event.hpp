@@ -22,11 +22,10 @@ struct RareOptions {
   double smallest = 1e-10;
 };
 
-/// The point of the event that is nearest to the middle of all draws,
-/// so the likeliest that was met.
+/// The sampled point of the event nearest to the origin of the normal space: the most likely one met.
 struct LikeliestRun {
   double distance; ///< |z|
-  NormalPoint z;   ///< before dependence
+  NormalPoint z;   ///< before the copula
   std::vector<double> draws;
   Status status;
   std::string reason;
@@ -39,9 +38,9 @@ struct RareResult {
   std::optional<LikeliestRun> likeliest; ///< none when the event was not met
 };
 
-/// @param progress told how far it has come, one call at a time
-/// @throws SpecError for an event that there is not in the campaign, or one without dispersions;
-///   Stopped when the evaluator makes fewer runs than it is asked for
+/// @param progress called with the progress, one call at a time
+/// @throws SpecError for an unknown output, a scene without latches, or a campaign without dispersions;
+///   Stopped when the evaluator makes fewer runs than requested
 [[nodiscard]] RareResult
 estimate_rare_event(const Campaign& campaign, const RareOptions& options, Evaluator& evaluator,
                     const std::function<void(const StudyProgress&)>& progress);

@@ -54,7 +54,7 @@ std::string repeats_text(const RareResult& result, const RareOptions& options) {
   return text;
 }
 
-/// The draws that are furthest out, first.
+/// The run's draws, largest deviation first, at most 8.
 std::string likeliest_text(const LikeliestRun& run, const Campaign& campaign) {
   constexpr std::size_t most_lines = 8;
   std::vector<std::size_t> order(run.draws.size());
@@ -62,7 +62,7 @@ std::string likeliest_text(const LikeliestRun& run, const Campaign& campaign) {
   std::ranges::stable_sort(order, std::ranges::greater{},
                            [&](std::size_t i) { return std::abs(run.z[i]); });
   std::string text = fmt::format(
-      "\nTHE LIKELIEST such run met, {:.2f} standard deviations from the middle: {}{}{}\n",
+      "\nMOST LIKELY run of the event, {:.2f} standard deviations from the mean: {}{}{}\n",
       run.distance, to_string(run.status), run.reason.empty() ? "" : ", ", run.reason);
   text += fmt::format("  {:<40}{:>14}{:>24}\n", "dispersion", "draw", "standard deviations");
   const std::size_t shown = std::min(order.size(), most_lines);
@@ -70,7 +70,7 @@ std::string likeliest_text(const LikeliestRun& run, const Campaign& campaign) {
     text += fmt::format("  {:<40}{:>14.6g}{:>+24.2f}\n", campaign.dispersions[i].name, run.draws[i],
                         run.z[i]);
   if (shown < order.size())
-    text += fmt::format("  and {} others, none above {:.2f}\n", order.size() - shown,
+    text += fmt::format("  {} others, at most {:.2f}\n", order.size() - shown,
                         std::abs(run.z[order[shown]]));
   return text;
 }
@@ -143,15 +143,15 @@ std::string rare_text(const RareResult& result, const RareOptions& options,
                         all.interval.upper, percent(all.variation, 0));
   else
     text += fmt::format(
-        "P({}) was not found: {} of {} repeats did not reach it. The levels that were reached are\n"
-        "estimated at {:.3g}, {:g} % bound {:.3g}: an estimate of what P does not exceed, no "
-        "proof\n",
+        "P({}): not reached in {} of {} repeats. Probability of the last levels {:.3g}, {:g} % "
+        "bound "
+        "{:.3g}:\nestimated upper bound, not guaranteed\n",
         event, std::ranges::count(result.estimates, false, &SubsetEstimate::reached),
         result.estimates.size(), all.probability, 100 * options.confidence, all.interval.upper);
   if (all.reached && all.bias > 0)
-    text += fmt::format("Such an estimate is too large on average, by some {} here\n",
+    text += fmt::format("Bias: such estimates are too large by about {} on average\n",
                         percent(all.bias, 1));
-  text += fmt::format("{} runs were made. {}", all.evaluations, plain_text(all));
+  text += fmt::format("{} runs made. {}", all.evaluations, plain_text(all));
   if (text.back() != '\n') text += '\n';
   text += repeats_text(result, options);
   if (result.likeliest) text += likeliest_text(*result.likeliest, campaign);

@@ -1,4 +1,4 @@
-/// What the estimate of a rare event says: as JSON, and as text for a terminal.
+/// The estimate of a rare event as JSON and as text for a terminal.
 #pragma once
 
 #include "montecarlo/analyses/rare/rare_event.hpp"
@@ -9,10 +9,10 @@
 
 namespace wingspread {
 
-/// What `rare` leaves in its folder.
+/// The file of `rare` in its folder.
 inline constexpr const char* rare_json_file = "rare.json";
 
-/// @param about the value of "wingspread"
+/// @param about the value of the key "wingspread"
 [[nodiscard]] Json rare_json(const RareResult& result, const RareOptions& options,
                              const Campaign& campaign, const Json& about);
 

@@ -15,17 +15,19 @@
 namespace wingspread {
 namespace {
 
-constexpr long chain_length = 10;      // L
-constexpr double aimed_at = 0.44;      // share of moves taken
-constexpr double first_scale = 0.6;    // λ of the first chains
-constexpr double bias_of_square = 0.4; // of an estimate with chains, in units of its δ²
+constexpr long chain_length = 10; // L
+constexpr double aimed_at =
+    0.44; // share of accepted moves: optimal for one dimension (Papaioannou et al. 2015, section 4)
+constexpr double first_scale =
+    0.6; // λ of the first chains (ibid.); a bad value costs acceptance in the first steps only
+constexpr double bias_of_square = 0.4; // bias / δ², fitted to the two measurements in the header
 
 double standard_normal(RandomStream& stream) {
   const double u = open_uniform(stream());
   return inverse(Normal{}, {u, 1 - u});
 }
 
-/// A level's points with their g, and in which order they came: chain by chain.
+/// A level's points with their g, chain by chain.
 struct Level {
   std::vector<NormalPoint> points;
   std::vector<double> g;
@@ -50,11 +52,11 @@ public:
       const bool ends = inside >= chains() || estimate_.stuck ||
                         estimate_.probability / chain_length <= options_.smallest;
       estimate_.reached = ends && inside > 0;
-      note(estimate_.reached ? 0 : threshold, taken);
+      record_level(estimate_.reached ? 0 : threshold, taken);
       if (ends) break;
       level_ = next_level(threshold, taken);
     }
-    return finished();
+    return finish_estimate();
   }
 
 private:
@@ -64,7 +66,7 @@ private:
     return std::ranges::count_if(level_.g, [](double g) { return g < 0; });
   }
 
-  std::vector<double> evaluate(std::span<const NormalPoint> points) {
+  std::vector<double> evaluate_points(std::span<const NormalPoint> points) {
     std::vector<double> g = g_(points);
     assert(g.size() == points.size());
     for (double& value : g)
@@ -73,7 +75,7 @@ private:
     return g;
   }
 
-  /// The stream of one point of the level that is being made.
+  /// The random stream of one point of the current level.
   [[nodiscard]] RandomStream stream(long point) const {
     const std::string name = "\x7Fsubset " + std::to_string(options_.repetition) + ' ' +
                              std::to_string(estimate_.levels.size());
@@ -88,18 +90,18 @@ private:
       std::ranges::generate(point, [&] { return standard_normal(random); });
       level.points.push_back(std::move(point));
     }
-    level.g = evaluate(level.points);
+    level.g = evaluate_points(level.points);
     return level;
   }
 
-  /// The g that a tenth of the points do not exceed.
+  /// The lower decile of g over the points.
   [[nodiscard]] double next_threshold() const {
     std::vector<double> sorted = level_.g;
     std::ranges::sort(sorted);
     return sorted[static_cast<std::size_t>(chains() - 1)];
   }
 
-  /// (4), over the points as they stand in chains.
+  /// γ_j by (4).
   [[nodiscard]] double chain_correlation(const std::vector<bool>& in, double share) const {
     if (!(share < 1) || estimate_.levels.empty()) return 0;
     double gamma = 0;
@@ -112,10 +114,10 @@ private:
       const double covariance = static_cast<double>(both) / pairs - share * share;
       gamma += 2 * (1 - static_cast<double>(k) / chain_length) * covariance / (share * (1 - share));
     }
-    return std::max(0.0, gamma); // below it there is only noise
+    return std::max(0.0, gamma); // a negative estimate is sampling noise
   }
 
-  void note(double threshold, double taken) {
+  void record_level(double threshold, double taken) {
     std::vector<bool> in;
     for (const double g : level_.g) in.push_back(estimate_.reached ? g < 0 : g <= threshold);
     const auto n = static_cast<double>(options_.samples);
@@ -126,8 +128,7 @@ private:
     estimate_.probability *= share;
   }
 
-  /// Points of the level that are in the event, c of them,
-  /// spread evenly over it where ties make more.
+  /// Indices of c points in the event, evenly spread if ties make more.
   [[nodiscard]] std::vector<std::size_t> seeds(double threshold) const {
     std::vector<std::size_t> in;
     for (std::size_t k = 0; k < level_.g.size(); ++k)
@@ -138,7 +139,7 @@ private:
     return chosen;
   }
 
-  /// s of each coordinate.
+  /// s_i, the standard deviation of each coordinate.
   [[nodiscard]] std::vector<double> spread(const std::vector<NormalPoint>& points) const {
     std::vector<double> s;
     for (std::size_t i = 0; i < dimensions_; ++i) {
@@ -149,9 +150,9 @@ private:
     return s;
   }
 
-  /// (2)
-  [[nodiscard]] NormalPoint moved(const NormalPoint& from, const std::vector<double>& s,
-                                  RandomStream random) const {
+  /// A candidate by (2).
+  [[nodiscard]] NormalPoint candidate_from(const NormalPoint& from, const std::vector<double>& s,
+                                           RandomStream random) const {
     NormalPoint to(dimensions_);
     for (std::size_t i = 0; i < dimensions_; ++i) {
       const double sigma = std::min(1.0, scale_ * s[i]);
@@ -160,7 +161,7 @@ private:
     return to;
   }
 
-  /// All chains, a step at a time.
+  /// The next level: all chains advance step by step.
   Level next_level(double threshold, double& taken) {
     std::vector<NormalPoint> at;
     std::vector<double> g;
@@ -175,7 +176,7 @@ private:
     level.g.resize(chains * chain_length);
     long moves = 0;
     for (long step = 0; step < chain_length; ++step) {
-      if (step > 0) moves += advance(step, threshold, s, at, g);
+      if (step > 0) moves += advance_chains(step, threshold, s, at, g);
       for (std::size_t chain = 0; chain < chains; ++chain) {
         const std::size_t place = chain * chain_length + static_cast<std::size_t>(step);
         level.points[place] = at[chain];
@@ -186,14 +187,14 @@ private:
     return level;
   }
 
-  /// One step of every chain. @return how many moves were taken
-  long advance(long step, double threshold, const std::vector<double>& s,
-               std::vector<NormalPoint>& at, std::vector<double>& g) {
+  /// Advances every chain by one step and adapts λ. @return the number of accepted moves
+  long advance_chains(long step, double threshold, const std::vector<double>& s,
+                      std::vector<NormalPoint>& at, std::vector<double>& g) {
     std::vector<NormalPoint> candidates;
     for (std::size_t chain = 0; chain < at.size(); ++chain)
       candidates.push_back(
-          moved(at[chain], s, stream(static_cast<long>(chain) * chain_length + step)));
-    const std::vector<double> there = evaluate(candidates);
+          candidate_from(at[chain], s, stream(static_cast<long>(chain) * chain_length + step)));
+    const std::vector<double> there = evaluate_points(candidates);
     long moves = 0;
     for (std::size_t chain = 0; chain < at.size(); ++chain) {
       if (!(there[chain] <= threshold)) continue;
@@ -202,11 +203,12 @@ private:
       ++moves;
     }
     const double share = static_cast<double>(moves) / static_cast<double>(at.size());
+    // Robbins-Monro; 1e3 only keeps λ finite when every move is accepted: s_i λ ≥ 1 moves freely (2)
     scale_ = std::min(1e3, scale_ * std::exp((share - aimed_at) / std::sqrt(step)));
     return moves;
   }
 
-  SubsetEstimate finished() {
+  SubsetEstimate finish_estimate() {
     double square = 0;
     for (const SubsetLevel& level : estimate_.levels) square += level.variation * level.variation;
     estimate_.variation = std::sqrt(square);
@@ -223,7 +225,7 @@ private:
   double scale_ = first_scale; ///< λ
 };
 
-/// The standard error of the mean in units of it.
+/// The relative standard error of the mean.
 double relative_spread(std::span<const double> values, double mean) {
   if (values.size() < 2) return undefined;
   return moments(values).std / (mean * std::sqrt(static_cast<double>(values.size())));

@@ -15,7 +15,7 @@
 namespace wingspread {
 namespace {
 
-/// The design's own part: what its hash is of.
+/// The part of design.json under the hash.
 Json body(const SaltelliDesign& design) {
   return {{"samples", design.rows}, {"campaign", design.campaign.resolved}};
 }
@@ -75,7 +75,7 @@ SaltelliDesign read_design_file(const std::filesystem::path& path) {
                         rows, there.shard};
   if (rows < 1 || there.hash != stamp_of(design).hash)
     throw SpecError({{path.string(), "/wingspread/hash", "that of another design",
-                      "a design that nobody changed after it was run"}});
+                      "an unchanged design.json"}});
   return design;
 }
 

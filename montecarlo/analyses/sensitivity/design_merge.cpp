@@ -10,7 +10,7 @@
 namespace wingspread {
 namespace {
 
-/// An earlier merging of the same folders may have been cut off: it is done again.
+/// An interrupted merge of the same design is repeated; any other content is refused.
 void refuse_other_folder(const std::filesystem::path& out, const SaltelliDesign& whole) {
   if (read_text(out / design_file) != design_text(whole))
     refuse_used_folder(out, "a new or an empty folder for the merged runs");

@@ -1,4 +1,4 @@
-/// Shards of a design for Sobol' indices put together again.
+/// Merges the shards of a design for Sobol' indices.
 #pragma once
 
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
@@ -8,12 +8,10 @@
 
 namespace wingspread {
 
-/// Writes design.json and design_runs.csv as making all of the design's runs at once would have, byte for byte. Its
-/// rows are read one at a time.
+/// Writes design.json and design_runs.csv, byte for byte as one process would. Reads one row at a time.
 /// @param folders of one design and version, in any order, with each run in one of them
 /// @param out     new or empty
-/// @throws MissingRuns (parts.hpp) when runs are missing, SpecError with all else that keeps them from being merged;
-///   then nothing is written
+/// @throws MissingRuns (parts.hpp) when runs are missing, SpecError with all other obstacles; then nothing is written
 void merge_designs(const std::vector<std::filesystem::path>& folders,
                    const std::filesystem::path& out);
 

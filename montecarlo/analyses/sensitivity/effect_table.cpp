@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_lines = 8; ///< of an output's table
 
-/// Indices of the dispersions, the largest first; those without a number last.
+/// Indices of the dispersions, the largest size first, NaN last.
 std::vector<std::size_t> by_size(std::size_t count,
                                  const std::function<double(std::size_t)>& size) {
   std::vector<std::size_t> order(count);
@@ -64,7 +64,7 @@ std::string effect_block(const std::string& heading, const std::string& columns,
   const std::size_t shown = count > most_lines + 1 ? most_lines : count;
   for (std::size_t k = 0; k < shown; ++k) text += line(order[k]);
   if (shown < count)
-    text += fmt::format("  and {} others, none above {:.3f}\n", count - shown,
+    text += fmt::format("  {} others, at most {:.3f}\n", count - shown,
                         std::max(0.0, size(order[shown])));
   return text;
 }

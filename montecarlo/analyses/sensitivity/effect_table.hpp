@@ -1,5 +1,4 @@
-/// What the reports of both analyses have in common: effects of dispersions, with their bounds, in
-/// JSON and in a table.
+/// Shared parts of both analyses' reports: effects of dispersions with bounds, in JSON and in tables.
 #pragma once
 
 #include "montecarlo/foundation/formats/json.hpp"
@@ -21,19 +20,18 @@ inline constexpr std::size_t name_width = 30;
 /// "    0.123      0.056 … 0.345", 30 columns wide.
 [[nodiscard]] std::string value_text(double value, const Bounds& bounds);
 
-/// The line that heads an output's table, its two values named.
+/// The heading line of an output's table with the names of its two values.
 [[nodiscard]] std::string column_names(std::string_view first, std::string_view second,
                                        double confidence);
 
-/// "root.latch_time, s · 90 runs · 10 without it left out", the last part where there are any.
+/// "root.latch_time, s · 90 runs · 10 without a value"; the last part only if `missing` is above 0.
 [[nodiscard]] std::string heading_of(const std::string& output, long count,
                                      std::string_view counted, long missing,
                                      std::string_view what_of_them);
 
-/// One output's heading and its first lines, the largest first; what is smaller is summed up in
-/// one.
-/// @param size of each of `count` dispersions, which it is sorted by; NaN comes last
-/// @param line of each of them, with its line feed
+/// One output's table: the largest effects first, one line for the rest.
+/// @param size sort key of each of `count` dispersions; NaN comes last
+/// @param line text of each dispersion, with its line feed
 [[nodiscard]] std::string effect_block(const std::string& heading, const std::string& columns,
                                        std::size_t count,
                                        const std::function<double(std::size_t)>& size,

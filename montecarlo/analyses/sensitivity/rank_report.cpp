@@ -15,7 +15,7 @@
 namespace wingspread {
 namespace {
 
-/// What the bounds are, for the design of the runs.
+/// The definition of the bounds for the design of the runs.
 std::string bounds_definition(const RankSensitivity& all) {
   if (all.replicates == 1) return std::string(one_replicate);
   if (all.replicates > 1)
@@ -98,7 +98,7 @@ std::string sensitivity_table(const RankSensitivity& all, std::string_view title
                          value_text(spearman.value, spearman.bounds));
     };
     text += effect_block(
-        heading_of(output.output, output.count, "runs", output.missing, "without it left out"),
+        heading_of(output.output, output.count, "runs", output.missing, "without a value"),
         columns, all.dispersions.size(), size, line);
   }
   return text;
@@ -109,18 +109,17 @@ std::vector<std::string> warnings(const RankSensitivity& all) {
   if (!all.unvaried.empty())
     list.push_back(fmt::format("the draws of {} do not vary", quoted(all.unvaried)));
   if (!all.idle.empty())
-    list.push_back(fmt::format("no output is seen to rise or fall with {} in {} runs (one that "
-                               "rises and falls would not be seen: Sobol' indices show it)",
+    list.push_back(fmt::format("no visible effect of {} on any output in {} runs (an effect that "
+                               "first increases and then decreases shows in Sobol' indices only)",
                                quoted(all.idle), all.runs));
   if (all.replicates == 1) list.emplace_back(one_replicate);
   if (!all.collinear.empty())
-    list.push_back(
-        fmt::format("the draws of {} go together with those of others: what they do "
-                    "together is in Spearman's coefficients, and not in the partial ones",
-                    quoted(all.collinear)));
+    list.push_back(fmt::format("the draws of {} depend on those of others: their joint effect "
+                               "is in Spearman's coefficients, not in the partial ones",
+                               quoted(all.collinear)));
   if (std::ranges::any_of(all.outputs, &OutputRanks::entangled))
-    list.emplace_back("two dispersions rank the runs alike, or there are too few runs: some "
-                      "outputs have no partial coefficients");
+    list.emplace_back("some outputs have no partial coefficients: two dispersions rank "
+                      "the runs alike, or there are too few runs");
   return list;
 }
 

@@ -1,6 +1,4 @@
-/// What rank correlations say: as JSON, as CSV, and as a table for a terminal.
-///
-/// JSON is strict: what is undefined is null. Numbers read back to the same double.
+/// Rank correlations as JSON, CSV and a table for a terminal. JSON numbers read back to the same double; undefined: null.
 #pragma once
 
 #include "montecarlo/analyses/sensitivity/rank_sensitivity.hpp"
@@ -12,16 +10,16 @@
 
 namespace wingspread {
 
-/// @param about the value of "wingspread"
+/// @param about the value of the key "wingspread"
 [[nodiscard]] Json sensitivity_json(const RankSensitivity& all, const Json& about);
 
-/// A line for each output and dispersion.
+/// One line per output and dispersion.
 [[nodiscard]] std::string sensitivity_csv(const RankSensitivity& all);
 
-/// Output by output, the dispersions that matter most first: by the larger of their coefficients.
+/// One table per output, dispersions sorted by the larger of their coefficients.
 [[nodiscard]] std::string sensitivity_table(const RankSensitivity& all, std::string_view title);
 
-/// What a designer should know before reading on; one a line, without its end.
+/// Warnings about the dispersions and the bounds, one per entry.
 [[nodiscard]] std::vector<std::string> warnings(const RankSensitivity& all);
 
 } // namespace wingspread

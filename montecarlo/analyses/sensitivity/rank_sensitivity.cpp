@@ -14,8 +14,9 @@
 namespace wingspread {
 namespace {
 
-constexpr double most_explained =
-    0.5; ///< R² of a dispersion by the others, beyond which it is told
+/// Heuristic: R² of a dispersion by the others from which `collinear` names it. With a smaller value chance names
+/// independent dispersions of small campaigns; with a larger one half of an effect goes unmentioned.
+constexpr double most_explained = 0.5;
 constexpr int all_threads = 0;
 
 using Rows = std::vector<bool>; ///< which runs are kept
@@ -26,14 +27,14 @@ std::vector<RankedColumn> ranked(const std::vector<const Column*>& columns) {
   return rank_columns(values, all_threads);
 }
 
-/// Takes out the runs in which the column has no number.
+/// Drops the runs in which the column has no value.
 void keep_runs_with(const Column& column, Rows& keep) {
   for (std::size_t i = 0; i < keep.size(); ++i)
     if (std::isnan(column.values[i])) keep[i] = false;
   column.values.release();
 }
 
-/// The draws' ranks over some runs, made ready.
+/// The ranks of the draws over selected runs, and their partial correlations.
 class RankedDraws {
 public:
   RankedDraws(const std::vector<RankedColumn>& draws, const Rows& keep)
@@ -41,7 +42,6 @@ public:
 
   [[nodiscard]] const PartialCorrelations& partial() const { return partial_; }
 
-  /// Spearman's coefficients of an output, and the partial ones.
   struct Coefficients {
     std::vector<double> spearman, partial;
   };
@@ -70,7 +70,7 @@ private:
 
 using Coefficients = RankedDraws::Coefficients;
 
-/// Runs that fall into groups which are independent of each other: for the jackknife.
+/// The independent groups of runs for the jackknife.
 class Groups {
 public:
   Groups(const Replication& replication, std::size_t rows) : replication_(replication) {
@@ -79,7 +79,7 @@ public:
     if (static_cast<std::size_t>(count_) > rows || count_ < 2) count_ = 0;
   }
   [[nodiscard]] int count() const { return count_; }
-  /// The runs kept, less those of a group.
+  /// The kept runs without those of a group.
   [[nodiscard]] Rows without(int group, Rows keep) const {
     for (std::size_t row = 0; row < keep.size(); ++row)
       if (of(row) == group) keep[row] = false;
@@ -95,7 +95,7 @@ private:
   int count_;
 };
 
-/// The coefficients of one output: of all its runs, and of all but each group's.
+/// The coefficients of one output: over all its runs, and without each group.
 struct Found {
   long count = 0, held = 0;
   Coefficients all;
@@ -105,7 +105,7 @@ struct Found {
 /// Bounds of an output's coefficients.
 class Judge {
 public:
-  /// @param tests how many coefficients are looked at together, to find the idle dispersions
+  /// @param tests number of simultaneous tests for the idle dispersions (Bonferroni)
   Judge(const RankSensitivity& all, long tests)
       : independent_(all.replicates == 0), confidence_(at_each_of(all.confidence, all.looks)),
         sure_(at_each_of(confidence_, tests)) {}
@@ -133,8 +133,8 @@ private:
     return jackknife_correlation_bounds((found.all.*kind)[j], without, confidence);
   }
 
-  /// Whether a coefficient differs from 0. Of independent draws by its z in standard errors under
-  /// ρ = 0; of others by its bounds, where there are any.
+  /// Whether a coefficient differs from 0: for independent draws by Fisher's z in standard errors under ρ = 0; for
+  /// replicates by its bounds, true without bounds.
   [[nodiscard]] bool seen(const Found& found, std::size_t j) const {
     if (independent_)
       return standard_errors(found.all.spearman[j], found.count) > two_sided_normal(sure_) ||
@@ -157,7 +157,7 @@ private:
   double confidence_, sure_;
 };
 
-/// The coefficients of all outputs that the same runs have.
+/// The coefficients of the outputs that are present in the same runs.
 std::vector<Found> coefficients(const std::vector<RankedColumn>& draws,
                                 const std::vector<const RankedColumn*>& outputs, const Rows& keep,
                                 const Groups& groups, bool& entangled) {
@@ -184,7 +184,7 @@ OutputRanks output_ranks(const std::string& name, const Found& found, std::size_
   return result;
 }
 
-/// What is to be said of the dispersions themselves.
+/// Lists the constant, idle and collinear dispersions.
 void note_dispersions(const Results& results, const std::vector<RankedColumn>& draws,
                       const Rows& with_draws, RankSensitivity& all) {
   const std::vector<double> explained = RankedDraws(draws, with_draws).partial().explained();
@@ -215,9 +215,9 @@ RankSensitivity rank_sensitivity(const Results& results, double confidence, cons
   if (const auto known = sorted_present(deployed.values); !known.empty() && varies(known))
     outputs.push_back(&deployed);
   const std::vector<RankedColumn> draws = ranked(drawn), ranks = ranked(outputs);
-  Rows with_draws(results.size(), true); // one that overflowed is no number
+  Rows with_draws(results.size(), true); // an overflowed draw is NaN
   for (const Column* draw : drawn) keep_runs_with(*draw, with_draws);
-  std::map<Rows, std::vector<std::size_t>> together; // most outputs are there in the same runs
+  std::map<Rows, std::vector<std::size_t>> together; // most outputs are present in the same runs
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     Rows keep = with_draws;
     keep_runs_with(*outputs[i], keep);

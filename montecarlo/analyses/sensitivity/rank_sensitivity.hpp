@@ -1,5 +1,5 @@
-/// Which dispersions move which outputs, from any campaign's runs: Spearman's and partial rank
-/// correlations (rank_correlation.hpp) of every output with every dispersion.
+/// Influence of dispersions on outputs from any campaign's runs: Spearman's and partial rank correlations
+/// (rank_correlation.hpp) of every output with every dispersion.
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
@@ -11,55 +11,51 @@
 
 namespace wingspread {
 
-/// NaN and no bounds where there is none: a column does not vary, or there are too few runs. No
-/// bounds besides where all runs are of one replicate.
+/// NaN without bounds if a column does not vary or has too few runs. No bounds either if all runs are of one replicate.
 struct Coefficient {
   double value;
   Bounds bounds;
 };
 
-/// What a dispersion does to an output.
+/// The effect of a dispersion on an output.
 struct RankEffect {
   Coefficient spearman, partial;
-  bool seen =
-      true; ///< one of them differs from 0 (RankSensitivity::idle); true where none can tell
+  bool seen = true; ///< a coefficient differs from 0 (RankSensitivity::idle); true without bounds
 };
 
 struct OutputRanks {
   std::string output;
-  long count = 0, missing = 0;     ///< runs with it, and without: these are left out
-  std::vector<RankEffect> effects; ///< of each dispersion, in the campaign's order
+  long count = 0, missing = 0;     ///< runs with a value, and without one (left out)
+  std::vector<RankEffect> effects; ///< per dispersion, in the campaign's order
   bool entangled = false;          ///< two dispersions rank the runs alike: no partial coefficients
 };
 
 struct RankSensitivity {
   long runs = 0;
-  double confidence = 0.95; ///< of all bounds, at whichever of its looks the campaign stopped
-  long looks = 1;           ///< numbers of runs at which it could have
-  int replicates = 0;       ///< that the bounds come from; 0: all draws are independent
+  double confidence = 0.95; ///< of all bounds, over all interim analyses
+  long looks = 1;           ///< number of interim analyses at which the campaign could stop
+  int replicates = 0;       ///< replicates behind the bounds; 0: independent draws
   std::vector<std::string> dispersions;
   std::vector<OutputRanks> outputs;  ///< the campaign's, then `deployed` when it varies
-  std::vector<std::string> unvaried; ///< dispersions whose draws are all the same
-  /// Dispersions that vary and move no output that these runs show: of all their coefficients none
-  /// differs from 0, at the confidence asked for taken over all outputs together (Bonferroni).
+  std::vector<std::string> unvaried; ///< dispersions with constant draws
+  /// Dispersions that vary without a visible effect: none of their coefficients differs from 0 at the confidence shared
+  /// over all outputs (Bonferroni).
   std::vector<std::string> idle;
-  /// Dispersions of whose ranks half or more follow from the other dispersions'. What they do
-  /// together, a partial coefficient gives to none of them.
+  /// Dispersions whose ranks depend on the other dispersions' (R² ≥ 0.5). Partial coefficients omit their joint effect.
   std::vector<std::string> collinear;
 };
 
-/// How the runs came about, as far as bounds depend on it.
+/// The properties of the runs that the bounds depend on.
 struct RunsMade {
   Replication replication{};
-  long looks = 1; ///< numbers of runs at which the campaign could have stopped
+  long looks = 1; ///< number of interim analyses at which the campaign could stop
 };
 
-/// All outputs with all dispersions. Of independent draws Spearman's bounds are those of
-/// rank_correlation.hpp; partial ones, and all bounds of draws that depend on each other, are the
-/// jackknife's, over parts of the draws or over their replicates. Pure.
+/// The coefficients of all outputs with all dispersions. Bounds: for independent draws Spearman's by rank_correlation.hpp
+/// and the partial ones' by the jackknife over parts of the runs; for replicates all by the jackknife over these. Pure.
 ///
-/// Cost O(n k²) for the runs' draws, once for all outputs that the same runs have, and O(n k) for each
-/// output; 17 times that for the jackknife (or replicates and one).
+/// Cost for n runs and k dispersions: O(n k²) once per group of outputs present in the same runs, O(n k) per output; times
+/// 17 for the jackknife (16 parts and the whole), or times the replicates plus one.
 [[nodiscard]] RankSensitivity rank_sensitivity(const Results& results, double confidence,
                                                const RunsMade& made = {});
 

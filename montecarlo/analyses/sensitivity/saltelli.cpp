@@ -12,8 +12,8 @@
 namespace wingspread {
 namespace {
 
-/// Coordinates of A, then those of B, which have names that no dispersion can have (control
-/// characters are refused) and that come after all of A's.
+/// Names of the coordinates of A, then of B. B's have a control character, which no dispersion's name may contain, so that
+/// they differ from A's and sort behind them.
 std::vector<std::string> coordinates(const Campaign& campaign) {
   std::vector<std::string> names;
   for (const char* prefix : {"", "\x7F"})

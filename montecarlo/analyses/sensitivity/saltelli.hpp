@@ -9,18 +9,16 @@
 
 namespace wingspread {
 
-/// How many runs the rows take. @throws SpecError when that is more than can be counted
+/// The number of runs, N (d + 2). @throws SpecError on overflow
 [[nodiscard]] long saltelli_runs(long rows, std::size_t dispersions);
 
-/// In how many replicates of the campaign's design the rows are: as many as its runs, but no more than
-/// there are rows.
+/// The number of replicates of the rows: the campaign's, at most N.
 [[nodiscard]] long saltelli_replicates(const Sampling& sampling, long rows);
 
-/// The plan of a campaign whose runs are the design's.
-/// @param rows N, ≥ 1; what they are depends on it for Latin hypercubes alone
+/// The run plan of the design.
+/// @param rows N, ≥ 1; the points depend on N for Latin hypercubes only
 /// @pre the campaign outlives the plan
-/// @throws SpecError when the campaign has no dispersions, or some of them are correlated: then
-///   variance has no shares that belong to one of them
+/// @throws SpecError without dispersions, or with correlated ones: these have no variance shares of their own
 [[nodiscard]] RunPlan saltelli_plan(const Campaign& campaign, long rows);
 
 } // namespace wingspread

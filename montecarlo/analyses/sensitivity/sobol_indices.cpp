@@ -11,7 +11,7 @@
 namespace wingspread {
 namespace {
 
-/// A design's values, row by row: A, B, AB_1, …; a last row that is not complete is left aside.
+/// A design's values by row: A, B, AB_1, …; an incomplete last row is ignored.
 std::vector<std::span<const double>> rows_of(std::span<const double> values, std::size_t points) {
   std::vector<std::span<const double>> rows;
   for (std::size_t at = 0; at + points <= values.size(); at += points)
@@ -23,14 +23,14 @@ bool is_incomplete(std::span<const double> row) {
   return std::ranges::any_of(row, [](double value) { return std::isnan(value); });
 }
 
-/// What a row adds to the sums over rows, for one dispersion.
+/// A row's terms of the sums (1) and (2) for one dispersion.
 struct Terms {
   double product; ///< f_B (f_ABi − f_A)
   double change;  ///< f_ABi − f_A
   double square;  ///< its square
 };
 
-/// All rows' terms, with f taken from its mean over all rows.
+/// The terms of all rows; f minus its mean over all rows.
 struct Table {
   std::vector<double> sum, square; ///< f_A + f_B and f_A² + f_B² of each row
   std::vector<Terms> terms;        ///< by row, then dispersion
@@ -56,8 +56,8 @@ struct Estimate {
   double first, total;
 };
 
-/// (1) and (2) of all dispersions over the rows listed, which may repeat.
-/// The rows' own mean is taken out of f_B: with m that mean, f_B − m in place of f_B.
+/// (1) and (2) of all dispersions over the listed rows, which may repeat. f_B is centred on the listed rows' own mean m:
+/// Σ (f_B − m)(f_ABi − f_A).
 std::vector<Estimate> estimates(const Table& table, std::span<const std::size_t> rows) {
   const double n = static_cast<double>(rows.size());
   std::vector<Terms> sums(table.dispersions, Terms{0, 0, 0});
@@ -81,9 +81,9 @@ std::vector<Estimate> estimates(const Table& table, std::span<const std::size_t>
   return result;
 }
 
-/// The numbers of rows drawn with replacement.
+/// Draws row numbers with replacement.
 void resample(std::uint64_t seed, long number, std::vector<std::size_t>& rows) {
-  // no dispersion's name: those hold no control characters
+  // a control character: no dispersion has this name
   RandomStream stream(seed, static_cast<std::uint64_t>(number),
                       stream_name("\x7F"
                                   "bootstrap"));
@@ -98,7 +98,7 @@ Bounds percentiles(const std::vector<double>& values, double confidence) {
   return {quantile(sorted, tail), quantile(sorted, 1 - tail)};
 }
 
-/// Estimates of all dispersions, once for each of several choices of rows.
+/// The estimates of all dispersions for several choices of rows.
 using Choices = std::vector<std::vector<Estimate>>;
 
 Choices resampled(const Table& table, std::size_t rows, const SobolBounds& how) {
@@ -111,7 +111,7 @@ Choices resampled(const Table& table, std::size_t rows, const SobolBounds& how) 
   return all;
 }
 
-/// All rows but those of one replicate, for each; nothing where one of them has all the rows.
+/// The estimates without each replicate in turn; empty if there are fewer than two replicates.
 Choices without_each(const Table& table, std::size_t rows, std::size_t replicates) {
   Choices all;
   if (replicates < 2 || rows < replicates) return all;
@@ -136,7 +136,7 @@ bool is_inert(std::span<const std::span<const double>> rows, std::size_t i) {
   return std::ranges::all_of(rows, [i](const auto& row) { return same(row[2 + i], row[0]); });
 }
 
-/// The indices of a design all of whose points have a value, put into the effects.
+/// Sets the indices of a design without missing values.
 void add_indices(std::span<const std::span<const double>> rows, double mean, const SobolBounds& how,
                  std::vector<SobolEffect>& effects) {
   const Table table = table_of(rows, effects.size(), mean);

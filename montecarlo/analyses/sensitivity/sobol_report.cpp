@@ -14,7 +14,7 @@
 namespace wingspread {
 namespace {
 
-/// Where bounds are from, for the design of the rows.
+/// The definition of the bounds for the design of the rows.
 std::string bounds_definition(const SobolBounds& how) {
   if (how.replicates == 1) return std::string(one_replicate);
   if (how.replicates > 1)
@@ -23,7 +23,7 @@ std::string bounds_definition(const SobolBounds& how) {
   return fmt::format("percentile bootstrap over rows, {} resamples, two-sided", how.resamples);
 }
 
-/// The outputs that have no indices because they did not happen at some point.
+/// The outputs without indices because they lack a value at some point.
 std::vector<std::string> incomplete(const SobolSensitivity& all) {
   std::vector<std::string> names;
   for (const auto& [name, indices] : all.outputs)
@@ -95,9 +95,9 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
                          value_text(total.value, total.bounds),
                          value_text(first.value, first.bounds));
     };
-    text += effect_block(heading_of(name, found.rows, "rows", found.incomplete,
-                                    "in which some point is without it: no indices"),
-                         columns, all.dispersions.size(), size, line);
+    text += effect_block(
+        heading_of(name, found.rows, "rows", found.incomplete, "with a missing value: no indices"),
+        columns, all.dispersions.size(), size, line);
     double sum = 0;
     for (const SobolEffect& effect : found.effects) sum += effect.first.value;
     if (!std::isnan(sum))
@@ -112,13 +112,11 @@ std::vector<std::string> warnings(const SobolSensitivity& all) {
     list.push_back(fmt::format("no output of any run changes with {}", quoted(idle)));
   if (all.bounds.replicates == 1) list.emplace_back(one_replicate);
   if (const std::vector<std::string> names = incomplete(all); !names.empty())
-    list.push_back(
-        fmt::format("{} did not happen at some points of the design, and so without a value "
-                    "there have no indices (rank correlations of a campaign's runs take "
-                    "those that have it)",
-                    quoted(names)));
+    list.push_back(fmt::format("no indices of {}: some points of the design have no value (rank "
+                               "correlations of a campaign's runs use the runs with a value)",
+                               quoted(names)));
   if (all.runs < all.total)
-    list.push_back(fmt::format("only {} of {} runs are there", all.runs, all.total));
+    list.push_back(fmt::format("only {} of {} runs are complete", all.runs, all.total));
   return list;
 }
 

@@ -1,6 +1,4 @@
-/// What Sobol' indices say: as JSON, as CSV, and as a table for a terminal.
-///
-/// JSON is strict: what is undefined is null. Numbers read back to the same double.
+/// Sobol' indices as JSON, CSV and a table for a terminal. JSON numbers read back to the same double; undefined: null.
 #pragma once
 
 #include "montecarlo/analyses/sensitivity/sobol_sensitivity.hpp"
@@ -12,16 +10,16 @@
 
 namespace wingspread {
 
-/// @param about the value of "wingspread"
+/// @param about the value of the key "wingspread"
 [[nodiscard]] Json sensitivity_json(const SobolSensitivity& all, const Json& about);
 
-/// A line for each output and dispersion.
+/// One line per output and dispersion.
 [[nodiscard]] std::string sensitivity_csv(const SobolSensitivity& all);
 
-/// Output by output, the dispersions that matter most first.
+/// One table per output, dispersions sorted by their total index.
 [[nodiscard]] std::string sensitivity_table(const SobolSensitivity& all, std::string_view title);
 
-/// What a designer should know before reading on; one a line, without its end.
+/// Warnings about idle dispersions and missing values, one per entry.
 [[nodiscard]] std::vector<std::string> warnings(const SobolSensitivity& all);
 
 } // namespace wingspread

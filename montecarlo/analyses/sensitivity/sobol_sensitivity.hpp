@@ -12,7 +12,7 @@ namespace wingspread {
 /// Sobol' indices of all outputs of a design.
 struct SobolSensitivity {
   long rows = 0;  ///< N
-  long runs = 0;  ///< made, of N (d + 2)
+  long runs = 0;  ///< number of runs made, of N (d + 2)
   long total = 0; ///< N (d + 2)
   std::string design;
   SobolBounds bounds;
@@ -22,12 +22,12 @@ struct SobolSensitivity {
     SobolIndices indices;
   };
   std::vector<Output> outputs;
-  /// Dispersions without which every output of every row is the same, bit for bit.
+  /// Dispersions without any effect: every output of every row is the same without them, bit for bit.
   [[nodiscard]] std::vector<std::string> idle() const;
 };
 
-/// All outputs' indices, and those of `deployed` (deployed_column()) when it varies.
-/// @param results of a Saltelli design, from its first run on
+/// The indices of all outputs, and of `deployed` (deployed_column()) if it varies.
+/// @param results of a Saltelli design, beginning with its first run
 [[nodiscard]] SobolSensitivity sobol_sensitivity(const Results& results, long rows,
                                                  std::string design, const SobolBounds& bounds);
 

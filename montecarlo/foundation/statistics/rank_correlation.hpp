@@ -40,7 +40,7 @@ class PartialCorrelations {
 public:
   /// Cost O(n k² + k³).
   /// @param columns k of them, equally long, finite
-  /// @param threads as of thread_count (team.hpp)
+  /// @param threads as of thread_count (thread_pool.hpp)
   explicit PartialCorrelations(const std::vector<Spilled<double>>& columns, int threads = 1);
 
   /// How many columns vary.

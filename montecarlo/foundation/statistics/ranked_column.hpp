@@ -34,7 +34,7 @@ private:
   bool complete_ = true;
 };
 
-/// The columns ranked, several at once. @param threads as of thread_count (team.hpp)
+/// The columns ranked, several at once. @param threads as of thread_count (thread_pool.hpp)
 /// @pre the columns outlive what comes back
 [[nodiscard]] std::vector<RankedColumn>
 rank_columns(std::span<const Spilled<double>* const> columns, int threads = 1);

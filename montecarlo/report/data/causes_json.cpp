@@ -15,7 +15,7 @@ namespace {
 
 // ---- effects
 
-/// The first runs of a random design; all of one whose replicates have to stay whole.
+/// The first runs of a random design; all runs of a replicated design, whose replicates must stay complete.
 const Results& effect_runs(const PageSource& source, Results& first) {
   if (source.replication.replicates > 0 || source.results.size() <= most_effect_runs)
     return source.results;
@@ -56,11 +56,9 @@ void add_effects(const RankSensitivity& all, const OutputRanks& output, std::siz
 
 std::vector<double> even_edges(const Column& column, std::span<const std::size_t> rows,
                                std::size_t bins) {
-  double least = column.values[rows.front()], most = least;
-  for (const std::size_t row : rows) {
-    least = std::min(least, column.values[row]);
-    most = std::max(most, column.values[row]);
-  }
+  const auto value = [&](std::size_t row) -> double { return column.values[row]; };
+  double least = value(std::ranges::min(rows, {}, value)),
+         most = value(std::ranges::max(rows, {}, value));
   if (least == most) {
     const double half = least == 0 ? 0.5 : std::abs(least) / 2;
     least -= half;
@@ -77,7 +75,7 @@ std::size_t bin_of(const std::vector<double>& edges, double value) {
   return static_cast<std::size_t>(inner - edges.begin() - 1);
 }
 
-/// The rows in which both have a number.
+/// The rows in which both columns have a value.
 std::vector<std::size_t> rows_of_both(const Column& x, const Column& y) {
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < x.values.size(); ++row)
@@ -129,7 +127,7 @@ Json correlations_json(const PageSource& source, const PageDetail& detail) {
             {"spearman", Json::array()},
             {"pearson", Json::array()}};
   for (std::size_t o = 0; o < outputs; ++o) json["outputs"].push_back(results.outputs[o].name);
-  const std::size_t row = results.outputs.size() + 1; // and `deployed` behind them
+  const std::size_t row = results.outputs.size() + 1; // one more for `deployed`
   for (std::size_t d = 0; d < draws; ++d) {
     json["draws"].push_back(results.draws[d].name);
     Json spearman = Json::array(), pearson = Json::array();

@@ -87,8 +87,8 @@ std::vector<long> convergence_runs(long all, std::size_t most, long first) {
   return runs;
 }
 
-SettledColumn settle(const Column& column, double p, double confidence,
-                     const Replication& replication, std::size_t most) {
+SettledColumn settle_column(const Column& column, double p, double confidence,
+                            const Replication& replication, std::size_t most) {
   SettledColumn settled;
   settled.convergence.p = p;
   if (column.values.empty()) return settled;

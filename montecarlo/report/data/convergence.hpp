@@ -1,4 +1,4 @@
-/// How a mean and a quantile settle as runs are added, in the order of the runs.
+/// Convergence of a mean and a quantile with the number of runs, in the order of the runs.
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"
@@ -12,7 +12,7 @@
 namespace wingspread {
 
 struct ConvergencePoint {
-  long runs = 0; ///< the first so many, those without a value among them
+  long runs = 0; ///< the number of first runs, those without a value included
   double mean, quantile;
   Bounds mean_bounds, quantile_bounds;
 };
@@ -22,20 +22,21 @@ struct Convergence {
   std::vector<ConvergencePoint> points;
 };
 
-/// A column's present values, smallest first, and how their statistics came there.
+/// A column's values in ascending order, and the convergence of their statistics.
 struct SettledColumn {
   std::vector<double> sorted;
-  std::vector<ReplicateValue> replicated; ///< the same with their replicates, where there are any
+  std::vector<ReplicateValue>
+      replicated; ///< the same with their replicates; empty without replicates
   Convergence convergence;
 };
 
-/// Numbers of runs, evenly in the logarithm, from `first` or fewer up to all; ascending, each once.
+/// Numbers of runs, evenly spaced in the logarithm, from `first` (or `all` if smaller) to `all`; ascending, distinct.
 [[nodiscard]] std::vector<long> convergence_runs(long all, std::size_t most, long first = 10);
 
-/// Cost: that of sorting the column, and four passes through it; memory: that of sorting.
+/// Sorts a column and computes its convergence. Cost: one sort and four passes.
 /// @param p          of the quantile, in (0, 1)
 /// @param confidence of all bounds, two-sided
-[[nodiscard]] SettledColumn settle(const Column& column, double p, double confidence,
-                                   const Replication& replication, std::size_t most);
+[[nodiscard]] SettledColumn settle_column(const Column& column, double p, double confidence,
+                                          const Replication& replication, std::size_t most);
 
 } // namespace wingspread

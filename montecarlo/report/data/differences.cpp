@@ -21,7 +21,7 @@ Difference with_width(double value, double error, double degrees, double confide
   return {value, {{value - width}, {value + width}}, runs};
 }
 
-/// Bounds of b − a from those of each.
+/// The bounds of b − a from the bounds of a and b.
 Difference of_shares(double value, const Interval& a, const Interval& b, long runs) {
   return {value, {b.lower - a.upper, b.upper - a.lower}, runs};
 }
@@ -33,7 +33,7 @@ Json difference_json(const char* key, const std::string& name, const Difference&
   return json;
 }
 
-/// The rows of two sets that are compared run by run; none where they are not.
+/// Two sets and, if paired, their common rows.
 struct Sides {
   const PageSource &first, &second;
   bool paired;

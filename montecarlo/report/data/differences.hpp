@@ -1,10 +1,10 @@
-/// Two sets beside each other: COMPARISON of page/DATA.md.
+/// Differences between two sets: COMPARISON of page/DATA.md.
 ///
-/// Of means. Paired, where both are of the same draws: over the runs in which both have the output, the mean of the
-/// differences run by run with Student's interval (of replicates: that of their means). Otherwise the difference of
-/// the means with Welch's interval; none for replicates.
-/// Of shares. Each by Clopper and Pearson at 1 − α/2, so that the bounds of their difference hold together at 1 − α:
-/// paired, of the shares of runs that have the status in one set alone; otherwise of the two shares themselves.
+/// Means. Paired (both sets have the same draws): the mean of the differences run by run, over runs with the output in both
+/// sets, with Student's interval (of the replicates' means for replicates). Not paired: the difference of the means with
+/// Welch's interval; none for replicates.
+/// Shares. Each by Clopper and Pearson at 1 − α/2, so that the bounds of the difference hold at 1 − α (Bonferroni): paired,
+/// for the shares of runs with the status in one set only; not paired, for the two shares.
 /// Source: B. L. Welch, Biometrika 34 (1947) 28–35.
 #pragma once
 
@@ -13,12 +13,12 @@
 namespace wingspread {
 
 struct Difference {
-  double value; ///< second less first; NaN where it does not exist
+  double value; ///< second minus first; NaN if unknown
   Bounds bounds;
-  long runs = 0; ///< that it is of, in both
+  long runs = 0; ///< number of runs with a value in both sets
 };
 
-/// Rows of two tables that are of the same run, ascending.
+/// The rows of equal run numbers in two tables, ascending.
 struct SameRuns {
   std::vector<std::size_t> first, second; ///< rows, equally many
 };
@@ -31,16 +31,16 @@ struct SameRuns {
 [[nodiscard]] Difference unpaired_difference(const Moments& first, const Moments& second,
                                              double confidence);
 
-/// Second less first, of n runs each: how many have the status in one alone.
+/// Second minus first, over n runs. @param first_alone, second_alone runs with the status in one set only
 [[nodiscard]] Difference paired_share_difference(long first_alone, long second_alone, long n,
                                                  double confidence);
 [[nodiscard]] Difference unpaired_share_difference(long first, long first_of, long second,
                                                    long second_of, double confidence);
 
-/// Whether two sets have the same draws in runs of the same number.
+/// Whether runs of equal number have equal draws in both sets.
 [[nodiscard]] bool have_same_draws(const PageSource& first, const PageSource& second);
 
-/// The second set less the first. @param places of the two among the page's sets
+/// The second set minus the first. @param places indices of both among the page's sets
 [[nodiscard]] Json comparison_json(const PageSource& first, const PageSource& second,
                                    std::pair<std::size_t, std::size_t> places);
 

@@ -13,7 +13,7 @@ double band_width(double n, double confidence) {
   return std::sqrt(std::log(2 / (1 - confidence)) / (2 * n));
 }
 
-/// How many values of each replicate are at most x, and how many there are, as x goes up.
+/// The numbers of values ≤ x of each replicate, for ascending x.
 class ReplicateCounts {
 public:
   ReplicateCounts(std::span<const ReplicateValue> sorted, int replicates)

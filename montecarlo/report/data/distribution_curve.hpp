@@ -1,8 +1,8 @@
-/// An empirical distribution function at a few of its steps, with its confidence band.
+/// An empirical distribution function at some of its steps, with its confidence band.
 ///
-/// Independent draws: the band of Dvoretzky, Kiefer and Wolfowitz with Massart's constant, F ± √(ln(2/α)/(2n)). It holds
-/// for the whole curve at once, whatever the distribution, and for any n.
-/// Replicates of a design: at each knot by itself, the interval of Korn and Graubard (replicate_bounds.hpp).
+/// Independent draws: the band of Dvoretzky, Kiefer and Wolfowitz with Massart's constant, F ± √(ln(2/α)/(2n)). It holds for
+/// the whole curve at once, for any distribution and any n.
+/// Replicates of a design: the interval of Korn and Graubard at each knot separately (replicate_bounds.hpp).
 /// Source: P. Massart, Ann. Probab. 18 (1990) 1269–1283.
 #pragma once
 
@@ -22,8 +22,8 @@ struct CurveKnot {
   Bounds band{};
 };
 
-/// Ranks, from 1 to n, of the order statistics that a curve of n values is drawn through: half of them evenly, a quarter
-/// towards either end as a geometric series, for there are the values that requirements are about. Ascending, each once.
+/// The ranks, 1 to n, of the knots of a curve of n values: half of them evenly spaced, a quarter towards each end as a
+/// geometric series, because requirements concern the tails. Ascending, distinct.
 /// @pre n ≥ 1, most ≥ 5
 [[nodiscard]] std::vector<long> curve_ranks(long n, std::size_t most);
 
@@ -35,7 +35,7 @@ struct CurveKnot {
                                                         int replicates, double confidence,
                                                         std::size_t most);
 
-/// "Dvoretzky-Kiefer-Wolfowitz, 95 %": what the page calls the band.
+/// The name of the band: "Dvoretzky-Kiefer-Wolfowitz, 95 %".
 [[nodiscard]] std::string band_name(int replicates, double confidence);
 
 } // namespace wingspread

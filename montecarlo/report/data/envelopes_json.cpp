@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::array levels{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 
-/// A run as far as the envelopes need it.
+/// The part of a run that the envelopes need.
 struct Track {
-  std::vector<MotionSample> samples; ///< none of a run that is left out
+  std::vector<MotionSample> samples; ///< empty if the run is left out
   std::vector<LatchEvent> latches;
-  double end = 0; ///< what there is to see of it
+  double end = 0; ///< end of the displayed time, s
   bool deployed = false;
 };
 
@@ -37,7 +37,7 @@ Track track_of(const RunPlan& plan, long run) {
   return track;
 }
 
-/// The runs that are made again: evenly from the first to the last row.
+/// Replays runs evenly spaced from the first to the last row.
 std::vector<Track> tracks_of(const PageSource& source, std::size_t most, int threads) {
   const std::size_t rows = source.results.size(), count = std::min(rows, most);
   const RunPlan plan(source.stored.campaign);
@@ -58,12 +58,12 @@ double end_of(const std::vector<Track>& tracks) {
   return deployed > 0 ? deployed : any;
 }
 
-/// Where a run is at ascending times; behind its end it rests.
+/// The state of a run at ascending times; after its end it rests.
 class Follower {
 public:
   Follower(const Track& track, const MotionLayout& layout) : track_(track), layout_(layout) {}
 
-  /// @param t not before the one before
+  /// @param t not below the t of the call before
   [[nodiscard]] MotionSample at(double t) {
     const std::vector<MotionSample>& samples = track_.samples;
     while (next_ < samples.size() && samples[next_].t <= t) ++next_;
@@ -116,7 +116,7 @@ Json bands_json(const Bands& bands, std::size_t first, std::size_t count, int di
   return json;
 }
 
-/// Of each hinge when it latched, sorted; of more times than there is room for evenly chosen ones.
+/// The latch times of each hinge, sorted; thinned evenly to `most`.
 Json latch_times_json(const std::vector<Track>& tracks, std::size_t hinges, std::size_t most) {
   std::vector<std::vector<double>> times(hinges);
   for (const Track& track : tracks)

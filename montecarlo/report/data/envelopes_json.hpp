@@ -1,4 +1,4 @@
-/// Angles and rates of many runs at once: ENVELOPES of page/DATA.md.
+/// Envelopes of angles and rates over many runs: ENVELOPES of page/DATA.md.
 #pragma once
 
 #include "montecarlo/report/data/page_detail.hpp"
@@ -6,10 +6,10 @@
 
 namespace wingspread {
 
-/// Quantiles over time of runs that are spread evenly through the campaign and made again, but for those that failed or
-/// had an unphysical draw. A run that has ended stays where it is, at rest. The times go from 0 to a little behind the
-/// last latch of any of them that deployed. Null where no run can be made again.
-/// @param threads as of thread_count (team.hpp); the bytes do not depend on them
+/// Quantiles over time of replayed runs spread evenly through the campaign, without failed and invalid ones. After its end
+/// a run keeps its angles, with zero rates. Times go from 0 to 8 % after the last latch of the deployed runs. Null if no run
+/// can be replayed.
+/// @param threads as of thread_count (thread_pool.hpp); the bytes do not depend on them
 [[nodiscard]] Json envelopes_json(const PageSource& source, const PageDetail& detail, int threads);
 
 } // namespace wingspread

@@ -22,7 +22,7 @@ std::string label_of(std::string path) {
   return path;
 }
 
-/// All parameters that are not 0 in both scenes, with what the case makes of them.
+/// The parameters that are not 0 in either scene, with the case's value where it differs.
 Json scene_json(const PageSource& source, std::size_t most) {
   const Scene &nominal = source.before_case.scene, &scene = source.stored.campaign.scene;
   Json json = Json::array();
@@ -41,7 +41,7 @@ Json scene_json(const PageSource& source, std::size_t most) {
   return json;
 }
 
-/// The least and the largest of 98 % of the draws, and what they are applied to.
+/// A dispersion: its law, the 1 % and 99 % quantiles of its draws, and its targets.
 Json dispersion_json(const Campaign& campaign, const Dispersion& dispersion,
                      const Dispersion& before_case) {
   constexpr std::size_t most_paths = 20;

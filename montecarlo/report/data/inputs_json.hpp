@@ -1,4 +1,4 @@
-/// What went into a set of runs: INPUTS of page/DATA.md.
+/// The inputs of a set of runs: INPUTS of page/DATA.md.
 #pragma once
 
 #include "montecarlo/report/data/page_detail.hpp"
@@ -6,7 +6,7 @@
 
 namespace wingspread {
 
-/// The scene's parameters, what its case changes of them, the dispersions with their laws, and the settings.
+/// The scene's parameters with the case's changes, the dispersions with their laws, and the settings.
 [[nodiscard]] Json inputs_json(const PageSource& source, const PageDetail& detail);
 
 } // namespace wingspread

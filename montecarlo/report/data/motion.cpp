@@ -7,7 +7,7 @@
 namespace wingspread {
 namespace {
 
-/// The three ways by which samples are shared out, summed up over all hinges.
+/// The three measures of progress between two samples: time, path length of all angles, path length of all moments.
 std::array<double, 3> way(const MotionSample& from, const MotionSample& to,
                           const MotionLayout& layout) {
   std::array<double, 3> ways{to.t - from.t, 0, 0};
@@ -18,7 +18,7 @@ std::array<double, 3> way(const MotionSample& from, const MotionSample& to,
   return ways;
 }
 
-/// How far along its ways a run is at each sample: from 0 to 1.
+/// The progress of a run at each sample, from 0 to 1: the mean of its three measures, each relative to its total.
 std::vector<double> progress_of(std::span<const MotionSample> samples, const MotionLayout& layout) {
   std::vector<std::array<double, 3>> ways;
   std::array<double, 3> whole{0, 0, 0};
@@ -41,13 +41,13 @@ std::vector<double> progress_of(std::span<const MotionSample> samples, const Mot
 } // namespace
 
 Observer MotionRecorder::observer() {
-  return [this](const Sample& sample) { take(sample); };
+  return [this](const Sample& sample) { record_sample(sample); };
 }
 
-void MotionRecorder::take(const Sample& sample) {
+void MotionRecorder::record_sample(const Sample& sample) {
   const bool again = !samples_.empty() && samples_.back().t == sample.t;
   if (again) samples_.back().pinned = true;
-  // Of a run that is thinned the last sample always stands: the next one takes its place unless it is to be kept.
+  // In a thinned run the last sample always stays; the next sample replaces it unless it is due to be kept.
   if (!again && ++seen_ % stride_ != 0 && samples_.size() > 1 && !samples_.back().pinned)
     samples_.pop_back();
   MotionSample kept{sample.t, {}, again};
@@ -57,10 +57,10 @@ void MotionRecorder::take(const Sample& sample) {
   kept.values.insert(kept.values.end(),
                      {sample.base_position.x(), sample.base_position.y(), sample.base_angle});
   samples_.push_back(std::move(kept));
-  if (samples_.size() > most_kept) thin();
+  if (samples_.size() > most_kept) drop_every_second();
 }
 
-void MotionRecorder::thin() {
+void MotionRecorder::drop_every_second() {
   std::size_t place = 0;
   std::erase_if(samples_, [&](const MotionSample& sample) {
     return place++ % 2 == 1 && !sample.pinned && &sample != &samples_.back();

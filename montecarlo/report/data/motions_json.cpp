@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array other_statuses{Status::stalled, Status::timed_out, Status::failed};
 
-/// Gathers runs, each once.
+/// Collects runs, each once, at most `most`.
 class Choice {
 public:
   Choice(const Results& results, std::size_t most) : results_(results), most_(most) {}
@@ -45,7 +45,7 @@ const Column* column_named(const Results& results, std::string_view name) {
   return found == results.outputs.end() ? nullptr : &*found;
 }
 
-/// The first row with the largest measure of a column's values; none without values.
+/// The first row whose value has the largest measure; none without values.
 std::optional<std::size_t> largest(const Column& column,
                                    const std::function<double(double)>& measure) {
   std::optional<std::size_t> best;
@@ -56,7 +56,7 @@ std::optional<std::size_t> largest(const Column& column,
   return best;
 }
 
-/// The row of the median deployment time: of equals the first.
+/// Adds the run with the median deployment time, the first of equals.
 void add_median(const PageSource& source, Choice& choice) {
   const Column* column = column_named(source.results, "deployment_time");
   if (!column) return;
@@ -67,26 +67,25 @@ void add_median(const PageSource& source, Choice& choice) {
   const auto middle = times.begin() + (quantile_rank(std::ssize(times), 0.5) - 1);
   std::ranges::nth_element(times, middle);
   const auto row = std::ranges::find(column->values, *middle) - column->values.begin();
-  choice.add_row("median run", "its deployment time is the median of those that deployed",
+  choice.add_row("median run", "median deployment time of the deployed runs",
                  static_cast<std::size_t>(row));
 }
 
-/// The run that breaks a requirement worst or, where none does, comes nearest to its limit.
+/// Adds the run that breaks a requirement worst, or else comes nearest to its limit.
 void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choice) {
   const Requirement& requirement = verdict.requirement;
   const std::string label = "worst: " + name_of(requirement);
   if (!verdict.broken.empty())
-    return choice.add(label, "it breaks worst: " + to_string(requirement), verdict.broken.front());
+    return choice.add(label, "breaks by most: " + to_string(requirement), verdict.broken.front());
   const Column* column = column_named(source.results, requirement.output);
   if (!column) return;
   const auto row = largest(*column, [&](double value) {
     return requirement.absolute ? std::abs(value) : requirement.max ? value : -value;
   });
-  if (row)
-    choice.add_row(label, "it comes nearest to the limit of: " + to_string(requirement), *row);
+  if (row) choice.add_row(label, "comes nearest to the limit of: " + to_string(requirement), *row);
 }
 
-/// Of the outputs of a family the run with the largest value of any.
+/// Adds the run with the largest value of any output of a family.
 void add_largest_of(const PageSource& source, std::string_view family, Choice& choice) {
   const Column* of = nullptr;
   std::size_t best = 0;
@@ -100,10 +99,10 @@ void add_largest_of(const PageSource& source, std::string_view family, Choice& c
       best = *row;
     }
   }
-  if (of) choice.add_row("largest " + of->name, "of all runs it has the largest " + of->name, best);
+  if (of) choice.add_row("largest " + of->name, "largest " + of->name + " of all runs", best);
 }
 
-/// The first run of each status but `deployed`, and `invalid`, whose runs have no motion.
+/// Adds the first run of each status except `deployed` and `invalid` (no motion).
 void add_statuses(const PageSource& source, Choice& choice) {
   for (const Status status : other_statuses) {
     const auto found = std::ranges::find(source.results.status, status);
@@ -117,7 +116,7 @@ void add_statuses(const PageSource& source, Choice& choice) {
   }
 }
 
-/// A run as the page plays it.
+/// The page's MOTION of a run.
 Json motion_json(const Scene& scene, MotionRecorder& recorder, const Outcome& outcome,
                  std::size_t most) {
   const MotionLayout layout{scene.hinges.size()};
@@ -162,7 +161,7 @@ Json nominal_json(const PageSource& source, std::size_t most) {
   const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
                                            goal_of(campaign.outputs), recorder.observer());
   Json json{{"label", "nominal"},
-            {"why", "nothing is dispersed"},
+            {"why", "run without dispersions"},
             {"run", nullptr},
             {"replay", fmt::format("wingspread simulate {}",
                                    (source.stored.folder / campaign_file).string())}};

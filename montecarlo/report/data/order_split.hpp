@@ -1,4 +1,4 @@
-/// Runs by the order in which their hinges latched: the modes that puzzle a reader of a histogram are orders.
+/// Groups runs by latch order, because separate modes of a histogram are usually different orders.
 #pragma once
 
 #include "montecarlo/foundation/formats/json.hpp"
@@ -11,13 +11,14 @@
 
 namespace wingspread {
 
-/// The most frequent orders, then what is beyond them, then the runs without any latch.
+/// The most frequent orders, then one group for the other orders, then one for runs without a latch.
 class OrderSplit {
 public:
-  static constexpr std::size_t most_orders = 6; ///< of those that have a group of their own
+  static constexpr std::size_t most_orders =
+      6; ///< largest number of orders with a group of their own
   static constexpr std::string_view others = "others", no_latch = "no latch";
 
-  /// @pre the summary is of these results; they outlive this
+  /// @pre the summary is that of the results; both outlive this
   OrderSplit(const Results& results, const Summary& summary);
 
   struct Group {
@@ -30,14 +31,14 @@ public:
     return of_code_[results_->latch_order.codes()[row]];
   }
 
-  /// How many values of each group are in each bin; of every bin the sum is its count.
+  /// The counts of each group in each bin; they sum to the histogram's counts.
   [[nodiscard]] std::vector<std::vector<long>> counts(const Histogram& histogram,
                                                       const Spilled<double>& values) const;
 
 private:
   const Results* results_;
   std::vector<Group> groups_;
-  std::vector<std::size_t> of_code_; ///< the group of each text of the column
+  std::vector<std::size_t> of_code_; ///< group of each text of the column
 };
 
 } // namespace wingspread

@@ -36,7 +36,7 @@ Json quantiles_json(const OutputSummary& output) {
   return json;
 }
 
-/// The summary's own bins, or the most there is room for.
+/// The summary's bins, or `most_bins` if these are fewer.
 Json histogram_json(const PageSource& source, std::size_t index, std::span<const double> sorted,
                     std::size_t most_bins) {
   const Histogram& own = source.summary.outputs[index].histogram;
@@ -92,7 +92,7 @@ Json tolerance_json(const OutputSummary& output) {
   return json;
 }
 
-/// Which of the requirements are on the output.
+/// Indices of the requirements on the output.
 Json limits_json(const PageSource& source, const std::string& name) {
   Json json = Json::array();
   for (std::size_t i = 0; i < source.summary.requirements.size(); ++i)
@@ -106,7 +106,7 @@ Json output_json(const PageSource& source, std::size_t index, const PageDetail& 
   const auto& asked = source.stored.campaign.statistics.quantiles;
   const double p = asked.empty() ? 0.99 : std::ranges::max(asked);
   const SettledColumn settled =
-      settle(column, p, source.confidence, source.replication, detail.checkpoints);
+      settle_column(column, p, source.confidence, source.replication, detail.checkpoints);
   const OutputName name = parse_output_name(column.name);
   Json json{
       {"name", column.name},

@@ -1,4 +1,4 @@
-/// Every output of a set, as the page draws it: OUTPUT of page/DATA.md.
+/// The outputs of a set: OUTPUT of page/DATA.md.
 #pragma once
 
 #include "montecarlo/report/data/page_detail.hpp"
@@ -6,8 +6,8 @@
 
 namespace wingspread {
 
-/// Cost: each column sorted once and gone through five times; memory: 16 bytes a run for each thread.
-/// @param threads as of thread_count (team.hpp); the bytes do not depend on them
+/// Cost per column: one sort and five passes. Memory: 16 bytes per run and thread.
+/// @param threads as of thread_count (thread_pool.hpp); the bytes do not depend on them
 [[nodiscard]] Json outputs_json(const PageSource& source, const PageDetail& detail, int threads);
 
 } // namespace wingspread

@@ -6,20 +6,21 @@
 namespace wingspread {
 namespace {
 
-// Numbers of each part on one page, at some 9 bytes a number: 3.4 MB together.
+// Largest count of numbers per part of a page: 425,000 in all, some 3.4 MB at 8 to 9 bytes a number. The split between the
+// parts is heuristic. Larger values break the page's limit of 4 MB.
 constexpr double most_output_numbers = 140'000, most_motion_numbers = 130'000,
                  most_envelope_numbers = 60'000, most_scatter_numbers = 45'000,
                  most_effect_numbers = 20'000, most_correlations = 30'000;
 constexpr std::size_t most_parameters = 4500;
 
-/// A part's share of what it would take in full: 1 where there is room for all of it.
+/// The share of a part that fits: at most 1.
 double share_of(double room, double wanted) { return std::min(1.0, room / wanted); }
 
 std::size_t scaled(std::size_t full, double share, std::size_t least) {
   return std::max(least, static_cast<std::size_t>(std::floor(static_cast<double>(full) * share)));
 }
 
-/// Of one output, with its histogram by groups of orders.
+/// Numbers of one output: histogram by latch order (6 orders, others, none, and the total), curve, convergence.
 double output_numbers(const PageDetail& detail) {
   constexpr double groups = 9;
   return groups * static_cast<double>(detail.bins) + 4 * static_cast<double>(detail.knots) +
@@ -56,7 +57,8 @@ void share_envelopes(double hinges, PageDetail& detail) {
   detail.latch_times = scaled(detail.latch_times, share, 20);
 }
 
-/// Runs that are made again for the envelopes: what each takes grows with the square of its hinges.
+/// The number of runs replayed for the envelopes: a run's cost grows with the square of its hinges. Heuristic: 8000 keeps
+/// the replay within seconds; a larger value makes the report slower than the campaign.
 void share_envelope_runs(const PageExtent& extent, PageDetail& detail) {
   constexpr std::size_t hinges_squared = 8000, fewest = 24;
   const std::size_t each = extent.sets * std::max<std::size_t>(extent.hinges * extent.hinges, 1);

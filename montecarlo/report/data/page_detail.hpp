@@ -1,18 +1,18 @@
-/// How fine the page is: as fine as its size allows, whatever the number of runs, outputs, hinges and sets.
+/// The resolution of the page: limits of its lists that keep its size below 4 MB for any campaign.
 #pragma once
 
 #include <cstddef>
 
 namespace wingspread {
 
-/// What the page is about, as far as its size depends on it.
+/// The quantities that the page's size depends on.
 struct PageExtent {
   std::size_t sets = 1;
-  std::size_t hinges = 1;  ///< of the set that has most
-  std::size_t outputs = 1; ///< likewise
+  std::size_t hinges = 1;  ///< the largest number in a set
+  std::size_t outputs = 1; ///< the largest number in a set
 };
 
-/// The most of each list that grows with the scene or the number of sets (page/DATA.md).
+/// The largest length of each list that grows with the scene or the number of sets (page/DATA.md).
 struct PageDetail {
   std::size_t outputs = 400;        ///< of a set
   std::size_t bins = 80;            ///< of a histogram
@@ -29,7 +29,7 @@ struct PageDetail {
   std::size_t parameters = 1500;      ///< of the scene
 };
 
-/// Everything in full as long as the page's block keeps to its 3.5 MB; else each part by what it takes of them.
+/// Full lengths while the page's data stay below 3.5 MB; else each part is scaled down to its share.
 [[nodiscard]] PageDetail page_detail(const PageExtent& extent);
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// Numbers of the page: with as many digits as a reader can use, for every byte of the page is sent around.
+/// Numbers of the page, rounded to limit its size.
 #pragma once
 
 #include "montecarlo/foundation/formats/json.hpp"
@@ -11,13 +11,13 @@
 
 namespace wingspread {
 
-/// What a table shows, and a curve needs at the edge of a projector's screen.
+/// Significant digits: tables show at most 7, and curves need 4 on a screen of 4000 pixels.
 inline constexpr int page_digits = 7;
 
-/// To so many significant digits: the double that is written with no more. NaN and infinities stay.
+/// The value rounded to significant digits. NaN and infinities stay.
 [[nodiscard]] double rounded(double value, int digits = page_digits);
 
-/// Null where it is not finite, or not there.
+/// The rounded number; null if not finite or absent.
 [[nodiscard]] Json page_number(double value, int digits = page_digits);
 [[nodiscard]] Json page_number(const std::optional<double>& value);
 [[nodiscard]] Json page_numbers(std::span<const double> values, int digits = page_digits);
@@ -25,7 +25,7 @@ inline constexpr int page_digits = 7;
 /// Adds "lower" and "upper".
 void add_bounds(Json& json, const Bounds& bounds);
 
-/// A block of JSON that may stand in HTML: one line, and no `<` in it.
+/// JSON text to embed in HTML: one line without `<`.
 [[nodiscard]] std::string page_text(const Json& json);
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// A results folder, read and worked out for the page.
+/// A results folder with its statistics, for the page.
 #pragma once
 
 #include "montecarlo/report/data/order_split.hpp"
@@ -10,24 +10,24 @@
 
 namespace wingspread {
 
-/// One set of runs: of a folder, or of one case of it.
+/// One set of runs: a folder, or one case of it.
 struct PageSource {
   std::string label;
   StoredCampaign stored;
-  /// The whole campaign before its case changed it; the set's own where it is of no case.
+  /// The campaign without its case's changes; the set's own campaign without cases.
   Campaign before_case;
   Results results;
   Replication replication;
   Summary summary;
-  double confidence = 0; ///< of each bound, where several looks share it
+  double confidence = 0; ///< of each bound, shared among the interim analyses
   std::unique_ptr<OrderSplit> orders;
 
-  /// Whether runs of it can be made again.
+  /// Whether its runs can be replayed.
   [[nodiscard]] bool replayable() const { return !stored.foreign && results.size() > 0; }
 };
 
-/// Reads a folder and works out its statistics.
-/// @param threads as of thread_count (team.hpp)
+/// Reads a folder and computes its statistics.
+/// @param threads as of thread_count (thread_pool.hpp)
 /// @throws SpecError as read_stored_results does
 [[nodiscard]] std::unique_ptr<PageSource> read_page_source(StoredCampaign stored,
                                                            const std::string& label,

@@ -18,7 +18,7 @@
 namespace wingspread {
 namespace {
 
-/// The command that makes the same rows again.
+/// The command that reproduces the rows.
 std::string made_by(const StoredCampaign& stored) {
   if (stored.foreign) return "";
   std::string text =
@@ -88,7 +88,7 @@ Json broken_json(const Verdict& verdict) {
   return std::vector<long>(verdict.broken.begin(), verdict.broken.begin() + shown);
 }
 
-/// What is asked for.
+/// A requirement without its verdict.
 Json asked_json(const Requirement& requirement) {
   const bool limited = requirement.max || requirement.min;
   return {{"text", to_string(requirement)},
@@ -124,11 +124,11 @@ Json requirement_json(const Verdict& verdict) {
   return json;
 }
 
-/// The summary's, and what the page has no room for.
+/// The summary's warnings, and one for outputs beyond the page's limit.
 std::vector<std::string> all_warnings(const PageSource& source, const PageDetail& detail) {
   std::vector<std::string> lines = warnings(source.summary);
   if (const std::size_t all = source.results.outputs.size(); all > detail.outputs)
-    lines.push_back(fmt::format("the page has room for the first {} of {} outputs: {} has all",
+    lines.push_back(fmt::format("the page shows the first {} of {} outputs; {} has all",
                                 detail.outputs, all,
                                 (source.stored.folder / summary_file).string()));
   return lines;

@@ -22,7 +22,7 @@ int hinge_of(const Scene& scene, int body) {
                           scene.hinges.begin());
 }
 
-/// A body's hinges as seen from its centre of mass: its own, then those of its children, and its plate's edges.
+/// The marks of a body relative to its centre of mass: its own hinge, its children's hinges, its plate's edges.
 std::vector<Point> marks_of(const Scene& scene, int body) {
   std::vector<Point> marks{scene.hinges[hinge_of(scene, body)].child_point};
   for (const Hinge& hinge : scene.hinges)
@@ -32,13 +32,13 @@ std::vector<Point> marks_of(const Scene& scene, int body) {
   return marks;
 }
 
-/// The mark that is furthest from the first.
+/// The mark with the largest distance from the first.
 Point furthest(const std::vector<Point>& marks) {
   return *std::ranges::max_element(
       marks, {}, [&](const Point& mark) { return (mark - marks.front()).norm(); });
 }
 
-/// A way nearly along an axis of its frame is meant to be along it: hinges stand off a panel's middle on either side.
+/// Snaps a direction to the frame's nearest axis if they nearly agree: hinges lie off a panel's middle on either side.
 Point straightened(Point way) {
   constexpr double slant = 0.2;
   if (std::abs(way.y()) < slant * std::abs(way.x())) way.y() = 0;
@@ -86,7 +86,7 @@ BodyOutline base_outline(const Scene& scene) {
   joints /= count;
   const double half = 0.15 * reach;
   if (outward.norm() < 0.5 * count ||
-      spread > half) { // wings on several sides, or joints that tell
+      spread > half) { // wings on several sides, or joints that define the box
     const double size = std::max(spread, half);
     return {{{-size, -size}, {size, -size}, {size, size}, {-size, size}}, true};
   }
@@ -103,7 +103,7 @@ Json outline_json(const BodyOutline& outline, const Point& origin) {
   return json;
 }
 
-/// A point of a body, or of the base, as its frame here has it.
+/// A point of a body or the base in the page's frame.
 Point in_frame(const Scene& scene, int body, const Point& point) {
   return body == base_index ? point
                             : Point(point - scene.hinges[hinge_of(scene, body)].child_point);
@@ -144,7 +144,7 @@ Json hinges_json(const Scene& scene) {
 
 BodyOutline body_outline(const Scene& scene, int body) {
   std::vector<Point> marks = marks_of(scene, body);
-  if (marks.size() == 1) marks.emplace_back(-marks.front()); // the last of its wing
+  if (marks.size() == 1) marks.emplace_back(-marks.front()); // the last body of a wing: symmetric
   const Point way = furthest(marks) - marks.front();
   if (way.norm() == 0) return {{{0, 0}, {0, 0}}, false};
   const Point along = straightened(way), across{-along.y(), along.x()};

@@ -1,11 +1,11 @@
 /// The wing to scale: WING of page/DATA.md.
 ///
-/// A scene knows where a body's hinges and its plate are, not its outline. A body is drawn as a panel from its own hinge
-/// to the next, as thick as its hinges stand off its middle; a last one reaches as far beyond its centre of mass as its
-/// hinge stands before it. One whose hinges lie far off any line is drawn as lines from its centre of mass to them.
+/// A scene has the positions of a body's hinges and its plate, but no outline. A body is drawn as a panel from its own hinge
+/// to the next, as thick as the hinges' offset from its middle; the last panel of a wing is symmetric about its centre of
+/// mass. A body with hinges far off any line is drawn as lines from its centre of mass to the hinges.
 ///
-/// Frames here have their origin in the body's own hinge, so that a pose is a turn and a shift: with θ the absolute
-/// angle, o = o_p + R(θ_p) joint_in_parent, θ = θ_p + φ.
+/// A frame's origin is the body's own hinge, so a pose is a rotation and a translation: with θ the absolute angle,
+/// o = o_p + R(θ_p) joint_in_parent, θ = θ_p + φ.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -25,7 +25,7 @@ struct BodyOutline {
 /// @param body its index
 [[nodiscard]] BodyOutline body_outline(const Scene& scene, int body);
 
-/// How far the wing reaches when deployed, base included: the longer side of what it fills, m.
+/// The longer side of the deployed wing's bounding box, base included, m.
 [[nodiscard]] double wing_span(const Scene& scene);
 
 /// @param scene of the nominal wing

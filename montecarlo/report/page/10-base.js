@@ -1,16 +1,16 @@
-// The page's one global: its data, what the reader has chosen, and how elements are made.
+// The page's one global: its data, the reader's choices, and the makers of elements and tables.
 (function () {
   "use strict";
   const W = (window.wingspread = {});
   W.data = JSON.parse(document.getElementById("data").textContent);
-  // Sets of runs; and, behind them, what `margin`, `sensitivity` and `rare` left, which have no runs.
+  // Sets of runs come first; results of `margin`, `sensitivity CAMPAIGN` and `rare` are sets without runs, behind them.
   const all = W.data.sets || [],
     isStudy = (set) => !set.runs && !(set.statuses || []).length;
   W.studySets = all.filter(isStudy);
   W.onlyStudies = all.length > 0 && W.studySets.length === all.length;
   W.sets = W.onlyStudies ? W.studySets.slice(0, 1) : all.filter((set) => !isStudy(set));
 
-  // What the reader has chosen. `choose` tells all who asked to know; nothing is kept when the page is closed.
+  // The reader's choices. `choose` calls every listener of the key.
   W.chosen = { set: 0, output: null, split: "order", scale: "linear", angles: "rad", motion: 0, run: null };
   const listeners = {};
   W.on = function (key, listener) {
@@ -27,21 +27,24 @@
     return outputs.find((output) => output.name === W.chosen.output) || null;
   };
 
-  // An element: W.h("td", { class: "number" }, "1.2"). Attributes that are null or false are left out.
-  W.h = function (tag, attributes, ...children) {
-    const element = document.createElement(tag);
-    for (const [name, value] of Object.entries(attributes || {})) {
-      if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
-      else if (value !== null && value !== undefined && value !== false)
-        element.setAttribute(name, value === true ? "" : value);
+  // Makes an element: W.h("td.number", { title: "moment" }, "1.2"). Classes stand behind the tag; the attributes may be left
+  // out; attributes and children that are null or false are skipped.
+  const present = (value) => value !== null && value !== undefined && value !== false;
+  const isAttributes = (value) => value && Object.getPrototypeOf(value) === Object.prototype;
+  W.h = function (name, ...rest) {
+    const [tag, ...classes] = name.split("."),
+      element = document.createElement(tag);
+    if (tag === "button") element.type = "button";
+    if (classes.length) element.className = classes.join(" ");
+    for (const [key, value] of Object.entries(isAttributes(rest[0]) ? rest.shift() : {})) {
+      if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
+      else if (present(value)) element.setAttribute(key, value === true ? "" : value);
     }
-    element.append(...children.flat(3).filter((child) => child !== null && child !== undefined && child !== false));
+    element.append(...rest.flat(Infinity).filter(present));
     return element;
   };
   W.fill = function (parent, ...children) {
-    parent.replaceChildren(
-      ...children.flat(3).filter((child) => child !== null && child !== undefined && child !== false),
-    );
+    parent.replaceChildren(...children.flat(Infinity).filter(present));
     return parent;
   };
   W.section = (id) => document.querySelector(`#${id} > .content`);
@@ -53,45 +56,31 @@
   let made = 0;
   W.newId = (stem) => `${stem}-${++made}`;
 
-  // A table. A column: { text, unit, kind: "text" | "number", key: the row's header }. Cells: text, a number's text or an element.
+  // A table in a box that scrolls. A column is its heading's text, or W.number(heading, unit) for numbers; a cell is text or an
+  // element. A row is its cells, or { cells, mark: its class }. The first cell of a row is its header.
+  W.number = (text, unit) => ({ text, unit, class: "number" });
   W.table = function (caption, columns, rows, options = {}) {
-    const cell = (column, content, first) =>
-      W.h(
-        first && column.header !== false ? "th" : "td",
-        {
-          scope: first && column.header !== false ? "row" : null,
-          class: column.kind === "number" ? "number" : null,
-          "data-label": options.stacks && !first ? column.text : null,
-        },
-        content,
-      );
-    const head = columns.map((column) =>
-      W.h(
-        "th",
-        { scope: "col", class: column.kind === "number" ? "number" : null },
-        column.text,
-        column.unit ? W.h("span", { class: "unit" }, " " + column.unit) : null,
-      ),
+    columns = columns.map((column) => (typeof column === "string" ? { text: column } : column));
+    const cell = (content, at) =>
+      at === 0
+        ? W.h("th", { scope: "row", class: columns[at].class }, content)
+        : W.h("td", { class: columns[at].class, "data-label": options.stacks ? columns[at].text : null }, content);
+    const head = columns.map(({ text, unit, class: kind }) =>
+      W.h("th", { scope: "col", class: kind }, text, unit ? W.h("span.unit", " " + unit) : null),
     );
-    const body = rows.map((row) =>
-      W.h(
-        "tr",
-        { class: row.mark || null },
-        (row.cells || row).map((content, at) => cell(columns[at], content, at === 0)),
-      ),
-    );
+    const body = rows.map((row) => W.h("tr", { class: row.mark || null }, (row.cells || row).map(cell)));
     const table = W.h(
       "table",
       { class: options.class },
       W.h("caption", { class: options.showCaption ? null : "unseen" }, caption),
-      W.h("thead", {}, W.h("tr", {}, head)),
-      W.h("tbody", {}, body),
+      W.h("thead", W.h("tr", head)),
+      W.h("tbody", body),
     );
-    const box = W.h("div", { class: "scroll", role: "group", "aria-label": caption }, table);
+    const box = W.h("div.scroll", { role: "group", "aria-label": caption }, table);
     widths.observe(box);
     return box;
   };
-  // A table that is larger than its box can be scrolled by keys; another is no stop on the way through the page.
+  // Only a table larger than its box takes the focus, so that keys can scroll it.
   const widths = new ResizeObserver((entries) =>
     entries.forEach(function ({ target: box }) {
       if (box.scrollWidth > box.clientWidth + 1 || box.scrollHeight > box.clientHeight + 1)
@@ -101,11 +90,11 @@
     }),
   );
 
-  // The clipboard, also where a page opened from a file may not use the newer way.
+  // Copies text. A page opened from a file may not use navigator.clipboard: it copies from a hidden text area.
   W.copy = function (text, what) {
     const done = () => W.say(`${what} copied.`);
     const older = function () {
-      const area = W.h("textarea", { class: "unseen", "aria-hidden": "true" });
+      const area = W.h("textarea.unseen", { "aria-hidden": "true" });
       area.value = text;
       document.body.append(area);
       area.select();
@@ -117,49 +106,43 @@
     else older();
   };
   W.command = function (text, what) {
-    const button = W.h(
-      "button",
-      {
-        type: "button",
-        class: "small",
-        "aria-label": `Copy: ${what}`,
-        onclick: () => {
-          W.copy(text, what);
-          flash(button);
-        },
-      },
-      "Copy",
+    const onclick = function (event) {
+      W.copy(text, what);
+      W.flash(event.currentTarget);
+    };
+    return W.h(
+      "div.command",
+      W.h("code", text),
+      W.h("button.small", { "aria-label": `Copy: ${what}`, onclick }, "Copy"),
     );
-    return W.h("div", { class: "command" }, W.h("code", {}, text), button);
   };
-  function flash(button) {
+  W.flash = function (button) {
     const text = button.textContent;
     button.textContent = "Copied";
     setTimeout(() => (button.textContent = text), 1200);
-  }
-  W.flash = flash;
+  };
 
-  // A row of buttons of which one is pressed.
+  // A row of buttons; exactly one is pressed. options: [value, text] of each.
   W.buttons = function (label, options, chosen, onchoose) {
+    const press = (value) => (event) => {
+      buttons.forEach((button) => button.setAttribute("aria-pressed", String(button === event.currentTarget)));
+      onchoose(value);
+    };
     const buttons = options.map(([value, text]) =>
-      W.h(
-        "button",
-        {
-          type: "button",
-          "aria-pressed": String(value === chosen),
-          onclick: (event) => {
-            buttons.forEach((button) => button.setAttribute("aria-pressed", String(button === event.currentTarget)));
-            onchoose(value);
-          },
-        },
-        text,
-      ),
+      W.h("button", { "aria-pressed": String(value === chosen), onclick: press(value) }, text),
     );
     return W.h(
-      "div",
-      { class: "buttons", role: "group", "aria-label": label },
-      W.h("span", { class: "label", "aria-hidden": "true" }, label),
+      "div.buttons",
+      { role: "group", "aria-label": label },
+      W.h("span.label", { "aria-hidden": "true" }, label),
       buttons,
     );
   };
+  // A choice from a list: options [value, text].
+  W.select = (attributes, options, chosen) =>
+    W.h(
+      "select",
+      attributes,
+      options.map(([value, text]) => W.h("option", { value, selected: value === chosen }, text)),
+    );
 })();

@@ -1,16 +1,16 @@
-// Numbers as a reader wants them: sensible digits, a true minus, units in their usual form, and words for what is not there.
+// Numbers as text: digits by their spread, a true minus sign, units in their usual form, a dash for a missing value.
 (function () {
   "use strict";
   const W = window.wingspread;
   const F = (W.format = {});
-  const DEGREES = 180 / Math.PI;
-  F.DEGREES = DEGREES;
+  F.DEGREES = 180 / Math.PI;
   F.none = "–";
 
   const superscripts = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+  F.superscript = (exponent) => [...String(exponent)].map((digit) => superscripts[digit]).join("");
   function power(text) {
     const [mantissa, exponent] = text.split("e");
-    return `${mantissa.replace("-", "−")} × 10${[...String(Number(exponent))].map((digit) => superscripts[digit]).join("")}`;
+    return `${mantissa.replace("-", "−")} × 10${F.superscript(Number(exponent))}`;
   }
   function grouped(text) {
     const [whole, fraction] = text.split(".");
@@ -21,13 +21,12 @@
     return (fraction === undefined ? spaced : `${spaced}.${fraction}`).replace("-", "−");
   }
 
-  // With so many decimals.
   F.fixed = function (value, decimals) {
     if (!W.isNumber(value)) return F.none;
     const text = value.toFixed(Math.max(0, Math.min(12, decimals)));
     return grouped(Number(text) === 0 ? text.replace("-", "") : text);
   };
-  // With so many significant digits.
+  // With a number of significant digits; powers of ten below 1e-4 and from 1e8.
   F.number = function (value, digits = 4) {
     if (!W.isNumber(value)) return F.none;
     if (value === 0) return "0";
@@ -35,7 +34,7 @@
     if (size < -4 || size > 7) return power(value.toExponential(digits - 1).replace(/\.?0+e/, "e"));
     return F.fixed(value, digits - 1 - size);
   };
-  // An input as it was written: no digits that nobody gave.
+  // An input as its author wrote it: at most seven significant digits, no trailing zeros.
   F.given = function (value) {
     if (!W.isNumber(value)) return F.none;
     const short = Number(value.toPrecision(7));
@@ -43,15 +42,16 @@
       ? power(short.toExponential())
       : grouped(String(short));
   };
-  // Decimals that a spread of this size carries: two digits of it.
+  // Decimals that show two significant digits of the spread.
   F.decimals = function (spread, value) {
     if (W.isNumber(spread) && spread > 0) return Math.max(0, 1 - Math.floor(Math.log10(spread)));
     return W.isNumber(value) && value !== 0 ? Math.max(0, 3 - Math.floor(Math.log10(Math.abs(value)))) : 0;
   };
   F.count = (value) => (W.isNumber(value) ? value.toFixed(0).replace(/\B(?=(\d{3})+(?!\d))/g, ",") : F.none);
-  F.runs = (value) => `${F.count(value)} ${value === 1 ? "run" : "runs"}`;
+  F.counted = (value, one, many = one + "s") => `${F.count(value)} ${value === 1 ? one : many}`;
+  F.runs = (value) => F.counted(value, "run");
 
-  // A share in per cent; near 0 and 1 with the digits that still tell.
+  // Decimals of a share in per cent: two significant digits of the distance to 0 or 1.
   const shareDecimals = (value) =>
     value <= 0 || value >= 1 ? 0 : Math.max(1, 1 - Math.floor(Math.log10(Math.min(value, 1 - value) * 100)));
   F.share = function (value, decimals) {
@@ -69,14 +69,18 @@
     return `${F.share(lower, decimals)} – ${F.share(upper, decimals)}`;
   };
 
+  // The level of a quantile: "1 %", "99.5 %".
+  F.level = (p) => F.share(p).replace(/\.0 /, " ");
+  F.quantileName = (p) => (p === 0.5 ? "Median" : F.level(p));
+
   // Units: "N m" reads N·m; radians may be shown in degrees.
   F.unit = (unit) => (unit || "").replace(/ /g, "·").replace(/\^2/g, "²").replace(/\*/g, "·");
   F.angular = (unit) => unit === "rad" || unit === "rad/s" || unit === "rad/s^2";
   F.shown = function (unit) {
     const degrees = W.chosen.angles === "deg" && F.angular(unit);
-    return { factor: degrees ? DEGREES : 1, unit: degrees ? unit.replace("rad", "deg") : F.unit(unit) };
+    return { factor: degrees ? F.DEGREES : 1, unit: degrees ? unit.replace("rad", "deg") : F.unit(unit) };
   };
-  // A value of an output in the unit that is shown, with decimals that suit `spread` (in SI).
+  // A value of an output in the displayed unit, with two digits of its spread; value and spread in SI.
   F.value = function (value, unit, spread) {
     const { factor } = F.shown(unit);
     if (!W.isNumber(value)) return F.none;
@@ -89,28 +93,27 @@
   F.withUnit = (value, unit, spread) =>
     W.isNumber(value) ? `${F.value(value, unit, spread)} ${F.shown(unit).unit}`.trim() : F.none;
 
-  // What a column of an output is precise to: a fiftieth of its spread (or of its size, where there is no spread).
+  // Precision of a column: a tenth of its standard deviation, so that values show three digits of their spread.
   F.grain = (output) => (W.isNumber(output.std) && output.std > 0 ? output.std / 10 : null);
   F.name = (output) =>
     output.hinge && output.name.startsWith(output.hinge + ".")
       ? `${output.hinge} ${words(output.name.slice(output.hinge.length + 1))}`
       : words(output.name);
-  F.nameOf = function (name) {
-    const output = W.sets.flatMap(W.outputsOf).find((one) => one.name === name);
-    return output ? F.name(output) : words(name);
-  };
+  // The axis title of a quantity: "root peak moment (N·m)".
+  F.axis = (text, unit) => (unit ? `${text} (${unit})` : text);
+  const known = (name) => W.sets.flatMap(W.outputsOf).find((one) => one.name === name);
+  F.nameOf = (name) => (known(name) ? F.name(known(name)) : words(name));
+  F.unitOf = (name) => (known(name) || {}).unit || "";
   function words(text) {
     return text.replace(/_/g, " ").replace(/\./g, " ");
   }
   F.order = (order) =>
     order === "no latch" ? "no hinge latched" : order === "others" ? "other orders" : order.replace(/>/g, " › ");
 
-  F.ticks = (axis, factor) => axis.tickFormat((value) => tick(value * (factor || 1)));
-  function tick(value) {
+  F.tick = function (value) {
     if (value === 0) return "0";
     return Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4
       ? power(value.toExponential(1).replace(".0e", "e"))
       : grouped(String(Number(value.toPrecision(6))));
-  }
-  F.tick = tick;
+  };
 })();

@@ -1,4 +1,4 @@
-// A picture: drawn to the width there is, with title and description, its numbers as a table, and ways to take it along.
+// A picture: drawn to the width of its place, with title and description, its numbers as a table, and buttons that save it.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -10,8 +10,8 @@
   W.figure = function (options) {
     const titleId = W.newId("figure"),
       descriptionId = W.newId("description");
-    const host = h("div", { class: "picture" });
-    const details = options.table ? h("details", { class: "numbers" }, h("summary", {}, "Numbers as a table")) : null;
+    const host = h("div.picture");
+    const details = options.table ? h("details.numbers", h("summary", "Numbers as a table")) : null;
     if (details)
       details.addEventListener("toggle", () => {
         if (details.open && !details.querySelector("table")) details.append(asTable(options));
@@ -29,18 +29,11 @@
       { class: options.class || null },
       h(
         "figcaption",
-        {},
-        h("span", { class: "caption", id: titleId }, options.title),
-        h(
-          "span",
-          { class: "tools", role: "group", "aria-label": `Take along: ${options.title}` },
-          svgButton,
-          pngButton,
-          dataButton,
-        ),
+        h("span.caption", { id: titleId }, options.title),
+        h("span.tools", { role: "group", "aria-label": `Save: ${options.title}` }, svgButton, pngButton, dataButton),
       ),
       host,
-      options.note ? h("p", { class: "note" }, options.note) : null,
+      options.note ? h("p.note", options.note) : null,
       details,
     );
     const figure = { element, host, options, titleId, descriptionId, width: 0 };
@@ -52,10 +45,11 @@
   };
 
   function tool(text, label, onclick) {
-    return h("button", { type: "button", class: "small", "aria-label": label, title: label, onclick }, text);
+    return h("button.small", { "aria-label": label, title: label, onclick }, text);
   }
 
-  // On a projector the page's letters grow, and those in pictures with them: they are drawn smaller and shown larger.
+  // On wide screens the page's letters grow (style.css: 14.3 px at 1280 px). Pictures are drawn for the narrower width and
+  // shown enlarged, so that their letters grow alike.
   const growth = () =>
     printing ? 1 : Math.max(1, parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.3);
 
@@ -70,11 +64,11 @@
       .attr("aria-labelledby", `${figure.titleId}-t`)
       .attr("aria-describedby", figure.descriptionId)
       .attr("class", "chart");
-    svg.append("title").attr("id", `${figure.titleId}-t`).text(options.title);
-    svg
-      .append("desc")
-      .attr("id", figure.descriptionId)
-      .text(typeof options.description === "function" ? options.description() : options.description || options.title);
+    W.marks.put(svg, "title", { id: `${figure.titleId}-t`, text: options.title });
+    W.marks.put(svg, "desc", {
+      id: figure.descriptionId,
+      text: typeof options.description === "function" ? options.description() : options.description || options.title,
+    });
     const height = options.draw(svg, width);
     svg
       .attr("viewBox", `0 0 ${width} ${Math.ceil(height)}`)
@@ -114,7 +108,6 @@
       if (figure.element.isConnected && figure.width) figure.update(figure.width);
     });
 
-  // The numbers.
   function asTable(options) {
     const { columns, rows } = options.table();
     const format = (value) =>
@@ -123,14 +116,10 @@
         : value === null || value === undefined
           ? W.format.none
           : String(value);
-    const kinds = columns.map((text, at) => ({
-      text,
-      kind: rows.some((row) => typeof row[at] === "number") ? "number" : "text",
-      header: at === 0 ? undefined : false,
-    }));
+    const heads = columns.map((text, at) => (rows.some((row) => typeof row[at] === "number") ? W.number(text) : text));
     return W.table(
       options.title,
-      kinds,
+      heads,
       rows.map((row) => row.map(format)),
     );
   }
@@ -143,7 +132,7 @@
     );
   }
 
-  // The picture by itself: what style sheets give it is written into it, in the light theme, on white.
+  // The picture as a file of its own: computed styles are written into it, in the light theme, on white.
   const KEPT = [
     "fill",
     "fill-opacity",

@@ -1,34 +1,77 @@
-// What pictures are made of: axes, legends, hatched colours, dashes, lines with names.
+// Parts of pictures: axes, legends, hatched colours, dashes, marks with labels.
 (function () {
   "use strict";
   const W = window.wingspread;
   const M = (W.marks = {});
 
-  // Colours that the colour-blind tell apart (Okabe and Ito's), each with a hatching and a dash of its own besides.
+  // Appends an element and returns its selection: M.put(svg, "line.limit", { x1: 0, x2: 9, style: {}, text: "", title: "" }).
+  M.put = function (parent, name, { style = {}, text, title, ...attributes } = {}) {
+    const [tag, ...classes] = name.split("."),
+      element = parent.append(tag);
+    if (classes.length) element.attr("class", classes.join(" "));
+    Object.entries(attributes).forEach(([key, value]) => element.attr(key, value));
+    Object.entries(style).forEach(([key, value]) => element.style(key, value));
+    if (text !== undefined) element.text(text);
+    if (title !== undefined) element.append("title").text(title);
+    return element;
+  };
+  M.upright = (parent, name, x, box) => M.put(parent, name, { x1: x, x2: x, y1: box.top, y2: box.bottom });
+  // A label at the left of a row, shortened to its room.
+  M.rowLabel = (svg, text, left, y) =>
+    M.put(svg, "text", {
+      x: left - 8,
+      y,
+      dy: "0.35em",
+      "text-anchor": "end",
+      text: M.shorten(text, left - 8),
+      title: text,
+    });
+  // Room for the labels of rows: at most this share of the picture's width.
+  M.labelRoom = (width, share, texts) =>
+    Math.min(width * share, Math.max(...texts.map((text) => M.textWidth(text))) + 12);
+  // A confidence interval: a horizontal line between two short ticks.
+  M.whisker = (svg, x, low, high, y, tick) =>
+    M.put(svg, "path.whisker", {
+      d: `M${x(low)},${y}H${x(high)}M${x(low)},${y - tick}v${2 * tick}M${x(high)},${y - tick}v${2 * tick}`,
+    });
+  // The box of a picture `tall` pixels high under its legend; sets the range of its y scale.
+  M.boxFor = function (y, width, top, tall, right = 12) {
+    const box = { left: M.leftFor(y), right: width - right, top: top + 18, bottom: top + tall };
+    y.range([box.bottom, box.top]);
+    return box;
+  };
+
+  // Okabe and Ito's colours, which colour-blind readers can tell apart. Each number has its own hatching and dash as well.
   M.colour = (at) => (at < 0 ? "var(--none)" : `var(--c${at % 7})`);
   M.dash = (at) => ["", "7 3", "2 3", "9 3 2 3", "12 4", "4 4", "1 2"][((at % 7) + 7) % 7];
   const HATCH = [null, "M0,6 L6,0", "M0,3 H6", "M3,0 V6", "M0,0 L6,6", "M0,6 L6,0 M0,0 L6,6", "M1,1 h1 M4,4 h1"];
 
-  // Fills of a picture by number: a pattern each, so that they differ in black and white as well.
+  // Fills of a picture by number, hatched so that they differ in black and white as well.
   M.hatches = function (svg, count) {
     const stem = W.newId("hatch"),
       definitions = svg.append("defs");
     for (let at = -1; at < count; ++at) {
-      const pattern = definitions
-        .append("pattern")
-        .attr("id", `${stem}_${at}`)
-        .attr("width", 6)
-        .attr("height", 6)
-        .attr("patternUnits", "userSpaceOnUse");
-      pattern.append("rect").attr("width", 6).attr("height", 6).style("fill", M.colour(at));
-      if (at > 0 && HATCH[at % 7])
-        pattern
-          .append("path")
-          .attr("d", HATCH[at % 7])
-          .attr("class", "hatch");
+      const pattern = M.put(definitions, "pattern", {
+        id: `${stem}_${at}`,
+        width: 6,
+        height: 6,
+        patternUnits: "userSpaceOnUse",
+      });
+      M.put(pattern, "rect", { width: 6, height: 6, style: { fill: M.colour(at) } });
+      if (at > 0 && HATCH[at % 7]) M.put(pattern, "path.hatch", { d: HATCH[at % 7] });
     }
     return (at) => `url(#${stem}_${at})`;
   };
+
+  // A picture within a line of a table.
+  M.small = (name, width, height) =>
+    d3
+      .create("svg")
+      .attr("class", name)
+      .attr("viewBox", `0 0 ${width} ${height}`)
+      .attr("width", width)
+      .attr("height", height)
+      .attr("aria-hidden", "true");
 
   const ruler = document.createElement("canvas").getContext("2d");
   M.textWidth = function (text, size = 12) {
@@ -36,9 +79,9 @@
     return 1.05 * ruler.measureText(text).width; // tabular figures are a little wider
   };
 
-  // A legend above the picture, in as many lines as it takes: items { text, fill | line, dash, mark }. Returns its height.
+  // Draws a legend above the picture, in as many lines as necessary: items { text, fill | line, dash, mark }. Returns its height.
   M.legend = function (svg, items, width, left = 0) {
-    const group = svg.append("g").attr("class", "legend");
+    const group = M.put(svg, "g.legend");
     let x = left,
       y = 11;
     for (const item of items) {
@@ -47,40 +90,32 @@
         x = left;
         y += 18;
       }
-      const one = group.append("g").attr("transform", `translate(${x},${y})`);
+      const one = M.put(group, "g", { transform: `translate(${x},${y})` });
       if (item.fill)
-        one
-          .append("rect")
-          .attr("x", 0)
-          .attr("y", -5)
-          .attr("width", 16)
-          .attr("height", 10)
-          .style("fill", item.fill)
-          .style("fill-opacity", item.opacity || null);
+        M.put(one, "rect", {
+          x: 0,
+          y: -5,
+          width: 16,
+          height: 10,
+          style: { fill: item.fill, "fill-opacity": item.opacity || null },
+        });
       else if (item.mark)
-        one
-          .append("path")
-          .attr("transform", "translate(8,0)")
-          .attr(
-            "d",
-            d3
-              .symbol()
-              .size(50)
-              .type(item.shape || d3.symbolCircle)(),
-          )
-          .style("fill", item.mark);
+        M.put(one, "path", {
+          transform: "translate(8,0)",
+          d: d3
+            .symbol()
+            .size(50)
+            .type(item.shape || d3.symbolCircle)(),
+          style: { fill: item.mark },
+        });
       else
-        one
-          .append("line")
-          .attr("x2", 16)
-          .style("stroke", item.line)
-          .attr("stroke-width", item.heavy || 2)
-          .attr("stroke-dasharray", item.dash || null);
-      one
-        .append("text")
-        .attr("x", 21)
-        .attr("dy", "0.34em")
-        .text(M.shorten(item.text, width - 24));
+        M.put(one, "line", {
+          x2: 16,
+          "stroke-width": item.heavy || 2,
+          "stroke-dasharray": item.dash || null,
+          style: { stroke: item.line },
+        });
+      M.put(one, "text", { x: 21, dy: "0.34em", text: M.shorten(item.text, width - 24) });
       x += needed;
     }
     return items.length ? y + 14 : 0;
@@ -92,13 +127,12 @@
     return kept + "…";
   };
 
-  // The colour's number of a set's order of latching: "no latch" has none, "others" the last.
+  // The colour number of a latch order of the set: -1 (grey) for "no latch", the last for "others".
   M.ofOrder = function (set, at) {
     const name = ((set.orders || [])[at] || { order: "no latch" }).order;
     return name === "no latch" ? -1 : name === "others" ? 6 : at;
   };
 
-  // A shape for each number, besides its colour.
   const SHAPES = [
     d3.symbolCircle,
     d3.symbolTriangle,
@@ -121,17 +155,10 @@
         .tickSizeInner(5)
         .ticks(options.xTicks || Math.max(2, Math.min(10, wide / 80)));
       if (options.xValues) axis.tickValues(options.xValues);
-      W.format.ticks(axis);
-      if (options.xFormat) axis.tickFormat(options.xFormat);
-      svg.append("g").attr("class", "axis x").attr("transform", `translate(0,${box.bottom})`).call(axis);
+      axis.tickFormat(options.xFormat || W.format.tick);
+      M.put(svg, "g.axis.x", { transform: `translate(0,${box.bottom})` }).call(axis);
       if (options.xText)
-        svg
-          .append("text")
-          .attr("class", "axis-text")
-          .attr("x", box.right)
-          .attr("y", box.bottom + 33)
-          .attr("text-anchor", "end")
-          .text(options.xText);
+        M.put(svg, "text.axis-text", { x: box.right, y: box.bottom + 33, "text-anchor": "end", text: options.xText });
     }
     if (y) {
       const axis = d3
@@ -141,27 +168,25 @@
         .tickPadding(6)
         .ticks(options.yTicks || Math.max(2, Math.min(8, tall / 40)));
       if (options.yValues) axis.tickValues(options.yValues);
-      W.format.ticks(axis);
-      if (options.yFormat) axis.tickFormat(options.yFormat);
-      svg.append("g").attr("class", "axis y").attr("transform", `translate(${box.left},0)`).call(axis);
+      axis.tickFormat(options.yFormat || W.format.tick);
+      M.put(svg, "g.axis.y", { transform: `translate(${box.left},0)` }).call(axis);
       if (options.yText)
-        svg
-          .append("text")
-          .attr("class", "axis-text")
-          .attr("x", options.yTextAt === undefined ? 0 : options.yTextAt)
-          .attr("y", box.top - 8)
-          .text(options.yText);
+        M.put(svg, "text.axis-text", {
+          x: options.yTextAt === undefined ? 0 : options.yTextAt,
+          y: box.top - 8,
+          text: options.yText,
+        });
     }
   };
-  // Room that the y axis's numbers take.
+  // Pixels that the numbers of the y axis need.
   M.leftFor = function (y, format, count) {
     const texts = (y.ticks ? y.ticks(count || 6) : y.domain()).map(format || W.format.tick);
     return Math.ceil(Math.max(18, ...texts.map((text) => M.textWidth(text, 11.5)))) + 12;
   };
 
-  // Upright lines with their names at the top, kept apart from each other: [{ x, text, kind, side }].
-  M.uprights = function (svg, box, lines) {
-    const group = svg.append("g").attr("class", "uprights"),
+  // Upright lines with labels that do not overlap: [{ x, text, kind }]; labels at the bottom where `low` is set.
+  M.uprights = function (svg, box, lines, low) {
+    const group = M.put(svg, "g.uprights"),
       taken = [];
     for (const line of lines) {
       if (line.x < box.left - 0.5 || line.x > box.right + 0.5) continue;
@@ -171,30 +196,37 @@
       let row = 0;
       while (taken.some((one) => one.row === row && from < one.to && from + wide > one.from)) ++row;
       taken.push({ row, from, to: from + wide });
-      group
-        .append("line")
-        .attr("class", line.kind)
-        .attr("x1", line.x)
-        .attr("x2", line.x)
-        .attr("y1", box.top)
-        .attr("y2", box.bottom);
-      group
-        .append("text")
-        .attr("class", line.kind + "-text")
-        .attr("x", line.x + (rightwards ? 4 : -4))
-        .attr("y", lines.low ? box.bottom - 8 - 13 * row : box.top + 10 + 13 * row)
-        .attr("text-anchor", rightwards ? "start" : "end")
-        .text(line.text);
+      M.upright(group, `line.${line.kind}`, line.x, box);
+      M.put(group, "text", {
+        class: line.kind + "-text",
+        x: line.x + (rightwards ? 4 : -4),
+        y: low ? box.bottom - 8 - 13 * row : box.top + 10 + 13 * row,
+        "text-anchor": rightwards ? "start" : "end",
+        text: line.text,
+      });
     }
   };
 
-  // A scale that shows a little more than its values.
+  // A linear scale over the values with a margin at both ends (a share of their spread).
   M.linear = function (values, range, share = 0.03) {
     const [low, high] = d3.extent(values.filter(W.isNumber));
     if (low === undefined) return d3.scaleLinear([0, 1], range);
     const room = (high - low) * share || Math.abs(high) * 0.05 || 1;
     return d3.scaleLinear([low - room, high + room], range);
   };
+  // The legend of lines that are told apart by colour and dash.
+  M.lineItems = (items, text, at = (_, place) => place) =>
+    items.map((one, place) => ({ text: text(one), line: M.colour(at(one, place)), dash: M.dash(at(one, place)) }));
+  M.trace = (svg, d, at, name = "path.trace") =>
+    M.put(svg, name, { d, style: { stroke: M.colour(at) }, "stroke-dasharray": M.dash(at) || null });
+  // A rectangle over a box, taller by `more` pixels at both ends.
+  M.over = (parent, name, box, more = 0) =>
+    M.put(parent, name, {
+      x: box.left,
+      y: box.top - more,
+      width: Math.max(0, box.right - box.left),
+      height: box.bottom - box.top + 2 * more,
+    });
   M.line = (x, y) =>
     d3
       .line()

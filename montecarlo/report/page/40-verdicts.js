@@ -1,8 +1,8 @@
-// The first screen: is what is required shown, of which case, by how much; what became of the runs; how to make them again.
+// The first screen: the verdict and margin of every requirement, by case, the worst first.
 (function () {
   "use strict";
   const W = window.wingspread;
-  const { h, format: F } = W;
+  const { h, number, format: F, marks: M } = W;
   const RANK = { failed: 0, open: 1, passed: 2 };
   const WORDS = { passed: ["pass", "✓"], failed: ["fail", "✕"], open: ["undecided", "?"] };
   const verdictOf = (word) => ({ pass: "passed", fail: "failed", undecided: "open" })[word] || word;
@@ -17,7 +17,8 @@
     );
   };
 
-  // Every requirement of every set, the worst first: by verdict, then by margin as a share of the limit, then by how many break it.
+  // Every requirement of every set, the worst first: by verdict, then by margin as a share of the limit (of a share: by the
+  // runs that break it beyond those allowed).
   function judged() {
     const all = W.sets.flatMap((set, at) => (set.requirements || []).map((requirement) => ({ set, at, requirement })));
     const strain = ({ requirement: one, set }) =>
@@ -33,12 +34,11 @@
   function headline(rows) {
     if (!rows.length)
       return h(
-        "p",
-        { class: "headline" },
+        "p.headline",
         "This campaign states no requirements.",
-        h("small", {}, " What follows is statistics without a verdict."),
+        h("small", " This report has statistics only, no verdicts."),
       );
-    // A requirement is as good as its worst case.
+    // The worst case of a requirement decides.
     const worstOf = new Map();
     for (const row of rows)
       if (!worstOf.has(row.requirement.text)) worstOf.set(row.requirement.text, verdictOf(row.requirement.verdict));
@@ -56,7 +56,7 @@
     const text = failed
       ? `${failed} of ${total} ${noun} not shown to be met${where}`
       : open
-        ? `${open} of ${total} ${noun} undecided: so few runs cannot show ${open === 1 ? "it" : "them"}`
+        ? `${open} of ${total} ${noun} undecided: too few runs to show ${open === 1 ? "it" : "them"}`
         : `${total === 1 ? "The requirement is" : `All ${total} requirements are`} shown to be met${several ? " in every case" : ""}`;
     const parts = [
       failed && open ? `${open} undecided` : null,
@@ -68,18 +68,17 @@
       W.badge(worst),
       " ",
       text,
-      parts.length ? h("small", {}, ` ${parts.join(", ")}`) : null,
+      parts.length ? h("small", ` ${parts.join(", ")}`) : null,
     );
   }
   const listed = (names) =>
     names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}` : names[0];
 
-  // Values of a requirement on an output have its unit; those of one on an outcome are shares.
   function unitOf(requirement, set) {
     const output = W.outputsOf(set).find((one) => one.name === requirement.output);
     return output ? output.unit : "";
   }
-  // Four digits, and more where it takes them to tell the value from its limit.
+  // Four significant digits, and two of the margin, so that the value differs visibly from its limit.
   function valueText(value, requirement, set) {
     if (!W.isNumber(value)) return F.none;
     const size = (number) => (W.isNumber(number) && number !== 0 ? Math.floor(Math.log10(Math.abs(number))) : 0);
@@ -93,8 +92,10 @@
     W.isNumber(one.observed_value) ? valueText(one.observed_value, one, set) : F.share(one.observed);
   function guaranteed(one, set) {
     if (W.isNumber(one.limit))
-      return W.isNumber(one.guaranteed_value) ? valueText(one.guaranteed_value, one, set) : "none by so few good runs";
-    return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "none by so few runs";
+      return W.isNumber(one.guaranteed_value)
+        ? valueText(one.guaranteed_value, one, set)
+        : "none: too few runs have a value";
+    return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "none: too few runs";
   }
   function marginText(one, set) {
     if (W.isNumber(one.margin) && W.isNumber(one.limit))
@@ -104,7 +105,7 @@
       : F.none;
   }
 
-  // Limit, observed and guaranteed on one line: of values relative to the limit, of shares on a scale of nines.
+  // Limit, observed and guaranteed value on one line. Shares stand on a scale of nines, -log10(1 - share): 99 % at 2.
   function bullet(one) {
     const nines = (share) => Math.min(5, -Math.log10(Math.max(1e-5, 1 - share)));
     const values = W.isNumber(one.limit)
@@ -118,42 +119,18 @@
     const known = Object.values(values).filter(W.isNumber),
       far = Math.max(...known.map((value) => Math.abs(value - values.limit)), Math.abs(values.limit) * 0.02, 1e-12);
     const x = d3.scaleLinear([values.limit - 1.15 * far, values.limit + 1.15 * far], [2, 118]).clamp(true);
-    const svg = d3
-      .create("svg")
-      .attr("class", "bullet")
-      .attr("viewBox", "0 0 120 18")
-      .attr("width", 120)
-      .attr("height", 18)
-      .attr("aria-hidden", "true");
-    svg
-      .append("rect")
-      .attr("class", "good")
-      .attr("x", upper ? 0 : x(values.limit))
-      .attr("width", upper ? x(values.limit) : 120 - x(values.limit))
-      .attr("y", 4)
-      .attr("height", 10);
-    svg
-      .append("line")
-      .attr("class", "limit-mark")
-      .attr("x1", x(values.limit))
-      .attr("x2", x(values.limit))
-      .attr("y1", 0)
-      .attr("y2", 18);
+    const svg = M.small("bullet", 120, 18);
+    M.put(svg, "rect.good", {
+      x: upper ? 0 : x(values.limit),
+      width: upper ? x(values.limit) : 120 - x(values.limit),
+      y: 4,
+      height: 10,
+    });
+    M.put(svg, "line.limit-mark", { x1: x(values.limit), x2: x(values.limit), y1: 0, y2: 18 });
     if (W.isNumber(values.observed) && W.isNumber(values.guaranteed))
-      svg
-        .append("line")
-        .attr("class", "between")
-        .attr("x1", x(values.observed))
-        .attr("x2", x(values.guaranteed))
-        .attr("y1", 9)
-        .attr("y2", 9);
-    if (W.isNumber(values.observed))
-      svg.append("circle").attr("class", "observed").attr("cx", x(values.observed)).attr("cy", 9).attr("r", 3.2);
-    if (W.isNumber(values.guaranteed))
-      svg
-        .append("path")
-        .attr("class", "guaranteed")
-        .attr("d", `M${x(values.guaranteed)},3.5 v11`);
+      M.put(svg, "line.between", { x1: x(values.observed), x2: x(values.guaranteed), y1: 9, y2: 9 });
+    if (W.isNumber(values.observed)) M.put(svg, "circle.observed", { cx: x(values.observed), cy: 9, r: 3.2 });
+    if (W.isNumber(values.guaranteed)) M.put(svg, "path.guaranteed", { d: `M${x(values.guaranteed)},3.5 v11` });
     return svg.node();
   }
 
@@ -161,18 +138,13 @@
     if (!one.broken) return "0";
     const runs = (one.broken_runs || [])
       .slice(0, 5)
-      .map((run) => h("button", { type: "button", class: "run", onclick: () => W.select(at, run) }, String(run)));
+      .map((run) => h("button.run", { onclick: () => W.selectRun(at, run) }, String(run)));
     return [
       F.count(one.broken),
       runs.length
         ? h(
-            "span",
-            { class: "runs" },
-            h(
-              "span",
-              { class: "faint" },
-              one.broken > runs.length ? " worst: " : one.broken === 1 ? " run: " : " runs: ",
-            ),
+            "span.runs",
+            h("span.faint", one.broken > runs.length ? " worst: " : one.broken === 1 ? " run: " : " runs: "),
             runs.flatMap((run, k) => (k ? [", ", run] : [run])),
           )
         : null,
@@ -182,43 +154,43 @@
   function requirementTable(rows) {
     const several = W.sets.length > 1;
     const columns = [
-      { text: "Requirement" },
-      { text: "Verdict" },
-      several && { text: "Case" },
-      { text: "Observed", kind: "number" },
-      { text: "Guaranteed", kind: "number" },
-      { text: "Margin", kind: "number" },
-      { text: "Against the limit" },
-      { text: "Runs that break it" },
+      "Requirement",
+      "Verdict",
+      several && "Case",
+      number("Observed"),
+      number("Guaranteed"),
+      number("Margin"),
+      "Against the limit",
+      "Runs that break it",
     ].filter(Boolean);
     const body = rows.map(({ requirement: one, set, at }) => ({
       mark: verdictOf(one.verdict),
       cells: [
-        h("span", {}, one.text, h("span", { class: "evidence" }, one.evidence, one.disproved ? " · disproved" : null)),
+        h("span", one.text, h("span.evidence", one.evidence, one.disproved ? " · disproved" : null)),
         W.badge(one.verdict),
-        several && h("span", { class: "nowrap" }, set.label),
+        several && h("span.nowrap", set.label),
         observed(one, set),
         guaranteed(one, set),
         marginText(one, set),
         bullet(one),
-        h("span", {}, brokenRuns(one, at)),
+        h("span", brokenRuns(one, at)),
       ].filter((cell) => cell !== false),
     }));
     return W.table("Requirements, the worst first", columns, body, { class: "requirements", stacks: true });
   }
 
-  // A cell for each requirement and case.
+  // One cell per requirement and case.
   function matrix(rows) {
     const texts = [...new Set(rows.map((row) => row.requirement.text))];
     const cell = function (text, at) {
       const row = rows.find((one) => one.at === at && one.requirement.text === text);
       return row
-        ? h("span", { class: "cell" }, W.badge(row.requirement.verdict, true), marginText(row.requirement, row.set))
+        ? h("span.cell", W.badge(row.requirement.verdict, true), marginText(row.requirement, row.set))
         : F.none;
     };
     return W.table(
       "Verdict and margin by case",
-      [{ text: "Requirement" }, ...W.sets.map((set) => ({ text: set.label, kind: "number" }))],
+      ["Requirement", ...W.sets.map((set) => number(set.label))],
       texts.map((text) => [text, ...W.sets.map((set, at) => cell(text, at))]),
       { class: "matrix", showCaption: true },
     );
@@ -235,19 +207,17 @@
       rows.length > shown.length
         ? h(
             "details",
-            {},
-            h("summary", {}, `Every requirement in every case (${rows.length} verdicts)`),
+            h("summary", `Every requirement in every case (${rows.length} verdicts)`),
             requirementTable(rows),
           )
         : null;
     return [
       headline(rows),
-      several ? [matrix(rows), h("h3", {}, "The worst case of each requirement")] : null,
+      several ? [matrix(rows), h("h3", "The worst case of each requirement")] : null,
       requirementTable(shown),
       h(
-        "p",
-        { class: "note" },
-        "● observed: the quantile (or share) of the runs. ┃ guaranteed: its one-sided tolerance limit at the stated confidence; the requirement passes where that keeps to the limit. The shaded side of the line is allowed; shares stand on a scale of nines.",
+        "p.note",
+        "● observed: quantile (or share) of the runs. ┃ guaranteed: one-sided tolerance limit at the stated confidence; the requirement passes when it lies on the shaded side of the limit. Shares stand on a logarithmic scale: 90, 99, 99.9 % are equally far apart.",
       ),
       more,
     ];

@@ -1,26 +1,21 @@
-// The first screen's other half: outcomes with bounds, latch orders, warnings, numerical against statistical error, the command.
+// The rest of the first screen: outcomes with bounds, latch orders, warnings, numerical error, commands to reproduce the runs.
 (function () {
   "use strict";
   const W = window.wingspread;
-  const { h, format: F } = W;
+  const { h, number, format: F } = W;
 
   function statusBar(set) {
     const total = d3.sum(set.statuses, (one) => one.count) || 1;
     return h(
-      "div",
-      { class: "stack", "aria-hidden": "true" },
+      "div.stack",
+      { "aria-hidden": "true" },
       set.statuses
         .filter((one) => one.count)
         .map((one) => h("span", { class: one.status, style: `flex-grow:${Math.max(one.count, 0.006 * total)}` })),
     );
   }
-  const NAMES = {
-    deployed: "deployed",
-    stalled: "stalled",
-    timed_out: "timed out",
-    invalid: "invalid",
-    failed: "failed",
-  };
+  const nameOf = (status) => status.replace("_", " ");
+  const key = (name, style) => h("i", { class: `key ${name}`.trim(), style, "aria-hidden": "true" });
 
   function outcomes() {
     const confidence = `${100 * (W.set().confidence || 0.95)} % bounds`;
@@ -29,25 +24,16 @@
       const rows = set.statuses.map((one) => ({
         mark: one.count ? null : "zero",
         cells: [
-          h("span", {}, h("i", { class: `key ${one.status}`, "aria-hidden": "true" }), NAMES[one.status] || one.status),
+          h("span", key(one.status), nameOf(one.status)),
           F.count(one.count),
           F.share(one.rate),
           F.shareBounds(one.lower, one.upper),
         ],
       }));
       return [
-        h("h3", {}, "Outcomes"),
+        h("h3", "Outcomes"),
         statusBar(set),
-        W.table(
-          "Outcomes of the runs",
-          [
-            { text: "Outcome" },
-            { text: "Runs", kind: "number" },
-            { text: "Share", kind: "number" },
-            { text: confidence, kind: "number" },
-          ],
-          rows,
-        ),
+        W.table("Outcomes of the runs", ["Outcome", number("Runs"), number("Share"), number(confidence)], rows),
         reasons(set),
       ];
     }
@@ -59,28 +45,22 @@
       const one = set.statuses.find((each) => each.status === status);
       return one
         ? h(
-            "span",
-            { class: "double" },
+            "span.double",
             `${F.count(one.count)} · ${F.share(one.rate)}`,
-            h("small", {}, F.shareBounds(one.lower, one.upper)),
+            h("small", F.shareBounds(one.lower, one.upper)),
           )
         : F.none;
     };
     return [
-      h("h3", {}, "Outcomes"),
+      h("h3", "Outcomes"),
       W.table(
         `Outcomes by case, with ${confidence}`,
-        [
-          { text: "Case" },
-          { text: "Runs", kind: "number" },
-          ...statuses.map((status) => ({ text: NAMES[status] || status, kind: "number" })),
-        ],
+        ["Case", number("Runs"), ...statuses.map((status) => number(nameOf(status)))],
         W.sets.map((set) => [set.label, F.count(set.runs), ...statuses.map((status) => cell(set, status))]),
       ),
       h(
-        "p",
-        { class: "note" },
-        `Under each share its ${confidence} (exact where draws are independent). Outcomes not listed did not happen in any run.`,
+        "p.note",
+        `Under each share its ${confidence} (exact for independent draws). Outcomes not listed occurred in no run.`,
       ),
       W.sets.map((set) => reasons(set, set.label)),
     ];
@@ -90,17 +70,11 @@
     return h(
       "details",
       { open: set.reasons.length <= 4 },
-      h("summary", {}, `Why runs did not deploy${label ? `: ${label}` : ""}`),
+      h("summary", `Why runs did not deploy${label ? `: ${label}` : ""}`),
       h(
-        "ul",
-        { class: "plain" },
+        "ul.plain",
         set.reasons.map((one) =>
-          h(
-            "li",
-            {},
-            h("b", {}, F.count(one.count)),
-            ` ${NAMES[one.status] || one.status}: ${one.reason || "no reason given"}`,
-          ),
+          h("li", h("b", F.count(one.count)), ` ${nameOf(one.status)}: ${one.reason || "no reason given"}`),
         ),
       ),
     );
@@ -113,40 +87,25 @@
   function orders() {
     const set = W.set();
     if (!(set.orders || []).some((one) => one.order !== "no latch"))
-      return [h("h3", {}, "Orders of latching"), h("p", {}, "No hinge latched in any run.")];
+      return [h("h3", "Latch orders"), h("p", "No hinge latched in any run.")];
     const counted = set.orders.some((one) => one.order === "no latch"),
       without = counted ? 0 : set.without_latch || 0;
     const total = d3.sum(set.orders, (one) => one.count) + without,
       colour = (at) => W.marks.colour(W.marks.ofOrder(set, at));
     const rows = set.orders.map((one, at) => [
-      h(
-        "span",
-        {},
-        h("i", { class: "key", style: `background:${colour(at)}`, "aria-hidden": "true" }),
-        one.order === "others" ? others(set) : F.order(one.order),
-      ),
+      h("span", key("", `background:${colour(at)}`), one.order === "others" ? others(set) : F.order(one.order)),
       F.count(one.count),
       F.share(one.count / total),
     ]);
     if (without)
       rows.push([
-        h(
-          "span",
-          {},
-          h("i", { class: "key", style: "background:var(--none)", "aria-hidden": "true" }),
-          "no hinge latched",
-        ),
+        h("span", key("", "background:var(--none)"), "no hinge latched"),
         F.count(without),
         F.share(without / total),
       ]);
     return [
-      h("h3", {}, W.sets.length > 1 ? `Orders of latching · ${set.label}` : "Orders of latching"),
-      W.table(
-        "Orders of latching",
-        [{ text: "Order" }, { text: "Runs", kind: "number" }, { text: "Share", kind: "number" }],
-        rows,
-        { class: "long-names" },
-      ),
+      h("h3", W.sets.length > 1 ? `Latch orders · ${set.label}` : "Latch orders"),
+      W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" }),
     ];
   }
 
@@ -157,15 +116,14 @@
       .filter((set) => set.partial || (set.runs < set.planned && !set.stopped))
       .map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
     const items = [
-      ...partial.map((text) => h("li", {}, text)),
+      ...partial.map((text) => h("li", text)),
       ...texts.map(function (text) {
         const where = all.filter((one) => one.text === text).map((one) => one.set.label);
         return h(
           "li",
-          {},
           text,
           W.sets.length > 1
-            ? h("span", { class: "faint" }, where.length === W.sets.length ? " (all)" : ` (${where.join(", ")})`)
+            ? h("span.faint", where.length === W.sets.length ? " (all)" : ` (${where.join(", ")})`)
             : null,
         );
       }),
@@ -173,21 +131,19 @@
     return h(
       "div",
       { class: items.length ? "warnings" : "warnings none" },
-      h("h3", {}, "Warnings"),
-      items.length ? h("ul", {}, items.slice(0, 6)) : h("p", {}, "None."),
-      items.length > 6
-        ? h("details", {}, h("summary", {}, `${items.length - 6} more`), h("ul", {}, items.slice(6)))
-        : null,
+      h("h3", "Warnings"),
+      items.length ? h("ul", items.slice(0, 6)) : h("p", "None."),
+      items.length > 6 ? h("details", h("summary", `${items.length - 6} more`), h("ul", items.slice(6))) : null,
     );
   }
 
-  // What the integration contributes, beside what the number of runs leaves open.
+  // The integration's error beside the statistical error that the number of runs leaves.
   function accuracy() {
     const set = W.set(),
       one = set.accuracy;
-    const title = h("h3", {}, "Numerical against statistical error");
+    const title = h("h3", "Numerical against statistical error");
     const rows = ((one && one.outputs) || []).filter((row) => W.isNumber(row.largest));
-    if (!rows.length) return [title, h("p", {}, "No runs were made again at a tighter tolerance.")];
+    if (!rows.length) return [title, h("p", "No runs were repeated at a tighter tolerance.")];
     const share = (row) =>
       W.isNumber(row.standard_error) && row.standard_error > 0 ? row.largest / row.standard_error : null;
     const ordered = rows.slice().sort((a, b) => (share(b) || 0) - (share(a) || 0)),
@@ -200,13 +156,7 @@
           : `${F.number(worst, 2)} times`;
     const table = W.table(
       "Numerical and statistical error of each output",
-      [
-        { text: "Output" },
-        { text: "Unit" },
-        { text: "Numerical, largest", kind: "number" },
-        { text: "Numerical, rms", kind: "number" },
-        { text: "Standard error of the mean", kind: "number" },
-      ],
+      ["Output", "Unit", number("Numerical, largest"), number("Numerical, rms"), number("Standard error of the mean")],
       ordered.map((row) => {
         const output = W.outputsOf(set).find((each) => each.name === row.output);
         return [
@@ -222,42 +172,38 @@
       title,
       h(
         "p",
-        {},
-        `${F.runs(one.runs)} made again with ${one.reference_method} at rtol ${F.number(one.reference_rtol, 2)} (the campaign: ${one.method}, ${F.number(one.rtol, 2)}). `,
+        `${F.runs(one.runs)} repeated with ${one.reference_method} at rtol ${F.number(one.reference_rtol, 2)} (the campaign: ${one.method}, ${F.number(one.rtol, 2)}). `,
         times
           ? h(
               "b",
-              {},
-              `At worst (${F.nameOf(ordered[0].output)}) the integration's error is ${times} the mean's standard error.`,
+              `At worst (${F.nameOf(ordered[0].output)}) the integration error is ${times} the standard error of the mean.`,
             )
-          : "They agree to the last digit, or there is no statistical error to compare with.",
+          : "They agree to the last digit, or the statistical error is unknown.",
         one.order_in_doubt
-          ? ` In ${F.runs(one.order_in_doubt)} the status or the order of latching is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
-          : " No status and no order of latching is in doubt.",
-        one.unreached ? ` ${F.runs(one.unreached)} could not be made again.` : null,
+          ? ` In ${F.runs(one.order_in_doubt)} the status or the latch order is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
+          : " No status and no latch order is in doubt.",
+        one.unreached ? ` ${F.runs(one.unreached)} could not be repeated.` : null,
       ),
-      h("details", {}, h("summary", {}, "Every output"), table),
+      h("details", h("summary", "Every output"), table),
     ];
   }
 
   function again() {
     const made = [...new Map(W.sets.filter((set) => set.made_by).map((set) => [set.made_by, set])).values()];
     return h(
-      "div",
-      { class: "again" },
-      h("h3", {}, "To make it again"),
+      "div.again",
+      h("h3", "Reproduce"),
       made.map((set) => W.command(set.made_by, `command of ${set.label}`)),
       W.command(W.data.command, "command of this report"),
       h(
-        "p",
-        { class: "note" },
+        "p.note",
         made.map((set, at) => [
           at ? "; " : "",
           W.sets.length > 1 && made.length > 1 ? `${set.label}: ` : "",
           `wingspread ${set.version}, seed ${set.seed}, campaign hash `,
-          h("code", { class: "hash" }, set.hash),
+          h("code.hash", set.hash),
         ]),
-        made.length ? ". The same seed gives the same bytes, on any number of threads." : null,
+        made.length ? ". The same seed gives the same bytes on any number of threads." : null,
       ),
     );
   }
@@ -278,27 +224,26 @@
         ? `${set.design.replace(/_/g, " ")} design${set.replicates > 1 ? `, ${set.replicates} replicates` : ""}`
         : null,
       set.seed === "" ? null : `seed ${one((each) => each.seed).join(", ")}`,
-      set.foreign ? "rows of another tool" : null,
+      set.foreign ? "rows from another tool" : null,
       `bounds at ${100 * set.confidence} %`,
       set.shard ? `shard ${set.shard}` : null,
-      set.stopped ? `stopped by its goals, of ${F.count(set.planned)} planned runs` : null,
-      set.looks > 1 ? `look ${set.looks} at a growing campaign` : null,
+      set.stopped ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
+      set.looks > 1 ? `bounds hold over ${set.looks} interim analyses` : null,
       `wingspread ${one((each) => each.version).join(", ")}`,
       `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`,
     ];
     W.fill(
       document.getElementById("subtitle"),
-      set.description ? h("p", { class: "description" }, set.description) : null,
+      set.description ? h("p.description", set.description) : null,
       h(
-        "p",
-        { class: "facts" },
-        facts.filter(Boolean).map((fact) => h("span", {}, fact)),
+        "p.facts",
+        facts.filter(Boolean).map((fact) => h("span", fact)),
       ),
     );
     document.getElementById("title").textContent = W.data.title;
     document.title = `${W.data.title} · wingspread report`;
     document.getElementById("colophon").textContent =
-      `Made by ${W.data.command} (wingspread ${W.data.version}). This page holds its data and asks no network.`;
+      `Made by ${W.data.command} (wingspread ${W.data.version}). This page contains its data and uses no network.`;
   }
 
   W.outcomes = function () {
@@ -307,11 +252,10 @@
       const labels = W.studySets.map((set) => `${set.label}${set.made_by ? ` (${set.made_by})` : ""}`);
       W.fill(
         W.section("verdicts"),
-        h("p", { class: "headline" }, "Studies of a campaign, without its runs."),
+        h("p.headline", "Results of margin, sensitivity or rare, without runs of a campaign."),
         h(
           "p",
-          {},
-          `${labels.join(", ")}: what they found stands under “Why”. A folder that wingspread run has written, given beside them, adds verdicts and distributions.`,
+          `${labels.join(", ")}: see “Causes”. Add a results folder of wingspread run to this report for verdicts and distributions.`,
         ),
         again(),
       );
@@ -320,16 +264,9 @@
     W.fill(
       W.section("verdicts"),
       h(
-        "div",
-        { class: "first" },
-        h("div", { class: "judgement" }, W.verdicts.requirements()),
-        h(
-          "div",
-          { class: "columns" },
-          h("div", {}, outcomes()),
-          h("div", {}, orders()),
-          h("div", {}, warnings(), accuracy()),
-        ),
+        "div.first",
+        h("div.judgement", W.verdicts.requirements()),
+        h("div.columns", h("div", outcomes()), h("div", orders()), h("div", warnings(), accuracy())),
         again(),
       ),
     );

@@ -1,47 +1,43 @@
-// Every output: a list to search and choose from, with a small histogram each; the chosen one's pictures and numbers beside it.
+// The outputs: a list with small histograms to search and choose from, and the chosen output's pictures and numbers.
 (function () {
   "use strict";
   const W = window.wingspread;
-  const { h, format: F } = W;
+  const { h, number, format: F, marks: M } = W;
 
-  // A histogram as small as a word.
+  // The levels of the quantiles of some outputs, ascending, and an output's quantile at a level.
+  const levelsOf = (outputs) =>
+    [...new Set(outputs.flatMap((one) => (one.quantiles || []).map((quantile) => quantile.p)))].sort(d3.ascending);
+  const quantileAt = (output, p) => ((output.quantiles || []).find((one) => one.p === p) || {}).value;
+  const requirementsOn = (set, output) => (output.limits || []).map((at) => set.requirements[at]).filter(Boolean);
+  // A value of an output as text, to a tenth of its standard deviation.
+  const inGrain = (output) => (value) => F.value(value, output.unit, F.grain(output));
+
   function spark(output) {
-    const svg = d3
-      .create("svg")
-      .attr("class", "spark")
-      .attr("viewBox", "0 0 84 18")
-      .attr("width", 84)
-      .attr("height", 18)
-      .attr("aria-hidden", "true");
+    const svg = M.small("spark", 84, 18);
     const histogram = output.histogram;
     if (W.isNumber(output.min) && output.min === output.max)
-      return W.h("span", { class: "faint" }, output.count === 1 ? "one value" : "one value always");
+      return W.h("span.faint", output.count === 1 ? "one value" : "constant");
     if (histogram && histogram.counts.length) {
       const { edges, counts } = histogram,
         x = d3.scaleLinear([edges[0], edges[edges.length - 1]], [0, 84]),
         y = d3.scaleLinear([0, d3.max(counts)], [0, 17]);
-      svg
-        .append("path")
-        .attr(
-          "d",
+      M.put(svg, "path", {
+        d:
           counts
             .map(
               (count, at) =>
                 `M${x(edges[at]).toFixed(1)},18v${(-y(count)).toFixed(1)}H${x(edges[at + 1]).toFixed(1)}V18`,
             )
             .join("") + "Z",
-        );
+      });
       if (W.isNumber(output.nominal) && output.nominal >= edges[0] && output.nominal <= edges[edges.length - 1])
-        svg.append("line").attr("x1", x(output.nominal)).attr("x2", x(output.nominal)).attr("y1", 0).attr("y2", 18);
+        M.put(svg, "line", { x1: x(output.nominal), x2: x(output.nominal), y1: 0, y2: 18 });
     }
     return svg.node();
   }
 
   function worstVerdict(set, output) {
-    const verdicts = (output.limits || [])
-      .map((at) => set.requirements[at])
-      .filter(Boolean)
-      .map((one) => W.verdicts.verdictOf(one.verdict));
+    const verdicts = requirementsOn(set, output).map((one) => W.verdicts.verdictOf(one.verdict));
     return ["failed", "open", "passed"].find((verdict) => verdicts.includes(verdict));
   }
 
@@ -49,30 +45,25 @@
   function list() {
     const set = W.set(),
       outputs = W.outputsOf(set);
-    const levels = [...new Set(outputs.flatMap((output) => (output.quantiles || []).map((one) => one.p)))].sort(
-      d3.ascending,
-    );
+    const levels = levelsOf(outputs);
     const shownLevels =
       levels.length > 5 ? [levels[0], levels[Math.floor(levels.length / 2)], levels[levels.length - 1]] : levels;
     const columns = [
-      { text: "Output" },
-      { text: "Unit" },
-      { text: "Runs", kind: "number" },
-      { text: "Distribution" },
-      { text: "Nominal", kind: "number" },
-      { text: "Mean", kind: "number" },
-      { text: "Std", kind: "number" },
-      ...shownLevels.map((p) => ({ text: p === 0.5 ? "Median" : F.share(p).replace(/\.0 /, " "), kind: "number" })),
+      "Output",
+      "Unit",
+      number("Runs"),
+      "Distribution",
+      number("Nominal"),
+      number("Mean"),
+      number("Std"),
+      ...shownLevels.map((p) => number(F.quantileName(p))),
     ];
     const rows = outputs.map(function (output) {
       const verdict = worstVerdict(set, output),
-        grain = F.grain(output),
-        value = (number) => F.value(number, output.unit, grain);
+        value = inGrain(output);
       const button = h(
-        "button",
+        "button.pick",
         {
-          type: "button",
-          class: "pick",
           "data-output": output.name,
           "aria-pressed": String(output.name === W.chosen.output),
           onclick: () => W.choose("output", output.name),
@@ -82,20 +73,20 @@
       return {
         mark: output.count ? null : "zero",
         cells: [
-          h("span", {}, button, verdict ? [" ", W.badge(verdict, true)] : null),
+          h("span", button, verdict ? [" ", W.badge(verdict, true)] : null),
           F.shown(output.unit).unit,
           F.count(output.count),
           output.count ? spark(output) : "in no run",
           value(output.nominal),
           value(output.mean),
           F.value(output.std, output.unit, output.std),
-          ...shownLevels.map((p) => value(((output.quantiles || []).find((one) => one.p === p) || {}).value)),
+          ...shownLevels.map((p) => value(quantileAt(output, p))),
         ],
       };
     });
     const table = W.table(`Outputs of ${set.label}`, columns, rows, { class: "outputs" });
     table.addEventListener("keydown", byArrows);
-    const found = h("span", { class: "faint", role: "status" });
+    const found = h("span.faint", { role: "status" });
     const search = h("input", {
       type: "search",
       placeholder: "e.g. root peak",
@@ -117,7 +108,7 @@
       found.textContent = `${count} of ${outputs.length}`;
     }
     narrow();
-    return [h("div", { class: "controls" }, h("label", { class: "search" }, "Search ", search), found), table];
+    return [h("div.controls", h("label.search", "Search ", search), found), table];
   }
   function byArrows(event) {
     if (!["ArrowDown", "ArrowUp"].includes(event.key) || !event.target.matches(".pick")) return;
@@ -139,27 +130,21 @@
         : "too few runs for bounds";
   }
   function quantiles(output, set) {
+    const text = inGrain(output);
     const rows = (output.quantiles || []).map((one) => [
-      one.p === 0.5 ? "median" : F.share(one.p).replace(/\.0 /, " "),
-      F.value(one.value, output.unit, F.grain(output)),
-      bounds(one, (value) => F.value(value, output.unit, F.grain(output))),
+      F.quantileName(one.p).toLowerCase(),
+      text(one.value),
+      bounds(one, text),
     ]);
     for (const one of output.tolerance_limits || [])
       rows.push([
         `tolerance: ${one.text}`,
-        [one.lower, one.upper]
-          .filter(W.isNumber)
-          .map((value) => F.value(value, output.unit, F.grain(output)))
-          .join(" … ") || F.none,
+        [one.lower, one.upper].filter(W.isNumber).map(text).join(" … ") || F.none,
         "",
       ]);
     return W.table(
       `Quantiles of ${F.name(output)}`,
-      [
-        { text: "Quantile" },
-        { text: "Value", unit: F.shown(output.unit).unit, kind: "number" },
-        { text: `${100 * set.confidence} % bounds`, kind: "number" },
-      ],
+      ["Quantile", number("Value", F.shown(output.unit).unit), number(`${100 * set.confidence} % bounds`)],
       rows,
       { showCaption: true },
     );
@@ -167,46 +152,40 @@
   function moments(output) {
     const value = (number) => F.withUnit(number, output.unit, F.grain(output));
     const rows = [
-      ["runs that have it", F.count(output.count)],
-      ["runs without", F.count(output.missing)],
-      ["nominal run", W.isNumber(output.nominal) ? value(output.nominal) : "did not happen"],
+      ["runs with a value", F.count(output.count)],
+      ["runs without a value", F.count(output.missing)],
+      ["nominal run", W.isNumber(output.nominal) ? value(output.nominal) : "no value"],
       ["mean", value(output.mean)],
-      ["its standard error", F.withUnit(output.mean_error, output.unit, output.mean_error)],
+      ["standard error of the mean", F.withUnit(output.mean_error, output.unit, output.mean_error)],
       ["standard deviation", F.withUnit(output.std, output.unit, output.std)],
-      ["least", value(output.min)],
-      ["largest", value(output.max)],
+      ["minimum", value(output.min)],
+      ["maximum", value(output.max)],
       ["skewness", F.fixed(output.skewness, 2)],
       ["kurtosis", F.fixed(output.kurtosis, 2)],
     ];
-    return W.table(`Moments of ${F.name(output)}`, [{ text: "Statistic" }, { text: "Value", kind: "number" }], rows, {
+    return W.table(`Moments of ${F.name(output)}`, ["Statistic", number("Value")], rows, {
       showCaption: true,
     });
   }
-  // By case: the quantiles of the chosen output, side by side.
+  // The quantiles of an output by case, side by side.
   function byCase(name) {
     const found = W.sets.map((set) => ({ set, output: W.output(set) })).filter((one) => one.output);
     if (found.length < 2) return null;
-    const levels = [...new Set(found.flatMap((one) => (one.output.quantiles || []).map((q) => q.p)))].sort(
-      d3.ascending,
-    );
+    const levels = levelsOf(found.map((one) => one.output));
     const unit = found[0].output.unit,
       missing = found.some((one) => one.output.missing);
     return W.table(
       `${name} by case`,
       [
-        { text: "Case" },
-        { text: "Nominal", unit: F.shown(unit).unit, kind: "number" },
-        { text: "Mean", kind: "number" },
-        ...levels.map((p) => ({ text: p === 0.5 ? "Median" : F.share(p).replace(/\.0 /, " "), kind: "number" })),
-        ...(missing ? [{ text: "Missing", kind: "number" }] : []),
+        "Case",
+        number("Nominal", F.shown(unit).unit),
+        number("Mean"),
+        ...levels.map((p) => number(F.quantileName(p))),
+        ...(missing ? [number("Missing")] : []),
       ],
       found.map(({ set, output }) => [
         set.label,
-        F.value(output.nominal, unit, F.grain(output)),
-        F.value(output.mean, unit, F.grain(output)),
-        ...levels.map((p) =>
-          F.value(((output.quantiles || []).find((q) => q.p === p) || {}).value, unit, F.grain(output)),
-        ),
+        ...[output.nominal, output.mean, ...levels.map((p) => quantileAt(output, p))].map(inGrain(output)),
         ...(missing ? [F.count(output.missing)] : []),
       ]),
       { showCaption: true },
@@ -228,61 +207,42 @@
         host,
         h(
           "p",
-          {},
           W.outputsOf(set).length
             ? `${F.nameOf(W.chosen.output || "")} is not among the outputs of ${set.label}.`
             : "The campaign recorded no outputs.",
         ),
       );
     const text = glossaryText(output);
-    const title = h("h3", { class: "chosen" }, F.name(output), " ", h("code", {}, output.name));
-    const limits = (output.limits || [])
-      .map((at) => set.requirements[at])
-      .filter(Boolean)
-      .map((one) => h("li", {}, W.badge(one.verdict), " ", one.text));
-    const head = [
-      title,
-      text ? h("p", { class: "note" }, text) : null,
-      limits.length ? h("ul", { class: "plain" }, limits) : null,
-    ];
+    const title = h("h3.chosen", F.name(output), " ", h("code", output.name));
+    const limits = requirementsOn(set, output).map((one) => h("li", W.badge(one.verdict), " ", one.text));
+    const head = [title, text ? h("p.note", text) : null, limits.length ? h("ul.plain", limits) : null];
     if (!output.count || !output.histogram)
-      return W.fill(
-        host,
-        head,
-        h("p", { class: "nothing" }, `This did not happen in any run of ${set.label}.`),
-        byCase(F.name(output)),
-      );
+      return W.fill(host, head, h("p.nothing", `No run of ${set.label} has a value.`), byCase(F.name(output)));
     const split =
       W.sets.length > 1
         ? W.buttons(
             "Colour",
-            [
-              ["order", "by order of latching"],
-              ["case", "by case, overlaid"],
-            ],
+            Object.entries({ order: "by latch order", case: "by case, overlaid" }),
             W.chosen.split,
             (value) => W.choose("split", value),
           )
         : null;
     const scale = W.buttons(
       "Probability axis",
-      [
-        ["linear", "linear"],
-        ["probit", "normal paper"],
-      ],
+      Object.entries({ linear: "linear", probit: "normal probability paper" }),
       W.chosen.scale,
       (value) => W.choose("scale", value),
     );
     W.fill(
       host,
       head,
-      h("div", { class: "controls" }, split, scale),
-      h("div", { class: "pair" }, W.histogram(set, output), W.distribution(set, output)),
-      h("div", { class: "columns three" }, quantiles(output, set), moments(output), byCase(F.name(output))),
+      h("div.controls", split, scale),
+      h("div.pair", W.histogram(set, output), W.distribution(set, output)),
+      h("div.columns.three", quantiles(output, set), moments(output), byCase(F.name(output))),
     );
   }
 
-  // Of a new set the output chosen before stays, if it has it; else the one whose requirement is worst.
+  // The output chosen before, if this set has it; else that of the worst requirement; else the first peak moment.
   W.defaultOutput = function () {
     const outputs = W.outputsOf(W.set());
     if (outputs.some((output) => output.name === W.chosen.output)) return W.chosen.output;
@@ -290,20 +250,15 @@
       .judged()
       .map((row) => row.requirement.output)
       .find((name) => outputs.some((output) => output.name === name));
-    return (
-      judged ||
-      (
-        outputs.find((output) => output.family === "peak_moment" && output.count) ||
-        outputs.find((output) => output.count) ||
-        outputs[0] ||
-        {}
-      ).name ||
-      null
-    );
+    const first =
+      outputs.find((output) => output.family === "peak_moment" && output.count) ||
+      outputs.find((output) => output.count) ||
+      outputs[0];
+    return judged || (first ? first.name : null);
   };
 
-  const host = h("div", { class: "output" }),
-    listHost = h("div", {});
+  const host = h("div.output"),
+    listHost = h("div");
   W.outputs = function () {
     if (W.onlyStudies) return;
     W.chosen.output = W.defaultOutput();
@@ -313,9 +268,8 @@
       W.fill(
         W.section("outputs"),
         h(
-          "p",
-          { class: "lead" },
-          "Colours show in which order the hinges latched: separate humps of a distribution are, as a rule, different orders. Choose an output from the list.",
+          "p.lead",
+          "Colours show the latch order: separate peaks of a histogram are usually different orders. Choose an output from the list.",
         ),
         listHost,
         host,

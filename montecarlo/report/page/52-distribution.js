@@ -1,73 +1,68 @@
-// The histogram, stacked by order of latching or overlaid by case, and the distribution function with its confidence band.
+// The histogram, stacked by latch order or overlaid by case, and the distribution function with its confidence band.
 (function () {
   "use strict";
   const W = window.wingspread;
   const { format: F, marks: M } = W;
 
-  // What both pictures mark: requirements' limits, and the nominal run.
-  function marksOf(set, output, x, factor) {
-    const lines = [];
-    if (W.isNumber(output.nominal)) lines.push({ x: x(output.nominal * factor), text: "nominal", kind: "nominal" });
-    const limits = new Set();
-    for (const at of output.limits || []) {
-      const one = set.requirements[at];
-      if (!one || !W.isNumber(one.limit)) continue;
-      for (const [limit, upper] of one.abs
-        ? [
-            [one.limit, true],
-            [-one.limit, false],
-          ]
-        : [[one.limit, one.upper]])
-        limits.add(`${limit} ${upper ? "≤" : "≥"}`);
-    }
-    for (const one of limits) {
-      const [limit, sign] = one.split(" "),
-        shown = Number((limit * factor).toPrecision(6));
-      lines.push({ x: x(shown), text: `${sign} ${F.given(shown)}`, kind: "limit" });
-    }
-    return lines;
-  }
-  // Limits and the nominal are shown where they are near; a limit far away must not squeeze the picture.
-  function reach(set, output, factor, edges) {
-    const low = edges[0],
-      high = edges[edges.length - 1],
-      span = high - low || Math.abs(high) || 1;
-    const marks = [
-      output.nominal,
-      ...(output.limits || []).map((at) => (set.requirements[at] || {}).limit),
-      ...(output.limits || []).map((at) => (set.requirements[at] || {}).abs && -set.requirements[at].limit),
-    ].filter(W.isNumber);
-    return [low, high, ...marks.filter((value) => value > low - span && value < high + span)].map(
-      (value) => value * factor,
-    );
-  }
-  const overlaid = () =>
-    W.chosen.split === "case" && W.sets.length > 1
-      ? W.sets
-          .map((set, at) => ({ set, at, output: W.output(set) }))
-          .filter((one) => one.output && one.output.histogram && one.output.curve)
-      : null;
-  // What limits lie outside of the picture, in words.
-  function beyond(set, output, factor, unit, edges) {
-    const shown = d3.extent(reach(set, output, factor, edges));
-    const far = (output.limits || [])
+  // The limits of the requirements on an output, each once, as { value (SI), upper }; |output| has two.
+  function limitsOf(set, output) {
+    const found = (output.limits || [])
       .map((at) => set.requirements[at])
-      .filter(
-        (one) => one && W.isNumber(one.limit) && (one.limit * factor < shown[0] || one.limit * factor > shown[1]),
-      );
-    return far
-      .map(
-        (one) =>
-          `The limit ${one.upper ? "≤" : "≥"} ${F.given(Number((one.limit * factor).toPrecision(6)))} ${unit} lies outside of the picture.`,
-      )
-      .join(" ");
+      .filter((one) => one && W.isNumber(one.limit))
+      .flatMap((one) => {
+        const limit = { value: one.limit, upper: one.abs || one.upper };
+        return one.abs ? [limit, { value: -one.limit, upper: false }] : [limit];
+      });
+    return [...new Map(found.map((one) => [`${one.value} ${one.upper}`, one])).values()];
+  }
+  const shownLimit = (limit, factor) => Number((limit.value * factor).toPrecision(6));
+  const limitText = (limit, factor) => `${limit.upper ? "≤" : "≥"} ${F.given(shownLimit(limit, factor))}`;
+
+  // What both pictures show: the chosen output in the displayed unit, and the cases laid over each other.
+  // `reach` are the ends of the x axis: all values, the nominal run, and those limits within one range of the values' ends
+  // (a limit further away would squeeze the picture); `beyond` are the other limits.
+  function viewOf(set, output) {
+    const edges = output.histogram.edges,
+      [low, high] = d3.extent(edges),
+      span = high - low || Math.abs(high) || 1;
+    const isNear = (value) => W.isNumber(value) && value > low - span && value < high + span;
+    const limits = limitsOf(set, output),
+      { factor, unit } = F.shown(output.unit);
+    const cases =
+      W.chosen.split === "case" && W.sets.length > 1
+        ? W.sets
+            .map((one, at) => ({ set: one, at, output: W.output(one) }))
+            .filter((one) => one.output && one.output.histogram && one.output.curve)
+        : null;
+    const near = [low, high, output.nominal, ...limits.map((one) => one.value)].filter(isNear);
+    return {
+      ...{ set, output, factor, unit, cases, limits },
+      reach: near.map((value) => value * factor),
+      beyond: limits.filter((one) => !isNear(one.value)),
+      axis: F.axis(F.name(output), unit),
+    };
+  }
+  const scaled = (values, view) => values.map((value) => value * view.factor);
+  const caseLegend = (cases) =>
+    M.lineItems(
+      cases,
+      (one) => one.set.label,
+      (one) => one.at,
+    );
+  function drawMarks(svg, box, view, x, low) {
+    const nominal = view.output.nominal * view.factor;
+    const lines = view.limits.map((one) => ({
+      x: x(shownLimit(one, view.factor)),
+      text: limitText(one, view.factor),
+      kind: "limit",
+    }));
+    if (W.isNumber(view.output.nominal)) lines.unshift({ x: x(nominal), text: "nominal", kind: "nominal" });
+    M.uprights(svg, box, lines, low);
   }
 
-  W.histogram = function (set, output) {
-    const { factor, unit } = F.shown(output.unit),
-      cases = overlaid();
-    const histogram = output.histogram,
-      orders = set.orders || [];
+  // The runs of each bin by latch order; the last layer holds the runs in which no hinge latched.
+  function layersOf(set, histogram) {
+    const orders = set.orders || [];
     const known = (histogram.by_order || [])
       .map((counts, at) => ({
         at: M.ofOrder(set, at),
@@ -76,52 +71,52 @@
       }))
       .filter((one) => d3.sum(one.counts) > 0);
     const rest = histogram.counts.map((count, bin) => count - d3.sum(known, (one) => one.counts[bin]));
-    const layers = d3.sum(rest) > 0 ? [...known, { at: -1, counts: rest, text: "no hinge latched" }] : known;
-    const table = () =>
-      cases
-        ? {
-            columns: ["case", `from ${unit}`, `to ${unit}`, "runs"],
-            rows: cases.flatMap(({ set: one, output: each }) =>
-              each.histogram.counts.map((count, bin) => [
-                one.label,
-                each.histogram.edges[bin] * factor,
-                each.histogram.edges[bin + 1] * factor,
-                count,
-              ]),
-            ),
-          }
-        : {
-            columns: [`from ${unit}`, `to ${unit}`, "runs", ...layers.map((one) => one.text)],
-            rows: histogram.counts.map((count, bin) => [
-              histogram.edges[bin] * factor,
-              histogram.edges[bin + 1] * factor,
-              count,
-              ...layers.map((one) => one.counts[bin]),
-            ]),
-          };
+    return d3.sum(rest) > 0 ? [...known, { at: -1, counts: rest, text: "no hinge latched" }] : known;
+  }
+
+  W.histogram = function (set, output) {
+    const view = viewOf(set, output),
+      { cases, factor, unit } = view,
+      layers = layersOf(set, output.histogram);
+    const bins = ({ edges, counts }, row) =>
+      counts.map((count, bin) => row(edges[bin] * factor, edges[bin + 1] * factor, count, bin));
+    const value = (number) => F.withUnit(number, output.unit);
     return W.figure({
       title: `Histogram: ${F.name(output)}`,
-      table,
       printed: 440,
       class: "histogram",
-      note: beyond(set, output, factor, unit, histogram.edges) || null,
+      note:
+        view.beyond.map((one) => `The limit ${limitText(one, factor)} ${unit} lies outside the picture.`).join(" ") ||
+        null,
       description: () =>
-        `${F.runs(output.count)} from ${F.withUnit(output.min, output.unit)} to ${F.withUnit(output.max, output.unit)}, mean ${F.withUnit(output.mean, output.unit)}` +
+        `${F.runs(output.count)} from ${value(output.min)} to ${value(output.max)}, mean ${value(output.mean)}; ` +
         (cases
-          ? `; overlaid with ${cases.map((one) => one.set.label).join(", ")}.`
-          : `; by order of latching: ${layers.map((one) => `${one.text} ${d3.sum(one.counts)}`).join(", ")}.`),
-      draw: (svg, width) =>
+          ? `overlaid with ${cases.map((one) => one.set.label).join(", ")}.`
+          : `by latch order: ${layers.map((one) => `${one.text} ${d3.sum(one.counts)}`).join(", ")}.`),
+      table: () =>
         cases
-          ? drawCases(svg, width, cases, set, output, factor, unit)
-          : drawStack(svg, width, layers, set, output, factor, unit),
+          ? {
+              columns: ["case", `from ${unit}`, `to ${unit}`, "runs"],
+              rows: cases.flatMap((one) =>
+                bins(one.output.histogram, (from, to, count) => [one.set.label, from, to, count]),
+              ),
+            }
+          : {
+              columns: [`from ${unit}`, `to ${unit}`, "runs", ...layers.map((one) => one.text)],
+              rows: bins(output.histogram, (from, to, count, bin) => [
+                from,
+                to,
+                count,
+                ...layers.map((one) => one.counts[bin]),
+              ]),
+            },
+      draw: (svg, width) => (cases ? drawCases(svg, width, view) : drawStack(svg, width, view, layers)),
     });
   };
 
-  function boxOf(top, width, y, height = 250, format) {
-    return { left: M.leftFor(y, format), right: width - 12, top: top + 18, bottom: top + height };
-  }
-  function drawStack(svg, width, layers, set, output, factor, unit) {
-    const { edges, counts } = output.histogram,
+  function drawStack(svg, width, view, layers) {
+    const { output, factor, unit } = view,
+      { edges, counts } = output.histogram,
       fill = M.hatches(svg, 7);
     const top = M.legend(
       svg,
@@ -129,101 +124,68 @@
       width,
     );
     const y = d3.scaleLinear([0, d3.max(counts) * 1.06 || 1], [0, 1]),
-      box = boxOf(top, width, y);
-    y.range([box.bottom, box.top]);
-    const x = M.linear(reach(set, output, factor, edges), [box.left, box.right]);
+      box = M.boxFor(y, width, top, 250);
+    const x = M.linear(view.reach, [box.left, box.right]);
+    const value = (edge) => F.value(edge, output.unit, F.grain(output));
     M.axes(svg, box, x, y, {
-      xText: `${F.name(output)}${unit ? ` (${unit})` : ""}`,
+      xText: view.axis,
       yText: "runs in each bin",
-      yFormat: (value) => (Number.isInteger(value) ? F.count(value) : ""),
+      yFormat: (tick) => (Number.isInteger(tick) ? F.count(tick) : ""),
     });
     const base = counts.map(() => 0);
     for (const layer of layers) {
-      const group = svg.append("g").attr("class", "layer");
+      const group = M.put(svg, "g.layer");
       layer.counts.forEach(function (count, bin) {
-        if (count > 0) {
-          const left = x(edges[bin] * factor),
-            right = x(edges[bin + 1] * factor);
-          group
-            .append("rect")
-            .attr("class", "bin")
-            .attr("x", Math.min(left, right) + 0.25)
-            .attr("width", Math.max(0.6, Math.abs(right - left) - 0.5))
-            .attr("y", y(base[bin] + count))
-            .attr("height", y(base[bin]) - y(base[bin] + count))
-            .style("fill", fill(layer.at))
-            .append("title")
-            .text(
-              `${layer.text}: ${F.runs(count)} from ${F.value(edges[bin], output.unit, F.grain(output))} to ${F.value(edges[bin + 1], output.unit, F.grain(output))} ${unit}`,
-            );
-          base[bin] += count;
-        }
+        if (count <= 0) return;
+        const left = x(edges[bin] * factor),
+          right = x(edges[bin + 1] * factor);
+        M.put(group, "rect.bin", {
+          x: Math.min(left, right) + 0.25,
+          width: Math.max(0.6, Math.abs(right - left) - 0.5),
+          y: y(base[bin] + count),
+          height: y(base[bin]) - y(base[bin] + count),
+          style: { fill: fill(layer.at) },
+          title: `${layer.text}: ${F.runs(count)} from ${value(edges[bin])} to ${value(edges[bin + 1])} ${unit}`,
+        });
+        base[bin] += count;
       });
     }
-    M.uprights(svg, box, marksOf(set, output, x, factor));
+    drawMarks(svg, box, view, x);
     return box.bottom + 40;
   }
-  // Shares in each case per unit of the axis, as outlines: their bins differ.
-  function drawCases(svg, width, cases, set, output, factor, unit) {
-    const top = M.legend(
-      svg,
-      cases.map((one) => ({ text: one.set.label, line: M.colour(one.at), dash: M.dash(one.at) })),
-      width,
-    );
-    const density = (one) =>
-      one.output.histogram.counts.map(
-        (count, bin) =>
-          count /
-          one.output.count /
-          (Math.abs(one.output.histogram.edges[bin + 1] - one.output.histogram.edges[bin]) * factor || 1),
+  // Densities by case as outlines: the cases' bins differ, so counts do not compare.
+  function drawCases(svg, width, view) {
+    const top = M.legend(svg, caseLegend(view.cases), width);
+    const outlines = view.cases.map(function (one) {
+      const { counts } = one.output.histogram,
+        edges = scaled(one.output.histogram.edges, view);
+      const density = counts.map(
+        (count, bin) => count / one.output.count / (Math.abs(edges[bin + 1] - edges[bin]) || 1),
       );
-    const tall = d3.max(cases, (one) => d3.max(density(one))) || 1,
-      y = d3.scaleLinear([0, tall * 1.06], [0, 1]);
-    const box = boxOf(top, width, y);
-    y.range([box.bottom, box.top]);
-    const x = M.linear(
-      [
-        ...reach(set, output, factor, output.histogram.edges),
-        ...cases.flatMap((one) => d3.extent(one.output.histogram.edges).map((value) => value * factor)),
-      ],
-      [box.left, box.right],
-    );
-    M.axes(svg, box, x, y, {
-      xText: `${F.name(output)}${unit ? ` (${unit})` : ""}`,
-      yText: `share of the runs per ${unit || "unit"}`,
+      const tops = density.flatMap((value, bin) => [
+        [edges[bin], value],
+        [edges[bin + 1], value],
+      ]);
+      return { ...one, points: [[edges[0], 0], ...tops, [edges[edges.length - 1], 0]] };
     });
-    for (const one of cases) {
-      const { edges } = one.output.histogram,
-        values = density(one);
-      const points = [
-        [edges[0], 0],
-        ...values.flatMap((value, bin) => [
-          [edges[bin], value],
-          [edges[bin + 1], value],
-        ]),
-        [edges[edges.length - 1], 0],
-      ];
-      svg
-        .append("path")
-        .attr("class", "outline")
-        .attr(
-          "d",
-          d3
-            .line()
-            .x((point) => x(point[0] * factor))
-            .y((point) => y(point[1]))(points),
-        )
-        .style("stroke", M.colour(one.at))
-        .style("fill", M.colour(one.at))
-        .attr("stroke-dasharray", M.dash(one.at))
-        .append("title")
-        .text(one.set.label);
-    }
-    M.uprights(svg, box, marksOf(set, output, x, factor));
+    const tall = d3.max(outlines, (one) => d3.max(one.points, (point) => point[1])) || 1,
+      y = d3.scaleLinear([0, tall * 1.06], [0, 1]),
+      box = M.boxFor(y, width, top, 250);
+    const ends = outlines.flatMap((one) => d3.extent(one.points, (point) => point[0])),
+      x = M.linear([...view.reach, ...ends], [box.left, box.right]);
+    M.axes(svg, box, x, y, { xText: view.axis, yText: `share of the runs per ${view.unit || "unit"}` });
+    for (const one of outlines)
+      M.put(svg, "path.outline", {
+        d: M.line(x, y)(one.points),
+        "stroke-dasharray": M.dash(one.at),
+        style: { stroke: M.colour(one.at), fill: M.colour(one.at) },
+        title: one.set.label,
+      });
+    drawMarks(svg, box, view, x);
     return box.bottom + 40;
   }
 
-  // The normal distribution's quantile function: Acklam's approximation, good to 1e-9, which a picture does not see.
+  // The quantile function of the normal distribution: P. J. Acklam's rational approximation (2003), relative error < 1.15e-9.
   function probit(p) {
     const a = [
       -39.69683028665376, 220.9460984245205, -275.9285104469687, 138.357751867269, -30.66479806614716,
@@ -246,142 +208,83 @@
     return (over(a, r) * q) / (over(b, r) * r + 1);
   }
   const PAPER = [1e-6, 1e-5, 1e-4, 0.001, 0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99, 0.999, 1 - 1e-4, 1 - 1e-5, 1 - 1e-6];
+  const paperText = (p) => `${Number((100 * p).toPrecision(p <= 0.5 ? 2 : 7))} %`;
 
   W.distribution = function (set, output) {
-    const { factor, unit } = F.shown(output.unit),
-      cases = overlaid() || [{ set, at: 0, output }];
-    const band = output.curve.band;
+    const view = viewOf(set, output),
+      { factor, unit } = view,
+      cases = view.cases || [{ set, at: 0, output }];
+    const { band } = output.curve,
+      quantiles = (output.quantiles || []).filter((one) => W.isNumber(one.value));
+    const text = (one) => `${F.share(one.p)}: ${F.withUnit(one.value, output.unit, F.grain(output))}`;
     return W.figure({
       title: `Distribution function: ${F.name(output)}`,
       printed: 440,
       class: "distribution",
       note: band ? `Band: ${band}.` : null,
       description: () =>
-        `The share of runs at or below each value, with its confidence band. ${(output.quantiles || []).map((one) => `${F.share(one.p)}: ${F.withUnit(one.value, output.unit, F.grain(output))}`).join("; ")}.`,
+        `The share of runs at or below each value, with its confidence band. ${quantiles.map(text).join("; ")}.`,
       table: () => ({
         columns: ["case", `value ${unit}`, "share at or below", "lower", "upper"],
-        rows: cases.flatMap(({ set: one, output: each }) =>
-          each.curve.x.map((value, at) => [
-            one.label,
-            value * factor,
-            each.curve.p[at],
-            each.curve.lower[at],
-            each.curve.upper[at],
-          ]),
+        rows: cases.flatMap(({ set: one, output: { curve } }) =>
+          curve.x.map((value, at) => [one.label, value * factor, curve.p[at], curve.lower[at], curve.upper[at]]),
         ),
       }),
-      draw: (svg, width) => drawCurves(svg, width, cases, set, output, factor, unit),
+      draw: (svg, width) => drawCurves(svg, width, view, cases, quantiles, text),
     });
   };
-  function drawCurves(svg, width, cases, set, output, factor, unit) {
+  function drawCurves(svg, width, view, cases, quantiles, text) {
     const paper = W.chosen.scale === "probit",
       several = cases.length > 1;
-    const top = M.legend(
-      svg,
-      several
-        ? cases.map((one) => ({ text: one.set.label, line: M.colour(one.at), dash: M.dash(one.at) }))
-        : [
-            { text: "runs", line: "var(--ink)" },
-            { text: "confidence band", fill: "var(--c0)", opacity: 0.2 },
-            ...((output.quantiles || []).length ? [{ text: "quantiles with bounds", mark: "var(--c5)" }] : []),
-          ],
-      width,
-    );
+    const own = [
+      { text: "runs", line: "var(--ink)" },
+      { text: "confidence band", fill: "var(--c0)", opacity: 0.2 },
+      ...(quantiles.length ? [{ text: "quantiles with bounds", mark: "var(--c5)" }] : []),
+    ];
+    const top = M.legend(svg, several ? caseLegend(cases) : own, width);
     const smallest = 0.5 / d3.max(cases, (one) => one.output.count),
       clip = (p) => Math.min(1 - smallest, Math.max(smallest, p));
     const box = { left: paper ? 66 : 46, right: width - 12, top: top + 18, bottom: top + 250 };
     const y = d3.scaleLinear(paper ? [probit(smallest), probit(1 - smallest)] : [0, 1], [box.bottom, box.top]);
     const height = (p) => y(paper ? probit(clip(p)) : p);
-    const x = M.linear(
-      [
-        ...reach(set, output, factor, output.histogram.edges),
-        ...cases.flatMap((one) => d3.extent(one.output.curve.x).map((value) => value * factor)),
-      ],
-      [box.left, box.right],
-    );
-    M.axes(
-      svg,
-      box,
-      x,
-      y,
-      paper
-        ? {
-            xText: `${F.name(output)}${unit ? ` (${unit})` : ""}`,
-            yText: "share of the runs at or below",
-            yValues: PAPER.filter((p) => p >= smallest && p <= 1 - smallest).map(probit),
-            yFormat: (value) => `${tidy(PAPER.find((p) => Math.abs(probit(p) - value) < 1e-9))}`,
-          }
-        : {
-            xText: `${F.name(output)}${unit ? ` (${unit})` : ""}`,
-            yText: "share of the runs at or below",
-            yFormat: (value) => `${Math.round(100 * value)} %`,
-          },
-    );
+    const ends = cases.flatMap((one) => scaled(d3.extent(one.output.curve.x), view)),
+      x = M.linear([...view.reach, ...ends], [box.left, box.right]);
+    const ticks = PAPER.filter((p) => p >= smallest && p <= 1 - smallest);
+    M.axes(svg, box, x, y, {
+      xText: view.axis,
+      yText: "share of the runs at or below",
+      yValues: paper ? ticks.map(probit) : null,
+      yFormat: (value, at) => (paper ? paperText(ticks[at]) : `${Math.round(100 * value)} %`),
+    });
     for (const one of cases) {
       const curve = one.output.curve,
+        values = scaled(curve.x, view),
         colour = several ? M.colour(one.at) : null;
-      // Of every run a step; of knots that stand for many runs a line from each to the next.
+      // A step per run where every run is in the curve; straight lines where knots stand for many runs.
       const form = one.output.count > curve.x.length ? d3.curveLinear : d3.curveStepAfter;
-      const rows = curve.x.map((value, at) => [value * factor, curve.lower[at], curve.upper[at]]);
-      svg
-        .append("path")
-        .attr("class", "curve-band")
-        .style("fill", colour || M.colour(0))
-        .attr(
-          "d",
-          d3
-            .area()
-            .defined((row) => row.every(W.isNumber))
-            .curve(form)
-            .x((row) => x(row[0]))
-            .y0((row) => height(row[1]))
-            .y1((row) => height(row[2]))(rows),
-        );
-      svg
-        .append("path")
-        .attr("class", "curve")
-        .style("stroke", colour)
-        .attr("stroke-dasharray", several ? M.dash(one.at) : null)
-        .attr(
-          "d",
-          d3
-            .line()
-            .curve(form)
-            .x((row) => x(row[0]))
-            .y((row) => height(row[1]))([
-            ...(paper ? [] : [x.domain()[0], curve.x[0] * factor].map((value) => [value, 0])),
-            ...curve.x.map((value, at) => [value * factor, curve.p[at]]),
-            ...(paper ? [] : [curve.x[curve.x.length - 1] * factor, x.domain()[1]].map((value) => [value, 1])),
-          ]),
-        );
+      const flat = (level, ends) => (paper ? [] : ends.map((value) => [value, level]));
+      M.put(svg, "path.curve-band", {
+        d: M.band(x, height).curve(form)(values.map((value, at) => [value, curve.lower[at], curve.upper[at]])),
+        style: { fill: colour || M.colour(0) },
+      });
+      M.put(svg, "path.curve", {
+        "stroke-dasharray": several ? M.dash(one.at) : null,
+        d: M.line(x, height).curve(form)([
+          ...flat(0, [x.domain()[0], values[0]]),
+          ...values.map((value, at) => [value, curve.p[at]]),
+          ...flat(1, [values[values.length - 1], x.domain()[1]]),
+        ]),
+        style: { stroke: colour },
+      });
     }
-    if (!several) quantileMarks(svg, output, x, height, factor);
-    M.uprights(svg, box, Object.assign(marksOf(set, output, x, factor), { low: true })); // where the curve is not
-    return box.bottom + 40;
-  }
-  const tidy = (p) =>
-    p <= 0.5
-      ? `${Number((100 * p).toPrecision(2))} %`
-      : `${Number((100 - Number((100 * (1 - p)).toPrecision(2))).toFixed(4))} %`;
-  function quantileMarks(svg, output, x, height, factor) {
-    for (const one of output.quantiles || []) {
-      if (!W.isNumber(one.value)) continue;
+    for (const one of several ? [] : quantiles) {
+      const y1 = height(one.p),
+        at = (value) => x(value * view.factor);
       if (W.isNumber(one.lower) && W.isNumber(one.upper))
-        svg
-          .append("line")
-          .attr("class", "quantile-bounds")
-          .attr("x1", x(one.lower * factor))
-          .attr("x2", x(one.upper * factor))
-          .attr("y1", height(one.p))
-          .attr("y2", height(one.p));
-      svg
-        .append("circle")
-        .attr("class", "quantile")
-        .attr("cx", x(one.value * factor))
-        .attr("cy", height(one.p))
-        .attr("r", 3.5)
-        .append("title")
-        .text(`${F.share(one.p)}: ${F.withUnit(one.value, output.unit, F.grain(output))}`);
+        M.put(svg, "line.quantile-bounds", { x1: at(one.lower), x2: at(one.upper), y1, y2: y1 });
+      M.put(svg, "circle.quantile", { cx: at(one.value), cy: y1, r: 3.5, title: text(one) });
     }
+    drawMarks(svg, box, view, x, true); // at the bottom: the curve is high at the right
+    return box.bottom + 40;
   }
 })();

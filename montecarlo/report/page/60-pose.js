@@ -1,4 +1,4 @@
-// Where the wing's bodies are, from the angles of its hinges; and how they are drawn, to scale.
+// The positions of the wing's bodies from its hinge angles, and their drawing to scale.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -50,7 +50,7 @@
       body.outline.map((point) => plus(frames[at].origin, turned(point, frames[at].angle))),
     );
 
-  // Angles and rates at a time: cubic between samples, for the rates are known; moments linear.
+  // The state at a time: angles by the Hermite cubic through both samples' angles and rates; rates, moments and base linear.
   P.at = function (motion, time) {
     const t = motion.t,
       high = Math.min(t.length - 1, Math.max(1, d3.bisectRight(t, time))),
@@ -83,7 +83,7 @@
   P.stowed = (wing) => wing.hinges.map((hinge) => hinge.stowed);
   P.deployed = (wing) => wing.hinges.map((hinge) => (W.isNumber(hinge.latched) ? hinge.latched : 0));
 
-  // The box that holds all these poses [{ angles, base }], with a margin.
+  // The box around all poses [{ angles, base }], with a margin.
   P.bounds = function (wing, poses) {
     const points = poses.flatMap((pose) => P.outlines(wing, P.frames(wing, pose.angles, pose.base)).flat());
     const [left, right] = d3.extent(points, (point) => point[0]),
@@ -134,28 +134,24 @@
       .attr("cy", (frame) => scale.y(frame.joint[1]));
   };
 
-  // A bar of a round length, for the eye.
+  // A scale bar of a round length, at most 90 px.
   P.bar = function (svg, scale, x, y) {
     const wanted = 90 / scale.factor,
       size = 10 ** Math.floor(Math.log10(wanted)),
       length = [5, 2, 1].map((one) => one * size).find((one) => one <= wanted) || size;
-    const group = svg.append("g").attr("class", "bar-of-length").attr("transform", `translate(${x},${y})`);
-    group.append("path").attr("d", `M0,-4V0H${length * scale.factor}V-4`);
-    group
-      .append("text")
-      .attr("x", length * scale.factor + 6)
-      .attr("dy", "0.1em")
-      .text(`${W.format.given(length)} m`);
+    const group = M.put(svg, "g.bar-of-length", { transform: `translate(${x},${y})` });
+    M.put(group, "path", { d: `M0,-4V0H${length * scale.factor}V-4` });
+    M.put(group, "text", { x: length * scale.factor + 6, dy: "0.1em", text: `${W.format.given(length)} m` });
   };
 
-  // Stowed, on its way, deployed, in one picture.
+  // Nine poses from the start to the last latch in one picture.
   P.stroboscope = function (wing, motion, label) {
     const end = Math.max(0, ...(motion.latches || []).map((latch) => latch.time)) || motion.t[motion.t.length - 1];
     const times = d3.range(0, 9).map((k) => (end * k) / 8);
     return W.figure({
       title: `Stroboscope: ${label}`,
       class: "strobe",
-      note: `To scale, every ${W.format.number(end / 8, 3)} s from 0 to ${W.format.number(end, 4)} s (the last latch, or the end); the later, the darker.`,
+      note: `To scale, every ${W.format.number(end / 8, 3)} s from 0 to ${W.format.number(end, 4)} s (the last latch, or the end of the run); later poses are darker.`,
       description: () =>
         `The wing drawn to scale at ${times.length} instants from stowed to ${W.format.number(end, 3)} s.`,
       table: () => ({
@@ -168,10 +164,7 @@
         poses.forEach(function (pose, at) {
           const share = at / (poses.length - 1);
           P.draw(
-            svg
-              .append("g")
-              .attr("class", "pose")
-              .attr("opacity", 0.18 + 0.82 * share * share),
+            M.put(svg, "g.pose", { opacity: 0.18 + 0.82 * share * share }),
             wing,
             scale,
             pose,
@@ -195,7 +188,7 @@
       }),
       draw: function (svg, width) {
         const scale = P.scale(P.bounds(wing, [{ angles }]), width, 170, 4),
-          group = svg.append("g").attr("class", "pose");
+          group = M.put(svg, "g.pose");
         P.draw(group, wing, scale, { angles }, () => title === "Deployed");
         P.bar(svg, scale, 6, scale.height + 20);
         return scale.height + 30;

@@ -1,4 +1,4 @@
-// What is played, and when: time and speed live here, so that pictures can be drawn anew at any width.
+// The player: time, speed and the listeners that draw. Pictures may be redrawn at any width while it plays.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -20,7 +20,7 @@
     last = now;
     const end = player.motion.t[player.motion.t.length - 1];
     if (calm()) {
-      // stills, two a second, in place of a moving picture
+      // reduced motion: two stills a second, each a twentieth of the run further
       sinceStep += passed;
       if (sinceStep > 0.5) {
         sinceStep = 0;
@@ -38,7 +38,7 @@
     listeners.forEach((listener) => listener());
   }
 
-  // The first picture is of a wing on its way, not of a stack.
+  // The time at which a motion opens: on the way, because a stowed wing shows nothing. Heuristic; any time in the run works.
   function opening(motion) {
     const [first, last] = d3.extent(motion.latches || [], (latch) => latch.time);
     return first === undefined ? 0.4 * motion.t[motion.t.length - 1] : Math.max(0.8 * first, 0.35 * last);
@@ -59,7 +59,7 @@
     event.preventDefault();
   }
 
-  // Another run: nothing plays, and nobody of the one before is told any more.
+  // Loads another run: stops, and forgets the listeners of the run before.
   function load(motion) {
     player.playing = false;
     listeners.length = 0;

@@ -1,8 +1,8 @@
-// The wing in motion: one of the runs worth showing, drawn to scale, with its moments beside it and a cursor on the time.
+// The wing in motion: a chosen run to scale, its moments over time beside it, and a cursor at the player's time.
 (function () {
   "use strict";
   const W = window.wingspread;
-  const { h, format: F, marks: M, pose: P } = W;
+  const { h, number, format: F, marks: M, pose: P } = W;
   const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10];
   const player = W.player,
     QUANTITIES = {
@@ -11,7 +11,6 @@
       rates: ["Rate", "deg/s", F.DEGREES],
     };
 
-  // The moving picture.
   function stage(wing, motion) {
     let scale, group;
     const thinned = motion.t
@@ -34,16 +33,11 @@
       }),
       draw: function (svg, width) {
         scale = P.scale(bounds, width, Math.max(220, Math.min(430, width * 0.62)), 4);
-        P.draw(svg.append("g").attr("class", "ghost"), wing, scale, { angles: P.stowed(wing) });
-        P.draw(svg.append("g").attr("class", "ghost"), wing, scale, { angles: P.deployed(wing) });
-        group = svg.append("g").attr("class", "pose");
+        P.draw(M.put(svg, "g.ghost"), wing, scale, { angles: P.stowed(wing) });
+        P.draw(M.put(svg, "g.ghost"), wing, scale, { angles: P.deployed(wing) });
+        group = M.put(svg, "g.pose");
         P.bar(svg, scale, 6, scale.height + 20);
-        svg
-          .append("text")
-          .attr("class", "clock")
-          .attr("x", width - 4)
-          .attr("y", scale.height + 22)
-          .attr("text-anchor", "end");
+        M.put(svg, "text.clock", { x: width - 4, y: scale.height + 22, "text-anchor": "end" });
         move();
         return scale.height + 32;
       },
@@ -59,7 +53,7 @@
     return element;
   }
 
-  // Beside it: a quantity of every hinge against time. Of many hinges those with the largest peaks have colours.
+  // A quantity of every hinge over time. Up to seven hinges have colours; of more, the six with the largest peaks.
   function history(wing, motion) {
     let x, box, cursor;
     const clip = W.newId("clip");
@@ -85,11 +79,7 @@
         rows: motion.t.map((time, at) => [time, ...rows.map((row) => (W.isNumber(row[at]) ? row[at] * factor : null))]),
       }),
       draw: function (svg, width) {
-        const items = named.map((at, place) => ({
-          text: wing.hinges[at].name,
-          line: M.colour(place),
-          dash: M.dash(place),
-        }));
+        const items = M.lineItems(named, (at) => wing.hinges[at].name);
         const top = M.legend(
           svg,
           rows.length > named.length
@@ -117,44 +107,20 @@
         x = d3.scaleLinear(spanOf(motion), [box.left, box.right]);
         M.axes(svg, box, x, y, { xText: "time (s)", yText: `${text.toLowerCase()} (${unit})` });
         for (const latch of motion.latches || [])
-          svg
-            .append("line")
-            .attr("class", "latch-line")
-            .style("stroke", colour(latch.hinge))
-            .attr("x1", x(latch.time))
-            .attr("x2", x(latch.time))
-            .attr("y1", box.top)
-            .attr("y2", box.bottom);
+          M.upright(svg, "line.latch-line", x(latch.time), box).style("stroke", colour(latch.hinge));
         d3.range(rows.length)
           .sort((a, b) => named.includes(a) - named.includes(b))
           .forEach((at) =>
-            svg
-              .append("path")
-              .attr("class", "trace")
-              .attr(
-                "d",
-                M.line(x, y)(motion.t.map((time, k) => [time, W.isNumber(rows[at][k]) ? rows[at][k] * factor : null])),
-              )
-              .style("stroke", colour(at))
-              .attr("stroke-dasharray", named.includes(at) ? M.dash(named.indexOf(at)) : null)
-              .append("title")
-              .text(wing.hinges[at].name),
+            M.put(svg, "path.trace", {
+              d: M.line(x, y)(motion.t.map((time, k) => [time, W.isNumber(rows[at][k]) ? rows[at][k] * factor : null])),
+              "stroke-dasharray": named.includes(at) ? M.dash(named.indexOf(at)) : null,
+              style: { stroke: colour(at) },
+              title: wing.hinges[at].name,
+            }),
           );
-        svg
-          .append("clipPath")
-          .attr("id", clip)
-          .append("rect")
-          .attr("x", box.left)
-          .attr("y", box.top - 4)
-          .attr("width", box.right - box.left)
-          .attr("height", box.bottom - box.top + 8);
+        M.over(M.put(svg, "clipPath", { id: clip }), "rect", box, 4);
         svg.selectAll(".trace, .latch-line").attr("clip-path", `url(#${clip})`);
-        cursor = svg
-          .append("line")
-          .attr("clip-path", `url(#${clip})`)
-          .attr("class", "cursor")
-          .attr("y1", box.top - 4)
-          .attr("y2", box.bottom + 4);
+        cursor = M.put(svg, "line.cursor", { "clip-path": `url(#${clip})`, y1: box.top - 4, y2: box.bottom + 4 });
         const toTime = (event) =>
           player.seek(
             x.invert(
@@ -162,13 +128,7 @@
                 svg.node().getBoundingClientRect().width,
             ),
           );
-        svg
-          .append("rect")
-          .attr("class", "catch")
-          .attr("x", box.left)
-          .attr("y", box.top)
-          .attr("width", box.right - box.left)
-          .attr("height", box.bottom - box.top)
+        M.put(svg, "rect.catch", { x: box.left, y: box.top, width: box.right - box.left, height: box.bottom - box.top })
           .on("pointerdown", () => toTime(d3.event))
           .on("pointermove", () => d3.event.buttons && toTime(d3.event));
         move();
@@ -182,7 +142,7 @@
     return element;
   }
 
-  // The whole run, or the time in which the hinges latch.
+  // The displayed time: the whole run, or the latches with room around them.
   function spanOf(motion) {
     const whole = d3.extent(motion.t),
       latches = d3.extent(motion.latches || [], (latch) => latch.time);
@@ -191,18 +151,12 @@
     return [Math.max(whole[0], latches[0] - room), Math.min(whole[1], latches[1] + 3 * room)];
   }
 
-  // Numbers at the cursor.
+  // The hinges' state at the cursor.
   function readout(wing, motion) {
     const cells = wing.hinges.map(() => d3.range(4).map(() => document.createTextNode("")));
     const table = W.table(
       "Hinges at the cursor's time",
-      [
-        { text: "Hinge" },
-        { text: "Angle", unit: "deg", kind: "number" },
-        { text: "Rate", unit: "deg/s", kind: "number" },
-        { text: "Moment", unit: "N·m", kind: "number" },
-        { text: "State" },
-      ],
+      ["Hinge", number("Angle", "deg"), number("Rate", "deg/s"), number("Moment", "N·m"), "State"],
       wing.hinges.map((hinge, at) => [hinge.name, ...cells[at]]),
       { class: "readout" },
     );
@@ -234,11 +188,11 @@
 
   function controls(motion) {
     const end = motion.t[motion.t.length - 1],
-      step = end / 200;
-    const button = h("button", { type: "button", class: "play", onclick: () => player.play(!player.playing) }, "Play");
-    const scrub = h("input", {
+      step = end / 200,
+      name = (event) => W.set().wing.hinges[event.hinge].name;
+    const button = h("button.play", { onclick: () => player.play(!player.playing) }, "Play");
+    const scrub = h("input.scrub", {
       type: "range",
-      class: "scrub",
       min: motion.t[0],
       max: end,
       step: "any",
@@ -255,14 +209,12 @@
         }
       },
     });
-    const speed = h(
-      "select",
+    const speed = W.select(
       { "aria-label": "Speed", onchange: (event) => (player.speed = Number(event.target.value)) },
-      SPEEDS.map((value) =>
-        h("option", { value, selected: value === player.speed }, value === 1 ? "real time" : `× ${value}`),
-      ),
+      SPEEDS.map((value) => [value, value === 1 ? "real time" : `× ${value}`]),
+      player.speed,
     );
-    const clock = h("output", { class: "time" });
+    const clock = h("output.time");
     const move = function () {
       if (button.textContent !== (player.playing ? "Pause" : "Play"))
         button.textContent = player.playing ? "Pause" : "Play";
@@ -274,10 +226,8 @@
     move();
     const jumps = h(
       "label",
-      {},
-      h("span", {}, "Go to "),
-      h(
-        "select",
+      h("span", "Go to "),
+      W.select(
         {
           "aria-label": "Go to an event",
           onchange: (event) => {
@@ -285,45 +235,32 @@
             player.seek(Number(event.target.value));
           },
         },
-        h("option", { value: 0 }, "start"),
-        (motion.latches || [])
-          .slice()
-          .sort((a, b) => a.time - b.time)
-          .map((latch) => h("option", { value: latch.time }, `${W.set().wing.hinges[latch.hinge].name} latches`)),
-        (motion.peaks || [])
-          .filter((peak) => W.isNumber(peak.time))
-          .map((peak) => h("option", { value: peak.time }, `peak moment of ${W.set().wing.hinges[peak.hinge].name}`)),
-        h("option", { value: end }, "end"),
+        [
+          [0, "start"],
+          ...[...(motion.latches || [])]
+            .sort((a, b) => a.time - b.time)
+            .map((latch) => [latch.time, `${name(latch)} latches`]),
+          ...(motion.peaks || [])
+            .filter((peak) => W.isNumber(peak.time))
+            .map((peak) => [peak.time, `peak moment of ${name(peak)}`]),
+          [end, "end"],
+        ],
       ),
     );
-    return h(
-      "div",
-      { class: "player-controls" },
-      button,
-      scrub,
-      clock,
-      h("label", {}, h("span", {}, "Speed "), speed),
-      jumps,
-    );
+    return h("div.player-controls", button, scrub, clock, h("label", h("span", "Speed "), speed), jumps);
   }
   function choices(set) {
     return h(
-      "div",
-      { class: "choices", role: "group", "aria-label": "Run to show" },
+      "div.choices",
+      { role: "group", "aria-label": "Run to show" },
       set.motions.map((motion, at) =>
         h(
-          "button",
-          {
-            type: "button",
-            class: "choice",
-            "aria-pressed": String(at === W.chosen.motion),
-            onclick: () => W.choose("motion", at),
-          },
-          h("b", {}, motion.label),
+          "button.choice",
+          { "aria-pressed": String(at === W.chosen.motion), onclick: () => W.choose("motion", at) },
+          h("b", motion.label),
           h(
             "small",
-            {},
-            motion.run === null || motion.run === undefined ? "nothing dispersed" : `run ${motion.run}`,
+            motion.run === null || motion.run === undefined ? "no dispersions" : `run ${motion.run}`,
             motion.status && motion.status !== "deployed" ? ` · ${motion.status.replace("_", " ")}` : "",
           ),
         ),
@@ -335,13 +272,12 @@
     const wing = set.wing,
       motion = set.motions[Math.min(W.chosen.motion, set.motions.length - 1)];
     player.load(motion);
-    const beside = h("div", {});
+    const beside = h("div");
     const show = () =>
       W.fill(
         beside,
         h(
-          "div",
-          { class: "controls" },
+          "div.controls",
           W.buttons(
             "Show",
             Object.entries(QUANTITIES).map(([key, [text]]) => [key, text]),
@@ -370,23 +306,21 @@
       );
     show();
     const element = h(
-      "div",
+      "div.player",
       {
-        class: "player",
         role: "group",
         "aria-label": "Wing in motion. Space plays and pauses, the arrow keys step, Home and End go to the ends",
         tabindex: "0",
         onkeydown: player.byKeys,
       },
-      h("div", { class: "pair" }, h("div", {}, stage(wing, motion), controls(motion), readout(wing, motion)), beside),
+      h("div.pair", h("div", stage(wing, motion), controls(motion), readout(wing, motion)), beside),
     );
     const strobe = P.stroboscope(wing, motion, motion.label);
     return [
       choices(set),
       h(
-        "p",
-        { class: "why-shown" },
-        h("b", {}, motion.label),
+        "p.why-shown",
+        h("b", motion.label),
         motion.why ? `: ${motion.why}` : "",
         motion.reason ? ` · ${motion.reason}` : "",
       ),

@@ -1,11 +1,11 @@
-// The wing's section: its drawing, its motion, envelopes of angles and rates over the sampled runs, latch times as strips.
+// The wing's section: motion, stowed and deployed drawings, envelopes of angles and rates, latch times as strips.
 (function () {
   "use strict";
   const W = window.wingspread;
   const { h, format: F, marks: M, pose: P } = W;
-  const EACH = 6; // hinges in one picture: it has to fit on a printed page
+  const EACH = 6; // hinges in one picture: 12 panels fit on a printed page
 
-  // Bands around the median: the outermost pair of levels is the lightest.
+  // Pairs of levels around the median, the outermost (lightest) first.
   function bands(levels) {
     const middle = levels.findIndex((level) => Math.abs(level - 0.5) < 1e-9),
       pairs = [];
@@ -13,6 +13,7 @@
       pairs.push([at, levels.length - 1 - at]);
     return { middle, pairs };
   }
+  const inDegrees = (value) => (W.isNumber(value) ? value * F.DEGREES : null);
   const percent = (level) => `${Number((100 * level).toPrecision(4))} %`;
 
   function panel(svg, box, envelopes, rows, title, unit, range) {
@@ -27,34 +28,26 @@
       xFormat: (value, at, all) => `${F.tick(value)}${at === all.length - 1 ? " s" : ""}`,
     });
     pairs.forEach(([low, high], depth) =>
-      svg
-        .append("path")
-        .attr("class", `envelope depth-${depth}`)
-        .attr(
-          "d",
-          M.band(x, y)(envelopes.t.map((time, at) => [time, rows[low][at] * F.DEGREES, rows[high][at] * F.DEGREES])),
-        ),
+      M.put(svg, "path", {
+        class: `envelope depth-${depth}`,
+        d: M.band(x, y)(envelopes.t.map((time, at) => [time, rows[low][at] * F.DEGREES, rows[high][at] * F.DEGREES])),
+      }),
     );
     if (middle >= 0)
-      svg
-        .append("path")
-        .attr("class", "median")
-        .attr("d", M.line(x, y)(envelopes.t.map((time, at) => [time, rows[middle][at] * F.DEGREES])));
+      M.put(svg, "path.median", {
+        d: M.line(x, y)(envelopes.t.map((time, at) => [time, rows[middle][at] * F.DEGREES])),
+      });
   }
 
   function envelopeFigure(set, hinges, part, parts) {
     const { envelopes, wing } = set,
       { pairs } = bands(envelopes.levels);
-    const range = (rows) =>
-      M.linear(
-        rows.flat().map((value) => (W.isNumber(value) ? value * F.DEGREES : null)),
-        [0, 1],
-      );
+    const range = (rows) => M.linear(rows.flat().map(inDegrees), [0, 1]);
     return W.figure({
       title: `Envelopes of angles and rates${parts > 1 ? `, ${wing.hinges[hinges[0]].name} to ${wing.hinges[hinges[hinges.length - 1]].name}` : ""}`,
       class: "envelopes",
       printed: 940,
-      note: `Quantiles at each instant, over ${F.count(envelopes.runs)} runs spread evenly through the campaign; no single run follows a band's edge.`,
+      note: `Quantiles at each instant over ${F.count(envelopes.runs)} runs spread evenly through the campaign. No single run follows the edge of a band.`,
       description: `Bands of the angle and rate of each hinge against time: ${pairs.map(([low, high]) => `${percent(envelopes.levels[low])} to ${percent(envelopes.levels[high])}`).join(", ")}, and the median.`,
       table: () => ({
         columns: [
@@ -70,9 +63,7 @@
           time,
           ...hinges.flatMap((hinge) =>
             envelopes.levels.flatMap((_, level) =>
-              [envelopes.angles[hinge][level][at], envelopes.rates[hinge][level][at]].map((value) =>
-                W.isNumber(value) ? value * F.DEGREES : null,
-              ),
+              [envelopes.angles, envelopes.rates].map((rows) => inDegrees(rows[hinge][level][at])),
             ),
           ),
         ]),
@@ -122,7 +113,7 @@
     return W.figure({
       title: "Latch times of the sampled runs",
       class: "strips",
-      note: `A stroke is a run, of ${F.count(envelopes.runs)}; the longer mark is the median. Beside: in how many the hinge latched.`,
+      note: `One stroke per run (${F.count(envelopes.runs)} runs); the longer mark is the median. At the right: runs in which the hinge latched.`,
       description: () =>
         wing.hinges
           .map((hinge, at) => {
@@ -139,39 +130,32 @@
       }),
       draw: function (svg, width) {
         const all = envelopes.latch_times.flat(),
-          left = Math.min(width * 0.3, Math.max(...wing.hinges.map((hinge) => M.textWidth(hinge.name))) + 12);
+          left = M.labelRoom(
+            width,
+            0.3,
+            wing.hinges.map((hinge) => hinge.name),
+          );
         const box = { left, right: width - 76, top: 6, bottom: 6 + row * wing.hinges.length },
           x = M.linear(all, [box.left, box.right]);
         if (all.length) M.axes(svg, box, x, null, { xText: "latch time (s)" });
         wing.hinges.forEach(function (hinge, at) {
           const times = envelopes.latch_times[at] || [],
             middle = box.top + row * (at + 0.5);
-          svg
-            .append("text")
-            .attr("x", left - 8)
-            .attr("y", middle)
-            .attr("dy", "0.35em")
-            .attr("text-anchor", "end")
-            .text(M.shorten(hinge.name, left - 8));
-          svg
-            .append("path")
-            .attr("class", "strip")
-            .attr("d", times.map((time) => `M${x(time).toFixed(1)},${middle - row * 0.3}v${row * 0.6}`).join(""));
+          M.rowLabel(svg, hinge.name, left, middle);
+          M.put(svg, "path.strip", {
+            d: times.map((time) => `M${x(time).toFixed(1)},${middle - row * 0.3}v${row * 0.6}`).join(""),
+          });
           if (times.length)
-            svg
-              .append("line")
-              .attr("class", "strip-median")
-              .attr("x1", x(d3.median(times)))
-              .attr("x2", x(d3.median(times)))
-              .attr("y1", middle - row * 0.45)
-              .attr("y2", middle + row * 0.45);
-          svg
-            .append("text")
-            .attr("class", "faint-text")
-            .attr("x", width - 70)
-            .attr("y", middle)
-            .attr("dy", "0.35em")
-            .text(times.length ? `${times.length} of ${envelopes.runs}` : "in none");
+            M.upright(svg, "line.strip-median", x(d3.median(times)), {
+              top: middle - row * 0.45,
+              bottom: middle + row * 0.45,
+            });
+          M.put(svg, "text.faint-text", {
+            x: width - 70,
+            y: middle,
+            dy: "0.35em",
+            text: times.length ? `${times.length} of ${envelopes.runs}` : "in none",
+          });
         });
         return box.bottom + (all.length ? 40 : 6);
       },
@@ -180,25 +164,20 @@
 
   function envelopeParts(set) {
     if (!set.envelopes)
-      return [
-        h("h3", {}, "Envelopes"),
-        h("p", { class: "nothing" }, "No run went far enough to draw envelopes of angles and rates."),
-      ];
+      return [h("h3", "Envelopes"), h("p.nothing", "No run is long enough for envelopes of angles and rates.")];
     const groups = d3
       .range(0, set.wing.hinges.length, EACH)
       .map((from) => d3.range(from, Math.min(set.wing.hinges.length, from + EACH)));
     const name = (at) => set.wing.hinges[at].name;
     return [
-      h("h3", {}, "Envelopes over the campaign"),
+      h("h3", "Envelopes over the campaign"),
       groups.map((group, at) =>
         at === 0
           ? envelopeFigure(set, group, at, groups.length)
           : h(
-              "details",
-              { class: "later" },
+              "details.later",
               h(
                 "summary",
-                {},
                 `Envelopes of ${name(group[0])}${group.length > 1 ? ` to ${name(group[group.length - 1])}` : ""}`,
               ),
               envelopeFigure(set, group, at, groups.length),
@@ -208,23 +187,21 @@
     ];
   }
 
-  const motionHost = h("div", {});
+  const motionHost = h("div");
   function wingParts() {
     const set = W.set(),
       host = W.section("wing");
     if (!set.wing || !(set.wing.bodies || []).length)
-      return W.fill(host, h("p", { class: "nothing" }, "The folder holds no scene to draw."));
+      return W.fill(host, h("p.nothing", "The folder contains no scene to draw."));
     const drawn = (set.motions || []).length ? set.motions[0] : null;
     if (drawn) W.fill(motionHost, W.motion(set));
     else if (W.onlyStudies) W.fill(motionHost);
-    else
-      W.fill(motionHost, h("p", { class: "nothing" }, "No run of this set could be made again to be shown in motion."));
+    else W.fill(motionHost, h("p.nothing", "No run of this set can be replayed, so none is shown in motion."));
     W.fill(
       host,
       motionHost,
       h(
-        "div",
-        { class: "stills" },
+        "div.stills",
         P.still(set.wing, P.stowed(set.wing), "Stowed", "The wing stowed, drawn to scale."),
         P.still(set.wing, P.deployed(set.wing), "Deployed", "The wing deployed, drawn to scale."),
       ),

@@ -1,23 +1,18 @@
-// Why: which dispersions move an output (tornado), with the strongest pairs and what other studies found.
+// Causes: which dispersions influence an output (tornado), the strongest pairs, and the results of margin, sensitivity, rare.
 (function () {
   "use strict";
   const W = window.wingspread;
   const { h, format: F, marks: M } = W;
 
-  // Effects of one output, whatever they are: rank coefficients, Sobol' indices, or plain correlations without bounds.
+  // The effects on one output: rank coefficients, Sobol' indices, or correlations without bounds.
   function effectsOf(set, name) {
     const sensitivity = set.sensitivity;
     if (sensitivity && sensitivity.effects) {
-      const pair =
+      const pair = Object.entries(
         sensitivity.kind === "sobol"
-          ? [
-              ["first", "first order"],
-              ["total", "total"],
-            ]
-          : [
-              ["spearman", "Spearman"],
-              ["prcc", sensitivity.held === false ? "PRCC" : "PRCC, others held"],
-            ];
+          ? { first: "first order", total: "total" }
+          : { spearman: "Spearman", prcc: sensitivity.held === false ? "PRCC" : "PRCC, others held" },
+      );
       return { pair, kind: sensitivity.kind, rows: sensitivity.effects.filter((one) => one.output === name) };
     }
     const table = set.correlations,
@@ -36,35 +31,24 @@
   function tornado(set, name) {
     const { pair, kind, rows } = effectsOf(set, name);
     if (!rows.length)
-      return h(
-        "p",
-        { class: "nothing" },
-        `No dispersion's effect on ${F.nameOf(name)} is known: too few runs have it, or it does not vary.`,
-      );
-    const measure = kind === "sobol" ? "share of the variance" : "rank correlation";
+      return h("p.nothing", `No effects on ${F.nameOf(name)}: too few runs have a value, or it does not vary.`);
+    const bounded = kind !== "correlation",
+      withBounds = (one, key) => [one[key], one[`${key}_lower`], one[`${key}_upper`]];
     return W.figure({
-      title: `What moves ${F.nameOf(name)}`,
+      title: `Influences on ${F.nameOf(name)}`,
       class: "tornado",
       printed: 860,
       note:
         kind === "sobol"
-          ? "First order: alone. Total: with what it does together with others. Lines are confidence bounds."
-          : `Strongest first.${kind === "rank" ? " Lines are confidence bounds." : ""} To the right: the output rises with the dispersion.`,
+          ? "First order: the dispersion alone. Total: with its interactions. Lines are confidence bounds."
+          : `Strongest first.${kind === "rank" ? " Lines are confidence bounds." : ""} Bars to the right: the output increases with the dispersion.`,
       description: () =>
         rows
           .map((one) => `${one.draw}: ${pair.map(([key, text]) => `${text} ${F.fixed(one[key], 2)}`).join(", ")}`)
           .join("; "),
       table: () => ({
-        columns: [
-          "dispersion",
-          ...pair.flatMap(([key, text]) => (`${key}_lower` in rows[0] ? [text, "lower", "upper"] : [text])),
-        ],
-        rows: rows.map((one) => [
-          one.draw,
-          ...pair.flatMap(([key]) =>
-            `${key}_lower` in rows[0] ? [one[key], one[`${key}_lower`], one[`${key}_upper`]] : [one[key]],
-          ),
-        ]),
+        columns: ["dispersion", ...pair.flatMap(([, text]) => (bounded ? [text, "lower", "upper"] : [text]))],
+        rows: rows.map((one) => [one.draw, ...pair.flatMap(([key]) => (bounded ? withBounds(one, key) : [one[key]]))]),
       }),
       draw: function (svg, width) {
         const fill = M.hatches(svg, 2),
@@ -73,13 +57,17 @@
             pair.map(([, text], at) => ({ text, fill: fill(at) })),
             width,
           );
-        const left = Math.min(width * 0.34, Math.max(...rows.map((one) => M.textWidth(one.draw))) + 12),
+        const left = M.labelRoom(
+            width,
+            0.34,
+            rows.map((one) => one.draw),
+          ),
           row = 15 * pair.length + 10;
         const box = { left, right: width - 16, top: top + 4, bottom: top + 4 + row * rows.length };
         const far = Math.max(
           0.1,
           ...rows
-            .flatMap((one) => pair.flatMap(([key]) => [one[key], one[`${key}_lower`], one[`${key}_upper`]]))
+            .flatMap((one) => pair.flatMap(([key]) => withBounds(one, key)))
             .filter(W.isNumber)
             .map(Math.abs),
         );
@@ -92,48 +80,24 @@
           ],
           [box.left, box.right],
         );
-        M.axes(svg, box, x, null, { xText: measure });
-        svg
-          .append("line")
-          .attr("class", "zero-line")
-          .attr("x1", x(0))
-          .attr("x2", x(0))
-          .attr("y1", box.top)
-          .attr("y2", box.bottom);
+        M.axes(svg, box, x, null, { xText: kind === "sobol" ? "share of the variance" : "rank correlation" });
+        M.upright(svg, "line.zero-line", x(0), box);
         rows.forEach(function (one, at) {
           const upper = box.top + row * at + 5;
-          svg
-            .append("text")
-            .attr("x", left - 8)
-            .attr("y", upper + (row - 10) / 2)
-            .attr("dy", "0.35em")
-            .attr("text-anchor", "end")
-            .text(M.shorten(one.draw, left - 8))
-            .append("title")
-            .text(one.draw);
+          M.rowLabel(svg, one.draw, left, upper + (row - 10) / 2);
           pair.forEach(function ([key, text], place) {
-            const value = one[key],
-              low = one[`${key}_lower`],
-              high = one[`${key}_upper`],
+            const [value, low, high] = withBounds(one, key),
               y = upper + 15 * place;
             if (!W.isNumber(value)) return;
-            svg
-              .append("rect")
-              .attr("class", "effect")
-              .attr("x", Math.min(x(0), x(value)))
-              .attr("width", Math.max(1, Math.abs(x(value) - x(0))))
-              .attr("y", y + 1)
-              .attr("height", 12)
-              .style("fill", fill(place))
-              .append("title")
-              .text(
-                `${one.draw}, ${text}: ${F.fixed(value, 3)}${W.isNumber(low) ? ` (${F.fixed(low, 3)} … ${F.fixed(high, 3)})` : ""}`,
-              );
-            if (W.isNumber(low) && W.isNumber(high))
-              svg
-                .append("path")
-                .attr("class", "whisker")
-                .attr("d", `M${x(low)},${y + 7}H${x(high)}M${x(low)},${y + 3.5}v7M${x(high)},${y + 3.5}v7`);
+            M.put(svg, "rect.effect", {
+              x: Math.min(x(0), x(value)),
+              width: Math.max(1, Math.abs(x(value) - x(0))),
+              y: y + 1,
+              height: 12,
+              style: { fill: fill(place) },
+              title: `${one.draw}, ${text}: ${F.fixed(value, 3)}${W.isNumber(low) ? ` (${F.fixed(low, 3)} … ${F.fixed(high, 3)})` : ""}`,
+            });
+            if (W.isNumber(low) && W.isNumber(high)) M.whisker(svg, x, low, high, y + 7, 3.5);
           });
         });
         return box.bottom + 40;
@@ -141,31 +105,26 @@
     });
   }
 
-  // Dispersions that seem to move nothing may be applied to the wrong parameter.
+  // Dispersions without a visible effect: they may act on the wrong parameter.
   function idle(set) {
     const names = (set.sensitivity && set.sensitivity.idle) || [];
     return names.length
       ? h(
           "details",
           { open: names.length <= 12 },
+          h("summary", `${F.counted(names.length, "dispersion")} without a visible effect on any output`),
           h(
-            "summary",
-            {},
-            `${names.length} ${names.length === 1 ? "dispersion is" : "dispersions are"} not seen to move any output`,
-          ),
-          h(
-            "p",
-            { class: "note" },
+            "p.note",
             names.join(", "),
-            ". One that makes an output rise and fall would not be seen: Sobol' indices show it.",
+            ". Rank correlations miss an effect that first increases and then decreases; Sobol' indices show it.",
           ),
         )
       : null;
   }
 
-  const tornadoHost = h("div", {});
+  const tornadoHost = h("div");
   W.tornado = tornado;
-  // The outputs whose effects are known, to choose from here as well.
+  // The outputs with known effects.
   W.effectOutputs = function (set) {
     const found =
       set.sensitivity && set.sensitivity.effects
@@ -175,17 +134,16 @@
   };
   W.chooser = (names, chosen, onchoose) =>
     h(
-      "label",
-      { class: "search" },
+      "label.search",
       "Output ",
-      h(
-        "select",
+      W.select(
         { onchange: (event) => onchoose(event.target.value) },
-        names.map((name) => h("option", { value: name, selected: name === chosen }, F.nameOf(name))),
+        names.map((name) => [name, F.nameOf(name)]),
+        chosen,
       ),
     );
 
-  const chooserHost = h("div", { class: "controls" });
+  const chooserHost = h("div.controls");
   const choose = (set) =>
     W.fill(
       chooserHost,
@@ -203,12 +161,10 @@
     const more = (from, to, text) =>
       pairs.length > from
         ? h(
-            "details",
-            { class: "later" },
-            h("summary", {}, text),
+            "details.later",
+            h("summary", text),
             h(
-              "div",
-              { class: "grid pairs" },
+              "div.grid.pairs",
               pairs.slice(from, to).map((pair) => W.scatter(set, W.chosen.set, pair)),
             ),
           )
@@ -222,10 +178,9 @@
       idle(set),
       pairs.length
         ? [
-            h("h3", {}, "Strongest pairs"),
+            h("h3", "Strongest pairs"),
             h(
-              "div",
-              { class: "grid pairs" },
+              "div.grid.pairs",
               pairs.slice(0, 4).map((pair) => W.scatter(set, W.chosen.set, pair)),
             ),
             more(4, 12, pairs.length === 5 ? "One more pair" : `${pairs.length - 4} more pairs`),

@@ -1,4 +1,4 @@
-// The strongest pairs as scatter and density, and the run that is chosen from them or anywhere else.
+// The strongest pairs as scatter and density, and the chosen run at the foot of the page.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -22,11 +22,11 @@
       class: "scatter",
       interactive: true,
       printed: 440,
-      note: `Spearman ${F.fixed(pair.spearman, 2)}. Shading: density of all runs; points: the extreme ones and every n-th run. Choose a point for its run.`,
+      note: `Spearman ${F.fixed(pair.spearman, 2)}. Shading: density of all runs; points: extreme runs and every n-th run. Click a point to select its run.`,
       description: () =>
         `Scatter of ${F.nameOf(pair.output)} over the dispersion ${pair.draw}, Spearman's coefficient ${F.fixed(pair.spearman, 2)}, ${points.run.length} runs as points.`,
       table: () => ({
-        columns: ["run", pair.draw, `${pair.output} ${F.unit(output.unit)}`, "order of latching"],
+        columns: ["run", pair.draw, `${pair.output} ${F.unit(output.unit)}`, "latch order"],
         rows: order.map((k) => [
           String(points.run[k]),
           points.x[k],
@@ -52,18 +52,16 @@
             [...pair.y_edges, ...points.y].map((value) => value * factor),
             [0, 1],
           ),
-          box = { left: M.leftFor(y), right: width - 12, top: top + 18, bottom: top + 270 };
-        y.range([box.bottom, box.top]);
+          box = M.boxFor(y, width, top, 270);
         const x = M.linear([...pair.x_edges, ...points.x], [box.left, box.right]);
-        M.axes(svg, box, x, y, { xText: pair.draw, yText: `${F.name(output)}${unit ? ` (${unit})` : ""}` });
+        M.axes(svg, box, x, y, { xText: pair.draw, yText: F.axis(F.name(output), unit) });
         cells(svg, pair, x, (value) => y(value * factor));
         const shapes = d3.symbol().size(34);
-        const list = svg
-          .append("g")
-          .attr("class", "points")
-          .attr("role", "listbox")
-          .attr("tabindex", 0)
-          .attr("aria-label", `Runs by ${pair.draw}. Arrow keys go through them, Enter chooses`);
+        const list = M.put(svg, "g.points", {
+          role: "listbox",
+          tabindex: 0,
+          "aria-label": `Runs by ${pair.draw}. Arrow keys move between runs, Enter selects one`,
+        });
         const stem = W.newId("run");
         marks = list
           .selectAll("path")
@@ -82,7 +80,9 @@
             (k) =>
               `run ${points.run[k]}: ${pair.draw} ${F.number(points.x[k], 4)}, ${F.name(output)} ${F.withUnit(points.y[k], output.unit)}`,
           )
-          .on("click", (k) => W.select(setAt, points.run[k], { [pair.draw]: points.x[k], [pair.output]: points.y[k] }));
+          .on("click", (k) =>
+            W.selectRun(setAt, points.run[k], { [pair.draw]: points.x[k], [pair.output]: points.y[k] }),
+          );
         marks.append("title").text((k) => `run ${points.run[k]}`);
         list.on("keydown", () => byKeys(d3.event, list, stem));
         mark();
@@ -93,7 +93,7 @@
       const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
       if (step) at = Math.max(0, Math.min(order.length - 1, at + step));
       else if ((event.key === "Enter" || event.key === " ") && at >= 0)
-        W.select(setAt, points.run[order[at]], {
+        W.selectRun(setAt, points.run[order[at]], {
           [pair.draw]: points.x[order[at]],
           [pair.output]: points.y[order[at]],
         });
@@ -108,23 +108,23 @@
   function cells(svg, pair, x, y) {
     const most = d3.max(pair.density) || 1,
       across = pair.x_edges.length - 1,
-      group = svg.append("g").attr("class", "density");
+      group = M.put(svg, "g.density");
     pair.density.forEach(function (count, at) {
       const column = at % across,
         row = Math.floor(at / across);
       if (count > 0)
-        group
-          .append("rect")
-          .attr("x", x(pair.x_edges[column]))
-          .attr("width", Math.max(0.5, x(pair.x_edges[column + 1]) - x(pair.x_edges[column]) + 0.4))
-          .attr("y", Math.min(y(pair.y_edges[row]), y(pair.y_edges[row + 1])))
-          .attr("height", Math.abs(y(pair.y_edges[row]) - y(pair.y_edges[row + 1])) + 0.4)
-          .attr("fill-opacity", 0.08 + 0.5 * Math.sqrt(count / most));
+        M.put(group, "rect", {
+          x: x(pair.x_edges[column]),
+          width: Math.max(0.5, x(pair.x_edges[column + 1]) - x(pair.x_edges[column]) + 0.4),
+          y: Math.min(y(pair.y_edges[row]), y(pair.y_edges[row + 1])),
+          height: Math.abs(y(pair.y_edges[row]) - y(pair.y_edges[row + 1])) + 0.4,
+          "fill-opacity": 0.08 + 0.5 * Math.sqrt(count / most),
+        });
     });
   }
 
-  // The run that was chosen, anywhere on the page: its values, its command, its motion if there is one.
-  W.select = function (setAt, run, values) {
+  // Selects a run and shows its values, its replay command and its motion.
+  W.selectRun = function (setAt, run, values) {
     W.choose("run", { set: setAt, run, values: values || {} });
   };
   W.on("run", function (choice) {
@@ -139,17 +139,15 @@
       const output = W.outputsOf(set).find((one) => one.name === name);
       return h(
         "span",
-        {},
         `${output ? F.name(output) : name} `,
-        h("b", {}, output ? F.withUnit(value, output.unit) : F.number(value, 4)),
+        h("b", output ? F.withUnit(value, output.unit) : F.number(value, 4)),
       );
     });
     W.fill(
       host,
       h(
         "p",
-        {},
-        h("b", {}, `Run ${choice.run}`),
+        h("b", `Run ${choice.run}`),
         W.sets.length > 1 ? ` of ${set.label}` : "",
         known ? ` · ${known.label}` : "",
         values.map((value) => [" · ", value]),
@@ -157,12 +155,10 @@
       W.command(command, `command of run ${choice.run}`),
       h(
         "p",
-        {},
         known
           ? h(
               "button",
               {
-                type: "button",
                 onclick: () => {
                   if (W.chosen.set !== choice.set) W.choose("set", choice.set);
                   W.choose("motion", motion);
@@ -171,9 +167,9 @@
               },
               "Show its motion",
             )
-          : h("span", { class: "faint" }, "Its motion is not in this page; the command makes it."),
+          : h("span.faint", "Its motion is not on this page; the command replays the run."),
         " ",
-        h("button", { type: "button", onclick: () => W.choose("run", null) }, "Close"),
+        h("button", { onclick: () => W.choose("run", null) }, "Close"),
       ),
     );
     W.say(`Run ${choice.run} chosen. ${command}`);

@@ -1,18 +1,20 @@
-// What `margin` and `rare` left in the folder, and static margins: the window of the springs, torque along the travel, rare events.
+// Results of `margin`, `sensitivity CAMPAIGN` and `rare`, and static margins of the campaign.
 (function () {
   "use strict";
   const W = window.wingspread;
-  const { h, format: F, marks: M } = W;
+  const { h, number, format: F, marks: M } = W;
 
   function marginWindow(margin) {
     const [low, high] = margin.window || [null, null],
       { scales, requirements } = margin;
+    const ends = `${W.isNumber(low) ? `from ${F.number(low, 4)}` : "open below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "and open above"}`;
+    const advice = W.isNumber(margin.recommended) ? `; recommended: ${F.number(margin.recommended, 4)}` : "";
     const words =
       W.isNumber(low) || W.isNumber(high)
-        ? `The window is ${W.isNumber(low) ? `from ${F.number(low, 4)}` : "open below"} ${W.isNumber(high) ? `to ${F.number(high, 4)}` : "and open above"}${W.isNumber(margin.recommended) ? `; recommended is ${F.number(margin.recommended, 4)}` : ""}.${margin.why_none ? ` Nothing is recommended: ${margin.why_none}.` : ""}`
+        ? `The window is ${ends}${advice}.${margin.why_none ? ` No recommendation: ${margin.why_none}.` : ""}`
         : margin.why_none || "No scale meets all requirements.";
     return W.figure({
-      title: "Margin window: how strong the springs may be",
+      title: "Margin window: permissible spring strength",
       class: "margin",
       note: words,
       description: `Share of runs that meet each requirement against the springs' scale. ${words}`,
@@ -26,15 +28,12 @@
       draw: function (svg, width) {
         const top = M.legend(
           svg,
-          [
-            ...requirements.map((one, at) => ({ text: one.text, line: M.colour(at), dash: M.dash(at) })),
-            { text: "window", fill: "var(--good)", opacity: 0.25 },
-          ],
+          [...M.lineItems(requirements, (one) => one.text), { text: "window", fill: "var(--good)", opacity: 0.25 }],
           width,
         );
         const box = { left: 48, right: width - 14, top: top + 18, bottom: top + 270 },
           x = M.linear([...scales, low, high], [box.left, box.right]);
-        // A scale of nines: what matters lies between 90 and 100 %.
+        // A scale of nines, -log10(1 - share), because requirements lie between 90 and 100 %.
         const nines = d3.scaleLinear([0, 3.6], [box.bottom, box.top]),
           y = (share) => nines(Math.min(3.6, -Math.log10(Math.max(1e-9, 1 - share))));
         const SHARES = [0, 0.5, 0.9, 0.99, 0.999, 1],
@@ -42,67 +41,47 @@
         if (W.isNumber(low) || W.isNumber(high)) {
           const from = W.isNumber(low) ? x(low) : box.left,
             to = W.isNumber(high) ? x(high) : box.right;
-          svg
-            .append("rect")
-            .attr("class", "window")
-            .attr("x", from)
-            .attr("width", Math.max(0, to - from))
-            .attr("y", box.top)
-            .attr("height", box.bottom - box.top);
+          M.put(svg, "rect.window", {
+            x: from,
+            width: Math.max(0, to - from),
+            y: box.top,
+            height: box.bottom - box.top,
+          });
         }
         M.axes(svg, box, x, axis, {
           xText: "scale of the springs",
-          yText: "share of the runs that meet it, on a scale of nines",
+          yText: "share of runs that meet the requirement, logarithmic in 1 - share",
           yValues: SHARES.map((share) => nines.invert(y(share))),
           yFormat: (_, at) => `${Number((100 * SHARES[at]).toPrecision(4))} %`,
         });
         requirements.forEach(function (one, at) {
-          svg
-            .append("path")
-            .attr("class", "curve-band")
-            .style("fill", M.colour(at))
-            .style("fill-opacity", 0.09)
-            .attr("d", M.band(x, y)(scales.map((scale, k) => [scale, one.lower[k], one.upper[k]])));
-          svg
-            .append("path")
-            .attr("class", "trace")
-            .style("stroke", M.colour(at))
-            .attr("stroke-dasharray", M.dash(at))
-            .attr("d", M.line(x, y)(scales.map((scale, k) => [scale, one.passed[k]])));
+          M.put(svg, "path.curve-band", {
+            d: M.band(x, y)(scales.map((scale, k) => [scale, one.lower[k], one.upper[k]])),
+            style: { fill: M.colour(at), "fill-opacity": 0.09 },
+          });
+          M.trace(svg, M.line(x, y)(scales.map((scale, k) => [scale, one.passed[k]])), at);
           scales.forEach(
             (scale, k) =>
               W.isNumber(one.passed[k]) &&
-              svg
-                .append("circle")
-                .attr("class", "looked")
-                .attr("cx", x(scale))
-                .attr("cy", y(one.passed[k]))
-                .attr("r", 3)
-                .style("stroke", M.colour(at))
-                .style("fill", W.verdicts.verdictOf(one.verdict[k]) === "passed" ? M.colour(at) : "var(--paper)")
-                .append("title")
-                .text(`${one.text}: ${one.verdict[k]} at ${F.number(scale, 4)}`),
+              M.put(svg, "circle.looked", {
+                cx: x(scale),
+                cy: y(one.passed[k]),
+                r: 3,
+                style: {
+                  stroke: M.colour(at),
+                  fill: W.verdicts.verdictOf(one.verdict[k]) === "passed" ? M.colour(at) : "var(--paper)",
+                },
+                title: `${one.text}: ${one.verdict[k]} at ${F.number(scale, 4)}`,
+              }),
           );
         });
-        M.uprights(
-          svg,
-          box,
-          Object.assign(
-            [
-              { x: x(1), text: "present", kind: "nominal" },
-              ...(W.isNumber(margin.recommended)
-                ? [
-                    {
-                      x: x(margin.recommended),
-                      text: `recommended ${F.number(margin.recommended, 4)}`,
-                      kind: "chosen-line",
-                    },
-                  ]
-                : []),
-            ],
-            { low: true },
-          ),
-        );
+        const recommended = {
+          x: x(margin.recommended),
+          text: `recommended ${F.number(margin.recommended, 4)}`,
+          kind: "chosen-line",
+        };
+        const lines = [{ x: x(1), text: "present", kind: "nominal" }];
+        M.uprights(svg, box, W.isNumber(margin.recommended) ? [...lines, recommended] : lines, true);
         return box.bottom + 40;
       },
     });
@@ -110,7 +89,7 @@
 
   function staticMargins({ hinges, kind, draws, lower_p: share }) {
     const part = hinges.slice(0, 7),
-      dispersed = W.isNumber(share) ? `Least, ${F.share(share).replace(/\.0 /, " ")} of draws` : "Least, dispersed",
+      dispersed = W.isNumber(share) ? `Least, ${F.level(share)} quantile` : "Least, dispersed",
       least = hinges.map((one) => [
         one.hinge,
         F.fixed(one.least, 2),
@@ -122,7 +101,7 @@
       W.figure({
         title: `Static margin of torque along the travel${kind ? ` (${kind})` : ""}`,
         class: "static-margins",
-        note: `Thick: nominal.${W.isNumber(share) ? ` Thin: the ${F.share(share).replace(/\.0 /, " ")} quantile over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The first ${part.length} of ${hinges.length} hinges are drawn; all stand in the table.` : ""}`,
+        note: `Thick: nominal.${W.isNumber(share) ? ` Thin: the ${F.level(share)} quantile over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The picture has the first ${part.length} of ${hinges.length} hinges; the table has all.` : ""}`,
         description: () =>
           hinges
             .slice(0, 20)
@@ -143,39 +122,27 @@
         draw: function (svg, width) {
           const top = M.legend(
             svg,
-            part.map((one, at) => ({ text: one.hinge, line: M.colour(at), dash: M.dash(at) })),
+            M.lineItems(part, (one) => one.hinge),
             width,
           );
           const y = M.linear(
               [0, ...part.flatMap((one) => [...one.margin, ...(one.margin_lower || []), one.required])],
               [0, 1],
             ),
-            box = { left: M.leftFor(y), right: width - 14, top: top + 18, bottom: top + 250 };
-          y.range([box.bottom, box.top]);
+            box = M.boxFor(y, width, top, 250, 14);
           const x = M.linear(
             part.flatMap((one) => one.angle.map((angle) => angle * F.DEGREES)),
             [box.left, box.right],
           );
           M.axes(svg, box, x, y, { xText: "hinge angle (deg)", yText: "margin" });
           for (const required of new Set(part.map((one) => one.required).filter(W.isNumber)))
-            svg
-              .append("line")
-              .attr("class", "limit")
-              .attr("x1", box.left)
-              .attr("x2", box.right)
-              .attr("y1", y(required))
-              .attr("y2", y(required));
+            M.put(svg, "line.limit", { x1: box.left, x2: box.right, y1: y(required), y2: y(required) });
           part.forEach((one, at) =>
             [
-              ["trace", one.margin],
-              ["trace thin", one.margin_lower || []],
+              ["path.trace", one.margin],
+              ["path.trace.thin", one.margin_lower || []],
             ].forEach(([style, values]) =>
-              svg
-                .append("path")
-                .attr("class", style)
-                .style("stroke", M.colour(at))
-                .attr("stroke-dasharray", M.dash(at))
-                .attr("d", M.line(x, y)(one.angle.map((angle, k) => [angle * F.DEGREES, values[k]]))),
+              M.trace(svg, M.line(x, y)(one.angle.map((angle, k) => [angle * F.DEGREES, values[k]])), at, style),
             ),
           );
           return box.bottom + 40;
@@ -183,13 +150,7 @@
       }),
       W.table(
         "Least static margins",
-        [
-          { text: "Hinge" },
-          { text: "Least, nominal", kind: "number" },
-          { text: dispersed, kind: "number" },
-          { text: "Required", kind: "number" },
-          { text: "Nominal verdict" },
-        ],
+        ["Hinge", number("Least, nominal"), number(dispersed), number("Required"), "Nominal verdict"],
         least,
       ),
     ];
@@ -202,7 +163,7 @@
       drawn.length < 2
         ? null
         : W.figure({
-            title: "Rare event: the way there, level by level",
+            title: "Rare event: probability of each level",
             class: "rare",
             description: () =>
               drawn.map((one) => `beyond ${F.number(one.threshold, 4)}: ${F.number(one.probability, 2)}`).join("; "),
@@ -220,47 +181,32 @@
                 decades = d3.range(0, Math.ceil(-Math.log10(y.domain()[0]))).map((k) => 10 ** -k);
               M.axes(svg, box, x, y, {
                 xText: "threshold",
-                yText: "probability to go beyond",
+                yText: "probability of exceeding it",
                 yValues: decades,
-                yFormat: (value) =>
-                  `10${["⁰", "⁻¹", "⁻²", "⁻³", "⁻⁴", "⁻⁵", "⁻⁶", "⁻⁷", "⁻⁸", "⁻⁹"][Math.round(-Math.log10(value))] || ""}`,
+                yFormat: (value) => `10${F.superscript(Math.round(Math.log10(value)))}`,
               });
-              svg
-                .append("path")
-                .attr("class", "trace")
-                .style("stroke", M.colour(0))
-                .attr("d", M.line(x, y)(drawn.map((one) => [one.threshold, one.probability])));
+              M.trace(svg, M.line(x, y)(drawn.map((one) => [one.threshold, one.probability])), 0);
               drawn.forEach((one) =>
-                svg
-                  .append("circle")
-                  .attr("class", "quantile")
-                  .attr("cx", x(one.threshold))
-                  .attr("cy", y(one.probability))
-                  .attr("r", 3.5),
+                M.put(svg, "circle.quantile", { cx: x(one.threshold), cy: y(one.probability), r: 3.5 }),
               );
               return box.bottom + 40;
             },
           });
     const reached =
       rare.reached === false
-        ? " No way led to the event: this is the estimate of the last level that was reached, more than the event's."
+        ? " The event was not reached: this is the estimated probability of the last level, which contains the event. Estimated upper bound, not guaranteed."
         : "";
     return [
       h(
         "p",
-        {},
-        h("b", {}, `${rare.text}: ${F.number(rare.probability, 3)}`),
+        h("b", `${rare.text}: ${F.number(rare.probability, 3)}`),
         ` (bounds ${F.number(rare.lower, 3)} … ${F.number(rare.upper, 3)}).${reached}`,
       ),
       figure,
       likeliest && likeliest.length
         ? W.table(
-            "The likeliest such run that was met",
-            [
-              { text: "Dispersion" },
-              { text: "Value", kind: "number" },
-              { text: "Deviation", unit: "σ", kind: "number" },
-            ],
+            "Most likely run of the event",
+            ["Dispersion", number("Value"), number("Deviation", "σ")],
             likeliest
               .slice()
               .sort((a, b) => Math.abs(b.sigma) - Math.abs(a.sigma))
@@ -271,14 +217,14 @@
     ];
   }
 
-  // Sobol' indices of a study's own: of one output at a time.
+  // Sobol' indices of a set without runs, one output at a time.
   function indices(set) {
     const names = W.effectOutputs(set),
-      host = h("div", {}),
+      host = h("div"),
       show = (name) => W.fill(host, W.tornado(set, name));
     const first = names.includes(W.chosen.output) ? W.chosen.output : names[0];
     show(first);
-    return [names.length > 1 ? h("div", { class: "controls" }, W.chooser(names, first, show)) : null, host];
+    return [names.length > 1 ? h("div.controls", W.chooser(names, first, show)) : null, host];
   }
   W.studies = function (sets) {
     const parts = [],
@@ -286,9 +232,7 @@
       several = sets.length > 1;
     const add = (kind, title, set, ...content) => {
       found.add(kind);
-      parts.push(
-        h("div", {}, h("h3", {}, several && W.studySets.includes(set) ? `${title} · ${set.label}` : title), content),
-      );
+      parts.push(h("div", h("h3", several && W.studySets.includes(set) ? `${title} · ${set.label}` : title), content));
     };
     for (const set of sets) {
       if (W.studySets.includes(set) && W.effectOutputs(set).length) add("sobol", "Sensitivity", set, indices(set));
@@ -306,8 +250,8 @@
       .filter((kind) => !found.has(kind))
       .map((kind) => names[kind]);
     return [
-      h("div", { class: "grid pairs" }, parts),
-      missing.length ? h("p", { class: "note" }, `Not in this report: ${missing.join(", ")}.`) : null,
+      h("div.grid.pairs", parts),
+      missing.length ? h("p.note", `Not in this report: ${missing.join(", ")}.`) : null,
     ];
   };
 })();

@@ -1,14 +1,13 @@
-// How the statistics of the chosen output settled as runs were added, and how sets differ from each other.
+// Convergence of the chosen output's statistics with the number of runs, and differences between sets.
 (function () {
   "use strict";
   const W = window.wingspread;
-  const { h, format: F, marks: M } = W;
+  const { h, number, format: F, marks: M } = W;
 
   function settling(output, key, text) {
     const one = output.convergence,
       { factor, unit } = F.shown(output.unit);
-    const lower = key === "mean" ? one.lower : one.quantile_lower,
-      upper = key === "mean" ? one.upper : one.quantile_upper;
+    const [lower, upper] = key === "mean" ? [one.lower, one.upper] : [one.quantile_lower, one.quantile_upper];
     const rows = one.runs.map((runs, at) =>
       [runs, one[key][at], lower[at], upper[at]].map((value, place) =>
         place && W.isNumber(value) ? value * factor : value,
@@ -20,7 +19,7 @@
       title: `${text} against runs: ${F.name(output)}`,
       class: "settling",
       printed: 440,
-      note: rows.some((row) => row.every(W.isNumber)) ? null : "So few runs have no bounds on both sides.",
+      note: rows.some((row) => row.every(W.isNumber)) ? null : "Too few runs for two-sided bounds.",
       description: `At ${F.runs(last[0])}: ${F.number(last[1], 5)} ${unit}, bounds ${F.number(last[2], 5)} to ${F.number(last[3], 5)}.`,
       table: () => ({ columns: ["runs", `${text.toLowerCase()} ${unit}`, "lower", "upper"], rows }),
       draw: function (svg, width) {
@@ -32,11 +31,11 @@
           ],
           width,
         );
-        // The first few runs' bounds may be very wide: the picture is scaled to what follows them.
+        // The first quarter of the points may have very wide bounds: the others set the scale.
         const later = rows.slice(Math.floor(rows.length / 4)),
           y = M.linear([...later.flatMap((row) => row.slice(1)), ...rows.map((row) => row[1])], [0, 1], 0.06);
-        const box = { left: M.leftFor(y), right: width - 14, top: top + 18, bottom: top + 220 };
-        y.range([box.bottom, box.top]).clamp(true);
+        const box = M.boxFor(y, width, top, 220, 14);
+        y.clamp(true);
         const span = d3.extent(rows, (row) => row[0]),
           x = d3.scaleLog(span[0] === span[1] ? [span[0] / 2, span[1] * 2] : span, [box.left, box.right]);
         const decades = d3
@@ -45,26 +44,21 @@
           .filter((value) => value >= x.domain()[0] && value <= x.domain()[1]);
         M.axes(svg, box, x, y, {
           xText: "runs",
-          yText: `${text.toLowerCase()}${unit ? ` (${unit})` : ""}`,
+          yText: F.axis(text.toLowerCase(), unit),
           xValues:
             decades.length * 44 > width - box.left ? decades.filter((value) => /^1/.test(String(value))) : decades,
           xFormat: F.count,
         });
-        svg
-          .append("path")
-          .attr("class", "curve-band")
-          .style("fill", "var(--c0)")
-          .attr("d", M.band(x, y)(rows.map((row) => [row[0], row[2], row[3]])));
-        svg
-          .append("path")
-          .attr("class", "trace")
-          .style("stroke", "var(--c0)")
-          .attr("d", M.line(x, y)(rows.map((row) => row.slice(0, 2))));
+        M.put(svg, "path.curve-band", {
+          d: M.band(x, y)(rows.map((row) => [row[0], row[2], row[3]])),
+          style: { fill: "var(--c0)" },
+        });
+        M.trace(svg, M.line(x, y)(rows.map((row) => row.slice(0, 2))), 0);
         return box.bottom + 40;
       },
     });
   }
-  const host = h("div", {});
+  const host = h("div");
   function convergence() {
     const set = W.set(),
       output = W.output(set);
@@ -72,10 +66,9 @@
       return W.fill(
         host,
         h(
-          "p",
-          { class: "nothing" },
+          "p.nothing",
           output
-            ? `Too few runs of ${set.label} have ${F.name(output)} to show how it settled.`
+            ? `Too few runs of ${set.label} have a value of ${F.name(output)} to show convergence.`
             : "There is no output to show.",
         ),
       );
@@ -83,19 +76,13 @@
     W.fill(
       host,
       h(
-        "p",
-        { class: "lead" },
-        `${F.name(output)}${W.sets.length > 1 ? `, ${set.label}` : ""}: what one would have said after fewer runs.`,
+        "p.lead",
+        `${F.name(output)}${W.sets.length > 1 ? `, ${set.label}` : ""}: the estimate after each number of runs.`,
       ),
       h(
-        "div",
-        { class: "pair" },
+        "div.pair",
         settling(output, "mean", "Mean"),
-        settling(
-          output,
-          "quantile",
-          W.isNumber(p) ? (p === 0.5 ? "Median" : `${F.share(p).replace(/\.0 /, " ")} quantile`) : "Quantile",
-        ),
+        settling(output, "quantile", W.isNumber(p) ? (p === 0.5 ? "Median" : `${F.level(p)} quantile`) : "Quantile"),
       ),
     );
   }
@@ -106,8 +93,8 @@
   };
   W.on("output", convergence);
 
-  // Differences with intervals: one line for each output, relative to the first set's value where that is told.
-  // Changes of a few per cent beside such of a thousand: linear about zero and logarithmic farther out.
+  // Changes in per cent: linear up to 40 %; beyond, linear about zero and logarithmic farther out (symlog), so that changes of
+  // 2 % and of 1000 % are visible together. The limit of 40 % is heuristic; a lower one makes more axes logarithmic.
   function wideScale(values, range) {
     const known = values.filter(W.isNumber),
       far = d3.max(known, Math.abs) || 0;
@@ -134,12 +121,12 @@
       .filter((one) => W.isNumber(one.relative))
       .sort((a, b) => Math.abs(b.relative) - Math.abs(a.relative))
       .slice(0, 24);
-    const figure = !drawn.length
+    return !drawn.length
       ? null
       : W.figure({
           title: `Change of the means: ${W.sets[j].label} against ${W.sets[i].label}`,
           class: "forest",
-          note: `${comparison.paired ? "Paired: the draws are the same, so that only the change itself is uncertain." : "Not paired: the draws differ."}${rows.length > drawn.length ? ` The ${drawn.length} largest of ${rows.length} changes; all stand in the table.` : ""}`,
+          note: `${comparison.paired ? "Paired: both sets have the same draws, so scatter between runs cancels." : "Not paired: the sets have different draws."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
           description: () =>
             drawn
               .slice(0, 12)
@@ -150,7 +137,11 @@
             rows: comparison.outputs.map((one) => [one.output, one.difference, one.lower, one.upper, one.relative]),
           }),
           draw: function (svg, width) {
-            const left = Math.min(width * 0.4, Math.max(...drawn.map((one) => M.textWidth(F.nameOf(one.output)))) + 12),
+            const left = M.labelRoom(
+                width,
+                0.4,
+                drawn.map((one) => F.nameOf(one.output)),
+              ),
               box = { left, right: width - 16, top: 6, bottom: 6 + 20 * drawn.length };
             const values = drawn.flatMap((one) => [
                 0,
@@ -160,41 +151,19 @@
               ]),
               x = wideScale(values, [box.left, box.right]);
             M.axes(svg, box, x, null, { xText: "change of the mean (%)", xValues: x.wide });
-            svg
-              .append("line")
-              .attr("class", "zero-line")
-              .attr("x1", x(0))
-              .attr("x2", x(0))
-              .attr("y1", box.top)
-              .attr("y2", box.bottom);
+            M.upright(svg, "line.zero-line", x(0), box);
             drawn.forEach(function (one, at) {
               const y = box.top + 20 * (at + 0.5),
                 low = relative(one.lower, one),
                 high = relative(one.upper, one),
                 sure = W.isNumber(one.lower) && one.lower * one.upper > 0;
-              svg
-                .append("text")
-                .attr("x", left - 8)
-                .attr("y", y)
-                .attr("dy", "0.35em")
-                .attr("text-anchor", "end")
-                .text(M.shorten(F.nameOf(one.output), left - 8));
-              if (W.isNumber(low))
-                svg
-                  .append("path")
-                  .attr("class", "whisker")
-                  .attr("d", `M${x(low)},${y}H${x(high)}M${x(low)},${y - 4}v8M${x(high)},${y - 4}v8`);
-              svg
-                .append("circle")
-                .attr("class", sure ? "change sure" : "change")
-                .attr("cx", x(100 * one.relative))
-                .attr("cy", y)
-                .attr("r", 4);
+              M.rowLabel(svg, F.nameOf(one.output), left, y);
+              if (W.isNumber(low)) M.whisker(svg, x, low, high, y, 4);
+              M.put(svg, "circle", { class: sure ? "change sure" : "change", cx: x(100 * one.relative), cy: y, r: 4 });
             });
             return box.bottom + 40;
           },
         });
-    return figure;
   }
   const relativeSpread = (one) =>
     W.isNumber(one.lower) && one.difference !== 0
@@ -206,57 +175,38 @@
         one.difference !== 0 ||
         W.sets[comparison.sets[0]].statuses.some((each) => each.status === one.status && each.count),
     );
-    const unit = (name) => (W.sets.flatMap(W.outputsOf).find((one) => one.name === name) || {}).unit || "";
     const sign = (value, text) => (value > 0 ? `+${text}` : text);
-    const rows = comparison.outputs.map((one) => [
-      F.nameOf(one.output),
-      F.shown(unit(one.output)).unit,
-      W.isNumber(one.difference)
-        ? sign(
-            one.difference,
-            F.value(
-              one.difference,
-              unit(one.output),
-              W.isNumber(one.lower) ? (one.upper - one.lower) / 2 : Math.abs(one.difference) / 20,
-            ),
-          )
-        : F.none,
-      W.isNumber(one.lower)
-        ? `${F.value(one.lower, unit(one.output), (one.upper - one.lower) / 2)} … ${F.value(one.upper, unit(one.output), (one.upper - one.lower) / 2)}`
-        : "no bounds",
-      W.isNumber(one.relative) ? sign(one.relative, `${F.sized(100 * one.relative, relativeSpread(one))} %`) : F.none,
-    ]);
+    const rows = comparison.outputs.map(function (one) {
+      const unit = F.unitOf(one.output),
+        half = W.isNumber(one.lower) ? (one.upper - one.lower) / 2 : null,
+        value = (number) => F.value(number, unit, half || Math.abs(one.difference) / 20);
+      return [
+        F.nameOf(one.output),
+        F.shown(unit).unit,
+        W.isNumber(one.difference) ? sign(one.difference, value(one.difference)) : F.none,
+        W.isNumber(one.lower) ? `${value(one.lower)} … ${value(one.upper)}` : "no bounds",
+        W.isNumber(one.relative) ? sign(one.relative, `${F.sized(100 * one.relative, relativeSpread(one))} %`) : F.none,
+      ];
+    });
     return h(
-      "details",
-      { class: "later", open },
-      h("summary", {}, comparison.text),
+      "details.later",
+      { open },
+      h("summary", comparison.text),
       h(
-        "div",
-        { class: "wide-pair" },
+        "div.wide-pair",
         forest(comparison),
         h(
           "div",
-          {},
           W.table(
             `Differences of the means: ${comparison.text}`,
-            [
-              { text: "Output" },
-              { text: "Unit" },
-              { text: "Difference", kind: "number" },
-              { text: "Bounds", kind: "number" },
-              { text: "Relative", kind: "number" },
-            ],
+            ["Output", "Unit", number("Difference"), number("Bounds"), number("Relative")],
             rows,
             { class: "tall" },
           ),
           statuses.length
             ? W.table(
                 `Differences of the outcomes: ${comparison.text}`,
-                [
-                  { text: "Outcome" },
-                  { text: "Difference", kind: "number" },
-                  { text: "Bounds, percentage points", kind: "number" },
-                ],
+                ["Outcome", number("Difference"), number("Bounds, percentage points")],
                 statuses.map((one) => [
                   one.status.replace("_", " "),
                   `${sign(one.difference, F.fixed(100 * one.difference, 2))} points`,
@@ -280,13 +230,12 @@
       comparisons.length
         ? [
             h(
-              "p",
-              { class: "lead" },
-              "Differences with their confidence intervals; a filled point: the interval leaves out zero. “By case, overlaid” above lays the distributions over each other.",
+              "p.lead",
+              "Differences with confidence intervals. Filled point: the interval excludes zero. “By case, overlaid” above compares the distributions.",
             ),
             comparisons.map((one, at) => compared(one, at < 2)),
           ]
-        : h("p", { class: "nothing" }, "These folders have no output in common."),
+        : h("p.nothing", "These folders have no output in common."),
     );
   };
 })();

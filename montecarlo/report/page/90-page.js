@@ -1,4 +1,4 @@
-// Puts the page together, and again where a switch asks for it.
+// Draws the page, and draws it again after a switch.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -6,14 +6,14 @@
   const PARTS = [W.outcomes, W.outputs, W.wing, W.why, W.convergence, W.comparison, W.inputs, W.glossary];
   const IDS = ["verdicts", "outputs", "wing", "why", "convergence", "comparison", "inputs", "glossary"];
 
-  // A part that cannot be drawn says so and leaves the others alone: half a report is better than none.
+  // An error in one part shows a message there; the other parts are still drawn.
   function draw() {
     PARTS.forEach(function (part, at) {
       try {
         part();
       } catch (error) {
         console.error(error);
-        W.fill(W.section(IDS[at]), h("p", { class: "nothing" }, `This part could not be drawn: ${error.message}.`));
+        W.fill(W.section(IDS[at]), h("p.nothing", `This part could not be drawn: ${error.message}.`));
       }
     });
   }
@@ -50,7 +50,7 @@
       draw();
       W.say(`${W.set().label} shown.`);
     });
-    // The page opens on the case that is worst.
+    // The page opens on the case with the worst requirement.
     const worst = W.verdicts.judged()[0];
     if (worst) W.chosen.set = worst.at;
     select.value = W.chosen.set;
@@ -84,10 +84,10 @@
   }
 
   if (!W.sets.length) {
-    W.fill(W.section("verdicts"), h("p", { class: "nothing" }, "This report holds no results."));
+    W.fill(W.section("verdicts"), h("p.nothing", "This report contains no results."));
     return;
   }
-  // On paper the inputs stand in full, whatever is folded on the screen.
+  // Print all inputs, folded ones too.
   const opened = [];
   window.addEventListener("beforeprint", () =>
     document.querySelectorAll("#inputs details:not([open])").forEach((one) => {

@@ -1,11 +1,11 @@
-/// What the page's words mean: outputs with units and signs, and terms of statistics. OUTPUTS.md says more of the former.
+/// The page's glossary: outputs with units and signs (see OUTPUTS.md), and terms of statistics.
 #pragma once
 
 #include "montecarlo/foundation/formats/json.hpp"
 
 namespace wingspread {
 
-/// By name; those of hinges stand as "HINGE.peak_moment".
+/// Entries by name; a hinge's outputs as "HINGE.peak_moment".
 [[nodiscard]] Json glossary_json();
 
 } // namespace wingspread

@@ -26,7 +26,7 @@ std::string name_of_folder(const std::filesystem::path& folder) {
   return name.empty() || name == "." || name == ".." ? folder.string() : name.string();
 }
 
-/// The sets of one folder. @param several whether there are other folders, from which its cases are to be told
+/// Adds the sets of one folder. @param several whether the page has other folders: then labels of cases name the folder
 void read_folder(const std::filesystem::path& folder, bool several, int threads,
                  PageSources& sources) {
   const std::string name = name_of_folder(folder);
@@ -45,8 +45,8 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
                                             &whole.campaign, threads));
 }
 
-/// Two folders of one name are told apart by their paths.
-void tell_apart(PageSources& sources) {
+/// Labels sets of equal names by their paths.
+void label_by_path(PageSources& sources) {
   std::vector<std::string> labels;
   for (const auto& source : sources.runs) labels.push_back(source->label);
   for (const auto& source : sources.runs)
@@ -63,7 +63,7 @@ PageExtent extent_of(const PageSources& sources) {
   return extent;
 }
 
-/// Each set with the first, and with the one before it.
+/// Compares each set with the first and with the one before it.
 void add_comparisons(const PageSources& sources, Json& comparisons) {
   const auto add = [&](std::size_t i, std::size_t j) {
     comparisons.push_back(comparison_json(*sources.runs[i], *sources.runs[j], {i, j}));
@@ -89,7 +89,7 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
   if (sets == 0 || sets > most_sets)
     throw SpecError({{folders.front().string(), "", fmt::format("{} sets of runs", sets),
                       fmt::format("from 1 to {}: folders, and cases in them", most_sets)}});
-  tell_apart(sources);
+  label_by_path(sources);
   return sources;
 }
 

@@ -1,6 +1,4 @@
-/// The report: one HTML page that needs nothing but itself.
-///
-/// Its template and its scripts stand in page/, and page/DATA.md has the shape of the data in it.
+/// The report: one self-contained HTML page. Template and scripts: this folder; the shape of its data: DATA.md.
 #pragma once
 
 #include "montecarlo/report/data/page_source.hpp"
@@ -14,21 +12,20 @@ namespace wingspread {
 
 struct PageSources {
   std::vector<std::unique_ptr<PageSource>> runs; ///< sets of runs
-  std::vector<Json> studies;                     ///< sets of folders that a study left, behind them
+  std::vector<Json> studies; ///< sets without runs (study_set.hpp), behind these
 };
 
-/// Reads folders of results: a set each or, of a campaign with cases, one for each case; and folders that `margin`,
-/// `sensitivity` of a campaign or `rare` left.
-/// @param threads as of thread_count (team.hpp)
-/// @throws SpecError for what is none, is broken, or comes to more than 12 sets
+/// Reads results folders (one set each, or one per case) and folders of `margin`, `sensitivity CAMPAIGN` and `rare`.
+/// @param threads as of thread_count (thread_pool.hpp)
+/// @throws SpecError for any other or a broken folder, and for more than 12 sets
 [[nodiscard]] PageSources read_page_sources(std::span<const std::filesystem::path> folders,
                                             int threads);
 
-/// The page's block of data.
-/// @param command that makes the page
+/// The data of the page (DATA.md).
+/// @param command the command line that makes the page
 [[nodiscard]] Json page_json(const PageSources& sources, const std::string& command, int threads);
 
-/// The page. The same folders give the same bytes, whatever the number of threads.
+/// The page's HTML. The same folders give the same bytes on any number of threads.
 [[nodiscard]] std::string html_page(const Json& data);
 
 } // namespace wingspread

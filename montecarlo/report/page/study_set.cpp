@@ -64,7 +64,7 @@ void add_campaign(const Campaign& campaign, Json& set) {
 
 // ---- margin
 
-/// What margin.csv has of one requirement in one case, by scale.
+/// The rows of margin.csv of one requirement in one case, by scale.
 struct RequirementScales {
   std::string text;
   std::vector<double> scales;
@@ -74,7 +74,7 @@ struct RequirementScales {
 /// By search, then by requirement in the order of the file.
 using MarginTable = std::vector<std::pair<std::string, std::vector<RequirementScales>>>;
 
-/// The element with that name, put behind the others if there is none.
+/// The first element with `same`, or a new one at the end.
 template <class List, class Same, class Make>
 auto& found_or_made(List& list, Same same, Make make) {
   const auto found = std::ranges::find_if(list, same);
@@ -83,7 +83,7 @@ auto& found_or_made(List& list, Same same, Make make) {
   return list.back();
 }
 
-/// As the page has verdicts.
+/// A verdict in the page's words.
 std::string page_verdict(const std::string& verdict) {
   return verdict == "pass" ? "passed" : verdict == "fail" ? "failed" : "open";
 }
@@ -229,7 +229,7 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
   Json likeliest = nullptr;
   if (const Json& run = study.at("likeliest"); !run.is_null()) {
-    std::vector<Json> draws; // the furthest out first
+    std::vector<Json> draws; // largest deviation first
     for (const auto& [name, value] : run["draws"].items())
       draws.push_back({{"name", name}, {"value", value}, {"sigma", run.at("z").at(name)}});
     std::ranges::stable_sort(draws, std::ranges::greater{}, [](const Json& draw) {
@@ -248,15 +248,16 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   return set;
 }
 
-/// What is broken in its files is told with the folder.
+/// Calls `read`; errors in the files name the folder.
 template <class Read> auto reading(const std::filesystem::path& folder, Read read) {
   try {
     return read();
   } catch (const Json::exception& error) {
-    throw SpecError({{folder.string(), "", error.what(), "the files of a study as it left them"}});
+    throw SpecError(
+        {{folder.string(), "", error.what(), "unchanged files of the command that wrote them"}});
   } catch (const std::out_of_range&) {
     throw SpecError({{folder.string(), "", "a column that is missing",
-                      "the files of a study as it left them"}});
+                      "unchanged files of the command that wrote them"}});
   }
 }
 

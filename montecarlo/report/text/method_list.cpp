@@ -11,7 +11,7 @@ namespace {
 
 std::string order(int value) { return value == 0 ? "–" : std::to_string(value); }
 
-/// "3.307", "∞", or "–" where it does not apply.
+/// "3.307", "∞", or "–" if not applicable.
 std::string limit(double value) {
   if (value == 0) return "–";
   return std::isinf(value) ? "∞" : fmt::format("{:.4g}", value);
@@ -40,7 +40,7 @@ std::string methods_text(std::span<const MethodInfo> methods) {
       fmt::format("{:<26}{:>5}{:>10}{:>11}   {}\n", "METHOD", "order", "real", "imaginary", "kind");
   for (const MethodInfo& method : methods) text += row(method);
   text += "\nreal, imaginary: the largest |hλ| on the negative real and on the imaginary axis at "
-          "which\na step h is stable; – where there is none to state.\n";
+          "which\na step h is stable; – if not applicable.\n";
   for (const MethodInfo& method : methods) text += remarks(method);
   return text;
 }

@@ -9,11 +9,10 @@
 
 namespace wingspread {
 
-/// A table of what can be compared, then what is to be said of each. UTF-8,
-/// as wide as the other tables unless a kind takes more.
+/// A table of order, stability limits and kind, then a note on each method. UTF-8, at most 100 columns unless a kind is longer.
 [[nodiscard]] std::string methods_text(std::span<const MethodInfo> methods);
 
-/// An array of objects. What does not apply is null; a limit that is infinite is "unbounded".
+/// An array of objects; null if not applicable; an infinite limit is "unbounded".
 [[nodiscard]] Json methods_json(std::span<const MethodInfo> methods);
 
 } // namespace wingspread

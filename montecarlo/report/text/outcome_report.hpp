@@ -1,4 +1,4 @@
-/// One run in full: as JSON, for `simulate --json` and `replay --json`, and for a terminal.
+/// One run in full: as JSON (`simulate --json`, `replay --json`) and as text.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -8,20 +8,17 @@
 
 namespace wingspread {
 
-/// Whether there are peaks, and t_end cut them.
+/// Whether t_end came before the peaks were proven final.
 [[nodiscard]] bool has_cut_peaks(const Outcome& outcome);
 inline constexpr const char* cut_peaks_warning =
     "t_end cut the peaks: it is not proven that none would be exceeded after it";
 
-/// Strict JSON: what did not happen is null, as is what was not asked for. Latches stand in order
-/// of time. Beside the keys of the contract: `reason`, `method` (those of the phases), `phases`,
-/// `peaks_final` and `warnings`.
-/// Of an invalid run nothing but its status and reason is there; of a failed one no peak is known.
-/// @param scene whose run it was
+/// The run as JSON: latches in order of time; null for values that do not exist or were not requested. An invalid run has
+/// only its status and reason; a failed run has no peaks.
+/// @param scene the run's scene
 [[nodiscard]] Json outcome_json(const Scene& scene, const Outcome& outcome);
 
-/// In words and tables: how it ended, the latches in order of time, the hinges' peaks and final
-/// state, what is to be warned of, energy and work.
+/// The run as text: outcome, latches in order of time, peaks and final state of the hinges, warnings, energy and work.
 [[nodiscard]] std::string outcome_text(const Scene& scene, const Outcome& outcome);
 
 } // namespace wingspread

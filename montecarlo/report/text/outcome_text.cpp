@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_phases = 4;
 
-/// "to 60 s by dopri5"; of several phases "to 60 s: dopri5 to 4.82 s, rosenbrock_w to 60 s".
+/// "to 60 s by dopri5"; with several phases "to 60 s: dopri5 to 4.82 s, rosenbrock_w to 60 s".
 std::string extent(const Outcome& outcome) {
   const std::string end = fmt::format("to {:.6g} s", outcome.t_end);
   if (outcome.phases.size() <= 1) return fmt::format("{} by {}", end, methods_used(outcome));
@@ -80,13 +80,16 @@ std::string warnings(const Scene& scene, const Outcome& outcome) {
   return cut ? text + fmt::format("  {}\n", cut_peaks_warning) : text;
 }
 
-std::string effort(const Outcome& outcome) {
+std::string effort(const Scene& scene, const Outcome& outcome) {
   const auto& [initial, final, drift] = outcome.energy;
   const auto& [steps, rejected, evaluations] = outcome.work;
-  return fmt::format("\nEnergy {:.6g} J at the start, {:.6g} J at the end; it moved by at most "
-                     "{:.2g} J before the first latch.\n"
-                     "Work: {} steps, {} rejected, {} evaluations.\n",
-                     initial, final, drift, steps, rejected, evaluations);
+  const char* lost = scene.base.motion == BaseMotion::prescribed
+                         ? "dissipated or exchanged with the base"
+                         : "dissipated";
+  return fmt::format(
+      "\nEnergy: {:.6g} J at the start, {:.6g} J at the end, {:.2g} J {} before the first latch.\n"
+      "Work: {} steps, {} rejected, {} evaluations.\n",
+      initial, final, drift, lost, steps, rejected, evaluations);
 }
 
 } // namespace
@@ -94,7 +97,7 @@ std::string effort(const Outcome& outcome) {
 std::string outcome_text(const Scene& scene, const Outcome& outcome) {
   if (outcome.status == Status::invalid) return ending(scene, outcome);
   return ending(scene, outcome) + latches(scene, outcome) + peaks(scene, outcome) +
-         final_state(scene, outcome) + warnings(scene, outcome) + effort(outcome);
+         final_state(scene, outcome) + warnings(scene, outcome) + effort(scene, outcome);
 }
 
 } // namespace wingspread

@@ -22,11 +22,10 @@ std::string replay_text(const Replayed& replayed, const Scene& scene) {
   for (std::size_t i = 0; i < replayed.row.draws.size(); ++i)
     text += fmt::format("  {:<40}{:>24.17g}\n", replayed.names.draws[i], replayed.row.draws[i]);
   if (!replayed.recorded)
-    text += fmt::format("\nRun {} is not in {}: there is nothing to compare it with.\n",
-                        replayed.row.run, replayed.file);
+    text += fmt::format("\nRun {} is not in {}: no comparison.\n", replayed.row.run, replayed.file);
   else if (replayed.differences.empty())
-    text +=
-        fmt::format("\nRun {} is the one in {}, bit for bit.\n", replayed.row.run, replayed.file);
+    text += fmt::format("\nRun {} equals the one in {}, bit for bit.\n", replayed.row.run,
+                        replayed.file);
   return text;
 }
 

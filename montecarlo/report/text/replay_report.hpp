@@ -1,4 +1,4 @@
-/// A run made again: as JSON, and for a terminal, with its draws and whether it is the one recorded.
+/// A replayed run as JSON and text, with its draws and the comparison with the recorded row.
 #pragma once
 
 #include "montecarlo/foundation/formats/json.hpp"
@@ -8,7 +8,7 @@
 
 namespace wingspread {
 
-/// outcome_json with `run`, `draws` and `same_as_recorded`, which is null where there is no record.
+/// outcome_json with `run`, `draws` and `same_as_recorded` (null without a recorded row).
 [[nodiscard]] Json replay_json(const Replayed& replayed, const Scene& scene);
 
 [[nodiscard]] std::string replay_text(const Replayed& replayed, const Scene& scene);

@@ -1,4 +1,4 @@
-/// trajectory.csv: every accepted step of one run, and both sides of an engagement; or a regular grid of times.
+/// trajectory.csv: every accepted step of a run and both sides of each engagement, or a regular grid of times.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -11,10 +11,10 @@
 namespace wingspread {
 
 /// The columns: `t`, `HINGE.angle`, `HINGE.rate` and `HINGE.moment` for each hinge, `kinetic`, `potential` and
-/// `total`; of a base that moves `base.angle` and `base.rate`, of a free one `base.position.0` and
-/// `base.position.1` too.
+/// `total`; for a moving base `base.angle` and `base.rate`, for a free one also `base.position.0` and
+/// `base.position.1`.
 [[nodiscard]] std::vector<std::string> trajectory_columns(const Scene& scene);
-/// A row, into what takes its numbers one by one in the order of the columns. @param base of the scene
+/// Passes a row's numbers to `take`, one by one in the order of the columns. @param base the scene's base
 template <class Take> void take_sample(const Sample& sample, BaseMotion base, const Take& take) {
   take(sample.t);
   for (std::size_t i = 0; i < sample.angles.size(); ++i)
@@ -27,16 +27,16 @@ template <class Take> void take_sample(const Sample& sample, BaseMotion base, co
   for (const double value : {sample.base_position[0], sample.base_position[1]}) take(value);
 }
 
-/// Writes them with 17 significant digits, as the run goes on.
+/// Writes the rows during the run, with 17 significant digits.
 class TrajectoryWriter {
 public:
-  /// Begins the file. @throws as refuse_path (machine_error.hpp) does when the file cannot be written
+  /// Opens the file. @throws as refuse_path (machine_error.hpp) does when the file cannot be written
   TrajectoryWriter(std::filesystem::path path, const Scene& scene);
 
-  /// What to hand to the run. @pre the writer outlives it
+  /// The observer to pass to the run. @pre the writer outlives it
   [[nodiscard]] Observer observer();
 
-  /// @throws as refuse_path does unless all of it is in the file
+  /// Writes the rest and closes the file. @throws as refuse_path does unless the file is complete
   void finish();
 
 private:
@@ -44,7 +44,7 @@ private:
 
   WholeFile out_;
   BaseMotion base_;
-  std::string block_; ///< lines that are still to be written
+  std::string block_; ///< lines not yet written
 };
 
 } // namespace wingspread

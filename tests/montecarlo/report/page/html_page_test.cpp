@@ -110,7 +110,7 @@ TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]")
   folder.write("margin.json", "{ \"searches\": [ {} ] }");
   CHECK(message_of([&] {
           return study_sets_json(folder.path(), "m");
-        }).find("expected the files of a study as it left them") != std::string::npos);
+        }).find("expected unchanged files") != std::string::npos);
 }
 
 TEST_CASE("every output that a campaign can have is in the glossary", "[page]") {

@@ -1,0 +1,243 @@
+"""Every number that the page prints or draws, against its data, by unit: tables, exported numbers, marks between the ticks of axes.
+
+What is expected comes from the block of data alone. A printed number must agree with it to half a unit of its last digit, and must not
+read 0 (or 100 %) where the value is not.
+"""
+
+import math
+import re
+
+import pages
+
+DEGREES = 180 / math.pi
+SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+NUMBER = re.compile(r"[−-]?\d[\d,]*(?:\.\d+)?(?: × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
+
+
+def parsed(text):
+    """(value, half a unit of the last digit) of each number in a text."""
+    found = []
+    for match in NUMBER.findall(text):
+        mantissa, _, power = match.partition(" × 10")
+        digits = mantissa.replace("−", "-").replace(",", "")
+        scale = 10.0 ** int(power.translate(SUPERSCRIPTS)) if power else 1.0
+        found.append((float(digits) * scale, 0.5000001 * scale * 10.0 ** -len(digits.partition(".")[2])))
+    return found
+
+
+class NumberChecks:
+    """For a Page: open, run_script, one, all and unittest's assertions come from it."""
+
+    def check(self, text, *expected, share=False, about=""):
+        """The numbers of a text are these (None: a dash or words without a number); shares are printed in per cent."""
+        expected = [one for one in expected if one is not None]
+        numbers = parsed(text)
+        self.assertEqual(len(numbers), len(expected), f"{about}: {text!r} for {expected}")
+        for (value, half), one in zip(numbers, expected):
+            want = 100 * one if share else one
+            self.assertLessEqual(abs(value - want), half + 1e-9 * abs(want), f"{about}: {text!r} for {want}")
+            self.assertEqual(value == 0, want == 0, f"{about}: {text!r} for {want}")
+            if share:
+                self.assertEqual(value == 100, one == 1, f"{about}: {text!r} for {want}")
+
+    def table(self, caption):
+        """The cells of the table with this caption, by row."""
+        return self.run_script("""const table = [...document.querySelectorAll('table')].find(t => t.caption.textContent === arguments[0]);
+            return [...table.tBodies[0].rows].map(row => [...row.cells].map(cell => cell.textContent))""", caption)
+
+    def exported(self, figure):
+        """The text that a figure's button copies, as rows of cells."""
+        text = self.driver.execute_async_script("""const done = arguments[1], button = [...document.querySelectorAll(`figure.${arguments[0]} .tools button`)].pop();
+            navigator.clipboard.writeText = text => { done(text); return Promise.resolve(); }; button.click()""", figure)
+        return [line.split("\t") for line in text.strip("\n").split("\n")]
+
+    def same_rows(self, figure, rows):
+        """A figure exports these rows of numbers (None: nothing), to the last digit."""
+        got = [[None if cell == "" else cell for cell in row] for row in self.exported(figure)[1:]]
+        self.assertEqual(len(got), len(rows), figure)
+        for one, want in zip(got, rows):
+            for cell, value in zip(one, want, strict=True):
+                if isinstance(value, (int, float)):
+                    self.assertTrue(math.isclose(float(cell), value, rel_tol=1e-9, abs_tol=1e-12), f"{figure}: {cell} for {value}")
+                else:
+                    self.assertEqual(cell, value, figure)
+
+    def axis(self, figure, which):
+        """Pixels → values of a linear axis, by its first and last tick; and half a unit of a tick's last digit."""
+        ticks = self.run_script("""return [...document.querySelectorAll(`figure.${arguments[0]} .axis.${arguments[1]} .tick`)].map(tick => {
+            const at = tick.transform.baseVal[0].matrix; return [arguments[1] === 'x' ? at.e : at.f, tick.textContent]; }).filter(tick => tick[1] !== '')""", figure, which)
+        (first, low), (last, high) = [(at - 0.5, parsed(text)[0]) for at, text in (ticks[0], ticks[-1])]  # d3 sets ticks half a pixel off
+        slope = (high[0] - low[0]) / (last - first)
+        for at, text in ticks:  # every tick lies on the line
+            self.assertLessEqual(abs(low[0] + slope * (at - 0.5 - first) - parsed(text)[0][0]), abs(slope) + 2 * parsed(text)[0][1], text)
+        return lambda pixel: low[0] + slope * (pixel - first), abs(slope) + low[1] + high[1]
+
+    def attributes(self, selector, *names):
+        return self.run_script("return [...document.querySelectorAll(arguments[0])].map(e => arguments[1].map(n => Number(e.getAttribute(n))))", selector, names)
+
+    def factor(self, output, unit):
+        return DEGREES if unit == "deg" and output["unit"].startswith("rad") else 1
+
+    def test_shares_print_what_they_are(self):
+        self.open(pages.made_up("single"))
+        shares = [0, 1, 0.5, *(s for k in range(1, 13) for s in (10.0**-k, 3.7 * 10.0**-k, 1 - 10.0**-k, 1 - 3.7 * 10.0**-k))]
+        texts = self.run_script("return arguments[0].map(share => W.format.share(share))", shares)
+        for share, text in zip(shares, texts):
+            if share < 1 - 1e-6 or share == 1:  # beyond it six decimals are all that is printed
+                self.check(text, share, share=True, about="share")
+        numbers = [s * m * 10.0**k for k in range(-9, 10) for m in (1, 1.234567, 9.9996) for s in (1, -1)]
+        for value, text in zip(numbers, self.run_script("return arguments[0].map(v => W.format.number(v, 5))", numbers)):
+            self.check(text, value, about="number")
+
+    def test_every_output_by_unit(self):
+        self.open(pages.made_up("plain"))
+        one_set = self.run_script("return W.set()")
+        for unit in ("rad", "deg"):
+            self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
+            listed = self.table(f"Outputs of {one_set['label']}")
+            for output, row in zip(one_set["outputs"], listed, strict=True):
+                factor, about = self.factor(output, unit), f"{output['name']} in {unit}"
+                self.assertEqual(row[1], output["unit"].replace("rad", unit).replace(" ", "·"), about)
+                self.check(row[2], output["count"], about=about)
+                values = [output["nominal"], output["mean"], output["std"], *(one["value"] for one in output["quantiles"])]
+                for text, value in zip(row[4:], values, strict=True):
+                    self.check(text, value * factor, about=about)
+                self.run_script("W.choose('output', arguments[0])", output["name"])
+                self.output_tables(output, factor, about)
+                if output["family"] in ("latch_rate", "latch_time") or output["hinge"] == "root":
+                    pages.settle(self.driver)
+                    self.output_pictures(one_set, output, factor, about)
+
+    def output_tables(self, output, factor, about):
+        name = self.run_script("return W.format.name(W.output())")
+        for one, row in zip(output["quantiles"], self.table(f"Quantiles of {name}"), strict=True):
+            self.check(row[1], one["value"] * factor, about=about)
+            self.check(row[2], one["lower"] * factor, one["upper"] * factor, about=about)
+        keys = ("count", "missing", "nominal", "mean", "mean_error", "std", "min", "max", "skewness", "kurtosis")
+        for place, (key, row) in enumerate(zip(keys, self.table(f"Moments of {name}"), strict=True)):
+            self.check(row[1], output[key] * (factor if 2 <= place < 8 else 1), about=f"{about}, {key}")
+
+    def output_pictures(self, one_set, output, factor, about):
+        histogram, curve, settled = output["histogram"], output["curve"], output["convergence"]
+        edges = [edge * factor for edge in histogram["edges"]]
+        rows = self.exported("histogram")[1:]
+        for cells, low, high, count in zip(rows, edges[:-1], edges[1:], histogram["counts"], strict=True):
+            self.assertTrue(math.isclose(float(cells[0]), low) and math.isclose(float(cells[1]), high), about)
+            self.assertEqual(float(cells[2]), count, about)
+        self.same_rows("distribution", [[one_set["label"], x * factor, p, low, high]
+                                        for x, p, low, high in zip(curve["x"], curve["p"], curve["lower"], curve["upper"])])
+        value, near = self.axis("histogram", "x")
+        for left, width in self.attributes("figure.histogram .bin", "x", "width"):
+            centre = value(left + width / 2)
+            self.assertLess(min(abs((a + b) / 2 - centre) for a, b in zip(edges, edges[1:])), 2 * near, about)
+        runs, _ = self.axis("histogram", "y")
+        tall = sum(abs(runs(y) - runs(y + height)) for y, height in self.attributes("figure.histogram .bin", "y", "height"))
+        self.assertAlmostEqual(tall / output["count"], 1, places=2, msg=about)
+        for figure in ("histogram", "distribution"):
+            self.limits(one_set, output, figure, factor, about)
+        value, near = self.axis("distribution", "x")
+        for got, one in zip(self.attributes("figure.distribution circle.quantile", "cx"), output["quantiles"], strict=True):
+            self.assertLess(abs(value(got[0]) - one["value"] * factor), 2 * near, about)
+        for place, keys in enumerate((("mean", "lower", "upper"), ("quantile", "quantile_lower", "quantile_upper"))):
+            cells = self.run_script("""const figure = document.querySelectorAll('figure.settling')[arguments[0]]; let text;
+                navigator.clipboard.writeText = t => { text = t; return Promise.resolve(); }; [...figure.querySelectorAll('.tools button')].pop().click(); return text""", place)
+            rows = [[float(cell) for cell in line.split("\t")] for line in cells.strip().split("\n")[1:]]
+            want = [[runs, *(settled[key][at] * factor for key in keys)] for at, runs in enumerate(settled["runs"])]
+            for one, other in zip(rows, want, strict=True):
+                self.assertTrue(all(math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-12) for a, b in zip(one, other, strict=True)), f"{about}: {one} for {other}")
+
+    def limits(self, one_set, output, figure, factor, about):
+        """Each limit is a line where it belongs, with its number; or the histogram's note has it."""
+        value, near = self.axis(figure, "x")
+        wanted = set()
+        for requirement in (one_set["requirements"][at] for at in output["limits"]):
+            wanted |= {requirement["limit"] * factor} | ({-requirement["limit"] * factor} if requirement.get("abs") else set())
+        box = self.run_script("return document.querySelector(`figure.${arguments[0]} .axis.x .domain`).getBBox()", figure)
+        drawn = [value(x) for x, in self.attributes(f"figure.{figure} line.limit", "x1")]
+        note = [number for number, _ in parsed(self.run_script("return document.querySelector('figure.histogram > .note')?.textContent ?? ''"))]
+        for limit in wanted:
+            shown, noted = any(abs(one - limit) < 2 * near for one in drawn), any(math.isclose(one, limit, rel_tol=1e-5) for one in note)
+            self.assertNotEqual(shown, noted, f"{about}: the limit {limit} is {'both' if shown else 'neither'} in the picture {drawn} and in the note {note}")
+            low, high = output["histogram"]["edges"][0] * factor, output["histogram"]["edges"][-1] * factor
+            if low - (high - low) < limit < high + (high - low):
+                self.assertTrue(shown, f"{about}: the limit {limit} is near the values, and not drawn")
+        self.assertLessEqual(len(drawn), len(wanted), about)
+        self.assertTrue(all(value(box["x"]) - 2 * near <= one <= value(box["x"] + box["width"]) + 2 * near for one in drawn), about)
+        texts = [parsed(text.text)[0][0] for text in self.all(f"figure.{figure} text.limit-text")]
+        self.assertTrue(all(any(math.isclose(text, limit, rel_tol=1e-5) for limit in wanted) for text in texts), about)
+
+    def test_verdicts_outcomes_and_orders(self):
+        for kind in ("stalls", "plain"):
+            self.open(pages.made_up(kind))
+            one_set = self.run_script("return W.set()")
+            for row, one in zip(self.table("Outcomes of the runs"), one_set["statuses"], strict=True):
+                self.check(row[1], one["count"], about=kind)
+                self.check(row[2], one["rate"], share=True, about=kind)
+                bounds = [bound for bound, trivial in ((one["lower"], 0), (one["upper"], 1)) if bound != trivial]
+                self.check(row[3], *bounds, share=True, about=kind)
+            runs = sum(one["count"] for one in one_set["orders"])
+            for row, one in zip(self.table("Latch orders"), one_set["orders"]):
+                self.check(row[1], one["count"], about=kind)
+                self.check(row[2], one["count"] / runs, share=True, about=kind)
+            judged = {one["text"]: one for one in one_set["requirements"]}
+            rows = self.table("Requirements, the worst first")
+            self.assertEqual(len(rows), len(judged))
+            for row in rows:
+                one = judged[next(text for text in judged if row[0].startswith(text))]
+                values = one["limit"] is not None
+                self.check(row[2], one["observed_value"] if values else one["observed"], share=not values, about=one["text"])
+                self.check(row[3], one["guaranteed_value"] if values else one["guaranteed"], share=not values, about=one["text"])
+                self.check(row[4], one["margin"] if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
+                self.assertEqual(parsed(row[6])[0][0], one["broken"], one["text"])
+
+    def test_effects_pairs_and_studies(self):
+        self.open(pages.made_up("plain"))
+        one_set = self.run_script("return W.set()")
+        name = self.run_script("return W.chosen.output")
+        keys = [f"{measure}{bound}" for measure in ("spearman", "prcc") for bound in ("", "_lower", "_upper")]
+        self.same_rows("tornado", [[one["draw"], *(one[key] for key in keys)] for one in one_set["sensitivity"]["effects"] if one["output"] == name])
+        pair = one_set["scatters"][-1]
+        points = sorted(zip(pair["points"]["x"], pair["points"]["run"], pair["points"]["y"], pair["points"]["order"]))
+        got = [row[:3] for row in self.exported("scatter")[1:]]
+        self.assertEqual([[float(cell) for cell in row] for row in got], [[run, x, y] for x, run, y, _ in points])
+        margin, rare, static = (one_set[key] for key in ("margin", "rare", "static_margins"))
+        self.same_rows("margin", [[scale, *(cell for one in margin["requirements"] for cell in (one["passed"][at], one["lower"][at], one["upper"][at], one["verdict"][at]))]
+                                  for at, scale in enumerate(margin["scales"])])
+        self.check(self.run_script("return document.querySelector('figure.margin > .note').textContent"), *margin["window"], margin["recommended"])
+        self.same_rows("rare", [[one["threshold"], one["probability"]] for one in rare["levels"]])
+        for row, one in zip(self.table("Least static margins"), static["hinges"], strict=True):
+            for text, key in zip(row[1:4], ("least", "lower", "required")):
+                self.assertLessEqual(abs(parsed(text)[0][0] - one[key]), 0.00501, one["hinge"])
+
+    def test_motion_and_envelopes_in_degrees(self):
+        self.open(pages.made_up("plain"))
+        one_set = self.run_script("return W.set()")
+        motion, envelopes = one_set["motions"][0], one_set["envelopes"]
+        self.same_rows("stage", [[t, *(row[at] * DEGREES for row in motion["angles"])] for at, t in enumerate(motion["t"])])
+        self.same_rows("history", [[t, *(row[at] for row in motion["moments"])] for at, t in enumerate(motion["t"])])
+        self.same_rows("envelopes", [[t, *(envelopes[key][hinge][level][at] * DEGREES for hinge in range(3) for level in range(len(envelopes["levels"]))
+                                           for key in ("angles", "rates"))] for at, t in enumerate(envelopes["t"])])
+        for at in (0, 57, len(motion["t"]) - 1):  # the readout at a sample
+            self.run_script("W.player.seek(arguments[0])", motion["t"][at])
+            for hinge, row in enumerate(self.table("Hinges at the cursor's time")):
+                for text, key, factor in zip(row[1:4], ("angles", "rates", "moments"), (DEGREES, DEGREES, 1)):
+                    self.assertLessEqual(abs(parsed(text)[0][0] - motion[key][hinge][at] * factor), 0.00501, f"{key} of {row[0]} at sample {at}")
+
+    def test_differences_and_inputs(self):
+        self.open(pages.made_up("cases"))
+        data = self.run_script("return W.data")
+        units = {one["name"]: one["unit"] for one in data["sets"][0]["outputs"]}
+        for unit in ("rad", "deg"):
+            self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
+            for comparison in data["comparisons"]:
+                for row, one in zip(self.table(f"Differences of the means: {comparison['text']}"), comparison["outputs"], strict=True):
+                    factor = self.factor({"unit": units[one["output"]]}, unit)
+                    self.check(row[2], one["difference"] * factor, about=one["output"])
+                    for (value, half), bound in zip(parsed(row[3]), (one["lower"], one["upper"]), strict=True):
+                        self.assertLessEqual(abs(value - bound * factor), half, one["output"])
+                    self.check(row[4], one["relative"], share=True, about=one["output"])
+        self.run_script("W.choose('set', 0)")
+        for row, one in zip(self.table("Scene of cold"), data["sets"][0]["inputs"]["scene"], strict=True):
+            self.check(row[1], one["value"], about=one["path"])
+            self.check(row[3], one["value"] * DEGREES if one["unit"] == "rad" else None, about=one["path"])
+            self.check(row[4], one["case_value"], about=one["path"])
