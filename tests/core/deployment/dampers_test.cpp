@@ -37,7 +37,7 @@ void check_both_senses(const Scene& scene, const Arrival& exact, double t_end) {
 /// A fluid damper that lets ω = T^n'/A' rad/s through, T in in·lbf.
 struct FluidDamper {
   double A, exponent; ///< A', n'
-  double seconds;     ///< from 60 to 28 in·lbf over 90°, as issue 14 has it
+  double seconds;     ///< from 60 to 28 in·lbf over 90°
 };
 constexpr double inch_pound = 0.1129848290276167; // N·m
 /// A rate coefficient of a T^−b gives T = a T^−b ω: n' = 1 + b.
@@ -96,7 +96,7 @@ TEST_CASE("a damper acts in its window, and nowhere else") {
   check_both_senses(braked(nowhere), {1, 1}, 3);
 }
 
-TEST_CASE("a fluid damper deploys a wing in minutes, for what so simple a motion is worth") {
+TEST_CASE("a fluid damper deploys a wing in minutes, at the cost of a simple motion") {
   for (const FluidDamper& fluid : fluid_dampers) {
     const double exact = quasi_static_time(60, 28, pi / 2, fluid.A, fluid.exponent);
     CHECK(exact == Approx(fluid.seconds).margin(0.7));

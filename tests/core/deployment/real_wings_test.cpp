@@ -31,7 +31,7 @@ TEST_CASE("the yoke wing without stops goes through itself, and says so") {
   CHECK(out.latches.size() == 5);
   const double degrees = largest_overtravel(out) * 180 / pi;
   CAPTURE(degrees);
-  CHECK((degrees > 25 && degrees < 40));                            // issue 14
+  CHECK((degrees > 25 && degrees < 40));
   CHECK(relative(largest_overtravel(out), out.overtravel[2]) == 0); // the second between panels
   const ReferenceOutcome exact = real_reference(scene, out.t_end);
   for (std::size_t i = 0; i < 5; ++i)

@@ -10,7 +10,7 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// `count` units of a wing: what issue 14 disperses varies.
+/// `count` wings whose masses, springs, dampers, stops, backlashes, loops and air vary.
 std::vector<Scene> real_units(const Scene& drawing, int count) {
   std::vector<Scene> scenes;
   for (int k = 0; k < count; ++k) {
