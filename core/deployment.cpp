@@ -13,30 +13,29 @@ namespace wingspread {
 const std::vector<MethodInfo>& methods() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   static const std::string quintic = "quintic Hermite on angle, rate and acceleration, order 5; "
-                                     "events and peaks then by a step of "
-                                     "the method";
+                                     "events and peaks are then corrected by a step of the method";
   static const std::string quintic_of_long_steps =
       quintic + "; steps limited to about a quarter of what oscillates";
   static const std::vector<MethodInfo> list{
       {"auto", "chooses by itself", 0, 0, 0, "that of the method active",
-       "the default: dopri5 or, below rtol 5e-3 (5e-4 with smoothed latches), dop853, or, below "
-       "5e-5 where there are series, taylor, "
-       "until stability holds its steps back, then seulex where that gets further; the outcome's "
-       "phases say what was used"},
+       "the default: dop853, or dopri5 above rtol 5e-3 (5e-4 with smoothed latches), or taylor "
+       "below "
+       "5e-5 where the motion has series; seulex where stability holds their steps back and seulex "
+       "gets further; the outcome's phases say which method was used when"},
       {"runge_kutta4", "explicit Runge-Kutta, fixed step", 4, RungeKutta4<double>::stable_real,
        RungeKutta4<double>::stable_imaginary, quintic,
-       "takes the step given; fails where it misses the tolerance, by comparison with one of twice "
-       "the size"},
+       "takes the given step; fails if the step misses the tolerance, by comparison with one of "
+       "twice the size"},
       {"cash_karp54", "explicit Runge-Kutta, adaptive", 5, CashKarp54<double>::stable_real,
        CashKarp54<double>::stable_imaginary, quintic,
-       "Cash and Karp 5(4); on the imaginary axis it grows at any step, by 1.4e-4 |hλ|⁶"},
+       "Cash and Karp 5(4); grows on the imaginary axis at any step, by 1.4e-4 |hλ|⁶"},
       {"dopri5", "explicit Runge-Kutta, adaptive", 5, DormandPrince5<double>::stable_real,
        DormandPrince5<double>::stable_imaginary, quintic,
        "Dormand and Prince 5(4), first same as last"},
       {"fehlberg78", "explicit Runge-Kutta, adaptive", 8, Fehlberg78<double>::stable_real,
        Fehlberg78<double>::stable_imaginary, quintic_of_long_steps,
-       "Fehlberg 8(7); its estimate sees a step's ends alone, so that a friction that changes sign "
-       "inside may pass unnoticed: prefer dop853"},
+       "Fehlberg 8(7); its error estimate uses only the ends of a step and may miss friction that "
+       "changes sign inside: prefer dop853"},
       {"dop853", "explicit Runge-Kutta, adaptive", 8, DormandPrince853<double>::stable_real,
        DormandPrince853<double>::stable_imaginary, quintic_of_long_steps,
        "Dormand and Prince 8(5,3), for tight tolerances"},
@@ -49,23 +48,24 @@ const std::vector<MethodInfo>& methods() {
        "orders 1 to 8, predict-evaluate-correct-evaluate; at equal steps stable up to 1.4 on the "
        "real axis, 0.5 on the imaginary"},
       {"rosenbrock_w", "linearly implicit Rosenbrock-W, adaptive", 3, infinity, infinity, quintic,
-       "ROS34PW2 3(2), L-stable; the solve is the recursion with each hinge's inertia raised"},
+       "ROS34PW2 3(2), L-stable; its linear solve is the recursion with inertia added at each "
+       "hinge"},
       {"seulex", "linearly implicit extrapolation, adaptive order and step", 0, infinity, 0,
        quintic_of_long_steps,
-       "linearly implicit Euler with n = 2, 3, 4, … substeps, orders 3 to 12, the same solve; "
-       "L-stable but for 0.2° beside the imaginary axis, where it grows by up to 2 % a step"},
+       "linearly implicit Euler with n = 2, 3, 4, … substeps, orders 3 to 12, the same linear "
+       "solve; "
+       "L-stable, except that it grows by up to 2 % a step within 0.2° of the imaginary axis"},
       {"taylor", "power series, adaptive", TaylorSeries<double>::order,
        TaylorSeries<double>::stable_real, TaylorSeries<double>::stable_imaginary,
        quintic_of_long_steps,
-       "for wings of up to four panels in a row on a fixed base, without gravity, air, friction "
-       "and real hinges, and with "
-       "event latches: dop853 takes its place elsewhere"},
+       "only for up to four panels in a row on a fixed base, with event latches, without gravity, "
+       "air, friction and real hinges; other wings get dop853 in its place"},
   };
   return list;
 }
 
 struct Deployment::Kept {
-  std::vector<std::pair<int, int>> tree; ///< (parent, child) of every hinge of the scene before
+  std::vector<std::pair<int, int>> tree; ///< (parent, child) of every hinge of the last scene
   Wing<double> wing;
   Workspace<double> scratch;
 };
@@ -77,7 +77,7 @@ Deployment& Deployment::operator=(Deployment&&) noexcept = default;
 
 namespace {
 
-/// As the processor allows.
+/// The fastest version that this processor can execute.
 const Runs& runs() {
 #ifdef WINGSPREAD_FMA_RUNS
   static const Runs& best = has_avx2() ? fma_runs() : plain_runs();
@@ -118,12 +118,12 @@ DeploymentPack::DeploymentPack(InstructionSet set, const Integration& integratio
 
 namespace {
 
-/// Runs of a campaign whose wings call for one method or the other, friction or none: each goes through the engine of
-/// its own. Those that are not the engine's wait, until it has made all others or they are many.
-class Sorted {
+/// Sorts runs by the method with which they begin: draws may give some wings friction, which excludes power series. An
+/// engine has one method, so runs that need another are queued until the engine has made the rest, or the queue is full.
+class RunSorter {
 public:
-  Sorted(const Integration& how, const Goal& goal, InstructionSet set, Scene& scene,
-         const DeploymentPack::Next& next, const DeploymentPack::Done& done)
+  RunSorter(const Integration& how, const Goal& goal, InstructionSet set, Scene& scene,
+            const DeploymentPack::Next& next, const DeploymentPack::Done& done)
       : choices_(first_choices(how)), how_(how), goal_(goal), set_(set), scene_(scene),
         structure_(make_wing<double>(scene, outward_order(scene))), next_(next), done_(done) {}
 
@@ -136,21 +136,21 @@ public:
         if (!name) return all;
         waiting_.emplace_back(*name, first);
       }
-      all += run_those_like(waiting_.front().second);
+      all += run_batch(method_of(waiting_.front().second));
     }
   }
 
 private:
-  static constexpr std::size_t many =
-      64; ///< packs enough that a last one with empty lanes does not count
+  /// Eight full packs of the widest engine: lanes that run empty at a batch's end cost little. Heuristic; smaller: engines
+  /// alternate more often, each time with empty lanes; larger: memory.
+  static constexpr std::size_t longest_queue = 64;
 
   [[nodiscard]] Method method_of(const Wing<double>& wing) const {
     return choices_[has_series(wing) ? 1 : 0].active();
   }
 
-  /// Those that wait, which are alike, and what is drawn until too many others wait.
-  [[nodiscard]] Occupancy run_those_like(const Wing<double>& first) {
-    const Method method = method_of(first);
+  /// Makes the queued runs, which all have this method, and draws more until the queue of others is full.
+  [[nodiscard]] Occupancy run_batch(Method method) {
     std::vector<std::pair<long, Wing<double>>> these = std::exchange(waiting_, {});
     const PackShape shape{method, goal_.peak_force, goal_.peak_moment, goal_.overtravel};
     const std::unique_ptr<PackEngine> engine = make_engine(set_, structure_, shape);
@@ -161,7 +161,7 @@ private:
         these.pop_back();
         return name;
       }
-      while (waiting_.size() < many) {
+      while (waiting_.size() < longest_queue) {
         const std::optional<long> name = draw(wing);
         if (!name || method_of(wing) == method) return name;
         waiting_.emplace_back(*name, wing);
@@ -171,7 +171,8 @@ private:
     return runs().in_lanes(structure_, *engine, method, how_, goal_, next_wing, done_);
   }
 
-  /// Sets the wing to that of the next run that an engine can make and returns its name; none when there are no more.
+  /// Sets the wing's numbers to those of the next run and returns the run's name; nothing when there are no more. Runs
+  /// that no engine can make are made or refused here.
   [[nodiscard]] std::optional<long> draw(Wing<double>& wing) {
     while (!exhausted_) {
       const std::optional<long> name = next_(scene_);
@@ -196,7 +197,7 @@ private:
   const DeploymentPack::Next& next_;
   const DeploymentPack::Done& done_;
   Deployment alone_;
-  std::vector<std::pair<long, Wing<double>>> waiting_; ///< all of one method
+  std::vector<std::pair<long, Wing<double>>> waiting_; ///< the queue, all of one method
   bool exhausted_ = false;
 };
 
@@ -205,7 +206,7 @@ private:
 Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
   const bool in_packs = set_ != InstructionSet::scalar && !how_.smoothing && !goal_.audit &&
                         has_lanes(MethodChoice(how_, false).active());
-  if (in_packs) return Sorted(how_, goal_, set_, scene, next, done).run();
+  if (in_packs) return RunSorter(how_, goal_, set_, scene, next, done).run();
   Deployment alone;
   while (const std::optional<long> name = next(scene)) done(*name, alone.run(scene, how_, goal_));
   return {};

@@ -1,4 +1,5 @@
-/// A whole deployment: from a scene to its outcome. Knows no files, JSON or threads.
+/// The door of core: integrates deployments, from a scene to its outcome. Knows no files, JSON or
+/// threads. `Deployment` makes runs one by one, `DeploymentPack` many at once.
 #pragma once
 
 #include "core/outcome.hpp"
@@ -12,21 +13,23 @@
 
 namespace wingspread {
 
-/// An integration method that can be named in a campaign.
+/// Describes an integration method, for tables and --help.
 struct MethodInfo {
-  std::string name;
-  std::string kind;  ///< e.g. "explicit Runge-Kutta, adaptive"
-  int order;         ///< of the solution that is carried on; 0 where it chooses
-  double real_limit; ///< largest stable |hλ| on the negative real axis; 0 where there is none, or
-                     ///< none for all its orders
+  std::string name; ///< for Integration::method
+  std::string kind; ///< e.g. "explicit Runge-Kutta, adaptive"
+  int order;        ///< of the solution; 0: varies
+  double
+      real_limit; ///< largest stable |hλ| on the negative real axis; infinity: no limit; 0: unstable,
+                  ///< or varies with the order
   double imaginary_limit;    ///< the same on the imaginary axis
-  std::string interpolation; ///< how events and peaks are found inside a step
+  std::string interpolation; ///< how events and peaks inside a step are found
   std::string note;
 };
+/// All methods that a campaign may name, `auto` first.
 [[nodiscard]] const std::vector<MethodInfo>& methods();
 
-/// Runs scenes one after another, keeping what the next can use of the last. Not shared by threads:
-/// each has its own.
+/// Integrates scenes one after another, and reuses storage while their trees are equal. One object a
+/// thread.
 class Deployment {
 public:
   Deployment();
@@ -34,10 +37,11 @@ public:
   Deployment(Deployment&&) noexcept;
   Deployment& operator=(Deployment&&) noexcept;
 
-  /// Integrates a deployment. Never throws for what the numbers do: an unphysical scene comes back
-  /// `invalid`, an integration that cannot go on `failed`, each with its reason.
-  /// @pre outward_order(scene) is not empty; integration.method is one of methods(); rtol, atol,
-  /// t_end and a given smoothing are > 0.
+  /// Integrates one deployment. Numbers never make it throw: status `invalid` says that the scene is
+  /// unphysical, `failed` that the integration cannot go on, both with a reason.
+  /// @param observer is called with samples of the trajectory, if given
+  /// @pre outward_order(scene) is not empty; integration.method is a name from methods(); rtol, atol,
+  ///      t_end, step and a given smoothing are > 0
   [[nodiscard]] Outcome run(const Scene& scene, const Integration& integration, const Goal& goal,
                             const Observer& observer = {});
 
@@ -46,19 +50,22 @@ private:
   std::unique_ptr<Kept> kept_;
 };
 
-/// Runs many scenes, several at once in the lanes of vector registers. Each outcome has the bits
-/// that Deployment::run gives. Not shared by threads: each has its own.
+/// Integrates many scenes, several at once in the lanes of vector registers. Each outcome has the same
+/// bits as from Deployment::run. One object a thread.
 class DeploymentPack {
 public:
-  /// next(scene) sets a scene to that of the run that comes next and returns its name; none when
-  /// there are no more. All have the bodies and hinges of the first.
+  /// next(scene) changes the scene to that of the next run and returns the run's name, any number;
+  /// nothing when there are no more. Bodies and hinges must stay those of the first scene.
   using Next = std::function<std::optional<long>(Scene&)>;
-  /// done(name, outcome), in the order in which the runs end.
+  /// done(name, outcome) is called once for each run, in the order in which the runs end.
   using Done = std::function<void(long, Outcome&&)>;
 
+  /// @param set one of instruction_sets(); scalar: one run after another
   DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal);
 
-  /// @pre as of Deployment::run, for every scene; scene: the structure
+  /// Makes all runs that `next` gives. @return how well the lanes were used
+  /// @param scene any scene of this structure; `next` changes a copy
+  /// @pre for every scene the preconditions of Deployment::run
   Occupancy run(Scene scene, const Next& next, const Done& done);
 
 private:

@@ -1,4 +1,4 @@
-/// What is asked of a run, and what comes of it: plain data that every room below the door may use.
+/// Settings and results of a run, as plain data.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -13,32 +13,31 @@ namespace wingspread {
 /// How a run is integrated.
 struct Integration {
   std::string method = "auto"; ///< a name from `methods()`
-  /// Tolerances per step of every component of the state, both > 0: relative, and absolute (rad,
-  /// rad/s, m, m/s). Up to the first latch, where steps are few and errors carry on, 32 times
-  /// tighter.
+  /// Tolerances of a step, for every component of the state, both > 0: relative, and absolute (rad,
+  /// rad/s, m, m/s). Divided by 32 up to the first latch, for errors made there shift all that follows.
   double rtol = 1e-8, atol = 1e-10;
   std::optional<double> smoothing; ///< ε of the smoothed latch, rad; none: event latch
   double t_end = 60;               ///< s, > 0
-  long max_steps = 1'000'000;      ///< tried steps after which the run fails
-  double step = 1e-4;              ///< s, > 0; of a method with a fixed step, no other uses it
+  long max_steps = 1'000'000;      ///< the run fails after so many trial steps
+  double step = 1e-4;              ///< s, > 0; only for methods with a fixed step
 };
 
-/// What is asked of a run: it computes no more, and goes no further than that needs.
+/// What a run must find out. It computes nothing else, and ends as soon as the answers are known.
 struct Goal {
   bool peak_moment = true;
   bool peak_force = true;
   bool overtravel = true;        ///< watch how far hinges turn beyond their stowed angles
-  bool audit = true;             ///< watch the energy up to the first latch
-  bool end_state = true;         ///< tell the final configuration and the energies
+  bool audit = true;             ///< watch how far the energy drifts up to the first latch
+  bool end_state = true;         ///< fill Outcome::final and Outcome::energy
   bool to_t_end = false;         ///< integrate to t_end whatever happens
   bool first_latch_only = false; ///< end at the first latch
-  /// The observer is shown the multiples of it, by dense output, in place of every step; s, 0: every step.
+  /// The observer is called at multiples of this time, by dense output, s; 0: after every step.
   double sample_interval = 0;
 };
 
-/// `stalled`: a hinge has not latched, and there is proof that none will any more, though some may
-/// swing on; the reason says which: everything sticks, or energy is missing. A scene without any
-/// latch ends `timed_out`.
+/// `stalled`: at least one hinge has not latched, and it is proven that no hinge will latch any more,
+/// though some may still swing. Outcome::reason names the proof: everything sticks, or energy is missing.
+/// A scene without latches ends `timed_out`.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
 
@@ -49,13 +48,13 @@ struct LatchEvent {
   std::vector<double> rates; ///< relative rates of all hinges at that instant, Scene order, rad/s
 };
 
-/// The largest magnitude that a quantity took, and when it first took it.
+/// The largest magnitude of a quantity, and the time when it was first reached, s.
 struct Peak {
   double value = 0;
   double time = 0;
 };
 
-/// The state of a scene, in Scene order.
+/// Positions and velocities of a scene; vectors in Scene order, SI units.
 struct Configuration {
   std::vector<double> angles; ///< relative, rad
   std::vector<double> rates;  ///< relative, rad/s
@@ -73,9 +72,9 @@ struct BasePeaks {
 
 struct EnergyAudit {
   double initial = 0; ///< kinetic + potential, J
-  double final = 0;
-  /// Largest |E(t) − E(0)| up to the first latch (or the end): zero but for errors, unless there is
-  /// friction or the base is driven, J
+  double final = 0;   ///< the same at the end, J
+  /// Largest |E(t) − E(0)| up to the first latch (or the end), J: an error of integration, unless there
+  /// is friction or the base is driven
   double drift_before_first_latch = 0;
 };
 
@@ -85,41 +84,41 @@ struct Work {
   long rhs_evaluations = 0;
 };
 
-/// A stretch of a run that one method integrated.
+/// A time span that one method integrated.
 struct Phase {
   std::string method;
   double from = 0, to = 0; ///< s
   long steps = 0;          ///< accepted
 };
 
-/// Everything one run yields. Vectors over hinges stand in Scene order.
+/// All results of one run. Vectors over hinges are in Scene order.
 struct Outcome {
   Status status = Status::failed;
-  std::string reason;              ///< why it stalled, was invalid or failed; empty otherwise
-  std::vector<Phase> phases;       ///< what integrated it, in order of time
-  double t_end = 0;                ///< where the integration stopped, s
+  std::string reason;              ///< why status is stalled, invalid or failed; else empty
+  std::vector<Phase> phases;       ///< in order of time
+  double t_end = 0;                ///< time at which the integration ended, s
   std::vector<LatchEvent> latches; ///< in order of time
   std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
   std::vector<Peak> peak_force;    ///< N; empty when not asked for
-  /// How far each hinge turned beyond its stowed angle up to the run's end, rad, ≥ 0; empty when it was not watched.
-  /// It is final where peaks are, unless the run stalled.
+  /// How far each hinge turned beyond its stowed angle up to t_end, rad, ≥ 0; empty when not asked for.
+  /// Final if peaks_final, unless the run stalled.
   std::vector<double> overtravel;
-  /// Up to the run's end, whatever it was that ended it; nothing where the base is not free.
+  /// Up to t_end; nothing if the base is not free.
   std::optional<BasePeaks> base_peaks;
-  /// Whether it is proven that no peak of moments and forces would be exceeded were the run to go on. If not,
-  /// `t_end` cut them: they may still rise, or there is no proof, on a base that turns faster and
-  /// faster and where a hinge has neither a latch that holds it nor a spring towards a rest.
+  /// Whether it is proven that no peak of moments and forces would rise after t_end. If false, peaks may
+  /// still rise, or no proof exists: on a base that turns faster and faster, or if a hinge has neither
+  /// an engaged latch nor a spring towards rest.
   bool peaks_final = false;
-  Configuration final; ///< nothing, and zeros, where the end's state is not asked for
-  EnergyAudit energy;  ///< zeros
+  Configuration final; ///< at t_end; empty unless Goal::end_state
+  EnergyAudit energy;  ///< zeros unless Goal::end_state or audit
   Work work;
 };
 
-/// The methods of an outcome's phases, each once, in order of first use: "dopri5, rosenbrock_w".
+/// Names the methods of an outcome's phases, each once, in order of first use: "dopri5, rosenbrock_w".
 [[nodiscard]] std::string methods_used(const Outcome& outcome);
 
-/// One sample of a trajectory: every accepted step, and both sides of an engagement; or a multiple of
-/// Goal::sample_interval.
+/// One sample of a trajectory: the end of an accepted step or, with Goal::sample_interval, one of its
+/// multiples. An engagement gives two samples, before and after.
 struct Sample {
   double t = 0;
   std::vector<double> angles;          ///< relative, Scene order, rad

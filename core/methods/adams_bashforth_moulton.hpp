@@ -1,4 +1,4 @@
-/// An explicit multistep method, on odeint's divided differences.
+/// Adams-Bashforth-Moulton, an explicit multistep method by odeint.
 #pragma once
 
 #include "core/methods/method.hpp"
@@ -14,8 +14,9 @@
 namespace wingspread {
 
 /// Adams-Bashforth-Moulton of variable order (1 to 8) and step, predict-evaluate-correct-evaluate,
-/// on odeint's divided differences. Order and step follow Shampine and Gordon: one order up or down
-/// when the estimate there promises less error.
+/// on odeint's divided differences. As in Shampine and Gordon's code (1975) the order changes by one where the
+/// estimate there promises less error, and the step grows only if it may grow much, since every change of the
+/// step changes the formula's coefficients: not below a factor of 1.2, and by 2 at most.
 template <class T> class AdamsBashforthMoulton {
 public:
   static constexpr int order = 1; ///< of the first step after a restart
@@ -58,7 +59,7 @@ public:
 private:
   [[nodiscard]] std::size_t current() { return stepper_.coeff().m_eo; }
 
-  /// Error that order k would have had over the last step, in units of the tolerance.
+  /// Error that order k would have made in the last step, in units of the tolerance.
   [[nodiscard]] double estimate(std::size_t k) {
     auto& history = stepper_.coeff();
     const T weight = h_ * history.gs[k];

@@ -1,8 +1,8 @@
 /// Dormand and Prince's explicit Runge-Kutta formula of order 8 with estimates of order 5 and 3
 /// [Hairer, Nørsett & Wanner I, II.5 and II.10; coefficients as in E. Hairer's DOP853].
 ///
-/// Unlike Fehlberg's 8(7), whose estimate sees the ends of a step alone, its estimates weigh stages
-/// all over the step: a friction that changes sign inside is noticed.
+/// Its error estimates weigh stages all over the step, so they notice friction that changes sign inside.
+/// Fehlberg's 8(7) uses the ends of the step only.
 #pragma once
 
 #include "core/methods/method.hpp"
@@ -120,8 +120,8 @@ public:
     system(x1, dxdt1, from.t + h);
   }
 
-  /// Of the step last estimated, scaled: ε5²/√(ε5² + 0.01 ε3²) of the largest ε5 and ε3, of order 8
-  /// where both shrink. NaN as of `wingspread::scaled_error`.
+  /// Scaled error of the last trial step: ε5²/√(ε5² + 0.01 ε3²) of the largest scaled ε5 and ε3 [Hairer,
+  /// Nørsett & Wanner I, II.10], of order 8 in h. NaN as from `wingspread::scaled_error`.
   [[nodiscard]] T scaled_error(const State<T>& x, const State<T>& x1, const State<T>& dxdt1,
                                const State<T>& error, const T& rtol, const T& atol) const {
     using std::abs, std::sqrt;

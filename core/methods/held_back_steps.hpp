@@ -1,4 +1,4 @@
-/// Since when steps are held back by stability, and no longer by accuracy.
+/// Counts the steps in a row that stability holds back, and no longer accuracy.
 #pragma once
 
 #include "core/number/scalar.hpp"
@@ -12,24 +12,25 @@ template <class P> struct StepMark {
   P steps;       ///< of the phase
 };
 
-/// The rule by which `auto` thinks of another method: once enough steps in a row were held back by
-/// stability. In double for a run alone; in packs for the lanes of an engine, which must know from
-/// which step on the run has to be asked.
+/// The rule by which `auto` considers another method: after enough held-back steps in a row. P is
+/// double in a run, and a pack in an engine, whose lanes must know when to ask their runs.
 template <class P> struct HeldBackSteps {
-  static constexpr double enough = 10; ///< in a row
+  /// Held-back steps in a row. Heuristic: fewer, and single long steps cause vain trials of the implicit
+  /// method; more, and stiff latches are noticed later.
+  static constexpr double enough = 10;
 
-  P shortest;            ///< a step that is longer is held back, s
-  P wait_until;          ///< steps of the phase before which no other method is thought of
+  P shortest;            ///< a longer step is held back, s
+  P wait_until;          ///< no other method is considered before so many steps of the phase
   StepMark<P> last_free; ///< of the last step that was not held back, or the phase's start
 
   [[nodiscard]] auto holds_back(const P& h) const { return h > shortest; }
 
-  /// Whether another method is to be thought of after a step of h, the phase's `steps`-th.
+  /// Whether another method is to be considered after a step of h, the phase's `steps`-th.
   [[nodiscard]] auto may_leave(const P& h, const P& steps) const {
     return holds_back(h) && steps >= last_free.steps + P(enough) && steps >= wait_until;
   }
 
-  /// A step of h was accepted. @param these in which lanes
+  /// Counts an accepted step of h. @param these the lanes that accepted it
   template <class Mask> void accepted(const Mask& these, const P& h, const StepMark<P>& now) {
     const auto free = these && !holds_back(h);
     last_free.time = select(free, now.time, last_free.time);

@@ -1,13 +1,17 @@
-/// What every integration method offers. A method tries a step and judges it:
+/// The interface of an integration method. A method is a class with these members:
 ///
-///     verdict = attempt(system, from, h, x1, dxdt1)
+///     order, fixed_step             constants: order of the first step's error; whether the step is given
+///     restart(tolerance)            forgets all earlier steps; called first, and whenever the right-hand
+///                                   side or the tolerance has changed
+///     attempt(system, from, h, x1, dxdt1) → Verdict
+///                                   makes a trial step from `from` (t, x, dxdt) to (x1, dxdt1) at t + h.
+///                                   The system's last evaluation is at (x1, t + h). A method that knows
+///                                   how long the step may be makes h shorter.
+///     accepted(verdict, h)          the last trial step is accepted, possibly with another verdict
+///     rejected()                    the last trial step is rejected
 ///
-/// from `from` (t, x, dxdt) to (x1, dxdt1) at t + h; nothing is kept of it until `accepted()`. A formula that knows
-/// before the step how long it may be makes h shorter.
-/// `restart(tolerance)` comes first, and again whenever the right-hand side or the tolerance has
-/// changed. Events, peaks and the reasons to stop are common to all methods (core/run).
-///
-/// An embedded formula needs only `estimate`, and `Adaptive` does the rest.
+/// An embedded formula offers only order, error_order and `estimate`, and `Adaptive` adds the rest. Events,
+/// peaks and ends of runs are common to all methods (core/run).
 #pragma once
 
 #include "core/mechanics/layout.hpp"
@@ -15,12 +19,12 @@
 
 namespace wingspread {
 
-/// What a method may lose in a step, in every component of the state.
+/// Largest error of a step in every component x of the state: atol + rtol·|x|.
 struct Tolerance {
   double rtol = 1e-8, atol = 1e-10;
 };
 
-/// `scaled_error` for a method's own use.
+/// scaled_error as a double, by the method's tolerance.
 template <class T>
 [[nodiscard]] double in_tolerances(const State<T>& x, const State<T>& x1, const State<T>& dxdt1,
                                    const State<T>& error, const Tolerance& tolerance) {
@@ -28,26 +32,26 @@ template <class T>
       scaled_error(x, x1, dxdt1, error, T(tolerance.rtol), T(tolerance.atol)));
 }
 
-/// What a method thinks of its step.
+/// A method's judgement on a trial step.
 struct Verdict {
   double error;  ///< in units of the tolerance: accepted if ≤ 1; NaN if anything is not finite
-  double factor; ///< to the next step, or to the next try
+  double factor; ///< to the next step or, if rejected, the next trial step
   [[nodiscard]] bool accepted() const { return error <= 1; }
 };
 
-/// Where a step starts.
+/// The start of a step.
 template <class T> struct Start {
   const T& t;
   const State<T>&x, &dxdt;
 };
 
-/// A formula that fits steps to the tolerance before it makes them.
+/// A formula that shortens its steps to the tolerance before it makes them.
 template <class Formula>
 concept FitsSteps = requires {
   Formula::longest_growth;
 };
 
-/// Makes a step by a formula, and its error. @param h made shorter by a formula that fits steps
+/// Makes a trial step by a formula, and estimates its error. @param h shortened if FitsSteps<Formula>
 template <class T, class Formula, class AnySystem>
 void estimate(Formula& formula, AnySystem& system, const Start<T>& from, T& h, State<T>& x1,
               State<T>& dxdt1, State<T>& error, const T& rtol, const T& atol) {
@@ -57,7 +61,8 @@ void estimate(Formula& formula, AnySystem& system, const Start<T>& from, T& h, S
     formula.estimate(system, from, h, x1, dxdt1, error);
 }
 
-/// `step_factor` of a formula.
+/// Factor to the next (trial) step by a formula: step_factor or, if FitsSteps<Formula>, simple rules, for
+/// the next step is fitted anyway: try four times as long, half after a rejection, a tenth of NaN.
 template <class Formula, class P>
 [[nodiscard]] P factor_of(const P& error, const P& h, const StepMemory<P>& memory) {
   if constexpr (FitsSteps<Formula>)
@@ -67,7 +72,7 @@ template <class Formula, class P>
     return step_factor(Formula::error_order, error, h, memory);
 }
 
-/// A formula with step control.
+/// An embedded formula with step control.
 template <class T, class Formula> class Adaptive {
 public:
   static constexpr int order = Formula::order;
@@ -88,7 +93,7 @@ public:
     return verdict(static_cast<double>(error), static_cast<double>(h));
   }
 
-  /// On a step over h of this scaled error.
+  /// The verdict on a trial step h with this scaled error.
   [[nodiscard]] Verdict verdict(double error, double h) const {
     return {error, factor_of<Formula>(error, h, memory_)};
   }

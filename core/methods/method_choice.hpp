@@ -1,15 +1,13 @@
-/// `auto`: which method integrates, chosen anew while the run goes on.
+/// `auto`: chooses the method, again and again while the run goes on.
 ///
-/// A phase begins with an explicit method, which resolves the shock of a latch best: of order 5,
-/// or, below tolerances measured to be the break-even, of order 8, or by power series where the
-/// motion has them. Once what is fast has died out
-/// and its steps are held back by stability and no longer by accuracy, the linearly implicit
-/// extrapolation is tried; it keeps the work where it gets further for its cost, and gives it back
-/// where it does not.
+/// A phase begins with an explicit method, because the shock of a latch needs short steps anyway.
+/// Later, when fast modes have died out, stability may hold the steps back, and no longer accuracy.
+/// Then `auto` tries the linearly implicit extrapolation (seulex), keeps it while it integrates more
+/// time for its cost, and returns to the explicit method otherwise.
 ///
-/// Whether stability holds a step back is seen from h·ρ, ρ the spectral radius of the linear model
-/// [0 E2; −M⁻¹K −M⁻¹D] of springs, latches and friction at the present configuration; a bound of it that
-/// costs nothing decides first, and it is measured once that says that steps may be held back.
+/// Stability holds a step h back when h·ρ is near the method's limit. ρ is the spectral radius of the
+/// linear model [0 E2; −M⁻¹K −M⁻¹D] of springs, latches and friction at the present configuration. A
+/// bound of ρ that costs nothing decides first; ρ is measured once steps seem held back by that bound.
 #pragma once
 
 #include "core/methods/held_back_steps.hpp"
@@ -23,16 +21,76 @@
 
 namespace wingspread {
 
+/// The constants of `auto`. All are heuristic: found by trying values on the shipped campaigns and on
+/// the wings of the work-precision and stiffness studies (studies/ACCURACY.md). A wrong value costs
+/// time and never accuracy, for every method meets the same tolerances. Results change within the
+/// tolerance.
+namespace choice {
+
+/// Below this rtol order 8 (dop853) integrates, above it order 5 (dopri5). On the wings of
+/// ACCURACY.md's table without friction dopri5 takes 3,490 evaluations at an error of 1e-3 and dop853
+/// 3,706; at 1e-4 it is 3,767 against 3,706. With regularized friction dopri5 wins down to an error
+/// of 1e-6: there `auto` costs up to 1.7 times the best method.
+inline constexpr double order_8_below = 5e-3;
+/// The same where latches are smoothed (the smoothed wings of the work-precision study).
+inline constexpr double order_8_below_if_smoothed = 5e-4;
+/// Below this rtol power series of order 16 integrate motions that have them. They reach an error of
+/// 1e-3 in 236 µs and 1e-9 in 259, dop853 in 255 and 456 (ACCURACY.md).
+inline constexpr double series_below = 5e-5;
+
+/// A step counts as held back if it is longer than this share of the stable step, which is the limit
+/// on the real axis. On the imaginary axis the limit is 0.30 of that for dopri5, 0.55 for taylor and
+/// 0.93 for dop853, and ρ is known to a fifth. Smaller: accurate steps count as held back. Larger:
+/// modes that ring hold steps back unnoticed.
+inline constexpr double held_back_share = 0.4;
+/// Steps from a phase's start to the first measurement of ρ, where nothing bounds ρ. Most phases of
+/// ordinary wings are over by then and need none. Larger: stiff latches are noticed later.
+inline constexpr int steps_to_first_radius = 7;
+/// Steps between two measurements of ρ. One costs about six evaluations, half a step of order 8: 0.4 %.
+/// Larger: the choice rests on a ρ from another configuration of the wing.
+inline constexpr int steps_between_radii = 128;
+/// Steps by series before `auto` considers another method. Most phases by series end sooner, and
+/// accuracy limits long steps of high order, not stability.
+inline constexpr int steps_before_leaving_series = 100;
+
+/// The implicit method is promising if the stable step is a smaller share than this of the time in
+/// which the motion changes (`quickness`). An implicit step costs as much as about ten explicit ones
+/// and cannot be much longer than that time. Larger: more vain trials, of five implicit steps each.
+/// Smaller: wings at the border stay with many short explicit steps.
+inline constexpr double promising_share = 0.02;
+/// Steps until `auto` checks the promise again, doubled from check to check between these limits.
+inline constexpr int first_recheck = 10, longest_recheck = 80;
+/// Held-back steps in a row after which the implicit method is tried without a promise, for `quickness`
+/// may be wrong. Smaller: more vain trials on wings that are mildly stiff throughout.
+inline constexpr int steps_to_try_anyway = 1600;
+
+/// Implicit steps of a trial. Extrapolation needs the first two or three to find its order and step.
+/// Fewer: judged while it still searches. More: a vain trial costs more.
+inline constexpr int trial_steps = 5;
+/// Implicit steps from one verdict on the implicit method to the next; the last two are timed.
+inline constexpr int judged_steps = 3;
+/// Explicit steps after a vain trial before the next, doubled from trial to trial between these limits. On
+/// chains of 20 panels a longest wait of 512 led to 2,629 implicit steps a run, of 4,096 to 229
+/// (studies/SPEED.md, "Twenty panels").
+inline constexpr int first_retry = 64, longest_retry = 4096;
+/// Cost of an evaluation of the implicit method with its solves, in evaluations of an explicit one.
+/// Measured as 1.5 if both are made alone. In lanes an explicit evaluation costs a third (20 panels) to a
+/// sixth (3 panels) of one alone, and lanes have no implicit method; a run must not depend on where it is
+/// made, so 6 serves everywhere. Smaller: 1.5 cost 124 ms a run of 20 panels in place of 76. Larger: stiff
+/// latches are integrated explicitly longer.
+inline constexpr double implicit_cost = 6;
+
+} // namespace choice
+
 /// Which method is active, and when that changes.
 class MethodChoice {
 public:
-  /// @param how its method: a name from `methods()`
-  /// @param series whether the wing's motion has them: where not, dop853 is in their place
+  /// @param how how.method is a name from `methods()`
+  /// @param series has_series(wing): if not, dop853 takes their place
   MethodChoice(const Integration& how, bool series) : automatic_(how.method == "auto") {
-    // where latches are smoothed, order 8 pays at tighter tolerances only
-    const double limit = how.smoothing ? break_even_smoothed : break_even;
+    const double limit = how.smoothing ? choice::order_8_below_if_smoothed : choice::order_8_below;
     explicit_ = how.rtol < limit ? Method::dop853 : Method::dopri5;
-    if (series && how.rtol < break_even_series) explicit_ = Method::taylor;
+    if (series && how.rtol < choice::series_below) explicit_ = Method::taylor;
     for (std::size_t k = 0; k < method_names.size(); ++k)
       if (method_names[k] == how.method) explicit_ = static_cast<Method>(k);
     if (explicit_ == Method::taylor && (!series || how.smoothing)) explicit_ = Method::dop853;
@@ -42,29 +100,33 @@ public:
   [[nodiscard]] Method active() const { return active_; }
   [[nodiscard]] bool automatic() const { return automatic_; }
 
-  /// A phase begins.
-  /// @param most ρ in it is no larger; infinity: nothing bounds it, and it counts as 0 until measured
+  /// Begins a phase with the explicit method.
+  /// @param most upper bound of ρ in the phase, 1/s; infinity: none, and ρ counts as 0 until measured
   void restart(double time, long evaluations, double most) {
     active_ = explicit_;
     steps_ = 0;
     held_back_.last_free = mark(time, evaluations);
-    held_back_.wait_until = explicit_ == Method::taylor ? first_thought_of_series : 0;
+    held_back_.wait_until = explicit_ == Method::taylor ? choice::steps_before_leaving_series : 0;
     measured_ = !std::isfinite(most);
     wants_first_ = false;
     keep_radius(measured_ ? 0 : most);
-    patience_ = first_patience;
-    pause_ = first_pause;
+    wait_after_trial_ = choice::first_retry;
+    wait_after_check_ = choice::first_recheck;
   }
 
   /// Whether ρ should be measured anew before the next step.
   [[nodiscard]] bool wants_radius() const {
-    return automatic_ && (measured_ ? steps_ % radius_interval == first_radius : wants_first_);
+    return automatic_ &&
+           (measured_ ? steps_ % choice::steps_between_radii == choice::steps_to_first_radius
+                      : wants_first_);
   }
-  /// @param time, evaluations of the run
+  /// Takes a measured ρ, 1/s. @param time, evaluations of the run
   void set_radius(double radius, double time, long evaluations) {
-    if (!measured_) { // steps count as held back from here on, and those that the bound alone has asked for
+    if (!measured_) {
+      // By the bound alone a number of steps counted as held back. By ρ itself only seven more are
+      // needed, so that `auto` decides as early as where ρ is measured from the start.
       held_back_.last_free = mark(time, evaluations);
-      held_back_.last_free.steps -= HeldBackSteps<double>::enough - first_radius;
+      held_back_.last_free.steps -= HeldBackSteps<double>::enough - choice::steps_to_first_radius;
       measured_ = true;
     }
     keep_radius(radius);
@@ -76,21 +138,20 @@ private:
                          : explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
                                                        : DormandPrince5<double>::stable_real;
     stable_step_ = radius > 0 ? limit / radius : 1e300;
-    held_back_.shortest = held_back_share * stable_step_;
+    held_back_.shortest = choice::held_back_share * stable_step_;
   }
 
 public:
-  /// Whether after a step of h another method may have to be thought of: `after_step` then needs to
-  /// know how quickly things change.
+  /// Whether `after_step` may change the method after a step of h, and needs the quickness for that.
   [[nodiscard]] bool may_leave(double h) const {
     return automatic_ &&
            (active_ != explicit_ || held_back_.may_leave(h, static_cast<double>(steps_ + 1)));
   }
 
-  /// A step of h was accepted, which ends at `time`.
+  /// Counts an accepted step of h that ends at `time`, and chooses the next step's method.
   /// @param evaluations of the run
-  /// @param quickness by how much the motion changes in a unit of time, 1/s
-  /// @return whether another method goes on from here
+  /// @param quickness of time_scales.hpp, 1/s; unused unless may_leave(h)
+  /// @return whether the method changes
   [[nodiscard]] bool after_step(double h, double time, long evaluations, double quickness) {
     if (!automatic_) return false;
     ++steps_;
@@ -98,21 +159,24 @@ public:
     return active_ == explicit_ ? leave_explicit(h, now, quickness) : leave_implicit(now);
   }
 
-  /// The step that the method now active should try first.
+  /// The first trial step of the active method, s. @param h the step planned by the method before
   [[nodiscard]] double first_step(double h) const {
     return active_ == explicit_ ? std::min(h, 0.5 * stable_step_) : h;
   }
 
-  // ---- steps made elsewhere with the explicit method
+  // ---- steps that a lane makes with the explicit method
 
-  [[nodiscard]] long steps() const { return steps_; } ///< of this phase
-  /// Steps that may be accepted before ρ is due.
+  /// Accepted steps of this phase.
+  [[nodiscard]] long steps() const { return steps_; }
+  /// How many more steps may be accepted before ρ is to be measured.
   [[nodiscard]] long steps_to_radius() const {
     if (!automatic_ || !measured_) return std::numeric_limits<long>::max();
-    return (radius_interval + first_radius - 1 - steps_ % radius_interval) % radius_interval;
+    return (choice::steps_between_radii + choice::steps_to_first_radius - 1 -
+            steps_ % choice::steps_between_radii) %
+           choice::steps_between_radii;
   }
   [[nodiscard]] const HeldBackSteps<double>& held_back() const { return held_back_; }
-  /// So many steps of the phase have been accepted, none of which may leave.
+  /// Takes the counts of a lane that has accepted steps. @param steps of the phase; may_leave was false for each
   void resume(long steps, const HeldBackSteps<double>& held_back) {
     if (!automatic_) return;
     steps_ = steps;
@@ -125,30 +189,6 @@ private:
     return {time, static_cast<double>(evaluations), static_cast<double>(steps_)};
   }
 
-  static constexpr double break_even = 5e-3; // rtol; see the work-precision study
-  static constexpr double break_even_smoothed = 5e-4;
-  static constexpr double break_even_series = 5e-5;
-  static constexpr int radius_interval = 128; // steps between two measurements of ρ
-  static constexpr int first_radius = 7;      // steps to the first: short phases need none
-  static constexpr int long_enough = 1600;    // to try without promise
-  /// Steps until it is thought of again where there was no promise; doubled each time.
-  static constexpr int first_pause = 10, longest_pause = 80;
-  static constexpr double held_back_share = 0.4; // of the stable step: that of one held back
-  /// Steps of a phase by series before another method is thought of: most phases are over by then, and what holds
-  /// back long steps of high order is accuracy.
-  static constexpr int first_thought_of_series = 100;
-  /// An implicit step costs as much as about ten explicit ones, and cannot be much longer than the
-  /// motion takes to change: where the stable step is a larger part of that, it cannot pay.
-  static constexpr double worth_trying = 0.02;
-  static constexpr int trial = 5; // steps that the implicit method has to get going
-  static constexpr int first_patience =
-      64; // steps before it is tried again, doubled each time up to
-  static constexpr int longest_patience = 4096;
-  /// Cost of an evaluation with the solves that go with it, in those of an explicit method (measured):
-  /// 1.5 where both run alone. But explicit steps are made in packs, where an evaluation costs a third
-  /// (20 panels) to a sixth (3) of one alone; and what a run does must not depend on where it is made.
-  static constexpr double implicit_cost = 6;
-
   /// Time integrated per evaluation.
   [[nodiscard]] static double speed(const Mark& from, const Mark& now) {
     return (now.time - from.time) / std::max(now.evaluations - from.evaluations, 1.0);
@@ -159,10 +199,10 @@ private:
     if (!held_back_.may_leave(h, now.steps)) return false;
     wants_first_ = !measured_;
     if (wants_first_) return false;
-    const bool promising = stable_step_ * quickness < worth_trying;
-    if (!promising && now.steps < held_back_.last_free.steps + long_enough) {
-      held_back_.wait_until = now.steps + pause_;
-      pause_ = std::min(2 * pause_, longest_pause);
+    const bool promising = stable_step_ * quickness < choice::promising_share;
+    if (!promising && now.steps < held_back_.last_free.steps + choice::steps_to_try_anyway) {
+      held_back_.wait_until = now.steps + wait_after_check_;
+      wait_after_check_ = std::min(2 * wait_after_check_, choice::longest_recheck);
       return false;
     }
     explicit_speed_ = speed(held_back_.last_free, now);
@@ -173,30 +213,31 @@ private:
 
   [[nodiscard]] bool leave_implicit(const Mark& now) {
     ++tried_;
-    if (tried_ == trial - 2) implicit_from_ = now; // it has found its order and step
-    if (tried_ < trial) return false;
-    const bool pays = speed(implicit_from_, now) / implicit_cost > explicit_speed_;
-    tried_ = trial - 3;
+    if (tried_ == choice::trial_steps - choice::judged_steps + 1) implicit_from_ = now;
+    if (tried_ < choice::trial_steps) return false;
+    const bool pays = speed(implicit_from_, now) / choice::implicit_cost > explicit_speed_;
+    tried_ = choice::trial_steps - choice::judged_steps;
     if (pays) return false;
     active_ = explicit_;
     held_back_.last_free = now;
-    held_back_.wait_until = now.steps + patience_;
-    patience_ = std::min(2 * patience_, longest_patience);
+    held_back_.wait_until = now.steps + wait_after_trial_;
+    wait_after_trial_ = std::min(2 * wait_after_trial_, choice::longest_retry);
     return true;
   }
 
   bool automatic_;
-  bool measured_ = true;     ///< ρ is, or nothing bounds it; else that bound is in its place
-  bool wants_first_ = false; ///< the bound does not tell
+  bool measured_ = true;     ///< ρ is measured or unbounded; false: its bound stands in for it
+  bool wants_first_ = false; ///< steps are held back by the bound: measure ρ
   Method explicit_ = Method::dopri5, active_ = Method::dopri5;
   double stable_step_ = 0, explicit_speed_ = 0;
   long steps_ = 0;
   HeldBackSteps<double> held_back_{}; ///< of the explicit method
-  Mark implicit_from_{};              ///< from where the implicit method is measured
-  int tried_ = 0, patience_ = first_patience, pause_ = first_pause;
+  Mark implicit_from_{};              ///< the implicit method's speed is measured from here
+  int tried_ = 0, wait_after_trial_ = choice::first_retry,
+      wait_after_check_ = choice::first_recheck;
 };
 
-/// What a run begins with: where its wing's motion has no series, and where it has.
+/// The choices with which runs begin: [0] for wings without series, [1] for wings with.
 using FirstChoices = std::array<MethodChoice, 2>;
 [[nodiscard]] inline FirstChoices first_choices(const Integration& how) {
   return {MethodChoice(how, false), MethodChoice(how, true)};

@@ -1,7 +1,7 @@
 /// A Rosenbrock-W method for stiff latches, whose linear solve is the recursion itself.
 ///
-/// With u = (q, v), q̇ = v, v̇ = a(t, q, v), and the latches' (and springs', friction's) stiffness
-/// and damping alone as Jacobian,
+/// With u = (q, v), q̇ = v, v̇ = a(t, q, v), and only the stiffness and damping of latches, springs and
+/// friction in the Jacobian,
 ///
 ///     J = [ 0  E2 ; −M⁻¹K  −M⁻¹D ],    K, D diagonal over the hinges, M at the step's start  (1)
 ///
@@ -124,7 +124,7 @@ public:
   }
 
 private:
-  /// What the loops add to E R_v + hγ K R_q at hinge i.
+  /// The loops' share of E R_v + hγ K R_q at hinge i.
   [[nodiscard]] T of_loops(const Layout& at, const State<T>& R, int i) const {
     T sum(0);
     for (const LoopResistance<T>& loop : loops_) {

@@ -28,8 +28,8 @@ template <class T> struct DormandPrince5 {
   boost::numeric::odeint::runge_kutta_dopri5<State<T>, T, State<T>, T, StateAlgebra> stepper;
 };
 
-/// Formulas whose last stage is not at the step's end: one evaluation more gives the derivative
-/// there, which is also the next step's first.
+/// Formulas whose last stage is not at the step's end. One more evaluation gives the derivative there, which
+/// is also the next step's first stage.
 template <class T, class Stepper> struct WithoutLastStage {
   template <class System>
   void estimate(System& system, const Start<T>& from, const T& h, State<T>& x1, State<T>& dxdt1,
@@ -48,9 +48,8 @@ struct CashKarp54
   static constexpr double stable_real = 3.734, stable_imaginary = 0;
 };
 
-/// Its estimate, (41/840)·h·(k1 + k11 − k12 − k13), has stages at the step's ends alone: it is
-/// blind to pure quadratures, such as the state of a smoothed latch. For those components a Boole
-/// rule on the dense output stands in.
+/// Its error estimate, (41/840)·h·(k1 + k11 − k12 − k13), uses stages at the step's ends only. It is blind
+/// to pure quadratures, such as the state of a smoothed latch: see quadrature_error.
 template <class T>
 struct Fehlberg78
     : WithoutLastStage<T, boost::numeric::odeint::runge_kutta_fehlberg78<State<T>, T, State<T>, T,
@@ -59,9 +58,9 @@ struct Fehlberg78
   static constexpr double stable_real = 5.008, stable_imaginary = 2.365;
 };
 
-/// The classical Runge-Kutta formula with a fixed step. Two steps are taken as one and compared
-/// with one of twice the size [Hairer, Nørsett & Wanner I, II.4], so that a step that misses the
-/// tolerance is known; it cannot be mended, and fails the run.
+/// The classical Runge-Kutta formula with a fixed step. Makes two steps at once and compares them with one
+/// of twice the size [Hairer, Nørsett & Wanner I, II.4]. A step that misses the tolerance fails the run, for
+/// it cannot be made shorter.
 template <class T> class RungeKutta4 {
 public:
   static constexpr int order = 4;

@@ -1,4 +1,4 @@
-/// How fast a wing's linear model rings or dies out: the spectral radius ρ of
+/// The spectral radius ρ of a wing's linear model, the rate at which its fastest mode rings or decays:
 ///
 ///     [ 0  E2 ; −M⁻¹K  −M⁻¹D ]
 ///
@@ -14,16 +14,16 @@
 
 namespace wingspread {
 
-/// No |λ| of a wing with the latches that have engaged is larger, whatever its configuration and its
-/// rates, 1/s. With vᴴMv = 1 for its v,
+/// Upper bound of |λ| for a wing with its engaged latches in any configuration and at any rates, 1/s. For an
+/// eigenvector with velocities v scaled to vᴴMv = 1,
 ///
 ///     |λ|² ≤ |λ| vᴴDv + vᴴKv ≤ |λ| Σ δ_i σ_i + Σ κ_i σ_i                                       (1)
 ///     σ_i = (M⁻¹)_ii ≤ 1/J_i + 1/J_p                                                          (2)
 ///
 /// δ, κ a hinge's damping and stiffness, J the inertias of its bodies i and p about their own centres of
-/// mass, 1/J_p = 0 of a base that is held: what joins two bodies to others, and to each other, leaves
-/// them less free to turn [Gauss's principle]. Cost O(n), no evaluation.
-/// @return infinity where loops or hinges by tables have stiffnesses of their own
+/// mass, with 1/J_p = 0 for a base that does not move freely. (2): joints between bodies only make them less
+/// free to turn [Gauss's principle]. Cost O(n), no evaluation.
+/// @return infinity if loops, real hinges or smoothed latches have stiffnesses of their own
 template <class T, class AnySystem>
 [[nodiscard]] double spectral_radius_bound(const AnySystem& system) {
   const Wing<T>& wing = system.wing();
@@ -47,11 +47,11 @@ template <class T, class AnySystem>
   return 0.5 * damping + std::sqrt(0.25 * damping * damping + stiffness);
 }
 
-/// Power iteration for ρ, with its storage.
+/// Estimates ρ by power iteration; keeps the storage.
 template <class T> class SpectralRadius {
 public:
-  /// Largest |λ| of the linear model at (x, t), 1/s, within about a fifth. From a fixed start; each
-  /// pass is one solve of the recursion. Cost about six evaluations.
+  /// Largest |λ| of the linear model at (x, t), 1/s, to about a fifth. Starts from fixed vectors, so that runs
+  /// are reproducible; each of 16 passes is one solve of the recursion. Cost about six evaluations.
   template <class AnySystem>
   [[nodiscard]] double estimate(AnySystem& system, const State<T>& x, const T& t) {
     const int size = system.layout().freedoms();
@@ -64,8 +64,9 @@ public:
   }
 
 private:
-  /// Geometric mean of the growth over eight passes, in the norm max(|v|, weight·|q|): with q one
-  /// pass behind v and weight ≈ |λ|, a complex pair does not make it oscillate.
+  /// Geometric mean of the growth over eight passes, in the norm max(|v|, weight·|q|). q is one pass behind v;
+  /// with weight ≈ |λ| the norm of a complex pair of modes does not oscillate. Eight passes are heuristic: fewer
+  /// miss a fast mode that the start hardly excites, and stability then holds steps back unnoticed.
   template <class AnySystem> double growth(AnySystem& system, const State<T>& x, double weight) {
     double before = norm(weight), mean = 1;
     for (int pair = 0; pair < 4; ++pair) {
@@ -99,7 +100,7 @@ private:
     std::swap(v_, next_);
   }
 
-  /// What the loops add to Kq + Dv at hinge i.
+  /// The loops' share of Kq + Dv at hinge i.
   [[nodiscard]] T of_loops(const Layout& at, int i) const {
     T sum(0);
     for (const LoopResistance<T>& loop : loops_) {

@@ -1,7 +1,4 @@
-/// How odeint works on a state.
-///
-/// The explicit methods are odeint's. What is their own is the verdict: odeint accepts a step whose
-/// error is NaN.
+/// How odeint computes with a state.
 #pragma once
 
 #include "core/number/scalar.hpp"
@@ -19,29 +16,13 @@ struct StateAlgebra {
     const std::size_t size = first.size();
     for (std::size_t k = 0; k < size; ++k) operation(first[k], rest[k]...);
   }
-  template <class A, class B, class Op> static void for_each2(A& a, B& b, Op op) {
-    apply(op, a, b);
-  }
-  template <class A, class B, class C, class Op> static void for_each3(A& a, B& b, C& c, Op op) {
-    apply(op, a, b, c);
-  }
-  template <class A, class B, class C, class D, class Op>
-  static void for_each4(A& a, B& b, C& c, D& d, Op op) {
-    apply(op, a, b, c, d);
-  }
-  template <class A, class B, class C, class D, class E, class Op>
-  static void for_each5(A& a, B& b, C& c, D& d, E& e, Op op) {
-    apply(op, a, b, c, d, e);
-  }
-  template <class A, class B, class C, class D, class E, class F, class Op>
-  static void for_each6(A& a, B& b, C& c, D& d, E& e, F& f, Op op) {
-    apply(op, a, b, c, d, e, f);
-  }
-  template <class A, class B, class C, class D, class E, class F, class G, class Op>
-  static void for_each7(A& a, B& b, C& c, D& d, E& e, F& f, G& g, Op op) {
-    apply(op, a, b, c, d, e, f, g);
-  }
-  // the long formulas: operation last, as odeint calls them
+  // odeint passes the operation last
+  template <class... Args> static void for_each2(Args&&... args) { operation_last(args...); }
+  template <class... Args> static void for_each3(Args&&... args) { operation_last(args...); }
+  template <class... Args> static void for_each4(Args&&... args) { operation_last(args...); }
+  template <class... Args> static void for_each5(Args&&... args) { operation_last(args...); }
+  template <class... Args> static void for_each6(Args&&... args) { operation_last(args...); }
+  template <class... Args> static void for_each7(Args&&... args) { operation_last(args...); }
   template <class... Args> static void for_each8(Args&&... args) { operation_last(args...); }
   template <class... Args> static void for_each9(Args&&... args) { operation_last(args...); }
   template <class... Args> static void for_each10(Args&&... args) { operation_last(args...); }
@@ -51,7 +32,7 @@ struct StateAlgebra {
   template <class... Args> static void for_each14(Args&&... args) { operation_last(args...); }
   template <class... Args> static void for_each15(Args&&... args) { operation_last(args...); }
 
-  /// Largest |x|; NaN when any is, unlike odeint's own.
+  /// Largest |x|; NaN if any x is NaN. odeint's own would ignore it.
   template <class S> [[nodiscard]] static typename S::value_type norm_inf(const S& x) {
     using std::abs;
     typename S::value_type largest(0), poison(0);

@@ -24,7 +24,7 @@ template <class T>
   return largest + poison;
 }
 
-/// The same by the formula's own rule, if it has one.
+/// scaled_error by the formula's own rule, if it has one.
 template <class T, class Formula>
 [[nodiscard]] T scaled_error_of(const Formula& formula, const State<T>& x, const State<T>& x1,
                                 const State<T>& dxdt1, const State<T>& error, const T& rtol,
@@ -35,30 +35,40 @@ template <class T, class Formula>
     return scaled_error(x, x1, dxdt1, error, rtol, atol);
 }
 
-/// What step control knows of the steps before.
+/// What step control remembers of earlier steps.
 template <class P> struct StepMemory {
-  P log_error = P(-13.287712379549449); ///< log2 of the last accepted one's scaled error, ≥ 1e-4
-  P most = P(10);                       ///< of the next factor: 1 after a rejection
-  P h = P(0);                           ///< the last accepted step, s; 0 where none is foreseen
+  /// log2 of 1e-4: smaller errors count as 1e-4 [PI control in DOPRI5's code, facold ≥ 1e-4]. Without
+  /// a floor one step of no error, as in a motion that is a parabola, would cut the next.
+  static constexpr double least_log_error = -13.287712379549449;
+  /// No step is longer than ten before it [Hairer, Nørsett & Wanner I, II.4: facmax from 1.5 to 5, in
+  /// their codes up to 10]. Larger: steps leap from quiet motion over a change.
+  static constexpr double longest_growth = 10;
+
+  P log_error = P(least_log_error); ///< log2 of the last accepted step's scaled error
+  P most = P(longest_growth);       ///< of the next factor; 1 after a rejection
+  P h = P(0);                       ///< the last accepted step, s; 0 without `foresee`
 
   void accepted(const P& error, const P& step) {
-    log_error = larger(log2_roughly(larger(error, P(1e-10))), P(-13.287712379549449));
-    most = P(10);
+    log_error = larger(log2_roughly(larger(error, P(1e-10))), P(least_log_error));
+    most = P(longest_growth);
     h = select(h > P(0), step, h);
   }
   void rejected() { most = P(1); }
-  /// From here on the next step is foreseen.
+  /// Makes step_factor extrapolate the next step from now on.
   void foresee() { h = P(1e-300); }
 };
 
 /// Proportional-integral step control [Hairer, Nørsett & Wanner I, II.4; Gustafsson 1991]: the
 /// integral part keeps steps smooth where stability limits them, as in the ringing after a latch.
-/// If asked for, steps that have grown shorter are foreseen to go on to [Gustafsson 1994; Hairer &
-/// Wanner II, IV.8]: where a motion gains speed every third try would be rejected else. Not for
-/// what rings: there errors go up and down, and steps would be 2 % shorter for nothing.
-/// @param error scaled, of a try over h with an estimate of order `error_order`
-/// @return the factor to the next step, or, where the try is rejected (error > 1, or NaN), to the
-///         next try
+/// With StepMemory::foresee, steps that have become shorter are expected to become shorter still
+/// [Gustafsson 1994; Hairer & Wanner II, IV.8]: otherwise every third trial step is rejected while
+/// a motion gains speed. Not for ringing, where errors rise and fall and steps become 2 % shorter in vain.
+///
+/// Safety 0.9 and the least factor 0.2 are those of DOPRI5 and DOP853 [Hairer, Nørsett & Wanner I,
+/// II.4]; the integral gain β = 0.04 is DOPRI5's. Heuristic: less safety means more rejections, more
+/// means shorter steps. Factor 0.1: the step's numbers are not finite, so its error says nothing.
+/// @param error scaled, of a trial step h with an estimate of order `error_order`
+/// @return factor to the next step, or to the next trial step if this one is rejected (error > 1 or NaN)
 template <class P>
 [[nodiscard]] P step_factor(int error_order, const P& error, const P& h,
                             const StepMemory<P>& memory) {
@@ -75,8 +85,11 @@ template <class P>
   return select(finite, smaller(larger(wanted, P(least)), memory.most), P(0.1));
 }
 
-/// A first step whose error is about that of the tolerance, from the sizes of x, ẋ and ẍ
-/// [Hairer, Nørsett & Wanner I, II.4]. One evaluation; `scratch` and `dscratch` are overwritten.
+/// A first step whose error is about the tolerance, from the sizes of x, ẋ and ẍ, with the constants
+/// of the source [Hairer, Nørsett & Wanner I, II.4]. Wrong by 100 times it costs some rejected or
+/// short steps. Costs one evaluation; overwrites `scratch` and `dscratch`.
+/// @param longest upper limit, s
+/// @return s
 template <class T, class AnySystem>
 [[nodiscard]] T first_step(AnySystem& system, const State<T>& x, const State<T>& dxdt, const T& t,
                            int order, double rtol, double atol, const T& longest, State<T>& scratch,

@@ -1,4 +1,4 @@
-/// The methods by name, and the one place that knows them all.
+/// The table of all methods, and what else the core must know about each.
 #pragma once
 
 #include "core/dense/roughness.hpp"
@@ -42,10 +42,10 @@ inline constexpr std::array<std::string_view, 10> method_names{"runge_kutta4",
   return std::string(method_names[static_cast<std::size_t>(method)]);
 }
 
-/// One of each method; only those used ever allocate.
+/// One object of each method. Only those that make steps allocate.
 template <class T> class Steppers {
 public:
-  /// visit(stepper) with the one that `method` names.
+  /// Calls visit(stepper) with the method's object and returns its result.
   template <class Visit> decltype(auto) with(Method method, Visit&& visit) {
     switch (method) {
     case Method::runge_kutta4:
@@ -91,27 +91,28 @@ private:
   return method == Method::rosenbrock_w || method == Method::seulex;
 }
 
-/// Whether an engine has it.
+/// Whether engines of packs have the method.
 [[nodiscard]] constexpr bool has_lanes(Method method) {
   return method == Method::dopri5 || method == Method::dop853 || method == Method::taylor;
 }
 
-/// Steps of these grow so long that the quintic through a step's ends may miss what happens inside.
+/// Whether steps may become so long that the quintic through their ends misses what happens inside; they
+/// must obey `roughness`.
 [[nodiscard]] constexpr bool takes_long_steps(Method method) {
   return method == Method::fehlberg78 || method == Method::dop853 ||
          method == Method::bulirsch_stoer || method == Method::adams_bashforth_moulton ||
          method == Method::seulex || method == Method::taylor;
 }
 
-/// Makes a verdict obey the roughness of its step.
+/// Rejects a step that is too rough (> 1), and limits the factor to the next.
 inline void limit_roughness(double rough, Verdict& verdict) {
   const double factor = factor_by_roughness(rough);
   verdict =
       rough > 1 ? Verdict{2, factor} : Verdict{verdict.error, std::min(verdict.factor, factor)};
 }
 
-/// The error of Fehlberg's quadrature of a smoothed latch's state (Fehlberg78 is blind to it), in
-/// units of the tolerance: against Boole's rule on the dense output.
+/// Error of a smoothed latch's state over a step of Fehlberg78, in units of the tolerance. That state is a
+/// pure quadrature, to which Fehlberg78's own estimate is blind: Boole's rule on the dense output judges it.
 template <class T, class AnySystem>
 [[nodiscard]] double quadrature_error(const AnySystem& system, const Step<T>& step,
                                       const Tolerance& tolerance) {

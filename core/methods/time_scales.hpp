@@ -1,4 +1,4 @@
-/// How quickly a wing moves: what bounds a step where no error would, and tells methods apart.
+/// How quickly a wing moves: limits steps where the error does not, and tells `auto` what may pay.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -8,10 +8,11 @@
 
 namespace wingspread {
 
-/// The frequency of what still moves at the step's start, 1/s: largest acceleration over largest
-/// rate or, if larger, the rate of a latched hinge over its way from rest; in a swing one of the
-/// two is always as large as its frequency. Swings a thousand times slower than the fastest hinge
-/// do not count.
+/// Frequency of the motion at the step's start, 1/s: the largest acceleration over the largest rate or,
+/// if larger, the rate of a latched hinge over its distance from rest. In a swing one of the two is
+/// always at least its frequency. Hinges a thousand times slower than the fastest do not count
+/// (heuristic: rounding near rest would otherwise look like a high frequency).
+/// @return 0 if nothing moves
 template <class T, class AnySystem>
 [[nodiscard]] double quickness(const AnySystem& system, const Step<T>& step) {
   using std::abs;
@@ -32,8 +33,8 @@ template <class T, class AnySystem>
   return static_cast<double>(larger(swing, T(acceleration / fastest)));
 }
 
-/// A time from the step's start in which no hinge turns by much more than a radian, s, at most
-/// `longest`: where a motion is a parabola no error would keep the first step from leaping over it.
+/// Time from the step's start in which no hinge turns by much more than a radian, s, at most `longest`.
+/// Limits the first step: a motion that begins as a parabola has no error by which to choose one.
 template <class T>
 [[nodiscard]] T time_to_a_radian(const Layout& at, const Step<T>& step, T longest) {
   using std::abs, std::sqrt;
@@ -45,8 +46,9 @@ template <class T>
   return longest;
 }
 
-/// A time in which a base of prescribed motion turns by about 0.1 rad, s, at most `longest`: while
-/// hinges stick nothing need change in the state, and the load on them is to be sampled.
+/// Time in which a base of prescribed motion turns by about 0.1 rad, s, at most `longest`. Limits steps
+/// while hinges stick: the state may then be constant while the load on the hinges changes.
+/// 0.1 rad is heuristic: the load is sampled some 60 times a turn. Larger: a release could be overlooked.
 template <class T>
 [[nodiscard]] T time_of_base(const BaseTerms<T>& base, const DrivenPiece<T>& piece, const T& t,
                              const T& longest) {
@@ -62,12 +64,14 @@ template <class T>
   return spin > T(0) ? smaller(longest, T(T(turn) / spin)) : longest;
 }
 
-/// Whether a double can tell the sines of all angles to the accuracy that is promised.
+/// Largest angle whose sine is known well enough, rad: a double near 1e8 rounds by up to 7e-9 rad.
+inline constexpr double largest_known_angle = 1e8;
+
+/// Whether no angle exceeds largest_known_angle, or is NaN.
 template <class T> [[nodiscard]] bool angles_are_known(const Layout& at, const State<T>& x) {
   using std::abs;
-  constexpr double largest = 1e8; // rad
   for (int i = 1; i <= at.bodies; ++i)
-    if (!(abs(x[at.angle(i)]) < T(largest))) return false;
+    if (!(abs(x[at.angle(i)]) < T(largest_known_angle))) return false;
   return true;
 }
 

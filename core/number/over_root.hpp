@@ -1,16 +1,16 @@
-/// n/√x by multiplications alone, which overlap: a root and a division of all lanes wait for each
-/// other in the one unit of a processor that makes both.
+/// n/√x by multiplications, which the processor overlaps. A root and a division would wait for each
+/// other, for one unit of the processor makes both.
 #pragma once
 
 #include "core/number/pack.hpp"
 
 namespace wingspread {
 
-/// n/√x with a relative error of 2⁻⁵² at most and the same bits for a double and in every lane; of
-/// wider numbers by root and division.
+/// n/√x with a relative error ≤ 2⁻⁵² and the same bits for a double and in every lane. Wider number types
+/// use root and division.
 ///
-/// Halving the bits of x halves its exponent and gives y = 1/√x to 3.5 %; with e = 1 − x y² it is
-/// y (1 − e)^−½, whose series takes that to 4e-7 in one move and to round-off in another.
+/// Shifting the bits of x halves its exponent, and gives y ≈ 1/√x within 3.5 %. With e = 1 − x y² the exact
+/// value is y (1 − e)^−½. Its series, applied twice, reduces the error to 4e-7 and then to round-off.
 /// @pre x is positive, normal and finite
 template <class T> [[nodiscard, gnu::always_inline]] inline T over_root(const T& n, const T& x) {
   using std::sqrt;

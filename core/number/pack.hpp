@@ -1,7 +1,7 @@
-/// A number for W runs at once: what the kernel's templates take to work on a pack of runs.
+/// Pack<W>: a number type that holds one double for each of W runs, in the lanes of a vector register.
 ///
-/// Every operation acts on each lane alone and rounds as a double does, so a lane's result has the
-/// bits that the scalar kernel gives, whatever W and the instruction set. Comparisons yield masks.
+/// Every operation acts on each lane alone and rounds as for a double. A lane's result therefore has the
+/// same bits as that of a run alone, for every W and instruction set. A comparison yields a mask.
 #pragma once
 
 #include "core/number/scalar.hpp"
@@ -17,8 +17,8 @@
 namespace wingspread {
 
 namespace detail {
-/// The compiler's vectors of a width; written out one by one, as GCC 12 takes those of a dependent
-/// size for scalars when it compares overloads.
+/// The compiler's vector types of a width. Written one by one: GCC 12 takes vectors whose size depends on
+/// a template parameter for scalars when it compares overloads.
 template <int W> struct Lanes;
 template <> struct Lanes<2> {
   typedef double Vector __attribute__((vector_size(16)));
@@ -39,7 +39,7 @@ template <int W> struct Pack {
   using Vector = typename detail::Lanes<W>::Vector;
   using Bits = typename detail::Lanes<W>::Bits;
 
-  /// −1 in the lanes where something holds, 0 elsewhere.
+  /// One truth value a lane: −1 is true, 0 is false.
   struct Mask {
     Bits bits;
     friend Mask operator&&(Mask a, Mask b) { return {a.bits & b.bits}; }
@@ -73,12 +73,12 @@ template <int W>
 
 template <int W> inline constexpr double epsilon_of<Pack<W>> = epsilon_of<double>;
 
-/// Whether T is a double, or a pack of them.
+/// Whether T is double or Pack<W>.
 template <class T> inline constexpr bool is_of_doubles = false;
 template <> inline constexpr bool is_of_doubles<double> = true;
 template <int W> inline constexpr bool is_of_doubles<Pack<W>> = true;
 
-/// Whether it holds in any lane.
+/// Whether the mask is true in any lane.
 template <class Mask>
 requires requires(Mask mask) { mask.bits; }
 [[nodiscard, gnu::always_inline]] inline bool any(const Mask& mask) {
@@ -130,7 +130,7 @@ template <int W> [[nodiscard, gnu::always_inline]] inline Pack<W> abs(const Pack
 
 namespace detail {
 
-/// The bits of a number, and a number of bits.
+/// The bits of a double as an integer, lane by lane, and the reverse.
 [[nodiscard, gnu::always_inline]] inline std::int64_t bits_of(double x) {
   return std::bit_cast<std::int64_t>(x);
 }

@@ -1,8 +1,7 @@
-/// Plane vectors and symmetric 2×2 matrices of the kernel.
+/// Vectors of the plane and symmetric 2×2 matrices.
 ///
-/// Plain aggregates rather than Eigen's: every product-sum is written as a fused multiply-add
-/// (Eigen leaves that to the compiler's contraction, which is off), and symmetry stores three
-/// numbers.
+/// Not Eigen's types: every product and sum must be a `fused`, which Eigen leaves to the compiler's
+/// contraction (off), and a symmetric matrix needs three numbers only.
 #pragma once
 
 #include "core/number/scalar.hpp"

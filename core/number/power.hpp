@@ -1,5 +1,5 @@
-/// Powers with the same bits for a double and in every lane of a pack: some for step control, good to
-/// 1e-7, which is more than a step's size needs, and one for laws, good to round-off.
+/// Powers with the same bits for a double and in every lane of a pack: rough ones for step control, with
+/// errors of about 1e-7, and a precise one for laws of hinges, with an error of some roundings.
 #pragma once
 
 #include "core/number/pack.hpp"
@@ -41,9 +41,9 @@ template <class P> [[nodiscard, gnu::always_inline]] inline P exp2_roughly(const
 
 namespace detail {
 
-/// Σ c_k xᵏ, in pairs, pairs of pairs and so on: few of its sums wait for another [Estrin 1960].
+/// Σ c_k xᵏ by Estrin's scheme [1960]: sums in pairs, which the processor computes at the same time.
 template <class P, std::size_t n>
-[[nodiscard, gnu::always_inline]] inline P in_pairs(P x, const std::array<double, n>& c) {
+[[nodiscard, gnu::always_inline]] inline P estrin(P x, const std::array<double, n>& c) {
   std::array<P, (n + 1) / 2> sums;
   for (std::size_t k = 0; k < sums.size(); ++k)
     sums[k] = 2 * k + 1 < n ? fused(x, P(c[2 * k + 1]), P(c[2 * k])) : P(c[2 * k]);
@@ -57,10 +57,12 @@ template <class P, std::size_t n>
 
 } // namespace detail
 
-/// xʸ, relative error ≤ (4 + 2|y|) 2⁻⁵³, in the way of the two above with series to round-off: with
-/// x = m 2ᵉ it is 2ⁿ 2ʳ, n the integer nearest to y (e + log2 m), and r = (y e − n) + y log2 m, made
-/// with the upper bits of y and with the rest, loses nothing of y e. Of wider numbers by the library.
-/// What is beyond 2^±1000 is 2^±1000; of NaN and ∞ it is NaN.
+/// xʸ with relative error ≤ (4 + 2|y|) 2⁻⁵³. With x = m 2ᵉ, √½ ≤ m < √2:
+///
+///     xʸ = 2ⁿ 2ʳ,  n the integer nearest to y (e + log2 m),  r = (y e − n) + y log2 m
+///
+/// y is split, and its upper bits times e are exact, so that y e − n loses no digits. Wider number types
+/// use the library. Results beyond 2^±1000 are 2^±1000; x = NaN or ∞ gives NaN.
 /// @pre x is positive and normal
 template <class P>
 [[nodiscard, gnu::always_inline]] inline P power_precisely(const P& x, const P& y) {
@@ -75,11 +77,10 @@ template <class P>
     const P s = (m - P(1.0)) / (m + P(1.0)), z = s * s;
     const P log = fused( // 2/((2k + 1) ln 2)
         z,
-        detail::in_pairs(z,
-                         std::array{0.96179669392597560, 0.57707801635558530, 0.41219858311113240,
-                                    0.32059889797532520, 0.26230818925253880, 0.22195308321368667,
-                                    0.19235933878519512, 0.16972882833987804, 0.15186263588304877,
-                                    0.13739952770371080}),
+        detail::estrin(z, std::array{0.96179669392597560, 0.57707801635558530, 0.41219858311113240,
+                                     0.32059889797532520, 0.26230818925253880, 0.22195308321368667,
+                                     0.19235933878519512, 0.16972882833987804, 0.15186263588304877,
+                                     0.13739952770371080}),
         P(2.8853900817779268));
     const P high = detail::number_of(detail::bits_of(y) >> 12 << 12); // times e without rounding
     const P part = fused(y - high, e, y * (s * log)), most = high * e;
@@ -88,7 +89,7 @@ template <class P>
     const P r = larger(P(-1.0), smaller(P(1.0), P((most - n) + part)));
     const P p = fused( // ln2ⁿ/n!
         r,
-        detail::in_pairs(
+        detail::estrin(
             r, std::array{0.69314718055994530, 0.24022650695910072, 5.5504108664821580e-2,
                           9.6181291076284770e-3, 1.3333558146428443e-3, 1.5403530393381610e-4,
                           1.5252733804059841e-5, 1.3215486790144310e-6, 1.0178086009239700e-7,

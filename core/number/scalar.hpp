@@ -1,9 +1,8 @@
-/// What the kernel asks of a number, so that one algorithm serves double, long double, quad and
-/// packs of runs.
+/// The functions that a number type must have, so that one algorithm serves double, long double, quad
+/// and packs of runs.
 ///
-/// A number offers + − · /, comparison, and the functions below, found by overload: for a pack a
-/// comparison yields a mask and `select` blends, so the kernel chooses with `select`, never with
-/// `if`.
+/// A number has + − · /, comparisons, and overloads of the functions below. The comparison of two packs
+/// is a mask, one truth value a lane. Algorithms therefore choose with `select`, and never with `if`.
 #pragma once
 
 #include <cmath>
@@ -12,7 +11,7 @@
 #include <utility>
 
 #if defined(__FMA__) || defined(__aarch64__)
-#define WINGSPREAD_HAS_FMA // this translation unit's instruction set multiplies and adds at once
+#define WINGSPREAD_HAS_FMA // this translation unit may use fused multiply-add instructions
 #endif
 
 namespace wingspread {
@@ -22,11 +21,11 @@ template <class T>
   return mask ? a : b;
 }
 
-/// Whether it holds in any lane.
+/// Whether a mask, or a truth value, is true in any lane.
 [[nodiscard]] inline bool any(bool mask) { return mask; }
 
-/// a·b + c. One rounding where the instruction set has it for this type, two elsewhere; written out
-/// because the compiler's own contraction is off and results must not depend on its choices.
+/// a·b + c, with one rounding if the instruction set can, else with two. Explicit, because results must
+/// not depend on where a compiler contracts: -ffp-contract=off.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T fused(const T& a, const T& b, const T& c) {
   return a * b + c;
@@ -39,7 +38,7 @@ template <>
 }
 #endif
 
-/// True when x is neither infinite nor NaN.
+/// Whether x is neither infinite nor NaN.
 template <class T> [[nodiscard, gnu::always_inline]] inline bool is_finite(const T& x) {
   return x - x == T(0);
 }
@@ -51,7 +50,7 @@ template <class T> [[nodiscard, gnu::always_inline]] inline T smaller(const T& a
   return select(b < a, b, a);
 }
 
-/// Whether T is one number, whose comparisons are true or false; a pack's are masks.
+/// Whether T is a single number and no pack.
 template <class T>
 inline constexpr bool is_one_number = std::is_same_v<decltype(std::declval<T>() < T(0)), bool>;
 

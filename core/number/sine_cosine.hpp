@@ -1,10 +1,10 @@
 /// Sine and cosine of one angle together.
 ///
-/// For double with FMA: branch-free, ≤ 1.5 ulp for |x| ≤ 1e6 rad (measured in the tests; the angle
-/// of a wing stays below a few turns). Reduction by multiples of π/2 in three parts [Cody & Waite
-/// 1980]: with a fused multiply-add x − k·P1 is exact, since both are multiples of 2⁻⁵² and the
-/// difference is below one. On [−π/4, π/4] the polynomials are those of Sun's fdlibm. Any other
-/// number, and double without FMA, uses its library's functions.
+/// For double and packs with FMA: no branches, error ≤ 1.5 ulp for |x| ≤ 1e6 rad (measured by the tests;
+/// a wing's angles stay below a few turns). The angle is reduced by multiples of π/2 in three parts
+/// [Cody & Waite 1980]: with a fused multiply-add x − k·P1 is exact, since both are multiples of 2⁻⁵²
+/// and the difference is below one. On [−π/4, π/4] the polynomials are those of Sun's fdlibm. Other
+/// number types, and double without FMA, use the library's functions.
 #pragma once
 
 #include "core/number/pack.hpp"
@@ -26,8 +26,7 @@ template <class T>
 #ifdef WINGSPREAD_HAS_FMA
 namespace detail {
 
-/// sin r for |r| ≤ π/4, z = r²; r_low: r with its last correction,
-/// which the rest need not wait for.
+/// sin r for |r| ≤ π/4, z = r². r_low is r with its last correction, which arrives late and is added last.
 template <class P>
 [[nodiscard, gnu::always_inline]] inline P sine_kernel(const P& r, const P& r_low, const P& z) {
   const P zz = z * z;
@@ -37,7 +36,7 @@ template <class P>
   return fused(P(z * r), fused(zz, fused(zz, high, middle), low), r_low);
 }
 
-/// cos r for |r| ≤ π/4, z = r²; 1 − z/2 is split so that its rounding error is added back.
+/// cos r for |r| ≤ π/4, z = r². The rounding error of 1 − z/2 is computed and added back.
 template <class P> [[nodiscard, gnu::always_inline]] inline P cosine_kernel(const P& z) {
   const P zz = z * z;
   const P high = fused(z, P(-1.13596475577881948265e-11), P(2.08757232129817482790e-09));
@@ -48,7 +47,6 @@ template <class P> [[nodiscard, gnu::always_inline]] inline P cosine_kernel(cons
   return w + fused(zz, p, fused(z, P(-0.5), P(P(1.0) - w)));
 }
 
-/// For double and packs of it.
 template <class P>
 [[nodiscard, gnu::always_inline]] inline SineCosine<P> branch_free_sine_cosine(const P& angle) {
   const P rounder(0x1.8p52); // adding it leaves the nearest integer in the low mantissa bits
@@ -56,12 +54,12 @@ template <class P>
   const P minus_k = rounder - shifted;
   P r = fused(minus_k, P(0x1.921fb54442d18p0), angle);
   r = fused(minus_k, P(0x1.1a62633145c07p-54), r);
-  // counts only beside a multiple of π/2
+  // matters only next to a multiple of π/2
   const P r_low = fused(minus_k, P(-0x1.f1976b7ed8fbcp-110), r);
   const P z = r * r;
   const auto s = bits_of(sine_kernel(r, r_low, z)), c = bits_of(cosine_kernel(z));
   const auto quadrant = bits_of(shifted);
-  // bits where the mask is set of one, elsewhere of the other: a blend that is never a jump
+  // swaps sine and cosine by a mask of bits, so that the compiler makes no jump of it
   const auto swapped = -(quadrant & 1), difference = s ^ c;
   const auto sine = s ^ (difference & swapped), cosine = c ^ (difference & swapped);
   return {number_of(sine ^ ((quadrant & 2) << 62)),

@@ -1,223 +1,133 @@
-/// The fields of the structs that travel between a run and a lane of packs.
+/// Copies structs of numbers into and out of one lane of packs, field by field.
 ///
-/// A list takes its struct apart: one that misses a field does not compile, so that none can be
-/// forgotten on the way.
+/// A struct template such as HingeTerms<T> is the same list of fields for a run (T = double) and for
+/// W runs in lanes (T = Pack<W>). `fields` finds that list by itself: a new field needs no line here,
+/// and a struct with more fields than `fields` knows does not compile.
 #pragma once
 
-#include "core/mechanics/energy.hpp"
-#include "core/mechanics/hinge_moment.hpp"
-#include "core/mechanics/wing.hpp"
-#include "core/methods/held_back_steps.hpp"
-#include "core/methods/step_control.hpp"
+#include "core/mechanics/tree.hpp"
 #include "core/number/pack.hpp"
-#include "core/number/planar.hpp"
-#include "core/peaks/base_peaks.hpp"
-#include "core/peaks/reaction_bound.hpp"
-#include "core/run/handover.hpp"
+#include "core/scene/scene.hpp"
 
 #include <array>
+#include <cstddef>
 #include <tuple>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace wingspread {
 
 namespace detail {
 
-template <class S, template <class> class Struct> inline constexpr bool is_a = false;
-template <class T, template <class> class Struct>
-inline constexpr bool is_a<Struct<T>, Struct> = true;
-/// S is Struct<T> of some number T, or the same const.
-template <class S, template <class> class Struct>
-concept A = is_a<std::remove_const_t<S>, Struct>;
+/// Converts to every type; only counted with, never evaluated.
+struct AnyField {
+  template <class T> operator T() const; // NOLINT: implicit, as a field's initializer
+};
 
-[[nodiscard, gnu::always_inline]] inline auto fields(A<Vec2> auto& s) {
-  auto& [x, y] = s;
-  return std::tie(x, y);
+/// The largest number of initializers that the aggregate S takes, which is the number of its fields.
+template <class S, class... Known> [[nodiscard]] consteval std::size_t count_fields() {
+  if constexpr (requires { S{Known{}..., AnyField{}}; })
+    return count_fields<S, Known..., AnyField>();
+  else
+    return sizeof...(Known);
 }
 
-[[nodiscard, gnu::always_inline]] inline auto fields(A<BaseTerms> auto& s) {
-  auto& [motion, acceleration, gravity, angular_acceleration, angle, rate, position, velocity,
-         table, table_scale] = s;
-  return std::tie(motion, acceleration, gravity, angular_acceleration, angle, rate, position,
-                  velocity, table, table_scale);
+/// References to the fields of an aggregate, in the order of their declaration. A structured binding
+/// must name every field, so each number of fields needs a line of its own.
+template <class S> [[nodiscard]] auto fields(S& s) {
+  constexpr std::size_t count = count_fields<std::remove_const_t<S>>();
+  static_assert(2 <= count && count <= 24, "add a line for a struct with so many fields");
+  // clang-format off
+#define WINGSPREAD_FIELDS(number, ...) \
+  if constexpr (count == number) { auto& [__VA_ARGS__] = s; return std::tie(__VA_ARGS__); }
+  WINGSPREAD_FIELDS(2, a, b)
+  WINGSPREAD_FIELDS(3, a, b, c)
+  WINGSPREAD_FIELDS(4, a, b, c, d)
+  WINGSPREAD_FIELDS(5, a, b, c, d, e)
+  WINGSPREAD_FIELDS(6, a, b, c, d, e, f)
+  WINGSPREAD_FIELDS(7, a, b, c, d, e, f, g)
+  WINGSPREAD_FIELDS(8, a, b, c, d, e, f, g, h)
+  WINGSPREAD_FIELDS(9, a, b, c, d, e, f, g, h, i)
+  WINGSPREAD_FIELDS(10, a, b, c, d, e, f, g, h, i, j)
+  WINGSPREAD_FIELDS(11, a, b, c, d, e, f, g, h, i, j, k)
+  WINGSPREAD_FIELDS(12, a, b, c, d, e, f, g, h, i, j, k, l)
+  WINGSPREAD_FIELDS(13, a, b, c, d, e, f, g, h, i, j, k, l, m)
+  WINGSPREAD_FIELDS(14, a, b, c, d, e, f, g, h, i, j, k, l, m, n)
+  WINGSPREAD_FIELDS(15, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o)
+  WINGSPREAD_FIELDS(16, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p)
+  WINGSPREAD_FIELDS(17, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q)
+  WINGSPREAD_FIELDS(18, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r)
+  WINGSPREAD_FIELDS(19, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t)
+  WINGSPREAD_FIELDS(20, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u)
+  WINGSPREAD_FIELDS(21, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u, v)
+  WINGSPREAD_FIELDS(22, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u, v, w)
+  WINGSPREAD_FIELDS(23, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u, v, w, x)
+  WINGSPREAD_FIELDS(24, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t, u, v, w, x, y)
+#undef WINGSPREAD_FIELDS
+  // clang-format on
 }
 
-[[nodiscard, gnu::always_inline]] inline auto fields(A<DrivenPiece> auto& s) {
-  auto& [number, from, until, x, y, turning, velocity, rate, angle] = s;
-  return std::tie(number, from, until, x, y, turning, velocity, rate, angle);
-}
+template <class T> inline constexpr bool is_pack = false;
+template <int W> inline constexpr bool is_pack<Pack<W>> = true;
 
-[[nodiscard, gnu::always_inline]] inline auto fields(A<BodyTerms> auto& s) {
-  auto& [mass, inertia, mass_moment, arm, center, central_inertia, minus_inverse] = s;
-  return std::tie(mass, inertia, mass_moment, arm, center, central_inertia, minus_inverse);
-}
+template <class T> inline constexpr bool is_list = false;
+template <class T> inline constexpr bool is_list<std::vector<T>> = true;
+template <class T, std::size_t N> inline constexpr bool is_list<std::array<T, N>> = true;
 
-[[nodiscard, gnu::always_inline]] inline auto fields(A<HingeTerms> auto& s) {
-  auto& [stowed, latched, sense, drive, drive_slope, viscous, regularized_friction, slip_rate,
-         kinetic_friction, static_friction, more_regularized, more_exact, has_latch, stiffness,
-         damping] = s;
-  return std::tie(stowed, latched, sense, drive, drive_slope, viscous, regularized_friction,
-                  slip_rate, kinetic_friction, static_friction, more_regularized, more_exact,
-                  has_latch, stiffness, damping);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<DamperTerms> auto& s) {
-  auto& [law, strength, exponent, rate, near_zero] = s;
-  return std::tie(law, strength, exponent, rate, near_zero);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<RealHingeTerms> auto& s) {
-  auto& [spring, harness, friction, spring_weight, harness_weight, friction_weight, slip_rate,
-         regularized, most_friction, has_damper, has_window, has_stop, has_backlash, damper,
-         window_low, window_high, sense, stop_stiffness, stop_dissipation, contact_angle,
-         half_backlash] = s;
-  return std::tie(spring, harness, friction, spring_weight, harness_weight, friction_weight,
-                  slip_rate, regularized, most_friction, has_damper, has_window, has_stop,
-                  has_backlash, damper, window_low, window_high, sense, stop_stiffness,
-                  stop_dissipation, contact_angle, half_backlash);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<HingeMode> auto& s) {
-  auto& [in_contact, damper_acts, sliding] = s;
-  return std::tie(in_contact, damper_acts, sliding);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<LoopTerms> auto& s) {
-  auto& [first, second, table, ratio, stiffness, damping, slack_beyond, stowed_a, stowed_b, sense_a,
-         sense_b] = s;
-  return std::tie(first, second, table, ratio, stiffness, damping, slack_beyond, stowed_a, stowed_b,
-                  sense_a, sense_b);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<PlateTerms> auto& s) {
-  auto& [from, along, normal, strength] = s;
-  return std::tie(from, along, normal, strength);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<Wing> auto& s) {
-  auto& [base, tree, hinge_of, bodies, hinges, initial_rates, has_regularized_friction, can_stick,
-         real, loops, plates] = s;
-  return std::tie(base, tree, hinge_of, bodies, hinges, initial_rates, has_regularized_friction,
-                  can_stick, real, loops, plates);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<Lever> auto& s) {
-  auto& [mass, arm, sigma, moment] = s;
-  return std::tie(mass, arm, sigma, moment);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<LinearLaw> auto& s) {
-  auto& [latched, drive, stiffness, damping] = s;
-  return std::tie(latched, drive, stiffness, damping);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<StepMemory> auto& s) {
-  auto& [log_error, most, h] = s;
-  return std::tie(log_error, most, h);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<StepMark> auto& s) {
-  auto& [time, evaluations, steps] = s;
-  return std::tie(time, evaluations, steps);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<HeldBackSteps> auto& s) {
-  auto& [shortest, wait_until, last_free] = s;
-  return std::tie(shortest, wait_until, last_free);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<Conserved> auto& s) {
-  auto& [start, velocity, spin] = s;
-  return std::tie(start, velocity, spin);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<BaseExcursion> auto& s) {
-  auto& [angle, rate, first_angle, first_rate] = s;
-  return std::tie(angle, rate, first_angle, first_rate);
-}
-
-[[nodiscard, gnu::always_inline]] inline auto fields(A<Pace> auto& s) {
-  auto& [steps, memory, held_back] = s;
-  return std::tie(steps, memory, held_back);
-}
+/// Part of a wing's structure, which an engine sets once: all its runs have the same.
+template <class T>
+inline constexpr bool is_structure =
+    std::is_same_v<T, BaseMotion> || std::is_same_v<T, Tree> || std::is_same_v<T, std::vector<int>>;
 
 } // namespace detail
 
-/// visit(a's field, b's field) for all fields of two structs of one kind.
-template <class Visit, class SA, class SB>
-[[gnu::always_inline]] inline void for_each_field(SA& a, SB& b, Visit visit) {
-  const auto of_a = detail::fields(a);
-  const auto of_b = detail::fields(b);
-  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
-    (visit(std::get<I>(of_a), std::get<I>(of_b)), ...);
-  }
-  (std::make_index_sequence<std::tuple_size_v<decltype(of_a)>>{});
+/// Calls visit(field of a, field of b) for every field of two structs made from one template.
+template <class A, class B, class Visit> void for_each_field(A& a, B& b, Visit visit) {
+  std::apply(
+      [&](auto&... of_a) {
+        std::apply([&](auto&... of_b) { (visit(of_a, of_b), ...); }, detail::fields(b));
+      },
+      detail::fields(a));
 }
 
-/// to = from in the lanes of the mask.
-template <class Mask, int W>
-[[gnu::always_inline]] inline void assign_where(const Mask& mask, Pack<W>& to,
-                                                const Pack<W>& from) {
-  to = select(mask, from, to);
-}
+/// Copies every number of `from` into the lanes of the mask; both are structs of packs, or packs.
 template <class Mask, class Packs>
-[[gnu::always_inline]] inline void assign_where(const Mask& mask, Packs& to, const Packs& from) {
-  for_each_field(
-      to, from, [&mask](auto& part, const auto& part_from) __attribute__((always_inline)) {
-        assign_where(mask, part, part_from);
-      });
+void assign_where(const Mask& mask, Packs& to, const Packs& from) {
+  if constexpr (detail::is_pack<Packs>)
+    to = select(mask, from, to);
+  else
+    for_each_field(to, from,
+                   [&](auto& part, const auto& part_from) { assign_where(mask, part, part_from); });
 }
 
-// ---- one lane of packs
-
-template <int W> [[gnu::always_inline]] inline void set_lane(int lane, Pack<W>& to, double from) {
-  to.v[lane] = from;
-}
-/// What any lane needs is done in all.
-inline void set_lane(int /*lane*/, bool& to, bool from) { to = to || from; }
-/// All lanes have the structure's own.
-inline void set_lane(int /*lane*/, BaseMotion& /*to*/, BaseMotion /*from*/) {}
-inline void set_lane(int /*lane*/, Tree& /*to*/, const Tree& /*from*/) {}
-inline void set_lane(int /*lane*/, DamperLaw& to, DamperLaw from) { to = from; }
-inline void set_lane(int /*lane*/, int& to, int from) { to = from; }
-inline void set_lane(int /*lane*/, const Curve*& to, const Curve* from) { to = from; }
-inline void set_lane(int /*lane*/, const BaseTable*& to, const BaseTable* from) { to = from; }
-template <int W, std::size_t N>
-[[gnu::always_inline]] inline void set_lane(int lane, std::array<Pack<W>, N>& to,
-                                            const std::array<double, N>& from) {
-  for (std::size_t k = 0; k < N; ++k) to[k].v[lane] = from[k];
-}
-inline void set_lane(int /*lane*/, std::vector<int>& /*to*/, const std::vector<int>& /*from*/) {}
-template <class Packs, class Numbers>
-[[gnu::always_inline]] inline void set_lane(int lane, std::vector<Packs>& to,
-                                            const std::vector<Numbers>& from) {
-  for (std::size_t k = 0; k < from.size(); ++k) set_lane(lane, to[k], from[k]);
-}
-template <class Packs, class Numbers>
-[[gnu::always_inline]] inline void set_lane(int lane, Packs& to, const Numbers& from) {
-  for_each_field(
-      to, from, [lane](auto& part, const auto& part_from) __attribute__((always_inline)) {
-        set_lane(lane, part, part_from);
-      });
+/// Copies a run's numbers into one lane.
+/// @pre lists in `to` are at least as long as those in `from`
+template <class Packs, class Numbers> void set_lane(int lane, Packs& to, const Numbers& from) {
+  if constexpr (detail::is_pack<Packs>)
+    to.v[lane] = from;
+  else if constexpr (detail::is_structure<Packs>)
+    return;
+  else if constexpr (std::is_same_v<Packs, bool>)
+    to = to || from; // packs compute what any of their lanes needs
+  else if constexpr (std::is_scalar_v<Packs>)
+    to = from; // an index, a law, a pointer to a table: the same in all runs of one structure
+  else if constexpr (detail::is_list<Packs>)
+    for (std::size_t k = 0; k < from.size(); ++k) set_lane(lane, to[k], from[k]);
+  else
+    for_each_field(to, from,
+                   [lane](auto& part, const auto& part_from) { set_lane(lane, part, part_from); });
 }
 
-template <int W>
-[[gnu::always_inline]] inline void get_lane(int lane, const Pack<W>& from, double& to) {
-  to = from.v[lane];
-}
-template <class Packs, class Numbers>
-[[gnu::always_inline]] inline void get_lane(int lane, const std::vector<Packs>& from,
-                                            std::vector<Numbers>& to) {
-  for (std::size_t k = 0; k < to.size(); ++k) get_lane(lane, from[k], to[k]);
-}
-template <class Packs, class Numbers>
-[[gnu::always_inline]] inline void get_lane(int lane, const Packs& from, Numbers& to) {
-  for_each_field(
-      from, to, [lane](const auto& part_from, auto& part) __attribute__((always_inline)) {
-        get_lane(lane, part_from, part);
-      });
+/// Copies one lane's numbers out to a run.
+/// @pre lists in `from` are at least as long as those in `to`
+template <class Packs, class Numbers> void get_lane(int lane, const Packs& from, Numbers& to) {
+  if constexpr (detail::is_pack<Packs>)
+    to = from.v[lane];
+  else if constexpr (detail::is_list<Packs>)
+    for (std::size_t k = 0; k < to.size(); ++k) get_lane(lane, from[k], to[k]);
+  else
+    for_each_field(from, to,
+                   [lane](const auto& part_from, auto& part) { get_lane(lane, part_from, part); });
 }
 
 } // namespace wingspread

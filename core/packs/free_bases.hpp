@@ -1,13 +1,15 @@
-/// Runs on free bases in packs: what each keeps of its momenta, and how far its base has turned.
+/// Free bases in packs: restores the momenta that each run conserves, and watches how far its base
+/// turns.
 ///
-/// A step accepted is given the momenta that it keeps, as Integrator::restore_momentum does, and the
-/// right-hand side is evaluated anew at its end. The method's own end is left as it was for a run
-/// that asks: it does that itself.
+/// The end of an accepted step is given the conserved momenta, as Integrator::restore_momentum does, and
+/// the right-hand side is evaluated there again. A run that asks gets the method's own end of the step,
+/// because it restores the momenta itself.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
 #include "core/packs/fields.hpp"
 #include "core/peaks/base_peaks.hpp"
+#include "core/run/lane_protocol.hpp"
 
 namespace wingspread {
 
@@ -18,56 +20,55 @@ template <int W> class FreeBases {
 public:
   FreeBases() {
     const P none(0.0);
-    kept_ = {{none, none}, {none, none}, none};
-    base_ = after_ = {none, none, none, none};
-    projections_ = none;
+    conserved_ = {{none, none}, {none, none}, none};
+    base_ = base_at_end_ = {none, none, none, none};
+    evaluations_ = none;
   }
 
-  void carry(int lane, const Handover& run) {
-    set_lane(lane, kept_, run.kept);
-    set_lane(lane, base_, run.base);
-    projections_.v[lane] = 0;
+  void load(int lane, const LaneTask& task) {
+    set_lane(lane, conserved_, task.conserved);
+    set_lane(lane, base_, task.base);
+    evaluations_.v[lane] = 0;
   }
 
-  /// Gives the step's end what is kept. Cost an evaluation and a pass outward.
+  /// @param forces whether they are asked for
+  void unload(int lane, LaneResult& result, bool forces) const {
+    get_lane(lane, by_method_, result.x1), get_lane(lane, slope_by_method_, result.dxdt1);
+    if (forces) get_lane(lane, forces_by_method_, result.forces_at_end);
+    get_lane(lane, base_, result.base);
+  }
+
+  /// Gives the step's end the conserved momenta. Costs an evaluation and a pass outward.
   template <class Topology>
   void restore_momenta(System<P, Topology, BaseMotion::free>& system, Step<P>& step) {
     by_method_ = step.x1, slope_by_method_ = step.dxdt1, forces_by_method_ = system.work().forces;
-    if (!system.wing().plates.empty()) return; // the air takes some
+    if (!system.wing().plates.empty()) return; // air changes the momenta
     const P end = step.t + step.h;
-    keep_momentum(system, kept_, step.x1, end);
+    keep_momentum(system, conserved_, step.x1, end);
     system(step.x1, step.dxdt1, end);
   }
 
-  /// @return where the base's largest turn or rate may lie inside the step
+  /// @return the lanes where the base's largest turn or rate may lie inside the step
   [[nodiscard]] Mask may_swing_further(const Layout& at, const Step<P>& step) {
-    after_ = base_;
-    return after_.raise_by_ends(at, step);
+    base_at_end_ = base_;
+    return base_at_end_.raise_by_ends(at, step);
   }
 
-  /// A step was accepted, in these lanes. @param restores whether momenta are restored
+  /// Counts an accepted step in these lanes. @param restores whether momenta are restored
   void accept(const Mask& these, bool restores) {
-    assign_where(these, base_, after_);
-    if (restores) projections_ = select(these, P(projections_ + P(1.0)), projections_);
+    assign_where(these, base_, base_at_end_);
+    if (restores) evaluations_ = select(these, P(evaluations_ + P(1.0)), evaluations_);
   }
 
-  /// Evaluations made for momenta since the lane's run was taken.
-  [[nodiscard]] const P& projections() const { return projections_; }
-
-  /// The method's own end of the step made last, and the excursion up to its start.
-  /// @param forces whether they are asked for
-  void hand_back(int lane, const Place& place, bool forces) const {
-    get_lane(lane, by_method_, place.x1), get_lane(lane, slope_by_method_, place.dxdt1);
-    if (forces) get_lane(lane, forces_by_method_, place.forces_at_end);
-    get_lane(lane, base_, place.base);
-  }
+  /// Evaluations made for momenta since `load`.
+  [[nodiscard]] const P& evaluations() const { return evaluations_; }
 
 private:
-  Conserved<P> kept_;
-  BaseExcursion<P> base_, after_; ///< up to the step's start, and to its end
+  Conserved<P> conserved_;
+  BaseExcursion<P> base_, base_at_end_; ///< up to the step's start, and up to its end
   State<P> by_method_, slope_by_method_;
   std::vector<Vec2<P>> forces_by_method_;
-  P projections_;
+  P evaluations_;
 };
 
 } // namespace wingspread

@@ -17,7 +17,7 @@ std::unique_ptr<PackEngine> make_engine(InstructionSet set, const Wing<double>& 
   return {};
 }
 
-// ---- those that this build is without
+// ---- instruction sets of other processors
 
 #ifndef __x86_64__
 std::unique_ptr<PackEngine> make_avx2_engine(const Wing<double>&, const PackShape&) { return {}; }

@@ -1,14 +1,15 @@
-/// Steps of several runs at once: what an instruction set offers to the runs in its lanes.
+/// The interface of an engine: makes steps of several runs at once, one run in each lane of a vector
+/// register. Each instruction set has its own engine (pack_stepper.hpp).
 ///
-/// A lane's state lives here between its steps; the run itself (integrator.hpp) stays where it is,
-/// and is asked only when something happens. Every number of a lane has the bits that the scalar
-/// method gives.
+/// Between its steps a run's state lives in its lane, and the run itself (Integrator) is asked only
+/// when something happens: lane_protocol.hpp says when, and what is copied. Every number of a lane has
+/// the bits that the run alone would compute.
 #pragma once
 
 #include "core/mechanics/wing.hpp"
 #include "core/methods/steppers.hpp"
 #include "core/packs/instruction_set.hpp"
-#include "core/run/handover.hpp"
+#include "core/run/lane_protocol.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +18,7 @@ namespace wingspread {
 
 inline constexpr int most_lanes = 8;
 
-/// Bit l: lane l.
+/// A set of lanes: bit l stands for lane l.
 using LaneSet = std::uint32_t;
 [[nodiscard]] constexpr bool has(LaneSet set, int lane) { return (set >> lane & 1) != 0; }
 
@@ -28,39 +29,40 @@ public:
   PackEngine& operator=(const PackEngine&) = delete;
   virtual ~PackEngine() = default;
 
+  /// Number of lanes.
   [[nodiscard]] virtual int width() const = 0;
-
-  /// A new run takes the lane: its numbers. @pre a wing of the engine's structure
-  virtual void set_wing(int lane, const Wing<double>& wing) = 0;
-  /// Takes the lane's run from where it stands.
-  virtual void carry(int lane, const Handover& run) = 0;
-  /// There is no more run for the lane.
-  virtual void set_idle(int lane) = 0;
-
-  /// Makes steps in every lane until some must ask: the step just made holds, or may hold, an
-  /// event, a peak, an angle past bounds or the end of what was handed over. @return these lanes;
-  /// the others have gone on
-  virtual LaneSet advance() = 0;
-  /// Tries made in every lane so far.
+  /// Trial steps made so far in every lane.
   [[nodiscard]] virtual long rounds() const = 0;
 
-  /// Gives the run of a lane that asks back, with that step.
-  [[nodiscard]] virtual Carried hand_back(int lane, const Place& place) const = 0;
+  /// Copies the numbers of a new run's wing into the lane. @pre `wing` has the engine's structure
+  virtual void set_wing(int lane, const Wing<double>& wing) = 0;
+  /// Copies the run's state into the lane. @pre set_wing with this run's wing
+  virtual void load(int lane, const LaneTask& task) = 0;
+  /// Marks the lane as one without a run.
+  virtual void set_idle(int lane) = 0;
+
+  /// Makes trial steps in all lanes until at least one lane needs its run.
+  /// @return the lanes that do; the others have already accepted or rejected their last trial step
+  virtual LaneSet advance() = 0;
+
+  /// Copies the run's state and the last trial step out of a lane. @pre advance() has returned it
+  virtual void unload(int lane, LaneResult& result) const = 0;
 };
 
-/// What an engine is made for.
+/// The method of an engine and the peaks that it watches: each costs time in every lane.
 struct PackShape {
-  Method method = Method::dop853; ///< one that has_lanes
-  bool forces = false;            ///< peak forces are watched
-  bool moments = false;           ///< peak moments are
-  bool overtravel = true;         ///< and how far hinges turn beyond their stowed angles
+  Method method = Method::dop853; ///< has_lanes(method)
+  bool forces = false;
+  bool moments = false;
+  bool overtravel = true; ///< how far hinges turn beyond their stowed angles
 };
 
-/// An engine for wings of this structure; none for `scalar`. @pre the processor has the set
+/// Makes an engine for wings of this structure; null for InstructionSet::scalar.
+/// @pre the processor has the set
 [[nodiscard]] std::unique_ptr<PackEngine> make_engine(InstructionSet set, const Wing<double>& wing,
                                                       const PackShape& shape);
 
-// each from its own translation unit
+// each from a translation unit of its own
 [[nodiscard]] std::unique_ptr<PackEngine> make_neon_engine(const Wing<double>& wing,
                                                            const PackShape& shape);
 [[nodiscard]] std::unique_ptr<PackEngine> make_avx2_engine(const Wing<double>& wing,

@@ -1,5 +1,5 @@
-/// The engine of packs, for an instruction set's own translation unit: the templates of the scalar
-/// path over Pack<W>.
+/// PackStepper, the engine of W lanes: the templates with which a run alone makes its steps, over
+/// Pack<W>. Each instruction set compiles it in a translation unit of its own.
 #pragma once
 
 #include "core/dense/friction_layer.hpp"
@@ -11,6 +11,7 @@
 #include "core/methods/dop853.hpp"
 #include "core/methods/runge_kutta.hpp"
 #include "core/methods/taylor.hpp"
+#include "core/methods/time_scales.hpp"
 #include "core/packs/fields.hpp"
 #include "core/packs/free_bases.hpp"
 #include "core/packs/lane_peaks.hpp"
@@ -19,6 +20,7 @@
 #include "core/peaks/overtravel.hpp"
 
 #include <array>
+#include <memory>
 #include <optional>
 
 namespace wingspread {
@@ -31,17 +33,17 @@ class PackStepper : public PackEngine {
 
 public:
   PackStepper(const Wing<double>& wing, const PackShape& shape)
-      : shape_(shape), system_(make(wing), std::nullopt, work_), at_(system_.layout()),
-        peaks_(shape) {
+      : shape_(shape), system_(make_harmless_wing(wing), std::nullopt, work_),
+        at_(system_.layout()), peaks_(shape) {
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
       x->assign(at_.size(), none);
     for (std::vector<P>* v : {&waits_, &overtravel_, &slides_}) v->assign(at_.bodies + 1, none);
     for (std::vector<P>& ways : ways_) ways.assign(wing_.real.size(), none);
-    rtol_ = atol_ = tolerance_of_dense_ = P(1.0);
-    step_.t = step_.h = error_size_ = judged_ = factor_ = busy_ = t_end_ = none;
-    begun_ = look_ = last_step_ = evaluations_before_ = none;
-    pace_ = {none, {}, {none, none, {none, none, none}}};
+    rtol_ = atol_ = dense_tolerance_ = P(1.0);
+    step_.t = step_.h = scaled_error_ = judged_ = factor_ = busy_ = t_end_ = none;
+    first_round_ = last_round_ = last_step_ = evaluations_before_ = none;
+    history_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
     peaks_.resize(at_);
   }
@@ -56,54 +58,53 @@ public:
     set_lane(lane, peaks_.levers(), levers_of_wing_);
   }
 
-  void carry(int lane, const Handover& run) override {
+  void load(int lane, const LaneTask& task) override {
     const double now = static_cast<double>(round_);
-    step_.t.v[lane] = run.step.t, step_.h.v[lane] = run.h;
-    set_lane(lane, step_.x, run.step.x), set_lane(lane, step_.dxdt, run.step.dxdt);
-    set_lane(lane, pace_, run.pace);
-    set_lane(lane, work_.laws, run.work.laws);
-    if (!wing_.real.empty()) take_modes(lane, run.work);
-    if (wing_.base.table) set_lane(lane, work_.driven, run.work.driven);
+    step_.t.v[lane] = task.step.t, step_.h.v[lane] = task.h;
+    set_lane(lane, step_.x, task.step.x), set_lane(lane, step_.dxdt, task.step.dxdt);
+    set_lane(lane, history_, task.history);
+    set_lane(lane, work_.laws, task.work.laws);
+    if (!wing_.real.empty()) set_modes(lane, task.work);
+    if (wing_.base.table) set_lane(lane, work_.driven, task.work.driven);
     for (int i = 1; i <= at_.bodies; ++i) {
-      overtravel_[i].v[lane] = run.overtravel[i];
-      slides_[i].v[lane] = static_cast<double>(run.work.contact[i]);
-      waits_[i].v[lane] = run.work.engaged[i] ? 0 : 1;
+      overtravel_[i].v[lane] = task.overtravel[i];
+      slides_[i].v[lane] = static_cast<double>(task.work.contact[i]);
+      waits_[i].v[lane] = task.work.engaged[i] ? 0 : 1;
     }
-    peaks_.carry(lane, run);
-    if constexpr (M == BaseMotion::free) free_.carry(lane, run);
-    rtol_.v[lane] = run.tolerance.rtol, atol_.v[lane] = run.tolerance.atol;
-    tolerance_of_dense_.v[lane] = run.tolerance_of_dense;
-    t_end_.v[lane] = run.t_end;
-    begun_.v[lane] = now, look_.v[lane] = now + static_cast<double>(run.tries);
-    last_step_.v[lane] = run.pace.steps + static_cast<double>(run.steps);
-    evaluations_before_.v[lane] = static_cast<double>(run.evaluations) - now * Formula::evaluations;
+    peaks_.load(lane, task);
+    if constexpr (M == BaseMotion::free) free_.load(lane, task);
+    rtol_.v[lane] = task.tolerance.rtol, atol_.v[lane] = task.tolerance.atol;
+    dense_tolerance_.v[lane] = task.dense_tolerance;
+    t_end_.v[lane] = task.t_end;
+    first_round_.v[lane] = now;
+    last_round_.v[lane] = now + static_cast<double>(task.most_trial_steps);
+    last_step_.v[lane] = task.history.steps + static_cast<double>(task.most_steps);
+    evaluations_before_.v[lane] =
+        static_cast<double>(task.evaluations) - now * Formula::evaluations;
     busy_.v[lane] = 1;
   }
 
   void set_idle(int lane) override { busy_.v[lane] = step_.h.v[lane] = 0; }
 
-  [[nodiscard]] Carried hand_back(int lane, const Place& place) const override {
-    const long tries = round_ - 1 - static_cast<long>(begun_.v[lane]);
-    if (tries > 0) {
-      place.step.t = step_.t.v[lane];
-      get_lane(lane, step_.x, place.step.x), get_lane(lane, step_.dxdt, place.step.dxdt);
-      for (int i = 1; i <= at_.bodies; ++i) place.overtravel[i] = overtravel_[i].v[lane];
+  void unload(int lane, LaneResult& result) const override {
+    result.trial_steps = round_ - 1 - static_cast<long>(first_round_.v[lane]);
+    const bool moved = result.trial_steps > 0;
+    if (moved) {
+      result.step.t = step_.t.v[lane];
+      get_lane(lane, step_.x, result.step.x), get_lane(lane, step_.dxdt, result.step.dxdt);
+      for (int i = 1; i <= at_.bodies; ++i) result.overtravel[i] = overtravel_[i].v[lane];
     }
-    get_lane(lane, step_.x1, place.x1), get_lane(lane, step_.dxdt1, place.dxdt1);
-    peaks_.hand_back(lane, place, tries > 0);
-    long evaluations = (tries + 1) * Formula::evaluations + peaks_.evaluations(lane);
+    get_lane(lane, step_.x1, result.x1), get_lane(lane, step_.dxdt1, result.dxdt1);
+    peaks_.unload(lane, result, moved);
+    result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
     if constexpr (M == BaseMotion::free) {
-      free_.hand_back(lane, place, shape_.forces);
-      evaluations += static_cast<long>(free_.projections().v[lane]);
+      free_.unload(lane, result, shape_.forces);
+      result.evaluations += static_cast<long>(free_.evaluations().v[lane]);
     }
-    Carried carried{tries,
-                    step_.h.v[lane],
-                    evaluations,
-                    error_size_.v[lane],
-                    {judged_.v[lane], factor_.v[lane]},
-                    {}};
-    get_lane(lane, pace_, carried.pace);
-    return carried;
+    result.h = step_.h.v[lane];
+    result.error = scaled_error_.v[lane];
+    result.judged = {judged_.v[lane], factor_.v[lane]};
+    get_lane(lane, history_, result.history);
   }
 
   LaneSet advance() override {
@@ -111,16 +112,16 @@ public:
       const Start<P> from{step_.t, step_.x, step_.dxdt};
       estimate(formula_, system_, from, step_.h, step_.x1, step_.dxdt1, error_, rtol_, atol_);
       ++round_;
-      const Judgement judgement = judge();
-      const Mask asks = must_ask(judgement);
-      go_on(judgement, !asks);
+      const Judgement judgement = judge_step();
+      const Mask asks = find_lanes_that_ask(judgement);
+      accept_or_reject(judgement, !asks);
       if (const LaneSet asking = set_of(asks); asking != 0) return asking;
     }
   }
 
 private:
-  /// In two statements: GCC 12's sanitizers take `lane` for uninitialized where one expression both
-  /// reads a vector's element by it and shifts by it.
+  // In two statements: GCC 12's sanitizers take `lane` for uninitialized if one expression both reads
+  // a vector's element by it and shifts by it.
   [[nodiscard]] static LaneSet set_of(const Mask& mask) {
     LaneSet set = 0;
     for (int lane = 0; lane < W; ++lane) {
@@ -130,8 +131,8 @@ private:
     return set;
   }
 
-  /// A wing of this structure, with harmless numbers in every lane.
-  const Wing<P>& make(const Wing<double>& structure) {
+  /// Gives wing_ this structure, and numbers without which an idle lane would divide by zero.
+  const Wing<P>& make_harmless_wing(const Wing<double>& structure) {
     Wing<double> harmless = structure;
     harmless.base = {};
     for (BodyTerms<double>& body : harmless.bodies) {
@@ -156,8 +157,8 @@ private:
     return wing_;
   }
 
-  /// The modes of the run's real hinges, and the edges at which they change.
-  void take_modes(int lane, const Workspace<double>& work) {
+  /// Copies the modes of the run's real hinges, and on which side of its edges each hinge is.
+  void set_modes(int lane, const Workspace<double>& work) {
     set_lane(lane, work_.modes, work.modes);
     for (int i = 1; i <= at_.bodies; ++i)
       for (int e = 0; e < edges_of_hinge; ++e) ways_[e][i].v[lane] = work.above[i][e] != 0 ? -1 : 1;
@@ -165,14 +166,14 @@ private:
 
   struct Judgement {
     Mask accepted;
-    P next; ///< step, or try
+    P next; ///< trial step, s
   };
 
-  /// As Adaptive::verdict, layer_limits and limit_roughness.
-  [[nodiscard]] Judgement judge() {
-    error_size_ = scaled_error_of(formula_, step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
-    Mask accepted = error_size_ <= P(1.0);
-    P factor = factor_of<Formula>(error_size_, step_.h, pace_.memory);
+  /// Judges the trial step as Stepping::judged does for a run alone.
+  [[nodiscard]] Judgement judge_step() {
+    scaled_error_ = scaled_error_of(formula_, step_.x, step_.x1, step_.dxdt1, error_, rtol_, atol_);
+    Mask accepted = scaled_error_ <= P(1.0);
+    P factor = factor_of<Formula>(scaled_error_, step_.h, history_.memory);
     if (wing_.has_regularized_friction) {
       const LayerLimits<P> layers = layer_limits(wing_, at_, step_, rtol_, atol_);
       const Mask leaps = layers.cut < P(1.0);
@@ -180,36 +181,38 @@ private:
       accepted = accepted && !leaps;
     }
     if constexpr (Formula::order > 5) {
-      const P rough = roughness(at_, step_, tolerance_of_dense_);
+      const P rough = roughness(at_, step_, dense_tolerance_);
       const Mask too_rough = rough > P(1.0);
       const P most = factor_by_roughness(rough);
       factor = select(accepted, select(too_rough, most, smaller(factor, most)), factor);
       accepted = accepted && !too_rough;
     }
-    const P refused = select(error_size_ <= P(1.0), P(2.0), error_size_);
-    judged_ = select(accepted, error_size_, refused), factor_ = factor;
+    const P refused = select(scaled_error_ <= P(1.0), P(2.0), scaled_error_);
+    judged_ = select(accepted, scaled_error_, refused), factor_ = factor;
     return {accepted, step_.h * factor};
   }
 
-  /// Which lanes' runs must be told of the step: what follows from it is not a plain step.
-  [[nodiscard]] Mask must_ask(const Judgement& judgement) {
+  /// @return the lanes that need their runs: see lane_protocol.hpp
+  [[nodiscard]] Mask find_lanes_that_ask(const Judgement& judgement) {
     const P& next = judgement.next;
     const Mask busy = busy_ > P(0.0), accepted = busy && judgement.accepted;
     const P end = step_.t + step_.h, now = select(accepted, end, step_.t);
-    const Mask late = look_ < P(static_cast<double>(round_));
-    const Mask at_an_end = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
-    const Mask may_leave = pace_.held_back.may_leave(step_.h, P(pace_.steps + P(1.0)));
-    const Mask due = pace_.steps >= last_step_;
-    Mask asks = busy && (late || at_an_end);
-    asks = asks || (accepted && (due || may_leave || an_event_may_be_near()));
+    const Mask tried_enough = last_round_ < P(static_cast<double>(round_));
+    // Both margins are far wider than the limits at which a run alone stops a step, 4 and 8 roundings
+    // of the time (Stepping::plan, advance): the run decides the cases between.
+    const Mask near_limit = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
+    const Mask may_leave = history_.held_back.may_leave(step_.h, P(history_.steps + P(1.0)));
+    const Mask accepted_enough = history_.steps >= last_step_;
+    Mask asks = busy && (tried_enough || near_limit);
+    asks = asks || (accepted && (accepted_enough || may_leave || may_hold_event()));
     if constexpr (M == BaseMotion::free) free_.restore_momenta(system_, step_);
-    peaks_.end_step(system_);
-    asks = asks || (accepted && may_turn_further());
-    return asks || peaks_.over_step(system_, step_, accepted && !asks);
+    peaks_.keep_forces_at_end(system_);
+    asks = asks || (accepted && may_turn_or_end_at_event());
+    return asks || peaks_.search_step(system_, step_, accepted && !asks);
   }
 
-  /// Accepts, or tries again, in these lanes.
-  void go_on(const Judgement& judgement, const Mask& these) {
+  /// Moves the accepted ones of these lanes to the step's end, and plans the next trial step of all.
+  void accept_or_reject(const Judgement& judgement, const Mask& these) {
     const Mask accepted = these && judgement.accepted;
     for (int k = 0; k < at_.size(); ++k) {
       step_.x[k] = select(accepted, step_.x1[k], step_.x[k]);
@@ -219,58 +222,60 @@ private:
       const P beyond = beyond_stowed(wing_.hinges[i], step_.x[at_.angle(i)]);
       overtravel_[i] = select(accepted, larger(overtravel_[i], beyond), overtravel_[i]);
     }
-    evaluations_before_ = evaluations_before_ + peaks_.go_on(accepted);
+    evaluations_before_ = evaluations_before_ + peaks_.accept(accepted);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
-    keep_pace(accepted, these);
+    update_history(accepted, these);
     step_.h = select(these, judgement.next, step_.h);
   }
 
-  /// As the run itself would count the step.
-  void keep_pace(const Mask& accepted, const Mask& these) {
-    pace_.steps = select(accepted, P(pace_.steps + P(1.0)), pace_.steps);
+  /// Counts the step as the run alone would.
+  void update_history(const Mask& accepted, const Mask& these) {
+    history_.steps = select(accepted, P(history_.steps + P(1.0)), history_.steps);
     P evaluations(static_cast<double>(round_ * Formula::evaluations));
     if constexpr (M == BaseMotion::free) {
       free_.accept(accepted, wing_.plates.empty());
-      evaluations = evaluations + free_.projections();
+      evaluations = evaluations + free_.evaluations();
     }
-    pace_.held_back.accepted(accepted, step_.h,
-                             {step_.t, evaluations_before_ + evaluations, pace_.steps});
-    StepMemory<P> after = pace_.memory, cut = pace_.memory;
-    after.accepted(error_size_, step_.h);
+    history_.held_back.accepted(accepted, step_.h,
+                                {step_.t, evaluations_before_ + evaluations, history_.steps});
+    StepMemory<P> after = history_.memory, cut = history_.memory;
+    after.accepted(scaled_error_, step_.h);
     cut.rejected();
-    assign_where(these, pace_.memory, cut);
-    assign_where(accepted, pace_.memory, after);
+    assign_where(these, history_.memory, cut);
+    assign_where(accepted, history_.memory, after);
   }
 
-  /// Lanes in which an event may lie inside the step: all tests, these and those for peaks, are those
-  /// that the run itself begins with.
-  [[nodiscard]] Mask an_event_may_be_near() {
-    Mask look{};
+  // The tests for events and peaks are the first tests of the run alone: they exclude, and never find.
+
+  /// @return lanes in which an event may lie inside the step
+  [[nodiscard]] Mask may_hold_event() {
+    Mask found{};
     for (int i = 1; i <= at_.bodies; ++i) {
       const HingeTerms<P>& hinge = wing_.hinges[i];
-      if (hinge.has_latch) look = look || (waits_[i] > P(0.0) && may_engage(i));
-      if (!wing_.real.empty()) look = look || may_pass_edge(i);
-      if (wing_.can_stick) look = look || (slides(i) && may_come_to_rest(i));
+      if (hinge.has_latch) found = found || (waits_[i] > P(0.0) && may_engage(i));
+      if (!wing_.real.empty()) found = found || may_pass_edge(i);
+      if (wing_.can_stick) found = found || (slides(i) && may_come_to_rest(i));
     }
-    return look;
+    return found;
   }
 
-  /// A base that turns further inside the step than at its ends, a hinge that turns back beyond its
-  /// stowed angle, or past bounds, or that latches or comes to rest within an instant of the step's
-  /// end, by the accelerations that a free base has there. In air, forces are the run's.
-  [[nodiscard]] Mask may_turn_further() {
-    Mask look{};
-    if constexpr (M == BaseMotion::free) look = free_.may_swing_further(at_, step_);
-    if (shape_.forces && !wing_.plates.empty()) return !Mask{};
+  /// @return lanes in which the base may turn further inside the step than at its ends, or a hinge may
+  ///         turn back beyond its stowed angle, leaves the angles that are known, or latches or comes to
+  ///         rest within an instant of the step's end
+  /// @pre a free base's momenta are restored: the accelerations at the end depend on them
+  [[nodiscard]] Mask may_turn_or_end_at_event() {
+    Mask found{};
+    if constexpr (M == BaseMotion::free) found = free_.may_swing_further(at_, step_);
+    if (shape_.forces && !wing_.plates.empty()) return !Mask{}; // peak forces in air: the run's
     for (int i = 1; i <= at_.bodies; ++i) {
-      look = look || !(abs(step_.x1[at_.angle(i)]) < P(1e8));
+      found = found || !(abs(step_.x1[at_.angle(i)]) < P(largest_known_angle));
       if constexpr (Formula::order > 8)
-        look = look || turns_where_it_counts(wing_, at_, step_, i, waits_[i] > P(0.0));
-      if (shape_.overtravel) look = look || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
-      if (wing_.hinges[i].has_latch) look = look || (waits_[i] > P(0.0) && engages_at_end(i));
-      if (wing_.can_stick) look = look || (slides(i) && rests_at_end(i));
+        found = found || turns_where_it_counts(wing_, at_, step_, i, waits_[i] > P(0.0));
+      if (shape_.overtravel) found = found || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
+      if (wing_.hinges[i].has_latch) found = found || (waits_[i] > P(0.0) && engages_at_end(i));
+      if (wing_.can_stick) found = found || (slides(i) && rests_at_end(i));
     }
-    return look;
+    return found;
   }
 
   [[nodiscard]] Mask may_engage(int i) const {
@@ -297,10 +302,9 @@ private:
     return any;
   }
 
-  /// Where hinge i slides against exact friction.
   [[nodiscard]] Mask slides(int i) const { return !(slides_[i] == P(0.0)); }
 
-  /// A hinge that slides may turn back: as first_rest begins.
+  /// Whether a hinge that slides may turn back: the first test of first_rest.
   [[nodiscard]] Mask may_come_to_rest(int i) const {
     Mask any{};
     for (const P& c : way_to_rest(at_, step_, i, -slides_[i])) any = any || !(c < P(0.0));
@@ -328,35 +332,37 @@ private:
   Formula formula_;
   Step<P> step_;
   State<P> error_;
-  P rtol_, atol_, tolerance_of_dense_, t_end_;
-  P error_size_, judged_, factor_; ///< of the step last tried: as in Carried
-  std::vector<P> waits_, overtravel_;
+  P rtol_, atol_, dense_tolerance_, t_end_;
+  P scaled_error_, judged_, factor_; ///< of the last trial step: as in LaneResult
+  std::vector<P> waits_;             ///< 1: the latch has not engaged, else 0
+  std::vector<P> overtravel_;
   std::vector<P> slides_; ///< sense in which a hinge slides against exact friction; 0: it does not
-  std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1 to be passed upwards, −1 downwards
+  std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1: edge above the angle; −1: below
   std::vector<Lever<double>> levers_of_wing_;       ///< scratch
   LanePeaks<P, AnySystem> peaks_;
-  FreeBases<W> free_; ///< where bases are free
-  Pace<P> pace_;
-  P busy_; ///< 1 where a lane has a run, else 0
-  /// Rounds, counted as numbers: when the run was taken, and after which it must know.
-  P begun_, look_;
-  P last_step_;          ///< of the phase, after which the run must know
-  P evaluations_before_; ///< of the run, less those of all rounds before it was taken
-  long round_ = 0;
+  FreeBases<W> free_; ///< used if M is free
+  StepHistory<P> history_;
+  P busy_;               ///< 1 where a lane has a run, else 0
+  P first_round_;        ///< value of round_ at `load`
+  P last_round_;         ///< the lane needs its run when round_ exceeds it
+  P last_step_;          ///< or when so many steps of the phase have been accepted
+  P evaluations_before_; ///< of the run at `load`, less those of all rounds before
+  long round_ = 0;       ///< trial steps made in every lane
 };
 
-/// The stepper of a structure, in packs of W.
+/// Makes the engine of W lanes for a wing's structure and a method.
 template <int W>
 [[nodiscard]] std::unique_ptr<PackEngine> make_pack_stepper(const Wing<double>& wing,
                                                             const PackShape& shape) {
-  return with_structure(wing, [&]<class Topology, BaseMotion M>() {
-    const auto make = [&]<class Formula>() -> std::unique_ptr<PackEngine> {
-      return std::make_unique<PackStepper<W, Topology, M, Formula>>(wing, shape);
-    };
-    if constexpr (M == BaseMotion::fixed && is_static<Topology>)
-      if (shape.method == Method::taylor) return make.template operator()<TaylorSeries<Pack<W>>>();
-    return shape.method == Method::dop853 ? make.template operator()<DormandPrince853<Pack<W>>>()
-                                          : make.template operator()<DormandPrince5<Pack<W>>>();
+  using P = Pack<W>;
+  using Engine = std::unique_ptr<PackEngine>;
+  return with_structure(wing, [&]<class Topology, BaseMotion M>(Structure<Topology, M>) -> Engine {
+    if constexpr (is_static<Topology>) // a chain on a fixed base: has_series requires one
+      if (shape.method == Method::taylor)
+        return std::make_unique<PackStepper<W, Topology, M, TaylorSeries<P>>>(wing, shape);
+    if (shape.method == Method::dop853)
+      return std::make_unique<PackStepper<W, Topology, M, DormandPrince853<P>>>(wing, shape);
+    return std::make_unique<PackStepper<W, Topology, M, DormandPrince5<P>>>(wing, shape);
   });
 }
 

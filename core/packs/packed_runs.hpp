@@ -1,9 +1,5 @@
-/// Many runs of one structure through the lanes of an engine of packs: a lane whose run has ended
-/// takes the next at once.
-///
-/// A run is asked only when a step ends it, or may hold an event or a peak; until then its state
-/// lives in the engine, which goes from step to step by the expressions with which the run would.
-/// What a run does is the same as alone, bit for bit.
+/// Runs many runs of one structure in the lanes of an engine. A lane whose run has ended starts the
+/// next run at once. Drives the protocol of lane_protocol.hpp for all lanes.
 #pragma once
 
 #include "core/packs/instruction_set.hpp"
@@ -41,50 +37,53 @@ public:
       lanes_[l] = std::make_unique<Lane>(structure, how, goal);
   }
 
-  /// @param next next(wing) sets a wing's numbers to those of the run that comes next and returns
-  ///             its name; none when there are no more
-  /// @param done done(name, outcome), in the order in which the runs end
+  /// Makes all runs.
+  /// @param next next(wing) sets a wing's numbers to those of the next run and returns the run's
+  ///             name; nothing when there are no more
+  /// @param done done(name, outcome), called in the order in which the runs end
   template <class Next, class Done> Occupancy run(Next&& next, Done&& done) {
     count_ = {};
-    for (int l = 0; l < engine_.width(); ++l) refill(l, next, done);
+    for (int l = 0; l < engine_.width(); ++l) start_next(l, next, done);
     const long before = engine_.rounds();
     while (busy_ > 0) {
       const LaneSet asking = engine_.advance();
       for (int l = 0; l < engine_.width(); ++l)
-        if (has(asking, l)) answer(l, next, done);
+        if (has(asking, l)) resume(l, next, done);
     }
     count_.tries = (engine_.rounds() - before) * engine_.width();
     return count_;
   }
 
 private:
-  /// The engine has come to a step of the lane that its run must know.
-  template <class Next, class Done> void answer(int l, Next&& next, Done&& done) {
+  /// Lets the lane's run judge the last trial step, and goes on with that run or the next.
+  template <class Next, class Done> void resume(int l, Next&& next, Done&& done) {
     Lane& lane = *lanes_[l];
-    const Carried carried = engine_.hand_back(l, lane.run.place());
+    LaneResult result = lane.run.empty_lane_result();
+    engine_.unload(l, result);
     ++count_.looks;
-    count_.busy += carried.tries + 1;
-    lane.run.take_back(carried);
-    if (can_be_carried(lane)) return engine_.carry(l, lane.run.hand_over());
+    count_.busy += result.trial_steps + 1;
+    lane.run.resume(result);
+    if (reaches_lane(lane)) return engine_.load(l, lane.run.lane_task());
     done(lane.name, lane.run.outcome());
-    refill(l, next, done);
+    start_next(l, next, done);
   }
 
-  /// Begins the runs that come next, until one can be carried or there are no more.
-  template <class Next, class Done> void refill(int l, Next&& next, Done&& done) {
+  /// Starts the next runs, until one needs the lane's steps or there are no more.
+  template <class Next, class Done> void start_next(int l, Next&& next, Done&& done) {
     Lane& lane = *lanes_[l];
-    while (takes_next(lane, next)) {
+    while (draw_next(lane, next)) {
       lane.run.begin();
-      if (can_be_carried(lane)) {
+      if (reaches_lane(lane)) {
         engine_.set_wing(l, lane.wing);
-        return engine_.carry(l, lane.run.hand_over());
+        return engine_.load(l, lane.run.lane_task());
       }
       done(lane.name, lane.run.outcome());
     }
     engine_.set_idle(l);
   }
 
-  template <class Next> [[nodiscard]] bool takes_next(Lane& lane, Next&& next) {
+  /// @return whether there is a next run; the lane then has its wing
+  template <class Next> [[nodiscard]] bool draw_next(Lane& lane, Next&& next) {
     const std::optional<long> name = next(lane.wing);
     busy_ += (name ? 1 : 0) - (lane.busy ? 1 : 0);
     lane.busy = name.has_value();
@@ -92,9 +91,10 @@ private:
     return lane.busy;
   }
 
-  /// Makes the steps that the engine cannot. @return false if the run has ended with them
-  [[nodiscard]] bool can_be_carried(Lane& lane) {
-    for (; !lane.run.ended() && !lane.run.can_be_carried(method_); ++count_.scalar) lane.run.go();
+  /// Makes steps outside the engine until the engine can make the next one.
+  /// @return false if the run has ended before
+  [[nodiscard]] bool reaches_lane(Lane& lane) {
+    for (; !lane.run.ended() && !lane.run.fits_lane(method_); ++count_.scalar) lane.run.go();
     return !lane.run.ended();
   }
 

@@ -1,8 +1,8 @@
-/// What integrates runs, by the level of scalar instructions that it is built for.
+/// The functions that integrate runs, compiled twice: with fused multiply-add instructions and without.
 ///
-/// With fused multiply-adds a run has the same bits in a lane of a pack and alone, whatever the
-/// processor; without them the last bits may differ. A program built for any x86-64 therefore holds
-/// both, and takes the second where the processor has them.
+/// With fused multiply-adds a run has the same bits alone and in a lane, on every processor; without
+/// them the last bits may differ. A program built for any x86-64 therefore holds both versions, and
+/// uses fma_runs() if the processor allows.
 #pragma once
 
 #include "core/methods/steppers.hpp"
@@ -13,23 +13,25 @@
 namespace wingspread {
 
 struct Runs {
-  /// Sets the next wing's numbers and returns its run's name; none when there are no more.
+  /// Sets a wing's numbers to those of the next run and returns the run's name; nothing when there
+  /// are no more.
   using NextWing = std::function<std::optional<long>(Wing<double>&)>;
-  /// done(name, outcome), in the order in which the runs end.
+  /// done(name, outcome), called in the order in which the runs end.
   using Done = std::function<void(long, Outcome&&)>;
 
   void (*set_parameters)(Wing<double>& wing, const Scene& scene);
+  /// Integrates one run.
   Outcome (*alone)(const Wing<double>& wing, Workspace<double>& scratch, const Integration& how,
                    const Goal& goal, const Observer& observer);
-  /// @param method of the engine
+  /// Integrates many runs in the lanes of an engine (packed_runs.hpp). @param method of the engine
   Occupancy (*in_lanes)(const Wing<double>& structure, PackEngine& engine, Method method,
                         const Integration& how, const Goal& goal, const NextWing& next,
                         const Done& done);
 };
 
-/// For the build's own instruction set.
+/// Compiled for the build's own instruction set.
 [[nodiscard]] const Runs& plain_runs();
-/// With fused multiply-adds. @pre has_avx2(), and plain_runs() is built without
+/// Compiled with fused multiply-adds. @pre has_avx2(); exists only if WINGSPREAD_FMA_RUNS is defined
 [[nodiscard]] const Runs& fma_runs();
 
 } // namespace wingspread

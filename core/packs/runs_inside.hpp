@@ -1,5 +1,5 @@
-/// The functions behind runs.hpp: one instance for every kind of wing. Included once for each level
-/// of instructions.
+/// The functions of Runs, with one instance of the templates for each kind of wing. Two translation
+/// units include it: one compiles with fused multiply-adds, the other without (runs.hpp).
 #pragma once
 
 #include "core/packs/packed_runs.hpp"
@@ -7,8 +7,8 @@
 #include "core/packs/structure.hpp"
 #include "core/run/integrator.hpp"
 
-// Runs and what is common to all instruction sets hand each other Eigen's matrices. Aligned to 16 bytes these are malloc's
-// own, beyond that they are not: one level that has it otherwise than the rest frees what was never allocated.
+// Code for different instruction sets passes Eigen matrices to each other. Eigen allocates with malloc up to an alignment
+// of 16 bytes and with its own allocator beyond, so all translation units must agree on the alignment.
 #ifdef __x86_64__
 static_assert(EIGEN_DEFAULT_ALIGN_BYTES >= 32,
               "the first CMakeLists.txt sets EIGEN_MAX_ALIGN_BYTES");
@@ -20,7 +20,7 @@ inline void set_numbers(Wing<double>& wing, const Scene& scene) { set_parameters
 
 inline Outcome run_alone(const Wing<double>& wing, Workspace<double>& scratch,
                          const Integration& how, const Goal& goal, const Observer& observer) {
-  return with_structure(wing, [&]<class Topology, BaseMotion M>() {
+  return with_structure(wing, [&]<class Topology, BaseMotion M>(Structure<Topology, M>) {
     System<double, Topology, M> system(wing, how.smoothing, scratch);
     return Integrator<double, Topology, M>(system, how, goal, observer).run();
   });
@@ -29,7 +29,7 @@ inline Outcome run_alone(const Wing<double>& wing, Workspace<double>& scratch,
 inline Occupancy run_in_lanes(const Wing<double>& structure, PackEngine& engine, Method method,
                               const Integration& how, const Goal& goal, const Runs::NextWing& next,
                               const Runs::Done& done) {
-  return with_structure(structure, [&]<class Topology, BaseMotion M>() {
+  return with_structure(structure, [&]<class Topology, BaseMotion M>(Structure<Topology, M>) {
     return PackedRuns<Topology, M>(structure, engine, method, how, goal).run(next, done);
   });
 }

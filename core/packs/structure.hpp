@@ -1,36 +1,34 @@
-/// The one place that knows for which kinds of wing the templates are compiled.
+/// The kinds of wing for which core's templates are compiled, and the one table that chooses among
+/// them at run time.
 #pragma once
 
 #include "core/mechanics/wing.hpp"
 
 namespace wingspread {
 
-namespace detail {
+/// Names a kind of wing: its bodies as Tree or Chain<N>, and how its base moves.
+template <class Topology, BaseMotion M> struct Structure {};
 
-/// The chain of a length that the compiler knows, if it has that.
-template <int N = 1, class Visit> auto with_chain(const Wing<double>& wing, Visit&& visit) {
-  if constexpr (N <= longest_static_chain) {
-    if (wing.size() == N) return visit.template operator()<Chain<N>, BaseMotion::fixed>();
-    return with_chain<N + 1>(wing, visit);
-  } else {
-    return visit.template operator()<Tree, BaseMotion::fixed>();
+/// Calls function(Structure<Topology, M>{}) for the kind of this wing and returns its result.
+/// Chains whose length the compiler knows pay on bases that do not move (measured: Chain<N>).
+template <class Function> auto with_structure(const Wing<double>& wing, Function function) {
+  constexpr BaseMotion fixed = BaseMotion::fixed;
+  static_assert(longest_static_chain == 4, "a case for each length");
+  if (wing.base.motion == BaseMotion::prescribed)
+    return function(Structure<Tree, BaseMotion::prescribed>{});
+  if (wing.base.motion == BaseMotion::free) return function(Structure<Tree, BaseMotion::free>{});
+  switch (is_chain(wing.tree) ? wing.size() : 0) {
+  case 1:
+    return function(Structure<Chain<1>, fixed>{});
+  case 2:
+    return function(Structure<Chain<2>, fixed>{});
+  case 3:
+    return function(Structure<Chain<3>, fixed>{});
+  case 4:
+    return function(Structure<Chain<4>, fixed>{});
+  default:
+    return function(Structure<Tree, fixed>{});
   }
-}
-
-} // namespace detail
-
-/// visit.operator()<Topology, motion>() for the wing's own.
-template <class Visit> auto with_structure(const Wing<double>& wing, Visit&& visit) {
-  switch (wing.base.motion) {
-  case BaseMotion::prescribed:
-    return visit.template operator()<Tree, BaseMotion::prescribed>();
-  case BaseMotion::free:
-    return visit.template operator()<Tree, BaseMotion::free>();
-  case BaseMotion::fixed:
-    break;
-  }
-  if (is_chain(wing.tree)) return detail::with_chain(wing, visit);
-  return visit.template operator()<Tree, BaseMotion::fixed>();
 }
 
 } // namespace wingspread

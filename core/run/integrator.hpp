@@ -5,8 +5,8 @@
 #include "core/mechanics/energy.hpp"
 #include "core/run/diary.hpp"
 #include "core/run/ending.hpp"
-#include "core/run/handover.hpp"
 #include "core/run/landing.hpp"
+#include "core/run/lane_protocol.hpp"
 #include "core/run/peak_search.hpp"
 #include "core/run/stepping.hpp"
 #include "core/run/underway.hpp"
@@ -58,35 +58,36 @@ public:
     take(asks_for_whole_step() ? stepping_.judged(verdict) : verdict);
   }
 
-  // ---- the same where an engine makes steps, several runs at once
+  // ---- the same where a lane of an engine makes the steps: see lane_protocol.hpp
 
-  /// Whether an engine for this method can carry the run on from here.
-  [[nodiscard]] bool can_be_carried(Method method) const {
+  /// Whether a lane of an engine for this method can go on from here.
+  [[nodiscard]] bool fits_lane(Method method) const {
     return stepping_.method() == method && run_.system.work().stuck == 0;
   }
 
-  /// @pre can_be_carried by the engine
-  [[nodiscard]] Handover hand_over() {
+  /// @pre fits_lane(the engine's method)
+  [[nodiscard]] LaneTask lane_task() {
     const Goal& goal = run_.goal;
     return {.step = run_.step,
             .h = asked_.h,
             .work = run_.system.work(),
             .tolerance = stepping_.tolerance(),
-            .tolerance_of_dense = run_.how.atol,
+            .dense_tolerance = run_.how.atol,
             .moments = goal.peak_moment ? peaks_.moments().data() : nullptr,
             .forces = goal.peak_force ? peaks_.forces().data() : nullptr,
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
             .overtravel = peaks_.overtravel().data(),
-            .kept = kept_,
+            .conserved = kept_,
             .base = peaks_.base(),
             .t_end = static_cast<double>(stepping_.end_of_stretch()),
-            .tries = asks_for_plain_step() ? stepping_.tries_left() : 0,
-            .steps = std::min(stepping_.steps_to_look(), ending_.steps_to_look()),
+            .most_trial_steps = asks_for_plain_step() ? stepping_.tries_left() : 0,
+            .most_steps = std::min(stepping_.steps_to_look(), ending_.steps_to_look()),
             .evaluations = run_.system.work().evaluations,
-            .pace = stepping_.pace()};
+            .history = stepping_.history()};
   }
 
-  [[nodiscard]] Place place() {
+  /// For the lane to fill: refers to this run's storage.
+  [[nodiscard]] LaneResult empty_lane_result() {
     return {run_.step,           peaks_.force_before(),
             peaks_.moments(),    peaks_.forces(),
             peaks_.overtravel(), *asked_.x1,
@@ -94,16 +95,17 @@ public:
             peaks_.base()};
   }
 
-  /// The run was carried so far; what the engine brings back lies in `place()`.
-  void take_back(const Carried& carried) {
-    run_.system.made_elsewhere().evaluations += carried.evaluations;
-    if (carried.tries > 0) {
-      ending_.pass(stepping_.resume(carried));
-      run_.step.h = asked_.h = carried.h;
+  /// Counts the lane's steps, and takes its last trial step for the one asked for.
+  /// @param result empty_lane_result() of this run, filled by its lane
+  void resume(const LaneResult& result) {
+    run_.system.made_elsewhere().evaluations += result.evaluations;
+    if (result.trial_steps > 0) {
+      ending_.pass(stepping_.resume(result));
+      run_.step.h = asked_.h = result.h;
     } else if (asked_.stage == Stage::step) {
-      stepping_.fit(carried.h);
+      stepping_.fit(result.h);
     }
-    take(asks_for_whole_step() ? carried.judged : Verdict{carried.error, 1});
+    take(asks_for_whole_step() ? result.judged : Verdict{result.error, 1});
   }
 
 private:

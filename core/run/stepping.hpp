@@ -7,7 +7,7 @@
 #include "core/methods/spectral_radius.hpp"
 #include "core/methods/steppers.hpp"
 #include "core/methods/time_scales.hpp"
-#include "core/run/handover.hpp"
+#include "core/run/lane_protocol.hpp"
 #include "core/run/record.hpp"
 #include "core/run/underway.hpp"
 
@@ -222,17 +222,17 @@ public:
   /// accepted.
   [[nodiscard]] long tries_left() const { return run_.how.max_steps - tried_ - 1; }
   [[nodiscard]] long steps_to_look() const { return choice_.steps_to_radius(); }
-  [[nodiscard]] Pace<double> pace() {
+  [[nodiscard]] StepHistory<double> history() {
     return {static_cast<double>(choice_.steps()), memory(), choice_.held_back()};
   }
-  /// The run was carried so far. @return steps accepted
-  long resume(const Carried& carried) {
-    const long steps = static_cast<long>(carried.pace.steps) - choice_.steps();
-    tried_ += carried.tries;
+  /// Counts the steps that a lane has made. @return how many it accepted
+  long resume(const LaneResult& result) {
+    const long steps = static_cast<long>(result.history.steps) - choice_.steps();
+    tried_ += result.trial_steps;
     steps_ += steps;
-    rejected_ += carried.tries - steps;
-    memory() = carried.pace.memory;
-    choice_.resume(static_cast<long>(carried.pace.steps), carried.pace.held_back);
+    rejected_ += result.trial_steps - steps;
+    memory() = result.history.memory;
+    choice_.resume(static_cast<long>(result.history.steps), result.history.held_back);
     return steps;
   }
 

@@ -1,5 +1,5 @@
-// What a run must keep: energy while nothing takes any, momenta of a free spacecraft, and what does
-// not depend on where that is.
+// Conserved quantities of a run: energy without dissipation, momenta of a free spacecraft, and results that do
+// not depend on its position.
 #include "core/deployment.hpp"
 #include "tests/support/whole_runs.hpp"
 

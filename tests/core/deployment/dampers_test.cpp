@@ -96,7 +96,7 @@ TEST_CASE("a damper acts in its window, and nowhere else") {
   check_both_senses(braked(nowhere), {1, 1}, 3);
 }
 
-TEST_CASE("a fluid damper deploys a wing in minutes, for what so simple a motion is worth") {
+TEST_CASE("a fluid damper deploys a wing in minutes, at the cost of a simple motion") {
   for (const FluidDamper& fluid : fluid_dampers) {
     const double exact = quasi_static_time(60, 28, pi / 2, fluid.A, fluid.exponent);
     CHECK(exact == Approx(fluid.seconds).margin(0.7));

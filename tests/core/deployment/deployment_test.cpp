@@ -1,4 +1,4 @@
-// The door: what cannot be run says so, and one Deployment serves any scenes.
+// Deployment: scenes that cannot be run give a reason, and one object runs any scenes.
 #include "core/deployment.hpp"
 #include "tests/support/whole_runs.hpp"
 
@@ -7,7 +7,7 @@
 using namespace wingspread;
 using namespace wingspread::oracle;
 
-TEST_CASE("what cannot be run says so") {
+TEST_CASE("a scene that cannot be run gives the reason") {
   Scene scene = oracle::seed_scene();
   SECTION("an unphysical draw is invalid, with each reason") {
     scene.bodies[1].mass = -1;

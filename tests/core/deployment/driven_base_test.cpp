@@ -14,8 +14,8 @@ void drive(Scene& scene, BaseTable::Columns columns, Interpolation how = Interpo
   scene.base.table = std::make_shared<const BaseTable>(std::move(columns), how);
 }
 
-/// A panel whose hinge lies in the base's origin. What the base turns, the hinge turns back: its
-/// latch is 1 rad off.
+/// A panel whose hinge lies in the base's origin: when the base turns, the hinge turns back by the same angle.
+/// Its latch is 1 rad off.
 Scene left_behind(BaseTable::Columns columns, Interpolation how = Interpolation::linear) {
   Scene scene = free_panel();
   scene.hinges[0].latch = Latch{};
@@ -81,7 +81,7 @@ TEST_CASE("a rate that steps up and down turns a hinge back by its integral") {
   CHECK(std::abs(half.final.base_angle + 0.525) < 1e-14);
 }
 
-TEST_CASE("a table of constants is what the constants are") {
+TEST_CASE("a table of constants moves the base as the constants do") {
   Scene scene = seed_scene();
   scene.base.motion = BaseMotion::prescribed;
   scene.base.acceleration = {0.2, -0.1}, scene.base.angular_acceleration = 0.05;
@@ -111,7 +111,7 @@ TEST_CASE("a table of constants is what the constants are") {
     }
 }
 
-TEST_CASE("what a base's table does not give stays constant beside it") {
+TEST_CASE("motions that a base's table leaves out stay constant") {
   Scene scene = seed_scene();
   scene.base.motion = BaseMotion::prescribed;
   scene.base.acceleration = {0.2, -0.1}, scene.base.angular_acceleration = 0.05,
@@ -186,7 +186,7 @@ TEST_CASE("an early end waits for the last knot of a base's table, and loses not
   CHECK(late.peak_moment[0].value > 1.5 * run(still, 1e-8, 200).peak_moment[0].value);
 }
 
-TEST_CASE("a hinge that sticks is let go when a ramp of its base comes to what holds it") {
+TEST_CASE("a stuck hinge is released when a ramp of its base reaches its friction") {
   // J α = τ at t = τ/(J k); from there φ = k (t − that)³/6
   const double tau = 2, k = 1.5, loose = tau / (panel_inertia * k);
   Scene scene = left_behind({{0, 10}, {}, {0, -10 * k}, {}});

@@ -22,8 +22,8 @@ Scene flight_wing() {
   return scene;
 }
 
-/// A panel whose friction outweighs its spring: it creeps in the layer, where an explicit method's
-/// steps are held back by stability.
+/// A panel whose friction exceeds its spring. It creeps inside the layer of regularized friction, where
+/// stability holds an explicit method's steps back.
 Scene creeping_panel(double width) {
   Scene scene = latching_panel();
   scene.hinges[0].spring = {0.5, 0.5};

@@ -1,10 +1,10 @@
-// Scenes on which methods fail. Whatever the method, a run gives the right answer or says that it
-// gives none: a wrong number that looks like an answer is the failure.
+// Scenes on which methods fail. With any method a run gives the right answer or reports a failure; a wrong number
+// that looks like an answer fails the test.
 //
-// More such scenes are tested elsewhere: what stops being a number (run/ending_test.cpp), the steps
-// at which each method's ringing latch turns unstable (methods/steppers_stability_test.cpp), and
-// chains of a thousand panels (mechanics/recursion_test.cpp, "a thousand bodies agree with a dense
-// solve"; what they cost, studies/drivers/benchmark.cpp).
+// More such scenes are tested elsewhere: overflow and NaN (run/ending_test.cpp), the steps at which a ringing latch
+// becomes unstable (methods/steppers_stability_test.cpp), and chains of a thousand panels
+// (mechanics/recursion_test.cpp, "a thousand bodies agree with a dense solve"; their cost:
+// studies/drivers/benchmark.cpp).
 #include "core/deployment.hpp"
 #include "tests/support/whole_runs.hpp"
 
@@ -47,8 +47,8 @@ struct ChainOfTwo {
   }
 };
 
-/// The first two panels of the seed scene without latches, masses as above; what drives the
-/// lightest panel is scaled with it.
+/// The first two panels of the seed scene without latches, masses as above. The tip's spring is
+/// scaled with the smaller factor.
 Scene two_seed_panels(double root, double tip) {
   Scene scene = seed_scene();
   scene.bodies.pop_back(), scene.hinges.pop_back();
@@ -138,7 +138,7 @@ TEST_CASE("latches of 1e9 N·m/rad: auto is right, the others right or failed") 
   }
 }
 
-TEST_CASE("springs of a million N·m do in a thousandth of the time what those of one do") {
+TEST_CASE("springs of a million N·m deploy in a thousandth of the time of springs of one N·m") {
   const double times = 1e6, pace = 1 / std::sqrt(times); // moments · times, times · pace
   Scene scene = seed_scene();
   for (Hinge& hinge : scene.hinges) {

@@ -9,7 +9,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Damped so that what rings after the start is over long before the latch.
+/// Damped so that the ringing after the start is over long before the latch.
 EqualPanels compliant(const RigidPanels& rigid, double stiffness) {
   return {rigid.panels, rigid.mass, rigid.length, stiffness, 0.5 * std::sqrt(stiffness)};
 }
@@ -38,7 +38,7 @@ Synchronisation cable(double stiffness) {
   return loop;
 }
 
-/// After a period of e it is 0 again, and so is its rate what it was; the sum 2 J_1 φ_1 … drifts.
+/// After one period e and its rate have their first values again; the sum 2 J_1 φ_1 … drifts.
 void check_period(const Scene& scene, double period, double rate) {
   const Outcome out = run_everywhere(scene, 1e-11, period, true);
   const auto &x = out.final.angles, &v = out.final.rates;
@@ -63,7 +63,7 @@ TEST_CASE("the loop of equal panels tends to the rigid one as it stiffens, as 1/
       CHECK(times == Approx(10).epsilon(0.1));
       CHECK(rates == Approx(10).epsilon(0.1));
     }
-    // what is left when the 1/K of the last two is taken out: K^(−3/2), here 1e-9 of what is not
+    // the error without its term 1/K, extrapolated from the last two: K^(−3/2), here 1e-9
     CAPTURE(rigid.panels, time[2], rate[2]);
     CHECK(relative((10 * time[2] - time[1]) / 9, exact.time) < 1e-7);
     CHECK(relative((10 * rate[2] - rate[1]) / 9, exact.rate) < 1e-7);
@@ -80,7 +80,7 @@ TEST_CASE("the figures of MODEL.md for equal panels") {
   check({2, 5.5, 1.1}, 7.579898, 0.6239366);
 }
 
-TEST_CASE("stiff loops do not cost a hundred times what soft ones do") {
+TEST_CASE("stiff loops cost less than a hundred times as much as soft ones") {
   const RigidPanels rigid{3, 10, 2};
   const long soft = run_panels(rigid, 1e2, 1e-8).work.rhs_evaluations;
   for (const double stiffness : {1e4, 1e6, 1e8}) {

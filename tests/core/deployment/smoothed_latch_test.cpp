@@ -37,7 +37,7 @@ TEST_CASE("a smoothed latch is as wrong as its width, and no wronger") {
             CHECK(relative(out.peak_moment[hinge].value, exact.peak_moment[hinge].value) < 1e-5);
         });
   }
-  // what the smoothing itself does to the peak: about 15 ε, at first linearly
+  // the smoothing itself changes the peak by about 15 ε, at first linearly
   CHECK(root_errors[0] == Approx(0.00154).epsilon(0.01));
   CHECK(root_errors[1] / root_errors[0] == Approx(10).epsilon(0.1));
   CHECK(root_errors[2] == Approx(0.219).epsilon(0.01));

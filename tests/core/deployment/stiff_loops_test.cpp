@@ -130,5 +130,5 @@ TEST_CASE("random wings with loops as stiff as cables agree with the dense formu
     }
   }
   CAPTURE(worst[0], worst[1]);
-  CHECK(std::max(worst[0], worst[1]) > 1e-12); // it was looked at
+  CHECK(std::max(worst[0], worst[1]) > 1e-12); // the comparison saw a difference
 }

@@ -34,7 +34,7 @@ TEST_CASE("a panel bounces off a stop without dissipation: half a period of the 
     }
 }
 
-TEST_CASE("a stop with dissipation gives back what Hunt and Crossley's law says") {
+TEST_CASE("a stop with dissipation returns the rate of Hunt and Crossley's law") {
   for (const double c : {0.1, 0.5, 2., 10.}) {
     Scene scene = thrown_at_stop({1e4, c, 0.05});
     const double rate = hunt_crossley_rebound(c, 1);

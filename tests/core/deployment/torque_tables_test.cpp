@@ -166,7 +166,7 @@ TEST_CASE("a torque test both ways: a hinge that deploys has the deploying curve
 TEST_CASE("a hinge thrown back against its measured spring has the stowing curve, and sticks") {
   Scene scene = free_panel(0.5, -0.3);
   Hinge& hinge = scene.hinges[0];
-  // level: drive 0.2, friction 1: it stops where 0.3² I/2 = ∫ of what stowing takes, and stays
+  // level: drive 0.2, friction 1: it stops where 0.3² I/2 = ∫ of the torque against stowing, and stays
   hinge.spring.table = torque_table({0, 1}, {-0.8, -0.8}, {1.2, 1.2}, Interpolation::linear);
   hinge.friction.model = FrictionModel::exact;
   const Outcome out = run_everywhere(scene, 1e-11, 3, true);
@@ -176,7 +176,7 @@ TEST_CASE("a hinge thrown back against its measured spring has the stowing curve
   CHECK(relative(out.overtravel[0], way) < 1e-8);
 }
 
-TEST_CASE("a table costs what a linear law costs, and a little at its knots") {
+TEST_CASE("a table costs as much as a linear law, and a little more at its knots") {
   const Scene linear = wing_with_harness();
   const auto cost = [](const Scene& scene) {
     Integration how = within(1e-8, 12);

@@ -11,7 +11,7 @@ namespace {
 /// A phase begins at step 0; steps longer than 1 are held back.
 [[nodiscard]] HeldBackSteps<double> fresh(double wait_until = 0) { return {1, wait_until, {}}; }
 
-/// Steps of h until another method is thought of.
+/// Number of steps of h until another method is considered; 0: never in 100 steps.
 [[nodiscard]] int steps_until_leave(HeldBackSteps<double> rule, double h) {
   for (int step = 1; step <= 100; ++step) {
     if (rule.may_leave(h, step)) return step;
@@ -22,13 +22,14 @@ namespace {
 
 } // namespace
 
-TEST_CASE("another method is thought of after ten held-back steps in a row, not before the wait") {
+TEST_CASE("another method is considered after ten held-back steps in a row, not before the wait is "
+          "over") {
   REQUIRE(steps_until_leave(fresh(), 1.5) == 10);
   REQUIRE(steps_until_leave(fresh(37), 1.5) == 37);
   REQUIRE(steps_until_leave(fresh(), 1.0) == 0); // as long as the limit: free
 }
 
-TEST_CASE("a free step begins the count anew, and is remembered") {
+TEST_CASE("a step that is not held back resets the count, and is remembered") {
   HeldBackSteps<double> rule = fresh();
   for (int step = 1; step <= 9; ++step) rule.accepted(true, 1.5, {1.5 * step, 0, double(step)});
   REQUIRE(rule.last_free.steps == 0);
@@ -70,5 +71,5 @@ TEST_CASE("the lanes of a pack follow the rule as runs alone do") {
       REQUIRE(packs.last_free.steps.v[lane] == alone[lane].last_free.steps);
     }
   }
-  REQUIRE(left > 50); // it has been thought of often enough to tell
+  REQUIRE(left > 50); // often enough to compare
 }

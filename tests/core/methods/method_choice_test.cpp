@@ -1,4 +1,4 @@
-// `auto`: what integrates a run, and when.
+// `auto`: which method integrates a run, and when.
 #include "core/deployment.hpp"
 #include "core/methods/method_choice.hpp"
 #include "tests/support/closed_forms.hpp"
@@ -31,8 +31,8 @@ double time_by(const std::string& method, const Outcome& out) {
   return sum;
 }
 
-/// Phases follow one another from 0 to the end, each by another method than the one before; all
-/// steps are theirs.
+/// Phases cover the run from 0 to its end without gaps. Each has another method than the one before, and
+/// their steps add up to the run's.
 void check_phases(const Outcome& out) {
   REQUIRE_FALSE(out.phases.empty());
   CHECK(out.phases.front().from == 0);
@@ -91,7 +91,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("taylor asked for is dop853 where there are no series") {
+TEST_CASE("a wing without series gets dop853 in place of taylor") {
   Integration how = within(1e-8, 5);
   how.method = "taylor";
   Scene scene = seed_scene();
@@ -100,18 +100,18 @@ TEST_CASE("taylor asked for is dop853 where there are no series") {
   CHECK(methods_used(Deployment().run(scene, how, {})) == "dop853");
 }
 
-TEST_CASE("where nothing is stiff auto stays with the method that it begins with") {
+TEST_CASE("auto keeps its first method if nothing is stiff") {
   Scene scene = harmonic_panel();
   CHECK(methods_used(run(scene, 1e-8)) == "taylor");
   CHECK(methods_used(run(scene, 1e-4)) == "dop853");
   CHECK(methods_used(run(scene, 1e-2)) == "dopri5");
-  // mildly stiff: tried at most
+  // mildly stiff: other methods are tried at most
   const Outcome out = run(seed_scene(), 1e-8);
   CHECK(out.status == Status::deployed);
   CHECK(time_by("taylor", out) > 0.9 * out.t_end);
 }
 
-TEST_CASE("behind stiff latches auto goes on with seulex, and says so") {
+TEST_CASE("after stiff latches auto continues with seulex, and phases tell it") {
   const Scene scene = with_latches({1e4, 1e4});
   for (const double rtol : {1e-2, 1e-3, 1e-6}) {
     const Outcome out = run(scene, rtol);
@@ -122,7 +122,7 @@ TEST_CASE("behind stiff latches auto goes on with seulex, and says so") {
                                               : "dopri5, seulex"));
     for (const Phase& phase : out.phases) // not before the first latch
       if (phase.method == "seulex") CHECK(phase.from > out.latches[0].time);
-    for (const LatchEvent& latch : out.latches) // whose shock it leaves to the explicit method
+    for (const LatchEvent& latch : out.latches) // the explicit method integrates its shock
       CHECK(method_at(out, latch.time) != "seulex");
     CHECK(method_at(out, out.t_end) == "seulex");
     const double latched = out.t_end - out.latches[0].time;

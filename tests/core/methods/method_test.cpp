@@ -13,10 +13,10 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// A wing whose accelerations turn into something else at one evaluation.
+/// A wing with one wrong acceleration at one evaluation.
 template <class AnySystem> struct Faulty : AnySystem {
   double what;
-  int left; ///< evaluations until then
+  int left; ///< evaluations before that one
 
   explicit Faulty(const AnySystem& system, double number = 0,
                   int evaluations = std::numeric_limits<int>::max())

@@ -64,7 +64,7 @@ template <BaseMotion M> double share_of_bound(const Scene& scene, Draws& draws) 
 
 } // namespace
 
-TEST_CASE("no wing's spectral radius exceeds what its inertias allow, and one attains it") {
+TEST_CASE("no wing's spectral radius exceeds its bound, and one wing attains it") {
   double most = 0, least = 1;
   for (std::uint64_t seed = 0; seed < 600; ++seed) {
     Draws draws(seed);

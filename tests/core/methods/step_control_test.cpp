@@ -38,7 +38,8 @@ TEST_CASE("step control: a scalar and a lane of a pack get the same factor") {
   }
 }
 
-TEST_CASE("step control: what cannot be judged is cut to a tenth, what is too large by its size") {
+TEST_CASE("step control: a step of NaN is cut to a tenth, one with too large an error according to "
+          "the error") {
   const StepMemory<double> fresh;
   CHECK(step_factor(7, std::numeric_limits<double>::quiet_NaN(), 1.0, fresh) == 0.1);
   CHECK(step_factor(7, std::numeric_limits<double>::infinity(), 1.0, fresh) == 0.1);
@@ -50,12 +51,13 @@ TEST_CASE("step control: what cannot be judged is cut to a tenth, what is too la
   CHECK(step_factor(7, 0.0, 1.0, rejected) == 1);
 }
 
-TEST_CASE("step control foresees that steps go on to grow shorter, where it is asked to") {
-  // an error that grows by 2⁸ at equal steps halves the steps of order 8
+TEST_CASE("after foresee() step control expects steps to become shorter still") {
+  // an error that would grow by 2⁸ at equal steps halves a step of order 8
   StepMemory<double> plain, foreseeing;
   foreseeing.foresee();
   for (StepMemory<double>* memory : {&plain, &foreseeing}) memory->accepted(0.5, 1);
-  const double h = 0.5, error = 0.5; // the step before was twice as long: as long again would miss
+  const double h = 0.5,
+               error = 0.5; // the step before was twice as long: another step of 0.5 would miss
   CHECK(step_factor(7, error, h, plain) > 0.9);
   CHECK(step_factor(7, error, h, foreseeing) == Approx(0.5 * 0.9 * std::pow(0.5, -1.0 / 8)));
   CHECK(step_factor(7, error, 1.5, foreseeing) == step_factor(7, error, 1.5, plain)); // they grow

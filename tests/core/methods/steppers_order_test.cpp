@@ -23,7 +23,7 @@ struct OneStep {
   bool decimal = false; ///< its coefficients are known to the digits of a double
 };
 
-/// visit(stepper, what it is) with all but the multistep method, and series, whose order is too high for the reference.
+/// Calls visit(stepper, its description) for all one-step methods but taylor: its order is too high for the reference.
 template <class T, class Visit> void with_one_step_methods(const Visit& visit) {
   visit(RungeKutta4<T>(), OneStep{"runge_kutta4", 4, 4, any_error});
   visit(Adaptive<T, CashKarp54<T>>(), OneStep{"cash_karp54", 5, 4, any_error});
@@ -52,7 +52,7 @@ template <class AWing> std::vector<State<Quad>> exact_steps(double h) {
   return exact;
 }
 
-/// What a step of h, h/2, … is off, and what the method thinks that it is.
+/// Errors of steps h, h/2, …, and the method's estimates of them.
 struct Series {
   std::vector<double> errors, estimates;
 };
@@ -108,7 +108,7 @@ template <class AWing, class QuadWing> void check_orders(double h) {
     CHECK(above >= (quad ? method.decimal ? 1 : 2 : 0));
     if (!quad || method.estimate == 0) return;
     check_order(of.estimates, method.estimate, 1e-24);
-    if (method.name == "runge_kutta4") // by Richardson the error of what it goes on with
+    if (method.name == "runge_kutta4") // Richardson estimates the error of the two half steps
       CHECK(of.estimates.back() == Approx(of.errors.back()).epsilon(0.05));
     else
       CHECK(of.estimates.front() > of.errors.front()); // of the formula that it does not go on with

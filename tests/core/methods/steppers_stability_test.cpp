@@ -1,4 +1,4 @@
-// How long a step each method bears: the limits that `methods()` states, measured on real wings.
+// Measures the stability limits that `methods()` states, on real wings.
 #include "core/deployment.hpp"
 #include "tests/support/stepping.hpp"
 
@@ -39,7 +39,7 @@ private:
 Complex eigenvalue(double zeta) { return {-Real(zeta), std::sqrt(1 - Real(zeta) * Real(zeta))}; }
 double damping(double degrees) { return degrees < 90 ? std::cos(degrees / 180 * pi) : 0; }
 
-/// R(hλ): what a step makes of its eigenvector. One step is a polynomial of the matrix, p + q A
+/// R(hλ), by which a step multiplies the eigenvector. One step is a polynomial of the matrix, p + q A
 /// with A = [0 1; −1 −2ζ], that takes (1, 0) to (p, −q); so R = p + q λ.
 template <class Stepper>
 Complex amplification(Stepper& method, double h, double degrees,
@@ -95,7 +95,7 @@ template <class Stepper> bool stays_bounded(Stepper method, double h) {
 
 } // namespace
 
-TEST_CASE("a one-step method's stability limits are those that it states") {
+TEST_CASE("one-step methods have the stability limits that they state") {
   check_limits("runge_kutta4", RungeKutta4<Real>(), 2);
   check_limits("cash_karp54", Adaptive<Real, CashKarp54<Real>>());
   check_limits("dopri5", Adaptive<Real, DormandPrince5<Real>>());
@@ -105,7 +105,7 @@ TEST_CASE("a one-step method's stability limits are those that it states") {
   check_limits("rosenbrock_w", Adaptive<Real, RosenbrockW<Real>>());
 }
 
-TEST_CASE("Cash and Karp's formula makes what is undamped grow at any step") {
+TEST_CASE("Cash and Karp's formula makes undamped motion grow at any step") {
   Adaptive<Real, CashKarp54<Real>> method;
   for (const double h : {0.01, 0.03, 0.1, 0.3})
     CHECK(double(std::abs(amplification(method, h, 90)) - 1) ==

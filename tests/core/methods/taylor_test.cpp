@@ -56,7 +56,7 @@ double error_of_fitted_step(std::uint64_t seed, const Scene& scene, From from, d
   CHECK(at.attempt(series, wing.system, 0.5 * fitted).accepted());
   CHECK(at.made == 0.5 * fitted);
   REQUIRE(at.attempt(series, wing.system, fitted).accepted());
-  CHECK(at.made == fitted); // what a landing relies on
+  CHECK(at.made == fitted); // a landing relies on this
   RandomWing<long double> exact(seed, scene, from);
   Adaptive<long double, DormandPrince853<long double>> reference;
   const State<long double> there = after_steps<long double>(reference, exact, fitted / 512.L, 512);
@@ -124,7 +124,7 @@ TEST_CASE("halving a step by series divides its error by two to the seventeenth"
   CHECK(std::log2(errors[0] / errors[1]) == Approx(17).margin(0.7));
 }
 
-TEST_CASE("what an observer is shown inside a step by series has the accuracy of the series") {
+TEST_CASE("samples inside a step by series have the accuracy of the series") {
   Integration how;
   how.method = "taylor", how.rtol = 1e-11, how.atol = 1e-13, how.t_end = 10;
   double worst = 0;

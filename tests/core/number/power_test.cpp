@@ -5,7 +5,7 @@
 
 using namespace wingspread;
 
-TEST_CASE("powers are good to what step control needs") {
+TEST_CASE("rough powers have the errors that power.hpp states") {
   oracle::Draws draws(3);
   double worst_log = 0, worst_exp = 0;
   for (int trial = 0; trial < 200'000; ++trial) {
@@ -20,7 +20,7 @@ TEST_CASE("powers are good to what step control needs") {
 
 TEST_CASE("powers of laws are good to round-off") {
   oracle::Draws draws(4);
-  double worst = 0; // of what power.hpp states
+  double worst = 0; // error over the one that power.hpp states
   const auto look = [&](double x, double y) {
     const long double exact = std::pow(static_cast<long double>(x), static_cast<long double>(y));
     if (exact < 1e-290L || exact > 1e290L) return;

@@ -50,7 +50,7 @@ TEST_CASE("sine and cosine keep their relative accuracy beside multiples of a ri
     }
 }
 
-TEST_CASE("sine and cosine pass on what is not a number") {
+TEST_CASE("sine and cosine of NaN are NaN") {
   CHECK(std::isnan(sine_cosine(std::nan("")).sine));
   CHECK(std::isnan(sine_cosine(INFINITY).cosine));
 }

@@ -1,4 +1,6 @@
+#include "core/mechanics/wing.hpp"
 #include "core/packs/fields.hpp"
+#include "core/run/lane_protocol.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +10,7 @@ namespace {
 
 using P = Pack<2>;
 
-/// Every number of a struct becomes another one: first, first + 1, …
+/// Sets the numbers of a struct to next, next + 1, …
 void number_all(double& field, double& next) { field = next++; }
 template <class Struct> void number_all(Struct& all, double& next) {
   for_each_field(all, all, [&](auto& field, auto& /*same*/) { number_all(field, next); });
@@ -30,7 +32,7 @@ template <class Struct> [[nodiscard]] std::vector<double> numbers_of(const Struc
   return numbers;
 }
 
-/// Sets both lanes of Struct<P> from Struct<double>s, one after the other, and takes them out again.
+/// Copies a Struct<double> into each lane of Struct<P> and out again. @param count of its numbers
 template <template <class> class Struct> void require_way_and_back(std::size_t count) {
   const auto first = numbered<Struct<double>>(1), second = numbered<Struct<double>>(100);
   REQUIRE(numbers_of(first).size() == count);
@@ -46,14 +48,14 @@ template <template <class> class Struct> void require_way_and_back(std::size_t c
 
 } // namespace
 
-TEST_CASE("every number that is set in a lane comes back from it, whatever the others hold") {
+TEST_CASE("every number set in a lane comes back from it, whatever the other lanes contain") {
   require_way_and_back<Vec2>(2);
   require_way_and_back<LinearLaw>(4);
   require_way_and_back<BodyTerms>(10);
-  require_way_and_back<Pace>(9);
+  require_way_and_back<StepHistory>(9);
 }
 
-TEST_CASE("what is no number of a lane is the structure's, or holds where any lane has it") {
+TEST_CASE("a lane's structure is not copied, and a flag is set if any lane sets it") {
   Wing<double> wing{};
   wing.bodies.resize(2), wing.hinges.resize(2), wing.initial_rates = {0, 3};
   wing.hinges[1].static_friction = 5, wing.hinges[1].has_latch = true, wing.can_stick = true;
@@ -72,14 +74,16 @@ TEST_CASE("what is no number of a lane is the structure's, or holds where any la
   REQUIRE(packs.can_stick);
 }
 
-TEST_CASE("a struct is assigned in the lanes of the mask, all of it") {
-  Pace<P> to{}, from{};
-  set_lane(0, to, numbered<Pace<double>>(1)), set_lane(1, to, numbered<Pace<double>>(20));
-  set_lane(0, from, numbered<Pace<double>>(300)), set_lane(1, from, numbered<Pace<double>>(4000));
+TEST_CASE("assign_where copies all numbers of a struct, in the lanes of the mask only") {
+  StepHistory<P> to{}, from{};
+  set_lane(0, to, numbered<StepHistory<double>>(1)),
+      set_lane(1, to, numbered<StepHistory<double>>(20));
+  set_lane(0, from, numbered<StepHistory<double>>(300)),
+      set_lane(1, from, numbered<StepHistory<double>>(4000));
   assign_where(to.steps > P(10.0), to, from); // lane 1
-  Pace<double> out{};
+  StepHistory<double> out{};
   get_lane(0, to, out);
-  REQUIRE(numbers_of(out) == numbers_of(numbered<Pace<double>>(1)));
+  REQUIRE(numbers_of(out) == numbers_of(numbered<StepHistory<double>>(1)));
   get_lane(1, to, out);
-  REQUIRE(numbers_of(out) == numbers_of(numbered<Pace<double>>(4000)));
+  REQUIRE(numbers_of(out) == numbers_of(numbered<StepHistory<double>>(4000)));
 }

@@ -1,5 +1,5 @@
-// Latches just before a turning point: a run in a lane must see what the run alone sees, though the
-// hinge has turned back at its step's end.
+// Latches just before a turning point: a run in a lane must find the latch as the run alone does, though
+// the hinge has turned back at the step's end.
 #include "tests/core/packs/same_bits.hpp"
 #include "tests/support/closed_forms.hpp"
 
@@ -25,7 +25,7 @@ TEST_CASE("a run in a lane has the bits of the run alone: hinges that graze thei
       long latched = 0;
       for (const Scene& scene : scenes)
         latched += !Deployment().run(scene, how, goal).latches.empty();
-      CHECK(latched > 150); // those that the interpolant of loose steps does not take past it
+      CHECK(latched > 150); // loose steps' interpolants miss the latch of some
       require_equal_bits(scenes, how, goal);
     }
 }

@@ -14,7 +14,7 @@ using oracle::require_equal_bits;
 
 namespace {
 
-/// `count` units of a wing: springs, masses and latches vary.
+/// `count` wings whose springs, masses and latches vary.
 std::vector<Scene> units(const Scene& drawing, int count) {
   std::vector<Scene> scenes;
   for (int k = 0; k < count; ++k) {
@@ -66,11 +66,12 @@ TEST_CASE("a run by series in a lane has the bits of the run alone: chains, and 
     how.rtol = k % 3 == 0 ? 1e-6 : 1e-10, how.atol = 1e-2 * how.rtol;
     require_equal_bits(units(oracle::random_scene(900 + k, options), 11), how, every_peak);
   }
-  std::vector<Scene> mixed = units(oracle::seed_scene(), 240); // more of each kind than may wait
+  std::vector<Scene> mixed =
+      units(oracle::seed_scene(), 240); // more of each kind than the queue takes
   for (std::size_t k = 0; k < mixed.size(); k += k < 120 ? 3 : 1)
     mixed[k].hinges[0].friction.coulomb = 0.1;
   for (std::size_t k = 0; k < 100; ++k) std::swap(mixed[2 * k], mixed[2 * k + 1]);
-  for (const std::size_t without : {0, 1}) { // a run of either begins
+  for (const std::size_t without : {0, 1}) { // the first run has series, or has none
     if (without == 1) std::swap(mixed[0], mixed[1]);
     Integration how;
     how.rtol = 1e-9, how.atol = 1e-11;
@@ -78,7 +79,7 @@ TEST_CASE("a run by series in a lane has the bits of the run alone: chains, and 
   }
 }
 
-TEST_CASE("a run whose energy is audited has the bits of the run alone, its drift with them") {
+TEST_CASE("an audited run in a lane has the bits of the run alone, energy drift included") {
   const Goal audited{.peak_moment = false, .peak_force = false, .audit = true};
   const std::vector<Scene> scenes = units(oracle::seed_scene(), 19);
   REQUIRE(Deployment().run(scenes[0], {}, audited).energy.drift_before_first_latch > 0);
@@ -104,7 +105,7 @@ TEST_CASE("a run in a lane has the bits of the run alone: random wings on every 
 }
 
 TEST_CASE(
-    "a run in a lane has the bits of the run alone: those that need other methods, end at once "
+    "a run in a lane has the bits of the run alone: runs that need other methods, end at once "
     "or fail") {
   std::vector<Scene> scenes = units(oracle::seed_scene(), 12);
   for (Hinge& hinge : scenes[1].hinges) hinge.latch->damping = 1e5, hinge.latch->stiffness = 1e7;
@@ -147,9 +148,9 @@ TEST_CASE("lanes stay full: each takes the next run at once") {
   }
 }
 
-TEST_CASE("overtravel that nobody asks for is not looked for, and nothing else changes") {
+TEST_CASE("overtravel that is not asked for is not searched, and nothing else changes") {
   Scene swinging = oracle::seed_scene();
-  swinging.hinges[1].initial_rate = -0.5; // beyond where it was stowed
+  swinging.hinges[1].initial_rate = -0.5; // turns beyond its stowed angle
   for (const Scene& scene : units(swinging, 5))
     for (const Goal& goal : {every_peak, latches_alone, moments_to_the_end}) {
       Goal less = goal;
@@ -167,7 +168,7 @@ TEST_CASE("overtravel that nobody asks for is not looked for, and nothing else c
     const std::vector<Scene> scenes = units(oracle::seed_scene(), 64);
     long next = 0;
     Integration how;
-    how.method = "dop853"; // steps by series end where a hinge turns back, whoever asks
+    how.method = "dop853"; // with taylor steps end at turning points whatever the goal
     DeploymentPack pack(instruction_sets().back(), how, goal);
     return pack
         .run(
@@ -181,7 +182,7 @@ TEST_CASE("overtravel that nobody asks for is not looked for, and nothing else c
         .looks;
   };
   if (instruction_sets().size() == 1) return; // no lanes
-  CHECK(looks(first_latch) <= 2 * 64 + 8);    // the step with the latch, and that to it
+  CHECK(looks(first_latch) <= 2 * 64 + 8);    // the step that holds the latch, and the landing
   Goal watched = first_latch;
   watched.overtravel = true;
   CHECK(looks(watched) > looks(first_latch) + 16);

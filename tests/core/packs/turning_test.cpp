@@ -16,8 +16,8 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// A panel on its way over the crest of an unstable equilibrium, where it comes to rest if the rate
-/// with which it sets out is less than `share` 1 of what it takes.
+/// A panel that moves over the crest of an unstable equilibrium. It starts with `share` times the rate that
+/// just reaches the crest, and turns back if share < 1.
 Scene over_a_crest(double friction, double share) {
   Scene scene = latching_panel();
   Hinge& hinge = scene.hinges[0];
@@ -28,8 +28,8 @@ Scene over_a_crest(double friction, double share) {
   return scene;
 }
 
-/// Two discs that swing as one until the second is let go, with next to no acceleration: what it
-/// bears, 2 φ̈, is √5 at most [grazing_release_test.cpp].
+/// Two discs that swing as one until the friction of the second releases it, with hardly any acceleration:
+/// the load on that friction, 2 φ̈, is at most √5 [grazing_release_test.cpp].
 Scene let_go_at_the_limit(double limit, double kinetic) {
   Scene scene = coaxial_discs(3, 2);
   scene.hinges[0].stowed = 1, scene.hinges[0].latched = -50, scene.hinges[0].initial_rate = 0.5;
@@ -38,8 +38,8 @@ Scene let_go_at_the_limit(double limit, double kinetic) {
   return scene;
 }
 
-/// A panel that stays where it is until, at 1e9 s, its base turns away from it, and back. An instant
-/// is 0.9 ms then [instant.hpp]: now and then a step ends so near before the panel's rest.
+/// A panel that does not move until its base turns away from it, at 1e9 s, and back. An instant is then
+/// 0.9 ms [instant.hpp], so that some steps end within an instant before the panel comes to rest.
 Scene left_behind_late(double turning, double friction) {
   Scene scene = carried_panel(friction, friction);
   BaseTable::Columns columns;
@@ -49,7 +49,7 @@ Scene left_behind_late(double turning, double friction) {
   return scene;
 }
 
-/// Units of the seed wing whose hinges turn some forty times a run.
+/// Seed wings whose hinges turn back some forty times a run.
 std::vector<Scene> rubbed_units(int count) {
   std::vector<Scene> scenes;
   for (int k = 0; k < count; ++k) {
@@ -115,8 +115,8 @@ TEST_CASE("a run in a lane has the bits of the run alone: hinges that nearly com
     long latched = 0;
     for (const Scene& scene : scenes)
       latched += !Deployment().run(scene, how, every_peak).latches.empty();
-    CHECK(
-        (latched > 40 && latched < 80)); // half of them turn, but for what a loose tolerance blurs
+    CHECK((latched > 40 &&
+           latched < 80)); // half of them turn back, up to the error of a loose tolerance
     require_equal_bits(scenes, how, every_peak);
   }
 }

@@ -31,7 +31,7 @@ Refused run_refusing_probes(const Integration& how) {
   SeedRun run(system, how, goal, nobody);
   Refused refused;
   for (run.begin(); !run.ended();) {
-    const Place place = run.place();
+    LaneResult place = run.empty_lane_result();
     if (&place.x1 == &place.step.x1) {
       run.go();
       continue;
@@ -39,7 +39,8 @@ Refused run_refusing_probes(const Integration& how) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     place.x1.assign(place.x1.size(), none), place.dxdt1.assign(place.dxdt1.size(), none);
     place.forces_at_end.assign(place.forces_at_end.size(), {none, none});
-    run.take_back({.tries = 0, .h = 0, .evaluations = 0, .error = 2, .judged = {2, 1}, .pace = {}});
+    place.error = 2, place.judged = {2, 1};
+    run.resume(place);
     ++refused.probes;
   }
   refused.outcome = run.outcome();

@@ -1,0 +1,78 @@
+/// The protocol between a run (Integrator) and the lane of an engine (PackEngine) that makes steps
+/// for it. PackedRuns speaks for both, lane by lane:
+///
+///     1. engine.set_wing(lane, wing)     copies the numbers of a new run's wing
+///     2. engine.load(lane, task)         copies the state of the run: LaneTask, run → lane
+///     3. engine.advance()                makes trial steps in all lanes at once, and returns the
+///                                        lanes that need their runs
+///     4. engine.unload(lane, result)     copies the state back: LaneResult, lane → run
+///     5. run.resume(result)              judges the last trial step and goes on to 2, or ends
+///
+/// A lane accepts and rejects plain steps alone. A lane needs its run when the last trial step may
+/// hold an event or a peak, may end at t_end or at a knot of the base's table, or uses up what the
+/// task allows. The run then treats that trial step as one that it made itself. Lane and run use
+/// the same expressions, so every number has the same bits with and without a lane.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/energy.hpp"
+#include "core/mechanics/workspace.hpp"
+#include "core/methods/held_back_steps.hpp"
+#include "core/methods/method.hpp"
+#include "core/methods/step_control.hpp"
+#include "core/peaks/base_peaks.hpp"
+#include "core/peaks/peak.hpp"
+
+#include <vector>
+
+namespace wingspread {
+
+/// What a method's step control and `auto` remember of earlier steps. An engine keeps one in packs.
+template <class P> struct StepHistory {
+  P steps;              ///< accepted in this phase
+  StepMemory<P> memory; ///< of step control
+  HeldBackSteps<P> held_back;
+};
+
+/// Run → lane: the state from which the lane makes steps, and when it must return control. Refers to
+/// storage of the run; the lane copies all of it.
+struct LaneTask {
+  const Step<double>& step;           ///< its t, x and dxdt: the state
+  double h;                           ///< the first trial step, s
+  const Workspace<double>& work;      ///< laws, contacts, and latches that have not engaged
+  Tolerance tolerance;                ///< of a step
+  double dense_tolerance;             ///< absolute, of the roughness of a step's dense output
+  const PeakOf<double>* moments;      ///< 1 … n: peaks so far; null: not asked for
+  const PeakOf<double>* forces;       ///< the same
+  const double* force_before;         ///< 1 … n: at the state, N; null: not asked for
+  const double* overtravel;           ///< 1 … n: so far, rad
+  const Conserved<double>& conserved; ///< of a free base
+  const BaseExcursion<double>& base;  ///< of a free base, so far
+  double t_end;                       ///< the lane makes no step that may reach it, s
+  long most_trial_steps;              ///< the run must see the next one after so many
+  long most_steps;                    ///< the run must see the next one after so many accepted
+  long evaluations;                   ///< so far
+  StepHistory<double> history;
+};
+
+/// Lane → run: how far the run has come, and the last trial step, which the run has yet to judge.
+struct LaneResult {
+  // storage of the run, which the lane writes to
+  Step<double>& step;                       ///< its t, x and dxdt: start of the last trial step
+  std::vector<double>& force_before;        ///< 1 … n: there, N; if asked for
+  std::vector<PeakOf<double>>& moments;     ///< 1 … n: up to there; if asked for
+  std::vector<PeakOf<double>>& forces;      ///< the same
+  std::vector<double>& overtravel;          ///< 1 … n: up to there, rad
+  State<double>&x1, &dxdt1;                 ///< end of the last trial step
+  std::vector<Vec2<double>>& forces_at_end; ///< 1 … n: there, N; if asked for
+  BaseExcursion<double>& base;              ///< of a free base, up to the start of that step
+  // values
+  long trial_steps = 0; ///< before the last one; 0: the state is the task's, and not written
+  double h = 0;         ///< the last trial step, s
+  long evaluations = 0; ///< made by the lane, those of the last trial step included
+  double error = 0;     ///< of the last trial step, as in Verdict
+  Verdict judged{0, 1}; ///< on it, by all that a whole step must satisfy
+  StepHistory<double> history{};
+};
+
+} // namespace wingspread
