@@ -1,7 +1,7 @@
-/// What a base of prescribed motion does to a wing, seen from the base.
+/// The load of a base of prescribed motion on a wing, seen from the base.
 ///
-/// A base that turns at a constant rate Ω and is pushed by a, constant in inertial axes (gravity is
-/// a push the other way), loads every mass m with an apparent force m f,
+/// A base that turns at a constant rate Ω and has the constant acceleration a in inertial axes (gravity
+/// counts as an acceleration the other way) loads every mass m with an apparent force m f,
 ///
 ///     f = −a + Ω² r + Coriolis's,    |f| ≤ |a| + Ω² R + 2 |Ω| |v|                              (1)
 ///
@@ -10,14 +10,13 @@
 ///
 ///     V = Σ m (a·r − ½ Ω² r²)                                                                  (2)
 ///
-/// Let u_i be the way of hinge i from its rest, λ_i the length of the way from it to a mass outward
-/// of it. Then V turns the hinge by at most g_i, and as a turns, seen from the base, it gains
+/// Let u_i be the way of hinge i from its rest, and λ_i the length of the way from the hinge to a mass
+/// outward of it. Then V exerts at most g_i on the hinge. As a turns, seen from the base, V changes:
 ///
 ///     g_i = Σ m λ_i (|a| + Ω² R)       V(φ) − V(rest) ≥ −Σ g_i |u_i|                           (3)
 ///     s_i = Σ m λ_i                    d/dt (V(φ) − V(rest)) ≤ |a Ω| Σ s_i |u_i|               (4)
 ///
-/// While the rate itself changes, or a, there are no such bounds: where the base is driven by a
-/// table, until its last knot.
+/// There are no such bounds while Ω or a changes: on a base driven by a table, until its last knot.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -34,7 +33,7 @@ public:
   template <class AnySystem> bool prepare(const AnySystem& system) {
     const int n = system.layout().bodies;
     moment_.setZero(n + 1), lever_.setZero(n + 1), specific_.setZero(n + 1);
-    push_ = spin_ = drift_ = T(0);
+    spin_ = drift_ = T(0);
     if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
       if (!system.drive_is_steady()) return false;
       sum_up(system, system.topology());
@@ -45,11 +44,10 @@ public:
   [[nodiscard]] const T& moment(int i) const { return moment_(i); }     ///< g, N·m
   [[nodiscard]] const T& lever(int i) const { return lever_(i); }       ///< s, kg·m
   [[nodiscard]] const T& specific(int i) const { return specific_(i); } ///< of (1), at rest, m/s²
-  [[nodiscard]] const T& push() const { return push_; }   ///< √(Σ m f²) of a wing at rest
-  [[nodiscard]] const T& spin() const { return spin_; }   ///< |Ω|, rad/s
-  [[nodiscard]] const T& drift() const { return drift_; } ///< |a Ω|, m/s³
+  [[nodiscard]] const T& spin() const { return spin_; }                 ///< |Ω|, rad/s
+  [[nodiscard]] const T& drift() const { return drift_; }               ///< |a Ω|, m/s³
 
-  /// ½ Σ (m v² + J ω²) + V as seen from the base, J, and what its terms' sizes come to.
+  /// @return ½ Σ (m v² + J ω²) + V as seen from the base, and the sum of the sizes of its terms, J
   template <class AnySystem>
   [[nodiscard]] static std::pair<T, T> energy(AnySystem& system, const State<T>& x, const T& t) {
     using std::abs;
@@ -69,13 +67,11 @@ private:
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
     const T push = length(drive.felt);
     spin_ = abs(drive.rate), drift_ = push * spin_;
-    T squares(0);
     for (int k = 1; k <= wing.size(); ++k) {
       const T &mass = wing.bodies[k].mass, own = length(wing.bodies[k].center);
       T reach = own;
       for (int i = k; i != 0; i = tree.parent_of(i)) reach = reach + length(wing.bodies[i].arm);
       specific_(k) = fused(spin_ * spin_, reach, push);
-      squares = fused(mass, specific_(k) * specific_(k), squares);
       T lambda = own;
       for (int i = k; i != 0; i = tree.parent_of(i)) {
         lever_(i) = fused(mass, lambda, lever_(i));
@@ -83,11 +79,10 @@ private:
         lambda = lambda + length(wing.bodies[i].arm);
       }
     }
-    push_ = sqrt(squares);
   }
 
   Numbers moment_, lever_, specific_;
-  T push_{}, spin_{}, drift_{};
+  T spin_{}, drift_{};
 };
 
 } // namespace wingspread

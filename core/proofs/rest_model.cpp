@@ -19,7 +19,7 @@ namespace {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// The damping that a damper is for rates up to v.
+/// The damping that fits a damper at the rate v: moment over rate.
 [[nodiscard]] double secant(const DamperTerms<double>& damper, double v) {
   if (damper.law != DamperLaw::power) return damper_damping(damper, 0.0);
   const double rate = std::max(v, damper.rate);
@@ -32,7 +32,7 @@ namespace {
   switch (damper.law) {
   case DamperLaw::viscous:
     break;
-  case DamperLaw::power: { // linear, then a power: its difference from a line has one extreme
+  case DamperLaw::power: { // linear, then a power: the difference from a line has one extreme
     double largest = left(most);
     if (most > damper.rate) largest = std::max(largest, left(damper.rate));
     const double p = damper.exponent, steep = damper.strength * p;
@@ -42,7 +42,7 @@ namespace {
     }
     return largest;
   }
-  case DamperLaw::eddy_current: // S r³/(1 + r²): it rises
+  case DamperLaw::eddy_current: // the difference is S r³/(1 + r²), which rises
     return left(most);
   }
   return 0;
@@ -71,11 +71,9 @@ public:
   }
 
 private:
-  static constexpr int most_bodies = 40;
-
   [[nodiscard]] bool is_modelled() const {
     const BaseTerms<double>& base = wing_.base;
-    if (n_ > most_bodies || !wing_.plates.empty()) return false;
+    if (n_ > most_modelled_bodies || !wing_.plates.empty()) return false;
     if (base.motion == BaseMotion::prescribed && !is_steady(base, work_.driven)) return false;
     return std::none_of(wing_.real.begin(), wing_.real.end(),
                         [](const auto& real) { return real.has_backlash; });
@@ -132,7 +130,8 @@ private:
     return linear_law(wing_.hinges[i], wing_.hinges[i].has_latch);
   }
 
-  /// Newton's way to where moments and push balance; what is left then is steady.
+  /// Newton's method for the balance of moments and push. The residual is counted as steady moment: few
+  /// passes make bounds poor, not wrong.
   void find_rest() {
     constexpr int passes = 3;
     for (int pass = 0;; ++pass) {
@@ -144,14 +143,14 @@ private:
     for (int i = 0; i < n_; ++i) m_.remainders[i].steady = std::abs(residual_(i));
   }
 
-  /// Whether a next pass would move no hinge by more than rounding does.
+  /// Whether another pass would move every hinge by less than rounding.
   [[nodiscard]] bool balances() const {
     constexpr double rounding = 1e-14; // rad
     const auto least = rounding * m_.stiffness.diagonal().array();
     return (residual_.array().abs() <= least).all();
   }
 
-  /// K, the moments at rest, and what they and the push leave.
+  /// Finds K, the moments at rest, and the residual of moments and push.
   void find_stiffness() {
     m_.stiffness.setZero();
     for (int i = 1; i <= n_; ++i) {
@@ -284,13 +283,13 @@ private:
           m_.pairs.push_back({k, l, meeting(k, l), std::abs(M(k, l)), std::abs(s(k, l))});
   }
 
-  /// The outermost body that is inward of both, or one of them.
+  /// The outermost body that is inward of both, or is one of them.
   [[nodiscard]] int meeting(int k, int l) const {
     while (k != l) (k > l ? k : l) = wing_.tree.parent_of(std::max(k, l));
     return k;
   }
 
-  /// First moments: of what is outward of hinge i, each body's turning moves its own part.
+  /// Finds Y_ik, the first moment of what is outward of hinge i that body k's turning moves.
   void find_levers() {
     const double push = length(push_);
     for (int i = 1; i <= n_; ++i) {
@@ -306,7 +305,7 @@ private:
       for (int k = i; k != 0; k = wing_.tree.parent_of(k)) set_lever(k, i, Y_[i]);
     }
     if (!is_free()) return;
-    for (int i = 1; i <= n_; ++i) // the centre of mass goes on as it does
+    for (int i = 1; i <= n_; ++i) // relative to the centre of mass, which nothing accelerates
       for (int k = 0; k <= n_; ++k) {
         const double share = outward_mass_[i] / outward_mass_[0];
         m_.lever_x(i - 1, k) -= share * Y_[k].x, m_.lever_y(i - 1, k) -= share * Y_[k].y;
@@ -316,14 +315,14 @@ private:
     m_.lever_x(i - 1, k) = v.x, m_.lever_y(i - 1, k) = v.y;
   }
 
-  // ---- what the linear model leaves out
+  // ---- f: moments that the linear model leaves out
 
   void take_remainders() {
     m_.room.setConstant(std::numeric_limits<double>::infinity());
     for (int i = 1; i <= n_; ++i) {
       RestModel::Remainder& left = m_.remainders[i - 1];
       left.steady += wing_.hinges[i].most_friction();
-      if (wing_.hinges[i].has_latch) // beyond its stowed angle its overtravel may rise
+      if (wing_.hinges[i].has_latch) // beyond the stowed angle overtravel may rise
         m_.room(i - 1) = std::abs(m_.angles(i - 1) - wing_.hinges[i].stowed);
       if (wing_.real.empty()) continue;
       const RealHingeTerms<double>& real = wing_.real[i];
@@ -367,7 +366,7 @@ bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work, co
   return Maker(wing, work, model).make(angles, rates);
 }
 
-bool RestModel::is_tuned_for(const Eigen::VectorXd& rates) const {
+bool RestModel::is_tuned_for(const HingeVector& rates) const {
   for (int i = 0; i < size(); ++i) {
     const double tuned = remainders[i].tuned_for;
     if (tuned == 0) continue;
@@ -377,8 +376,8 @@ bool RestModel::is_tuned_for(const Eigen::VectorXd& rates) const {
   return true;
 }
 
-void RestModel::bound_remainders(const Eigen::VectorXd& u, const Eigen::VectorXd& v,
-                                 Eigen::VectorXd& f) const {
+HingeVector RestModel::bound_remainders(const HingeVector& u, const HingeVector& v) const {
+  HingeVector f(size());
   for (int i = 0; i < size(); ++i) {
     const Remainder& left = remainders[i];
     f(i) = left.steady + left.bend * u(i);
@@ -390,11 +389,12 @@ void RestModel::bound_remainders(const Eigen::VectorXd& u, const Eigen::VectorXd
     const double elastic = loop.stiffness * e, viscous = loop.damping * e_rate;
     double rest =
         loop.gear_changes * (loop.stiffness * u(loop.first) + loop.damping * v(loop.first));
-    if (elastic > loop.until_slack) // where half of it comes or goes
+    if (elastic > loop.until_slack) // one strand then carries half of it
       rest += 0.5 * (elastic - std::max(loop.until_slack, 0.0) + viscous);
     f(loop.first) += loop.gear * rest + loop.gear_changes * (loop.torque + elastic + viscous);
     f(loop.second) += rest;
   }
+  return f;
 }
 
 } // namespace wingspread

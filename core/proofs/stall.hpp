@@ -1,4 +1,4 @@
-/// Proof that no hinge can reach its latch any more.
+/// Proofs that no hinge can reach its latch any more: by energy, or because all hinges are stuck.
 ///
 /// For hinge i to reach its latch, the kinetic energy T and what all springs can still give must
 /// pay for the friction on its way:
@@ -7,10 +7,10 @@
 ///     g_i = P_i(φ_i) − P_i(latched) − τ_i |φ_latched − φ_i|                                (2)
 ///     G_j = max over φ of  P_j(φ_j) − P_j(φ) − τ_j |φ − φ_j|   ≥ 0                         (3)
 ///
-/// P: potential of spring, harness and engaged latch, beyond the latched angle with the latch,
-/// which can only take energy; τ: the kinetic level of exact friction, 0 for a regularized one,
-/// which may creep for nothing. On a free base T is taken about the common centre of mass. Where
-/// (1) fails for every unlatched hinge, none will ever latch.
+/// P is the potential of spring, harness and engaged latch; beyond the latched angle it includes the
+/// latch, which can only take energy. τ is the kinetic level of exact friction. For regularized
+/// friction τ is 0: such a hinge may creep at no cost. On a free base T is taken about the common
+/// centre of mass. Where (1) fails for every open hinge, none will ever latch.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -22,7 +22,7 @@ namespace wingspread {
 
 namespace detail {
 
-/// Least ½κy² + cy over [lower, upper]; −∞ where it has none.
+/// The least ½κy² + cy over [lower, upper]; −∞ where there is none.
 template <class T>
 [[nodiscard]] T least(const T& kappa, const T& c, const T& lower, const T& upper) {
   const T infinity = std::numeric_limits<T>::infinity();
@@ -44,7 +44,7 @@ template <class T>
   const LinearLaw<T> open = linear_law(hinge, engaged);
   const LinearLaw<T> beyond = linear_law(hinge, engaged || hinge.has_latch);
   const T drive = hinge.sense * open.drive, tau = hinge.kinetic_friction;
-  // the least of P + τ|y' − y| over y' behind, between y and the latch, and beyond it
+  // the least P + τ|y' − y|, over y' behind y, between y and the latch, and beyond the latch
   T best = least(open.stiffness, T(-drive - tau), T(-infinity), y) + tau * y;
   const T gate = larger(y, T(0));
   if (y < T(0)) best = smaller(best, T(least(open.stiffness, T(tau - drive), y, T(0)) - tau * y));
@@ -54,9 +54,10 @@ template <class T>
 
 } // namespace detail
 
-/// Energy that every unlatched hinge would lack to reach its latch, J: the least of them, > 0. None
-/// where there is no proof: one may reach it, no hinge waits, the base is driven, or a smoothed
-/// latch may bring energy in. Cost O(n).
+/// Proves by (1) that no open hinge will latch. Cost O(n).
+/// @return the least energy that an open hinge lacks to reach its latch, J, > 0. None without a proof:
+///         a hinge may reach its latch, none is open, the base is driven, or smoothed latches or the
+///         wind may bring energy in
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] std::optional<T> energy_missing(System<T, Topology, M>& system, const State<T>& x,
                                               const T& t) {
@@ -83,15 +84,15 @@ template <class T, class Topology, BaseMotion M>
     const T to_latch = potential(linear_law(hinge, false), x[at.angle(i)]) -
                        hinge.kinetic_friction * abs(x[at.angle(i)] - hinge.latched);
     const T missing = -(budget - own + to_latch);
-    if (!(missing > T(1e-9) * (scale + abs(to_latch)))) return std::nullopt;
+    const T rounding = T(1e-9) * (scale + abs(to_latch)); // far more than O(n) operations lose
+    if (!(missing > rounding)) return std::nullopt;
     least = least ? smaller(*least, missing) : missing;
   }
   return least;
 }
 
-/// Whether a wing that does not move in itself is loaded the same for ever: on a fixed or free
-/// base, and on one that is driven without rotation, or rotates about a point at rest at a constant
-/// rate.
+/// Whether a wing whose hinges all stick is loaded by constants: on a fixed or free base, and on one
+/// that is driven without rotation, or rotates about a point at rest at a constant rate.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] bool loads_are_constant(const System<T, Topology, M>& system) {
   const Wing<T>& wing = system.wing();
@@ -101,6 +102,12 @@ template <class T, class Topology, BaseMotion M>
   const Drive<T> base = system.drive(system.work().driven.from); // as at any other time
   const bool pushed = base.felt.x != T(0) || base.felt.y != T(0);
   return base.rate == T(0) || !pushed;
+}
+
+/// Whether every hinge sticks under loads that are constant: no hinge moves any more.
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] bool is_stuck_for_good(const System<T, Topology, M>& system) {
+  return system.work().stuck >= system.layout().bodies && loads_are_constant(system);
 }
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// What is told of a run, while it goes on and when it has ended.
+/// The record of a run: to its observer while it goes on, and as its outcome at the end.
 #pragma once
 
 #include "core/methods/steppers.hpp"
@@ -15,12 +15,12 @@
 
 namespace wingspread {
 
-/// Keeps a run's latches, phases and energy, tells its observer, and draws up its outcome.
+/// Records latches, phases and energy of a run, shows it to its observer, and makes its outcome.
 template <class T, class AnySystem> class Diary {
 public:
   Diary(Underway<T, AnySystem>& run, const Observer& observer) : run_(run), observer_(observer) {}
 
-  /// A run begins. What is told of the last one stays until `close` tells all of this one.
+  /// A run begins. The outcome of the last run stays until `close`.
   void start() {
     keep_storage(outcome_.latches, latches_);
     keep_storage(outcome_.phases, phases_);
@@ -29,11 +29,11 @@ public:
     initial_energy_ = run_.goal.end_state || run_.goal.audit ? energy() : 0;
   }
 
-  /// Those that have engaged, in order of time.
+  /// The latches that have engaged, in order of time.
   [[nodiscard]] std::vector<LatchEvent>& latches() { return latches_; }
   [[nodiscard]] bool any_latch() const { return !latches_.empty(); }
 
-  /// A method goes on from where the run stands. @param steps accepted so far
+  /// Begins a phase, unless the method is that of the last one. @param steps accepted so far
   void begin_phase(Method method, long steps) {
     const std::string_view name = method_names[static_cast<std::size_t>(method)];
     if (!phases_.empty() && phases_.back().method == name) return;
@@ -41,7 +41,7 @@ public:
     phases_.push_back({std::string(name), static_cast<double>(run_.step.t), 0, -steps});
   }
 
-  /// Whether there is somebody to be shown the run as it goes.
+  /// Whether the run has an observer.
   [[nodiscard]] bool is_watched() const { return static_cast<bool>(observer_); }
 
   void watch_energy() {
@@ -49,24 +49,24 @@ public:
       largest_drift_ = std::max(largest_drift_, std::abs(energy() - initial_energy_));
   }
 
-  /// Shows the observer where the run stands; of a grid, only its start.
+  /// Shows the observer the state where the run stands; with a sample interval, only at the start.
   void notify() {
     if (!observer_ || (on_grid() && samples_ > 0)) return;
     observer_(sample_at(run_.system, run_.step.x, run_.step.t));
     ++samples_;
   }
 
-  /// A step was accepted: shows the observer the multiples of its interval inside, by dense output.
-  /// @param by_method by_method(s) leaves the state there in the run's x, if the method itself can tell
+  /// Shows the observer the samples inside a step just accepted, by dense output.
+  /// @param by_method by_method(s) writes the method's own state at s to the run's x; false: it has none
   template <class ByMethod> void notify_inside(ByMethod&& by_method) {
     if (!observer_ || !on_grid()) return;
     const Step<T>& step = run_.step;
     const double end = static_cast<double>(T(step.t + step.h));
-    constexpr double rounding = 1 + 1e-14; // of a multiple that is the end of the run
+    constexpr double rounding = 1 + 1e-14; // a multiple of the interval may be the end of the run
     for (double t = time_of_sample(); t <= end * rounding; t = time_of_sample()) {
       const T s = smaller(T(1), T((T(t) - step.t) / step.h));
       if (run_.system.work().stuck > 0)
-        run_.evaluate_at(s); // the moments that hold hinges
+        run_.evaluate_at(s); // moments on stuck hinges follow from accelerations
       else if (!(s < T(1) && by_method(s)))
         step.interpolate(run_.at, s, run_.x);
       observer_(sample_at(run_.system, run_.x, T(t)));
@@ -74,7 +74,7 @@ public:
     }
   }
 
-  /// The run has come to its end.
+  /// Makes the outcome of a run that has ended.
   void close(Status status, std::string reason, const Work& work,
              const PeakSearch<T, AnySystem>& peaks, bool peaks_final) {
     end_phase(work.steps);
@@ -102,7 +102,7 @@ public:
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
 
 private:
-  /// What nobody has taken of the last outcome holds what this one brings.
+  /// Reuses the storage of the last outcome where nobody has taken it.
   template <class Items> static void keep_storage(Items& last, Items& next) {
     if (next.capacity() == 0) next = std::move(last);
     next.clear();
@@ -126,7 +126,7 @@ private:
   Outcome outcome_;
   std::vector<LatchEvent> latches_;
   std::vector<Phase> phases_;
-  long samples_ = 0;                              ///< that the observer was shown
+  long samples_ = 0;                              ///< shown to the observer
   double initial_energy_ = 0, largest_drift_ = 0; ///< J
 };
 

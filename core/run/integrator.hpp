@@ -1,4 +1,14 @@
 /// One run, from the wing's release to its end.
+///
+/// | where is …                           | file                                                        |
+/// |--------------------------------------|-------------------------------------------------------------|
+/// | the loop                             | `run` and `go` below: a step is asked for, made and judged  |
+/// | the next step's size and method      | stepping.hpp                                                |
+/// | a step that ends at an event         | landing.hpp                                                 |
+/// | the instant at which a latch engages | `finish_step` below, by Landing::happens; events/latches.hpp |
+/// | a peak inside a step                 | peak_search.hpp, and the room peaks/                        |
+/// | an early end, and its proof          | ending.hpp, and the room proofs/                            |
+/// | the record of the run                | diary.hpp                                                   |
 #pragma once
 
 #include "core/events/events.hpp"
@@ -18,8 +28,8 @@
 
 namespace wingspread {
 
-/// Integrates one wing, as a dialogue: the run asks for a step of its method and is told the
-/// verdict, whoever makes the step. Storage is made before the first step; a step of the core's own
+/// Integrates one wing. The run asks for a step and takes the verdict on it; `go`, or the lane of an
+/// engine of packs, makes the step. Storage is made before the first step: a step of the core's own
 /// methods allocates nothing.
 template <class T, class Topology, BaseMotion M> class Integrator {
 public:
@@ -28,7 +38,7 @@ public:
   Integrator(AnySystem& system, const Integration& how, const Goal& goal, const Observer& observer)
       : run_(system, how, goal), events_(system), diary_(run_, observer), stepping_(run_),
         landing_(run_, events_), peaks_(run_), ending_(run_, events_, diary_, peaks_) {}
-  Integrator(const Integrator&) = delete; // its parts know each other
+  Integrator(const Integrator&) = delete; // its parts refer to each other
   Integrator& operator=(const Integrator&) = delete;
 
   [[nodiscard]] Outcome run() {
@@ -37,21 +47,21 @@ public:
     return outcome();
   }
 
-  /// Starts anew, with the system's parameters as they now are.
+  /// Begins a run with the present parameters of the system.
   void begin() {
     start();
     if (all_finite(run_.step.dxdt))
-      go_on();
+      end_or_plan();
     else
       fail("the accelerations are not finite at the start");
   }
 
-  /// Whether the run is over; if not, a step is asked for.
+  /// Whether the run is over. If not, a step is asked for.
   [[nodiscard]] bool ended() const { return ended_; }
   /// @pre ended()
   [[nodiscard]] Outcome&& outcome() { return diary_.outcome(); }
 
-  /// Makes the step that is asked for, and takes it.
+  /// Makes the step that is asked for, judges it, and asks for the next one.
   void go() {
     const Verdict verdict = stepping_.attempt(asked_.h, *asked_.x1, *asked_.dxdt1);
     if (asked_.stage == Stage::step) stepping_.fit(asked_.h);
@@ -109,12 +119,12 @@ public:
   }
 
 private:
-  /// What the step asked for is for.
+  /// The purpose of the step asked for.
   enum class Stage {
-    step,    ///< to go on
+    step,    ///< to advance the run
     landing, ///< to end at the event that is due
-    doubt,   ///< to make sure of a peak inside the step accepted
-    repeat   ///< to leave the method as the step accepted did
+    doubt,   ///< to confirm a peak inside the accepted step
+    repeat   ///< to leave the method's history as the accepted step did
   };
 
   /// A step from where the run stands over h, into x1 and dxdt1.
@@ -129,24 +139,24 @@ private:
     asked_ = {stage, T(s * run_.step.h), &run_.x, &run_.dxdt};
   }
 
-  /// The step asked for has been made, and the system's last evaluation was at its end.
+  /// Takes the step asked for, once it is made. @pre the system's last evaluation was at its end
   /// @param verdict on a whole step by all that it must satisfy, else the method's own
   void take(const Verdict& verdict) {
     switch (asked_.stage) {
     case Stage::step:
-      return take_step(verdict);
+      return judge_step(verdict);
     case Stage::landing:
-      return take_landing(verdict);
+      return judge_landing(verdict);
     case Stage::doubt:
-      if (!verdict.accepted() && !stepping_.reach(asked_.h, *asked_.x1, *asked_.dxdt1))
-        run_.evaluate_at(T(asked_.h / run_.step.h)); // no better than that
-      return make_sure(peaks_.resolve_doubt());
+      if (!verdict.accepted() && !stepping_.reach_in_parts(asked_.h, *asked_.x1, *asked_.dxdt1))
+        run_.evaluate_at(T(asked_.h / run_.step.h)); // by dense output then
+      return confirm_peaks(peaks_.resolve_doubt());
     case Stage::repeat:
       return finish_step();
     }
   }
 
-  // ---- the run, step by step
+  // ---- the loop, in order: plan, judge, land, confirm peaks, finish
 
   void start() {
     AnySystem& system = run_.system;
@@ -165,8 +175,8 @@ private:
     restart(0);
   }
 
-  /// The right-hand side has changed, or is new: evaluates it, at t⁺.
-  /// @param let_go a hinge; 0: none
+  /// Evaluates the new right-hand side at t⁺, and begins the method anew.
+  /// @param let_go the hinge that begins to slide; 0: none
   void restart(int let_go) {
     begin_anew(let_go);
     diary_.notify();
@@ -190,50 +200,49 @@ private:
   }
 
   /// Ends the run, or asks for the next step.
-  void go_on() {
-    if (!ending_.is_reached()) return try_step(stepping_.plan());
-    const Status status = ending_.status();
-    const bool peaks_final = ending_.peaks_are_final();
-    end(status, status == Status::stalled ? ending_.why_stalled() : "", peaks_final);
+  void end_or_plan() {
+    if (!ending_.ends_here()) return ask_for_step(stepping_.plan());
+    end(ending_.describe_end());
   }
 
   /// @param obstacle why no step could be planned, if so
-  void try_step(const std::optional<std::string>& obstacle) {
+  void ask_for_step(const std::optional<std::string>& obstacle) {
     if (obstacle) return fail(*obstacle);
     ask_to_end(Stage::step);
   }
 
-  void take_step(const Verdict& verdict) {
-    if (!stepping_.accepts(stepping_.turns(verdict, events_))) return try_step(stepping_.cut());
-    stepping_.foresee();
+  void judge_step(const Verdict& verdict) {
+    if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_)))
+      return ask_for_step(stepping_.plan_again());
+    stepping_.choose_next_size();
     if (landing_.finds_event()) return ask_to_end(Stage::landing);
     accept();
   }
 
-  void take_landing(const Verdict& verdict) {
-    if (!stepping_.accepts(verdict)) return try_step(stepping_.cut());
+  void judge_landing(const Verdict& verdict) {
+    if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
     if (landing_.misses_event(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
     accept();
   }
 
-  /// A step accepted: looks for its peaks, some of them made sure of by steps of the method inside.
+  /// Looks for the peaks of an accepted step.
   void accept() {
     if constexpr (M == BaseMotion::free)
-      if (run_.system.wing().plates.empty()) restore_momentum(); // the air takes some
-    make_sure(peaks_.first_doubt());
+      if (run_.system.wing().plates.empty()) restore_momentum(); // with plates the air takes some
+    confirm_peaks(peaks_.first_doubt());
   }
 
-  /// @param doubt the fraction of the step to which one is to be made; none: all peaks are known
-  void make_sure(const std::optional<T>& doubt) {
+  /// Asks for a step to the peak in doubt. @param doubt its fraction of the step; none: all are known
+  void confirm_peaks(const std::optional<T>& doubt) {
     if (doubt) return ask_inside(Stage::doubt, *doubt);
     if (peaks_.made_sure() && stepping_.method() == Method::adams_bashforth_moulton)
-      return ask_inside(Stage::repeat, T(1)); // what it will keep must be the step accepted
+      return ask_inside(Stage::repeat, T(1)); // its history must be that of the accepted step
     finish_step();
   }
 
-  /// Goes on to the step's end, and to what it brings about.
+  /// Moves to the step's end, applies its event, and ends the run or asks for the next step.
   void finish_step() {
-    diary_.notify_inside([this](const T& s) { return stepping_.looks_inside(s); });
+    diary_.notify_inside([this](const T& s) { return stepping_.evaluate_inside(s); });
     stepping_.advance(landing_.at_event());
     Step<T>& step = run_.step;
     diary_.watch_energy();
@@ -244,21 +253,21 @@ private:
     diary_.notify();
     const bool at_knot = run_.system.enter_piece(step.t);
     if (landing_.happens(diary_.latches())) {
-      if (!ends_with_event()) restart(landing_.let_go());
+      if (diary_.is_watched() || !ending_.ends_at_latch()) restart(landing_.let_go());
     } else {
-      if (stepping_.changes_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
+      if (stepping_.choose_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
       if (at_knot) pass_knot();
     }
     if (!angles_are_known(run_.at, step.x)) return fail("a hinge has turned past 1e8 rad");
     if (peaks_.in_vain() || events_.in_vain())
       return fail("what a hinge that sticks bears is too small beside its bounds to be found");
-    go_on();
+    end_or_plan();
   }
 
-  /// The base goes on by another piece of its table.
+  /// The base's motion enters another piece of its table.
   void pass_knot() {
     begin_anew(0);
-    stepping_.pass_knot();
+    stepping_.restart_at_knot();
   }
 
   void restore_momentum() {
@@ -269,27 +278,21 @@ private:
   }
 
   void fail(const std::string& why) {
-    end(Status::failed,
-        why + ", at t = " + std::to_string(static_cast<double>(run_.step.t)) + " s");
+    end({Status::failed,
+         why + ", at t = " + std::to_string(static_cast<double>(run_.step.t)) + " s"});
   }
 
-  void end(Status status, const std::string& reason, bool peaks_final = false) {
-    diary_.close(status, reason, stepping_.work(), peaks_, peaks_final);
+  void end(const End& how) {
+    diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.peaks_final);
     ended_ = true;
   }
 
-  /// Whether nobody asks for what follows the event at which the run stands, the new right-hand side at
-  /// t⁺ included.
-  [[nodiscard]] bool ends_with_event() const {
-    return ending_.is_certain() && !diary_.is_watched();
-  }
-
-  /// Whether the step asked for ends the step under way: its verdict is more than the method's own.
+  /// Whether the step asked for ends the step under way. Its verdict is then more than the method's own.
   [[nodiscard]] bool asks_for_whole_step() const {
     return asked_.stage == Stage::step || asked_.stage == Stage::landing;
   }
 
-  /// Whether the step asked for is one that an engine can judge.
+  /// Whether the lane of an engine can judge the step asked for.
   [[nodiscard]] bool asks_for_plain_step() const {
     return asked_.stage == Stage::step && !stepping_.is_last();
   }
@@ -307,7 +310,7 @@ private:
   Ending<T, AnySystem> ending_;
   Try asked_;
   bool ended_ = false;
-  Conserved<T> kept_{}; ///< by a free base
+  Conserved<T> kept_{}; ///< momenta of a free base
 };
 
 } // namespace wingspread

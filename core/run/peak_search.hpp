@@ -13,25 +13,25 @@
 
 namespace wingspread {
 
-/// Looks for peaks in every step accepted. One that the dense output shows inside a step is in
-/// doubt until a step of the method that ends there has made sure of it.
+/// Looks for peaks in every accepted step. A peak that the dense output shows inside a step is in
+/// doubt, until a step of the method that ends there confirms it.
 template <class T, class AnySystem> class PeakSearch {
 public:
   explicit PeakSearch(Underway<T, AnySystem>& run) : run_(run) {}
 
   [[nodiscard]] const std::vector<PeakOf<T>>& moments() const { return moments_; }
   [[nodiscard]] const std::vector<PeakOf<T>>& forces() const { return forces_.peaks; }
-  /// Where an engine leaves those of the steps that it has made.
+  /// For the lane of an engine to write to.
   [[nodiscard]] std::vector<PeakOf<T>>& moments() { return moments_; }
   [[nodiscard]] std::vector<PeakOf<T>>& forces() { return forces_.peaks; }
-  /// Forces where the step starts, 1 … n, N; only where they are asked for.
+  /// Forces at the start of the step, 1 … n, N; only where forces are asked for.
   [[nodiscard]] std::vector<T>& force_before() { return forces_.before(); }
 
-  /// Furthest beyond the stowed angle, 1 … n, rad; zeros where nobody asks.
+  /// Furthest turn beyond the stowed angle, 1 … n, rad; zeros if not asked for.
   [[nodiscard]] std::vector<T>& overtravel() { return overtravel_; }
   [[nodiscard]] const std::vector<T>& overtravel() const { return overtravel_; }
 
-  /// Of a free base.
+  /// The largest excursions of a free base.
   [[nodiscard]] const BaseExcursion<T>& base() const { return base_; }
   [[nodiscard]] BaseExcursion<T>& base() { return base_; }
 
@@ -44,7 +44,7 @@ public:
     samples_.renew();
   }
 
-  /// The right-hand side has just been evaluated where the run stands, and is new.
+  /// Takes the peaks at t⁺. @pre the right-hand side has changed, and was last evaluated there
   void include_start() {
     using std::abs;
     const Step<T>& step = run_.step;
@@ -53,8 +53,8 @@ public:
     if (run_.goal.peak_force) forces_.sample(run_.system, step.t);
   }
 
-  /// A step was accepted, and the last evaluation was at its end.
-  /// @return the first doubt: the fraction of the step to which the method must make one of its own
+  /// Looks for the peaks of a step just accepted. @pre the last evaluation was at its end
+  /// @return the first doubt: the fraction of the step to which the method must make a step
   [[nodiscard]] std::optional<T> first_doubt() {
     made_sure_ = false;
     samples_.refill(static_cast<double>(run_.step.h));
@@ -67,7 +67,7 @@ public:
     return next_doubt();
   }
 
-  /// That step has been made, to the state inside the step under way. @return the next doubt
+  /// Uses the state inside that the method has stepped to. @return the next doubt
   [[nodiscard]] std::optional<T> resolve_doubt() {
     if (held_at_)
       confirm_held_moment();
@@ -81,12 +81,12 @@ public:
 
   /// Whether the method has made steps inside the one accepted.
   [[nodiscard]] bool made_sure() const { return made_sure_; }
-  /// Whether what a hinge that sticks bears in this step could not be told.
+  /// Whether the search for the largest moment on a stuck hinge was given up in this step.
   [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
 private:
-  /// What a further step to a force's maximum must gain. Extrapolation's steps alone are so long that
-  /// the dense output's maximum stands elsewhere.
+  /// The relative gain from which another step to the maximum of a force is worth making. Only the
+  /// steps of extrapolation are so long that the dense output misplaces the maximum.
   [[nodiscard]] double worth_a_step() const {
     return run_.how.method == "bulirsch_stoer" ? std::max(1e-12, run_.how.rtol) : 1;
   }
@@ -127,11 +127,11 @@ private:
   std::vector<T> overtravel_;      ///< 1 … n
   BaseExcursion<T> base_;
   ForcePeaks<T, AnySystem> forces_;
-  int hinge_ = 0;                          ///< whose moment is looked at
-  std::optional<DoubtfulMoment<T>> doubt_; ///< of it; none while forces are in doubt
+  int hinge_ = 0;                          ///< the hinge searched for moment peaks
+  std::optional<DoubtfulMoment<T>> doubt_; ///< of its moment; none while forces are in doubt
   HeldLoadBound<T> held_;
   SampleBudget samples_;
-  std::optional<T> held_at_; ///< where the moment of a hinge that sticks is in doubt
+  std::optional<T> held_at_; ///< where the moment of a stuck hinge is in doubt
   bool made_sure_ = false;
 };
 

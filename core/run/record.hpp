@@ -1,4 +1,4 @@
-/// What is told of a run, in the scene's own order.
+/// States, samples and peaks of a run in the order of the scene's hinges.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -11,7 +11,7 @@
 
 namespace wingspread {
 
-/// Four significant digits.
+/// A number with four significant digits, for messages.
 [[nodiscard]] inline std::string in_words(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.4g", value);
@@ -23,7 +23,7 @@ template <class T, class Topology, BaseMotion M>
   return static_cast<double>(T(kinetic_energy(system, x, t) + potential_energy(system, x, t)));
 }
 
-/// A sample of the trajectory; the last evaluation was at (x, t) if any hinge sticks.
+/// A sample of the trajectory. @pre the last evaluation was at (x, t), if any hinge sticks
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] Sample sample_at(System<T, Topology, M>& system, const State<T>& x, const T& t) {
   const Layout& at = system.layout();

@@ -1,4 +1,4 @@
-/// How far a run goes next, and by which method.
+/// The steps of a run: how long the next one is, by which method, and whether it is accepted.
 #pragma once
 
 #include "core/dense/friction_layer.hpp"
@@ -20,7 +20,7 @@
 
 namespace wingspread {
 
-/// The methods of a run: makes and judges steps, chooses the next one's size and what makes it.
+/// Plans, makes and judges steps, and chooses the method.
 template <class T, class AnySystem> class Stepping {
 public:
   explicit Stepping(Underway<T, AnySystem>& run)
@@ -33,7 +33,7 @@ public:
     choice_ = first_choices_[has_series(run_.system.wing()) ? 1 : 0];
   }
 
-  /// The right-hand side has changed, or is new. @param any_latch whether one has engaged
+  /// Begins anew after a change of the right-hand side. @param any_latch whether a latch has engaged
   void restart(bool any_latch) {
     any_latch_ = any_latch;
     choice_.restart(static_cast<double>(run_.step.t), run_.system.work().evaluations,
@@ -42,30 +42,30 @@ public:
     h_ = T(-1);
   }
 
-  /// The base's motion goes on by another piece of its table: the method begins anew, with steps as
-  /// they were.
-  void pass_knot() { begin_with_method(); }
+  /// Begins anew where the base's motion enters another piece of its table, with the step size so far.
+  void restart_at_knot() { begin_with_method(); }
 
   [[nodiscard]] Method method() const { return choice_.active(); }
   [[nodiscard]] long steps() const { return steps_; } ///< accepted
   [[nodiscard]] Work work() const { return {steps_, rejected_, run_.system.work().evaluations}; }
 
-  /// What a step may lose now. Up to the first latch 32 times less than asked: the phase takes a
-  /// few per cent of a run's steps, and what is lost in it shifts all that follows.
+  /// The tolerance of a step. Before the first latch it is 32 times finer than asked: this phase takes
+  /// a few per cent of a run's steps, and its errors shift all that follows. Heuristic: a smaller
+  /// factor costs accuracy at every later event, a larger one costs steps.
   [[nodiscard]] Tolerance tolerance() const {
     const double finer = !any_latch_ && method() != Method::runge_kutta4 ? 32 : 1;
     return {run_.how.rtol / finer, run_.how.atol / finer};
   }
 
-  /// To which events are landed on; 0 where an implicit method steps over what is fast, so that
-  /// accelerations at a step's end tell little of what comes next.
+  /// The tolerance for landing on events. 0 for implicit methods: they step over fast motion, and the
+  /// acceleration at a step's end does not predict the next instants.
   [[nodiscard]] double rtol_of_landing() const {
     return is_implicit(method()) ? 0 : tolerance().rtol;
   }
 
   // ---- a step: planned, made, judged
 
-  /// Chooses the step to try next. @return why there is none, if so
+  /// Plans the next trial step. @return why none is possible, if so
   [[nodiscard]] std::optional<std::string> plan() {
     if (h_ < T(0)) choose_first_step();
     if (tried_ >= run_.how.max_steps)
@@ -78,14 +78,14 @@ public:
     return std::nullopt;
   }
 
-  /// Where a step has to end at the latest: at t_end, or at a knot of the base's table, s.
+  /// Where a step ends at the latest, s: at t_end, or at a knot of the base's table.
   [[nodiscard]] T end_of_stretch() const {
     return smaller(T(run_.how.t_end), run_.system.next_knot());
   }
-  /// Whether the step planned ends there.
+  /// Whether the planned step ends there.
   [[nodiscard]] bool is_last() const { return last_; }
 
-  /// Makes a step of h, or shorter, from where the run stands.
+  /// Makes a trial step of h from where the run stands. A method may make it shorter, and sets h.
   [[nodiscard]] Verdict attempt(T& h, State<T>& x1, State<T>& dxdt1) {
     return steppers_.with(method(), [&](auto& stepper) {
       const Step<T>& step = run_.step;
@@ -93,21 +93,21 @@ public:
     });
   }
 
-  /// The step planned was made so long, by a method that fits it.
+  /// Shortens the planned step to what the method has made.
   void fit(const T& h) {
     if (!(h < run_.step.h)) return;
     run_.step.h = h;
     last_ = false;
   }
 
-  /// The same in shorter steps, where one over h is refused: extrapolation chooses its order as it
-  /// goes along, and begins with a low one. The system's last evaluation is at the end.
-  /// @return whether they lead there; Adams' method cannot, whose memory belongs to the start
-  [[nodiscard]] bool reach(const T& h, State<T>& x1, State<T>& dxdt1) {
+  /// Makes a step of h in parts, where the method rejects it as a whole: extrapolation raises its order
+  /// step by step, and begins with a low one. The system's last evaluation is at the end.
+  /// @return whether the parts lead there. Adams' method cannot: its history belongs to the start
+  [[nodiscard]] bool reach_in_parts(const T& h, State<T>& x1, State<T>& dxdt1) {
     if (method() == Method::adams_bashforth_moulton) return false;
     between_.x = run_.step.x, between_.dxdt = run_.step.dxdt;
     T rest = h, part = T(0.5) * h;
-    for (int tries = 0; tries < 64; ++tries) {
+    for (int tries = 0; tries < 64; ++tries) { // heuristic: beyond, dense output must do
       const Verdict verdict = steppers_.with(method(), [&](auto& stepper) {
         const T t = run_.step.t + (h - rest);
         return stepper.attempt(run_.system, {t, between_.x, between_.dxdt}, part, x1, dxdt1);
@@ -123,12 +123,12 @@ public:
     return false;
   }
 
-  /// Adds what else a step must satisfy: it leaps over no layer of friction, and where the method
-  /// takes long ones, its dense output shows what happens inside.
+  /// Adds to the method's verdict what else a step must satisfy: it does not leap over a layer of
+  /// friction, and with methods of long steps the dense output is accurate inside.
   [[nodiscard]] Verdict judged(Verdict verdict) const {
     if (verdict.accepted() && run_.system.wing().has_regularized_friction) limit_by_layers(verdict);
     if (!verdict.accepted() || !takes_long_steps(method())) return verdict;
-    // whether a hinge that grazes its latch reaches it is the interpolant's word
+    // the interpolant decides whether a hinge that grazes its latch reaches it
     const double finer = method() == Method::bulirsch_stoer ? 10 : 1;
     const Step<T>& step = run_.step;
     const T rough = roughness(run_.at, step, T(run_.how.atol));
@@ -140,10 +140,10 @@ public:
     return verdict;
   }
 
-  /// A verdict on the step under way that makes a step by series end where a hinge turns back and that counts: its interpolant
-  /// would not tell there how far the hinge comes.
+  /// Rejects a step by series beyond the first turning point that counts: the dense output of so long a
+  /// step would not show how far the hinge comes. @param verdict on the step under way
   template <class AnyEvents>
-  [[nodiscard]] Verdict turns(const Verdict& verdict, const AnyEvents& events) const {
+  [[nodiscard]] Verdict cut_at_turn(const Verdict& verdict, const AnyEvents& events) const {
     if (!verdict.accepted() || method() != Method::taylor) return verdict;
     T first(1);
     for (int i = 1; i <= run_.at.bodies; ++i)
@@ -153,8 +153,9 @@ public:
     return first < T(1) ? Verdict{2, static_cast<double>(first)} : verdict;
   }
 
-  /// Whether the method has a state of its own at s inside the step under way; then it is in the run's x.
-  [[nodiscard]] bool looks_inside(const T& s) {
+  /// Writes the method's own state at the fraction s of the step to the run's x. @return whether the
+  /// method has one
+  [[nodiscard]] bool evaluate_inside(const T& s) {
     if (method() != Method::taylor) return false;
     const Step<T>& step = run_.step;
     steppers_.taylor().formula().inside(run_.system, {step.t, step.x, step.dxdt}, T(s * step.h),
@@ -162,21 +163,21 @@ public:
     return true;
   }
 
-  /// The step under way was tried, and judged so. @return whether it is accepted
-  [[nodiscard]] bool accepts(const Verdict& judged) {
+  /// Counts a trial step and keeps its verdict. @return whether it is accepted
+  [[nodiscard]] bool count_trial(const Verdict& judged) {
     ++tried_;
     verdict_ = judged;
     return verdict_.accepted();
   }
 
-  /// The whole step planned was accepted: foresees the next one.
-  void foresee() {
+  /// Chooses the size of the step after the planned one, which was accepted.
+  void choose_next_size() {
     const T next = run_.step.h * T(verdict_.factor);
     h_ = last_ && !(verdict_.factor < 1) ? larger(h_, next) : next;
   }
 
-  /// Plans anew after a rejection. @return why that cannot be, if so
-  [[nodiscard]] std::optional<std::string> cut() {
+  /// Plans a shorter step after a rejection. @return why none is possible, if so
+  [[nodiscard]] std::optional<std::string> plan_again() {
     ++rejected_;
     const bool fixed = steppers_.with(method(), [](auto& stepper) {
       stepper.rejected();
@@ -187,7 +188,7 @@ public:
     return plan();
   }
 
-  /// The run goes on to the end of the step accepted. @param at_event which was cut short for one
+  /// Moves the run to the end of an accepted step. @param at_event whether the step ends at an event
   void advance(bool at_event) {
     ++steps_;
     Step<T>& step = run_.step;
@@ -200,8 +201,8 @@ public:
     std::swap(step.dxdt, step.dxdt1);
   }
 
-  /// `auto` looks at the step that has led here. @return whether it goes on with another method
-  [[nodiscard]] bool changes_method() {
+  /// Lets `auto` choose the method for what follows. @return whether the method changes
+  [[nodiscard]] bool choose_method() {
     const double h = static_cast<double>(run_.step.h);
     const double quick = choice_.may_leave(h) ? quickness(run_.system, run_.step) : 0;
     const bool changes = choice_.after_step(h, static_cast<double>(run_.step.t),
@@ -258,7 +259,7 @@ private:
     });
   }
 
-  /// @param rest to the end of the stretch
+  /// @param rest time to end_of_stretch(), s
   [[nodiscard]] T wanted_step(const T& rest) const {
     if (AnySystem::base_motion == BaseMotion::prescribed && run_.system.work().stuck > 0)
       return smaller(
@@ -283,7 +284,7 @@ private:
     return step + "misses the tolerance " + in_words(verdict_.error) + "-fold";
   }
 
-  /// Of the step control of a method that an engine has.
+  /// The memory of step control. @pre the method is one that engines of packs have
   [[nodiscard]] StepMemory<double>& memory() {
     return steppers_.with(method(), [](auto& stepper) -> StepMemory<double>& {
       if constexpr (requires { stepper.memory(); }) return stepper.memory();
@@ -298,11 +299,11 @@ private:
   Steppers<T> steppers_;
   struct {
     State<T> x, dxdt;
-  } between_;              ///< where shorter steps lead from
-  Verdict verdict_{0, 1};  ///< on the step last tried
-  T h_ = T(0);             ///< of the next step, s; negative: to be chosen
-  bool last_ = false;      ///< the step planned ends at the end of its stretch
-  bool any_latch_ = false; ///< has engaged
+  } between_;              ///< where the next part of a step starts
+  Verdict verdict_{0, 1};  ///< on the last trial step
+  T h_ = T(0);             ///< size of the next step, s; negative: not chosen yet
+  bool last_ = false;      ///< the planned step ends at end_of_stretch()
+  bool any_latch_ = false; ///< a latch has engaged
   long tried_ = 0, steps_ = 0, rejected_ = 0;
 };
 

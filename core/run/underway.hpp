@@ -1,4 +1,4 @@
-/// What the parts of a run share: the wing, what is asked of it, and the step under way.
+/// The data that all parts of a run share: the wing, the goal, and the step under way.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -7,7 +7,7 @@
 
 namespace wingspread {
 
-/// A run under way: it stands at the start of `step`, whose end is that of the step last made.
+/// A run stands at the start of `step`; x1 and dxdt1 of `step` are the end of the step made last.
 template <class T, class AnySystem> struct Underway {
   Underway(AnySystem& wing, const Integration& integration, const Goal& asked)
       : system(wing), at(wing.layout()), how(integration), goal(asked) {
@@ -15,7 +15,7 @@ template <class T, class AnySystem> struct Underway {
       state->assign(at.size(), T(0));
   }
 
-  /// Evaluates inside the step, on its dense output. @return the state there
+  /// Evaluates at the fraction s of the step, by dense output. @return the state there
   const State<T>& evaluate_at(const T& s) {
     step.interpolate(at, s, x);
     system(x, dxdt, step.t + s * step.h);
@@ -27,7 +27,7 @@ template <class T, class AnySystem> struct Underway {
   const Integration& how;
   const Goal& goal;
   Step<T> step;
-  State<T> x, dxdt; ///< somewhere inside the step: scratch
+  State<T> x, dxdt; ///< scratch: some state inside the step
 };
 
 } // namespace wingspread

@@ -3,7 +3,7 @@
 
 #include "core/mechanics/energy.hpp"
 #include "core/proofs/modal_bounds.hpp"
-#include "core/proofs/prospects.hpp"
+#include "core/proofs/remaining_energy.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <Eigen/Dense>
@@ -23,23 +23,29 @@ template <BaseMotion M> struct Latched {
     for (int i = 1; i <= at.bodies; ++i)
       if (wing.hinges[i].has_latch) system.engage(i);
     system.want_forces(true);
-    prospects.prepare(system);
+    remaining.prepare(system);
     still = x;
     has_model = tune(&still[at.rate(1)]);
   }
 
-  /// @param rates for which dampers are linear
+  /// @param rates for which dampers are made linear @return whether all modes decay
   bool tune(const double* rates) {
-    if (!make_rest_model(wing, work, &still[at.angle(1)], rates, model) || !modes.prepare(model))
-      return false;
-    modes.prepare_cap(prospects.least_stiffness(), &prospects.rest()[at.angle(1)]);
-    return true;
+    modes.reset();
+    if (make_rest_model(wing, work, &still[at.angle(1)], rates, model))
+      modes = ModalBounds::make(model, remaining.least_stiffness(), &remaining.rest()[at.angle(1)]);
+    return modes.has_value();
   }
 
   [[nodiscard]] State<double> rest() const {
     State<double> x = still;
     for (int i = 1; i <= at.bodies; ++i) x[at.angle(i)] = model.angles(i - 1);
     return x;
+  }
+
+  /// The bounds from a state on; none where there are none.
+  [[nodiscard]] std::optional<HingeBounds>
+  bound(const State<double>& x, double t, const std::optional<double>& energy, double spin) const {
+    return modes->bound(modes->start(&x[at.angle(1)], &x[at.rate(1)], t), energy, spin);
   }
 
   [[nodiscard]] Eigen::VectorXd accelerations(const State<double>& x) {
@@ -62,10 +68,10 @@ template <BaseMotion M> struct Latched {
   Workspace<double> work;
   System<double, Tree, M> system;
   Layout at;
-  Prospects<double> prospects;
+  RemainingEnergy<double> remaining;
   State<double> still;
   RestModel model;
-  ModalBounds<> modes;
+  std::optional<ModalBounds> modes;
   bool has_model = false;
 
 private:

@@ -23,20 +23,16 @@ template <BaseMotion M>
 std::optional<Shares> shares_from(Latched<M>& wing, State<double> x, bool by_energy, double h,
                                   int steps) {
   const Layout& at = wing.at;
-  const std::vector<double> no_peak(at.bodies, 1e300);
-  const auto asked = [&] {
-    std::optional<double> energy;
-    if (by_energy) energy = wing.prospects.energy(wing.system, x, 0., 0.);
-    double spin = 0;
-    if (M == BaseMotion::free) spin = std::abs(total_motion(wing.system, x, 0.).spin());
-    return wing.modes.none_exceeds(&x[at.angle(1)], &x[at.rate(1)], no_peak.data(), no_peak.data(),
-                                   0, energy, spin);
-  };
-  wing.modes.find_rates(&x[at.angle(1)], &x[at.rate(1)], 0);
-  const Eigen::VectorXd rates = wing.modes.rates();
+  const HingeVector rates =
+      wing.modes->rates(wing.modes->start(&x[at.angle(1)], &x[at.rate(1)], 0));
   if (!wing.model.is_tuned_for(rates) && !wing.tune(rates.data())) return std::nullopt;
-  if (!asked()) return std::nullopt;
-  const Eigen::VectorXd moment = wing.modes.moment(), force = wing.modes.force();
+  std::optional<double> energy;
+  if (by_energy) energy = wing.remaining.energy(wing.system, x, 0., 0.);
+  double spin = 0;
+  if (M == BaseMotion::free) spin = std::abs(total_motion(wing.system, x, 0.).spin());
+  const std::optional<HingeBounds> bounds = wing.bound(x, 0, energy, spin);
+  if (!bounds) return std::nullopt;
+  const HingeVector &moment = bounds->moment, &force = bounds->force;
   Shares worst;
   State<double> k1(at.size()), k2 = k1, k3 = k1, k4 = k1, y = x;
   double t = 0;

@@ -1,4 +1,4 @@
-// Wings that never deploy: what is proven of them, and of which nothing is.
+// Wings that never deploy: when a stall is proven, and when not.
 #include "core/deployment.hpp"
 #include "core/proofs/stall.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
@@ -36,7 +36,7 @@ TEST_CASE("a wing that sticks from the start is stalled at once") {
     }
 }
 
-TEST_CASE("a hinge that still moves, or may, is not stalled") {
+TEST_CASE("a wing with a hinge that moves, or may move, is not stalled") {
   SECTION("the root is not held: it latches first") {
     Scene scene = rubbed_seed(2.5, 2, 1);
     scene.hinges[0].friction = {};
@@ -110,10 +110,10 @@ TEST_CASE("a wing that lacks a little energy is stalled before it stops") {
   const Outcome out = Deployment().run(scene, how, latches_only);
   CHECK(out.status == Status::stalled);
   CHECK_THAT(out.reason, Catch::Contains("energy: no hinge can reach its latch"));
-  CHECK(out.final.rates[0] > 0.01); // it still moves: none will latch any more, not: none will move
+  CHECK(out.final.rates[0] > 0.01); // it still moves: stalled means that no hinge will latch
 }
 
-TEST_CASE("a spring gives what it has as far as its rest, also beyond the latched angle") {
+TEST_CASE("a spring gives energy as far as its rest, also beyond the latched angle") {
   // φ from −1; the spring is at rest at 0.5, beyond the latched angle 0
   Scene scene = latching_panel();
   Hinge& hinge = scene.hinges[0];

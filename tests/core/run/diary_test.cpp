@@ -1,4 +1,4 @@
-// What is told of a run: its energy, and samples on a grid of times.
+// The record of a run: its energy, and samples at multiples of an interval.
 #include "core/deployment.hpp"
 #include "tests/support/closed_forms.hpp"
 
@@ -12,7 +12,7 @@
 using namespace wingspread;
 using namespace wingspread::oracle;
 
-TEST_CASE("energy that friction takes is drift as energy that a base brings in is") {
+TEST_CASE("energy dissipated by friction counts as drift") {
   Scene scene = unit_oscillator(1);
   scene.hinges[0].friction.viscous = 0.2 * panel_inertia; // damping ratio 0.1
   const Outcome out = Deployment().run(scene, within(1e-9, 5), to_the_end);
@@ -22,7 +22,7 @@ TEST_CASE("energy that friction takes is drift as energy that a base brings in i
 }
 
 TEST_CASE(
-    "samples on a grid are the multiples of its interval, each once, to the accuracy of steps") {
+    "samples stand at the multiples of their interval, each once, with the accuracy of steps") {
   Goal goal = to_the_end;
   goal.sample_interval = 0.1;
   std::vector<Sample> samples;
@@ -38,7 +38,7 @@ TEST_CASE(
   CHECK(samples.back().angles == out.final.angles);
 }
 
-TEST_CASE("a grid changes nothing of the run, also where a hinge latches or sticks") {
+TEST_CASE("samples change nothing of the run, also where a hinge latches or sticks") {
   Scene scene = unit_oscillator(1);
   rub(scene.hinges[0], 0.05 * panel_inertia, 0.3 * panel_inertia);
   const Outcome alone = Deployment().run(scene, within(1e-9, 40), to_the_end);

@@ -1,4 +1,4 @@
-// A step's end that is moved to its event: state, accelerations and forces all go with it.
+// Steps that end at an event: state, accelerations and forces at an end that is moved there.
 #include "core/run/landing.hpp"
 #include "tests/support/closed_forms.hpp"
 
@@ -27,13 +27,13 @@ struct Arriving {
     system(run.step.x1, run.step.dxdt1, 2.01);
   }
 
-  /// Of the motion under a constant moment.
+  /// The exact state under a constant moment.
   [[nodiscard]] State<double> state_after(double h) const {
     const double a = -2 / panel_inertia;
     return {0.00571 - 1.14 * h + 0.5 * a * h * h, -1.14 + a * h};
   }
 
-  /// Makes the step cut to its event, too long by this share. @return how much, s
+  /// Makes the cut step too long by this share. @return by how much, s
   double overshoot(double share = 0.5e-7) {
     const double late = share * run.step.h;
     run.step.h += late;
@@ -56,7 +56,8 @@ struct Arriving {
 
 } // namespace
 
-TEST_CASE("a step that ends a little late is moved back to its event with all that it ends in") {
+TEST_CASE(
+    "a step that ends a little late is moved back to its event: state, accelerations, forces") {
   Arriving at(Goal{});
   REQUIRE(at.landing.finds_event());
   const double exact = at.run.step.h;
@@ -111,8 +112,7 @@ TEST_CASE("how far a step may be moved to its event depends on the tolerance, if
   }
 }
 
-TEST_CASE(
-    "a step is moved along a bent way: accelerations change on it, and the state is the motion's") {
+TEST_CASE("a step is moved along a curved way: the state stays that of the motion") {
   // where springs turn a panel, φ̈ = −ω² (φ − c) with ω = 8: exact states on both sides of the latch
   constexpr double omega = 8, c = 0.3, h = 0.1;
   const auto state = [&](double t) { // at the latched angle, 0, for t = 0, at −2 rad/s
@@ -141,7 +141,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a hinge that hardly comes to its latch has no way to it along the end's slope: the step is "
+    "a hinge that grazes its latch is not moved there along the slope at the end: the step is "
     "made again") {
   // past the latch by 1 nrad, at 20 µrad/s, and turning back at 1 rad/s²: the slope is lost within the way
   Arriving at(latches_only);

@@ -1,30 +1,33 @@
-/// What may still come of a wing of which no hinge will latch any more, by its energy.
+/// The energy that is left to a wing of which no hinge will latch any more.
 ///
-/// A hinge with a restoring spring (an engaged latch is one) has its rest at y* = drive/κ, from
-/// which it stands u = y − y* off. One whose latch it cannot reach (stall.hpp) gives at most G, and
-/// goes no further than what is left takes it. So, with V of apparent_load.hpp on a base that
-/// is driven,
+/// | symbol | meaning                                                                 | unit    |
+/// |--------|-------------------------------------------------------------------------|---------|
+/// | u_i    | way of hinge i off its rest y* = drive/κ, with a restoring spring       | rad     |
+/// | κ_i    | its stiffness (an engaged latch is a restoring spring)                  | N·m/rad |
+/// | G_j    | the most that a hinge can give that cannot reach its latch: stall.hpp   | J       |
+/// | T, V   | kinetic energy; potential of the apparent load: apparent_load.hpp       | J       |
+/// | g, s, a, Ω | of the apparent load: apparent_load.hpp (3), (4)                    |         |
 ///
 ///     E = T + Σ ½ κ_i u_i² + Σ G_j + V − V(rest)                                               (1)
 ///
-/// never grows on a base that is fixed or free (for a free one T is taken about the common centre
-/// of mass, whose energy is constant). On one that is driven T is taken as seen from it, and by (3)
-/// there,
+/// never grows on a base that is fixed or free. (For a free base T is taken about the common centre
+/// of mass: its energy is constant.) A hinge that cannot reach its latch goes no further than E takes
+/// it. On a driven base T is taken as seen from the base, and by (3) of apparent_load.hpp
 ///
 ///     T + Σ ½ κ_i (|u_i| − g_i/κ_i)² ≤ Ē = E + Σ g_i²/2κ_i                                     (2)
 ///
-/// which grows by (4) there no faster than p + q √Ē, so that in a time Δ it comes at most to
+/// By (4) there, Ē grows no faster than p + q √Ē. In a time Δ it reaches at most
 ///
 ///     (√(Ē + p Δ) + q Δ/2)²       p = |a Ω| Σ s_i g_i/κ_i       q = |a Ω| Σ s_i √(2/κ_i)      (3)
 ///
-/// The moment of a hinge is then within g_i + √(2Ē) √(κ_i + δ_i² σ_i) + τ_s, σ_i as in
-/// coarse_bounds.hpp; for a hinge without rest κ is 0, and g the most that its spring exerts on its
+/// The moment of a hinge then stays within g_i + √(2Ē) √(κ_i + δ_i² σ_i) + τ_s, σ_i as in
+/// energy_bounds.hpp. For a hinge without rest κ is 0, and g the most that its spring exerts on its
 /// way.
 ///
-/// A real hinge with an engaged latch has a potential P whose second derivative lies between κ and
-/// κ⁺, by the steepest slopes of its curves. With its rest at P' = 0, ½ κ u² is P(y) − P(y*) at
-/// least, and its moment κ⁺ |u| at most: for (2) it has the stiffness κ⁺²/κ. A loop adds its own
-/// energy, never negative. Backlash, and a stop within reach, are beyond this proof.
+/// A real hinge with an engaged latch has a potential P with a second derivative between κ and κ⁺, by
+/// the steepest slopes of its curves. Off its rest, P' = 0, the potential grows by at least ½ κ u²,
+/// and the moment is at most κ⁺ |u|: in (2) it has the stiffness κ⁺²/κ. A loop adds its own energy,
+/// never negative. Backlash, and a stop within reach, are beyond this proof.
 #pragma once
 
 #include "core/proofs/apparent_load.hpp"
@@ -35,26 +38,27 @@
 
 namespace wingspread {
 
-template <class T> class Prospects {
+template <class T> class RemainingEnergy {
 public:
   using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>; ///< 0 … n, as the bodies are numbered
 
-  /// No hinge will latch any more. Cost O(n) times the tree's depth.
+  /// Finds what depends on the wing alone. Cost O(n) times the tree's depth.
+  /// @pre no hinge will latch any more
   template <class AnySystem> void prepare(const AnySystem& system) {
     const int n = system.layout().bodies;
     for (Numbers* v : {&stiffness_, &damping_, &steady_, &least_stiffness_, &at_rest_})
       v->setZero(n + 1);
     bounded_ = load_.prepare(system) && system.wing().plates.empty();
-    rests_ = system.wing().loops.empty(), offset_ = p_ = q_ = T(0);
+    offset_ = p_ = q_ = T(0);
     rest_.assign(system.layout().size(), T(0));
     for (int i = 1; i <= n; ++i) prepare(system, i);
     elastic_ = bounded_ && system.base_motion != BaseMotion::prescribed;
     for (int i = 1; i <= n; ++i) elastic_ = elastic_ && least_stiffness_(i) > T(0);
   }
 
-  /// What no energy from now on to t_end exceeds: (1), Ē of (2), or (3). None where that has no
-  /// bound: a base that turns faster and faster, or a spring that drives its hinge away from where
-  /// it could rest. Cost O(n).
+  /// Bounds the energy from the state x at t up to t_end, by (1), (2) or (3). Cost O(n).
+  /// @return J; none without a bound: on a base that turns faster and faster, and where a spring
+  ///         drives its hinge away from rest
   template <class AnySystem>
   [[nodiscard]] std::optional<T> energy(AnySystem& system, const State<T>& x, const T& t,
                                         const T& t_end) {
@@ -73,18 +77,16 @@ public:
     return sum;
   }
 
-  /// Whether every hinge has a rest, off which the wing may be linearized.
-  [[nodiscard]] bool rests() const { return rests_; }
-  [[nodiscard]] const State<T>& rest() const { return rest_; }            ///< that state
+  [[nodiscard]] const State<T>& rest() const { return rest_; }            ///< y* of every hinge
   [[nodiscard]] const T& stiffness(int i) const { return stiffness_(i); } ///< κ
   [[nodiscard]] const T& damping(int i) const { return damping_(i); }     ///< δ
   [[nodiscard]] const T& steady(int i) const { return steady_(i); }       ///< g
-  /// κ such that the energy is at least T + ½ Σ κ (φ − rest)² over the hinges, the first at [0]; null
-  /// where it is not.
+  /// κ of every hinge, the first at [0], such that the energy is at least T + ½ Σ κ (φ − rest)²; null
+  /// where there are none.
   [[nodiscard]] const T* least_stiffness() const {
     return elastic_ ? least_stiffness_.data() + 1 : nullptr;
   }
-  /// How far hinge i may stand off its rest with an energy that `energy` told, rad.
+  /// How far hinge i may stand off its rest, rad. @param energy that `energy` returned, J
   [[nodiscard]] T furthest(int i, const T& energy) const {
     using std::sqrt;
     const T& kappa = least_stiffness_(i);
@@ -107,8 +109,7 @@ private:
     damping_(i) = law.damping;
     if (!system.wing().real.empty()) return prepare_real(system, i, law, open);
     if (open || !(law.stiffness > T(0))) {
-      rests_ = false;
-      // without any spring it has no rest, and takes no part either
+      // no restoring torque and no load: contributes nothing
       const bool limp = law.stiffness == T(0) && law.drive == T(0) && !loaded;
       bounded_ = bounded_ && (limp || (open && !loaded));
       return;
@@ -118,7 +119,7 @@ private:
     add_load(i, law.stiffness);
   }
 
-  /// What the load does to hinge i. @param kappa its stiffness
+  /// Adds the load's moment on hinge i. @param kappa its stiffness
   void add_load(int i, const T& kappa) {
     using std::sqrt;
     const T& g = load_.moment(i);
@@ -133,7 +134,6 @@ private:
     const RealHingeTerms<T>& real = system.wing().real[i];
     const ValueRange<T> slopes = stiffness_of_curves(real);
     const T least = law.stiffness + slopes.low, most = law.stiffness + slopes.high;
-    rests_ = false; // as far as linear models are concerned
     if (open || real.has_backlash || !(least > T(0))) {
       bounded_ = false;
       return;
@@ -141,7 +141,8 @@ private:
     stiffness_(i) = most * (most / least);
     const int k = system.layout().angle(i);
     rest_[k] = law.latched;
-    for (int pass = 0; pass < 100; ++pass) { // Newton's way, never longer than to where P' = 0
+    for (int pass = 0; pass < 100;
+         ++pass) { // Newton's method, by the steepest slope: it never passes P' = 0
       const T moment = linear_moment(law, rest_[k], T(0)) + curves_moment(real, rest_[k]);
       const T next = rest_[k] + moment / most;
       if (next == rest_[k]) break;
@@ -151,13 +152,13 @@ private:
     add_load(i, least);
   }
 
-  /// Of a real hinge whose latch, if it has one, is in.
+  /// The potential of a real hinge whose latch, if it has one, has engaged, J.
   template <class AnySystem>
   [[nodiscard]] static T latched_potential(const AnySystem& system, const State<T>& x, int i) {
     return hinge_potential(system, x, i) + smoothed_latch_energy(system, x, i);
   }
 
-  /// Whether this energy takes a hinge to its stop, or one is there.
+  /// Whether a hinge touches its stop, or could with this energy.
   template <class AnySystem>
   [[nodiscard]] bool may_touch_stop(const AnySystem& system, const T& available) const {
     using std::abs;
@@ -170,7 +171,7 @@ private:
     return false;
   }
 
-  /// What hinge i adds to (1); none where that is not known.
+  /// The part of hinge i in (1), J; none where it has no bound.
   template <class AnySystem>
   [[nodiscard]] std::optional<T> energy(const AnySystem& system, const State<T>& x, int i) const {
     const Layout& at = system.layout();
@@ -180,11 +181,12 @@ private:
       return is_finite(given) ? std::optional(given) : std::nullopt;
     }
     if (at.smoothed && hinge.has_latch && !(x[at.latch(i)] >= system.epsilon()))
-      return std::nullopt; // its latch is still coming in
+      return std::nullopt; // its smoothed latch does not act fully yet
     if (!(stiffness_(i) > T(0))) return T(0);
     if (!system.wing().real.empty()) {
       using std::abs;
       const T P = latched_potential(system, x, i);
+      // heuristic, for the rounding of P: too small a share could prove what is false by 1e-14 of P
       return (P - at_rest_(i)) + T(256 * epsilon_of<T>) * (abs(P) + abs(at_rest_(i)));
     }
     const LinearLaw<T> law = linear_law(hinge, true);
@@ -196,7 +198,7 @@ private:
   [[nodiscard]] T with_motion(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
                               const T& springs) const {
     using std::sqrt;
-    constexpr double lost = 64 * epsilon_of<T>; // by taking differences
+    constexpr double lost = 64 * epsilon_of<T>; // by the rounding of differences and sums
     if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
       const auto [now, size] = ApparentLoad<T>::energy(system, x, t);
       const auto [at_rest, size_at_rest] = ApparentLoad<T>::energy(system, rest_, t);
@@ -212,8 +214,8 @@ private:
     }
   }
 
-  /// How far hinge i, which cannot reach its latch, goes either way with this energy, and the most
-  /// that its spring exerts there. @return whether it goes so far only
+  /// Finds how far hinge i, which cannot reach its latch, goes either way with this energy, and keeps
+  /// the most that its spring exerts there as g. @return whether its way has an end
   template <class AnySystem>
   [[nodiscard]] bool find_way(const AnySystem& system, const T& angle, const T& available, int i) {
     using std::abs;
@@ -230,7 +232,7 @@ private:
     return true;
   }
 
-  /// The way z that takes this energy, push z + ½ κ z²; none if there is no end to it.
+  /// The way z that costs this energy: push z + ½ κ z². None if no way does.
   [[nodiscard]] static std::optional<T> way(const T& push, const T& kappa, const T& available) {
     using std::sqrt;
     const T square = fused(push, push, T(2) * kappa * available);
@@ -241,13 +243,13 @@ private:
   }
 
   ApparentLoad<T> load_;
-  bool bounded_ = false, rests_ = false;
-  bool elastic_ = false; ///< on a base that is not driven every hinge has a rest
+  bool bounded_ = false;
+  bool elastic_ = false; ///< the base is not driven, and every hinge has a rest
   Numbers stiffness_, damping_, steady_;
   Numbers least_stiffness_; ///< κ
   Numbers at_rest_;         ///< P(y*) of a real hinge
   State<T> rest_;
-  T offset_{}, p_{}, q_{}; ///< Σ g²/2κ, and (3)'s
+  T offset_{}, p_{}, q_{}; ///< Σ g²/2κ; p and q of (3)
 };
 
 } // namespace wingspread

@@ -1,0 +1,142 @@
+/// Bounds on what every hinge can still see, from the energy alone.
+///
+/// | symbol    | meaning                                                     | unit           | source               |
+/// |-----------|-------------------------------------------------------------|----------------|----------------------|
+/// | E, T      | energy that is never exceeded; kinetic energy ≤ E           | J              | remaining_energy.hpp |
+/// | κ, δ, g   | stiffness, damping, what the load exerts on a hinge         | N·m/rad, …     | remaining_energy.hpp |
+/// | τ_s       | the largest friction                                        | N·m            | scene                |
+/// | J, m      | central inertia, mass of a body                             | kg·m², kg      | scene                |
+/// | φ̇, ω      | rate of a hinge, of a body                                  | rad/s          |                      |
+/// | M, Y      | moment and reaction of a hinge                              | N·m, N         | (3), (4)             |
+/// | L         | largest net moment of its hinges on a body                  | N·m            | (3)                  |
+/// | γ         | centripetal acceleration of a mass                          | m/s²           |                      |
+///
+/// From T ≥ ½ Σ J ω² alone, by Cauchy and Schwarz,
+///
+///     φ̇_i² ≤ 2 T σ_i,    σ_i = 1/J_i + 1/J_p  (1/J_p = 0 on a fixed base)                      (2)
+///     |M_i| ≤ g_i + √(2E) √(κ_i + δ_i² σ_i) + τ_s                                              (3)
+///
+/// For the reaction, Gauss's principle: the true accelerations minimise Σ m r̈² + Σ J (ω̇ − L/J)²
+/// over those that the hinges allow. Compared with φ̈ = 0, for which r̈ = γ,
+///
+///     Σ m r̈² ≤ Z := Σ m γ² + Σ L²/J,    |Y_i| ≤ √(m outward of i) √Z                           (4)
+///
+/// ω² ≤ 2E/J bounds γ along each path, and (3) bounds L. On a base that is driven, positions and
+/// velocities are as seen from the base, and γ − f replaces γ, f the apparent force of
+/// apparent_load.hpp.
+#pragma once
+
+#include "core/proofs/remaining_energy.hpp"
+
+namespace wingspread {
+
+template <class T> class EnergyBounds {
+public:
+  using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>; ///< 0 … n, as the bodies are numbered
+  Numbers moment;                                      ///< 1 … n, N·m
+  Numbers force;                                       ///< 1 … n, N
+
+  /// Sums the masses up. Cost O(n).
+  template <class AnySystem> void prepare(const AnySystem& system) {
+    const Wing<T>& wing = system.wing();
+    for (Numbers* v : {&moment, &force, &outward_mass_}) v->setZero(wing.size() + 1);
+    for (int i = wing.size(); i >= 1; --i) {
+      outward_mass_(i) = outward_mass_(i) + wing.bodies[i].mass;
+      T& parents = outward_mass_(system.topology().parent_of(i));
+      parents = parents + outward_mass_(i);
+    }
+  }
+
+  /// Finds (3) and (4) of every hinge. Cost O(n). @pre prepared
+  /// @param remaining prepared, and `energy` is what it returned, J
+  template <class AnySystem>
+  void bound(const AnySystem& system, const RemainingEnergy<T>& remaining, const T& energy) {
+    using std::sqrt;
+    bound_moments(system, remaining, energy);
+    T Z = centripetal(system, remaining.load(), energy);
+    for (int i = first_body<AnySystem>; i < net_.size(); ++i)
+      Z = Z + net_(i) * net_(i) / system.wing().bodies[i].central_inertia;
+    for (int i = 1; i < net_.size(); ++i) force(i) = sqrt(outward_mass_(i) * Z);
+  }
+
+private:
+  /// The first body that moves.
+  template <class AnySystem>
+  static constexpr int first_body = AnySystem::base_motion == BaseMotion::free ? 0 : 1;
+
+  /// Finds (3) and L.
+  template <class AnySystem>
+  void bound_moments(const AnySystem& system, const RemainingEnergy<T>& remaining,
+                     const T& energy) {
+    using std::sqrt;
+    const Wing<T>& wing = system.wing();
+    net_.setZero(moment.size()), rate_.setZero(moment.size());
+    for (int i = 1; i < moment.size(); ++i) {
+      const int p = system.topology().parent_of(i);
+      const T& damping = remaining.damping(i);
+      T sigma = T(1) / wing.bodies[i].central_inertia;
+      if (p >= first_body<AnySystem>) sigma = sigma + T(1) / wing.bodies[p].central_inertia;
+      rate_(i) = sqrt(T(2) * energy * sigma);
+      moment(i) = sqrt(T(2) * energy * fused(damping * damping, sigma, remaining.stiffness(i))) +
+                  wing.hinges[i].most_friction() + remaining.steady(i);
+    }
+    if (wing.is_real()) add_real(wing, energy);
+    for (int i = 1; i < moment.size(); ++i) {
+      const int p = system.topology().parent_of(i);
+      net_(i) = net_(i) + moment(i);
+      net_(p) = net_(p) + moment(i);
+    }
+  }
+
+  /// Adds what dampers and loops may exert at the largest rates. The energy of a loop bounds its
+  /// torque, with a slack strand too: (K e)² ≤ 2 K E.
+  void add_real(const Wing<T>& wing, const T& energy) {
+    using std::abs, std::sqrt;
+    for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
+      if (wing.real[i].has_damper)
+        moment(i) = moment(i) + most_of_damper(wing.real[i].damper, T(rate_(i)));
+    for (const LoopTerms<T>& loop : wing.loops) {
+      T gear = abs(loop.ratio);
+      if (loop.table)
+        gear = larger(abs(T(loop.table->steepest_rise())), abs(T(loop.table->steepest_fall())));
+      const T torque = sqrt(T(2) * loop.stiffness * energy) +
+                       loop.damping * fused(gear, T(rate_(loop.first)), T(rate_(loop.second)));
+      moment(loop.first) = moment(loop.first) + gear * torque;
+      moment(loop.second) = moment(loop.second) + torque;
+    }
+  }
+
+  /// Σ m γ² of (4).
+  template <class AnySystem>
+  [[nodiscard]] T centripetal(const AnySystem& system, const ApparentLoad<T>& load,
+                              const T& energy) {
+    using std::sqrt;
+    const Wing<T>& wing = system.wing();
+    const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
+    const auto spin = [&](int i) { // bounds ω_i²
+      return i < first_body<AnySystem> ? T(0) : T(2) * energy / wing.bodies[i].central_inertia;
+    };
+    T sum(0);
+    gamma_.setZero(net_.size()), speed_.setZero(net_.size());
+    for (int i = 1; i < gamma_.size(); ++i) {
+      const int p = system.topology().parent_of(i);
+      gamma_(i) = gamma_(p) + spin(p) * length(wing.bodies[i].arm);
+      T gamma = gamma_(i) + spin(i) * length(wing.bodies[i].center);
+      if constexpr (AnySystem::base_motion == BaseMotion::prescribed) {
+        speed_(i) = speed_(p) + sqrt(spin(p)) * length(wing.bodies[i].arm);
+        const T speed = speed_(i) + sqrt(spin(i)) * length(wing.bodies[i].center);
+        gamma = gamma + load.specific(i) + T(2) * load.spin() * speed;
+      }
+      sum = fused(wing.bodies[i].mass, gamma * gamma, sum);
+    }
+    return sum;
+  }
+
+  Numbers outward_mass_; ///< of body i and all that hangs on it, kg
+  Numbers net_;          ///< L
+  Numbers rate_;         ///< bounds |φ̇|, rad/s
+  Numbers gamma_;        ///< γ of the hinge point, m/s²
+  Numbers speed_;        ///< of the hinge point, as seen from a base that is driven, m/s
+};
+
+} // namespace wingspread

@@ -1,0 +1,150 @@
+/// Proof that no peak of a run can rise any more, so that the run may end.
+///
+/// Once no hinge will latch any more there are bounds on every later moment and force: by the modes
+/// of the latched wing (modal_bounds.hpp), or by the energy that is left (energy_bounds.hpp). The
+/// peaks are final where all of the bounds lie below the peaks seen so far.
+#pragma once
+
+#include "core/peaks/overtravel.hpp"
+#include "core/peaks/peak.hpp"
+#include "core/proofs/energy_bounds.hpp"
+#include "core/proofs/modal_bounds.hpp"
+#include "core/proofs/remaining_energy.hpp"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace wingspread {
+
+/// The peaks of a run so far, each 1 … n. Null: not asked for.
+template <class T> struct SeenPeaks {
+  const std::vector<PeakOf<T>>*moments, *forces; ///< N·m, N
+  const std::vector<T>* overtravel;              ///< rad
+};
+
+/// Whether the peaks seen lie above bounds on all later moments and forces.
+/// @param moment, force bounds, hinge i at [i − first]
+template <class T, class Bounds>
+[[nodiscard]] bool no_load_can_rise(const SeenPeaks<T>& seen, int bodies, const Bounds& moment,
+                                    const Bounds& force, int first) {
+  for (int i = 1; i <= bodies; ++i) {
+    if (seen.moments && !(moment[i - first] <= (*seen.moments)[i].value)) return false;
+    if (seen.forces && !(force[i - first] <= (*seen.forces)[i].value)) return false;
+  }
+  return true;
+}
+
+/// Whether no hinge can turn further beyond its stowed angle than it has.
+/// @param rest, way hinge i stays within way(i) of rest(i), rad
+template <class T, class Rest, class Way>
+[[nodiscard]] bool no_overtravel_can_rise(const SeenPeaks<T>& seen, const Wing<T>& wing,
+                                          const Rest& rest, const Way& way) {
+  for (int i = 1; seen.overtravel && i <= wing.size(); ++i)
+    if (!(beyond_stowed(wing.hinges[i], T(rest(i))) + T(way(i)) <= (*seen.overtravel)[i]))
+      return false;
+  return true;
+}
+
+/// The proofs of one run. What depends on the wing alone is made at the first attempt.
+template <class T, class AnySystem> class FinalPeaks {
+public:
+  /// A run begins: no hinge is known to have latched.
+  void reset() {
+    is_prepared_ = false;
+    modes_.reset();
+  }
+
+  /// Whether the modes of the latched wing can prove nothing: some do not decay, or there is no
+  /// linear model.
+  [[nodiscard]] bool lacks_modes() const { return is_prepared_ && !modes_; }
+
+  /// Proves that from the state x at t on none of the peaks will rise. Cost: O(n²), at first O(n³).
+  /// @param t_end the run's end, s
+  /// @param all_latched false: some hinges never latch, and only the energy can tell
+  /// @pre no hinge will latch any more, and none has since the last call but the first
+  [[nodiscard]] bool prove(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
+                           const SeenPeaks<T>& seen, bool all_latched) {
+    if (system.next_knot() < T(never)) return false; // the base's motion will change
+    if (!is_prepared_) prepare(system, x, t, all_latched);
+    const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
+    return prove_by_modes(system, x, t, energy, seen) ||
+           (energy && prove_by_energy(system, *energy, seen));
+  }
+
+private:
+  void prepare(AnySystem& system, const State<T>& x, const T& t, bool all_latched) {
+    remaining_.prepare(system);
+    bounds_.prepare(system);
+    is_prepared_ = true;
+    if (!all_latched) return;
+    const Layout& at = system.layout();
+    find_modes(system, &x[at.rate(1)]);
+    if (modes_)
+      tune_dampers(system, modes_->rates(modes_->start(&x[at.angle(1)], &x[at.rate(1)], t)));
+  }
+
+  /// @param rates of the hinges, for which dampers are made linear
+  void find_modes(AnySystem& system, const T* rates) {
+    const T* rest = &remaining_.rest()[system.layout().angle(1)];
+    modes_.reset();
+    if (make_rest_model(system.wing(), system.work(), rest, rates, model_))
+      modes_ = ModalBounds::make(model_, remaining_.least_stiffness(), rest);
+  }
+
+  /// Makes dampers linear for the rates that are left, where the model's have become others.
+  template <class Rates> void tune_dampers(AnySystem& system, const Rates& rates) {
+    if (!model_.is_tuned_for(rates)) find_modes(system, rates.data());
+  }
+
+  [[nodiscard]] bool prove_by_modes(AnySystem& system, const State<T>& x, const T& t,
+                                    const std::optional<T>& energy, const SeenPeaks<T>& seen) {
+    if (!modes_ || !latches_act_fully(system, x)) return false;
+    const int n = system.layout().bodies;
+    const auto start = modes_->start(&x[system.layout().angle(1)], &x[system.layout().rate(1)], t);
+    // without what the linear model leaves out: most attempts fail here, at a tenth of the cost
+    const auto linear = modes_->linear_loads(start);
+    if (no_load_can_rise(seen, n, linear.moment, linear.force, 1))
+      if (const auto most = modes_->bound(start, energy, spin(system, x, t)))
+        if (no_load_can_rise(seen, n, most->moment, most->force, 1) &&
+            no_overtravel_can_rise(
+                seen, system.wing(), [&](int i) { return model_.angles(i - 1); },
+                [&](int i) { return most->way(i - 1); }))
+          return true;
+    tune_dampers(system, modes_->rates(start));
+    return false;
+  }
+
+  [[nodiscard]] bool prove_by_energy(const AnySystem& system, const T& energy,
+                                     const SeenPeaks<T>& seen) {
+    const Layout& at = system.layout();
+    bounds_.bound(system, remaining_, energy);
+    return no_load_can_rise(seen, at.bodies, bounds_.moment, bounds_.force, 0) &&
+           no_overtravel_can_rise(
+               seen, system.wing(), [&](int i) { return remaining_.rest()[at.angle(i)]; },
+               [&](int i) { return remaining_.furthest(i, energy); });
+  }
+
+  /// |H| of a free base about the common centre of mass, kg·m²/s; else 0.
+  [[nodiscard]] static T spin(AnySystem& system, const State<T>& x, const T& t) {
+    using std::abs;
+    if constexpr (AnySystem::base_motion != BaseMotion::free) return T(0);
+    return abs(total_motion(system, x, t).spin());
+  }
+
+  /// Whether every latch acts with its whole strength: a smoothed one comes in gradually.
+  [[nodiscard]] static bool latches_act_fully(const AnySystem& system, const State<T>& x) {
+    const Layout& at = system.layout();
+    for (int i = 1; at.smoothed && i <= at.bodies; ++i)
+      if (system.wing().hinges[i].has_latch && !(x[at.latch(i)] >= system.epsilon())) return false;
+    return true;
+  }
+
+  RemainingEnergy<T> remaining_;
+  EnergyBounds<T> bounds_;
+  RestModel model_;
+  std::optional<ModalBounds> modes_; ///< none: not all modes decay
+  bool is_prepared_ = false;
+};
+
+} // namespace wingspread
