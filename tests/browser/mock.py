@@ -91,11 +91,11 @@ def requirements_of(rows, hinges, limit):
          "verdict": "open" if count < 230 else "passed" if lower >= 0.99 else "failed", "probability": 0.99, "confidence": 0.9,
          "observed": good / count, "guaranteed": lower, "observed_value": None, "guaranteed_value": None, "margin": None,
          "broken": count - good, "broken_runs": [row["run"] for row in rows if row["status"] != "deployed"][:20],
-         "evidence": f"{count - good} of {count} runs break it"},
+         "evidence": f"{count - good} of {count} runs break it"}] + ([] if not known else [
         # an angular limit in the picture, one on both sides, one far outside
         limited("R-1", f"{hinges[0]}.latch_rate", ">=", -1.6, "rad/s", False),
         limited("R-2", f"|{hinges[-1]}.latch_rate|", "<=", 1.45, "rad/s", True),
-        limited("T-1", f"{hinges[-1]}.latch_time", "<=", 60, "s", False)]
+        limited("T-1", f"{hinges[-1]}.latch_time", "<=", 60, "s", False)])
 
 
 def limited(name, output, kind, limit, unit, both):

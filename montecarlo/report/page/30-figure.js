@@ -133,26 +133,10 @@
   }
 
   // The picture as a file of its own: computed styles are written into it, in the light theme, on white.
-  const KEPT = [
-    "fill",
-    "fill-opacity",
-    "stroke",
-    "stroke-width",
-    "stroke-opacity",
-    "stroke-dasharray",
-    "stroke-linejoin",
-    "stroke-linecap",
-    "opacity",
-    "font-family",
-    "font-size",
-    "font-weight",
-    "font-style",
-    "text-anchor",
-    "dominant-baseline",
-    "paint-order",
-    "visibility",
-    "display",
-  ];
+  const KEPT = (
+    "fill fill-opacity stroke stroke-width stroke-opacity stroke-dasharray stroke-linejoin stroke-linecap opacity " +
+    "font-family font-size font-weight font-style text-anchor dominant-baseline paint-order visibility display"
+  ).split(" ");
   function standalone(host) {
     const root = document.documentElement,
       theme = root.getAttribute("data-theme");

@@ -133,15 +133,7 @@
     return name === "no latch" ? -1 : name === "others" ? 6 : at;
   };
 
-  const SHAPES = [
-    d3.symbolCircle,
-    d3.symbolTriangle,
-    d3.symbolSquare,
-    d3.symbolDiamond,
-    d3.symbolCross,
-    d3.symbolStar,
-    d3.symbolWye,
-  ];
+  const SHAPES = "Circle Triangle Square Diamond Cross Star Wye".split(" ").map((name) => d3[`symbol${name}`]);
   M.shape = (at) => SHAPES[((at % 7) + 7) % 7];
 
   // Axes of a box { left, right, top, bottom }: x below, y at the left, light lines across.
@@ -214,7 +206,7 @@
     const room = (high - low) * share || Math.abs(high) * 0.05 || 1;
     return d3.scaleLinear([low - room, high + room], range);
   };
-  // The legend of lines that are told apart by colour and dash.
+  // Legend items of lines that differ in colour and dash.
   M.lineItems = (items, text, at = (_, place) => place) =>
     items.map((one, place) => ({ text: text(one), line: M.colour(at(one, place)), dash: M.dash(at(one, place)) }));
   M.trace = (svg, d, at, name = "path.trace") =>
@@ -227,17 +219,10 @@
       width: Math.max(0, box.right - box.left),
       height: box.bottom - box.top + 2 * more,
     });
-  M.line = (x, y) =>
-    d3
-      .line()
-      .defined((point) => point.every(W.isNumber))
-      .x((point) => x(point[0]))
-      .y((point) => y(point[1]));
+  const defined = (curve, x) => curve.defined((point) => point.every(W.isNumber)).x((point) => x(point[0]));
+  M.line = (x, y) => defined(d3.line(), x).y((point) => y(point[1]));
   M.band = (x, y) =>
-    d3
-      .area()
-      .defined((point) => point.every(W.isNumber))
-      .x((point) => x(point[0]))
+    defined(d3.area(), x)
       .y0((point) => y(point[1]))
       .y1((point) => y(point[2]));
 })();

@@ -92,10 +92,8 @@
     W.isNumber(one.observed_value) ? valueText(one.observed_value, one, set) : F.share(one.observed);
   function guaranteed(one, set) {
     if (W.isNumber(one.limit))
-      return W.isNumber(one.guaranteed_value)
-        ? valueText(one.guaranteed_value, one, set)
-        : "none: too few runs have a value";
-    return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "none: too few runs";
+      return W.isNumber(one.guaranteed_value) ? valueText(one.guaranteed_value, one, set) : "too few runs with a value";
+    return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "too few runs";
   }
   function marginText(one, set) {
     if (W.isNumber(one.margin) && W.isNumber(one.limit))
@@ -166,7 +164,11 @@
     const body = rows.map(({ requirement: one, set, at }) => ({
       mark: verdictOf(one.verdict),
       cells: [
-        h("span", one.text, h("span.evidence", one.evidence, one.disproved ? " · disproved" : null)),
+        h(
+          "span",
+          one.text,
+          h("span.evidence", one.evidence, one.disproved && !/disproved/.test(one.evidence) ? " · disproved" : null),
+        ),
         W.badge(one.verdict),
         several && h("span.nowrap", set.label),
         observed(one, set),

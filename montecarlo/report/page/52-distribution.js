@@ -18,7 +18,7 @@
   const shownLimit = (limit, factor) => Number((limit.value * factor).toPrecision(6));
   const limitText = (limit, factor) => `${limit.upper ? "≤" : "≥"} ${F.given(shownLimit(limit, factor))}`;
 
-  // What both pictures show: the chosen output in the displayed unit, and the cases laid over each other.
+  // What both pictures show: the chosen output in the displayed unit, and the overlaid cases.
   // `reach` are the ends of the x axis: all values, the nominal run, and those limits within one range of the values' ends
   // (a limit further away would squeeze the picture); `beyond` are the other limits.
   function viewOf(set, output) {

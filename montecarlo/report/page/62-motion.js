@@ -273,6 +273,10 @@
       motion = set.motions[Math.min(W.chosen.motion, set.motions.length - 1)];
     player.load(motion);
     const beside = h("div");
+    const choose = (key) => (value) => {
+      player[key] = value;
+      show();
+    };
     const show = () =>
       W.fill(
         beside,
@@ -282,23 +286,14 @@
             "Show",
             Object.entries(QUANTITIES).map(([key, [text]]) => [key, text]),
             player.quantity,
-            (value) => {
-              player.quantity = value;
-              show();
-            },
+            choose("quantity"),
           ),
           (motion.latches || []).length
             ? W.buttons(
                 "Time",
-                [
-                  ["whole", "whole run"],
-                  ["latches", "while latching"],
-                ],
+                Object.entries({ whole: "whole run", latches: "while latching" }),
                 player.span,
-                (value) => {
-                  player.span = value;
-                  show();
-                },
+                choose("span"),
               )
             : null,
         ),

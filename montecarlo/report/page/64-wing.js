@@ -85,10 +85,7 @@
           cell = width / across,
           tall = width < 500 ? 130 : 150;
         hinges.forEach(function (hinge, at) {
-          [
-            ["angle", "angles", "deg"],
-            ["rate", "rates", "deg/s"],
-          ].forEach(function ([text, key, unit], second) {
+          ["angle", "rate"].forEach(function (text, second) {
             const place = 2 * at + second,
               left = (place % across) * cell,
               upper = top + Math.floor(place / across) * (tall + 24);
@@ -96,10 +93,10 @@
               svg,
               { left: left + 42, right: left + cell - 10, top: upper + 20, bottom: upper + tall },
               envelopes,
-              envelopes[key][hinge],
+              envelopes[`${text}s`][hinge],
               `${wing.hinges[hinge].name} ${text}`,
-              unit,
-              range(envelopes[key][hinge]),
+              second ? "deg/s" : "deg",
+              range(envelopes[`${text}s`][hinge]),
             );
           });
         });

@@ -56,7 +56,7 @@
     select.value = W.chosen.set;
   }
 
-  // Sections that have nothing to show are left out of the page and of its bar.
+  // Hides sections without content, and their links in the bar.
   function sections() {
     if (W.onlyStudies)
       ["outputs", "convergence", "inputs"].forEach((id) => (document.getElementById(id).hidden = true));
@@ -65,7 +65,7 @@
       .forEach((link) => (link.parentNode.hidden = document.querySelector(link.getAttribute("href")).hidden));
   }
 
-  // The link of the section that is read is marked.
+  // Marks the link of the visible section.
   function reading() {
     const links = [...document.querySelectorAll(".sections a")];
     const observer = new IntersectionObserver(
