@@ -4,8 +4,8 @@
 /// forgotten on the way.
 #pragma once
 
+#include "core/laws/linear_law.hpp"
 #include "core/mechanics/energy.hpp"
-#include "core/mechanics/hinge_moment.hpp"
 #include "core/mechanics/wing.hpp"
 #include "core/methods/held_back_steps.hpp"
 #include "core/methods/step_control.hpp"
@@ -68,15 +68,26 @@ concept A = is_a<std::remove_const_t<S>, Struct>;
   return std::tie(law, strength, exponent, rate, near_zero);
 }
 
+[[nodiscard, gnu::always_inline]] inline auto fields(A<CurveTorqueTerms> auto& s) {
+  auto& [curve, weight] = s;
+  return std::tie(curve, weight);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<MeasuredFrictionTerms> auto& s) {
+  auto& [level, weight, slip_rate, regularized, most] = s;
+  return std::tie(level, weight, slip_rate, regularized, most);
+}
+
+[[nodiscard, gnu::always_inline]] inline auto fields(A<StopTerms> auto& s) {
+  auto& [present, sense, stiffness, dissipation, contact_angle] = s;
+  return std::tie(present, sense, stiffness, dissipation, contact_angle);
+}
+
 [[nodiscard, gnu::always_inline]] inline auto fields(A<RealHingeTerms> auto& s) {
-  auto& [spring, harness, friction, spring_weight, harness_weight, friction_weight, slip_rate,
-         regularized, most_friction, has_damper, has_window, has_stop, has_backlash, damper,
-         window_low, window_high, sense, stop_stiffness, stop_dissipation, contact_angle,
-         half_backlash] = s;
-  return std::tie(spring, harness, friction, spring_weight, harness_weight, friction_weight,
-                  slip_rate, regularized, most_friction, has_damper, has_window, has_stop,
-                  has_backlash, damper, window_low, window_high, sense, stop_stiffness,
-                  stop_dissipation, contact_angle, half_backlash);
+  auto& [spring, harness, friction, has_damper, has_window, has_backlash, damper, window_low,
+         window_high, stop, half_backlash] = s;
+  return std::tie(spring, harness, friction, has_damper, has_window, has_backlash, damper,
+                  window_low, window_high, stop, half_backlash);
 }
 
 [[nodiscard, gnu::always_inline]] inline auto fields(A<HingeMode> auto& s) {

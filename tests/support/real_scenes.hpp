@@ -1,4 +1,4 @@
-/// Scenes with real hinges [MODEL.md §7]: random features on random wings, and wings with a known
+/// Scenes with real hinges: random features on random wings, and wings with a known
 /// answer.
 #pragma once
 
@@ -58,7 +58,7 @@ struct EqualPanels {
 /// `stowed` to `stowed` + 1 rad, no torque, no latch.
 [[nodiscard]] Scene free_panel(double stowed = 0, double initial_rate = 0);
 
-/// The wing of issue 14: a yoke of 0.8 m and four panels of 1.8 m folded as an accordion.
+/// A yoke of 0.8 m and four panels of 1.8 m, folded as an accordion.
 [[nodiscard]] Scene yoke_wing();
 /// With a stop on every hinge.
 [[nodiscard]] Scene yoke_wing_with_stops();
