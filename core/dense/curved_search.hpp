@@ -1,13 +1,15 @@
-/// Where a function over a step is positive, and where it is largest, given how far it can leave its
-/// chords: between s = a and b it is nowhere above its larger end by more than rise·(b − a)², and
-/// runs one way from end to end where these differ by more than eight times that (its slope is that
-/// of the chord give or take (b − a) of its second derivative, of which rise is an eighth).
+/// Finds where a function over a step is first positive, and where it is largest, from a bound on its curvature.
 ///
-/// Where it may have kinks and jumps too, it is above its larger end by no more than
-/// bend·(b − a)² + lean·(b − a) + jump, and nothing is said of its way from end to end. A jump does not become less by
-/// halving: who knows of one says for each stretch whether it may lie there.
+/// Between s = a and b a smooth function exceeds its larger end by at most rise·(b − a)². It is monotone there if
+/// the values at the ends differ by more than 8 rise·(b − a)²: its slope is the chord's within (b − a) times the
+/// second derivative, of which `rise` is an eighth.
 ///
-/// Intervals are halved until that settles them: nothing is missed between samples.
+/// A function with kinks and jumps exceeds its larger end by at most bend·(b − a)² + lean·(b − a) + jump, and need
+/// not be monotone. Halving does not reduce a jump: the caller's bound must say, per interval, whether a jump is
+/// possible.
+///
+/// The searches halve intervals until the bound decides each, so no crossing and no maximum between samples is
+/// missed.
 #pragma once
 
 #include "core/number/scalar.hpp"
@@ -22,17 +24,18 @@
 
 namespace wingspread {
 
-/// Between a and b of the step: how far a function may be above the larger of its values there, and whether it is
-/// smooth.
+/// Largest excess of a function over the larger of its values at two fractions of the step, and whether it is
+/// smooth between them.
 template <class T> struct Inside {
   T most;
   bool smooth;
 };
 
-/// The same of any part of the step.
+/// Coefficients of that excess, for any part of the step.
 template <class T> struct Bulge {
-  T bend;           ///< times the part's square
-  T lean{}, jump{}; ///< times the part; on any part
+  T bend;   ///< times the part's square
+  T lean{}; ///< times the part
+  T jump{}; ///< on every part
 
   [[nodiscard]] T over(const T& part) const { return fused(part, fused(part, bend, lean), jump); }
   [[nodiscard]] bool is_smooth() const { return lean == T(0) && jump == T(0); }
@@ -52,9 +55,9 @@ template <class T> struct Bulge {
 /// faster than 10 rad/s. At 20 rad/s the samples last for a second; the run then fails, with a reason.
 class SampleBudget {
 public:
-  /// A run begins.
+  /// Restores the full budget at the start of a run.
   void renew() { left_ = most; }
-  /// A step of h begins, s.
+  /// Adds the share of a step of h, s.
   void refill(double h) { left_ = std::min(left_ + each_step + each_second * h, most); }
   [[nodiscard]] bool spend() {
     if (is_spent()) return false;
@@ -75,7 +78,7 @@ namespace detail {
 
 template <class T> struct Stretch { Sampled<T> a, b; };
 
-/// Stretches to be looked at, last in, first out: no more than one a halving.
+/// Intervals still to be decided, last in, first out: at most one per halving.
 template <class T> class OpenStretches {
 public:
   void push(const Stretch<T>& stretch) { open_[count_++] = stretch; }
@@ -90,7 +93,7 @@ private:
   std::size_t count_ = 0;
 };
 
-/// The most that the function may be inside above its larger end.
+/// Largest excess of the function over its larger end; 0 where it is monotone.
 template <class T, class Bulges>
 [[nodiscard]] T rise_inside(const Stretch<T>& at, const Bulges& bulge) {
   using std::abs;
@@ -108,11 +111,11 @@ template <class T, class Function>
 
 } // namespace detail
 
-/// The first s in [0, 1] where f > 0; none where f stays ≤ 0 or exceeds it by no more than `close`.
+/// The first s in [0, 1] where f > 0; none where f ≤ `close` throughout.
 /// @param first, last f at s = 0 and 1
-/// @param rise  Inside for any two fractions of the step
-/// @param crest raised to the largest sample made on the way
-/// @param budget spent: not known
+/// @param rise  rise(a, b) → Inside between two fractions of the step
+/// @param crest raised to the largest sample made
+/// @param budget once spent, the answer none means unknown
 template <class T, class Function, class Bulges>
 [[nodiscard]] std::optional<T> first_positive(const Function& f, const T& first, const T& last,
                                               const Bulges& rise, const T& close, Sampled<T>& crest,
@@ -132,14 +135,15 @@ template <class T, class Function, class Bulges>
     const T s = T(0.5) * (at->a.s + at->b.s);
     const Sampled<T> middle{s, f(s)};
     if (middle.value > crest.value) crest = middle;
-    if (!(middle.value > T(0))) open.push({middle, at->b}); // else the first lies before it
+    if (!(middle.value > T(0)))
+      open.push({middle, at->b}); // else the first crossing lies before it
     open.push({at->a, middle});
   }
   return std::nullopt;
 }
 
-/// Where f is largest, to `close`, if that is more than `floor`; else one of the samples.
-/// @param budget spent: not known
+/// The maximum of f, to `close`, if it exceeds `floor`; else any sample.
+/// @param budget once spent, the answer is only the largest sample so far
 template <class T, class Function>
 [[nodiscard]] Sampled<T> largest_of(const Function& f, const T& first, const T& last,
                                     const Bulge<T>& rise, const T& floor, const T& close,

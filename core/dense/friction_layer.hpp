@@ -1,18 +1,18 @@
-/// Steps through the layer |φ̇| < ω_s in which regularized friction changes its sign.
+/// Limits steps through the layer |φ̇| < ω_s in which regularized friction changes its sign.
 ///
 /// The friction −τ_c φ̇/√(φ̇² + ω_s²) has its singularities at φ̇ = ±i ω_s. A step that takes a rate
-/// many times its distance to them, √(φ̇² + ω_s²), from one side of zero to the other has few stages
-/// in the layer, or none: its result is wrong and its estimate does not say so. A step whose rate
-/// changes by at most a few times the least distance on its way samples the layer, and its estimate
-/// can be trusted; towards zero such steps are a geometric series, and so they are away from it.
+/// many times its distance to them, √(φ̇² + ω_s²), across zero has few stages in the
+/// layer, or none: its result is wrong and its error estimate does not show it. A step whose rate changes by at
+/// most a few times the least distance samples the layer, and its estimate can be trusted. Such steps form a
+/// geometric series towards zero and away from it.
 ///
 /// | symbol | meaning                                                        |       |
 /// |--------|----------------------------------------------------------------|-------|
 /// | v0, v1 | φ̇ at the step's ends; a: φ̈ at its end                          | rad/s |
 /// | d      | least distance: ω_s where v0 v1 < 0, else the ends' smaller one | rad/s |
 ///
-/// What a step may lose by leaping over the layer is about a tenth of the change of rate that
-/// friction makes in it, τ_c h/J; where that is below the tolerance it may.
+/// A step that leaps over the layer loses about a tenth of the rate that friction changes in it, τ_c h/J (heuristic:
+/// a larger share shortens steps without need). Where that is below the tolerance the step may leap.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -23,7 +23,8 @@
 
 namespace wingspread {
 
-/// How far the rate of a hinge with regularized friction may change in a step, times d.
+/// Largest change of a rate in a step, times d. Heuristic: above it the error estimate misses the layer, below it
+/// steps through the layer multiply.
 inline constexpr double longest_leap = 3;
 /// The share of a rate that a planned step keeps on its way towards the layer, and the change of rate
 /// planned inside the layer, in ω_s. Accepted are changes of up to `longest_leap` times d: a rate may
@@ -33,14 +34,14 @@ inline constexpr double longest_leap = 3;
 inline constexpr double kept_inward = 0.35, reach_inside = 1.2;
 
 template <class T> struct LayerLimits {
-  T cut;  ///< the factor to a shorter try of a step that leaps; > 1 where none does
-  T next; ///< the largest factor to the next step, as the rates go at this one's end
+  T cut;  ///< factor to the next trial step after a step that leaps; > 1 where none does
+  T next; ///< largest factor to the next step, from the rates and accelerations at the step's end
 };
 
 namespace detail {
 
-/// By how much a rate of this size may change towards zero: to a third of it, while the layer is
-/// far; into and through the layer then.
+/// Largest change towards zero of a rate: down to kept_inward of it far from the layer, into and through the layer
+/// near it.
 template <class T> [[nodiscard]] T reach_inward(const T& size, const T& slip_rate) {
   const T kept = larger(slip_rate, T(size * T(kept_inward)));
   return select(size > T(longest_leap) * slip_rate, T(size - kept), T(T(reach_inside) * slip_rate));
@@ -54,7 +55,7 @@ template <class T> [[nodiscard]] T from_layer(const T& rate, const T& slip_rate)
 
 } // namespace detail
 
-/// Of an accepted step. Cost: some twenty operations a hinge.
+/// Limits after an accepted step. Cost: about twenty operations a hinge.
 template <class T>
 [[nodiscard]] LayerLimits<T> layer_limits(const Wing<T>& wing, const Layout& at,
                                           const Step<T>& step, const T& rtol, const T& atol) {

@@ -1,8 +1,8 @@
 /// A step of any method, and the state inside it.
 #pragma once
 
-#include "core/dense/quintic.hpp"
 #include "core/mechanics/layout.hpp"
+#include "core/number/quintic.hpp"
 
 namespace wingspread {
 
@@ -12,13 +12,13 @@ template <class T> struct Step {
   State<T> x, dxdt;   ///< at t
   State<T> x1, dxdt1; ///< at t + h
 
-  /// Coordinate k of q over the step; its rate stands `freedoms` further.
+  /// Coordinate k of q over the step. @param freedoms index of q̇ less that of q in the state
   [[nodiscard, gnu::always_inline]] Quintic<T> coordinate(int k, int freedoms) const {
     const int r = k + freedoms;
     return hermite<T>(h, {x[k], x[r], dxdt[r]}, {x1[k], x1[r], dxdt1[r]});
   }
 
-  /// Any component by cubic Hermite interpolation; used for the states of smoothed latches.
+  /// Component k of the state at t + s·h by cubic Hermite interpolation, for the states of smoothed latches.
   [[nodiscard]] T cubic(int k, const T& s) const {
     const T r = T(1) - s;
     return r * r * (x[k] * fused(T(2), s, T(1)) + s * h * dxdt[k]) +

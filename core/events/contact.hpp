@@ -1,8 +1,8 @@
-/// Exact Coulomb friction: which hinges stick, which slide, and what ends either.
+/// Exact Coulomb friction: which hinges stick and which slide.
 ///
-/// A hinge that slides has the constant friction −τ_c sign φ̇ until its rate reaches zero; one that
-/// sticks is a locked hinge of the recursion (augmented.hpp), until the friction f that holds it
-/// passes the static limit τ_s. Both are events. At each, the hinges at rest are sorted anew.
+/// A sliding hinge has the constant friction −τ_c sign φ̇ until its rate reaches zero (first_rest). A stuck hinge is
+/// a locked hinge of the recursion (augmented.hpp) until the friction that holds it passes the static limit τ_s
+/// (holding.hpp). Both are events. After each, sort_contacts decides anew which of the hinges at rest stick.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -17,7 +17,7 @@
 
 namespace wingspread {
 
-/// The sense in which hinge i slides: −1, 1, or 0 when it does not or has no exact friction.
+/// The sense in which hinge i slides: −1 or 1; 0 if the hinge sticks or has no exact friction.
 template <class AnySystem> [[nodiscard]] int sliding_sense(const AnySystem& system, int i) {
   const Contact contact = system.work().contact[i];
   return contact == Contact::stuck ? 0 : static_cast<int>(contact);
@@ -31,7 +31,7 @@ template <class T> [[nodiscard]] Contact sliding(const T& along) {
   return along > T(0) ? Contact::forward : Contact::backward;
 }
 
-/// Of all with exact friction: those at rest stick, the others slide. @return which are at rest
+/// Makes hinges with exact friction that are at rest stick, and the others slide. @return which are at rest
 template <class T, class AnySystem>
 [[nodiscard]] std::vector<char> lock_those_at_rest(AnySystem& system, const State<T>& x) {
   const Layout& at = system.layout();
@@ -45,8 +45,8 @@ template <class T, class AnySystem>
   return resting;
 }
 
-/// Of those that stick, which cannot be held, with the sense in which they set out.
-/// @param slack times the limit is what holds; `let_go` is not held whatever its friction
+/// The stuck hinges whose friction exceeds `slack` times the limit, with the sense in which they set out.
+/// @param let_go a hinge that is released whatever its friction; 0: none
 template <class T, class AnySystem>
 [[nodiscard]] Contacts too_weakly_held(const AnySystem& system, const State<T>& x, const T& slack,
                                        int let_go) {
@@ -61,7 +61,7 @@ template <class T, class AnySystem>
   return moves;
 }
 
-/// Those that were at rest and have been let go, but set out against their own friction.
+/// The released hinges that accelerate against the sense in which they were let slide.
 template <class T, class AnySystem>
 [[nodiscard]] Contacts running_against_friction(const AnySystem& system, const State<T>& x,
                                                 const State<T>& dxdt,
@@ -79,18 +79,15 @@ template <class T, class AnySystem>
 
 } // namespace detail
 
-/// Sorts the hinges with exact friction at (x, t): those in motion slide; of those at rest, all
-/// that can be held stick, and the others set out in the direction of what moves them. Evaluates;
-/// at the end dxdt is the derivative with the contacts as they are then.
+/// Decides at (x, t) which hinges with exact friction stick: those in motion slide; those at rest stick if their
+/// static limit holds them, and slide in the direction of the load otherwise. Sets dxdt with these contacts.
 ///
-/// All at rest are locked first, and all that exceed their limits let go at once, until none does:
-/// independent of the hinges' order. Those that would then run against their own friction are locked
-/// again. Where that goes round in circles, one hinge is moved at a time, the first that is wrong
-/// [Murty 1974: least-index pivoting ends for a positive definite mass matrix, whose contacts are
-/// unique where τ_s = τ_c]; after 64 of these a hinge, which no wing has needed, the rest slide as
-/// they are.
-/// @param let_go a hinge whose release is due: it is held no more though rounding may say so;
-///               0: none
+/// First all hinges at rest stick. All that exceed their limits are released together, until none does: the result
+/// does not depend on the hinges' order. Released hinges that then accelerate against their sense of sliding stick
+/// again. After 16 rounds one hinge changes per round, the first wrong one [Murty 1974: least-index pivoting ends
+/// for a positive definite mass matrix; the contacts are unique where τ_s = τ_c]. After 64 more rounds per hinge,
+/// which no tested wing has needed, the contacts stay as they are (heuristic limit).
+/// @param let_go a hinge whose release is due, even if rounding leaves it within its limit; 0: none
 template <class T, class AnySystem>
 void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T& t, int let_go) {
   const std::vector<char> resting = detail::lock_those_at_rest(system, x);
@@ -110,12 +107,10 @@ void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T
   }
 }
 
-/// What is negative over the step for as long as hinge i, which slides, has not come to rest: its
-/// rate, against the sense in which it slides. A hinge that has just set out is at rest at s = 0,
-/// which does not count; one let go at its limit with τ_s = τ_c has no acceleration there either.
-/// For one number or for a pack of them: where the coefficients are negative the lanes of packs know
-/// as much as the run alone.
-/// @param against the sense in which it would turn back: −1 or 1
+/// The rate of sliding hinge i over the step, times `against`: negative until the hinge comes to rest. The root at
+/// s = 0 of a hinge that has just set out is divided out, twice where the acceleration vanishes too (released at
+/// its limit with τ_s = τ_c). For one number or a pack.
+/// @param against minus the sense of sliding: −1 or 1
 template <class T>
 [[nodiscard]] Quintic<T> way_to_rest(const Layout& at, const Step<T>& step, int i,
                                      const T& against) {
@@ -124,7 +119,8 @@ template <class T>
   const int r = at.rate(i);
   const T angle = larger(T(abs(step.x[at.angle(i)])), T(abs(step.x1[at.angle(i)])));
   const T moved = step.h * larger(T(abs(step.x[r])), T(abs(step.x1[r])));
-  const auto drowned = T(64 * epsilon_of<T>) * angle > T(1e-6) * moved; // by the angle's rounding
+  // the angle's rounding hides its change: use the rates alone
+  const auto drowned = T(64 * epsilon_of<T>) * angle > T(1e-6) * moved;
   if (any(drowned))
     rate = chosen(drowned,
                   cubic_hermite(step.h, step.x[r], step.dxdt[r], step.x1[r], step.dxdt1[r]), rate);
@@ -133,21 +129,20 @@ template <class T>
   return any(sets_out) ? chosen(sets_out, without_root_at_start(rate), rate) : rate;
 }
 
-/// Whether a hinge has come to rest at t, or does at the same instant.
-/// @param rate, slope φ̇ and φ̈, against the sense in which it slides
+/// Whether a sliding hinge is at rest at t or at an instant simultaneous with t.
+/// @param rate, slope φ̇ and φ̈ times minus the sense of sliding
 template <class T> [[nodiscard]] auto rests_at(const T& t, const T& rate, const T& slope) {
   return rate > T(0) || (slope > T(0) && rate + one_instant(t) * slope >= T(0));
 }
 
-/// The first s in [0, 1] at which hinge i, which slides, comes to rest in the step; none if it does
-/// not.
+/// Where friction sticks: the first s in [0, 1] at which sliding hinge i comes to rest; none if it does not.
 template <class T, class AnySystem>
 [[nodiscard]] std::optional<T> first_rest(const AnySystem& system, const Step<T>& step, int i) {
   return first_nonnegative(way_to_rest(system.layout(), step, i, T(-sliding_sense(system, i))));
 }
 
-/// At the start of a step: brings to rest the hinge that was due (0: none), and every other that
-/// slides and comes to rest at the same instant. @return whether there was any
+/// Sets the rate of hinge `due` (0: none) to zero at the start of a step, and that of every hinge that comes to rest
+/// simultaneously. @return whether any came to rest
 template <class T, class AnySystem>
 bool rest_those_there(const AnySystem& system, int due, Step<T>& step) {
   const Layout& at = system.layout();

@@ -1,5 +1,5 @@
-/// Where real hinges pass the angles at which their laws change: the contact of a stop, the window
-/// of a damper, the two sides of a latch's backlash.
+/// Where real hinges pass the angles at which their laws change: a stop's contact, a damper's window, either side of
+/// a latch's backlash.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-/// visit(i, edge) for every edge that a hinge of the system has now.
+/// Calls visit(i, edge) for every edge that hinge i has in its present state.
 template <class AnySystem, class Visit> void for_each_edge(const AnySystem& system, Visit&& visit) {
   const auto& wing = system.wing();
   for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
@@ -19,14 +19,13 @@ template <class AnySystem, class Visit> void for_each_edge(const AnySystem& syst
     }
 }
 
-/// 1 while hinge i has yet to pass the edge upwards, −1 while downwards.
+/// The direction in which hinge i will pass the edge next: 1 upwards, −1 downwards.
 template <class AnySystem> [[nodiscard]] int way_over(const AnySystem& system, int i, Edge edge) {
   return system.work().above[i][static_cast<int>(edge)] != 0 ? -1 : 1;
 }
 
-/// The first s in [0, 1] at which hinge i comes to the edge from its side of it; none if it does
-/// not. A step that starts at the edge itself has just come from it, or rests there: it sets out by
-/// its rate, its acceleration, or what changes that, or stays.
+/// The first s in [0, 1] at which hinge i reaches the edge from its present side; none if it does not. A step that
+/// starts at the edge has just passed it or rests there: the root at s = 0 is divided out, up to three times.
 template <class T, class AnySystem>
 [[nodiscard]] std::optional<T> first_crossing(const AnySystem& system, const Step<T>& step, int i,
                                               Edge edge) {
@@ -41,8 +40,8 @@ template <class T, class AnySystem>
   return bound(past) > T(0) ? first_nonnegative(past) : std::nullopt;
 }
 
-/// The side of every hinge that stands at an edge follows from where it is about to go: by its rate
-/// or, at rest, its acceleration. @return whether any side has changed
+/// Sets the side of every hinge that stands exactly at an edge, by its rate or, at rest, its acceleration.
+/// @return whether any side has changed
 template <class T, class AnySystem>
 bool settle_edges(AnySystem& system, const State<T>& x, const State<T>& dxdt) {
   const Layout& at = system.layout();

@@ -1,5 +1,4 @@
-/// What interrupts a run at an instant of its own: latches that engage, hinges that come to rest or
-/// are let go.
+/// The events of a run: latches that engage, hinges that come to rest or are released, angles at which laws change.
 #pragma once
 
 #include "core/events/contact.hpp"
@@ -12,8 +11,8 @@
 
 namespace wingspread {
 
-/// `graze`: nothing happens, but what holds a hinge comes so near its limit that only the method can
-/// tell. `edge`: a real hinge comes to an angle at which its law changes.
+/// `rest`: a sliding hinge stops. `graze`: the load of a stuck hinge comes so near its limit that only a step of the
+/// method can decide. `edge`: a real hinge reaches an angle at which its law changes.
 enum class Event { latch, rest, release, graze, edge };
 
 /// An event inside a step.
@@ -21,16 +20,16 @@ template <class T> struct Due {
   Event event;
   int hinge;
   T s;                    ///< fraction of the step
-  T slope;                ///< of a release's indicator, N·m/s
+  T slope;                ///< rate of a release's indicator, N·m/s
   Edge edge = Edge::stop; ///< of an edge
 };
 
-/// Finds the events of one run, and brings them about.
+/// Finds the events of one run and applies them.
 template <class T, class AnySystem> class Events {
 public:
   explicit Events(AnySystem& system) : system_(system), latches_(system) {}
 
-  /// A run begins.
+  /// Starts a run.
   void start() {
     latches_.start();
     holding_.start();
@@ -39,16 +38,15 @@ public:
   /// Latches that have not engaged.
   [[nodiscard]] int latches_left() const { return latches_.left(); }
 
-  /// Whether hinge i may latch yet.
+  /// Whether hinge i can still latch.
   [[nodiscard]] bool may_latch(int i) const { return latches_.may_engage(i); }
 
-  /// The last evaluation was at x, where the next step starts.
+  /// Starts a step. @pre the last evaluation was at x, the step's start
   void begin_step(const State<T>& x) {
     if (system_.work().stuck > 0) holding_.begin_step(system_, x);
   }
 
-  /// The earliest one in the step, by the interpolant, whose word on whether it happens is final.
-  /// x and dxdt are overwritten.
+  /// The earliest event in the step. The interpolant decides whether an event happens. Overwrites x and dxdt.
   [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x, State<T>& dxdt) {
     std::optional<Due<T>> first;
     const auto offer = [&](Event event, int i, const std::optional<T>& s, const T& slope) {
@@ -72,13 +70,13 @@ public:
     return first;
   }
 
-  /// Whether it could not be told, in the last step looked at, if a hinge is let go.
+  /// Whether the search of the last step was given up, so that releases in it are unknown.
   [[nodiscard]] bool in_vain() const { return holding_.in_vain(); }
 
-  /// What reaches 0 from below at the event, and its rate, at the end of a step just made.
+  /// A function of the state that reaches 0 from below at the event.
   struct Indicator {
     T value, slope;
-    T bend = T(0); ///< the slope's rate, where that is known
+    T bend = T(0); ///< rate of the slope; 0 where unknown
   };
   [[nodiscard]] Indicator indicator(const Due<T>& due, const Step<T>& step) const {
     const int i = due.hinge;
@@ -105,17 +103,18 @@ public:
     return {Holding<T>::excess(system_, step.x1, i), due.slope};
   }
 
-  /// At the start of a step: what the event that was due, and others at the same instant, bring
-  /// about. A hinge that comes to rest has its rate set to zero.
-  /// @param latches those that engage are added
-  /// @return whether anything happened; then the right-hand side is another
+  /// Applies, at the start of a step, the event `due` and all simultaneous ones: engages latches, and sets the rates of
+  /// hinges that come to rest to zero.
+  /// @param latches to which engagements are appended
+  /// @return whether the right-hand side has changed
   [[nodiscard]] bool happen(const std::optional<Due<T>>& due, Step<T>& step,
                             std::vector<LatchEvent>& latches) {
     const int latching = due && due->event == Event::latch ? due->hinge : 0;
     const int resting = due && due->event == Event::rest ? due->hinge : 0;
     const bool engaged = latches_.engage_those_there(latching, step, latches);
     const bool rested = rest_those_there(system_, resting, step);
-    if (due && due->event == Event::edge) // exactly there: settle_edges takes it from here
+    if (due &&
+        due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
       step.x[system_.layout().angle(due->hinge)] =
           edge_angle(system_.wing(), due->hinge, due->edge);
     return (due && due->event != Event::graze) || engaged || rested;

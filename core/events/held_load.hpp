@@ -1,4 +1,4 @@
-/// How far the moment that a locked hinge bears may leave its chord inside a step.
+/// Bound on the load of a stuck hinge inside a step, above the larger of the loads at its ends.
 ///
 /// The moment on body i at hinge i, from the motion of all that is outward of it (× is the plane's
 /// cross product, e_k = (cos θ_k, sin θ_k), and |.| are constants of the wing):
@@ -16,21 +16,22 @@
 ///     |d²L_i/dt²| ≤ J_i |θ_i⁽⁴⁾| + m_i |g_i| (r⁽⁴⁾ + 2 |ė_i| r⁽³⁾ + |ë_i| r⁽²⁾)
 ///                   + Σ ( |d²L_c/dt²| + |l_c| (Ÿ_c + 2 |ė_i| Ẏ_c + |ë_i| Y_c) )                    (2)
 ///
-/// and L leaves its chord over an interval of h by h²/8 of that; taken 4/3 times, as forces are.
+/// and L leaves its chord over an interval of h by at most chord_excess(h) of that
+/// (core/number/derivative_bounds.hpp).
 ///
-/// The air does its part of L, and what it takes off counts as what it adds. On a plate of strength B
+/// The air adds to L by its magnitude, whichever its sign. On a plate of strength B
 /// the normal velocity v = n·ṙ has, at its points, |v| ≤ V, |v̇| ≤ r⁽²⁾ + |ė| V, … and the force
 /// ∓B ∫ |v| v along n
 ///
 ///     |F| ≤ B V²    |Ḟ| ≤ B (2 V |v̇| + |ė| V²)    |F̈| ≤ B (2 V |v̈| + 2 |v̇|² + 4 |ė| V |v̇| + |ë| V²)    (3)
 ///
-/// And the friction that holds a hinge bears, beside L, what the loops on it do (loop_bulge.hpp).
+/// The friction that holds a hinge balances L and the moments of the loops on it (loop_bulge.hpp).
 #pragma once
 
-#include "core/dense/derivative_bounds.hpp"
 #include "core/dense/step.hpp"
 #include "core/events/loop_bulge.hpp"
 #include "core/mechanics/system.hpp"
+#include "core/number/derivative_bounds.hpp"
 
 #include <vector>
 
@@ -38,7 +39,7 @@ namespace wingspread {
 
 template <class T> class HeldLoadBound {
 public:
-  /// Cost O(n), about an evaluation.
+  /// Bounds a step. Cost O(n), about an evaluation.
   template <class Topology, BaseMotion M>
   void over_step(const System<T, Topology, M>& system, const Step<T>& step) {
     const auto& tree = system.topology();
@@ -71,34 +72,32 @@ public:
       parent.moment = parent.moment +
                       fused(length(wing.bodies[i].arm), parent.turned_with(own.force), own.moment);
     });
-    h_ = step.h, weight_ = step.h * step.h * T(1.0 / 6);
+    h_ = step.h, weight_ = chord_excess(step.h);
     add_loops(system, step);
   }
 
-  /// By how much |L_i| may exceed what it is at the step's ends, N·m; times (b − a)² between s = a
-  /// and b.
+  /// Largest excess of |L_i| over the loads at the step's ends, N·m. Between s = a and b: times (b − a)².
   [[nodiscard]] T rise(int i) const { return weight_ * bodies_[i].moment; }
 
-  /// By how much the friction that holds hinge i may inside the step, between s = a and b. Where a loop may go slack
-  /// or pass a knot in the step, by what it may do there alone.
+  /// Largest excess of the friction that holds hinge i, between s = a and b. Where a loop may go slack or pass a
+  /// knot in the step, its bound is that of the interval a … b.
   [[nodiscard]] Inside<T> friction(int i, const T& a, const T& b) const {
     Bulge<T> bulge{rise(i)};
     if (loops_.empty()) return bulge(a, b);
     if (loops_[i].is_smooth()) return (bulge += loops_[i])(a, b);
     Inside<T> inside = bulge(a, b);
     for (const HeldLoop& held : held_) {
-      const bool is_first = held.loop->first == i;
-      if (!is_first && held.loop->second != i) continue;
+      if (!joins(*held.loop, i)) continue;
       const LoopBulges<T> bulges = loop_bulges(*held.loop, part_of(held.angle_of_first, a, b),
                                                part_of(held.angle_of_second, a, b), h_ * (b - a));
-      const Bulge<T>& own = is_first ? bulges.first : bulges.second;
+      const Bulge<T>& own = held.loop->first == i ? bulges.first : bulges.second;
       inside.most = inside.most + own.over(T(1)), inside.smooth = inside.smooth && own.is_smooth();
     }
     return inside;
   }
 
 private:
-  /// Of a vector's second, third and fourth derivative; of a force: itself and its first two.
+  /// Bounds of a vector's second, third and fourth derivative; for a force: of the force and its first two.
   struct Derivatives {
     T second = T(0), third = T(0), fourth = T(0);
   };
@@ -188,18 +187,18 @@ private:
     }
     if constexpr (M == BaseMotion::prescribed) {
       const BaseTerms<T>& given = system.wing().base;
-      const CubicBounds<T> push = push_of_base(given, system.work().driven, step);
+      const CubicBounds<T> push = push_of_base(given, system.work().driven, step.t, step.h);
       base.hinge = {push.value, push.first, push.second};
       base.speed = fused(push.value + length(given.gravity), step.h,
                          length(system.base_velocity(step.x, step.t)));
-      base.path = turn_of_base(given, system.work().driven, step);
+      base.path = turn_of_base(given, system.work().driven, step.t, step.h);
     }
     base.turn(derivative_bounds_beyond_rounding(base.path, scale));
   }
 
   std::vector<Bounds> bodies_;  ///< 0 … n
   std::vector<Bulge<T>> loops_; ///< 1 … n: of the loops; empty where there are none
-  std::vector<HeldLoop> held_;  ///< those that have a hinge which sticks
+  std::vector<HeldLoop> held_;  ///< the loops on stuck hinges
   T h_ = T(0), weight_ = T(0);
 };
 

@@ -1,4 +1,4 @@
-/// What exact friction holds: the instant at which it no longer can.
+/// When exact friction releases a stuck hinge: the instant at which its load passes the static limit.
 #pragma once
 
 #include "core/dense/curved_search.hpp"
@@ -11,34 +11,33 @@
 
 namespace wingspread {
 
-/// Friction within this much of the limit counts as past it when another hinge is just released:
-/// mirrored wings let go together.
+/// Relative distance to the static limit within which a hinge is released together with another one. Heuristic:
+/// mirrored wings differ by rounding, far below; a larger value releases hinges that hold.
 inline constexpr double release_tolerance = 1e-9;
 
-/// A hinge that sticks and is due to be let go inside the step; or one whose friction comes so near
-/// its limit there, and falls again, that it takes a step of the method to know.
+/// A release of a stuck hinge inside the step; or a graze: friction that comes so near its limit and falls again
+/// that only a step of the method can decide.
 template <class T> struct Release {
   int hinge;
   T s;     ///< fraction of the step
-  T slope; ///< of the friction's excess over the limit there, N·m/s; 0 where it only comes near
+  T slope; ///< rate of the excess over the limit, N·m/s; 0 for a graze
 };
 
-/// Watches the friction that holds hinges over a step.
+/// Finds releases of stuck hinges over a step.
 template <class T> class Holding {
 public:
-  /// A run begins.
+  /// Starts a run: restores the budget of samples.
   void start() { samples_.renew(); }
 
-  /// The last evaluation was at the start of the next step.
+  /// Stores the excess of every stuck hinge. @pre the last evaluation was at x, the start of the next step
   template <class AnySystem> void begin_step(const AnySystem& system, const State<T>& x) {
     before_.resize(system.layout().bodies + 1);
     for (int i = 1; i <= system.layout().bodies; ++i)
       before_[i] = system.sticks(i) ? excess(system, x, i) : T(0);
   }
 
-  /// The earliest release in the step; the last evaluation was at its end, and is again afterwards.
-  /// Sought on the dense output wherever the load's curvature does not rule it out. x and dxdt are
-  /// overwritten.
+  /// The earliest release in the step, searched on the dense output where the load's curvature does not exclude it.
+  /// @pre the last evaluation was at the step's end, as it is again afterwards. Overwrites x and dxdt.
   template <class AnySystem>
   [[nodiscard]] std::optional<Release<T>> first_release(AnySystem& system, const Step<T>& step,
                                                         State<T>& x, State<T>& dxdt) {
@@ -59,10 +58,10 @@ public:
     return first;
   }
 
-  /// Whether it could not be told, in the last step looked at, if a hinge is let go.
+  /// Whether the search of the last step was given up, so that releases in it are unknown.
   [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
-  /// Friction that holds hinge i beyond its limit, at the last evaluation, at x, N·m.
+  /// Excess of the friction that holds hinge i over its limit at the last evaluation, which was at x, N·m.
   template <class AnySystem>
   [[nodiscard]] static T excess(const AnySystem& system, const State<T>& x, int i) {
     using std::abs;
@@ -71,7 +70,7 @@ public:
   }
 
 private:
-  /// Whether any could pass its limit.
+  /// Whether any stuck hinge may pass its limit in the step.
   template <class AnySystem>
   [[nodiscard]] bool comes_near(const AnySystem& system, const Step<T>& step) {
     bound_.over_step(system, step);

@@ -1,5 +1,5 @@
-/// Where latches engage: a hinge passes its latched angle in the deploying sense,
-/// and its latch is a spring and a damper from then on.
+/// Where latches engage: the instant at which a hinge reaches its latched angle in the deploying sense. From then on
+/// the latch is a spring and a damper.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -12,7 +12,7 @@
 
 namespace wingspread {
 
-/// Body i's latch as it engages at (x, t), told in the scene's own order.
+/// The engagement of hinge i at (x, t), in the scene's order of hinges.
 template <class T>
 [[nodiscard]] LatchEvent latch_event(const Wing<T>& wing, const Layout& at, const State<T>& x,
                                      const T& t, int i) {
@@ -22,30 +22,30 @@ template <class T>
   return event;
 }
 
-/// Whether a waiting latch engages at t, or does at the same instant.
-/// @param gap, rate its signed distance past the latched angle, rad; that distance's rate, rad/s
+/// Whether a latch engages at t or at an instant simultaneous with t.
+/// @param gap, rate signed distance past the latched angle, rad, and its rate, rad/s
 template <class T> [[nodiscard]] auto engages_at(const T& t, const T& gap, const T& rate) {
   return gap + one_instant(t) * larger(rate, T(0)) >= T(0);
 }
 
-/// The latches of one run that have not engaged yet.
+/// The latches of one run that have not engaged.
 template <class T, class AnySystem> class Latches {
 public:
   explicit Latches(AnySystem& system) : system_(system), at_(system.layout()) {}
 
-  /// A run begins.
+  /// Counts the latches at the start of a run.
   void start() {
     left_ = 0;
     for (int i = 1; i <= at_.bodies; ++i) left_ += system_.wing().hinges[i].has_latch;
   }
 
   [[nodiscard]] int left() const { return left_; }
-  /// Whether hinge i may engage: one that sticks cannot, as it does not move.
+  /// Whether hinge i has a latch that can still engage; a stuck hinge does not move.
   [[nodiscard]] bool may_engage(int i) const {
     return system_.wing().hinges[i].has_latch && !system_.work().engaged[i] && !system_.sticks(i);
   }
 
-  /// Signed distance past the latched angle; engagement is where it reaches 0 from below.
+  /// Signed distance past the latched angle, rad: the latch engages where it reaches 0 from below.
   [[nodiscard]] T gap(const State<T>& x, int i) const {
     const HingeTerms<T>& hinge = system_.wing().hinges[i];
     return hinge.sense * (x[at_.angle(i)] - hinge.latched);
@@ -54,8 +54,7 @@ public:
     return system_.wing().hinges[i].sense * x[at_.rate(i)];
   }
 
-  /// The first s in [0, 1] at which hinge i reaches its latched angle in the step; none if it does
-  /// not.
+  /// The first s in [0, 1] at which hinge i reaches its latched angle in the step; none without one.
   [[nodiscard]] std::optional<T> first_engagement(const Step<T>& step, int i) const {
     const HingeTerms<T>& hinge = system_.wing().hinges[i];
     Quintic<T> angle = step.coordinate(at_.angle(i), at_.freedoms());
@@ -63,10 +62,9 @@ public:
     return first_nonnegative(angle);
   }
 
-  /// At the start of a step: engages the hinge that was due (0: none), and with it every waiting
-  /// one that stands at its latched angle, all at this one instant.
-  /// @param latches those that engage are added
-  /// @return whether there was any
+  /// Engages, at the start of a step, hinge `due` (0: none) and every latch that engages simultaneously.
+  /// @param latches to which the engagements are appended
+  /// @return whether any latch engaged
   bool engage_those_there(int due, const Step<T>& step, std::vector<LatchEvent>& latches) {
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {

@@ -1,7 +1,7 @@
-/// Steps that end where a hinge turns back.
+/// Where a step of the series method must end because a hinge turns back.
 ///
-/// Series take steps inside which the interpolant is further off than the tolerance, though not at their ends: where a hinge
-/// turns back near an angle that it may pass by a hair, a step ends there.
+/// The series method takes steps whose interpolant is less accurate than their ends. A hinge that turns back near an
+/// angle that it barely passes or misses needs a step that ends there.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -11,8 +11,8 @@
 
 namespace wingspread {
 
-/// Whether hinge i turns inside the step where that tells how far it comes: back towards its latch, beyond its stowed angle or not
-/// further from it than the step's own way; or, where it waits to latch, away from the latched angle, as near to that or beyond.
+/// Whether hinge i turns back inside the step near its stowed angle (on the way away from the latch), or, with a
+/// latch that waits, near its latched angle. Near: within the step's own way of the angle, or beyond it.
 template <class T, class Mask>
 [[nodiscard]] auto turns_where_it_counts(const Wing<T>& wing, const Layout& at, const Step<T>& step,
                                          int i, const Mask& waits) {
@@ -32,8 +32,8 @@ template <class T, class Mask>
   return turns && (at_stowed || (at_latched && waits));
 }
 
-/// Where hinge i, which turns back inside the step, does so: a fraction of the step; none so near to one of its ends that
-/// the interpolant is right there.
+/// The fraction of the step at which hinge i turns back; none within 1e-3 of an end, where the interpolant is
+/// accurate (its error grows as the cube of the distance). Heuristic: larger loses overtravel, smaller adds steps.
 template <class T>
 [[nodiscard]] std::optional<T> turning_point(const Layout& at, const Step<T>& step, int i) {
   constexpr double beside_an_end = 1e-3; // the interpolant's error grows with the third power of it

@@ -18,16 +18,16 @@
 
 namespace wingspread {
 
-/// A body's plate, own frame, from the hinge's point.
+/// A body's plate in the body's frame, relative to the hinge's point.
 template <class T> struct PlateTerms {
-  Vec2<T> from, along; ///< its first edge, and from there to the other, m
+  Vec2<T> from, along; ///< its first edge; the way from there to the other edge, m
   Vec2<T> normal;      ///< of length one
   T strength;          ///< B, kg/m; 0: no plate
 };
 
 template <class T> struct PlateLoad { T force, moment; };
 
-/// (1) and (2).
+/// (1) and (2) from the normal velocities at both edges, m/s. Divided by Δ only where v changes its sign.
 template <class T> [[nodiscard]] PlateLoad<T> plate_load(const T& v0, const T& v1) {
   using std::abs;
   const T a0 = abs(v0), a1 = abs(v1), product = v0 * v1;

@@ -1,6 +1,7 @@
-/// A curve's value, slope and integral for any number: one, or a pack of them.
+/// A table's value, slope, integral and their ranges, for one number or a pack.
 #pragma once
 
+#include "core/laws/range.hpp"
 #include "core/number/pack.hpp"
 #include "core/scene/curve.hpp"
 
@@ -8,23 +9,23 @@
 
 namespace wingspread {
 
-/// Of a piece: c of Curve::Piece, where it begins, and the integral up to there.
+/// The polynomial of a curve at one x: Σ c_k u^k, and the integral from the first knot to u = 0.
 template <class T> struct PieceAt {
-  T u; ///< x less the knot of its powers
+  T u; ///< x − the knot about which the powers are
   std::array<T, 4> c;
   T integral;
 };
 
 namespace detail {
 
-/// From the piece at x and the knot of its powers.
+/// @param knot about which the piece's powers are
 template <class T>
 [[nodiscard]] PieceAt<T> piece_at(const Curve::Piece& piece, double knot, const T& x) {
   return {
       x - T(knot), {T(piece.c[0]), T(piece.c[1]), T(piece.c[2]), T(piece.c[3])}, T(piece.integral)};
 }
 
-/// The number of knots at or before x: that of its piece. NaN: 0.
+/// Index of the piece at x: the number of knots at or before x; 0 for NaN.
 template <class T> [[nodiscard]] std::size_t piece_number(const Curve& curve, const T& x) {
   const std::vector<double>& knots = curve.knots();
   std::size_t k = 0;
@@ -46,7 +47,7 @@ template <class T> [[nodiscard]] PieceAt<T> piece_at(const Curve& curve, const T
 
 namespace detail {
 
-/// A lane at a time.
+/// Looks each lane's piece up by itself.
 template <int W>
 [[nodiscard]] inline PieceAt<Pack<W>> piece_lane_by_lane(const Curve& curve, const Pack<W>& x) {
   PieceAt<Pack<W>> found;
@@ -66,7 +67,7 @@ template <int W>
 }
 
 #ifdef __AVX512F__
-/// Of eight lanes out of eight pieces: how many knots lie at or before each x, then a permutation.
+/// For eight lanes and at most eight pieces: counts the knots at or before each x, then permutes columns.
 [[nodiscard, gnu::always_inline]] inline PieceAt<Pack<8>>
 piece_of_columns(const Curve::Columns& columns, const std::vector<double>& knots,
                  const Pack<8>& x) {
@@ -86,8 +87,8 @@ piece_of_columns(const Curve::Columns& columns, const std::vector<double>& knots
 
 } // namespace detail
 
-/// In all lanes at once: from piece to piece, each lane takes what begins before it. With more than
-/// a dozen knots it is faster to look for each lane's own.
+/// The pieces of all lanes: walks over all knots and lets each lane keep the last one before its x. With more than
+/// a dozen knots looking up lane by lane is faster (heuristic: either way is correct).
 template <int W>
 [[nodiscard]] inline PieceAt<Pack<W>> piece_at(const Curve& curve, const Pack<W>& x) {
   using P = Pack<W>;
@@ -133,32 +134,8 @@ template <class T> [[nodiscard]] T integral(const Curve& curve, const T& x) {
   return fused(p.u, mean, p.integral);
 }
 
-/// A range of values.
-template <class T> struct ValueRange {
-  T low, high;
-
-  friend ValueRange operator+(const ValueRange& a, const ValueRange& b) {
-    return {a.low + b.low, a.high + b.high};
-  }
-  void include(const T& x) { low = smaller(low, x), high = larger(high, x); }
-};
-
-/// By a factor of either sign.
-template <class T> [[nodiscard]] ValueRange<T> scaled(const T& by, const ValueRange<T>& range) {
-  const T a = by * range.low, b = by * range.high;
-  return {smaller(a, b), larger(a, b)};
-}
-
-/// The product of two.
-template <class T>
-[[nodiscard]] ValueRange<T> operator*(const ValueRange<T>& a, const ValueRange<T>& b) {
-  ValueRange<T> range = scaled(a.low, b);
-  range.include(a.high * b.low), range.include(a.high * b.high);
-  return range;
-}
-
-/// Of a curve's slope over a range of x: at its ends, on both sides of the knots inside, and where the
-/// bend of a cubic turns.
+/// Range of a curve's slope over a range of x: extremes lie at its ends, at knots inside, or where a cubic's second
+/// derivative vanishes.
 template <class T>
 [[nodiscard]] ValueRange<T> range_of_slope(const Curve& curve, const ValueRange<T>& x) {
   const T first = slope(curve, x.low), last = slope(curve, x.high);
@@ -171,7 +148,7 @@ template <class T>
   return range;
 }
 
-/// Over a range of x: the extremes lie at knots, or are no more than the overshoot beyond.
+/// Range of a curve's values over a range of x: extremes lie at its ends and at knots, within the overshoot.
 template <class T>
 [[nodiscard]] ValueRange<T> range_of(const Curve& curve, const ValueRange<T>& x) {
   const T first = value(curve, x.low), last = value(curve, x.high);

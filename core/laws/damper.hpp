@@ -1,11 +1,20 @@
-/// Dampers: moments that oppose a hinge's rate v.
+/// Dampers: moments that oppose a hinge's rate v = φ̇.
 ///
-///     viscous        −c v
-///     power law      −A |v|^p sign v,  linear below the regularization rate w: −A w^{p−1} v
-///     eddy current   −2 T_p r/(1 + r²),  r = v/ω_p: most at the peak rate, and less beyond it
+/// | symbol   | meaning                                               | unit           |
+/// |----------|-------------------------------------------------------|----------------|
+/// | c        | viscous coefficient                                   | N·m·s/rad      |
+/// | A, p, w  | power law: factor, exponent, regularization rate      | N·m (s/rad)^p, 1, rad/s |
+/// | T_p, ω_p | eddy current: peak torque, at the peak rate           | N·m, rad/s     |
+///
+///     viscous        −c v                                                                       (1)
+///     power law      −A |v|^p sign v for |v| ≥ w,  −A w^{p−1} v below                           (2)
+///     eddy current   −2 T_p r/(1 + r²),  r = v/ω_p: largest at r = 1                            (3)
+///
+/// A damper with a window acts between two angles only. A run keeps whether it acts as a mode, which changes at
+/// events (Edge::window_low, Edge::window_high).
 #pragma once
 
-#include "core/laws/curve_value.hpp"
+#include "core/laws/hinge_law.hpp"
 #include "core/number/power.hpp"
 #include "core/scene/scene.hpp"
 
@@ -27,7 +36,7 @@ template <class T> [[nodiscard]] DamperTerms<T> damper_terms(const Damper& dampe
   case DamperLaw::viscous:
     return {damper.law, scale * T(damper.coefficient), T(1), T(1), T(0)};
   case DamperLaw::power: {
-    using std::pow; // the same where products and sums are not made at once: terms are made there
+    using std::pow;
     const T A = scale * T(damper.coefficient), w(damper.regularization_rate);
     return {damper.law, A, p, w, A * pow(w, T(p - T(1)))};
   }
@@ -37,7 +46,7 @@ template <class T> [[nodiscard]] DamperTerms<T> damper_terms(const Damper& dampe
   return {damper.law, scale * T(2 * damper.peak_torque), T(1), T(damper.peak_rate), T(0)};
 }
 
-/// Its moment at the rate v, N·m.
+/// (1), (2) or (3), N·m.
 template <class T> [[nodiscard]] T damper_moment(const DamperTerms<T>& damper, const T& v) {
   using std::abs;
   switch (damper.law) {
@@ -56,7 +65,7 @@ template <class T> [[nodiscard]] T damper_moment(const DamperTerms<T>& damper, c
   return -damper.strength * r / fused(r, r, T(1));
 }
 
-/// −d/dv of it: the damping that it is for small changes, N·m·s/rad.
+/// −dM/dv, N·m·s/rad.
 template <class T> [[nodiscard]] T damper_damping(const DamperTerms<T>& damper, const T& v) {
   using std::abs;
   switch (damper.law) {
@@ -75,13 +84,13 @@ template <class T> [[nodiscard]] T damper_damping(const DamperTerms<T>& damper, 
   return damper.strength / damper.rate * (T(2) - q) / (q * q);
 }
 
-/// Over a range of rates.
+/// A range of the moment over a range of rates.
 template <class T>
 [[nodiscard]] ValueRange<T> damper_range(const DamperTerms<T>& damper, const ValueRange<T>& v) {
   const T first = damper_moment(damper, v.low), last = damper_moment(damper, v.high);
   ValueRange<T> range{smaller(first, last), larger(first, last)};
-  if (damper.law != DamperLaw::eddy_current) return range;
-  const T half = T(0.5) * damper.strength; // at the peak rate
+  if (damper.law != DamperLaw::eddy_current) return range; // (1) and (2) fall with v
+  const T half = T(0.5) * damper.strength;                 // (3) at r = 1: T_p
   const auto braking = v.low < damper.rate && damper.rate < v.high;
   const auto driven_back = v.low < -damper.rate && -damper.rate < v.high;
   range.low = select(braking, T(-half), range.low);
@@ -89,27 +98,52 @@ template <class T>
   return range;
 }
 
-/// Of its damping over a range of rates. @pre not an eddy-current damper
+/// The largest |moment| at rates of at most `most`.
+template <class T> [[nodiscard]] T most_of_damper(const DamperTerms<T>& damper, const T& most) {
+  const ValueRange<T> range = damper_range(damper, ValueRange<T>{T(-most), most});
+  return larger(range.high, T(-range.low));
+}
+
+/// A range of damper_damping over a range of rates. @pre not an eddy-current damper
 template <class T>
 [[nodiscard]] ValueRange<T> damping_range(const DamperTerms<T>& damper, const ValueRange<T>& v) {
   const T first = damper_damping(damper, v.low), last = damper_damping(damper, v.high);
   ValueRange<T> range{smaller(first, last), larger(first, last)};
   if (damper.law == DamperLaw::viscous) return range;
-  using std::abs;
-  // beyond w it rises or falls with |v|, below it is constant, and at w it jumps
+  // (2): constant below w, monotone in |v| beyond, with a jump at w
   const auto turns = v.low < T(0) && v.high > T(0);
-  const T slow = smaller(T(abs(v.low)), T(abs(v.high)));
-  const T least = select(turns, T(0), slow), most = larger(T(abs(v.low)), T(abs(v.high)));
+  const T least = smallest_magnitude_of(v), most = largest_magnitude_of(v);
   const auto jumps = least <= damper.rate && damper.rate <= most;
   range.include(select(turns || jumps, damper.near_zero, first));
   range.include(select(jumps, T(damper.exponent * damper.near_zero), first));
   return range;
 }
 
-/// No |moment| is larger for rates up to `most`.
-template <class T> [[nodiscard]] T most_of_damper(const DamperTerms<T>& damper, const T& most) {
-  const ValueRange<T> range = damper_range(damper, ValueRange<T>{T(-most), most});
-  return larger(range.high, T(-range.low));
-}
+/// A hinge's damper as a law of real_hinge.hpp.
+template <class T> struct HingeDamper {
+  const DamperTerms<T>& terms;
+  const T& acts; ///< 1 or 0
+
+  void add_moment(T& m, const T& /*angle*/, const T& rate) const {
+    m = fused(acts, damper_moment(terms, rate), m);
+  }
+  void add_resistance(HingeResistance<T>& r, const T& /*angle*/, const T& rate) const {
+    r.damping = fused(acts, damper_damping(terms, rate), r.damping);
+  }
+  void add_range(ValueRange<T>& m, const ValueRange<T>& /*angle*/,
+                 const ValueRange<T>& rate) const {
+    m = m + scaled(acts, damper_range(terms, rate));
+  }
+  /// (3) has no bound of its slope here: a step in which it acts is searched.
+  [[nodiscard]] auto has_slopes(const ValueRange<T>& /*angle*/) const {
+    return terms.law == DamperLaw::eddy_current ? !(acts > T(0)) : T(0) <= T(0);
+  }
+  void add_slopes(MomentSlopes<T>& m, const ValueRange<T>& /*angle*/,
+                  const ValueRange<T>& rate) const {
+    if (terms.law != DamperLaw::eddy_current)
+      m.by_rate = m.by_rate + scaled(T(-acts), damping_range(terms, rate));
+  }
+  void add_potential(T& /*P*/, const T& /*latched*/, const T& /*angle*/) const {}
+};
 
 } // namespace wingspread

@@ -1,17 +1,24 @@
-/// What the air does to a wing of plates: as moments at the hinges that give the same motion, and as
-/// forces that the hinges need not bring up.
+/// Loads of the air on a wing of plates, as equivalent moments at the hinges and as forces.
 ///
-/// The air's loads on body i and on all outward of it come to a force F_i and a moment L_i about
-/// hinge i. By d'Alembert and Lagrange a moment L_i at every hinge i moves the wing as the loads do;
-/// the hinge's force is then that of the motion, less F_i.
+/// | symbol | meaning                                                     | unit |
+/// |--------|-------------------------------------------------------------|------|
+/// | F_i    | the air's force on body i and all bodies outward of it      | N    |
+/// | L_i    | the moment of these loads about hinge i                     | N·m  |
+/// | l_c    | from hinge i to the child hinge c                           | m    |
+/// | v      | normal velocity along a plate (core/laws/air.hpp)           | m/s  |
+///
+///     F_i = own plate + Σ F_c        L_i = own plate + Σ (L_c + l_c × F_c)                     (1)
+///
+/// By d'Alembert and Lagrange, moments L_i at all hinges move the wing as the loads do. The hinge's force is then
+/// the force of the motion less F_i.
 #pragma once
 
 #include "core/mechanics/workspace.hpp"
 
 namespace wingspread {
 
-/// Sets `air_moments` and `air_forces` of the workspace, of the base as a whole in [0]. The bodies'
-/// frames have been placed. Cost O(n).
+/// Sets `air_moments` and `air_forces` of the workspace by (1); [0] has the sums over the whole wing. Cost O(n).
+/// @pre the frames have been placed
 /// @param velocity of the base's origin, m/s
 template <class T, class Topology>
 [[gnu::noinline]] void find_air_loads(const Wing<T>& wing, const Topology& tree,
@@ -32,7 +39,7 @@ template <class T, class Topology>
     const T v1 = v0 + own.rate * dot(normal, turned(along));
     const PlateLoad<T> load = plate_load(v0, v1);
     work.air_forces[i] = scaled(T(-plate.strength * load.force), normal);
-    // about the hinge: through the first edge, and what is further along
+    // about the hinge: the force at the first edge, plus its moment along the plate
     work.air_moments[i] = dot(turned(from), work.air_forces[i]) -
                           plate.strength * load.moment * dot(turned(along), normal);
   });

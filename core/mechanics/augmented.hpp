@@ -1,7 +1,7 @@
 /// The O(n) recursion for hinges that are locked or carry an inertia of their own.
 ///
-/// A hinge with an added inertia E takes the moment τ − E φ̈; one that is locked takes whatever
-/// keeps φ̈ = 0, the limit E → ∞. Its axis moment then depends on the parent's rotation, so that a
+/// A hinge with an added inertia E has the moment τ − E φ̈. A locked hinge has the moment that keeps φ̈ = 0, the
+/// limit E → ∞. Its axis moment then depends on the parent's rotation, so that a
 /// moment crosses the hinge as well as a force, and the source's 3×3 form [Yudintsev, eqs. 3-5] is
 /// needed, here referred to the hinge's point as in recursion.hpp, whose symbols and equation
 /// numbers (1)-(7) these continue:
@@ -34,7 +34,7 @@
 
 namespace wingspread {
 
-/// What the passes know of one body beside its BodyFrame.
+/// One body in the passes, beside its BodyFrame.
 template <class T> struct AugmentedFrame {
   // factorization
   Sym2<T> K; ///< kg
@@ -60,7 +60,7 @@ template <class T> struct HingeConstraint {
   bool locked = false;
 };
 
-/// What the recursion works on: all bodies of a wing.
+/// Storage of the recursion: all bodies of a wing.
 template <class T> struct Augmented {
   std::vector<BodyFrame<T>> frames;      ///< 0 … n
   std::vector<AugmentedFrame<T>> bodies; ///< 0 … n
@@ -71,7 +71,7 @@ template <class T> struct Augmented {
   }
 };
 
-/// Eqs. (8), (9), (11) at body i, the children's made; 0 is a free base. Its frame has been placed.
+/// (8), (9), (11) at body i; 0 is a free base. @pre made at its children; the frames are placed
 template <class T, class Topology, class Frames, class Augmented>
 void factorize(const Wing<T>& wing, const Topology& tree, const Frames& frames, Augmented& bodies,
                int i, const HingeConstraint<T>& hinge) {
@@ -97,8 +97,8 @@ void factorize(const Wing<T>& wing, const Topology& tree, const Frames& frames, 
   own.N = rest * own.I;
 }
 
-/// Eqs. (10), (12) at body i, the children's made, for a hinge moment τ. With `moving`, the loads
-/// of the bodies' rates too; without, those of τ alone, as in solving (M + E) φ̈ = τ.
+/// (10), (12) at body i for a hinge moment τ. @pre made at its children
+/// With `moving`, includes the loads of the bodies' rates; without, of τ alone, as in solving (M + E) φ̈ = τ.
 template <bool moving, class T, class Topology, class Frames, class Augmented>
 void load(const Topology& tree, const Frames& frames, Augmented& bodies, int i, const T& tau) {
   AugmentedFrame<T>& own = bodies[i];
@@ -118,7 +118,7 @@ void load(const Topology& tree, const Frames& frames, Augmented& bodies, int i, 
   own.m = fused(own.I, own.u, d);
 }
 
-/// Eq. (7): what a free base does. @pre its load was made with τ = 0 and E = 0
+/// Sets a_0 and α_0 of a free base by (7). @pre its load was made with τ = 0 and E = 0
 template <class T> void accelerate_free_base(AugmentedFrame<T>& base) {
   const Sym2<T>& K = base.K;
   const T inverse = T(1) / fused(K.xx, K.yy, -(K.xy * K.xy));
@@ -127,7 +127,7 @@ template <class T> void accelerate_free_base(AugmentedFrame<T>& base) {
   base.angular_acceleration = base.u - dot(base.e, base.acceleration);
 }
 
-/// Eq. (8) at body i, its parent's made. @return φ̈_i, rad/s²
+/// (8) at body i. @pre made at its parent. @return φ̈_i, rad/s²
 template <bool moving, class T, class Topology, class Frames>
 T accelerate_augmented(const Topology& tree, const Frames& frames,
                        std::vector<AugmentedFrame<T>>& bodies, int i) {
@@ -142,19 +142,19 @@ T accelerate_augmented(const Topology& tree, const Frames& frames,
   return relative;
 }
 
-/// Eq. (9), N: the force on body i at its hinge. After the outward pass.
+/// The force on body i at its hinge by (9), N. @pre the outward pass has been made
 template <class T>
 [[nodiscard]] Vec2<T> augmented_force(const AugmentedFrame<T>& own, const T& parents_acceleration) {
   return fused(own.K, own.acceleration, fused(parents_acceleration, own.H, own.b));
 }
 
-/// Eq. (10), N·m: the axis moment on body i; of a locked hinge, what holds it.
+/// The axis moment on body i by (10), N·m: of a locked hinge, the moment that holds it.
 template <class T>
 [[nodiscard]] T axis_moment(const AugmentedFrame<T>& own, const T& parents_acceleration) {
   return dot(own.H, own.acceleration) + fused(own.N, parents_acceleration, own.m);
 }
 
-// ---- the passes over a whole wing, whose frames have been placed
+// ---- passes over a whole wing. @pre its frames have been placed
 
 /// (8), (9), (11). @param hinge hinge(i) → HingeConstraint<T>
 template <BaseMotion M, class T, class Topology, class Constraint>
@@ -165,9 +165,10 @@ void factorize_all(const Wing<T>& wing, const Topology& tree, Augmented<T>& part
     factorize(wing, tree, parts.frames, parts.bodies, 0, HingeConstraint<T>{});
 }
 
-/// (10), (12), then what the base does: by (7) when it is free; when the wing moves, as its frame
-/// says; else nothing. @param tau tau(i), N·m; 0: on a free base, of a wing that moves
-/// @param pull force on a free base from outside, N
+/// (10), (12) at all bodies, then the base's accelerations: a free base by (7); another base from its frame with
+/// `moving`, else 0.
+/// @param tau tau(i) of hinge i, N·m; tau(0) on a free base, asked only with `moving`
+/// @param pull external force taken off a free base's, N
 template <bool moving, BaseMotion M, class T, class Topology, class Moment>
 void load_all(const Topology& tree, Augmented<T>& parts, Moment&& tau,
               const Vec2<T>& pull = {T(0), T(0)}) {

@@ -1,4 +1,4 @@
-/// Angles at which a real hinge's law changes: a run keeps on which side of them it is.
+/// Edges: angles at which a real hinge's law changes. A run keeps on which side of each edge the hinge is.
 #pragma once
 
 #include "core/mechanics/wing.hpp"
@@ -8,12 +8,12 @@
 
 namespace wingspread {
 
-/// Where hinge i has this edge, rad. @pre wing.real is not empty
+/// Angle of this edge of hinge i, rad. @pre wing.real is not empty
 template <class T> [[nodiscard]] T edge_angle(const Wing<T>& wing, int i, Edge edge) {
   const RealHingeTerms<T>& real = wing.real[i];
   switch (edge) {
   case Edge::stop:
-    return real.contact_angle;
+    return real.stop.contact_angle;
   case Edge::window_low:
     return real.window_low;
   case Edge::window_high:
@@ -26,21 +26,22 @@ template <class T> [[nodiscard]] T edge_angle(const Wing<T>& wing, int i, Edge e
   return wing.hinges[i].latched + real.half_backlash;
 }
 
-/// Whether the hinge has that edge now. @param bears whether its latch has engaged
+/// Whether the hinge has that edge now. @param engaged whether its latch has engaged
 template <class T>
 [[nodiscard]] bool has_edge(const Wing<T>& wing, int i, Edge edge, bool engaged) {
   const RealHingeTerms<T>& real = wing.real[i];
-  if (edge == Edge::stop) return real.has_stop;
+  if (edge == Edge::stop) return real.stop.present;
   if (edge == Edge::window_low || edge == Edge::window_high) return real.has_window;
   return engaged && real.has_backlash;
 }
 
 /// Whether the stop is in contact, by the side of its edge.
 template <class T> [[nodiscard]] bool touches_stop(const Wing<T>& wing, int i, bool above) {
-  return wing.real[i].has_stop && above != (wing.real[i].sense > T(0));
+  const StopTerms<T>& stop = wing.real[i].stop;
+  return stop.present && above != (stop.sense > T(0));
 }
 
-/// What hinge i does on these sides of its edges, sliding or not.
+/// The mode of hinge i from the sides of its edges and the state of its friction.
 template <class T, class Sides>
 [[nodiscard]] HingeMode<T> mode_of(const Wing<T>& wing, int i, const Sides& sides,
                                    Contact contact) {
@@ -51,8 +52,7 @@ template <class T, class Sides>
           contact == Contact::stuck ? T(0) : T(static_cast<int>(contact))};
 }
 
-/// β/2 towards the side on which an engaged latch bears, from the latched angle; 0 without
-/// backlash. None while it bears on neither.
+/// Where an engaged latch bears, less the latched angle: −β/2 or β/2, rad; 0 without backlash; none inside it.
 template <class T, class Sides>
 [[nodiscard]] std::optional<T> side_of_backlash(const RealHingeTerms<T>& real, const Sides& sides) {
   if (!real.has_backlash) return T(0);

@@ -1,16 +1,23 @@
-/// Energy and momentum of a wing: audits of a run,
-/// and the projection that keeps a free base's momenta.
+/// Energy and momentum of a wing: audits of a run, and the projection that keeps a free base's momenta.
+///
+/// | symbol  | meaning                                              | unit      |
+/// |---------|------------------------------------------------------|-----------|
+/// | r, v    | position and velocity of a centre of mass            | m, m/s    |
+/// | T, P    | kinetic energy, potential                            | J         |
+/// | p, L    | momentum Σ m v; angular momentum Σ (m r × v + J ω)    | kg·m/s, kg·m²/s |
+///
+///     T = ½ Σ (m v² + J ω²)                                                                    (1)
+///     P = Σ hinges + Σ loops − Σ m g·r                                                         (2)
 #pragma once
 
 #include "core/mechanics/system.hpp"
 
 namespace wingspread {
 
-/// Mass properties and motion of everything that moves, seen from the base's origin: axes inertial,
-/// positions and velocities less the base's own, so that a spacecraft far out or fast loses no
-/// digits.
+/// Mass properties and motion of all bodies in inertial axes, relative to the base's origin: positions and velocities
+/// less the base's own, so that a distant or fast spacecraft loses no digits.
 template <class T> struct TotalMotion {
-  T kinetic = T(0);                 ///< ½ Σ (m v² + J ω²), J
+  T kinetic = T(0);                 ///< (1), J
   T mass = T(0);                    ///< Σ m, kg
   Vec2<T> first_moment{T(0), T(0)}; ///< Σ m r, kg·m
   T second_moment = T(0);           ///< Σ (m r² + J), kg·m²
@@ -33,8 +40,7 @@ template <class T> struct TotalMotion {
   [[nodiscard]] T central_kinetic() const { return kinetic - T(0.5) * dot(linear, linear) / mass; }
 };
 
-/// Adds body i and everything outward of it,
-/// from the position and velocity of its parent's hinge point.
+/// Adds all bodies outward of `parent` to the sum. @param point, velocity of the parent's hinge point
 template <class T, class Topology>
 void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<BodyFrame<T>>& frames,
                  int parent, const Vec2<T>& point, const Vec2<T>& velocity, TotalMotion<T>& sum) {
@@ -49,8 +55,7 @@ void add_outward(const Wing<T>& wing, const Topology& tree, const std::vector<Bo
   });
 }
 
-/// Motion of all bodies at (x, t) as seen from the base's origin;
-/// places the system there. Cost O(n).
+/// Motion of all bodies at (x, t) relative to the base's origin. Places the system. Cost O(n).
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] TotalMotion<T> total_motion(System<T, Topology, M>& system, const State<T>& x,
                                           const T& t) {
@@ -66,7 +71,7 @@ template <class T, class Topology, BaseMotion M>
   return sum;
 }
 
-/// Kinetic energy in inertial axes, J.
+/// (1) in inertial axes, J.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T kinetic_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
   const TotalMotion<T> now = total_motion(system, x, t);
@@ -86,17 +91,15 @@ template <class T, class Topology, BaseMotion M>
   return own + system.latch_energy(x, i);
 }
 
-/// What a smoothed latch of hinge i stores with its whole weight, J; 0 of an event latch.
+/// Energy of a smoothed latch of hinge i at full weight, J; 0 for an event latch.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T smoothed_latch_energy(const System<T, Topology, M>& system, const State<T>& x,
                                       int i) {
   if (!system.layout().smoothed) return T(0);
-  const HingeTerms<T>& hinge = system.wing().hinges[i];
-  const T y = x[system.layout().angle(i)] - hinge.latched;
-  return T(0.5) * hinge.stiffness * y * y;
+  return full_latch_energy(system.wing().hinges[i], x[system.layout().angle(i)]);
 }
 
-/// Of all loops, J.
+/// Potential of all loops, J.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T loops_energy(const System<T, Topology, M>& system, const State<T>& x) {
   T sum(0);
@@ -105,8 +108,8 @@ template <class T, class Topology, BaseMotion M>
   return sum;
 }
 
-/// −Σ m g·r of all that moves, r from the base's origin; with a free base from where the axes have
-/// theirs, J. Places the system.
+/// −Σ m g·r of all bodies, J; r from the base's origin, or from the inertial origin with a free base. Places the
+/// system.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T gravity_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
   const Vec2<T>& g = system.wing().base.gravity;
@@ -117,7 +120,7 @@ template <class T, class Topology, BaseMotion M>
   return -dot(g, now.first_moment);
 }
 
-/// Of hinges, loops and gravity, J. A smoothed latch counts with the weight it has.
+/// (2), J. A smoothed latch counts with its present weight.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T potential_energy(System<T, Topology, M>& system, const State<T>& x, const T& t) {
   const Layout& at = system.layout();
@@ -131,10 +134,10 @@ template <class T, class Topology, BaseMotion M>
   return sum;
 }
 
-/// What a free system keeps.
+/// Invariants of a free system.
 template <class T> struct Conserved {
-  Vec2<T> start;    ///< of the common centre of mass, m
-  Vec2<T> velocity; ///< of the same, m/s
+  Vec2<T> start;    ///< the common centre of mass at the start, m
+  Vec2<T> velocity; ///< its velocity at the start, m/s
   T spin;           ///< angular momentum about it, kg·m²/s
 };
 
@@ -146,9 +149,9 @@ template <class T, class Topology>
           system.base_velocity(x, t) + scaled(T(1) / now.mass, now.linear), now.spin()};
 }
 
-/// Gives a free system at time t exactly what it keeps, by moving the whole as one rigid body: the
-/// centre of mass to its way of free fall, the momenta to what they are on it; relative angles and rates
-/// stay. Projection onto invariants [Hairer, Lubich & Wanner, Geometric Numerical Integration,
+/// Restores a free system's invariants at time t by moving the whole as one rigid body: the centre of mass onto its
+/// free fall, the momenta to their values there. Relative angles and rates stay. Projection onto invariants [Hairer,
+/// Lubich & Wanner, Geometric Numerical Integration,
 /// IV.4]: its size is the step's own error, so the order is kept.
 template <class T, class Topology>
 void keep_momentum(System<T, Topology, BaseMotion::free>& system, const Conserved<T>& kept,

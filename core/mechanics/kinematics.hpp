@@ -1,17 +1,23 @@
-/// Where a wing's bodies are and how they move, from its state. No forces.
+/// Kinematics: frames of all bodies from the state [Yudintsev, eq. 2]. No forces.
+///
+/// | symbol | meaning                                        | shape | unit        |
+/// |--------|------------------------------------------------|-------|-------------|
+/// | φ, φ̇   | relative angle and rate of a hinge             |       | rad, rad/s  |
+/// | θ, ω   | absolute angle and rate: θ_p + φ, ω_p + φ̇      |       | rad, rad/s  |
+/// | l      | from the parent's hinge to the body's own      | 2     | m           |
+/// | m g    | mass times the way to the centre of mass       | 2     | kg·m        |
 #pragma once
 
-#include "core/mechanics/drive.hpp"
 #include "core/mechanics/layout.hpp"
 #include "core/mechanics/recursion.hpp"
 
 namespace wingspread {
 
-/// What of q belongs to the base; the hinges' angles follow.
+/// Number of the base's coordinates in q; the hinges' angles follow.
 template <BaseMotion M> inline constexpr int base_freedoms = M == BaseMotion::free ? 3 : 0;
 
-/// Angle, rate, rotation of the base at (x, t), and its accelerations where they are given.
-/// @param piece at t, of a base with a table
+/// Sets the base's angle, rate and rotation at (x, t), and the accelerations of a prescribed base.
+/// @param piece the table's piece at t; unused without a table
 template <BaseMotion M, class T>
 [[gnu::always_inline]] inline void place_base(const Wing<T>& wing, const Layout& at,
                                               const DrivenPiece<T>& piece, BodyFrame<T>& base,
@@ -39,7 +45,7 @@ template <BaseMotion M, class T>
   base.rotation = sine_cosine(base.angle);
 }
 
-/// All other bodies, once the base is placed. Frames: any array of BodyFrame<T>, 0 … n.
+/// Places all other bodies. @pre the base has been placed. Frames: any array of BodyFrame<T>, 0 … n.
 template <BaseMotion M, class T, class Topology, class Frames>
 [[gnu::always_inline]] inline void place_bodies(const Wing<T>& wing, const Topology& tree,
                                                 Frames& frames, const State<T>& x) {

@@ -1,4 +1,4 @@
-/// The state of a wing, and where things stand in it.
+/// The state vector of a wing and the indices of its components.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,7 @@ namespace wingspread {
 
 template <class T> using State = std::vector<T>;
 
-/// Where things stand in the state: q = (x, y, θ_0 of a free base; φ_1 … φ_n), then q̇, then S_1 …
-/// S_n of smoothed latches.
+/// Indices in the state (q, q̇, S): q = (x, y, θ_0 of a free base; φ_1 … φ_n), S = S_1 … S_n of smoothed latches.
 struct Layout {
   int base = 0; ///< 3 for a free base, else 0
   int bodies = 0;

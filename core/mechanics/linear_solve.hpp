@@ -2,12 +2,18 @@
 ///
 ///     (M + E + Σ c_l v_l v_lᵀ) q̈ = τ,    E diagonal over the hinges                            (1)
 ///
-/// A hinge that sticks does not move. v_l: what loop l does at its two hinges. With A = M + E, V of
-/// the columns v_l and C = diag(c_l) [Sherman, Morrison & Woodbury]
+/// | symbol | meaning                                               | shape | unit       |
+/// |--------|-------------------------------------------------------|-------|------------|
+/// | q̈, τ   | accelerations, moments                                | n     | rad/s², N·m |
+/// | E      | inertia added to the hinges                           | n     | kg·m²      |
+/// | v_l    | moments of loop l at its two hinges for a torque of 1 | n     | 1          |
+/// | c_l    | weight of loop l                                      |       | kg·m²      |
+///
+/// A stuck hinge does not move. With A = M + E, V of the columns v_l and C = diag(c_l) [Sherman, Morrison & Woodbury]
 ///
 ///     q̈ = q̈_0 − Z (E2 + C VᵀZ)⁻¹ C Vᵀ q̈_0,    q̈_0 = A⁻¹τ,   Z = A⁻¹V                           (2)
 ///
-/// so that a loop costs a solve more with each factorization. Whoever solves owns the storage.
+/// Each loop costs one more solve per factorization. The caller owns the storage.
 #pragma once
 
 #include "core/mechanics/system.hpp"
@@ -18,13 +24,13 @@
 
 namespace wingspread {
 
-/// Damping and stiffness of a hinge in the linear model: what can make the equations stiff.
+/// Damping and stiffness of a hinge in the linear model, which can make the equations stiff.
 template <class T> struct Resistance {
   T damping;   ///< N·m·s/rad, ≥ 0
   T stiffness; ///< N·m/rad, ≥ 0
 };
 
-/// Those of hinge i at x.
+/// Damping and stiffness of hinge i at x.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] Resistance<T> resistance(const System<T, Topology, M>& system, const State<T>& x,
                                        int i) {
@@ -40,21 +46,21 @@ template <class T, class Topology, BaseMotion M>
     r.stiffness = fused(weight, hinge.stiffness, r.stiffness);
   }
   if (!system.wing().real.empty()) {
-    const RealResistance<T> real = real_resistance(system.wing().real[i], system.work().modes[i],
-                                                   x[at.angle(i)], x[at.rate(i)]);
+    const HingeResistance<T> real = real_resistance(system.wing().real[i], system.work().modes[i],
+                                                    x[at.angle(i)], x[at.rate(i)]);
     r.damping = larger(T(r.damping + real.damping), T(0));
     r.stiffness = larger(T(r.stiffness + real.stiffness), T(0));
   }
   return r;
 }
 
-/// A loop in the linear model: its stiffness and damping, and v of (1).
+/// A loop in the linear model: stiffness, damping, and v of (1).
 template <class T> struct LoopResistance {
   int first, second; ///< bodies
   T on_first, on_second;
   T damping, stiffness;
 
-  /// vᵀ of numbers of the hinges.
+  /// vᵀ times numbers of the hinges. @param of of(i) of hinge i
   template <class Of> [[nodiscard]] T along(Of&& of) const {
     return fused(on_first, T(of(first)), on_second * T(of(second)));
   }
@@ -113,14 +119,14 @@ public:
     right_.resize(count);
   }
 
-  /// Factorizes M at (x, t) as if no hinge stuck: for what is to hold once any of them slips.
+  /// Factorizes M at (x, t) as if no hinge stuck: for bounds that hold after any hinge slips.
   template <class Topology, BaseMotion M>
   void factorize_unlocked(const System<T, Topology, M>& system, const State<T>& x, const T& t) {
     factorize_with(system, x, t, [](int) { return HingeConstraint<T>{}; });
     loops_.clear();
   }
 
-  /// Solves (1) with the last factorization: τ(i) of the hinges, none on a free base.
+  /// Solves (1) by (2) with the last factorization. @param tau tau(i) of hinge i; a free base has none
   /// @param qdd freedoms() numbers: those of a free base first
   template <class Topology, BaseMotion M, class Moment>
   void solve(const System<T, Topology, M>& system, Moment&& tau, T* qdd) {
@@ -134,7 +140,7 @@ public:
         qdd[k] = fused(T(-right_(static_cast<int>(l))), columns_[l][k], qdd[k]);
   }
 
-  /// Where the bodies were at the last factorization, 0 … n.
+  /// Frames of the bodies at the last factorization, 0 … n.
   [[nodiscard]] const std::vector<BodyFrame<T>>& frames() const { return parts_.frames; }
 
 private:

@@ -1,7 +1,7 @@
 /// The O(n) recursion: hinge moments in, accelerations and hinge forces out. Stateless.
 ///
 /// It is Vereshchagin's [Yudintsev, eqs. 3-5] with each hinge's own freedom eliminated beforehand.
-/// There a body hands its parent the 3×3 matrix  M* − M* S U⁻¹ Sᵀ M*  and a vector, which C_iᵀ
+/// There a body adds the 3×3 matrix  M* − M* S U⁻¹ Sᵀ M*  and a vector to its parent, which C_iᵀ
 /// moves to the parent's centre of mass. Referred to the hinge's own point instead, S = (0; 1), so
 /// that row and column of the angle vanish: once its axis moment is known, only a force crosses a
 /// revolute hinge. What is left is
@@ -45,7 +45,7 @@
 
 namespace wingspread {
 
-/// What the passes know of one body; axes fixed in inertial space.
+/// One body in the passes; axes fixed in inertial space.
 template <class T> struct BodyFrame {
   T angle, rate;          ///< θ, ω
   SineCosine<T> rotation; ///< of θ
@@ -66,7 +66,7 @@ template <class T> [[nodiscard]] Vec2<T> hinge_force(const BodyFrame<T>& frame) 
   return fused(frame.stiffness, frame.acceleration, frame.bias);
 }
 
-/// Whether body i hangs on a base that does not move, so that its hinge's point stands still.
+/// Whether body i hangs on a fixed base, so that its hinge's point is at rest.
 template <BaseMotion M, class Topology>
 [[nodiscard, gnu::always_inline]] inline bool on_fixed_base(const Topology& tree, int i) {
   return M == BaseMotion::fixed && tree.parent_of(i) == 0;
@@ -97,7 +97,7 @@ template <BaseMotion M, class T, class Topology, class Frames>
                 : rotated(frames[tree.parent_of(i)].rotation, wing.bodies[i].arm);
 }
 
-/// The inward pass at body i: eqs. (3), (4), (6). Its children's have been made.
+/// The inward pass at body i: (3), (4), (6). @pre the pass has been made at its children
 template <class T, class Topology, class Frames>
 [[gnu::always_inline]] inline void gather(const Wing<T>& wing, const Topology& tree, Frames& frames,
                                           int i) {
@@ -107,29 +107,30 @@ template <class T, class Topology, class Frames>
   Vec2<T> h = turned(own.mass_moment);
   T I = wing.bodies[i].inertia;
   Vec2<T> c = scaled(own.minus_rate_squared, own.mass_moment);
-  T load = own.moment; // τ_i − Σ τ_j − d
+  T load = own.moment; // τ_i − Σ τ_j − d of (2)
   tree.for_each_child(
       i, [&](int j) __attribute__((always_inline)) {
         const BodyFrame<T>& child = frames[j];
         const Sym2<T>& K = child.stiffness;
         const Vec2<T> q = turned(child.arm);
         const Vec2<T> b = fused(own.minus_rate_squared, K * child.arm, child.bias);
-        A = A + K;
+        A = A + K; // (3)
         h = h + K * q;
         I = fused(K.xx, q.x * q.x, I) +
-            fused(K.yy, q.y * q.y, K.xy * (T(2) * q.x * q.y)); // the shortest way from K to I
-        c = c + b;
+            fused(K.yy, q.y * q.y,
+                  K.xy * (T(2) * q.x * q.y)); // qᵀ K q, the shortest way from K to I
+        c = c + b;                            // (4)
         load = (load - child.moment) - dot(q, b);
       });
   const T minus_inverse = tree.is_leaf(i) ? wing.bodies[i].minus_inverse : T(-1) / I;
-  own.coupling = scaled(minus_inverse, h);
+  own.coupling = scaled(minus_inverse, h); // −e, then u of (5) and K, b of (6)
   own.free_acceleration = -(load * minus_inverse);
   own.stiffness = {fused(h.x * h.x, minus_inverse, A.xx), fused(h.x * h.y, minus_inverse, A.xy),
                    fused(h.y * h.y, minus_inverse, A.yy)};
   own.bias = fused(own.free_acceleration, h, c);
 }
 
-/// The outward pass at body i: eq. (5). @return φ̈_i, rad/s²
+/// The outward pass at body i: (5). @return φ̈_i, rad/s²
 template <BaseMotion M, class Topology, class Frames>
 [[nodiscard, gnu::always_inline]] inline auto accelerate(const Topology& tree, Frames& frames,
                                                          int i) {
@@ -147,7 +148,7 @@ template <BaseMotion M, class Topology, class Frames>
   return T(own.angular_acceleration - parent.angular_acceleration);
 }
 
-/// Acceleration of a free base's centre of mass, eq. (7), after its inward pass. Sets a_0 and α_0.
+/// Sets a_0 and α_0 of a free base by (7). @pre its inward pass has been made
 template <class T> inline void accelerate_free_base(BodyFrame<T>& base) {
   const Sym2<T>& K = base.stiffness;
   const T inverse = T(1) / fused(K.xx, K.yy, -(K.xy * K.xy));

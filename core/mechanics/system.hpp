@@ -1,4 +1,6 @@
-/// The right-hand side of a wing's equations of motion.
+/// The right-hand side of a wing's equations of motion: dx/dt for x = (q, q̇, S) of layout.hpp.
+/// Places the bodies (kinematics.hpp), sums the hinges' moments (core/laws), and runs the recursion: recursion.hpp,
+/// (3)-(7); with stuck hinges augmented.hpp, (8)-(12).
 #pragma once
 
 #include "core/mechanics/air_loads.hpp"
@@ -12,8 +14,7 @@
 
 namespace wingspread {
 
-/// dx/dt of one wing. M is the base's motion, the wing's own; Topology the type by which
-/// the compiler sees its tree: Tree, or for a short chain Chain<N>.
+/// dx/dt of one wing. M is the wing's base motion; Topology is Tree, or Chain<N> for a short chain.
 template <class T, class Topology, BaseMotion M> class System {
 public:
   static constexpr BaseMotion base_motion = M;
@@ -35,7 +36,7 @@ public:
     reset();
   }
 
-  /// Forgets what has happened: no hinge is latched or stuck; the wing's numbers may have changed.
+  /// Resets to a run's start: no hinge is latched or stuck. Reads the wing's numbers anew.
   void reset() {
     work_.engaged.assign(layout_.bodies + 1, false);
     work_.contact.assign(layout_.bodies + 1, Contact::none);
@@ -46,17 +47,17 @@ public:
       if (has_table()) work_.driven = first_piece(wing_.base);
   }
 
-  /// The next knot of the base's table, where a step has to end, s; `never` where there is none.
+  /// Time of the next knot of the base's table, where a step must end, s; `never` without one.
   [[nodiscard]] T next_knot() const { return has_table() ? work_.driven.until : T(never); }
-  /// The run stands at t. @return whether the motion of the base goes on by another piece
+  /// Enters the piece of the base's table at t. @return whether the piece has changed
   bool enter_piece(const T& t) {
     return has_table() && wingspread::enter_piece(wing_.base, t, work_.driven);
   }
-  /// Of a base of prescribed motion.
+  /// Motion of a prescribed base at t.
   [[nodiscard]] Drive<T> drive(const T& t) const { return drive_at(wing_.base, work_.driven, t); }
   [[nodiscard]] bool drive_is_steady() const { return is_steady(wing_.base, work_.driven); }
 
-  /// A run begins at x: which side of its edges every real hinge is on.
+  /// Sets the side of every edge of real hinges at x, where a run begins.
   void find_sides(const State<T>& x) {
     for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i) {
       for (int e = 0; e < edges_of_hinge; ++e)
@@ -77,7 +78,7 @@ public:
   }
   [[nodiscard]] const Workspace<T>& work() const { return work_; }
   [[nodiscard]] const T& epsilon() const { return epsilon_; }
-  /// For evaluations made elsewhere: their number, and the last one's forces.
+  /// The workspace, for callers that evaluate by themselves and record the number and the last forces.
   [[nodiscard]] Workspace<T>& made_elsewhere() { return work_; }
 
   /// The state at t = 0.
@@ -95,34 +96,34 @@ public:
     }
   }
 
-  /// Records that hinge i has passed its latched angle; an event latch acts from now on.
+  /// Engages the latch of hinge i, which has reached its latched angle.
   void engage(int i) {
     work_.engaged[i] = true;
-    if (wing_.is_real() && !wing_.real.empty()) { // in the middle of its backlash
+    if (wing_.is_real() && !wing_.real.empty()) { // inside its backlash
       work_.above[i][static_cast<int>(Edge::backlash_low)] = true;
       work_.above[i][static_cast<int>(Edge::backlash_high)] = false;
     }
     update_law(i);
   }
 
-  /// Records what the exact friction of hinge i does from now on.
+  /// Sets the state of the exact friction of hinge i.
   void touch(int i, Contact contact) {
     work_.stuck += (contact == Contact::stuck) - (work_.contact[i] == Contact::stuck);
     work_.contact[i] = contact;
     update_law(i);
   }
   [[nodiscard]] bool sticks(int i) const { return work_.contact[i] == Contact::stuck; }
-  /// Whether hinge i has an event latch, and it has engaged.
+  /// Whether hinge i has an event latch that has engaged.
   [[nodiscard]] bool latch_acts(int i) const {
     return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
   }
 
-  /// The hinge's law as its latch now stands, without friction: what has a potential.
+  /// The hinge's linear law in its present state without friction: the part that has a potential.
   [[nodiscard]] LinearLaw<T> law_without_friction(int i) const {
     return linear_law(wing_.hinges[i], latch_acts(i), T(0), backlash_side(i));
   }
 
-  /// What an engaged latch of a real hinge has stored, by its backlash's side, J.
+  /// Energy of an engaged latch of a real hinge, J; 0 inside its backlash.
   [[nodiscard]] T latch_energy(const State<T>& x, int i) const {
     const std::optional<T> side = backlash_side(i);
     if (!latch_acts(i) || !side) return T(0);
@@ -130,23 +131,23 @@ public:
     return T(0.5) * wing_.hinges[i].stiffness * y * y;
   }
 
-  /// Kinematics alone: places every body in the workspace's frames.
+  /// Places every body in the workspace's frames, without forces.
   void place_all(const State<T>& x, const T& t) {
     place_base<M>(wing_, layout_, work_.driven, work_.frames[0], x, t);
     place_bodies<M>(wing_, topology(), work_.frames, x);
   }
 
-  /// Moment of hinge i, N·m; if it sticks, what held it at the last evaluation.
+  /// Moment of hinge i, N·m; of a stuck hinge, the one that held it at the last evaluation.
   [[nodiscard]] T moment(const State<T>& x, int i) const {
     return sticks(i) ? work_.holding[i] : sliding_moment(x, i);
   }
 
-  /// The friction that hinge i, which sticks, needed at the last evaluation, at x, N·m.
+  /// Friction that held stuck hinge i at the last evaluation, which was at x, N·m.
   [[nodiscard]] T holding_friction(const State<T>& x, int i) const {
     return work_.holding[i] - sliding_moment(x, i);
   }
 
-  /// What the moment of hinge i is without the friction that holds it, N·m.
+  /// Moment of hinge i without the friction that holds it, N·m.
   [[nodiscard]] T sliding_moment(const State<T>& x, int i) const {
     const T linear = linear_moment(work_.laws[i], x[layout_.angle(i)], x[layout_.rate(i)]);
     return wing_.is_nonlinear() || layout_.smoothed
@@ -154,14 +155,14 @@ public:
                : linear;
   }
 
-  /// The most that exact friction can hold at hinge i at this angle, N·m.
+  /// Largest moment that exact friction holds at hinge i at x, N·m.
   [[nodiscard]] T static_limit(const State<T>& x, int i) const {
-    const bool tested = !wing_.real.empty() && !wing_.real[i].regularized;
+    const bool tested = !wing_.real.empty() && !wing_.real[i].friction.regularized;
     return wing_.hinges[i].static_friction +
-           (tested ? measured_friction(wing_.real[i], x[layout_.angle(i)]) : T(0));
+           (tested ? measured_friction(wing_.real[i].friction, x[layout_.angle(i)]) : T(0));
   }
 
-  /// Velocity of the base's origin; a prescribed base is taken to start at rest.
+  /// Velocity of the base's origin, m/s; a prescribed base starts at rest.
   [[nodiscard]] Vec2<T> base_velocity(const State<T>& x, const T& t) const {
     if constexpr (M == BaseMotion::free) return {x[layout_.freedoms()], x[layout_.freedoms() + 1]};
     if constexpr (M == BaseMotion::prescribed)
@@ -169,19 +170,19 @@ public:
     return {T(0), T(0)};
   }
 
-  /// Where a loop stands at x.
+  /// State of a loop at x.
   [[nodiscard]] LoopState<T> state_of(const LoopTerms<T>& loop, const State<T>& x) const {
     return loop_state(loop, x[layout_.angle(loop.first)], x[layout_.rate(loop.first)],
                       x[layout_.angle(loop.second)], x[layout_.rate(loop.second)]);
   }
 
-  /// dx/dt; with `want_forces`, afterwards the workspace's forces are those at x.
+  /// Sets dxdt. With want_forces(true), the workspace has the hinge forces at x afterwards.
   void operator()(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<true>(x, dxdt, t); }
 
-  /// The same inside a step, where nobody asks for the forces, nor for what holds hinges that stick.
+  /// Sets dxdt without forces and without the moments that hold stuck hinges: for stages inside a step.
   void stage(const State<T>& x, State<T>& dxdt, const T& t) { evaluate<false>(x, dxdt, t); }
 
-  /// Whether evaluations leave the hinge forces in the workspace.
+  /// Sets whether evaluations leave the hinge forces in the workspace.
   void want_forces(bool want) { wants_forces_ = want; }
 
 private:
@@ -200,7 +201,7 @@ private:
     }
   }
 
-  /// Apart: whoever asks for the frames' address takes them out of the registers.
+  /// Not inlined: taking the frames' address would move them out of registers in the other evaluations.
   [[gnu::noinline]] void evaluate_in_air(const State<T>& x, State<T>& dxdt, const T& t) {
     evaluate<true, true>(work_.frames, x, dxdt, t);
   }
@@ -224,7 +225,7 @@ private:
     return side_of_backlash(wing_.real[i], work_.above[i]);
   }
 
-  /// The right-hand side with hinges locked by friction. @param held leaves what holds them
+  /// dx/dt with hinges locked by friction. @param held whether to leave the moments that hold them
   template <bool held>
   [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
     Augmented<T>& parts = work_.held;
@@ -276,7 +277,7 @@ private:
     }
   }
 
-  /// What is not linear, apart from the frames so that these stay in registers.
+  /// Nonlinear moments. A function of its own (noinline), so that the frames stay in registers.
   [[gnu::noinline]] void find_nonlinear_moments(const State<T>& x) {
     for (int i = 1; i <= layout_.bodies; ++i) work_.nonlinear[i] = smooth_moment(x, i);
     if (wing_.is_real()) add_real_moments(x);
@@ -294,14 +295,13 @@ private:
     }
   }
 
-  /// What the loops do at hinge i, N·m.
+  /// Moment of all loops at hinge i, N·m.
   [[nodiscard]] T loops_moment(const State<T>& x, int i) const {
     T sum(0);
     for (const LoopTerms<T>& loop : wing_.loops) {
-      if (loop.first != i && loop.second != i) continue;
+      if (!joins(loop, i)) continue;
       const LoopState<T> state = state_of(loop, x);
-      sum = fused(loop.first == i ? on_first(loop, state.gear) : on_second(loop),
-                  loop_torque(loop, state), sum);
+      sum = fused(on_hinge(loop, i, state.gear), loop_torque(loop, state), sum);
     }
     return sum;
   }
@@ -314,7 +314,7 @@ private:
     return real_moment(wing_.real[i], work_.modes[i], x[layout_.angle(i)], x[layout_.rate(i)]);
   }
 
-  /// Of regularized friction and a smoothed latch.
+  /// Moment of regularized friction and a smoothed latch, N·m.
   [[nodiscard]] T smooth_moment(const State<T>& x, int i) const {
     const T& rate = x[layout_.rate(i)];
     T m =
@@ -325,7 +325,6 @@ private:
     return m;
   }
 
-  /// q̇ is part of the state.
   [[gnu::always_inline]] void copy_rates(const State<T>& x, State<T>& dxdt) const {
     const T* const rates = x.data() + freedoms();
     T* const velocities = dxdt.data();
@@ -357,7 +356,7 @@ private:
     if (air && forces && wants_forces_) take_air_from_forces();
   }
 
-  /// The hinges need not push what the air does.
+  /// Subtracts the air's forces from the forces of the motion (air_loads.hpp).
   void take_air_from_forces() {
     for (int i = 1; i < static_cast<int>(wing_.plates.size()); ++i)
       work_.forces[i] = work_.forces[i] - work_.air_forces[i];
@@ -374,7 +373,7 @@ private:
     }
   }
 
-  /// The accelerations of a free base, from its frame in either recursion.
+  /// Copies the accelerations of a free base from its frame in either recursion.
   template <class Frame>
   [[gnu::always_inline]] void copy_base(const Frame& base, State<T>& dxdt) const {
     const int v = layout_.freedoms();

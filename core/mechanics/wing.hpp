@@ -1,8 +1,17 @@
-/// A scene made ready for the recursion: outward order, and what every evaluation would otherwise
-/// compute again. Const while it is integrated.
+/// A scene prepared for the recursion: bodies in outward order, with the constants of every evaluation. Const while
+/// a run is integrated.
+///
+/// | symbol | meaning                                             | shape | unit  | source         |
+/// |--------|-----------------------------------------------------|-------|-------|----------------|
+/// | m_i, J_i | mass; inertia about the centre of mass            |       | kg, kg·m² | Yudintsev, eq. 1 |
+/// | c_ii   | from body i's centre of mass to hinge i, own frame  | 2     | m     | Yudintsev, eq. 2 |
+/// | c_pi   | from the parent's centre of mass to hinge i         | 2     | m     | Yudintsev, eq. 2 |
+/// | g      | −c_ii: from hinge i to the centre of mass           | 2     | m     |                |
 #pragma once
 
 #include "core/laws/air.hpp"
+#include "core/laws/driven_base.hpp"
+#include "core/laws/hinge_terms.hpp"
 #include "core/laws/loop.hpp"
 #include "core/laws/real_hinge.hpp"
 #include "core/mechanics/tree.hpp"
@@ -14,59 +23,17 @@
 
 namespace wingspread {
 
-/// A body about its own hinge; the free base about its centre of mass.
+/// Constants of a body about its own hinge; of a free base about its centre of mass.
 template <class T> struct BodyTerms {
   T mass;    ///< m_i, kg
   T inertia; ///< J_i + m_i |c_ii|², kg·m²
-  /// −m_i c_ii: m_i times the way from the hinge to the centre of mass, own frame, kg·m
+  /// m_i g, own frame, kg·m
   Vec2<T> mass_moment;
   /// c_pi − c_pp: from the parent's hinge (the base's origin) to hinge i, parent's frame, m
   Vec2<T> arm;
-  Vec2<T> center;    ///< −c_ii, own frame, m
+  Vec2<T> center;    ///< g, own frame, m
   T central_inertia; ///< J_i, kg·m²
   T minus_inverse;   ///< −1/inertia, 1/(kg·m²)
-};
-
-/// A hinge's law (spring, harness, friction, latch), about the latched angle.
-template <class T> struct HingeTerms {
-  T stowed, latched; ///< rad
-  T sense;           ///< sign(latched − stowed)
-  T drive;           ///< s·(spring − harness) at the latched angle, N·m
-  T drive_slope;     ///< its derivative by φ, N·m/rad
-  T viscous;         ///< N·m·s/rad
-  // of the two models of Coulomb's friction a hinge has one, and zeros for the other
-  T regularized_friction; ///< τ_c, N·m
-  T slip_rate;            ///< ω_s of the regularized friction, rad/s
-  T kinetic_friction;     ///< τ_c of the exact friction, N·m
-  T static_friction;      ///< τ_s of the exact friction, the most that it can hold, N·m
-  /// The most that a torque test both ways adds to either of them, N·m; 0 where there is none.
-  T more_regularized, more_exact;
-  bool has_latch;
-  T stiffness; ///< of the latch once engaged, N·m/rad
-  T damping;   ///< N·m·s/rad
-
-  /// Whether the friction is exact: then it holds the hinge at rest, up to a limit.
-  [[nodiscard]] bool can_stick() const { return static_friction + more_exact > T(0); }
-  /// The most that regularized friction adds to the moment, N·m.
-  [[nodiscard]] T most_regularized() const { return regularized_friction + more_regularized; }
-  /// The most that exact friction can hold, N·m.
-  [[nodiscard]] T most_static() const { return static_friction + more_exact; }
-  /// The most that friction, of whichever model, adds to the moment, N·m.
-  [[nodiscard]] T most_friction() const { return most_regularized() + most_static(); }
-};
-
-template <class T> struct BaseTerms {
-  BaseMotion motion;
-  Vec2<T> acceleration;   ///< prescribed, m/s²
-  Vec2<T> gravity;        ///< m/s²
-  T angular_acceleration; ///< prescribed, rad/s²
-  T angle, rate;          ///< at the start, rad, rad/s
-  Vec2<T> position, velocity;
-  const BaseTable* table; ///< prescribed, in place of what it gives; null: none
-  T table_scale;
-
-  /// The acceleration that the wing feels where it is constant, m/s².
-  [[nodiscard]] Vec2<T> felt() const { return acceleration - gravity; }
 };
 
 template <class T> struct Wing {
@@ -76,19 +43,19 @@ template <class T> struct Wing {
   std::vector<BodyTerms<T>> bodies;      ///< 0 … n
   std::vector<HingeTerms<T>> hinges;     ///< 0 … n; [0] unused
   std::vector<T> initial_rates;          ///< 0 … n; rad/s
-  bool has_regularized_friction = false; ///< any hinge; else its pass is skipped
-  bool can_stick = false;                ///< any hinge
-  // what a scene without does not pay for: empty where no hinge, no body has any
+  bool has_regularized_friction = false; ///< of any hinge
+  bool can_stick = false;                ///< of any hinge
+  // empty where no hinge or body has the feature, which then costs nothing
   std::vector<RealHingeTerms<T>> real; ///< 0 … n; [0] unused
   std::vector<LoopTerms<T>> loops;
-  std::vector<PlateTerms<T>> plates; ///< 0 … n; [0] unused: those of a free base are not asked for
+  std::vector<PlateTerms<T>> plates; ///< 0 … n; [0] unused: a free base has no plate
 
   [[nodiscard]] int size() const { return tree.bodies(); }
-  /// Whether hinges have moments beyond their linear laws, friction and latches.
+  /// Whether any hinge has laws of real_hinge.hpp or loops.
   [[nodiscard]] bool is_real() const { return !real.empty() || !loops.empty(); }
   /// Whether any moment is not linear in angles and rates.
   [[nodiscard]] bool is_nonlinear() const { return has_regularized_friction || is_real(); }
-  /// Whether regularized friction alone is not.
+  /// Whether regularized friction is the only nonlinear moment.
   [[nodiscard]] bool rubs_alone() const { return has_regularized_friction && !is_real(); }
 };
 
@@ -96,14 +63,14 @@ namespace detail {
 
 [[nodiscard]] inline bool has_plate(const Body& body) { return body.plate.has_value(); }
 
-/// How a base moves: one that is fixed stands in gravity as one that is driven upwards does.
+/// The base's motion; a fixed base under gravity is treated as one that accelerates against gravity.
 [[nodiscard]] inline BaseMotion motion_of_base(const Scene& scene) {
   const bool weighs = scene.environment.gravity != Eigen::Vector2d::Zero();
   return scene.base.motion == BaseMotion::fixed && weighs ? BaseMotion::prescribed
                                                           : scene.base.motion;
 }
 
-/// None where the base is not driven.
+/// The base's table; null unless the base is prescribed.
 [[nodiscard]] inline const BaseTable* table_of_base(const Scene& scene) {
   return scene.base.motion == BaseMotion::prescribed ? scene.base.table.get() : nullptr;
 }
@@ -112,39 +79,7 @@ template <class T> [[nodiscard]] Vec2<T> vec2(const Eigen::Vector2d& v) {
   return {T(v.x()), T(v.y())};
 }
 
-/// What is linear of a torque where its law without a table gives `law`: the offset alone where it
-/// has one.
-template <class T> [[nodiscard]] T linear_part(const HingeTorque& torque, double law) {
-  return torque.table ? T(torque.offset) : T(torque.scale) * T(law) + T(torque.offset);
-}
-
-/// Written where they stand, as all numbers of a wing are: a copy of what has just been written in
-/// parts waits for these.
-template <class T> void set_hinge(HingeTerms<T>& terms, const Hinge& hinge) {
-  const T travel = T(hinge.latched) - T(hinge.stowed);
-  const T sense = select(travel > T(0), T(1), T(-1));
-  const T at_stowed = linear_part<T>(hinge.spring, hinge.spring.torque_stowed) -
-                      linear_part<T>(hinge.harness, hinge.harness.torque_stowed);
-  const T at_latched = linear_part<T>(hinge.spring, hinge.spring.torque_latched) -
-                       linear_part<T>(hinge.harness, hinge.harness.torque_latched);
-  terms.stowed = T(hinge.stowed);
-  terms.latched = T(hinge.latched);
-  terms.sense = sense;
-  terms.drive = sense * at_latched;
-  terms.drive_slope = sense * (at_latched - at_stowed) / travel;
-  const bool exact = hinge.friction.model == FrictionModel::exact;
-  const T scale(hinge.friction.scale), level = scale * T(hinge.friction.coulomb);
-  terms.regularized_friction = exact ? T(0) : level;
-  terms.kinetic_friction = exact ? level : T(0);
-  terms.static_friction =
-      exact ? scale * T(hinge.friction.static_level.value_or(hinge.friction.coulomb)) : T(0);
-  terms.viscous = scale * T(hinge.friction.viscous);
-  terms.slip_rate = T(hinge.friction.regularization_rate);
-  terms.more_regularized = terms.more_exact = T(0);
-  terms.has_latch = hinge.latch.has_value();
-  terms.stiffness = T(hinge.latch ? hinge.latch->stiffness : 0);
-  terms.damping = T(hinge.latch ? hinge.latch->damping : 0);
-}
+// Numbers are assigned in place: copying a freshly written struct stalls store forwarding.
 
 template <class T>
 void set_body(BodyTerms<T>& terms, double mass, double inertia, const Vec2<T>& center,
@@ -174,7 +109,7 @@ template <class T> void set_base(BaseTerms<T>& terms, const Scene& scene) {
 
 } // namespace detail
 
-/// The wing of a scene's topology; its numbers are not set yet. Cost O(n).
+/// A wing of the scene's topology, without numbers (set_parameters sets them). Cost O(n).
 /// @param order outward_order(scene), not empty
 template <class T>
 [[nodiscard]] Wing<T> make_wing(const Scene& scene, const std::vector<int>& order) {
@@ -211,10 +146,10 @@ namespace detail {
 template <class T>
 void set_real(HingeTerms<T>& terms, RealHingeTerms<T>& real, const Hinge& hinge) {
   real = real_hinge_terms<T>(hinge, terms.sense);
-  (real.regularized ? terms.more_regularized : terms.more_exact) = real.most_friction;
+  (real.friction.regularized ? terms.more_regularized : terms.more_exact) = real.friction.most;
 }
 
-/// @pre those of its hinges are set
+/// @pre the terms of the loop's hinges are set
 template <class T>
 void set_loop(const Wing<T>& wing, const Synchronisation& loop, LoopTerms<T>& terms) {
   const HingeTerms<T>&a = wing.hinges[terms.first], &b = wing.hinges[terms.second];
@@ -228,8 +163,8 @@ void set_loop(const Wing<T>& wing, const Synchronisation& loop, LoopTerms<T>& te
 
 } // namespace detail
 
-/// Whether a wing made of another scene of this tree has room for all that this scene has: draws
-/// may give it a backlash, or gravity, that the other had not.
+/// Whether a wing made for another scene with this tree can take this scene's features: draws may add a backlash or
+/// gravity.
 template <class T> [[nodiscard]] bool has_room(const Wing<T>& wing, const Scene& scene) {
   const auto is_of = [&](const LoopTerms<T>& terms, const Synchronisation& loop) {
     return wing.hinge_of[terms.first] == loop.first && wing.hinge_of[terms.second] == loop.second;
@@ -254,7 +189,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
     const Hinge& hinge = scene.hinges[wing.hinge_of[i]];
     const Body& body = scene.bodies[hinge.child];
     const int p = wing.tree.parent_of(i);
-    // the parent's centre of mass lies at `center` from its hinge; the base's own at its origin
+    // from the parent's hinge to its centre of mass, and on to hinge i; the base's centre is its origin
     const Vec2<T> arm = vec2<T>(hinge.parent_point) + wing.bodies[p].center;
     const Vec2<T> center = scaled(T(-1), vec2<T>(hinge.child_point));
     detail::set_body(wing.bodies[i], body.mass, body.inertia, center, arm);

@@ -141,7 +141,7 @@ private:
     }
     for (HingeTerms<double>& hinge : harmless.hinges) hinge = {}, hinge.sense = hinge.slip_rate = 1;
     for (RealHingeTerms<double>& real : harmless.real) {
-      real = {}, real.sense = real.slip_rate = 1;
+      real = {}, real.stop.sense = real.friction.slip_rate = 1;
       real.damper.rate = 1;
     }
     for (PlateTerms<double>& plate : harmless.plates) plate = {};

@@ -1,7 +1,7 @@
-/// How far a free base turns, and how fast, from where it was at the start.
+/// Largest changes of a free base's angle and rate since the start of the run.
 ///
 /// Its angle is coordinate 2 of the state (layout.hpp). Inside a step both are polynomials in Bernstein form, whose
-/// coefficients bound them: halves in which they cannot exceed what is known are dropped.
+/// coefficients bound them: halves of the step that cannot exceed the known maximum are dropped.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -41,8 +41,8 @@ template <class T> struct BaseExcursion {
     raise_magnitude(rate, turning);
   }
 
-  /// The same where the step's ends tell it: for runs in packs.
-  /// @return where they do not, and over_step has to be asked
+  /// Raises the maxima to the step's ends, for runs in packs.
+  /// @return the lanes in which the maximum may lie inside the step, so that over_step must search
   [[nodiscard]] auto raise_by_ends(const Layout& at, const Step<T>& step) {
     const auto [turn, turning] = changes(at, step);
     const auto doubtful = raise_by_ends(angle, turn);

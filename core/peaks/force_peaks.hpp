@@ -1,4 +1,4 @@
-/// The largest force that a hinge sees, inside steps and not only at their ends.
+/// The largest reaction force of every hinge, inside steps as well as at their ends.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -14,14 +14,14 @@
 namespace wingspread {
 
 /// Raises every hinge's `peaks` to its largest |reaction| over the step, given those at both ends.
-/// A step that may rise above a peak by `ReactionBound` is halved, and once more, by evaluating the
-/// recursion on the dense output; where a quarter may still, its maximum is sought.
+/// Where `ReactionBound` allows a force above its peak, the recursion is evaluated at the step's middle, then at
+/// its quarters. Where a quarter still allows it, the maximum is searched.
 template <class T, class AnySystem> class ForcePeaks {
 public:
   std::vector<PeakOf<T>> peaks; ///< 1 … n
 
   /// A run of the system begins.
-  /// @param worth_a_step what a further step of the method to a maximum must gain, relative
+  /// @param worth_a_step relative gain above which a further step of the method to a maximum is made
   void start(const AnySystem& system, double worth_a_step = 1) {
     const int bodies = system.layout().bodies;
     worth_a_step_ = T(worth_a_step);
@@ -36,7 +36,7 @@ public:
   /// |reaction| at the start of the next step, 1 … n, N.
   [[nodiscard]] std::vector<T>& before() { return before_; }
 
-  /// The last evaluation of `system` was at t: takes the forces as they stand.
+  /// Raises the peaks to the forces of the last evaluation of `system`, which was at t.
   void sample(const AnySystem& system, const T& t) {
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       before_[i] = magnitude(system, static_cast<int>(i));
@@ -44,7 +44,8 @@ public:
     }
   }
 
-  /// The last evaluation was at the step's end. What lies inside the step is left in doubt.
+  /// Raises the peaks over a step. @pre the last evaluation was at the step's end
+  /// Maxima inside the step that only the dense output has become doubts, to be confirmed.
   void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
     samples_.begin(system, levers_, step);
     samples_.take(system, samples_.last);
@@ -53,7 +54,7 @@ public:
       f[0] = before_[i];
       before_[i] = f[4];
     }
-    const bool in_air = !system.wing().plates.empty(); // the bound knows nothing of the air
+    const bool in_air = !system.wing().plates.empty(); // the bound has no term for the air
     if (!in_air && !samples_.may_rise(peaks)) return;
     sample(system, step, samples_.middle, x, dxdt);
     if (!in_air && !samples_.may_rise_in_a_half(peaks)) return;
@@ -62,15 +63,14 @@ public:
       raise(system, step, static_cast<int>(i), x, dxdt);
   }
 
-  /// Where a step of the method must make sure of a maximum found by the dense output, as a
-  /// fraction of the step; none if nothing is in doubt.
+  /// The fraction of the step at which a step of the method must confirm a maximum; none without a doubt.
   [[nodiscard]] std::optional<T> doubtful() const {
     if (doubts_.empty()) return std::nullopt;
     return doubts_.back().s;
   }
 
-  /// That step has been made to (x, dxdt), and its last evaluation was there: raises the peak, and
-  /// corrects the instant by Newton's method where that is worth another step. dxdt is overwritten.
+  /// Raises the peak to the force at the end of that step, and corrects the instant by Newton's method where the
+  /// gain is worth another step. @pre the last evaluation was at (x, dxdt), the step's end. Overwrites dxdt.
   void confirm(AnySystem& system, const Step<T>& step, const State<T>& x, State<T>& dxdt) {
     Doubt doubt = doubts_.back();
     doubts_.pop_back();
@@ -125,9 +125,9 @@ private:
     }
   }
 
-  /// Whether the dense output is so far from the force that its maximum may stand elsewhere. Their
-  /// difference goes with s (1 − s) (1 − 5s + 5s²), a derivative of the quintic's own error: in a
-  /// step its slope is 10 times as large, and 100 times but for the neighbourhood of its zeros.
+  /// Whether the dense output may have its maximum elsewhere than the force. Their difference goes as
+  /// s (1 − s) (1 − 5s + 5s²), a derivative of the quintic's error: its slope by s is about 10 times the
+  /// difference. Heuristic: taken 100 times, because the difference is small near the zeros of that polynomial.
   [[nodiscard]] bool may_be_off(const Doubt& doubt, const T& force) const {
     const T slope = T(100) * (force - doubt.force);
     return doubt.corrections < 2 && doubt.bend < T(0) &&
@@ -137,7 +137,8 @@ private:
   /// d|reaction|/dt at a state and its derivative, by a difference along the tangent, N/s.
   [[nodiscard]] T change(AnySystem& system, const Step<T>& step, const Doubt& doubt,
                          const State<T>& x, State<T>& dxdt) {
-    const T way = step.h / T(1024); // errors of its square, times that of a swing's rate
+    const T way =
+        step.h / T(1024); // the error goes with the square of way times a swing's angular frequency
     const T t = step.t + doubt.s * step.h;
     slope_ = dxdt;
     const auto beside = [&](const T& dt) {

@@ -1,7 +1,7 @@
-/// Samples of hinge forces at quarters of a step, and what they leave possible between them.
+/// Samples of hinge forces at quarters of a step, and bounds of the forces between samples.
 ///
-/// For one number or for a pack of them: the lanes of packs ask by these expressions what a run alone
-/// asks, and answers are masks there.
+/// T is a number or a pack of numbers: lanes and single runs decide by the same expressions. Decisions are bools
+/// for a number and masks for a pack.
 #pragma once
 
 #include "core/peaks/peak.hpp"
@@ -21,7 +21,7 @@ public:
     bound_.resize(bodies);
   }
 
-  /// A step is looked at. @param levers of its wing, 0 … n
+  /// Bounds the forces of a step. @param levers of its wing, 0 … n
   template <class AnySystem>
   void begin(const AnySystem& system, const std::vector<Lever<T>>& levers, const Step<T>& step) {
     bound_.over_step(system, levers, step);
@@ -31,7 +31,7 @@ public:
   [[nodiscard]] std::array<T, 5>& of(int i) { return samples_[i]; }
   [[nodiscard]] const std::array<T, 5>& of(int i) const { return samples_[i]; }
 
-  /// The system's last evaluation was at k quarters of the step.
+  /// Stores the forces of the system's last evaluation, which was at k quarters of the step.
   template <class AnySystem> void take(const AnySystem& system, int k) {
     for (int i = 1; i < static_cast<int>(samples_.size()); ++i)
       samples_[i][k] = magnitude(system.work().forces[i]);
@@ -41,14 +41,14 @@ public:
     return sqrt(dot(force, force));
   }
 
-  /// Whether any may exceed its peak between the step's ends.
+  /// Whether any force may exceed its peak between the step's ends.
   [[nodiscard]] auto may_rise(const std::vector<PeakOf<T>>& peaks) const {
     auto may = T(0) < T(0);
     for (int i = 1; i < static_cast<int>(samples_.size()); ++i)
       may = may || may_rise(i, samples_[i][0], samples_[i][last], T(1), peaks[i]);
     return may;
   }
-  /// The same, given what it is in the middle.
+  /// Whether any force may exceed its peak in either half, given the sample in the middle.
   [[nodiscard]] auto may_rise_in_a_half(const std::vector<PeakOf<T>>& peaks) const {
     auto may = T(0) < T(0);
     for (int i = 1; i < static_cast<int>(samples_.size()); ++i)
@@ -57,12 +57,12 @@ public:
     return may;
   }
 
-  /// Given all samples: raises a peak to those at the ends.
+  /// Raises a peak to the samples at the ends.
   void raise_to_ends(int i, const Step<T>& step, PeakOf<T>& peak) const {
     peak.raise(samples_[i][0], step.t);
     peak.raise(samples_[i][last], step.t + step.h);
   }
-  /// Whether a maximum above the peak is to be sought beside sample k.
+  /// Whether a maximum above the peak may lie beside sample k.
   [[nodiscard]] auto wants_search(int i, int k, const PeakOf<T>& peak) const {
     const std::array<T, 5>& f = samples_[i];
     auto crest = T(0) <= T(0);

@@ -1,9 +1,16 @@
-/// The largest moment that a hinge sees, inside steps and not only at their ends.
+/// The largest moment of a hinge over a step, inside the step as well as at its ends.
+///
+/// 1. The laws' ranges bound the moment: a step that cannot exceed the known peak is dismissed (most).
+/// 2. The laws' changes prove that the moment only rises or only falls: the peak lies at an end (keeps_direction).
+/// 3. Otherwise nine samples and parabolas find the maximum inside the step (raise_by_interpolant), and a step of
+///    the method that ends there confirms it (confirm_moment).
+///
+/// Every range and change comes from core/laws: no law is derived here.
 #pragma once
 
 #include "core/dense/step.hpp"
 #include "core/events/held_load.hpp"
-#include "core/mechanics/hinge_moment.hpp"
+#include "core/mechanics/system.hpp"
 #include "core/peaks/maximum.hpp"
 #include "core/peaks/peak.hpp"
 
@@ -12,7 +19,7 @@
 
 namespace wingspread {
 
-/// The moment of one hinge over a step, by the dense output.
+/// Moment of one hinge over a step, by the dense output, N·m.
 template <class T, class AnySystem> class MomentOverStep {
 public:
   MomentOverStep(const AnySystem& system, const Step<T>& step, int i)
@@ -23,57 +30,47 @@ public:
     const LinearLaw<T>& law = system.work().laws[i];
     angle_ = step.coordinate(at.angle(i), at.freedoms());
     rate_ = derivative(angle_, step.h);
-    for (int k = 0; k < 6; ++k) linear_[k] = linear_moment(law, angle_[k], rate_[k]);
-    for (int k = 0; smoothed_ && k < 6; ++k)
-      latch_[k] = fused(hinge_.stiffness, angle_[k] - hinge_.latched, hinge_.damping * rate_[k]);
+    linear_ = linear_moment(law, angle_, rate_);
+    if (smoothed_) latch_ = full_latch_load(hinge_, angle_, rate_);
   }
 
-  /// No |moment| in the step is larger, by the hulls of the polynomials; friction opposes the rate,
-  /// so that it adds to one side only where the rate keeps its sign.
+  /// Upper bound of |moment| in the step, by the laws' ranges.
   [[nodiscard]] T most() const {
-    T low = linear_[0], high = linear_[0], slowest = rate_[0], fastest = rate_[0];
-    for (int k = 1; k < 6; ++k) {
-      low = smaller(low, linear_[k]), high = larger(high, linear_[k]);
-      slowest = smaller(slowest, rate_[k]), fastest = larger(fastest, rate_[k]);
-    }
-    low = low - select(fastest > T(0), hinge_.regularized_friction, T(0));
-    high = high + select(slowest < T(0), hinge_.regularized_friction, T(0));
-    if (system_.wing().is_real()) {
-      const ValueRange<T> real = range_of_real();
-      low = low + real.low, high = high + real.high;
-    }
-    const T linear = larger(high, T(-low));
+    ValueRange<T> range = hull(linear_) + regularized_friction_range(hinge_, hull(rate_));
+    if (system_.wing().is_real()) range = range + range_of_real();
+    const T linear = larger(range.high, T(-range.low));
     return smoothed_ ? linear + bound(latch_) : linear;
   }
 
-  /// Of the real hinge and the loops, by the hulls of angle and rate.
+  /// A range of the real hinge's laws and the loops, N·m.
   [[nodiscard]] ValueRange<T> range_of_real() const {
     const Wing<T>& wing = system_.wing();
     ValueRange<T> range{T(0), T(0)};
     if (!wing.real.empty())
       range = real_range(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_));
     for (const LoopTerms<T>& loop : wing.loops)
-      if (loop.first == i_ || loop.second == i_) range = range + range_of(loop);
+      if (joins(loop, i_))
+        range = range +
+                loop_moment_range(loop, i_, angle_of(loop.first), angle_of(loop.second), step_.h);
     return range;
   }
 
-  /// Whether it only rises or only falls over the step, by the hulls of what it is made of: then it
-  /// is largest at an end. Not asked where the latch is smoothed. For a pack: in which lanes.
+  /// Whether the moment provably only rises or only falls over the step, by the laws' changes: then it is
+  /// largest at an end. Never with a smoothed latch. For a pack: in which lanes.
   [[nodiscard]] auto keeps_direction() const {
     KnownRange<T> change;
     change.range = hull(derivative(linear_, step_.h));
     const Wing<T>& wing = system_.wing();
-    if (wing.has_regularized_friction) change.add(change_of_friction());
-    if (!wing.real.empty()) {
-      const KnownRange<T> own = real_change(wing.real[i_], system_.work().modes[i_], hull(angle_),
-                                            hull(rate_), hull(derivative(rate_, step_.h)));
-      change.known = own.known, change.add(own.range);
-    }
+    const auto acceleration = [&] { return hull(derivative(rate_, step_.h)); };
+    if (wing.has_regularized_friction)
+      change.add(regularized_friction_change(hinge_, hull(rate_), acceleration()));
+    if (!wing.real.empty())
+      change.add(real_change(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_),
+                             acceleration()));
     for (const LoopTerms<T>& loop : wing.loops)
-      if (any(change.known) && (loop.first == i_ || loop.second == i_)) {
-        const KnownRange<T> own = change_of(loop);
-        change.known = change.known && own.known, change.add(own.range);
-      }
+      if (any(change.known) && joins(loop, i_))
+        change.add(
+            loop_moment_change(loop, i_, angle_of(loop.first), angle_of(loop.second), step_.h));
     if (smoothed_) change.known = T(0) < T(0);
     return change.known && (change.range.low > T(0) || change.range.high < T(0));
   }
@@ -95,7 +92,7 @@ public:
       m = m + real_moment(system_.wing().real[i_], system_.work().modes[i_], value(angle_, s),
                           value(rate_, s));
     for (const LoopTerms<T>& loop : system_.wing().loops)
-      if (loop.first == i_ || loop.second == i_) m = m + of_loop(loop, s);
+      if (joins(loop, i_)) m = m + moment_of(loop, s);
     return m;
   }
 
@@ -104,87 +101,12 @@ private:
     return step_.coordinate(system_.layout().angle(i), system_.layout().freedoms());
   }
 
-  [[nodiscard]] T of_loop(const LoopTerms<T>& loop, const T& s) const {
+  /// Moment of a loop at s, N·m.
+  [[nodiscard]] T moment_of(const LoopTerms<T>& loop, const T& s) const {
     const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
     const LoopState<T> state = loop_state(loop, value(a, s), value(derivative(a, step_.h), s),
                                           value(b, s), value(derivative(b, step_.h), s));
-    return (loop.first == i_ ? on_first(loop, state.gear) : on_second(loop)) *
-           loop_torque(loop, state);
-  }
-
-  /// d/dt of regularized friction, which is a damping that falls with the rate.
-  [[nodiscard]] ValueRange<T> change_of_friction() const {
-    using std::abs;
-    const ValueRange<T> rate = hull(rate_);
-    const T size = smaller(T(abs(rate.low)), T(abs(rate.high)));
-    const T least = select(rate.low < T(0) && rate.high > T(0), T(0), size);
-    const T most = larger(T(abs(rate.low)), T(abs(rate.high)));
-    const ValueRange<T> resistance{-regularized_friction_damping(hinge_, least),
-                                   -regularized_friction_damping(hinge_, most)};
-    return resistance * hull(derivative(rate_, step_.h));
-  }
-
-  /// d/dt of what a loop does; unknown where a strand goes slack, or its gear is a table's.
-  [[nodiscard]] KnownRange<T> change_of(const LoopTerms<T>& loop) const {
-    KnownRange<T> change;
-    change.known = T(0) < T(0);
-    if (loop.table) return change;
-    const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
-    Quintic<T> elastic;
-    for (int k = 0; k < 6; ++k)
-      elastic[k] = loop_state(loop, a[k], T(0), b[k], T(0)).elastic; // K e is a polynomial too
-    const ValueRange<T> carried = hull(elastic);
-    const auto elastic_too = loop.stiffness > T(0);
-    change.known = carried.high <= loop.slack_beyond && carried.low >= -loop.slack_beyond &&
-                   (elastic_too || !(loop.damping > T(0)));
-    const Quintic<T> rise = derivative(elastic, step_.h), bend = derivative(rise, step_.h);
-    const T time = select(elastic_too, T(loop.damping / loop.stiffness), T(0));
-    Quintic<T> rate;
-    for (int k = 0; k < 6; ++k) rate[k] = fused(time, bend[k], rise[k]);
-    const T on = loop.first == i_ ? on_first(loop, T(loop.ratio)) : on_second(loop);
-    change.range = scaled(on, hull(rate));
-    return change;
-  }
-
-  /// What a loop may do over the step: K e and D ė as polynomials, about the table's slope at the
-  /// step's start; what its bend adds is at most half the largest second derivative times the square
-  /// of the way.
-  [[nodiscard]] ValueRange<T> range_of(const LoopTerms<T>& loop) const {
-    using std::abs;
-    const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
-    const Quintic<T> va = derivative(a, step_.h), vb = derivative(b, step_.h);
-    const LoopState<T> start = loop_state(loop, a[0], va[0], b[0], vb[0]);
-    const T on_a = loop.sense_a * start.gear;
-    Quintic<T> elastic, viscous;
-    for (int k = 0; k < 6; ++k) {
-      elastic[k] =
-          fused(loop.stiffness, on_a * (a[k] - a[0]) - loop.sense_b * (b[k] - b[0]), start.elastic);
-      viscous[k] = loop.damping * (on_a * va[k] - loop.sense_b * vb[k]);
-    }
-    ValueRange<T> carried = hull(elastic), damped = hull(viscous);
-    T gear = abs(start.gear);
-    if (loop.table) {
-      const ValueRange<T> way = hull(a), speed = hull(va);
-      const T longest = way.high - way.low, fastest = larger(T(abs(speed.low)), T(abs(speed.high)));
-      const T bend(loop.table->sharpest_bend()), turns = bend * longest;
-      const T off = loop.stiffness * T(0.5) * turns * longest;
-      carried = {carried.low - off, carried.high + off};
-      damped = {damped.low - loop.damping * turns * fastest,
-                damped.high + loop.damping * turns * fastest};
-      gear = gear + turns;
-    }
-    damped.include(T(0)); // half of it where slack
-    const T low = carried_by_strands(loop, carried.low) + damped.low;
-    const T high = carried_by_strands(loop, carried.high) + damped.high;
-    if (loop.second == i_) return scaled(loop.sense_b, ValueRange<T>{low, high});
-    const T most = gear * larger(T(abs(low)), T(abs(high)));
-    return {-most, most};
-  }
-
-  [[nodiscard]] static ValueRange<T> hull(const Quintic<T>& p) {
-    ValueRange<T> range{p[0], p[0]};
-    for (int k = 1; k < 6; ++k) range.include(p[k]);
-    return range;
+    return on_hinge(loop, i_, state.gear) * loop_torque(loop, state);
   }
 
   const AnySystem& system_;
@@ -197,8 +119,8 @@ private:
   Quintic<T> angle_, rate_, linear_, latch_;
 };
 
-/// Raises `peak` to the largest |moment| over the step as the dense output has it. Most steps are
-/// dismissed by the hull; the others are sampled, and refined beside the largest sample.
+/// Raises `peak` to the largest |moment| that the dense output has over the step: samples the step, and refines
+/// the largest sample.
 template <class T, class AnySystem>
 void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
                           const Step<T>& step) {
@@ -216,8 +138,7 @@ void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& m
   peak.raise(T(abs(moment(vertex))), step.t + vertex * step.h);
 }
 
-/// dM/dt of hinge i, which slides or has no exact friction, at a state and its derivative; without
-/// a smoothed latch, N·m/s.
+/// dM/dt of hinge i at a state and its derivative, N·m/s. @pre the hinge does not stick and has no smoothed latch
 template <class T, class AnySystem>
 [[nodiscard]] T moment_rate(const AnySystem& system, const State<T>& x, const State<T>& dxdt,
                             int i) {
@@ -228,19 +149,19 @@ template <class T, class AnySystem>
   if (system.wing().hinges[i].regularized_friction > T(0))
     damping = damping + regularized_friction_damping(system.wing().hinges[i], rate);
   if (!system.wing().real.empty()) {
-    const RealResistance<T> real =
+    const HingeResistance<T> real =
         real_resistance(system.wing().real[i], system.work().modes[i], x[at.angle(i)], rate);
     stiffness = stiffness + real.stiffness, damping = damping + real.damping;
   }
   T change = -fused(stiffness, rate, damping * dxdt[at.rate(i)]);
   for (const LoopTerms<T>& loop : system.wing().loops) {
-    if (loop.first != i && loop.second != i) continue; // its gear's change is neglected
+    if (!joins(loop, i)) continue;
     const LoopState<T> state = system.state_of(loop, x);
-    const T a = loop.sense_a * state.gear, b = loop.sense_b;
-    const T e1 = a * x[at.rate(loop.first)] - b * x[at.rate(loop.second)];
-    const T e2 = a * dxdt[at.rate(loop.first)] - b * dxdt[at.rate(loop.second)];
-    const T torque = taut_share(loop, state.elastic) * fused(loop.stiffness, e1, loop.damping * e2);
-    change = fused(loop.first == i ? on_first(loop, state.gear) : on_second(loop), torque, change);
+    const auto of_both = [&](const State<T>& from) -> std::array<T, 2> {
+      return {from[at.rate(loop.first)], from[at.rate(loop.second)]};
+    };
+    const T torque = loop_torque_rate(loop, state, of_both(x), of_both(dxdt));
+    change = fused(on_hinge(loop, i, state.gear), torque, change);
   }
   return change;
 }
@@ -261,10 +182,9 @@ template <class T> struct DoubtfulMoment {
   int corrections = 0;
 };
 
-/// Raises `peak` to the largest |moment| of hinge i over the step where that lies at one of its
-/// ends. A maximum inside that the dense output finds must be made sure of by a step of the method
-/// that ends there: then the peak has the method's accuracy, not the interpolant's.
-/// @return where; `confirm_moment` takes it from there
+/// Raises `peak` to the largest |moment| of hinge i at the step's ends.
+/// @return a maximum inside the step that the dense output finds above the peak. A step of the method must end
+/// there and `confirm_moment` be called: then the peak has the method's accuracy, not the interpolant's
 template <class T, class AnySystem>
 [[nodiscard]] std::optional<DoubtfulMoment<T>>
 raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i) {
@@ -286,9 +206,9 @@ raise_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int 
   return DoubtfulMoment<T>{s, moment.bend(s)};
 }
 
-/// A step of the method to `doubt.s` gave (x, dxdt): raises the peak, and corrects the instant by
-/// Newton's method.
-/// @return whether a step to the new `doubt.s` is worth making
+/// Raises the peak to the moment at the end of a step of the method to `doubt.s`, and corrects `doubt.s` by
+/// Newton's method. @param x, dxdt the state and its derivative there
+/// @return whether another step, to the new `doubt.s`, gains more than 1e-12 of the moment; at most 4 corrections
 template <class T, class AnySystem>
 [[nodiscard]] bool confirm_moment(DoubtfulMoment<T>& doubt, PeakOf<T>& peak,
                                   const AnySystem& system, const Step<T>& step, int i,
@@ -303,11 +223,11 @@ template <class T, class AnySystem>
          ++doubt.corrections < 4;
 }
 
-/// The same for a hinge that sticks, whose moment takes an evaluation to know: it is at most its
-/// linear part and the static limit; what that does not dismiss is sought by its curvature.
+/// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. Each value takes an evaluation,
+/// so a step is dismissed first by the laws' ranges plus the static limit, then searched by the load's curvature.
 /// @param load load(s): |moment| by an evaluation on the dense output
-/// @param budget spent: the moment is not known
-/// @return where a step of the method must make sure of it
+/// @param budget of samples; once spent, the maximum inside the step is unknown
+/// @return where a step of the method must confirm a larger value
 template <class T, class AnySystem, class Load>
 [[nodiscard]] std::optional<T>
 raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,

@@ -1,4 +1,4 @@
-/// How far hinges turn beyond their stowed angle, away from where they latch.
+/// Overtravel: how far a hinge turns beyond its stowed angle, away from the latched one.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -14,8 +14,8 @@ template <class T> [[nodiscard]] T beyond_stowed(const HingeTerms<T>& hinge, con
   return hinge.sense * (hinge.stowed - angle);
 }
 
-/// Whether hinge i may turn back inside the step, further beyond its stowed angle than `most`; if
-/// not, it is furthest at one of the step's ends, or not as far.
+/// Whether hinge i may turn back inside the step with an overtravel above `most`. If not, the step's ends have its
+/// largest overtravel, or it stays below `most`. For packs: in which lanes.
 template <class T>
 [[nodiscard]] auto may_turn_back(const Wing<T>& wing, const Layout& at, const Step<T>& step, int i,
                                  const T& most) {

@@ -1,4 +1,4 @@
-/// How far a hinge force inside a step may exceed those at its ends.
+/// Bound on the reaction force inside a step, above the larger of the forces at its ends.
 ///
 /// The force on body i at its hinge accelerates everything outward of it. With e_k = (cos θ_k,
 /// sin θ_k) and all vectors in their bodies' frames (|.| are constants of the wing),
@@ -12,28 +12,26 @@
 /// | l_c    | from the parent's hinge to hinge c                                   | m    |
 /// | σ_k    | first moment about hinge k: its body, and μ_c at each hinge c on it  | kg·m |
 ///
-/// Between the ends of an interval a function leaves its chord by h²/8 of its largest second
-/// derivative, and a chord is nowhere longer than at one of its ends. So
+/// A function exceeds its chord by at most C = chord_excess(h) of its largest fourth derivative in the dense
+/// output (core/number/derivative_bounds.hpp), and a chord is nowhere longer than at one of its ends. So
 ///
-///     |Y_i| ≤ larger |Y_i| at an end + h²/8 (μ_i A_i + B_i)                                    (2)
+///     |Y_i| ≤ larger |Y_i| at an end + C (μ_i A_i + B_i)                                       (2)
 ///     A_i = A_p + |l_i| W_p        B_i = |σ_i| W_i + Σ B_j over the children                   (3)
 ///     W_k ≥ |d⁴e_k/dt⁴| = |i θ⁽⁴⁾ − 4 θ̇ θ⃛ − 3 θ̈² − 6 i θ̇² θ̈ + θ̇⁴|                              (4)
 ///
-/// with the derivatives of θ_k bounded by the Bernstein coefficients of the step's quintics: a
-/// proof for the motion of the dense output, whose forces at the ends are the true ones. Of a swing
-/// that a step follows over less than a whole period, the quintic's second derivative leaves its
-/// chord by at least three quarters of what the swing's own does; (2) is taken 4/3 times.
+/// with the derivatives of θ_k bounded by the Bernstein coefficients of the step's quintics. The forces at the ends
+/// are the method's own.
 #pragma once
 
-#include "core/dense/derivative_bounds.hpp"
 #include "core/dense/step.hpp"
 #include "core/mechanics/system.hpp"
+#include "core/number/derivative_bounds.hpp"
 
 #include <vector>
 
 namespace wingspread {
 
-/// What (2) and (3) need of a body and its hinge.
+/// Constants of a body and its hinge in (2) and (3).
 template <class T> struct Lever {
   T mass;        ///< μ
   T arm;         ///< |l|
@@ -82,7 +80,7 @@ public:
       A_[i] = fused(levers[i].arm, W_[p], A_[p]);
       B_[i] = T(0);
     });
-    const T weight = step.h * step.h * T(1.0 / 6); // 4/3 of 1/8
+    const T weight = chord_excess(step.h);
     tree.inward([&](int i) __attribute__((always_inline)) {
       const int p = tree.parent_of(i);
       B_[i] = fused(levers[i].moment, W_[i], B_[i]);
@@ -91,8 +89,8 @@ public:
     });
   }
 
-  /// By how much |Y_i| may exceed what it is at the step's ends, N; a quarter of it between the
-  /// ends and the middle, and so on.
+  /// Largest excess of |Y_i| over the forces at the step's ends, N. Over a part of the step: times the part's
+  /// square.
   [[nodiscard]] const T& rise(int i) const { return W_[i]; }
 
 private:
@@ -113,8 +111,8 @@ private:
     }
     if constexpr (M == BaseMotion::prescribed) { // without a table the origin's r̈ is constant
       const BaseTerms<T>& base = system.wing().base;
-      if (base.table) A_[0] = push_of_base(base, system.work().driven, step).second;
-      paths_[0] = turn_of_base(base, system.work().driven, step);
+      if (base.table) A_[0] = push_of_base(base, system.work().driven, step.t, step.h).second;
+      paths_[0] = turn_of_base(base, system.work().driven, step.t, step.h);
       W_[0] = of_turning(paths_[0], scale);
     }
   }
@@ -125,7 +123,7 @@ private:
   }
 
   std::vector<Quintic<T>> paths_; ///< θ over the step, 0 … n
-  std::vector<T> A_, W_, B_;      ///< of (3) and (4); in the end W holds the outcome
+  std::vector<T> A_, W_, B_;      ///< of (3) and (4); after over_step, W_ holds the excess
 };
 
 } // namespace wingspread

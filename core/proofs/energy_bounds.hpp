@@ -91,14 +91,12 @@ private:
   /// Adds what dampers and loops may exert at the largest rates. The energy of a loop bounds its
   /// torque, with a slack strand too: (K e)² ≤ 2 K E.
   void add_real(const Wing<T>& wing, const T& energy) {
-    using std::abs, std::sqrt;
+    using std::sqrt;
     for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
       if (wing.real[i].has_damper)
         moment(i) = moment(i) + most_of_damper(wing.real[i].damper, T(rate_(i)));
     for (const LoopTerms<T>& loop : wing.loops) {
-      T gear = abs(loop.ratio);
-      if (loop.table)
-        gear = larger(abs(T(loop.table->steepest_rise())), abs(T(loop.table->steepest_fall())));
+      const T gear = largest_gear(loop);
       const T torque = sqrt(T(2) * loop.stiffness * energy) +
                        loop.damping * fused(gear, T(rate_(loop.first)), T(rate_(loop.second)));
       moment(loop.first) = moment(loop.first) + gear * torque;

@@ -164,8 +164,8 @@ private:
     using std::abs;
     for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
       const RealHingeTerms<T>& real = system.wing().real[i];
-      if (!real.has_stop) continue;
-      const T way = abs(rest_[system.layout().angle(i)] - real.contact_angle);
+      if (!real.stop.present) continue;
+      const T way = abs(rest_[system.layout().angle(i)] - real.stop.contact_angle);
       if (system.work().modes[i].in_contact != T(0) || !(furthest(i, available) < way)) return true;
     }
     return false;

@@ -1,6 +1,6 @@
 #include "core/proofs/rest_model.hpp"
 
-#include "core/mechanics/drive.hpp"
+#include "core/laws/driven_base.hpp"
 
 #include <Eigen/LU>
 
@@ -161,8 +161,8 @@ private:
       if (wing_.real.empty()) continue;
       const RealHingeTerms<double>& real = wing_.real[i];
       m_.moment(i - 1) += curves_moment(real, phi);
-      if (real.spring) k -= real.spring_weight * slope(*real.spring, phi);
-      if (real.harness) k -= real.harness_weight * slope(*real.harness, phi);
+      if (real.spring.curve) k -= real.spring.weight * slope(*real.spring.curve, phi);
+      if (real.harness.curve) k -= real.harness.weight * slope(*real.harness.curve, phi);
     }
     for (const LoopTerms<double>& loop : wing_.loops) {
       const LoopState<double> at = state_of(loop);
@@ -327,13 +327,13 @@ private:
       if (wing_.real.empty()) continue;
       const RealHingeTerms<double>& real = wing_.real[i];
       const double phi = m_.angles(i - 1);
-      left.bend =
-          bend(real.spring, real.spring_weight, phi) + bend(real.harness, real.harness_weight, phi);
+      left.bend = bend(real.spring.curve, real.spring.weight, phi) +
+                  bend(real.harness.curve, real.harness.weight, phi);
       double& room = m_.room(i - 1);
-      if (real.has_stop)
+      if (real.stop.present)
         room = work_.modes[i].in_contact != 0
                    ? 0
-                   : std::min(room, real.sense * (phi - real.contact_angle));
+                   : std::min(room, real.stop.sense * (phi - real.stop.contact_angle));
       if (real.has_damper && real.has_window)
         for (const double edge : {real.window_low, real.window_high})
           room = std::min(room, std::abs(phi - edge));

@@ -1,4 +1,4 @@
-/// How a base is driven, by a table of time.
+/// Motion of a prescribed base by a table of time.
 ///
 /// | symbol | meaning                                                                     | unit   |
 /// |--------|-----------------------------------------------------------------------------|--------|
@@ -23,14 +23,14 @@ namespace wingspread {
 class BaseTable {
 public:
   struct Columns {
-    std::vector<double> time;                  ///< s
-    std::vector<Eigen::Vector2d> acceleration; ///< m/s²; empty: not given, as the next ones
-    std::vector<double> angular_acceleration;  ///< rad/s²
-    std::vector<double> rate;                  ///< rad/s; at most one of this and the last
+    std::vector<double> time; ///< s
+    std::vector<Eigen::Vector2d>
+        acceleration; ///< m/s²; this and the next columns may be empty: not given
+    std::vector<double> angular_acceleration; ///< rad/s²
+    std::vector<double> rate;                 ///< rad/s; not with angular_acceleration
   };
 
-  /// Of all times from one knot to the next. Polynomials in powers of t − from; without a's or α's
-  /// column they are zero.
+  /// The motion from one knot to the next. Polynomials in powers of t − from; zero for a column not given.
   struct Piece {
     double from = 0;
     std::array<double, 4> x{}, y{};  ///< of a, m/s²
@@ -43,17 +43,17 @@ public:
   /// @pre time strictly ascending, at least two; each column empty or as many; all finite
   BaseTable(Columns columns, Interpolation interpolation);
 
-  /// As given, for those who write it down again.
+  /// The columns as given, for writing the table out.
   [[nodiscard]] const Columns& columns() const { return columns_; }
   [[nodiscard]] Interpolation interpolation() const { return interpolation_; }
   [[nodiscard]] bool gives_acceleration() const { return !columns_.acceleration.empty(); }
   [[nodiscard]] bool gives_rate() const { return !columns_.rate.empty(); }
-  /// Whether it gives α, by itself or as the slope of the rate.
+  /// Whether the table gives α, by a column or as the slope of the rate.
   [[nodiscard]] bool gives_turning() const {
     return gives_rate() || !columns_.angular_acceleration.empty();
   }
 
-  /// Before the first knot, between each two, after the last. The first piece's powers are about the
+  /// Pieces before the first knot, between knots, and after the last. The first piece is in powers of t less the
   /// first knot.
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 

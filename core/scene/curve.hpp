@@ -1,4 +1,4 @@
-/// A function given by a table: between knots a monotone cubic or linear, constant beyond the ends.
+/// A function by a table: monotone cubic or linear between knots, constant or straight beyond the ends.
 ///
 /// | symbol  | meaning                                                                       |
 /// |---------|-------------------------------------------------------------------------------|
@@ -8,9 +8,8 @@
 ///
 /// Monotone: the slopes are PCHIP's [F. N. Fritsch & J. Butland, A method for constructing local
 /// monotone piecewise cubic interpolants, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304; at the ends
-/// the three-point formula, limited so that the curve keeps the data's shape]: where the table
-/// rises the curve rises, it has no more extremes than the table, and all of them at knots; through
-/// a line it is that line.
+/// the three-point formula, limited to keep the data's shape]. The curve
+/// rises where the table rises, has its extremes at knots only, and reproduces a line.
 #pragma once
 
 #include <array>
@@ -32,11 +31,11 @@ public:
     std::array<double, 4> c{};
     double integral = 0;
   };
-  /// Where the slope has its extremes over a range, and these: at a knot those of both sides.
+  /// A point where the slope may be extreme, with its least and largest value there (both sides of a knot).
   struct Turn {
     double x, least, largest;
   };
-  /// Up to eight pieces column by column, for eight lanes that look in them at once.
+  /// Up to eight pieces stored by columns, for lookups of eight lanes at once.
   struct Columns {
     std::array<double, 8> from;
     std::array<std::array<double, 8>, 4> c;
@@ -44,15 +43,15 @@ public:
   };
 
   Curve() = default;
-  /// @pre x strictly monotone, at least two knots, all finite. Descending ones are turned round.
+  /// @pre x strictly monotone, at least two knots, all finite. A descending table is reversed.
   Curve(std::vector<double> x, std::vector<double> y, Interpolation interpolation,
         Beyond beyond = Beyond::constant);
 
   /// a·f + b·g of two curves with the same knots.
   [[nodiscard]] static Curve sum(double a, const Curve& f, double b, const Curve& g);
 
-  /// Value and slope at x, with one rounding for each product and sum on every processor, whatever it has: the value to
-  /// the last bit that curve_value.hpp gives where products and sums are made at once.
+  /// Value and slope at x with fused multiply-adds on every processor: the bits of curve_value.hpp where the processor
+  /// has them.
   [[nodiscard]] double value_at(double x) const;
   [[nodiscard]] double slope_at(double x) const;
 
@@ -60,19 +59,19 @@ public:
   /// The piece at x is the last one that begins at or before x; the first begins at −∞, and its
   /// polynomial is in powers of x − x_0.
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
-  /// x_0 … x_n, ascending: where a piece begins, and the extremes can lie.
+  /// x_0 … x_n, ascending.
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
-  /// Knots, and where a bend turns between them.
+  /// Knots, and inflections between knots.
   [[nodiscard]] const std::vector<Turn>& turns() const { return turns_; }
-  /// Empty where there are more pieces than eight.
+  /// None with more than eight pieces.
   [[nodiscard]] const std::optional<Columns>& columns() const { return columns_; }
   /// Largest and least dy/dx anywhere.
   [[nodiscard]] double steepest_rise() const { return steepest_rise_; }
   [[nodiscard]] double steepest_fall() const { return steepest_fall_; }
   /// Largest |d²y/dx²| inside a piece.
   [[nodiscard]] double sharpest_bend() const { return sharpest_bend_; }
-  /// By how much the curve may leave, within a piece, the values at an interval's ends: 0 but for
-  /// rounding, and for sums.
+  /// Largest excess of the curve inside a piece over its values at the ends: rounding only, but more for a sum of
+  /// curves, which need not be monotone.
   [[nodiscard]] double overshoot() const { return overshoot_; }
 
 private:

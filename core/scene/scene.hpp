@@ -1,4 +1,4 @@
-/// A scene: the parameters of one wing (or of a whole spacecraft with its wings), and nothing else.
+/// A scene: the parameters of one wing or of a spacecraft with its wings.
 ///
 /// Planar. SI units and radians throughout. Hinge vectors are given in their own body's frame, from
 /// its centre of mass. A hinge's angle is that of its child relative to its parent.
@@ -32,7 +32,7 @@ struct Body {
   std::optional<Plate> plate{};
 };
 
-/// Torque against hinge angle as it was measured, one way or both.
+/// A table of measured torque against hinge angle, one way or both.
 class TorqueTable {
 public:
   /// @pre angle strictly monotone, at least two; torque (deploying, stowing) as many; all finite
@@ -40,18 +40,18 @@ public:
   TorqueTable(std::vector<double> angle, std::vector<double> deploying, std::vector<double> stowing,
               Interpolation interpolation);
 
-  /// As given, for those who write it down again.
+  /// The columns as given, for writing the table out.
   [[nodiscard]] const std::vector<double>& angle() const { return angle_; } ///< rad
-  /// N·m: the torque, or what the hinge still delivers while it deploys.
+  /// The torque; of a test both ways, the torque delivered while deploying, N·m.
   [[nodiscard]] const std::vector<double>& deploying() const { return deploying_; }
-  /// N·m: what it takes to stow it again; empty where the table is of one curve.
+  /// Torque needed to stow the hinge again, N·m; empty unless tested both ways.
   [[nodiscard]] const std::vector<double>& stowing() const { return stowing_; }
   [[nodiscard]] bool both_ways() const { return !stowing_.empty(); }
   [[nodiscard]] Interpolation interpolation() const { return interpolation_; }
 
   /// ½ (stowing + deploying), or the torque, against hinge angle.
   [[nodiscard]] const Curve& drive() const { return drive_; }
-  /// ½ (stowing − deploying): a level of Coulomb friction; without pieces where there is none.
+  /// ½ (stowing − deploying): measured level of Coulomb friction; without pieces unless tested both ways.
   [[nodiscard]] const Curve& friction() const { return friction_; }
 
 private:
@@ -65,7 +65,7 @@ private:
 struct HingeTorque {
   double torque_stowed = 0;                   ///< at x = 0
   double torque_latched = 0;                  ///< at x = 1
-  std::shared_ptr<const TorqueTable> table{}; ///< in place of these two, if there is one
+  std::shared_ptr<const TorqueTable> table{}; ///< replaces the two torques; null: none
   double scale = 1;
   double offset = 0; ///< N·m
 };
@@ -79,7 +79,7 @@ struct Friction {
   double regularization_rate = 1e-3;  ///< ω_s, rad/s, > 0; used by the regularized model
   std::optional<double> static_level; ///< τ_s ≥ τ_c, N·m; used by the exact model
   FrictionModel model = FrictionModel::regularized;
-  double scale = 1; ///< of all that it does, what a torque test both ways adds included, ≥ 0
+  double scale = 1; ///< of all friction of the hinge, measured friction included, ≥ 0
 };
 
 enum class DamperLaw { viscous, power, eddy_current };
@@ -91,21 +91,21 @@ struct Damper {
   double exponent = 1;               ///< p of the power law, > 0
   double regularization_rate = 1e-6; ///< of the power law, linear below it, rad/s, > 0
   double peak_torque = 0;            ///< T_p of the eddy currents, N·m, ≥ 0
-  double peak_rate = 1;              ///< ω_p, at which they brake most, rad/s, > 0
-  /// Hinge angles between which it acts, in any order; everywhere without, rad.
+  double peak_rate = 1;              ///< ω_p, rate of the peak torque, rad/s, > 0
+  /// Hinge angles between which the damper acts, in any order, rad; none: everywhere.
   std::optional<std::array<double, 2>> window;
   double scale = 1; ///< ≥ 0
 };
 
-/// What keeps a hinge from turning beyond its stowed angle: a contact [Hunt & Crossley 1975].
-/// With the penetration δ = −travel − gap > 0 it pushes by k δ (1 + c δ̇), and never pulls.
+/// A stop at the stowed side [Hunt & Crossley 1975]: with a penetration δ = −travel − gap > 0 it pushes by
+/// k δ (1 + c δ̇), and never pulls.
 struct Stop {
   double stiffness = 0;   ///< k, N·m/rad, ≥ 0
   double dissipation = 0; ///< c, s/rad, ≥ 0
   double gap = 0;         ///< rad, ≥ 0
 };
 
-/// A latch: once engaged, a spring and a damper about the latched angle, for ever.
+/// A latch: once engaged, a spring and a damper about the latched angle for the rest of the run.
 struct Latch {
   double stiffness = 0; ///< k, N·m/rad, ≥ 0
   double damping = 0;   ///< d, N·m·s/rad, ≥ 0
@@ -128,8 +128,8 @@ struct Hinge {
   HingeTorque harness;                ///< positive resists
   Friction friction;
   std::optional<Damper> damper{};
-  std::optional<Stop> stop{}; ///< a hinge without one turns through its stowed angle unhindered
-  std::optional<Latch> latch; ///< a hinge without one never latches
+  std::optional<Stop> stop{}; ///< none: the hinge turns through its stowed angle
+  std::optional<Latch> latch; ///< none: the hinge never latches
 };
 
 /// A closed cable loop that keeps the travel of one hinge to a function of another's: with

@@ -1,4 +1,4 @@
-/// What acts on a body from outside its hinges, for the oracle: the air on a plate [MODEL.md §7].
+/// What acts on a body from outside its hinges, for the oracle: the air on a plate.
 #pragma once
 
 #include "core/scene/scene.hpp"

@@ -1,4 +1,4 @@
-/// The laws of real hinges [MODEL.md §7], written for the oracle alone: tables by Hermite's basis
+/// The laws of real hinges, written for the oracle alone: tables by Hermite's basis
 /// and integrated by Gauss's points, everything a function of the present angles and rates. Nothing
 /// is kept from instant to instant, so an integrator meets kinks (a stop, a strand that goes slack)
 /// and jumps (the edges of a backlash or of a window) where they are.

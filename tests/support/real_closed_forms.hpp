@@ -1,4 +1,4 @@
-/// Answers in closed form, or by one quadrature, for scenes with real hinges [MODEL.md §7].
+/// Answers in closed form, or by one quadrature, for scenes with real hinges.
 ///
 /// | symbol | meaning                                   | unit          |
 /// |--------|-------------------------------------------|---------------|

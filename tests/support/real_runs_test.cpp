@@ -104,7 +104,7 @@ TEST_CASE("a reference run swings as a pendulum, and loses to the air what it sh
 TEST_CASE("reference runs of equal panels tend to those that a rigid loop keeps in step") {
   const RigidPanels rigid{2, 5.5, 1.1};
   const Arrival limit = rigid.latch();
-  CHECK(limit.time == Approx(7.579898).epsilon(1e-7)); // MODEL.md §7
+  CHECK(limit.time == Approx(7.579898).epsilon(1e-7));
   CHECK(limit.rate == Approx(0.6239366).epsilon(1e-7));
   CHECK(RigidPanels{3, 10, 2}.latch().time == Approx(25.783141).epsilon(4e-8));
   CHECK(RigidPanels{3, 10, 2}.latch().rate == Approx(0.2604871).epsilon(4e-7));

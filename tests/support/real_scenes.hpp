@@ -1,4 +1,4 @@
-/// Scenes with real hinges [MODEL.md §7]: random features on random wings, and wings with a known
+/// Scenes with real hinges: random features on random wings, and wings with a known
 /// answer.
 #pragma once
 

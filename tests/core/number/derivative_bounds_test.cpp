@@ -1,9 +1,10 @@
-#include "core/dense/derivative_bounds.hpp"
+#include "core/number/derivative_bounds.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 using namespace wingspread;
 
@@ -44,36 +45,31 @@ TEST_CASE("the bound of a direction's fourth derivative has the chain rule's ter
   CHECK(fourth_of_direction<double>({2, 3, 0, 0}) == 16 + 27 + 6 * 4 * 3);
 }
 
-TEST_CASE("a base of prescribed motion turns over a step as its law says") {
-  BaseTerms<double> base{};
-  base.rate = 0.3, base.angular_acceleration = 0.2;
-  Step<double> step;
-  step.t = 5, step.h = 2;
-  const Quintic<double> turned = turn_of_base(base, {}, step);
-  for (const double s : {0.0, 0.3, 1.0}) {
-    const double t = s * step.h, rate = 0.3 + 0.2 * step.t;
-    CHECK(value(turned, s) == Approx(rate * t + 0.1 * t * t).margin(1e-15));
+TEST_CASE("a swing that turns once in a step leaves no chord by more than chord_excess allows") {
+  // f = sin(x s + φ) over s = 0 … 1; its second derivative against the fourth one of its quintic
+  const auto largest_share = [](double x) {
+    double share = 0;
+    for (int phase = 0; phase < 180; ++phase) {
+      const double phi = std::numbers::pi * phase / 180;
+      const auto jet = [&](double s) -> Jet<double> {
+        const double angle = x * s + phi;
+        return {std::sin(angle), x * std::cos(angle), -x * x * std::sin(angle)};
+      };
+      const Quintic<double> p = hermite(1.0, jet(0), jet(1));
+      const double allowed =
+          chord_excess(1.0) * derivative_bounds(p, DifferenceScale<double>(1.0)).fourth;
+      for (int k = 0; k <= 200; ++k) {
+        const double s = k / 200.0, first = jet(0).second, last = jet(1).second;
+        share = std::max(share, std::abs(jet(s).second - (first + (last - first) * s)) / allowed);
+      }
+    }
+    return share;
+  };
+  constexpr double period = 2 * std::numbers::pi;
+  for (const double part : {0.1, 0.25, 0.5, 0.8, 0.95, 1.0}) {
+    CAPTURE(part);
+    CHECK(largest_share(part * period) <= 1);
   }
-}
-
-TEST_CASE("a base that a table drives turns over a step as its piece says, and is pushed no more") {
-  BaseTerms<double> base{};
-  const BaseTable table({{0, 1}, {}, {0, 1}, {}}, Interpolation::linear);
-  base.table = &table, base.gravity = {0.5, 0};
-  DrivenPiece<double> piece{};
-  piece.from = 4, piece.rate = 0.3, piece.turning = {0.2, -0.1, 0.05, 0.02};
-  piece.x = {1, 2, 0, 0}, piece.y = {0, 0, -3, 0};
-  Step<double> step;
-  step.t = 5, step.h = 2;
-  const Quintic<double> turned = turn_of_base(base, piece, step);
-  for (const double s : {0.0, 0.3, 1.0}) {
-    const auto angle = [&](double u) {
-      return 0.3 * u + u * u * (0.1 + u * (-0.1 / 6 + u * (0.05 / 12 + u * 0.02 / 20)));
-    };
-    CHECK(value(turned, s) == Approx(angle(1 + s * step.h) - angle(1)).margin(1e-14));
-  }
-  const CubicBounds<double> push = push_of_base(base, piece, step); // largest at the end, u = 3
-  CHECK(push.value == Approx(std::hypot(6.5, 27)).epsilon(1e-14));
-  CHECK(push.first == Approx(std::hypot(2, 18)).epsilon(1e-14));
-  CHECK(push.second == Approx(6).epsilon(1e-14));
+  CHECK(largest_share(period) == Approx(0.993).margin(0.01)); // 4/3 is as small as it may be
+  CHECK(largest_share(1.27 * period) > 1.5);                  // and breaks beyond a period
 }

@@ -1,4 +1,4 @@
-#include "core/mechanics/hinge_moment.hpp"
+#include "core/laws/linear_law.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -39,36 +39,6 @@ TEST_CASE("viscous friction and the engaged latch oppose") {
   CHECK(linear_moment(linear_law(h, true), -0.01, 0.5) -
             linear_moment(linear_law(h, false), -0.01, 0.5) ==
         Approx(1000 * 0.01 - 10 * 0.5));
-}
-
-TEST_CASE("regularized friction is the Coulomb level at speed and linear in the rate at rest") {
-  const HingeTerms<double> h = terms(1, 0);
-  CHECK(regularized_friction_moment(h, 10.0) == Approx(-0.1));
-  CHECK(regularized_friction_moment(h, -10.0) == Approx(0.1));
-  CHECK(regularized_friction_moment(h, 0.0) == 0);
-  CHECK(regularized_friction_moment(h, 1e-3) == Approx(-0.1 / std::sqrt(2.0)));
-}
-
-TEST_CASE("regularized friction damps small changes as its slope says") {
-  const HingeTerms<double> h = terms(1, 0);
-  for (const double rate : {0.0, 3e-4, -1e-3, 0.02}) {
-    const double d = 1e-8; // rounding of the moments leaves 1e-7 of the smallest slope
-    CHECK((regularized_friction_moment(h, rate - d) - regularized_friction_moment(h, rate + d)) /
-              (2 * d) ==
-          Approx(regularized_friction_damping(h, rate)).epsilon(1e-5));
-  }
-}
-
-TEST_CASE("a smoothed latch engages over its widths") {
-  const HingeTerms<double> h = terms(1, 0);
-  const double epsilon = 1e-2;
-  CHECK(engagement_rate(h, 0.001, epsilon) == 0);
-  CHECK(engagement_rate(h, -0.005, epsilon) == Approx(0.5));
-  CHECK(engagement_rate(h, -0.02, epsilon) == 1);
-  const double full = 1000 * 0.02 - 10 * -0.3;
-  CHECK(smoothed_latch_moment(h, -0.02, -0.3, 0.0, epsilon) == 0);
-  CHECK(smoothed_latch_moment(h, -0.02, -0.3, 0.005, epsilon) == Approx(0.5 * full));
-  CHECK(smoothed_latch_moment(h, -0.02, -0.3, 0.02, epsilon) == Approx(full));
 }
 
 TEST_CASE("the potential is the moment's integral") {

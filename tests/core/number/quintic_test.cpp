@@ -1,4 +1,4 @@
-#include "core/dense/quintic.hpp"
+#include "core/number/quintic.hpp"
 #include "tests/support/random_scenes.hpp"
 
 #include <catch2/catch.hpp>

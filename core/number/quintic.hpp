@@ -1,8 +1,7 @@
-/// Quintic Hermite interpolation inside a step, in Bernstein form: the dense output of every
-/// method.
+/// Quintic Hermite interpolation in Bernstein form: the dense output of every method inside a step.
 ///
 /// A second-order system knows angle, rate and acceleration at both ends of a step, so each angle
-/// has a quintic with error  φ⁽⁶⁾ h⁶/46080  at most, and its derivative one of order h⁵. In
+/// has a quintic with an error of at most φ⁽⁶⁾ h⁶/46080, and each rate one of order h⁵. In
 /// Bernstein form a polynomial lies within the hull of its coefficients [Farin, Curves and
 /// Surfaces, ch. 5], which turns "no crossing in this step" and "no larger peak in this step" into
 /// proofs rather than samples.
@@ -25,7 +24,7 @@ template <class T> struct Jet {
   T second; ///< d²/dt²
 };
 
-/// The quintic with the jets given at s = 0 and s = 1, for a step of h.
+/// The quintic over a step of h with the given jets at s = 0 and s = 1.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline Quintic<T> hermite(const T& h, const Jet<T>& a,
                                                             const Jet<T>& b) {
@@ -39,8 +38,8 @@ template <class T>
           b.value};
 }
 
-/// A polynomial in Bernstein form at s ∈ [0, 1], by Volk and Schumaker's scheme: sums of like signs
-/// where the coefficients' are.
+/// Value of a polynomial in Bernstein form at s ∈ [0, 1], by Volk and Schumaker's scheme. Sums of coefficients of
+/// one sign cancel nothing.
 template <class T, std::size_t N> [[nodiscard]] T bernstein(const std::array<T, N>& p, const T& s) {
   const T r = T(1) - s;
   T sum = p[0], power = s;
@@ -57,7 +56,7 @@ template <class T> [[nodiscard]] T value(const Quintic<T>& p, const T& s) {
   return bernstein(p, s);
 }
 
-/// A polynomial of degree four as one of degree five.
+/// Raises a polynomial's degree from four to five.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline Quintic<T> raised(const std::array<T, 5>& p) {
   Quintic<T> q{p[0], T(0), T(0), T(0), T(0), p[4]};
@@ -89,7 +88,7 @@ template <class T> [[nodiscard]] Quintic<T> divided_by_s(const Quintic<T>& p) {
   return raised(r);
 }
 
-/// No |p(s)| is larger.
+/// Upper bound of |p(s)| over s ∈ [0, 1].
 template <class T> [[nodiscard, gnu::always_inline]] inline T bound(const Quintic<T>& p) {
   using std::abs;
   T largest(0);
@@ -97,7 +96,7 @@ template <class T> [[nodiscard, gnu::always_inline]] inline T bound(const Quinti
   return largest;
 }
 
-/// p where `these` hold, else q: of numbers one or the other, of packs in which lanes.
+/// p where `these` hold, else q. For packs: lane by lane.
 template <class Mask, class T>
 [[nodiscard, gnu::always_inline]] inline Quintic<T> chosen(const Mask& these, const Quintic<T>& p,
                                                            const Quintic<T>& q) {
@@ -106,7 +105,7 @@ template <class Mask, class T>
   return either;
 }
 
-/// p without its root at s = 0: p/s, or p/s² where p/s is zero there but for rounding.
+/// p without its root at s = 0: p/s, or p/s² where p/s vanishes there to rounding (1e-8 of its bound).
 template <class T> [[nodiscard]] Quintic<T> without_root_at_start(const Quintic<T>& p) {
   using std::abs;
   const Quintic<T> once = divided_by_s(p);
@@ -129,7 +128,7 @@ template <class T> void halve(Quintic<T> p, Quintic<T>& left, Quintic<T>& right)
   }
 }
 
-/// p from s = a to b, 0 ≤ a < b ≤ 1: split at b, and what is left of it at a/b.
+/// p over s = a … b as a polynomial over 0 … 1, 0 ≤ a < b ≤ 1: splits at b, then the left part at a/b.
 template <class T> [[nodiscard]] Quintic<T> part_of(Quintic<T> p, const T& a, const T& b) {
   Quintic<T> left, right;
   for (int level = 5; level >= 0; --level) {
@@ -144,17 +143,17 @@ template <class T> [[nodiscard]] Quintic<T> part_of(Quintic<T> p, const T& a, co
   return right;
 }
 
-/// Whether the coefficients are negative up to one of them, and not from there on: then p has one
-/// zero in [0, 1] (their changes of sign bound the number of zeros).
+/// Whether the coefficients change from negative to non-negative once: then p has one zero in [0, 1], since their
+/// sign changes bound the number of zeros.
 template <class T> [[nodiscard]] bool changes_sign_once(const Quintic<T>& p) {
   int changes = 0;
   for (int k = 0; k < 5; ++k) changes += (p[k] < T(0)) != (p[k + 1] < T(0));
   return changes == 1 && p[0] < T(0);
 }
 
-/// The zero of p, which has one and rises through it, in [0, 1] to round-off: Newton's method kept
-/// in a bracket. It squares its error: after two moves Δ₁, Δ₂ the next would be Δ₂ (Δ₂/Δ₁)², and is not
-/// made where that is below round-off.
+/// The only zero of p in [0, 1], to round-off: Newton's method in a bracket. @pre p rises through one zero
+/// The method squares its error: after moves Δ₁, Δ₂ the next one is about Δ₂ (Δ₂/Δ₁)², and is skipped below
+/// round-off.
 template <class T> [[nodiscard]] T only_zero(const Quintic<T>& p) {
   using std::abs;
   std::array<T, 5> slope;
@@ -176,8 +175,8 @@ template <class T> [[nodiscard]] T only_zero(const Quintic<T>& p) {
 }
 
 /// The first s in [0, 1] at which p ≥ 0, to round-off; none if p stays negative.
-/// Subdivides, dropping the pieces whose coefficients are all negative: no crossing is missed, not
-/// even one that comes back inside the step. Cost: a comparison for most steps, a few
+/// Subdivides and drops pieces whose coefficients are all negative: no crossing is missed, not even one that
+/// returns inside the step. Cost: a comparison for most steps, a few
 /// evaluations for a crossing.
 template <class T> [[nodiscard]] std::optional<T> first_nonnegative(const Quintic<T>& p) {
   if (all_negative(p)) return std::nullopt;

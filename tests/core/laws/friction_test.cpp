@@ -1,0 +1,57 @@
+#include "core/laws/friction.hpp"
+#include "tests/support/random_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+TEST_CASE("regularized friction is the Coulomb level at speed and linear in the rate at rest") {
+  HingeTerms<double> h{};
+  h.regularized_friction = 0.1, h.slip_rate = 1e-3;
+  CHECK(regularized_friction_moment(h, 10.0) == Approx(-0.1));
+  CHECK(regularized_friction_moment(h, -10.0) == Approx(0.1));
+  CHECK(regularized_friction_moment(h, 0.0) == 0);
+  CHECK(regularized_friction_moment(h, 1e-3) == Approx(-0.1 / std::sqrt(2.0)));
+}
+
+TEST_CASE("regularized friction damps small changes as its slope says") {
+  HingeTerms<double> h{};
+  h.regularized_friction = 0.1, h.slip_rate = 1e-3;
+  for (const double rate : {0.0, 3e-4, -1e-3, 0.02}) {
+    const double d = 1e-8; // rounding of the moments leaves 1e-7 of the smallest slope
+    CHECK((regularized_friction_moment(h, rate - d) - regularized_friction_moment(h, rate + d)) /
+              (2 * d) ==
+          Approx(regularized_friction_damping(h, rate)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("regularized friction stays in its range, and its change in that of its slope") {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Draws draws(seed);
+    HingeTerms<double> hinge{};
+    hinge.regularized_friction = draws.log_uniform(0.01, 10);
+    hinge.slip_rate = draws.log_uniform(1e-3, 1);
+    const double v = draws.uniform(-2, 2) * hinge.slip_rate;
+    const ValueRange<double> rate{v, v + draws.log_uniform(1e-2, 10) * hinge.slip_rate};
+    const double a = draws.uniform(-2, 2);
+    const ValueRange<double> acceleration{a, a + draws.uniform(0, 2)};
+    const ValueRange<double> range = regularized_friction_range(hinge, rate);
+    const ValueRange<double> change = regularized_friction_change(hinge, rate, acceleration);
+    const double close = 1e-7 * largest_magnitude_of(change); // differences, rounding
+    CAPTURE(seed, rate.low, rate.high);
+    for (int k = 0; k <= 40; ++k) {
+      const double w = rate.low + (rate.high - rate.low) * k / 40, d = 1e-5 * hinge.slip_rate;
+      const double m = regularized_friction_moment(hinge, w);
+      REQUIRE(range.low <= m);
+      REQUIRE(m <= range.high);
+      const double slope =
+          (regularized_friction_moment(hinge, w + d) - regularized_friction_moment(hinge, w - d)) /
+          (2 * d);
+      for (const double p : {acceleration.low, acceleration.high}) {
+        REQUIRE(change.low - close <= slope * p);
+        REQUIRE(slope * p <= change.high + close);
+      }
+    }
+  }
+}

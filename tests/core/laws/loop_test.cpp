@@ -1,0 +1,166 @@
+#include "core/laws/loop.hpp"
+#include "tests/support/real_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// A random loop between hinges 1 and 2, and a random step of these.
+struct LoopOverStep {
+  Synchronisation given; // holds the table
+  LoopTerms<double> loop{};
+  Quintic<double> a, b;
+  double h;
+
+  explicit LoopOverStep(std::uint64_t seed) {
+    Draws draws(seed);
+    loop.first = 1, loop.second = 2;
+    loop.ratio = draws.sign() * draws.uniform(0.5, 2);
+    loop.stiffness = draws.log_uniform(1, 1e3);
+    loop.damping = draws.chance(0.7) ? draws.log_uniform(1e-2, 1e2) : 0;
+    loop.stowed_a = draws.uniform(-2, 2), loop.stowed_b = draws.uniform(-2, 2);
+    loop.sense_a = draws.sign(), loop.sense_b = draws.sign();
+    if (draws.chance(0.5)) {
+      std::vector<double> x{0}, y{0};
+      for (int k = 0; k < 3; ++k) { // falling ones too, and changes of direction
+        x.push_back(x.back() + draws.uniform(0.2, 1));
+        y.push_back(y.back() + draws.uniform(-1, 1));
+      }
+      tabulate(given, x, y);
+      loop.table = given.table.get();
+    }
+    h = draws.log_uniform(1e-3, 1);
+    const double way = draws.log_uniform(1e-3, 0.5), from = draws.uniform(0, 1.5);
+    for (int k = 0; k < 6; ++k) {
+      a[k] = loop.stowed_a + loop.sense_a * (from + way * draws.uniform(0, 1));
+      const double x = loop.table ? value(*loop.table, from) : loop.ratio * from;
+      b[k] = loop.stowed_b + loop.sense_b * (x + way * draws.uniform(-1, 1));
+    }
+    const double carried = loop.stiffness * way;
+    loop.slack_beyond = draws.chance(0.5) ? carried * draws.log_uniform(1e-2, 1) : 1e300;
+  }
+
+  [[nodiscard]] LoopState<double> state(double s) const {
+    return loop_state(loop, value(a, s), value(derivative(a, h), s), value(b, s),
+                      value(derivative(b, h), s));
+  }
+  [[nodiscard]] double torque(double s) const { return loop_torque(loop, state(s)); }
+  [[nodiscard]] double moment(int i, double s) const {
+    return on_hinge(loop, i, state(s).gear) * torque(s);
+  }
+};
+
+constexpr int samples = 400; // of a step
+
+} // namespace
+
+TEST_CASE("a loop's moments stay in their range over a step: damped, slack, by a table") {
+  int slack = 0, tabled = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const LoopOverStep step(seed);
+    tabled += step.loop.table != nullptr;
+    bool slackens = false;
+    for (const int i : {1, 2}) {
+      const ValueRange<double> range = loop_moment_range(step.loop, i, step.a, step.b, step.h);
+      const double close = 1e-11 * (largest_magnitude_of(range) + step.loop.stiffness);
+      CAPTURE(seed, i, range.low, range.high);
+      for (int k = 0; k <= samples; ++k) {
+        const double s = k / double(samples), m = step.moment(i, s);
+        slackens = slackens || taut_share(step.loop, step.state(s).elastic) < 1;
+        REQUIRE(range.low - close <= m);
+        REQUIRE(m <= range.high + close);
+      }
+    }
+    slack += slackens;
+  }
+  CHECK(slack >= 50);
+  CHECK(tabled >= 100);
+}
+
+TEST_CASE("the change of a loop's moment over a step holds its difference quotients") {
+  int known = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const LoopOverStep step(seed);
+    for (const int i : {1, 2}) {
+      const KnownRange<double> change = loop_moment_change(step.loop, i, step.a, step.b, step.h);
+      if (!change.known) continue;
+      ++known;
+      const double fine = step.h / samples, close = 1e-8 * largest_magnitude_of(change.range);
+      for (int k = 0; k < samples; ++k) {
+        const double quotient =
+            (step.moment(i, (k + 1.0) / samples) - step.moment(i, k / double(samples))) / fine;
+        CAPTURE(seed, i, k);
+        REQUIRE(change.range.low - close <= quotient);
+        REQUIRE(quotient <= change.range.high + close);
+      }
+    }
+  }
+  CHECK(known >= 100);
+}
+
+TEST_CASE("bounds of a loop's torque, of its gear and of their derivatives hold samples of them") {
+  int smooth = 0, kinked = 0, tabled = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const LoopOverStep step(seed);
+    const LoopTorqueBounds<double> bounds = loop_torque_bounds(step.loop, step.a, step.b, step.h);
+    const double fine = step.h / samples, close = 1 + 1e-6;
+    ++(bounds.smooth ? smooth : kinked);
+    tabled += bounds.smooth && step.loop.table;
+    CAPTURE(seed, bounds.smooth, step.loop.damping);
+    std::array<double, samples + 1> tau, gear;
+    for (int k = 0; k <= samples; ++k)
+      tau[k] = step.torque(k / double(samples)), gear[k] = step.state(k / double(samples)).gear;
+    const double rounding = 1e-13 * (bounds.torque + step.loop.stiffness);
+    const double gear_rounding = 1e-13 * (1 + bounds.gear);
+    for (int k = 0; k <= samples; ++k) {
+      REQUIRE(std::abs(tau[k]) <= bounds.torque * close + rounding);
+      REQUIRE(std::abs(gear[k]) <= bounds.gear * close + gear_rounding);
+      if (k == samples) break;
+      // where a strand goes slack the torque drops by up to `drop`
+      REQUIRE(std::abs(tau[k + 1] - tau[k]) <=
+              bounds.first * fine * close + bounds.drop + rounding);
+      if (!bounds.smooth) continue;
+      REQUIRE(std::abs(gear[k + 1] - gear[k]) <= bounds.gear_first * fine * close + gear_rounding);
+      if (k == 0) continue;
+      REQUIRE(std::abs(tau[k + 1] - 2 * tau[k] + tau[k - 1]) <=
+              bounds.second * fine * fine * close + 4 * rounding);
+      REQUIRE(std::abs(gear[k + 1] - 2 * gear[k] + gear[k - 1]) <=
+              bounds.gear_second * fine * fine * close + 4 * gear_rounding);
+    }
+  }
+  CAPTURE(smooth, kinked, tabled);
+  CHECK(smooth >= 100);
+  CHECK(kinked >= 50);
+  CHECK(tabled >= 20);
+}
+
+TEST_CASE("a loop's torque at rest is the slope of its energy, and its rate follows the motion") {
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const LoopOverStep step(seed);
+    const LoopTerms<double>& loop = step.loop;
+    const double e = step.state(0.3).elastic, d = 1e-6 * (1 + std::abs(e));
+    CAPTURE(seed, e);
+    // P as a function of K e: dP/d(K e) = τ/K
+    if (std::abs(std::abs(e) - loop.slack_beyond) > d)
+      CHECK((loop_energy(loop, e + d) - loop_energy(loop, e - d)) / (2 * d) ==
+            Approx(carried_by_strands(loop, e) / loop.stiffness).epsilon(1e-6).margin(1e-9));
+    if (loop.table) continue; // its gear's change is neglected
+    const double s = 0.6, fine = 1e-6;
+    const auto states = [&](const Quintic<double>& p) { return value(p, s); };
+    const Quintic<double> va = derivative(step.a, step.h), vb = derivative(step.b, step.h);
+    const double rate =
+        loop_torque_rate(loop, step.state(s), {states(va), states(vb)},
+                         {states(derivative(va, step.h)), states(derivative(vb, step.h))});
+    const double before = taut_share(loop, step.state(s - fine).elastic);
+    if (before != taut_share(loop, step.state(s + fine).elastic)) continue;
+    const double quotient = (step.torque(s + fine) - step.torque(s - fine)) / (2 * fine * step.h);
+    CHECK(rate == Approx(quotient).epsilon(1e-5).margin(1e-5 * loop.stiffness));
+  }
+}
