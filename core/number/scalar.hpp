@@ -3,6 +3,10 @@
 ///
 /// A number has + − · /, comparisons, and overloads of the functions below. The comparison of two packs
 /// is a mask, one truth value a lane. Algorithms therefore choose with `select`, and never with `if`.
+///
+/// The attributes of this room are measured together (callgrind; instructions of runs in AVX2 lanes or alone).
+/// Without those of scalar.hpp, pack.hpp and planar.hpp GCC 12 takes 4 % more for seed wings in lanes, 1 % with
+/// friction. Without those of the other files, too, it takes 35 % more for runs with friction alone.
 #pragma once
 
 #include <cmath>
