@@ -124,7 +124,7 @@ private:
       direction.third = angle.third + angle.first * fused(T(3), angle.second, square);
       direction.fourth = fourth_of_direction(angle);
     }
-    /// |d²/dt² (e × v)| for a v whose zeroth, first and second derivatives are so bounded.
+    /// Bound of |d²/dt² (e × v)|. @param v bounds of v and its first two derivatives
     [[nodiscard]] T turned_with(const Derivatives& v) const {
       return fused(direction.second, v.second, fused(T(2) * rate, v.third, v.fourth));
     }
@@ -139,7 +139,7 @@ private:
             fused(by, b.fourth, a.fourth)};
   }
 
-  /// (3), and its moment about the hinge: along n it has the same lever at all times.
+  /// Adds the force by (3) and its moment about the hinge, whose lever along n is constant.
   static void add_air(const PlateTerms<T>& plate, Bounds& own) {
     const T reach = larger(length(plate.from), length(plate.from + plate.along));
     const Derivatives point = added(own.hinge, reach, own.direction);

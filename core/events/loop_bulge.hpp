@@ -11,7 +11,7 @@
 
 namespace wingspread {
 
-/// Of the moments at the loop's two hinges.
+/// Excesses of the moments at the loop's two hinges.
 template <class T> struct LoopBulges { Bulge<T> first, second; };
 
 /// Over a step of h. @param a, b angles of the loop's hinges

@@ -27,7 +27,7 @@
 namespace wingspread {
 
 template <class T> struct LoopTerms {
-  int first, second;  ///< bodies whose hinges it joins, a and b
+  int first, second;  ///< bodies of the hinges a and b
   const Curve* table; ///< g; null: ratio·x
   T ratio;
   T stiffness, damping;

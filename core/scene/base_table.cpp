@@ -16,7 +16,7 @@ Wide twice(const Powers& c, Wide u) {
          (c[0] / Wide(2) + u * (c[1] / Wide(6) + u * (c[2] / Wide(12) + u * (c[3] / Wide(20)))));
 }
 
-/// A curve's integrals where its pieces begin: its own, and that one's, both 0 at t = 0.
+/// A curve's integral and the integral of that at the start of each piece, both 0 at t = 0.
 struct Integrals {
   std::vector<Wide> first, second;
 
@@ -30,7 +30,7 @@ struct Integrals {
     begin_at_zero(curve);
   }
 
-  /// The number of the piece that holds t = 0.
+  /// Index of the piece that holds t = 0.
   static std::size_t at_zero(const Curve& curve) {
     std::size_t k = 0;
     while (k < curve.knots().size() && curve.knots()[k] <= 0) ++k;

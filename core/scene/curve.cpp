@@ -9,7 +9,7 @@ namespace {
 
 bool same_sign(double a, double b) { return (a > 0 && b > 0) || (a < 0 && b < 0); }
 
-/// The slope at an end, from its own piece and the next: by three points, but not against the data.
+/// The three-point slope at an end, from its own piece and the next, limited to the data's direction.
 double end_slope(double h0, double h1, double d0, double d1) {
   const double slope = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
   if (!same_sign(slope, d0)) return 0;
@@ -36,7 +36,7 @@ std::vector<double> monotone_slopes(const std::vector<double>& h, const std::vec
   return slopes;
 }
 
-/// With one rounding for each product and sum.
+/// a·b + c with one rounding on every processor.
 double slope_of(const Curve::Piece& piece, double u) {
   return std::fma(u, std::fma(u, 3 * piece.c[3], 2 * piece.c[2]), piece.c[1]);
 }
@@ -55,12 +55,12 @@ void widen_by_slopes(const Curve::Piece& piece, double h, double& least, double&
   if (piece.c[3] != 0 && vertex > 0 && vertex < h) take(vertex);
 }
 
-/// By how much a cubic over 0 … h may leave, inside any interval of it, the range of that interval's
-/// ends: half of what it goes forth and back.
+/// Largest excess of a cubic over 0 … h, inside any part of it, over the range of that part's ends: half its total
+/// reversal.
 double overshoot_of(const Curve::Piece& piece, double h) {
   const auto& c = piece.c;
   const auto value = [&](double u) { return c[0] + u * (c[1] + u * (c[2] + u * c[3])); };
-  // the roots of c1 + 2 c2 u + 3 c3 u², without loss of digits: there it may turn
+  // the roots of c1 + 2 c2 u + 3 c3 u², without loss of digits: its possible extremes
   const double root = std::sqrt(std::max(c[2] * c[2] - 3 * c[1] * c[3], 0.0));
   const double q = -(c[2] + std::copysign(root, c[2]));
   const double one = c[3] != 0 ? q / (3 * c[3]) : 0, other = q != 0 ? c[1] / q : 0;

@@ -7,7 +7,7 @@
 namespace wingspread {
 namespace {
 
-/// Whose fields are looked at: "hinges.root", "base".
+/// The object whose fields are checked, e.g. "hinges.root" or "base".
 struct Owner {
   const char* kind;
   std::string_view name; ///< may be empty

@@ -132,15 +132,14 @@ struct Hinge {
   std::optional<Latch> latch; ///< none: the hinge never latches
 };
 
-/// A closed cable loop that keeps the travel of one hinge to a function of another's: with
-/// x = sense (φ − stowed) and e = g(x of the first) − x of the second it pulls the second by
-/// τ = K e + D ė, and the first by −g' τ. A strand of a preloaded loop goes slack at K |e| = 2 M_p,
-/// from where on τ = ½ K e + M_p sign e, with half the damping.
+/// A closed cable loop that ties one hinge's travel x = sense (φ − stowed) to a function g of another's. With
+/// e = g(x_first) − x_second it pulls the second hinge by τ = K e + D ė and the first by −g' τ. A strand of a
+/// preloaded loop goes slack at K |e| = 2 M_p; beyond, τ = ½ K e + M_p sign e + ½ D ė.
 struct Synchronisation {
   std::string name;
   int first = 0, second = 0; ///< indices into Scene::hinges
   double ratio = 1;          ///< g(x) = ratio·x
-  /// g by a table, straight beyond its ends, in place of the ratio.
+  /// g by a table, straight beyond its ends; replaces the ratio.
   std::shared_ptr<const Curve> table;
   std::vector<double> travel, travel_of_second; ///< the table as given, rad
   double stiffness = 0;                         ///< K, N·m/rad, ≥ 0
@@ -148,7 +147,7 @@ struct Synchronisation {
   std::optional<double> preload; ///< M_p, strand tension times radius, N·m, > 0; none: never slack
 };
 
-/// What surrounds the wing.
+/// Gravity and air.
 struct Environment {
   Eigen::Vector2d gravity{0, 0}; ///< inertial axes, m/s²
   double air_density = 0;        ///< ρ, kg/m³, ≥ 0; the air is at rest
@@ -156,14 +155,14 @@ struct Environment {
 
 enum class BaseMotion { fixed, prescribed, free };
 
-/// The body that carries the wings. Fields that its motion does not name are ignored.
+/// The body that carries the wings. Fields of other motions than its own are ignored.
 struct Base {
   BaseMotion motion = BaseMotion::fixed;
-  // prescribed: constant accelerations, and over time what a table gives in their place
+  // prescribed: constant accelerations; a table replaces those that it gives
   Eigen::Vector2d acceleration{0, 0}; ///< of the origin, inertial axes, m/s²
   double angular_acceleration = 0;    ///< rad/s²
   std::shared_ptr<const BaseTable> table{};
-  double table_scale = 1; ///< of all that the table gives
+  double table_scale = 1; ///< factor of all columns of the table
   // prescribed and free: initial state
   double angle = 0; ///< rad
   double rate = 0;  ///< rad/s
@@ -185,11 +184,11 @@ struct Scene {
   Environment environment{};
 };
 
-/// A parameter whose value physics forbids.
+/// A parameter with an unphysical value.
 struct Fault {
   std::string path;     ///< e.g. "bodies.panel_1.mass"
   std::string found;    ///< the value
-  std::string expected; ///< what would do, e.g. "> 0"
+  std::string expected; ///< a condition that the value must meet, e.g. "> 0"
 };
 
 /// Every parameter of the scene that is unphysical: non-finite values, masses and inertias ≤ 0,

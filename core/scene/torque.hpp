@@ -1,5 +1,4 @@
-/// Torques and friction of a hinge at a place of its travel, one by one: for what looks at a scene without running
-/// it. Runs have forms of their own, in core/mechanics.
+/// Torques and friction of a hinge at one place of its travel, for static checks of a scene. Runs use core/laws.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -13,7 +12,7 @@ namespace wingspread {
 /// @param travel share of the hinge's way, 0 stowed … 1 latched
 [[nodiscard]] double torque_at(const HingeTorque& torque, const Hinge& hinge, double travel);
 
-/// What a torque test both ways adds to the friction of its hinge, N·m; 0 without one. Friction's scale is in it.
+/// Friction level measured by a torque test both ways, times friction's scale, N·m; 0 without such a test.
 [[nodiscard]] double measured_friction_at(const Hinge& hinge, double travel);
 
 /// The Coulomb level that sliding has to overcome, N·m.

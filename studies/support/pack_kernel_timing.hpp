@@ -1,7 +1,7 @@
 /// The definition behind pack_kernel.hpp.
 #pragma once
 
-#include "core/mechanics/hinge_moment.hpp"
+#include "core/laws/linear_law.hpp"
 #include "core/mechanics/recursion.hpp"
 #include "studies/support/pack_kernel.hpp"
 

@@ -14,7 +14,7 @@
 /// Cost of order K for N bodies: N (N − 1)/2 · 6 + N/2 convolutions of K²/2 multiply-adds each.
 #pragma once
 
-#include "core/mechanics/hinge_moment.hpp"
+#include "core/laws/linear_law.hpp"
 #include "core/mechanics/layout.hpp"
 #include "core/mechanics/wing.hpp"
 
