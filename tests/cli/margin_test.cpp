@@ -148,8 +148,7 @@ TEST_CASE("margin, hinge by hinge, reports each") {
   const auto finished = program.margin(json);
   CHECK(finished.code == 1);
   CHECK_THAT(finished.out, Catch::Contains("hinge root alone") &&
-                               Catch::Contains("hinge mid alone") &&
-                               Catch::Contains("no edge"));
+                               Catch::Contains("hinge mid alone") && Catch::Contains("no edge"));
   CHECK_THAT(finished.error, Catch::Contains("not met: root: nothing fails up to 8.8: no edge was "
                                              "found, for nothing that is required limits the "
                                              "springs from above\n"));
