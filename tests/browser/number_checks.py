@@ -28,14 +28,14 @@ def parsed(text):
 class NumberChecks:
     """For a Page: open, run_script, one, all and unittest's assertions come from it."""
 
-    def check(self, text, *expected, share=False, about=""):
-        """The numbers of a text are these (None: a dash or words without a number); shares are printed in per cent."""
+    def check(self, text, *expected, share=False, near=1e9, about=""):
+        """The numbers of a text are these (None: a dash or words without a number); shares are printed in per cent. `near`: the largest relative difference."""
         expected = [one for one in expected if one is not None]
         numbers = parsed(text)
         self.assertEqual(len(numbers), len(expected), f"{about}: {text!r} for {expected}")
         for (value, half), one in zip(numbers, expected):
             want = 100 * one if share else one
-            self.assertLessEqual(abs(value - want), half + 1e-9 * abs(want), f"{about}: {text!r} for {want}")
+            self.assertLessEqual(abs(value - want), min(half, near * abs(want)) + 1e-9 * abs(want), f"{about}: {text!r} for {want}")
             self.assertEqual(value == 0, want == 0, f"{about}: {text!r} for {want}")
             if share:
                 self.assertEqual(value == 100, one == 1, f"{about}: {text!r} for {want}")
@@ -238,6 +238,6 @@ class NumberChecks:
                     self.check(row[4], one["relative"], share=True, about=one["output"])
         self.run_script("W.choose('set', 0)")
         for row, one in zip(self.table("Scene of cold"), data["sets"][0]["inputs"]["scene"], strict=True):
-            self.check(row[1], one["value"], about=one["path"])
-            self.check(row[3], one["value"] * DEGREES if one["unit"] == "rad" else None, about=one["path"])
+            self.check(row[1], one["value"], near=1e-6, about=one["path"])
+            self.check(row[3], one["value"] * DEGREES if one["unit"] == "rad" else None, near=1e-5, about=one["path"])
             self.check(row[4], one["case_value"], about=one["path"])

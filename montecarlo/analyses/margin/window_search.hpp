@@ -53,7 +53,7 @@ struct Window {
 [[nodiscard]] Looks search_window(const SearchRange& range,
                                   const std::function<Failing(double)>& judge);
 
-/// The scales that are looked at whatever they come to, in their order: the grid and 1.
+/// The scales that are always evaluated, in their order: the grid and 1.
 [[nodiscard]] std::vector<double> first_scales(const SearchRange& range);
 
 /// An upper bound of the number of scales in all, with those of the recommendation: every cell that may still be halved

@@ -98,8 +98,8 @@ std::string sensitivity_table(const RankSensitivity& all, std::string_view title
                          value_text(spearman.value, spearman.bounds));
     };
     text += effect_block(
-        heading_of(output.output, output.count, "runs", output.missing, "without a value"),
-        columns, all.dispersions.size(), size, line);
+        heading_of(output.output, output.count, "runs", output.missing, "without a value"), columns,
+        all.dispersions.size(), size, line);
   }
   return text;
 }

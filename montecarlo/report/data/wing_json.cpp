@@ -69,7 +69,7 @@ BodyOutline star(const std::vector<Point>& marks) {
   return outline;
 }
 
-/// What a base is drawn as: a box on the side from which its wings go out, about as large as a panel.
+/// The outline of a base: a box with its wings on one side, about as large as a panel.
 BodyOutline base_outline(const Scene& scene) {
   Point joints{0, 0}, outward{0, 0};
   double reach = 0, count = 0, spread = 0;

@@ -154,12 +154,11 @@
     else root.removeAttribute("data-theme");
     const paper = document.createElementNS("http://www.w3.org/2000/svg", "rect");
     const [, , width, height] = original.getAttribute("viewBox").split(" ").map(Number); // with a margin, to be pasted as it is
-    Object.entries({ x: -14, y: -12, width: width + 28, height: height + 24, fill: "#fff" }).forEach(([name, value]) =>
-      paper.setAttribute(name, value),
-    );
-    Object.entries({ viewBox: `-14 -12 ${width + 28} ${height + 24}`, width: width + 28, height: height + 24 }).forEach(
-      ([name, value]) => copy.setAttribute(name, value),
-    );
+    const set = (element, attributes) =>
+      Object.entries(attributes).forEach(([name, value]) => element.setAttribute(name, value));
+    const size = { width: width + 28, height: height + 24 };
+    set(paper, { x: -14, y: -12, ...size, fill: "#fff" });
+    set(copy, { viewBox: `-14 -12 ${width + 28} ${height + 24}`, ...size });
     copy.insertBefore(paper, copy.children[2] || null);
     return new XMLSerializer().serializeToString(copy);
   }

@@ -11,39 +11,20 @@
   ];
   const plus = (a, b) => [a[0] + b[0], a[1] + b[1]];
 
-  // A body's frame from its parent's: shifted to the joint, turned by the hinge's angle; `inner` is the joint in the body's own frame.
+  // The frames of all bodies: a body's joint is a point of its parent and, as `inner`, of the body itself.
   P.frames = function (wing, angles, base) {
-    const frames = [],
+    const root = base
+        ? { origin: [base.x, base.y], angle: base.angle }
+        : { origin: [0, 0], angle: (wing.base && wing.base.angle) || 0 },
       ofHinge = [];
-    wing.bodies.forEach(function (body, at) {
-      const still = (wing.base && wing.base.angle) || 0;
-      if (body.hinge < 0) frames[at] = { origin: base ? [base.x, base.y] : [0, 0], angle: base ? base.angle : still };
-      else {
-        const parentHinge = wing.hinges[body.hinge].parent,
-          parent =
-            parentHinge < 0
-              ? frames[wing.bodies.findIndex((one) => one.hinge < 0)] || {
-                  origin: [0, 0],
-                  angle: base ? base.angle : still,
-                }
-              : ofHinge[parentHinge];
-        const joint = plus(parent.origin, turned(body.joint_in_parent, parent.angle)),
-          angle = parent.angle + angles[body.hinge];
-        frames[at] = {
-          origin: plus(
-            joint,
-            turned(
-              body.inner.map((one) => -one),
-              angle,
-            ),
-          ),
-          angle,
-          joint,
-        };
-        ofHinge[body.hinge] = frames[at];
-      }
+    return wing.bodies.map(function (body) {
+      if (body.hinge < 0) return root;
+      const parent = ofHinge[wing.hinges[body.hinge].parent] || root,
+        angle = parent.angle + angles[body.hinge],
+        joint = plus(parent.origin, turned(body.joint_in_parent, parent.angle)),
+        [x, y] = turned(body.inner, angle);
+      return (ofHinge[body.hinge] = { origin: plus(joint, [-x, -y]), angle, joint });
     });
-    return frames;
   };
   P.outlines = (wing, frames) =>
     wing.bodies.map((body, at) =>

@@ -11,6 +11,7 @@
     let marks = null,
       at = -1;
     const chosen = () => (W.chosen.run && W.chosen.run.set === setAt ? W.chosen.run.run : null);
+    const select = (k) => W.selectRun(setAt, points.run[k], { [pair.draw]: points.x[k], [pair.output]: points.y[k] });
     function mark() {
       if (marks)
         marks
@@ -80,9 +81,7 @@
             (k) =>
               `run ${points.run[k]}: ${pair.draw} ${F.number(points.x[k], 4)}, ${F.name(output)} ${F.withUnit(points.y[k], output.unit)}`,
           )
-          .on("click", (k) =>
-            W.selectRun(setAt, points.run[k], { [pair.draw]: points.x[k], [pair.output]: points.y[k] }),
-          );
+          .on("click", select);
         marks.append("title").text((k) => `run ${points.run[k]}`);
         list.on("keydown", () => byKeys(d3.event, list, stem));
         mark();
@@ -92,11 +91,7 @@
     function byKeys(event, list, stem) {
       const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
       if (step) at = Math.max(0, Math.min(order.length - 1, at + step));
-      else if ((event.key === "Enter" || event.key === " ") && at >= 0)
-        W.selectRun(setAt, points.run[order[at]], {
-          [pair.draw]: points.x[order[at]],
-          [pair.output]: points.y[order[at]],
-        });
+      else if ((event.key === "Enter" || event.key === " ") && at >= 0) select(order[at]);
       else return;
       list.attr("aria-activedescendant", `${stem}-${order[at]}`);
       marks.classed("current", (k) => k === order[at]);

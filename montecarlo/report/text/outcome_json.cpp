@@ -10,7 +10,7 @@ Json vector(const Eigen::Vector2d& v) {
   return Json::array({json_number(v.x()), json_number(v.y())});
 }
 
-/// A number for each hinge, by name.
+/// A number per hinge, by name.
 Json by_hinge(const Scene& scene, const std::vector<double>& values) {
   Json json = Json::object();
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -52,7 +52,7 @@ Json overtravel_json(const Scene& scene, const Outcome& outcome) {
   return by_hinge(scene, outcome.overtravel);
 }
 
-/// Nothing where no peak is known.
+/// Null without peaks.
 Json peaks_final_json(const Outcome& outcome) {
   const bool none = outcome.peak_moment.empty() && outcome.peak_force.empty();
   return none || outcome.status == Status::failed ? Json(nullptr) : Json(outcome.peaks_final);

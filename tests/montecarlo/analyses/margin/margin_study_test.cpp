@@ -144,16 +144,17 @@ TEST_CASE("a campaign without a margin, requirements or runs enough is refused, 
   Json json = one_panel_margin(70);
   json.erase("margin");
   json["requirements"][1]["probability"] = 0.999;
-  CHECK(message_of([&] { return margin_of(campaign_of(json)).runs; }) ==
-        "/margin: found nothing, expected what to size\n"
-        "/sampling/runs: found 70, expected at least 76: fewer cannot show \"deployed, 97 % at "
-        "90 %\"\n"
-        "/sampling/runs: found 70, expected at least 2302: fewer cannot show \"root.latch_rate ≥ "
-        "-0.8 rad/s, 99.9 % at 90 %\"");
+  const auto refusal = [](const Json& campaign) {
+    return message_of([&] { return margin_of(campaign_of(campaign)).runs; });
+  };
+  CHECK_THAT(refusal(json),
+             Catch::Contains("/margin: found nothing") &&
+                 Catch::Contains("/sampling/runs: found 70, expected at least 76") &&
+                 Catch::Contains("/sampling/runs: found 70, expected at least 2302") &&
+                 Catch::Contains("root.latch_rate ≥ -0.8 rad/s, 99.9 % at 90 %"));
   json = one_panel_margin(100);
   json.erase("requirements");
-  CHECK(message_of([&] { return margin_of(campaign_of(json)).runs; }) ==
-        "/requirements: found none, expected at least one: it is they that make a window");
+  CHECK_THAT(refusal(json), Catch::Contains("/requirements: found none, expected at least one"));
 }
 
 TEST_CASE("its progress never runs backwards nor beyond the end, and ends there", "[margin]") {

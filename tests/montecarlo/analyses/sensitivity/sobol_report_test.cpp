@@ -55,6 +55,5 @@ TEST_CASE("an output without indices, and bounds that there are not, are told of
   const auto said = warnings(all);
   REQUIRE(said.size() >= 2);
   CHECK(said[0] == one_replicate);
-  CHECK_THAT(said[1], Catch::Contains("\"deployment_time\"") &&
-                          Catch::Contains("no indices"));
+  CHECK_THAT(said[1], Catch::Contains("\"deployment_time\"") && Catch::Contains("no indices"));
 }

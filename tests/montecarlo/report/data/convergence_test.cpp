@@ -18,7 +18,7 @@ TEST_CASE("runs of a convergence are even in the logarithm and end with all", "[
 
 TEST_CASE("a convergence is of the first runs, by hand", "[page]") {
   const Column column = column_of("x", {4, nothing, 2, 6, 8, 1, 3, 5, 7, 9, 11, 13});
-  const SettledColumn settled = settle(column, 0.5, 0.95, {}, 3);
+  const SettledColumn settled = settle_column(column, 0.5, 0.95, {}, 3);
   const auto& points = settled.convergence.points; // after 10, 11 and 12 runs
   REQUIRE(points.size() == 3);
   CHECK(points[0].runs == 10);
@@ -43,7 +43,7 @@ TEST_CASE("a convergence ends where the summary stands, of replicates too", "[pa
   for (int row = 0; row < 2000; ++row)
     results.append({row, Status::deployed, {}, {values[static_cast<std::size_t>(row)]}, "a", ""});
   const OutputSummary summary = summarize(results, {.quantiles = {0.9}}, replication).outputs[0];
-  const SettledColumn settled = settle(column, 0.9, 0.95, replication, 20);
+  const SettledColumn settled = settle_column(column, 0.9, 0.95, replication, 20);
   const ConvergencePoint& last = settled.convergence.points.back();
   CHECK(last.mean == summary.moments.mean);
   CHECK(last.quantile == summary.quantiles[0].value);

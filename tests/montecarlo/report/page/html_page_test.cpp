@@ -115,8 +115,8 @@ TEST_CASE("a folder of a margin study is a set without runs, by hand", "[page]")
 
 TEST_CASE("every output that a campaign can have is in the glossary", "[page]") {
   const Json glossary = glossary_json();
-  const Scene scene = read_scene_file(std::filesystem::path(source_folder) /
-                                      "studies/scenes/two_wing_free.json");
+  const Scene scene =
+      read_scene_file(std::filesystem::path(source_folder) / "studies/scenes/two_wing_free.json");
   for (const OutputColumn& column : output_columns(scene, all_outputs())) {
     const std::string hinge =
         column.hinge < 0 ? "" : scene.hinges[static_cast<std::size_t>(column.hinge)].name + '.';
