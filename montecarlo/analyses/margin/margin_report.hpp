@@ -1,9 +1,9 @@
 /// The report of a study of margins: margin.json and margin.csv, and text for people. What it says of
-/// static margins is in motorization_report.hpp.
+/// static margins is in static_margin_report.hpp.
 #pragma once
 
 #include "montecarlo/analyses/margin/margin_findings.hpp"
-#include "montecarlo/analyses/margin/motorization_report.hpp"
+#include "montecarlo/model/static_margins/static_margin_report.hpp"
 
 #include <string>
 #include <vector>
@@ -20,7 +20,7 @@ inline constexpr const char* recommended_file = "recommended.json";
 struct MarginReport {
   const Campaign& campaign;
   const MarginResult& result;
-  std::vector<ScaledMotorization> motorization;
+  StaticMarginReport static_margins;
 };
 
 /// With the static margins at the present springs, and at those recommended.

@@ -13,7 +13,12 @@ namespace wingspread {
 using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json json_number(double value);
+/// The number rounded to so many significant digits.
+[[nodiscard]] Json json_number(double value, int digits);
 [[nodiscard]] Json json_number(const std::optional<double>& value);
+
+/// Rounds to so many significant digits; −0 becomes 0, NaN and infinities stay.
+[[nodiscard]] double rounded(double value, int digits);
 
 /// The text of a JSON file, indented by two and ended by a line feed. Numbers have as many digits as
 /// it takes to read back the same double. Bytes that are not UTF-8 (in a reason read from a foreign

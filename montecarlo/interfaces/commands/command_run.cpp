@@ -13,7 +13,7 @@
 #include "montecarlo/interfaces/terminal/overall_progress.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/examine.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "montecarlo/results/streaming/rowless_folder.hpp"
@@ -297,7 +297,7 @@ int run(const RunOptions& options) {
   change_scene(campaign, options.set);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   override_until(campaign, options.until);
-  heed(examine(campaign, options.campaign), options.strict);
+  heed(check_input(campaign, options.campaign), options.strict);
   settle(campaign, options);
   if (!options.no_rows && !campaign.cases.empty()) return run_cases(campaign, options);
   if (campaign.cases.empty()) (void)chosen_cases(campaign, options.cases); // there are none

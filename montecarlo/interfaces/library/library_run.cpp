@@ -4,7 +4,7 @@
 #include "montecarlo/interfaces/library/table.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/overrides.hpp"
-#include "montecarlo/model/input_checks/examine.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 
@@ -28,7 +28,7 @@ void check(const RunOptions& options) {
 
 std::vector<std::string> notices_of(const Campaign& campaign, const std::filesystem::path& file) {
   std::vector<std::string> notices;
-  for (const Notice& notice : examine(campaign, file)) notices.push_back(to_string(notice));
+  for (const InputWarning& notice : check_input(campaign, file)) notices.push_back(to_string(notice));
   return notices;
 }
 

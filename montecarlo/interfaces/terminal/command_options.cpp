@@ -106,7 +106,7 @@ void add_strict_option(CLI::App& command, bool& strict) {
                    "What is warned of is an error: nothing is done, exit code 2");
 }
 
-void heed(const std::vector<Notice>& notices, bool strict) {
+void heed(const std::vector<InputWarning>& notices, bool strict) {
   if (strict && !notices.empty()) throw as_errors(notices);
   for (std::size_t i = 0; i < std::min(notices.size(), most_notices); ++i)
     fmt::print(stderr, "warning: {}\n", to_string(notices[i]));

@@ -5,7 +5,7 @@
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/model/campaign/campaign.hpp"
 #include "montecarlo/model/campaign/overrides.hpp"
-#include "montecarlo/model/input_checks/notice.hpp"
+#include "montecarlo/model/input_checks/input_warning.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
 #include <cstdint>
@@ -49,7 +49,7 @@ void add_strict_option(CLI::App& command, bool& strict);
 
 /// Says on standard error what was noticed of the input, a line each.
 /// @throws SpecError with all of it, if it is to be an error
-void heed(const std::vector<Notice>& notices, bool strict);
+void heed(const std::vector<InputWarning>& notices, bool strict);
 
 void add_sampling_options(CLI::App& command, SamplingOptions& sampling);
 

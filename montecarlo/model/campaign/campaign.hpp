@@ -37,7 +37,7 @@ struct Campaign {
   std::vector<Requirement> requirements;
   StoppingRule until;               ///< it may stop before all of its runs are made
   std::optional<MarginSpec> margin; ///< what `wingspread margin` sizes; of no account to its runs
-  MotorizationSpec motorization;    ///< how static margins are judged; the margin's, if it has one
+  StaticMarginSpec motorization;    ///< how static margins are judged; the margin's, if it has one
   /// The same in full as JSON: defaults explicit, the scene and empirical values in place of their
   /// files. Reads back to the same campaign, wherever it is put.
   Json resolved;

@@ -3,12 +3,12 @@
 ///     "margin": { "scale": ["hinges.*.spring.torque_stowed", "hinges.*.spring.torque_latched"],
 ///                 "range": [0.5, 2], "widest": [0.0625, 16], "mode": "joint", "points": 13, "tolerance": 0.01,
 ///                 "cases": ["nominal", "one_spring_out"], "springs_per_hinge": 2,
-///                 "motorization": { … } }                         as in motorization_spec.hpp
+///                 "motorization": { … } }                         as in static_margin_spec.hpp
 #pragma once
 
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
-#include "montecarlo/model/static_margins/motorization_spec.hpp"
+#include "montecarlo/model/static_margins/static_margin_spec.hpp"
 
 #include <array>
 #include <span>
@@ -37,9 +37,9 @@ struct MarginSpec {
 /// @param scene null when it has problems of its own: then paths and hinges are not looked up
 /// @param motorization what it says of the static margins, with the springs of a hinge
 [[nodiscard]] MarginSpec read_margin(const JsonCursor& at, const Scene* scene,
-                                     MotorizationSpec& motorization);
+                                     StaticMarginSpec& motorization);
 
-[[nodiscard]] Json write_margin(const MarginSpec& margin, const MotorizationSpec& motorization,
+[[nodiscard]] Json write_margin(const MarginSpec& margin, const StaticMarginSpec& motorization,
                                 const Scene& scene);
 
 /// What a hinge's spring is scaled by: its torques, stowed and latched, or the scale of its table.
