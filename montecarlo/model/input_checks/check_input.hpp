@@ -1,5 +1,5 @@
-/// Input checks: warns of values that are valid but probably not meant, before a scene or campaign is run. Every rule is
-/// silent on the shipped scenes and campaigns; tests/montecarlo/model/input_checks has its mistakes.
+/// Input checks: warns of values that are valid but probably not meant, before a scene or campaign is run. Every rule
+/// is silent on the shipped scenes and campaigns; tests/montecarlo/model/input_checks has its mistakes.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"

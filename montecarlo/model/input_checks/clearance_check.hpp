@@ -6,8 +6,8 @@
 
 namespace wingspread {
 
-/// Runs the nominal wing up to its last latch and compares the bodies' arms (shape_checks.hpp) at least every 0.05 rad of
-/// each hinge. States with a hinge beyond its stowed angle are skipped: overtravel is an output of runs.
+/// Runs the nominal wing up to its last latch and compares the bodies' arms (shape_checks.hpp) at least every 0.05 rad
+/// of each hinge. States with a hinge beyond its stowed angle are skipped: overtravel is an output of runs.
 /// Returns the nominal deployment, without peaks.
 Outcome check_clearance(const Scene& scene, const Integration& integration,
                         InputWarnings& warnings);

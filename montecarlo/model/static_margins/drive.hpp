@@ -7,8 +7,8 @@
 /// | g      | transmission of a loop: y of its second hinge = g(y of its first)| rad   |
 /// | G_k    | gear: dy_k/dy of the leading hinge                               |       |
 ///
-/// At rest, a small turn of the leading hinge does the work of the single torque Σ_k G_k τ_k on that hinge, whatever the
-/// loop's stiffness (principle of virtual work). The drive's terms are therefore the sums of |G_k| times each hinge's
+/// At rest, a small turn of the leading hinge does the work of the single torque Σ_k G_k τ_k on that hinge, whatever
+/// the loop's stiffness (principle of virtual work). The drive's terms are therefore the sums of |G_k| times each hinge's
 /// terms (hinge_terms.hpp); a hinge without a spring is driven by the others' surplus. A hinge past its latched angle
 /// counts with its torques at that angle. Loops have no friction. Their damping vanishes at rest, and a stated rate
 /// applies to the hinges' dampers only.
