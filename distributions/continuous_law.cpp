@@ -53,8 +53,8 @@ template <class L> Tails tails_of(const L& law, double x) {
   return {bm::cdf(boost, x), bm::cdf(bm::complement(boost, x))};
 }
 
-// Boost's beta law lives on [0, 1]. Near the upper end only the distance to it is exact, so there
-// the law is read backwards.
+// Boost's beta law has the support [0, 1]. Near the upper end only the distance to this end is exact, so there the law
+// is mirrored.
 Tails tails_of(const Beta& law, double x) {
   const double from_lower = (x - law.lower) / (law.upper - law.lower);
   const double to_upper = (law.upper - x) / (law.upper - law.lower);
@@ -93,7 +93,7 @@ template <class L> double inverse_of(const L& law, Tails tails) {
                                     : bm::quantile(bm::complement(boost, tails.above));
 }
 
-/// How far a point is from both ends of a beta law, in widths of its support.
+/// A point's distances from both ends of a beta law, in widths of its support.
 struct Distances {
   double near; ///< from the end that the tail belongs to
   double far;
@@ -102,11 +102,11 @@ struct Distances {
 // Boost's root finder gives up on tiny distances for some half-integer exponents (a = ½, b = 2: a
 // factor of 100 off), where two terms of the series are all that is needed:
 //   tail = x^a/(a B(a, b))·(1 − a(b − 1)/(a + 1) x + …), so x = f + (b − 1)/(a + 1) f² + …  (2)
-// with f its first term's solution. Where f underflows, Boost knows better.
+// with f the solution of the first term. Where f underflows, Boost's result is used.
 Distances beta_distances(double a, double b, double tail) {
   const double f = std::pow(tail * a * bm::beta(a, b, MathPolicy()), 1 / a);
   if (f > 0 && f * (1 + b) < 1e-8) {
-    const double near = f + (b - 1) / (a + 1) * f * f; // (2); what is left out is below epsilon
+    const double near = f + (b - 1) / (a + 1) * f * f; // (2); the omitted terms are below epsilon
     return {near, 1 - near};
   }
   double far = 0;

@@ -1,8 +1,7 @@
 /// The continuous laws' distribution functions and their inverses, by Boost.Math.
 ///
-/// A point of a law is given by both of its tails, since the larger one alone, close to 1, says
-/// little about where in the smaller one it lies. All functions require a law without faults, throw
-/// nothing and are safe in any thread; what overflows is infinite.
+/// A point of a law is given by both tails: a tail close to 1 has lost the digits of the other. All functions require a
+/// law without faults, throw nothing and are thread-safe; overflow gives infinity.
 #pragma once
 
 #include "distributions/distribution.hpp"
@@ -15,8 +14,7 @@ struct Tails {
   double above = 1; ///< P(X > x)
 };
 
-/// The point of a law that a uniform coordinate is at.
-/// @param u in [0, 1], with 1 − u exact: what a design gives
+/// The tails of a uniform coordinate. @param u in [0, 1], with 1 − u exact, as designs give it
 [[nodiscard]] constexpr Tails tails_of_uniform(double u) { return {u, 1 - u}; }
 
 struct Support {
@@ -24,7 +22,7 @@ struct Support {
   double upper = 0;
 };
 
-/// Where the law's density lives; its ends may be infinite.
+/// The support of the law's density; its ends may be infinite.
 [[nodiscard]] Support support(const ContinuousLaw& law);
 
 /// The tails at x, which may be outside the support or infinite. Both are accurate: their relative

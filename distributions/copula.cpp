@@ -19,10 +19,10 @@ using Matrix = Eigen::MatrixXd;
 constexpr double converged = 1e-10;
 constexpr int most_projections = 2000;
 
-/// Φ⁻¹(u), by the smaller of its tails.
+/// Φ⁻¹(u), computed from the smaller tail.
 double normal_score(Tails u) { return inverse(Normal{}, u); }
 
-/// The nearest matrix of which no eigenvalue is below `smallest`.
+/// The nearest matrix without an eigenvalue below `smallest`.
 Matrix with_eigenvalues_from(const Matrix& matrix, double smallest) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrix);
   const auto raised = solver.eigenvalues().cwiseMax(smallest);

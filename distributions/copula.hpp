@@ -10,8 +10,8 @@
 ///   z' = L Φ⁻¹(u),  u' = Φ(z')                                                             (2)
 ///
 /// Source of (1): K. Pearson (1907); W. H. Kruskal, J. Amer. Statist. Assoc. 53 (1958) 814–861.
-/// Each u' is uniform, so every law keeps its shape, truncated and stepped ones too. ρ is also that
-/// of the draws of continuous laws; ties, in laws with steps, take some of it away.
+/// Each u' is uniform, so every law keeps its shape, also truncated and stepped ones. The draws of continuous laws have
+/// the same ρ; in laws with steps, ties reduce it.
 #pragma once
 
 #include "distributions/continuous_law.hpp"
@@ -25,7 +25,7 @@
 
 namespace wingspread {
 
-/// ρ of two dispersions, by their indices. Those of which none is named are independent.
+/// ρ of two dispersions, by their indices. Pairs that are not named are independent.
 struct RankCorrelation {
   std::size_t first = 0, second = 0;
   double spearman = 0; ///< ρ, > −1 and < 1
@@ -39,12 +39,12 @@ struct RankCorrelation {
 [[nodiscard]] Eigen::MatrixXd normal_correlations(std::size_t count,
                                                   std::span<const RankCorrelation> correlations);
 
-/// L, lower triangular; nothing when the matrix is not positive definite by more than rounding.
-/// By hand: a library's sums depend on how it was compiled, and draws must not.
+/// L, lower triangular; nothing if the matrix is not positive definite by more than rounding. Not Eigen's: the order of
+/// a library's sums depends on how it was compiled, and draws must not.
 [[nodiscard]] std::optional<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix);
 
 /// The correlation matrix nearest to a symmetric one with a unit diagonal, by Frobenius' norm,
-/// among those of which no eigenvalue is below `smallest`: alternating projections with Dykstra's
+/// among those without an eigenvalue below `smallest`: alternating projections with Dykstra's
 /// correction. Source: N. J. Higham, IMA J. Numer. Anal. 22 (2002) 329–343, algorithm 3.3.
 /// @pre 0 < smallest < 1
 [[nodiscard]] Eigen::MatrixXd nearest_correlations(const Eigen::MatrixXd& matrix, double smallest);
@@ -58,10 +58,10 @@ public:
   /// @pre their matrix is positive definite
   GaussianCopula(std::vector<std::size_t> order, std::span<const RankCorrelation> correlations);
 
-  /// Whether there is nothing to couple.
+  /// Whether no correlation was given.
   [[nodiscard]] bool is_independent() const { return independent_; }
 
-  /// (2), with both tails of each u and u': however close to 1 one is, its complement tells where.
+  /// (2), with both tails of each u and u', so that no digits are lost near 1.
   /// @param u       each with both tails > 0
   /// @param coupled as long, and apart. Cost: some 50 ns for each u and each of its correlations
   void couple(std::span<const Tails> u, std::span<Tails> coupled) const;

@@ -1,15 +1,13 @@
-/// How a campaign's runs fill the unit cube: the rule that turns (seed, run, name) into u in (0,
-/// 1).
+/// How a campaign's runs fill the unit cube: turns (seed, run, name) into u in (0, 1).
 ///
 ///   u = design(run, name)  →  dependence between dispersions  →  quantile(u) = the value
 ///
-/// A dispersion sees only its own u; what couples several of them (copula.hpp) works on one
-/// run's u, between the design and the quantiles, and leaves each of them uniform.
+/// A dispersion uses only its own u. The copula (copula.hpp) couples one run's u between the design and the quantiles,
+/// and leaves each of them uniform.
 ///
-/// A design that stratifies is repeated independently, so that its error can be judged: of R
-/// replicates, run k belongs to replicate k mod R, and is number ⌊k/R⌋ there. So the runs made up
-/// to any moment are spread evenly over the replicates, and a longer campaign of a design that does
-/// not depend on the number of runs begins with the shorter one.
+/// A stratified design is repeated in R independent replicates, so that its error can be estimated. Run k is number
+/// ⌊k/R⌋ of replicate k mod R: at any time the runs are spread evenly over the replicates. A longer campaign begins
+/// with the shorter one, unless the design depends on the number of runs.
 ///
 ///   symbol  meaning
 ///   N, R    runs in all, replicates
@@ -40,21 +38,19 @@ struct Design {
   std::uint64_t replicates = 1; ///< R, ≥ 1
 };
 
-/// Which replicate of the design a run is in. Independent draws have none: then it says nothing.
+/// The replicate of a run. Meaningless for independent draws.
 [[nodiscard]] constexpr std::uint64_t replicate_of(const Design& design, std::uint64_t run) {
   return run % design.replicates;
 }
 
-/// Indices of the names in their order by bytes: what must not depend on the order in which a
-/// campaign lists its dispersions goes by this one.
+/// The indices of the names, sorted by bytes. For results that must not depend on the order of a campaign's list.
 [[nodiscard]] std::vector<std::size_t> order_by_name(const std::vector<std::string>& names);
 
 /// A design for a campaign's dispersions. Immutable, so one object serves all threads.
 ///
-/// A draw depends on (seed, kind, R, run, name), and besides on N for a Latin hypercube, and for
-/// Sobol' points on the dimension that the name is given: its rank among the campaign's names. So
-/// the order of the dispersions in the file changes nothing; a dispersion that is added or renamed
-/// changes the Sobol' points of those after it.
+/// A draw depends on (seed, kind, R, run, name); for a Latin hypercube also on N; for Sobol' points also on the name's
+/// rank among the campaign's names. The order of the file does not matter; an added or renamed dispersion changes the
+/// Sobol' points of the names after it.
 class PreparedDesign {
 public:
   /// @pre the names differ; for Sobol' points there are at most most_sobol_dimensions

@@ -21,14 +21,14 @@ std::string text(double number) {
   return {buffer.data(), end};
 }
 
-// Not by operator+, in which GCC 12 at -O3 sees an overlap that is none (its bug 105651).
+// Not by operator+: GCC 12 at -O3 then warns wrongly of an overlap (GCC bug 105651).
 std::string joined(std::initializer_list<std::string_view> parts) {
   std::string whole;
   for (const std::string_view part : parts) whole += part;
   return whole;
 }
 
-/// Gathers the faults of one distribution.
+/// Collects the faults of one distribution.
 class Checker {
 public:
   void expect(bool holds, std::string path, std::string found, std::string expected) {
@@ -52,7 +52,7 @@ public:
       expect_range(numbers[i], range, joined({path, "/", std::to_string(i)}));
   }
 
-  /// Infinite ends count as ordered; NaN does not, and is reported as it is.
+  /// Infinite ends count as ordered; NaN does not.
   void expect_order(double lower, double upper, const std::string& prefix) {
     for (const auto& [name, end] : {std::pair{"lower", lower}, std::pair{"upper", upper}})
       expect(!std::isnan(end), joined({prefix, name}), text(end), "a number");
@@ -71,7 +71,7 @@ bool all_finite(const std::vector<double>& numbers) {
   return std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); });
 }
 
-/// What the weights must be together; that none is missing or negative is checked one by one.
+/// Checks the sum of the weights; each weight alone is checked before.
 void check_weights(const Discrete& law, Checker& checker) {
   const std::size_t count = law.weights.size();
   if (count == 0 || !all_finite(law.weights)) return;
@@ -83,7 +83,7 @@ void check_weights(const Discrete& law, Checker& checker) {
   checker.expect(std::isfinite(sum), "weights", joined({"a sum of ", text(sum)}), "a finite sum");
 }
 
-/// Each parameter by itself, then those that are finite against each other.
+/// Checks each parameter, then the finite ones against each other.
 template <class L> void check_law(const L& law, Checker& checker) {
   for (const auto& parameter : L::parameters())
     checker.expect_range(law.*parameter.member, parameter.range, std::string(parameter.name));

@@ -1,8 +1,8 @@
-/// The laws a dispersion may follow, as plain data.
+/// The laws of dispersions, as plain data.
 ///
-/// Values carry the unit of what they disperse, or none where they scale a nominal; so do mean,
-/// std, scale, lower, mode and upper, and a rate its inverse. Shapes, weights and what is named
-/// _log have no unit. Each law names its parameters once, for those who read, write and check them.
+/// Values, mean, std, scale, lower, mode and upper have the unit of the dispersed parameter, or none for a factor; a
+/// rate has its inverse. Shapes, weights and parameters named _log have no unit. Each law lists its parameters once,
+/// for readers, writers and checks.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@
 
 namespace wingspread {
 
-/// `shape`: of a gamma or beta law, > 0 and no larger than what the inverse of its distribution function is
-/// good for; such a law has a spread of a thousandth.
+/// `shape`: of a gamma or beta law, > 0 and ≤ largest_shape, up to which the inverse distribution function is accurate;
+/// a law with the largest shape has a relative spread of 1e-3.
 enum class Range { finite, positive, non_negative, shape };
 inline constexpr double largest_shape = 1e6;
 
-/// A parameter of a law: its name in a campaign's file, where it lives, and what it may be.
+/// A parameter of a law: its key, its member and its range.
 template <class Law, class Value> struct LawParameter {
   std::string_view name;
   Value Law::*member;
@@ -117,7 +117,7 @@ struct Exponential {
   }
 };
 
-/// One of the values, each as often as its weight says. Values may stand in any order and repeat.
+/// One of the values, with probabilities in proportion to the weights. Values may be unordered and repeat.
 struct Discrete {
   std::vector<double> values;
   std::vector<double> weights; ///< ≥ 0, one for each value, not all zero; need not add up to 1
@@ -128,9 +128,8 @@ struct Discrete {
   }
 };
 
-/// One of the measured values, each as often as the others (a bootstrap draw): its distribution
-/// function is the step function of the data. Interpolating between them was ruled out: it draws
-/// values nobody measured, and narrows or widens the data by a choice that the data do not make.
+/// One of the measured values with equal probabilities (a bootstrap draw). Interpolation between values was ruled out:
+/// it draws values that were not measured, and its choice changes the spread.
 struct Empirical {
   std::vector<double> values;
   static constexpr std::string_view type = "empirical";
@@ -166,16 +165,16 @@ struct Distribution {
   std::optional<Truncation> truncate;
 };
 
-/// A parameter that makes no distribution.
+/// An invalid parameter.
 struct DistributionFault {
   std::string path;     ///< e.g. "std", "weights/2" or "truncate/upper"; empty for the whole
   std::string found;    ///< the value
-  std::string expected; ///< what would do, e.g. "> 0"
+  std::string expected; ///< the condition, e.g. "> 0"
 };
 
-/// Every invalid parameter, all together: what is not finite, not positive or not in order, values
-/// and weights that are missing or do not pair up, a truncation of a law that takes none or to an
-/// interval without probability. Empty when the distribution can be prepared.
+/// All invalid parameters: values that are not finite, out of range or out of order; missing or unpaired values and
+/// weights; a truncation of a stepped law, or to an interval without probability. Empty if the distribution can be
+/// prepared.
 [[nodiscard]] std::vector<DistributionFault> faults(const Distribution& distribution);
 
 struct LawMoments {
@@ -183,7 +182,7 @@ struct LawMoments {
   double standard_deviation = 0;
 };
 
-/// The law's moments, truncation left out (hence of the law). Requires a law without faults.
+/// The moments of the law without truncation. Requires a law without faults.
 [[nodiscard]] LawMoments moments(const Law& law);
 
 } // namespace wingspread

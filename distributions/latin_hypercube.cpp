@@ -10,7 +10,7 @@ __extension__ typedef unsigned __int128 Wide; // NOLINT(modernize-use-using): ta
 
 constexpr unsigned rounds = 16;
 
-/// A whole number below `bound` from 64 random bits; its bias, bound/2⁶⁴, is of no account.
+/// An integer below `bound` from 64 random bits; its bias, bound/2⁶⁴, is negligible.
 std::uint64_t below(std::uint64_t bound, std::uint64_t bits) {
   return static_cast<std::uint64_t>((Wide{bits} * bound) >> 64);
 }

@@ -4,20 +4,18 @@
 /// coordinate falls once into each of n equal strata; which point into which is a random
 /// permutation for each coordinate, and its place within the stratum is random.
 ///
-/// The permutation of n strata has to be evaluated at one point without knowing the others: a
-/// Feistel network over ℤ_a × ℤ_b with a·b ≥ n, walked on until it is below n (J. Black,
-/// P. Rogaway, "Ciphers with arbitrary finite domains", CT-RSA 2002), then turned by a random
-/// shift.
+/// The permutation of n strata has to be evaluated at a single point: a Feistel network over ℤ_a × ℤ_b with a·b ≥ n,
+/// repeated until the result is below n (J. Black, P. Rogaway, "Ciphers with arbitrary finite domains", CT-RSA 2002),
+/// then rotated by a random shift.
 ///
 ///   symbol  meaning
 ///   i, n    the point, how many there are
 ///   s       its stratum, [s/n, (s + 1)/n)
 ///   a, b    the network's halves: a = ⌈√n⌉, b = ⌈n/a⌉
 ///
-/// For any key it is a permutation. Over all keys, and random round functions, the shift makes
-/// every point's stratum exactly uniform, so that means are unbiased; and two points' strata are
-/// any two with equal probability but for a part of about a⁻¹⁵: it is carried on only where halves
-/// coincide in round after round.
+/// Every key gives a permutation. Over random keys the shift makes each point's stratum exactly uniform, so means are
+/// unbiased. All pairs of strata are equally probable for two points up to a relative error of about a⁻¹⁵, because a
+/// dependence survives only if halves coincide in every round.
 #pragma once
 
 #include "distributions/random_stream.hpp"

@@ -1,9 +1,8 @@
-/// How Boost.Math evaluates, wherever this program asks it for a law or a special function.
+/// The policy for all laws and special functions of Boost.Math.
 ///
-/// In double: its default is long double, which has 80 bits on one processor and 128 on another, so
-/// that the last bits of a draw or a bound would depend on the machine, at several times the cost, for
-/// digits that the tests show are not needed. And without exceptions, since none may cross a thread: an
-/// error becomes NaN or infinity.
+/// It evaluates in double. The default, long double, has 80 bits on one processor and 128 on another: the last bits of
+/// a draw or bound would depend on the machine, at several times the cost. Errors give NaN or infinity instead of
+/// exceptions, which must not cross threads.
 #pragma once
 
 #include <boost/math/policies/policy.hpp>

@@ -1,16 +1,14 @@
 /// Nested uniform scrambling: A. B. Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", in
 /// Monte Carlo and Quasi-Monte Carlo Methods in Scientific Computing (1995) 299–317.
 ///
-/// Each binary digit is flipped or not by a random bit of its own for each value of the digits
-/// before it. That leaves a net a net and makes each point uniform, so that means are unbiased;
-/// their variance is o(1/n) for whatever has a variance at all (Owen, SIAM J. Numer. Anal. 34
-/// (1997) 1884–1910), and nearly O(1/n³) for what is smooth (Owen, Ann. Statist. 25 (1997)
-/// 1541–1562).
+/// A random bit decides for each binary digit, and each value of the digits before it, whether the digit is flipped. A
+/// net stays a net, and each point becomes uniform, so means are unbiased. Their variance is o(1/n) for every integrand
+/// with finite variance (Owen, SIAM J. Numer. Anal. 34 (1997) 1884–1910) and nearly O(1/n³) for smooth ones (Owen,
+/// Ann. Statist. 25 (1997) 1541–1562).
 ///
-/// The random bits are Philox's own: one for each node of the binary tree of digits, computed where
-/// it is wanted. So this is the exact scrambling, given Philox. Hashes that imitate it in a few
-/// operations (Laine and Karras; Burley) were ruled out: their quality can only be tested, and a
-/// draw's cost is nothing beside its run's.
+/// The random bits are Philox's, one for each node of the binary tree of digits, so the scrambling is exact. Hashes
+/// that approximate the scrambling (Laine and Karras; Burley) were ruled out: their quality can only be tested, and a
+/// run costs far more than its draws.
 #pragma once
 
 #include "distributions/random_stream.hpp"

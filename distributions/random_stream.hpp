@@ -1,14 +1,14 @@
-/// Uniform random numbers that depend on nothing but (seed, run, name).
+/// Uniform random numbers that depend on (seed, run, name) only.
 ///
-/// A counter-based generator (Philox4x64-10; Salmon et al., "Parallel random numbers: as easy as
-/// 1, 2, 3", SC 2011) has no state to hand on: any number of any stream is computed where it is
-/// wanted. So threads, shards, order and resumption cannot change a draw.
+/// The generator is counter-based (Philox4x64-10; Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC
+/// 2011): it has no state, and any number of any stream can be computed alone. Threads, shards, order and resumption
+/// cannot change a draw.
 ///
 ///   word       holds
 ///   key 0      the campaign's seed
-///   key 1      what the numbers are for: 0 for a dispersion's own draws, else a StreamUse
+///   key 1      the purpose: 0 for a dispersion's draws, else a StreamUse
 ///   counter 0  the block within the stream (four numbers each); of a design, its level or round
-///   counter 1  the run; of a design, what the level or round depends on
+///   counter 1  the run; of a design, the node or half that the level or round depends on
 ///   counter 2  the hash of the dispersion's name
 ///   counter 3  the design's replicate; 0 for draws
 #pragma once
@@ -21,15 +21,14 @@
 
 namespace wingspread {
 
-/// A name as the streams know it. Two names share a stream only if their hashes collide; whoever
-/// holds all of a campaign's names can rule that out by comparing them.
+/// A name's stream. Two names share a stream only if their hashes collide; the campaign's reader refuses that.
 struct StreamName {
   std::uint64_t hash = 0;
   friend bool operator==(StreamName, StreamName) = default;
 };
 
 /// The stream of a name: FNV-1a, 64 bits, over the name's bytes (Fowler, Noll, Vo; RFC 9923). Its
-/// weak mixing does no harm here: Philox mixes. Cost: one multiplication a byte.
+/// weak mixing is harmless: Philox mixes. Cost: one multiplication a byte.
 [[nodiscard]] constexpr StreamName stream_name(std::string_view name) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -52,7 +51,7 @@ using PhiloxBlock = std::array<std::uint64_t, 4>;
 /// The stream's first number in (0, 1): the draw of a dispersion in a run.
 [[nodiscard]] double uniform(std::uint64_t seed, std::uint64_t run, StreamName name);
 
-/// What a design needs random numbers for, besides draws.
+/// The purposes of random numbers other than draws.
 enum class StreamUse : std::uint64_t { scrambling = 1, permutation = 2, stratum = 3 };
 
 /// The random numbers of a dispersion in one replicate of a design.
@@ -66,8 +65,7 @@ struct ReplicateStream {
   }
 };
 
-/// All numbers of one stream, one after the other: a uniform random bit generator for std and
-/// Boost.Random. Its first number is the one behind `uniform`. Period 2⁶⁶.
+/// One stream as a uniform random bit generator for std and Boost.Random. `uniform` uses its first number. Period 2⁶⁶.
 class RandomStream {
 public:
   using result_type = std::uint64_t;

@@ -1,4 +1,4 @@
-/// Laws whose values can be counted: discrete, empirical and constant ones, as one table.
+/// Discrete, empirical and constant laws as a table of values.
 #pragma once
 
 #include "distributions/distribution.hpp"

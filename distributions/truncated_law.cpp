@@ -5,7 +5,7 @@
 namespace wingspread {
 namespace {
 
-/// The probability between two points of a law, by the tails in which both are small.
+/// The probability between two points of a law, from the tails that are small at both.
 double between(Tails a, Tails b) {
   if (b.below <= 0.5) return b.below - a.below;
   if (a.above <= 0.5) return a.above - b.above;

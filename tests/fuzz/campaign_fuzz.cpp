@@ -1,5 +1,5 @@
-/// A campaign from any bytes. It is refused with reasons, or it can be described, keeps its hash when what is
-/// stored of it is read back, and has draws and runs: two of them, of at most 20 steps.
+/// Reads a campaign from any bytes. It is refused with reasons; or it can be described, keeps its hash when written and
+/// read back, and makes draws and two runs of at most 20 steps.
 #include "montecarlo/engine/runs/runner.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
@@ -10,7 +10,7 @@ using namespace wingspread;
 
 namespace {
 
-/// Not so many dispersions, runs and replicates that an input takes seconds.
+/// Limits dispersions, runs and replicates, so that an input takes no seconds.
 bool is_small(const Campaign& campaign) {
   return campaign.dispersions.size() <= 64 && campaign.scene.bodies.size() <= 32 &&
          (!has_replicates(campaign.sampling) || campaign.sampling.runs <= 100'000);

@@ -1,5 +1,5 @@
-/// The command line, one argument a line. It is understood, or refused with exit code 0 (--help) or 2. What reads
-/// and writes no file is also done: the codes that FORMATS has.
+/// Parses a command line, one argument per line. It is accepted, or ends with exit code 0 (--help) or 2. Commands
+/// without files are also executed; they end with a documented exit code.
 #include "montecarlo/interfaces/commands/cli.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
@@ -20,8 +20,8 @@ std::vector<std::string> arguments_in(std::string_view text) {
   return arguments;
 }
 
-/// Of all commands those that the arguments name: each by itself is what it is beside the others, and to add all
-/// takes ten times as long. All of them with one input in 16.
+/// Adds the commands that the arguments name; all commands for one input in 16. Adding all takes ten times as long, and
+/// commands are independent of each other.
 std::vector<Command> commands_for(const std::vector<std::string>& arguments, std::size_t size) {
   std::vector<Command> commands;
   for (const Command& command : all_commands())
@@ -30,7 +30,7 @@ std::vector<Command> commands_for(const std::vector<std::string>& arguments, std
   return commands;
 }
 
-/// What reads no file and writes none.
+/// Commands that neither read nor write files.
 bool is_harmless(const std::vector<std::string>& arguments) {
   return arguments.size() > 1 &&
          (arguments[1] == "size" || arguments[1] == "methods" || arguments[1] == "version");

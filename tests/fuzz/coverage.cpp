@@ -1,6 +1,5 @@
-/// GCC's coverage (-fsanitize-coverage=trace-pc) as counters that libFuzzer reads: it takes whatever stands in a
-/// section of this name for them. libFuzzer 14's own function of this name only says that it is no longer
-/// supported.
+/// Turns GCC's coverage (-fsanitize-coverage=trace-pc) into counters for libFuzzer, which reads all counters in a section
+/// of this name. libFuzzer 14's own function of this name only reports that it is no longer supported.
 #include <cstddef>
 #include <cstdint>
 
@@ -17,6 +16,6 @@ extern "C" void __sanitizer_cov_trace_pc() {
   ++counters[block * 0x9E3779B97F4A7C15U >> (64 - bits)];
 }
 
-/// GCC tells of comparisons of real numbers too, which libFuzzer does not take: no bytes of a text are a number's.
+/// GCC also reports floating-point comparisons. libFuzzer has no use for them: the input is text.
 extern "C" void __sanitizer_cov_trace_cmpd(double, double) {}
 extern "C" void __sanitizer_cov_trace_cmpf(float, float) {}

@@ -1,4 +1,4 @@
-/// For the fuzz targets: what they share.
+/// Shared by the fuzz targets.
 #pragma once
 
 #include "montecarlo/foundation/formats/spec_error.hpp"
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-/// What libFuzzer and replay.cpp call with each input; 0.
+/// Called by libFuzzer and replay.cpp with each input; returns 0.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace wingspread::test {
@@ -17,15 +17,15 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Ends the program where something does not hold; an assertion that stays in release builds.
+/// Ends the program if a condition is false; an assertion that stays in release builds.
 inline void demand(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "does not hold: %s\n", what);
   std::abort();
 }
 
-/// Calls it. Bad input may be refused, and in no other way than by a SpecError with something to say; whatever
-/// else is thrown ends the program. @return whether it was taken
+/// Calls a reader. Wrong input may only throw a SpecError with a message; any other exception ends the program. Returns
+/// whether the input was accepted.
 template <class Read> bool takes(const Read& read) {
   try {
     read();

@@ -1,5 +1,5 @@
-/// Changes a JSON document as a document: one value, key or element of it at a time, so that what comes of it is
-/// JSON again and gets past the parser. One change in four is libFuzzer's own, on the bytes.
+/// Changes one value, key or element of a JSON document at a time, so that the result is JSON and passes the parser. One
+/// change in four is libFuzzer's own, on the bytes.
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Random = std::minstd_rand;
 
-/// Values that are at the edge of something.
+/// Boundary values.
 constexpr std::array values{"0",
                             "-0.0",
                             "1",

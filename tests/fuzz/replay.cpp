@@ -1,5 +1,5 @@
-/// Replays inputs through a fuzz target: every file of the folders that are named, in the order of their names.
-/// What does not hold ends the program; a sanitizer's build has the sanitizer's word besides.
+/// Replays all files of the given folders through a fuzz target, in the order of their names. A broken condition ends
+/// the program; so does a sanitizer's report.
 #include "tests/fuzz/fuzz.hpp"
 
 #include <algorithm>
@@ -22,7 +22,8 @@ void replay(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in),
                                 std::istreambuf_iterator<char>()};
-  std::fprintf(stderr, "%s\n", file.c_str()); // the last line names what ended the program
+  std::fprintf(stderr, "%s\n",
+               file.c_str()); // the last line names the input that ended the program
   (void)LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
 }
 

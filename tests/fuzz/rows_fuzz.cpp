@@ -1,6 +1,6 @@
-/// The rows of a results folder from any bytes. They are refused with a reason, or written again they read back
-/// to the same rows, and the length that is kept of a file cut off in its last line has all rows that were read.
-/// Their statistics can be worked out, and written as JSON and CSV.
+/// Reads the rows of a results folder from any bytes. They are refused with a reason; or they read back to the same rows
+/// when written, the kept length of a file with a torn last line holds all rows that were read, and their statistics can
+/// be written as JSON and CSV.
 #include "montecarlo/engine/runs/results.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"

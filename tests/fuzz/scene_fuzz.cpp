@@ -1,5 +1,5 @@
-/// A scene from any bytes. It is refused with reasons, or it can be described, written and read back to the same
-/// text, and run: at most 50 steps of it, which end in a status and not in an exception.
+/// Reads a scene from any bytes. It is refused with reasons; or it can be described, written and read back to the same
+/// text, and run for at most 50 steps without an exception.
 #include "core/deployment.hpp"
 #include "montecarlo/foundation/formats/json_parse.hpp"
 #include "montecarlo/model/campaign/describe.hpp"

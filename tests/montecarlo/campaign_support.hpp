@@ -1,4 +1,4 @@
-/// For the tests of what runs campaigns: a campaign of the seed scene, run into a folder.
+/// For tests that run campaigns: campaigns of the seed scene, and running one into a folder.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign_json.hpp"
@@ -15,7 +15,7 @@ inline std::filesystem::path three_panel_file() {
   return std::filesystem::path(source_folder) / "studies/scenes/three_panel.json";
 }
 
-/// The seed scene with a spring and all masses dispersed; ends at the last latch, in 0.2 ms or so.
+/// The seed scene with a spring and all masses dispersed. Runs end at the last latch, after about 0.2 ms of work.
 inline Json quick_campaign(int runs) {
   Json campaign = parse_json(R"({
     "dispersions": [
@@ -31,7 +31,7 @@ inline Json quick_campaign(int runs) {
   return campaign;
 }
 
-/// The same with every quantity asked for; some draws are unphysical, and some runs time out.
+/// The same with all outputs; some draws are unphysical, and some runs time out.
 inline Json full_campaign(int runs) {
   Json campaign = quick_campaign(runs);
   campaign["outputs"] = {"latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at"};
@@ -63,7 +63,6 @@ inline StoppingRule rule_of(const char* text) {
   return rule;
 }
 
-/// How to run a campaign in a test.
 struct Session {
   int threads = 1;
   std::optional<Shard> shard{};
@@ -71,7 +70,7 @@ struct Session {
   long stop_after = -1; ///< runs; −1: never
 };
 
-/// Runs it into the folder, as the command does; returns how many runs were made.
+/// Runs a campaign into a folder as `wingspread run` does; returns the number of runs made.
 inline long run_into(const std::filesystem::path& path, const Campaign& campaign,
                      const Session& session = {}) {
   const RunPlan plan(campaign);
@@ -90,7 +89,7 @@ inline long run_into(const std::filesystem::path& path, const Campaign& campaign
   return made;
 }
 
-/// The bytes of every file, less timing.json.
+/// The bytes of every file but timing.json.
 inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))

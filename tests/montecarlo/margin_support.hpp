@@ -1,4 +1,4 @@
-/// For the tests of margins: a wing of which all that matters is known in closed form.
+/// For tests of margins: a wing with a closed-form solution.
 #pragma once
 
 #include "montecarlo/analyses/margin/margin_study.hpp"
@@ -11,9 +11,8 @@
 
 namespace wingspread::test {
 
-/// One panel, whose spring pulls 2 N·m at first and 0.2 at last, both times a factor a, against a
-/// friction of f. It starts, slows down, and is at its latch if the mean torque, 1.1 a, exceeds f
-/// all the way; with what energy is left it latches at √(π (1.1 a − f)/J).
+/// One panel with a spring torque of 2a N·m stowed and 0.2a latched, and friction f. It reaches its latch if the mean
+/// torque 1.1a exceeds f, and then latches at the rate √(π (1.1 a − f)/J), from the work done on the travel π/2.
 inline Json one_panel_margin(int runs) {
   Json campaign = parse_json(R"({
     "scene": { "name": "one_panel", "base": { "motion": "fixed" },
@@ -44,7 +43,7 @@ inline Json one_panel_margin(int runs) {
   return campaign;
 }
 
-/// How many of its draws break its two requirements when the springs are scaled.
+/// How many draws break each of the two requirements with scaled springs.
 struct ClosedForm {
   long not_deployed = 0, too_fast = 0; ///< too fast, or not deployed
 };
@@ -70,7 +69,7 @@ inline MarginResult margin_of(const Campaign& campaign, int threads = 2) {
   return result;
 }
 
-/// @pre what outlives it has just one
+/// @pre there is exactly one window
 inline const Window& only_window(const std::vector<Window>& windows) {
   REQUIRE(windows.size() == 1);
   return windows.front();

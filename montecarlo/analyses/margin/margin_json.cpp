@@ -233,7 +233,7 @@ Json margin_json(const MarginReport& report, const Json& about) {
           {"mode", margin_mode_names[static_cast<std::size_t>(spec.mode)]},
           {"cases", cases},
           {"searches", searches},
-          {"motorization", motorization_json(report.campaign, report.motorization)},
+          {"motorization", static_margins_json(report.static_margins)},
           {"definitions", definitions()}};
 }
 

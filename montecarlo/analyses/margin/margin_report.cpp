@@ -1,21 +1,23 @@
 #include "montecarlo/analyses/margin/margin_report.hpp"
 
 #include "montecarlo/analyses/margin/scaled_springs.hpp"
+#include "montecarlo/engine/runs/static_margin_draws.hpp"
 
 namespace wingspread {
 
 MarginReport margin_report(const Campaign& campaign, const MarginResult& result) {
-  MarginReport report{campaign, result, {}};
+  MarginReport report{
+      campaign, result, {campaign.motorization, campaign.scene, campaign.statistics.quantiles, {}}};
+  std::vector<CaseMargins>& cases = report.static_margins.cases;
   for (const Campaign& each : result.campaigns)
-    report.motorization.push_back({1, each, study_motorization(each, each.scene)});
+    cases.push_back({1, each.of_case, study_static_margins(each, each.scene)});
   const MarginSearch* search = recommending(campaign, result);
   if (search && *search->recommended != 1) {
     const double scale = *search->recommended;
     for (const Campaign& each : result.campaigns)
-      report.motorization.push_back(
-          {scale, each,
-           study_motorization(scaled(each, search->scaled, scale),
-                              scaled(each.scene, search->scaled, scale))});
+      cases.push_back({scale, each.of_case,
+                       study_static_margins(scaled(each, search->scaled, scale),
+                                            scaled(each.scene, search->scaled, scale))});
   }
   return report;
 }

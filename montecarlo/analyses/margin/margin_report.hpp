@@ -1,8 +1,8 @@
-/// The report of the window search: margin.json, margin.csv and text. Static margins: motorization_report.hpp.
+/// The report of the window search: margin.json, margin.csv and text. Static margins: static_margin_report.hpp.
 #pragma once
 
 #include "montecarlo/analyses/margin/margin_findings.hpp"
-#include "montecarlo/analyses/margin/motorization_report.hpp"
+#include "montecarlo/model/static_margins/static_margin_report.hpp"
 
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ inline constexpr const char* recommended_file = "recommended.json";
 struct MarginReport {
   const Campaign& campaign;
   const MarginResult& result;
-  std::vector<ScaledMotorization> motorization;
+  StaticMarginReport static_margins;
 };
 
 /// Adds the static margins of the present and of the recommended springs.

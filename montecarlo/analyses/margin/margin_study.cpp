@@ -7,7 +7,7 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/summary/static_margins.hpp"
+#include "montecarlo/results/summary/judge_campaign.hpp"
 
 #include <fmt/format.h>
 

@@ -280,7 +280,7 @@ std::string margin_text(const MarginReport& report) {
                   design_names[static_cast<std::size_t>(sampling.design)], sampling.seed);
   for (const MarginSearch& search : report.result.searches)
     text += SearchText(report, search).text();
-  return text + motorization_text(report.campaign, report.motorization);
+  return text + static_margins_text(report.static_margins);
 }
 
 } // namespace wingspread

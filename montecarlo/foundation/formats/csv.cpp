@@ -14,7 +14,8 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t most_record_bytes = 16 << 20; // of a record over several lines
+constexpr std::size_t most_record_bytes =
+    16 << 20; // bounds the memory for a quote that is never closed
 
 } // namespace
 

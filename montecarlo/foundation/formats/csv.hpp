@@ -23,21 +23,20 @@ void append_csv_cell(std::string& buffer, double value);
 template <std::integral Integer> void append_csv_cell(std::string& buffer, Integer value) {
   buffer += std::to_string(value);
 }
-/// An empty cell where there is none.
+/// Appends an empty cell without a value.
 template <class T> void append_csv_cell(std::string& buffer, const std::optional<T>& value) {
   if (value) append_csv_cell(buffer, *value);
 }
 
-/// Appends each as a cell behind a comma: what follows the first cell of a record.
+/// Appends each value as ",cell": all cells of a record but the first.
 template <class... Cells> void append_csv_cells(std::string& buffer, const Cells&... cells) {
   ((buffer += ',', append_csv_cell(buffer, cells)), ...);
 }
 
-/// "1.5": the number as its cell.
+/// The cell of a number: "1.5".
 [[nodiscard]] std::string csv_cell(double value);
 
-/// The number that the whole of `cell` spells;
-/// nothing when it spells none, or one that is not finite.
+/// The finite number that is the whole cell; nothing otherwise.
 [[nodiscard]] std::optional<double> parse_csv_number(std::string_view cell);
 
 /// Reads a CSV stream record by record. A leading UTF-8 byte order mark is skipped.
@@ -46,7 +45,7 @@ public:
   /// @param file name for the error messages.
   CsvReader(std::istream& in, std::string file);
 
-  /// Goes to the next record, without splitting it yet; false when there is none.
+  /// Reads the next record without splitting it; false at the end.
   [[nodiscard]] bool next();
 
   /// The cells of the current record. The reference holds until the next call of next().
@@ -54,11 +53,11 @@ public:
   /// is never closed, or a carriage return that no line feed follows.
   [[nodiscard]] const std::vector<std::string>& cells();
 
-  /// Whether a line break ended the current record. A writer that was cut off leaves a last record
-  /// without one (RFC 4180 allows that too: the caller has to know which it is).
+  /// Whether a line break ended the current record. Without one, the last record may be cut off; RFC 4180 allows a
+  /// complete one too, so the caller decides.
   [[nodiscard]] bool terminated() const { return terminated_; }
 
-  /// Whether a quoted cell carried the current record over to further lines.
+  /// Whether the current record spans several lines, by a line break in a quoted cell.
   [[nodiscard]] bool spans_lines() const { return lines_read_ > line_; }
 
   /// Line on which the current record begins, counted from 1.

@@ -17,8 +17,8 @@
 namespace wingspread {
 namespace {
 
-// A signal's handler can reach nothing but globals.
-std::array<char, PATH_MAX> part_path; // of the file that is being written
+// Globals, because a signal handler reaches nothing else.
+std::array<char, PATH_MAX> part_path; // of the unfinished WholeFile
 std::atomic<bool> part_begun = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -28,7 +28,7 @@ bool is_special(const std::filesystem::path& path) {
   return std::filesystem::exists(found) && !std::filesystem::is_regular_file(found);
 }
 
-/// The name under which the file is written, which is noted for a signal's handler.
+/// Returns the part's path and records it for the signal handler.
 std::filesystem::path begin_part(const std::filesystem::path& path) {
   if (is_special(path)) return path;
   const std::string part = path.string() + std::string(part_suffix);
@@ -66,7 +66,7 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
 }
 
 void remove_parts(const std::filesystem::path& folder) {
-  std::error_code unreadable; // then there is nothing to be seen
+  std::error_code unreadable; // then the loop is empty
   for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable))
     if (entry.path().filename().string().ends_with(part_suffix)) unlink(entry.path().c_str());
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* readable_file = "a file that can be read";
 constexpr std::size_t read_bytes = 1 << 16;
 
-/// What stands there in a file's place.
+/// The kind of a special file.
 const char* kind_of(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
   if (S_ISFIFO(mode)) return "a pipe";

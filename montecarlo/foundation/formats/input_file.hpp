@@ -1,4 +1,4 @@
-/// A file that is read from its beginning to its end: what is there and nothing else, or an error.
+/// Regular files as streams. A read error throws instead of looking like the end of the file.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,17 @@
 
 namespace wingspread {
 
-/// The bytes of a regular file. Of a pipe or a device nobody knows where it ends.
+/// A stream buffer on a regular file. Pipes and devices are refused: they may never end.
 class InputBuffer : public std::streambuf {
 public:
-  /// @throws SpecError when there is no such file, or it is of another kind; MachineError when it cannot be read
+  /// @throws SpecError if the path is no regular file; MachineError if it cannot be read
   explicit InputBuffer(std::filesystem::path path);
   ~InputBuffer() override;
   InputBuffer(const InputBuffer&) = delete;
   InputBuffer& operator=(const InputBuffer&) = delete;
 
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Goes on at that byte.
+  /// Continues reading at a byte.
   void seek(std::size_t byte);
 
 protected:
@@ -27,11 +27,11 @@ protected:
 private:
   std::filesystem::path path_;
   int file_ = -1;
-  std::size_t size_ = 0; ///< when it was opened
+  std::size_t size_ = 0; ///< at opening
   std::vector<char> block_;
 };
 
-/// The same as a stream. A device that fails is not taken for the end of the file: it throws MachineError.
+/// The same as a stream; throws MachineError if the device fails.
 class InputFile : public std::istream {
 public:
   explicit InputFile(const std::filesystem::path& path);

@@ -9,18 +9,19 @@
 
 namespace wingspread {
 
-/// How deep brackets may stand within each other: campaigns take eight levels.
+/// The deepest nesting that is read; campaigns have eight levels. Bounds the recursion of all that walk through a
+/// document.
 inline constexpr std::size_t most_json_levels = 64;
 
-/// @param file the name that problems carry
-/// @throws SpecError for broken syntax, NaN and Infinity included (with line and column), and for
-///   numbers beyond a double and keys that stand twice in one object (with their pointer)
+/// @param file name for the messages
+/// @throws SpecError for wrong syntax, NaN and Infinity (with line and column), for numbers beyond a double, repeated
+///   keys and too deep nesting (with the pointer)
 [[nodiscard]] Json parse_json(const std::string& text, const std::string& file = "");
 
-/// @throws as parse_json and read_text (files.hpp) do, and SpecError when there is no such file
+/// @throws as parse_json and read_text (files.hpp); SpecError if the file does not exist
 [[nodiscard]] Json parse_json_file(const std::filesystem::path& path);
 
-/// A key as a JSON pointer's last token: "/key", with "~" and "/" escaped.
+/// A key as a token of a JSON pointer: "/key", with "~" and "/" escaped.
 [[nodiscard]] std::string pointer_token(std::string_view key);
 
 } // namespace wingspread

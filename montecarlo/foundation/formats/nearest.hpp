@@ -1,4 +1,4 @@
-/// The known word that a misspelt one was probably meant to be.
+/// The known word that a misspelt word probably means.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,10 @@ namespace wingspread {
 /// one word into the other. Cost O(|a| |b|).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known word nearest to `word`, the first among equals; empty when none is near enough to be
-/// meant (more than half of the longer word would have to change).
+/// The known word nearest to `word`, the first of several; empty if more than half of the longer word would change.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
-/// " (did you mean "mass"?)", or nothing when no known word is near.
+/// " (did you mean "mass"?)"; empty if no known word is near.
 [[nodiscard]] std::string did_you_mean(std::string_view word,
                                        const std::vector<std::string>& known);
 

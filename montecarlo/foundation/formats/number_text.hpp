@@ -8,8 +8,8 @@
 
 namespace wingspread {
 
-/// The number that the whole of the text spells; nothing when it spells none, or one beyond its
-/// type. "inf" and "nan" are numbers of a floating-point type.
+/// The number that is the whole text; nothing otherwise, or if the type cannot hold it. Floating-point types take "inf"
+/// and "nan".
 template <class Number> [[nodiscard]] std::optional<Number> parse_number(std::string_view text) {
   Number number{};
   const char* const end = text.data() + text.size();

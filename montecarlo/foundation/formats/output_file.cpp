@@ -12,14 +12,14 @@ namespace {
 
 constexpr const char* writable_file = "a file that can be written";
 
-/// Calls until no signal breaks it off.
+/// Repeats a system call that a signal interrupted.
 template <class Call> auto without_signals(const Call& call) {
   auto result = call();
   while (result < 0 && errno == EINTR) result = call();
   return result;
 }
 
-/// What has no device behind it (a pipe, some network drives) cannot be waited for.
+/// Pipes and some network drives cannot sync.
 bool cannot_sync(int error) { return error == EINVAL || error == ENOTSUP || error == EROFS; }
 
 } // namespace
@@ -62,7 +62,7 @@ void sync_folder(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder.empty() ? "." : folder;
   const int file =
       without_signals([&] { return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
-  if (file < 0) return; // it may be written to and not be read
+  if (file < 0) return; // a folder may be writable but not readable
   const int failed = without_signals([&] { return fsync(file); }) == 0 ? 0 : errno;
   ::close(file);
   if (failed != 0 && !cannot_sync(failed))

@@ -1,4 +1,4 @@
-/// A file that is written block by block, to the last byte or not without a word.
+/// A file written block by block. Every failed write throws.
 #pragma once
 
 #include <filesystem>
@@ -9,23 +9,23 @@ namespace wingspread {
 class OutputFile {
 public:
   enum class From {
-    beginning, ///< of a new file, or in place of what was there
-    end        ///< behind what is there
+    beginning, ///< truncates an existing file
+    end        ///< appends
   };
 
-  /// @param called how messages name it, where that is not its path
-  /// @throws as refuse_path (machine_error.hpp) does, here and below
+  /// All functions throw as refuse_path (machine_error.hpp).
+  /// @param called name for the messages; default: the path
   OutputFile(std::filesystem::path path, From from, std::filesystem::path called = {});
-  /// Closes it without a word, for when something else has gone wrong.
+  /// Closes the file and ignores errors: after close(), or while another error is on its way.
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;
 
-  /// All of the text: what a signal breaks off, or is taken in part, is gone on with.
+  /// Writes all of the text, over interruptions by signals and partial writes.
   void write(std::string_view text);
-  /// Returns when all is on the device.
+  /// Returns when all data are on the device.
   void sync();
-  /// Closes it; some file systems tell only then that there was no room. Once, and as the last.
+  /// Closes the file; some file systems report only now that there was no space. @pre called once, as the last
   void close();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -35,7 +35,7 @@ private:
   int file_ = -1;
 };
 
-/// Returns when the folder's list of names is on the device: after a file in it was made or renamed.
+/// Returns when the folder's entries are on the device. Call it after making or renaming a file in the folder.
 void sync_folder(const std::filesystem::path& folder);
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// What the name of an output says: "root.latch_time", "root.rate_at.tip", "deployment_time".
+/// Parses names of outputs: "root.latch_time", "root.rate_at.tip", "deployment_time".
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@ namespace wingspread {
 
 struct OutputName {
   std::string hinge;    ///< empty for an output of the whole wing
-  std::string quantity; ///< "latch_time"; the whole name when it is none of those known
-  std::string other;    ///< the hinge that latches, of a `rate_at`; else empty
+  std::string quantity; ///< "latch_time"; the whole name if unknown
+  std::string other;    ///< of a `rate_at`, the hinge that latches; else empty
   const char* unit;     ///< "s", "rad/s", "N·m", "N", "rad"; "" when unknown
 };
 
-/// Takes a name apart. A hinge's own name may hold dots.
+/// Splits a name. A hinge's name may contain dots.
 [[nodiscard]] OutputName parse_output_name(std::string_view name);
 
 } // namespace wingspread

@@ -7,8 +7,8 @@
 namespace wingspread {
 namespace {
 
-/// How many bytes at `at` are a control character: ASCII's are one; those that Unicode has besides, U+0080 to
-/// U+009F, are two in UTF-8.
+/// The length of the control character at `at` in bytes, 0 if there is none: 1 in ASCII, 2 for U+0080 to U+009F in
+/// UTF-8.
 std::size_t control_bytes(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(at) < 0x20 || byte(at) == 0x7F) return 1;

@@ -1,4 +1,4 @@
-/// Text from outside on its way to a terminal.
+/// Control characters in text from outside.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace wingspread {
 
-/// The text with its control characters spelled out ("\\x1b"), but for line feeds and tabs: what a file says may not
-/// move the cursor, colour what follows or ring the bell.
+/// The text with control characters escaped ("\\x1b") except line feeds and tabs, so that a file's text cannot move the
+/// terminal's cursor, set colours or ring the bell.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Whether it has any of those characters; line feeds and tabs among them.
+/// Whether the text has control characters; line feeds and tabs count.
 [[nodiscard]] bool has_control_characters(std::string_view text);
 
 } // namespace wingspread

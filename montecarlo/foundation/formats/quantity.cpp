@@ -12,7 +12,7 @@
 namespace wingspread {
 namespace {
 
-/// A unit: so many SI units of the dimension m^a kg^b s^c rad^d.
+/// factor × m^a kg^b s^c rad^d, with powers {a, b, c, d}.
 struct Unit {
   long double factor = 1;
   std::array<double, 4> powers{};
@@ -63,13 +63,13 @@ constexpr std::array symbols{
 };
 constexpr Unit standard_gravity{gravity, powers::acceleration}; // the other "g"
 
-/// Reads a unit from its text.
+/// Parses a unit by recursive descent: product of powers of symbols and brackets.
 class UnitParser {
 public:
-  /// @param g what "g" stands for
+  /// @param g the meaning of "g"
   UnitParser(std::string_view text, const Unit& g) : rest_(text), g_(g) {}
 
-  /// Nothing when the text is no unit.
+  /// Nothing if the text is no unit.
   std::optional<Unit> parse() {
     const Unit unit = product();
     return good_ && rest_.empty() ? std::optional(unit) : std::nullopt;
@@ -152,13 +152,13 @@ private:
 };
 
 bool same_dimension(const Unit& a, const Unit& b) {
-  constexpr double rounding = 1e-12; // of powers that are no integers
+  constexpr double rounding = 1e-12; // of fractional powers
   for (std::size_t i = 0; i < a.powers.size(); ++i)
     if (std::abs(a.powers[i] - b.powers[i]) > rounding) return false;
   return true;
 }
 
-/// The unit, as one of the dimension that is wanted; nothing when it is of another.
+/// Parses a unit of the wanted dimension, with "g" as gram or gravity; nothing for another dimension.
 std::optional<Unit> parse_unit(std::string_view text, const Unit& wanted) {
   const Unit gram = std::ranges::find(symbols, "g", &Symbol::name)->unit;
   for (const Unit& g : {gram, standard_gravity})
@@ -167,7 +167,7 @@ std::optional<Unit> parse_unit(std::string_view text, const Unit& wanted) {
   return std::nullopt;
 }
 
-/// By dimension, what people write. The first of each is what the messages have for it.
+/// Usual units by SI unit, for messages.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> usual_units{{
     {"m", R"("m", "mm", "cm", "in" or "ft")"},
     {"kg", R"("kg", "g" or "lb")"},
@@ -197,7 +197,7 @@ std::optional<double> in_unit(std::string_view text, std::string_view unit) {
   const std::optional<Unit> wanted = UnitParser(unit, {}).parse();
   const std::optional<Unit> given = wanted ? parse_unit(text, *wanted) : std::nullopt;
   if (!given) return std::nullopt;
-  // In extended precision, so that "350 mm" is what 0.35 is.
+  // In extended precision, so that "350 mm" reads as exactly the double 0.35.
   const auto value =
       static_cast<double>(static_cast<long double>(number) * (given->factor / wanted->factor));
   return std::isfinite(value) ? std::optional(value) : std::nullopt;

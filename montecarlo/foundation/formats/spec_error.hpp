@@ -1,5 +1,4 @@
-/// What is wrong with the input: every problem,
-/// with its place, what was found and what was expected.
+/// Errors in the input: all problems, each with its place, the value found and the value expected.
 #pragma once
 
 #include <exception>
@@ -8,24 +7,24 @@
 
 namespace wingspread {
 
-/// One thing wrong with the input.
+/// One error in the input.
 struct Problem {
-  std::string file;     ///< as the user named it; empty for text that came from no file
+  std::string file;     ///< as the user named it; empty for text without a file
   std::string pointer;  ///< JSON pointer (RFC 6901); empty for the whole document
-  std::string found;    ///< what stands there
-  std::string expected; ///< what should
+  std::string found;    ///< the value, as the user wrote it
+  std::string expected; ///< the condition it breaks
 };
 
 /// "FILE: POINTER: found …, expected …" on one line.
 [[nodiscard]] std::string to_string(const Problem& problem);
 
-/// Bad input. Holds all of its problems, so that the user mends them in one go.
+/// Thrown for wrong input. Holds all problems, so that the user can correct them in one go.
 class SpecError : public std::exception {
 public:
   explicit SpecError(std::vector<Problem> problems);
 
   [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }
-  /// One line per problem; of very many the first, and how many more there are.
+  /// One line per problem, at most 100, and the number of further problems.
   [[nodiscard]] const char* what() const noexcept override { return message_.c_str(); }
 
 private:

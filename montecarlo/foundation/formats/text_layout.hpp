@@ -1,4 +1,4 @@
-/// Text for a terminal: UTF-8, at most 100 columns wide, a column to each character.
+/// Text for a terminal: UTF-8, at most 100 columns wide, one column for each character.
 #pragma once
 
 #include <cstddef>
@@ -9,26 +9,25 @@ namespace wingspread {
 
 inline constexpr int table_width = 100;
 
-/// How many characters (code points) UTF-8 text has.
+/// The number of characters (code points) of UTF-8 text.
 [[nodiscard]] std::size_t count_characters(std::string_view text);
 
-/// The first `width` characters, the last of them "…" when there are more.
+/// The text cut to `width` characters; "…" is the last one if it was cut.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
 
-/// The text, filled up with blanks to the width; a text that leaves no blank before the next column is not cut off, but
-/// ends its line, and the next one begins with the column.
+/// The text padded with blanks to the width. A text of the width or more keeps its line; the padding starts a new one.
 [[nodiscard]] std::string in_column(std::string_view text, std::size_t width);
-/// The text at the end of a column, with a blank before it at least.
+/// The text at the end of a column, after at least one blank.
 [[nodiscard]] std::string right_aligned(std::string_view text, std::size_t width);
 
-/// Text that goes on a line that stands at column `indent`: broken at blanks to stay within `table_width`, its further
-/// lines indented. A word alone may be longer.
+/// Wraps text that starts at column `indent`: breaks at blanks to stay within `table_width` and indents further lines.
+/// A single word may be longer.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent);
 
-/// Five significant digits, trailing zeros among them, so that columns line up; "–" of NaN.
+/// Five significant digits with trailing zeros, so that columns line up; "–" of NaN.
 [[nodiscard]] std::string in_digits(double value);
 
-/// Lines indented by so many columns and within `table_width`, broken at blanks.
+/// Lines indented by `indent`, broken at blanks to stay within `table_width`; ends with a line feed.
 [[nodiscard]] std::string paragraph(std::string_view text, std::size_t indent = 2);
 
 /// "0.500 %" of 0.005; "–" of NaN.

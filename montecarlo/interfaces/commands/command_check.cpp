@@ -2,7 +2,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
-#include "montecarlo/model/input_checks/examine.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/model/input_checks/placement.hpp"
 
 #include <fmt/format.h>
@@ -35,15 +35,15 @@ std::string text_of(const Campaign& campaign) {
   return describe(campaign) + describe_placement(campaign.scene);
 }
 
-std::vector<Notice> examine_file(const std::variant<Scene, Campaign>& read,
-                                 const std::filesystem::path& file) {
-  if (const Scene* scene = std::get_if<Scene>(&read)) return examine(*scene, {}, file);
-  return examine(std::get<Campaign>(read), file);
+std::vector<InputWarning> check_file(const std::variant<Scene, Campaign>& read,
+                                     const std::filesystem::path& file) {
+  if (const Scene* scene = std::get_if<Scene>(&read)) return check_input(*scene, {}, file);
+  return check_input(std::get<Campaign>(read), file);
 }
 
 int check(const CheckOptions& options) {
   const std::variant<Scene, Campaign> read = read_changed(options);
-  const std::vector<Notice> warnings = examine_file(read, options.file);
+  const std::vector<InputWarning> warnings = check_file(read, options.file);
   if (options.strict) print_warnings(warnings, true);
   fmt::print("{}", std::visit([](const auto& spec) { return text_of(spec); }, read));
   print_warnings(warnings, false); // last, where the user sees them

@@ -65,7 +65,7 @@ std::string write_files(const Campaign& campaign, const MarginResult& result,
                         const MarginReport& report, const std::filesystem::path& out) {
   std::string json = json_text(margin_json(report, stamp_json(stamp_of(campaign, {}))));
   write_file(out / margin_csv_file, margin_csv(campaign, result));
-  write_file(out / motorization_csv_file, motorization_csv(campaign, report.motorization));
+  write_file(out / motorization_csv_file, static_margins_csv(report.static_margins));
   write_recommended(campaign, result, out);
   write_file(out / margin_json_file, json); // the last: with it the folder is complete
   return json;

@@ -4,7 +4,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/examine.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ RunRequest request_of(const RunOptions& options) {
   change_scene(request.campaign, options.set);
   override_sampling(request.campaign, options.sampling.runs, options.sampling.seed);
   override_until(request.campaign, options.until);
-  print_warnings(examine(request.campaign, options.campaign), options.strict);
+  print_warnings(check_input(request.campaign, options.campaign), options.strict);
   return request;
 }
 

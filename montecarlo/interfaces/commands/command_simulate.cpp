@@ -4,7 +4,7 @@
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/model/input_checks/examine.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "montecarlo/report/text/replay_report.hpp"
 #include "montecarlo/report/text/trajectory.hpp"
@@ -65,7 +65,7 @@ double interval_of(const SimulateOptions& options, double t_end) {
 int simulate(const SimulateOptions& options) {
   refuse_overwriting(options.out, {options.scene});
   const Task task = task_of(read_file(options.scene), options.settings);
-  print_warnings(examine(task.scene, task.integration, options.scene), options.strict);
+  print_warnings(check_input(task.scene, task.integration, options.scene), options.strict);
   Goal goal;
   goal.to_t_end = true;
   goal.sample_interval = interval_of(options, task.integration.t_end);

@@ -4,7 +4,7 @@
 #include "montecarlo/interfaces/library/table.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/overrides.hpp"
-#include "montecarlo/model/input_checks/examine.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/results/results_folder/version.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,8 @@ void check_options(const RunOptions& options) {
 
 std::vector<std::string> warnings_of(const Campaign& campaign, const std::filesystem::path& file) {
   std::vector<std::string> warnings;
-  for (const Notice& notice : examine(campaign, file)) warnings.push_back(to_string(notice));
+  for (const InputWarning& warning : check_input(campaign, file))
+    warnings.push_back(to_string(warning));
   return warnings;
 }
 

@@ -69,7 +69,7 @@ void add_strict_option(CLI::App& command, bool& strict) {
   command.add_flag("--strict", strict, "Treat warnings as errors: do nothing, exit code 2");
 }
 
-void print_warnings(const std::vector<Notice>& warnings, bool strict) {
+void print_warnings(const std::vector<InputWarning>& warnings, bool strict) {
   if (strict && !warnings.empty()) throw as_errors(warnings);
   for (std::size_t i = 0; i < std::min(warnings.size(), most_warnings); ++i)
     fmt::print(stderr, "warning: {}\n", to_string(warnings[i]));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "montecarlo/model/campaign/overrides.hpp"
-#include "montecarlo/model/input_checks/notice.hpp"
+#include "montecarlo/model/input_checks/input_warning.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
 #include <cstdint>
@@ -41,7 +41,7 @@ void add_confidence_option(CLI::App& command, std::optional<double>& confidence)
 void add_strict_option(CLI::App& command, bool& strict);
 /// Prints the warnings of the input checks on standard error, one per line.
 /// @throws SpecError with all of them when `strict`
-void print_warnings(const std::vector<Notice>& warnings, bool strict);
+void print_warnings(const std::vector<InputWarning>& warnings, bool strict);
 
 /// Adds --set PATH=VALUE, which may be repeated: changes of the nominal scene.
 void add_set_option(CLI::App& command, std::vector<std::string>& changes);

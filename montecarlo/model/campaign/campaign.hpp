@@ -1,4 +1,4 @@
-/// A campaign: a scene, what varies in it, how often it is run, and what is wanted of the runs.
+/// A campaign: a scene, the parameters that vary, the number of runs, and the outputs and requirements.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -19,46 +19,44 @@
 
 namespace wingspread {
 
-/// The key of a results file that holds its stamp: of no account to the campaign itself.
+/// The key of the stamp in result files. A campaign's reader ignores its value.
 inline constexpr const char* stamp_key = "wingspread";
 
 struct Campaign {
   Scene scene; ///< nominal
   std::vector<Dispersion> dispersions;
-  std::vector<CaseSpec> cases; ///< none: the nominal wing alone
-  std::string of_case;         ///< of which case of another campaign this one is; may be empty
+  std::vector<CaseSpec> cases; ///< empty: the nominal wing only
+  std::string of_case;         ///< the case that this campaign was made of; empty: none
   std::vector<RankCorrelation>
-      wanted_correlations; ///< between dispersions; their matrix is possible
+      wanted_correlations; ///< between dispersions; their matrix is positive definite
   Sampling sampling;
   Integration integration;
   Outputs outputs = default_outputs();
   StatisticsSpec statistics;
   std::vector<Requirement> requirements;
-  StoppingRule until;               ///< it may stop before all of its runs are made
-  std::optional<MarginSpec> margin; ///< what `wingspread margin` sizes; of no account to its runs
-  MotorizationSpec motorization;    ///< how static margins are judged; the margin's, if it has one
-  /// The same in full as JSON: defaults explicit, the scene and empirical values in place of their
-  /// files. Reads back to the same campaign, wherever it is put.
+  StoppingRule until;               ///< empty: makes all runs
+  std::optional<MarginSpec> margin; ///< the study of `wingspread margin`; runs ignore it
+  StaticMarginSpec motorization; ///< factors of the static margins, from `margin` or the campaign
+  /// The campaign as JSON with explicit defaults, and with the scene and empirical values instead of file names. Reads
+  /// back to the same campaign in any folder.
   Json resolved;
 };
 
-/// How many looks at growing data its bounds and verdicts share their risk among: the numbers of runs
-/// at which it may stop or, of one that was extended, those at which it was looked at and its own.
+/// The number of interim analyses, the final one included: all bounds and verdicts divide their risk by it. With goals
+/// to stop at: the checkpoints; for an extended campaign: the earlier numbers of runs and the present one; else 1.
 [[nodiscard]] long count_looks(const Campaign& campaign);
 
-/// What tells campaigns apart: 16 hexadecimal digits that depend on the resolved campaign alone,
-/// less its key "wingspread". Stable across platforms and runs of the program.
+/// 16 hexadecimal digits that identify a campaign: a hash of `resolved` without its stamp. The same on all platforms.
 [[nodiscard]] std::string campaign_hash(const Json& resolved);
 
-/// The wing with nothing dispersed: its scene, with every draw that drives others by tables (`through`) at its median,
-/// which is what a temperature is where nobody asks for another.
+/// The wing without dispersion: the scene, with each draw of a `through` at its median (a temperature has no nominal
+/// value otherwise).
 [[nodiscard]] Scene nominal_scene(const Campaign& campaign);
 
-/// Makes a scene the one of a run: puts back what the campaign varies to its nominal value, then
-/// applies the draws. Allocates nothing.
-/// @param draws     one per dispersion, in their order
+/// Sets all dispersed parameters of a scene to their nominal values and applies a run's draws. Allocates nothing.
+/// @param draws     one for each dispersion, in their order
 /// @param nominal   the campaign's scene
-/// @param run_scene a copy of `nominal`, as it was or as this function left it
+/// @param run_scene a copy of `nominal`, unchanged or changed by this function
 void apply(const Campaign& campaign, std::span<const double> draws, const Scene& nominal,
            Scene& run_scene);
 

@@ -105,8 +105,8 @@ Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& direc
 }
 
 /// By itself: with the springs of a hinge.
-Json motorization_by_itself(const MotorizationSpec& motorization, const Scene& scene) {
-  Json json = write_motorization(motorization, scene);
+Json motorization_by_itself(const StaticMarginSpec& motorization, const Scene& scene) {
+  Json json = write_static_margins(motorization, scene);
   json["springs_per_hinge"] = motorization.springs_per_hinge;
   return json;
 }
@@ -127,11 +127,11 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
   if (!campaign.until.empty()) json["until"] = write_stopping_rule(campaign.until);
   if (!campaign.cases.empty()) json["cases"] = write_cases(campaign.cases);
   if (!campaign.of_case.empty()) json["case"] = campaign.of_case;
-  const MotorizationSpec& motorization = campaign.motorization;
+  const StaticMarginSpec& motorization = campaign.motorization;
   if (campaign.margin)
     json["margin"] = write_margin(*campaign.margin, motorization, campaign.scene);
   else if (const Json given = motorization_by_itself(motorization, campaign.scene);
-           given != motorization_by_itself(default_motorization(campaign.scene), campaign.scene))
+           given != motorization_by_itself(default_static_margins(campaign.scene), campaign.scene))
     json["motorization"] = given;
   return json;
 }
@@ -235,9 +235,9 @@ private:
 
   /// Static margins are judged by what the campaign says, or what its margin does.
   void read_margins() {
-    campaign_.motorization = default_motorization(campaign_.scene);
+    campaign_.motorization = default_static_margins(campaign_.scene);
     const auto own = object_.find("motorization");
-    if (own) read_motorization(*own, scene_, campaign_.motorization);
+    if (own) read_static_margins(*own, scene_, campaign_.motorization);
     const auto margin = object_.find("margin");
     if (!margin) return;
     if (own && margin->value().is_object() && margin->value().contains("motorization"))

@@ -1,4 +1,5 @@
-/// A campaign from JSON, and parts of it put in place of what its file says.
+/// Reads campaigns from JSON, and replaces parts of a campaign. To add a key: read and write it in the part's file
+/// (campaign_settings, outputs, requirement, …), call the part here, and add the key to model/schema/specimens.cpp.
 #pragma once
 
 #include "montecarlo/foundation/formats/json_reader.hpp"
@@ -13,53 +14,52 @@
 
 namespace wingspread {
 
-/// @param directory that the files named in the text are relative to
-/// @param file      the name that problems carry
-/// @throws SpecError with all that is wrong
+/// @param directory base of the file names in the text
+/// @param file      name for the messages
+/// @throws SpecError with all problems
 [[nodiscard]] Campaign read_campaign(const std::string& text,
                                      const std::filesystem::path& directory,
                                      const std::string& file = "");
 
-/// The same, with all that is asked of the document on the way. @param questions has it, whatever is thrown
+/// The same, and records the readers' questions for the schema. @param questions filled even if it throws
 [[nodiscard]] Campaign read_campaign(const Json& document, std::vector<Question>& questions);
 
-/// @throws SpecError with all that is wrong
+/// @throws SpecError with all problems
 [[nodiscard]] Campaign read_campaign_file(const std::filesystem::path& path);
 [[nodiscard]] Scene read_scene_file(const std::filesystem::path& path);
 
-/// Reads either, told apart by their keys: a campaign has a scene, a scene has bodies.
-/// @throws SpecError with all that is wrong
+/// Reads a scene or a campaign: a document with "scene", "dispersions" or "sampling" is a campaign.
+/// @throws SpecError with all problems
 [[nodiscard]] std::variant<Scene, Campaign> read_file(const std::filesystem::path& path);
-/// The same of a text. @param directory that the files named in it are relative to
+/// The same from text. @param directory base of the file names in the text
 [[nodiscard]] std::variant<Scene, Campaign>
 read_scene_or_campaign(const std::string& text, const std::filesystem::path& directory);
 
-/// Replaces the number of runs and the seed, where given; `resolved` follows. @pre runs ≥ 1
-/// @throws SpecError when the runs are fewer than the design's replicates
+/// Replaces the number of runs and the seed, if given, also in `resolved`. @pre runs ≥ 1
+/// @throws SpecError if there are fewer runs than replicates
 void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
                        std::optional<std::uint64_t> seed);
 
-/// The campaign with another nominal scene of the same structure; all else, `resolved` too, follows.
-/// @throws SpecError with what does not fit it: a case that would be unphysical
+/// The campaign with another nominal scene of the same structure, validated again.
+/// @throws SpecError with all problems, e.g. a case that becomes unphysical
 [[nodiscard]] Campaign with_scene(const Campaign& campaign, const Scene& scene);
 
-/// The campaign of one of its cases alone, ready to be run: its scene is the case's, it has no cases, and `of_case` is
-/// the case's name. Of the same seed it has the same draws, but for laws that the case replaces.
+/// The campaign of one case: with the case's scene and laws, without cases, and with the case's name in `of_case`. It
+/// has the same random numbers as the other cases.
 [[nodiscard]] Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec);
 
-/// One for each case, in their order; the campaign itself where it has none.
+/// One campaign for each case, in their order; the campaign itself if it has no cases.
 [[nodiscard]] std::vector<Campaign> campaigns_of(const Campaign& campaign);
 
-/// Says at which numbers of runs its results were looked at before it was extended; `resolved`
-/// follows. @pre each less than the next, and than the number of runs
+/// Records the numbers of runs of earlier interim analyses, also in `resolved`. @pre ascending, below the number of
+/// runs
 void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from);
 
-/// Replaces the goals at which it stops by those that stand here, and notes what is wrong with
-/// them; `resolved` follows.
+/// Replaces the goals to stop at, also in `resolved`; notes problems.
 void override_stopping(Campaign& campaign, const JsonCursor& at);
 
-/// Reads requirements that stand in a file of their own, by the campaign's rules: an array.
-/// @throws SpecError with all that is wrong
+/// Reads an array of requirements from a file of its own, for this campaign.
+/// @throws SpecError with all problems
 [[nodiscard]] std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
                                                               const Campaign& campaign);
 

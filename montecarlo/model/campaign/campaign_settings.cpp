@@ -15,7 +15,7 @@ constexpr std::string_view fixed_step_method = "runge_kutta4";
 constexpr std::int64_t most_accuracy_runs = 10'000;
 constexpr const char* accuracy_runs_expected = "an integer from 0 (none) to 10000";
 
-constexpr double least_rtol = 1e-15; ///< double precision knows of no smaller differences
+constexpr double least_rtol = 1e-15; // some 4 epsilon: below, rounding dominates every step
 constexpr const char* rtol_expected = "a number, ≥ 1e-15 and < 1, for example 1e-8";
 
 bool is_rtol(const double& rtol) { return rtol >= least_rtol && rtol < 1; }
@@ -24,7 +24,7 @@ bool is_accuracy_runs(const std::int64_t& number) {
   return number >= 0 && number <= most_accuracy_runs;
 }
 
-/// @return false when it noted a problem
+/// Returns false if it noted a problem.
 bool read_method(const JsonCursor& at, std::string& method) {
   std::vector<std::string_view> names;
   for (const MethodInfo& info : methods()) names.push_back(info.name);
@@ -33,14 +33,14 @@ bool read_method(const JsonCursor& at, std::string& method) {
   return index.has_value();
 }
 
-/// A step that the method would ignore.
+/// Refuses a step that the method would ignore.
 void refuse_step(const JsonCursor& at, std::string_view method) {
   at.refuse(fmt::format("no step with the method \"{}\" (only used by a method with a fixed step: "
                         "{})",
                         method, fixed_step_method));
 }
 
-/// More replicates than runs, or than there is any use for.
+/// Refuses more replicates than runs or than most_replicates.
 void refuse_replicates(const JsonCursor& at, const Sampling& sampling) {
   if (sampling.replicates > most_replicates)
     at.refuse(fmt::format("at most {}", most_replicates));
@@ -48,7 +48,7 @@ void refuse_replicates(const JsonCursor& at, const Sampling& sampling) {
     at.refuse(fmt::format("at most the number of runs, {}", sampling.runs));
 }
 
-/// The numbers of runs that a campaign had before it was extended.
+/// Reads the numbers of runs of earlier interim analyses.
 void read_extended_from(const JsonCursor& at, Sampling& sampling) {
   constexpr const char* expected = "an array of integers ≥ 1, each less than the next";
   if (sampling.design == DesignKind::latin_hypercube)

@@ -1,8 +1,7 @@
-/// The parts of a campaign that say how its runs are drawn, integrated and summed up; what they
-/// leave behind is in outputs.hpp.
+/// The campaign's keys `sampling`, `integration` and `statistics`.
 ///
-/// Each `read_` starts from what is already there (the defaults), and notes its problems in the
-/// cursor's list; each `write_` gives the same in full.
+/// Each `read_` overwrites given keys only (the caller passes the defaults) and notes problems in the cursor's list;
+/// each `write_` makes all values explicit.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -19,7 +18,7 @@
 
 namespace wingspread {
 
-/// Statistics rank runs in 32 bits; runs.csv would take a terabyte.
+/// Statistics rank runs in 32 bits. (That many rows are a terabyte of runs.csv.)
 inline constexpr std::int64_t most_runs = (std::int64_t{1} << 31) - 1;
 
 struct Sampling {
@@ -27,13 +26,11 @@ struct Sampling {
   std::int64_t runs = 1000; ///< from 1 to most_runs
   std::uint64_t seed = 1;
   std::int64_t replicates = 1; ///< independent repetitions of a design, ≥ 1
-  /// Numbers of runs at which the results were looked at before more were made of the same draws:
-  /// each less than the next, and than `runs`. Every one is a look (count_looks).
+  /// Numbers of runs of earlier interim analyses, before the campaign was extended: ascending, below `runs`.
   std::vector<std::int64_t> extended_from{};
 };
 
-/// Whether the runs are in replicates, at most as many as runs: independent draws are not, whatever
-/// number is given.
+/// Whether the design has replicates. Independent draws have none, whatever number is given.
 [[nodiscard]] constexpr bool has_replicates(const Sampling& sampling) {
   return sampling.design != DesignKind::random;
 }
@@ -42,24 +39,23 @@ struct Sampling {
 
 inline constexpr std::array<std::string_view, 3> design_names{"random", "latin_hypercube", "sobol"};
 
-/// Whether the method takes the step it is given: no other has a use for `Integration::step`.
+/// Whether the method has a fixed step; other methods ignore `Integration::step`.
 [[nodiscard]] bool has_fixed_step(std::string_view method);
 
 inline constexpr std::array<std::string_view, 3> side_names{"upper", "lower", "both"};
 
-/// Tolerance limits of every output: a share `probability` of all wings lies within them.
+/// Tolerance limits of every output: at least the share `probability` of all wings lies within them.
 struct ToleranceLimitSpec {
   double probability = 0, confidence = 0; ///< each in (0, 1)
   Side side = Side::upper;
 };
 
-/// What a campaign asks of its statistics.
 struct StatisticsSpec {
   std::vector<double> quantiles{0.01, 0.5, 0.99}; ///< probabilities, each in (0, 1)
-  double confidence = 0.95;                       ///< of every bound, two-sided, in (0, 1)
+  double confidence = 0.95;                       ///< of every two-sided bound, in (0, 1)
   Bins bins = AutoBins{};
   std::vector<ToleranceLimitSpec> tolerance_limits{};
-  std::int64_t accuracy_runs = 24; ///< that are made again to tell their errors, at most; 0: none
+  std::int64_t accuracy_runs = 24; ///< runs repeated to estimate their errors, at most; 0: none
 };
 
 void read_sampling(const JsonCursor& at, Sampling& sampling);

@@ -1,11 +1,11 @@
-/// The cases of a campaign: the same wing cold and hot, at the end of its life, with a spring out. Each changes the
-/// nominal scene before all dispersion; all are run with the same draws, so that they differ by the case alone.
+/// The cases of a campaign: the same wing cold, hot, at the end of its life, or with a spring out. A case changes the
+/// nominal scene before dispersion. All cases use the same random numbers, so that they differ by the case only.
 ///
 ///     "cases": [ { "name": "cold", "scale": { "hinges.*.damper.scale": 3 }, "set": { PATH: value },
 ///                  "add": { PATH: value },
 ///                  "distributions": { "temperature": { "type": "normal", "mean": -60, "std": 3 } } }, … ]
 ///
-/// Within a case what is set comes first, then what is scaled, then what is added.
+/// A case applies "set" first, then "scale", then "add".
 #pragma once
 
 #include "montecarlo/model/campaign/dispersion.hpp"
@@ -18,46 +18,45 @@
 
 namespace wingspread {
 
-/// One parameter of the nominal scene, changed.
+/// One change of a parameter of the nominal scene.
 struct CaseChange {
   Apply apply = Apply::set;
   SceneParameter target;
   double value = 0; ///< SI
 };
 
-/// Another law for a dispersion of the campaign: its draws are made of the same random numbers.
+/// A case's law for a dispersion of the campaign; it uses the same random numbers.
 struct CaseDistribution {
-  std::string dispersion; ///< as the campaign lists it: an `each` with all of its copies
+  std::string dispersion; ///< name in the campaign; the name of an `each` means all of its copies
   Distribution distribution;
 };
 
 struct CaseSpec {
-  std::string name; ///< and of its results folder: letters, digits, '_' and '-'
+  std::string name; ///< also of the results folder: letters, digits, '_' and '-'
   std::vector<CaseChange> changes;
   std::vector<CaseDistribution> distributions;
-  Json resolved; ///< as it was read, in SI, with the values of files in their place
+  Json resolved; ///< the JSON in SI, with values instead of file names
 };
 
-/// Whether a case, and so a folder, can have that name.
+/// Whether the name can be a case's, and so a folder's.
 [[nodiscard]] bool is_case_name(const std::string& name);
 
-/// Reads the list of cases. Notes a problem, besides what cannot be read, for names that two have, paths that the scene
-/// does not have, parameters changed twice in one way, those that a dispersion sets in every run (the case would be
-/// lost), scenes that are unphysical, and laws for dispersions that there are none of.
-/// @param scene       null when it has problems of its own: then paths are not looked up
-/// @param dispersions null likewise
-/// @param directory   that the files of empirical laws are relative to
+/// Reads the list of cases. Notes problems: repeated names, unknown paths and dispersions, a parameter changed twice in
+/// one way, a parameter that a dispersion sets in every run (the change would be lost), and unphysical scenes.
+/// @param scene       null if the scene has problems: then paths are not looked up
+/// @param dispersions null if they have problems
+/// @param directory   base of the file names of empirical laws
 [[nodiscard]] std::vector<CaseSpec> read_cases(const JsonCursor& at, const Scene* scene,
                                                const Dispersions* dispersions,
                                                const std::filesystem::path& directory);
 
 [[nodiscard]] Json write_cases(std::span<const CaseSpec> cases);
 
-/// The nominal scene as the case has it.
+/// Applies a case to the nominal scene.
 [[nodiscard]] Scene scene_of_case(Scene nominal, const CaseSpec& spec);
 
-/// One change of a scene from outside of its file, as `--set PATH=VALUE` is: notes what is wrong with either.
-/// @param value a number, or text of a number with its unit
+/// Reads one change (`--set PATH=VALUE`, a case's entry) and appends it for every match of the path; notes problems.
+/// @param value a number, or a string with a unit
 void read_change(const JsonCursor& value, std::string_view path, Apply apply, const Scene& scene,
                  std::vector<CaseChange>& changes);
 void make_changes(std::span<const CaseChange> changes, Scene& scene);

@@ -1,4 +1,4 @@
-/// What a campaign holds, in words: for `wingspread check`.
+/// A campaign in words, for `wingspread check`.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
@@ -11,8 +11,7 @@ namespace wingspread {
 /// "normal (mean 1, std 0.05) within [0, 2]".
 [[nodiscard]] std::string describe(const Distribution& distribution);
 
-/// The scene, then a line for each dispersion,
-/// and for the sampling, integration, outputs and statistics.
+/// One line each for the scene's parts, every dispersion, case, correlation, the settings and requirements.
 [[nodiscard]] std::string describe(const Campaign& campaign);
 
 } // namespace wingspread

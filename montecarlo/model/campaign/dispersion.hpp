@@ -1,4 +1,4 @@
-/// What a campaign varies: a law, and the parameters of the scene that its draws are applied to.
+/// The dispersions of a campaign: a law, and the scene's parameters to which its draws are applied.
 #pragma once
 
 #include "core/scene/curve.hpp"
@@ -15,32 +15,31 @@
 
 namespace wingspread {
 
-/// What a draw does to its target: becomes its value, multiplies it, or is added to it. Dispersions
-/// act in the order in which they are listed, each on what those before it have left; the first
-/// finds the nominal value.
+/// How a draw changes its target: replaces, multiplies or is added to the value. Dispersions act in the order of the
+/// list, each on the result of those before it; the first acts on the nominal value.
 enum class Apply { set, scale, add };
 inline constexpr std::array<std::string_view, 3> apply_names{"set", "scale", "add"};
 
 void apply_to(double& parameter, Apply how, double value);
 
-/// Parameters that a draw drives by way of a table: what is applied to them is its value at the draw.
+/// One entry of `through`: parameters to which a table's value at the draw is applied.
 struct Driven {
   Apply apply = Apply::set;
   std::vector<SceneParameter> targets;
   Curve table; ///< monotone, constant beyond its ends
 };
 
-/// One draw per run, and the parameters that it is applied to.
+/// One draw for each run.
 struct Dispersion {
-  std::string name; ///< of the draw: its column, and its random stream
+  std::string name; ///< names the draw's column and its random stream
   Distribution distribution;
   Apply apply = Apply::set;
   std::vector<SceneParameter> targets;
-  std::vector<Driven> through{}; ///< in place of apply and targets: one cause of several effects
+  std::vector<Driven> through{}; ///< instead of apply and targets: one cause with several effects
 };
 
-/// Calls `use(apply, targets, table)` for all that the draw is applied to, in order; the table is null where the draw
-/// itself is what is applied.
+/// Calls `use(apply, targets, table)` for each effect of the draw, in order. Without a table (null) the draw itself is
+/// applied.
 template <class Use> void for_each_effect(const Dispersion& dispersion, Use use) {
   if (!dispersion.targets.empty())
     use(dispersion.apply, dispersion.targets, static_cast<const Curve*>(nullptr));
@@ -49,31 +48,29 @@ template <class Use> void for_each_effect(const Dispersion& dispersion, Use use)
 
 struct Dispersions {
   std::vector<Dispersion> list;
-  Json resolved; ///< as it was read, not expanded, but with the values of files in their place
+  Json resolved; ///< the JSON in SI, with values instead of file names; an `each` is not expanded
 };
 
-/// Reads a campaign's list of dispersions, with one for each match of an `each`: `name.panel_1`.
+/// Reads the list of dispersions. An `each` becomes one dispersion for each match, named `name.panel_1`; with several
+/// paths, all parameters of one body, hinge or synchronisation share a draw.
 ///
-/// Notes a problem, besides what cannot be read, for names that cannot head a column of their own,
-/// targets that the scene does not have, and draws that would be lost because a later dispersion
-/// sets their target. When there is any, what is returned is of no use.
-/// @param scene     null when it has problems of its own: then targets are not looked up
-/// @param directory that the files of empirical laws are relative to
-/// An `each` of several paths has one draw for all the parameters of one body, hinge or
-/// synchronisation.
+/// Notes problems: names that cannot head a column, unknown targets, and draws that a later "set" would overwrite. With
+/// any problem, the returned value is not usable.
+/// @param scene     null if the scene has problems: then targets are not looked up
+/// @param directory base of the file names of empirical laws
 [[nodiscard]] Dispersions read_dispersions(const JsonCursor& at, const Scene* scene,
                                            const std::filesystem::path& directory);
 
-/// The unit of a dispersion's draws where they are set or added: that of all targets. Empty where they have none in
-/// common, and where a table stands between.
-/// @param spec  the dispersion as it was read
-/// @param scene null when it has problems of its own
+/// The unit of a dispersion's draws: the common unit of all targets for "set" and "add". Empty for "scale", for tables,
+/// and without a common unit.
+/// @param spec  the dispersion's JSON
+/// @param scene null if the scene has problems
 [[nodiscard]] std::string_view unit_of_draws(const Json& spec, const Scene* scene);
 
-/// What one after another is done to parameters that more than one draw changes: their paths, by the draws that do.
+/// Parameters that the same draws change one after the other.
 struct SharedTarget {
   std::vector<std::string> paths;
-  std::vector<std::string> draws; ///< "lot scales", "root_spring adds"; in order
+  std::vector<std::string> draws; ///< "lot scales", "root_spring adds"; in order of application
 };
 [[nodiscard]] std::vector<SharedTarget> shared_targets(std::span<const Dispersion> dispersions,
                                                        const Scene& scene);

@@ -1,4 +1,4 @@
-/// A distribution from JSON and back to it.
+/// Reads and writes distributions.
 #pragma once
 
 #include "distributions/distribution.hpp"
@@ -9,18 +9,18 @@
 
 namespace wingspread {
 
-/// Reads { "type": …, its parameters, "truncate": … }. Problems go to the cursor's list; when that
-/// grew, what is returned is of no use.
-/// @param directory that the file of an empirical law is relative to
-/// @param unit      of what is drawn: numbers of that dimension may be strings with their unit; empty: none may
+/// Reads { "type": …, its parameters, "truncate": … }. Problems go to the cursor's list; with any, the returned value
+/// is not usable.
+/// @param directory base of an empirical law's file name
+/// @param unit      SI unit of the draws: then parameters may be strings with a unit; empty: numbers only
 [[nodiscard]] Distribution read_distribution(const JsonCursor& at,
                                              const std::filesystem::path& directory,
                                              std::string_view unit = "");
 
-/// The distribution in full; an empirical one with its values, whatever file they came from.
+/// The distribution as JSON; an empirical law has its values instead of a file name.
 [[nodiscard]] Json write_distribution(const Distribution& distribution);
 
-/// The law's name in a campaign, e.g. "normal".
+/// The word of `type`, e.g. "normal".
 [[nodiscard]] std::string_view type_of(const Law& law);
 
 } // namespace wingspread

@@ -92,7 +92,7 @@ bool sizes_spring(std::span<const SceneParameter> scaled, const Scene& scene, in
   });
 }
 
-MarginSpec read_margin(const JsonCursor& at, const Scene* scene, MotorizationSpec& motorization) {
+MarginSpec read_margin(const JsonCursor& at, const Scene* scene, StaticMarginSpec& motorization) {
   MarginSpec margin;
   const std::size_t before = at.problems().size();
   JsonObject object(at, "what to size: an object");
@@ -107,13 +107,13 @@ MarginSpec read_margin(const JsonCursor& at, const Scene* scene, MotorizationSpe
   if (const auto cases = object.find("cases")) read_cases(*cases, margin);
   read_springs_per_hinge(object, motorization);
   if (const auto factors = object.find("motorization"))
-    read_motorization(*factors, scene, motorization);
+    read_static_margins(*factors, scene, motorization);
   object.refuse_others();
   if (scene && at.problems().size() == before) refuse_unusable(at, margin, *scene);
   return margin;
 }
 
-Json write_margin(const MarginSpec& margin, const MotorizationSpec& motorization,
+Json write_margin(const MarginSpec& margin, const StaticMarginSpec& motorization,
                   const Scene& scene) {
   Json cases = Json::array();
   if (margin.nominal) cases.push_back(case_names[0]);
@@ -126,7 +126,7 @@ Json write_margin(const MarginSpec& margin, const MotorizationSpec& motorization
           {"tolerance", margin.edge_tolerance},
           {"cases", cases},
           {"springs_per_hinge", motorization.springs_per_hinge},
-          {"motorization", write_motorization(motorization, scene)}};
+          {"motorization", write_static_margins(motorization, scene)}};
 }
 
 } // namespace wingspread

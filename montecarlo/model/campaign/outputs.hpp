@@ -1,5 +1,5 @@
-/// What is kept of a run: the families of outputs that a campaign asks for, the columns they come to
-/// on its scene, and how a column is taken from the outcome of a run.
+/// The campaign's key `outputs`: families of outputs, their columns for a scene, and a column's value in a run's
+/// outcome.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -14,14 +14,14 @@
 
 namespace wingspread {
 
-/// Every status, in the order in which it is reported.
+/// All statuses, in the order of reports.
 inline constexpr std::array statuses{Status::deployed, Status::stalled, Status::timed_out,
                                      Status::invalid, Status::failed};
 
-/// The status of that name, as it is written.
+/// The status with this name; nothing if there is none.
 [[nodiscard]] std::optional<Status> status_named(std::string_view name);
 
-/// `peaks_final` is no number, but whether those of the peaks are proven: a column of its own (results.hpp).
+/// `peaks_final` is no number but a column of its own: whether all peaks are proven final (results.hpp).
 enum class OutputFamily {
   latch_time,
   latch_rate,
@@ -30,33 +30,33 @@ enum class OutputFamily {
   rate_at,
   overtravel,
   peaks_final,
-  base_motion ///< of a free base: asked for by name, for runs go to t_end for it
+  base_motion ///< of a free base; not a default, because runs then go to t_end
 };
 inline constexpr std::array<std::string_view, 8> output_family_names{
     "latch_time", "latch_rate", "peak_moment", "peak_force",
     "rate_at",    "overtravel", "peaks_final", "base_motion"};
 using Outputs = std::set<OutputFamily>;
 
-/// All but `rate_at`, whose number grows with the square of the hinges', and `base_motion`.
+/// All families except `rate_at` (quadratic in the number of hinges) and `base_motion`.
 [[nodiscard]] Outputs default_outputs();
 
-/// Whether a family is of peaks, which t_end may cut.
+/// Whether the outputs include peaks, which t_end may cut.
 [[nodiscard]] bool has_peaks(const Outputs& outputs);
 
-/// Whether an output is a peak: of those t_end may cut, and then nothing is known of the largest value.
+/// Whether an output is a peak. t_end may cut a peak; its largest value is then unknown.
 [[nodiscard]] bool is_peak(std::string_view output);
 
-/// Adds `peaks_final` where there are peaks, and takes it away where there are none: asked for or not.
+/// Adds `peaks_final` if the outputs include peaks, else removes it.
 void match_peaks_final(Outputs& outputs);
 
-/// Every family there is.
+/// All families.
 [[nodiscard]] Outputs all_outputs();
 
-/// Reads an array of families over what is already there, and notes what is wrong.
+/// Replaces the outputs by the array of families; notes problems.
 void read_outputs(const JsonCursor& at, Outputs& outputs);
 [[nodiscard]] Json write_outputs(const Outputs& outputs);
 
-/// A column of outputs: which quantity of which hinge.
+/// A column of outputs: a quantity of a hinge, of the base or of the wing.
 struct OutputColumn {
   std::string name; ///< "root.latch_time"
   enum class Quantity {
@@ -70,31 +70,28 @@ struct OutputColumn {
     base_peak_rate,
     deployment_time
   } quantity;
-  int hinge = -1; ///< index into Scene::hinges; none for what is the wing's or the base's
+  int hinge = -1; ///< index into Scene::hinges; −1 for the wing or the base
   int other = -1; ///< of `rate_at`: the hinge that latches
 };
 
-/// The columns that a campaign's families of outputs come to: hinge by hinge in the scene's order,
-/// then those of a free base, then `deployment_time`, which is always there. A hinge without a latch has no latch time and
-/// rate, but rates at the latching of others; a hinge's rate at its own latching is its
-/// `latch_rate`, and no `rate_at`.
+/// The columns of the families for a scene: hinge by hinge in the scene's order, then a free base's, then
+/// `deployment_time`, which is always present. A hinge without a latch has no latch_time and latch_rate, but rate_at
+/// other hinges' latching. A hinge has no rate_at its own latching: that is its latch_rate.
 [[nodiscard]] std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs);
 
-/// What the families need of a run: without peaks it ends at the last latch, with the base's motion at t_end.
+/// What a run has to compute for the families. Without peaks it ends at the last latch; with base_motion at t_end.
 [[nodiscard]] Goal goal_of(const Outputs& outputs);
 
-/// A number as results hold it: NaN where it is not finite.
+/// The number; NaN if it is not finite.
 [[nodiscard]] double finite_or_none(double value);
 
-/// The number in the column; NaN when it did not happen.
+/// The column's value in a run; NaN if it did not happen.
 ///
-/// A latch that happened counts in whatever became of the run afterwards. A peak, and overtravel, need a run whose
-/// end is known: not one that failed, where a larger one may have been to come. Of a run that timed
-/// out it is the peak up to t_end. `deployment_time` exists only when all hinges with a latch have
-/// latched.
+/// A latching counts whatever the run's status. Peaks and overtravel are NaN in a failed run, whose later values are
+/// unknown; in a timed-out run they are those up to t_end. `deployment_time` needs all latches.
 [[nodiscard]] double output_of(const OutputColumn& column, const Outcome& outcome);
 
-/// The names of the hinges that latched, in order of time: "root>mid>tip".
+/// The names of the latched hinges in order of time: "root>mid>tip".
 [[nodiscard]] std::string latch_order(const Scene& scene, const Outcome& outcome);
 
 } // namespace wingspread

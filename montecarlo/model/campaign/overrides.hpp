@@ -1,4 +1,4 @@
-/// Settings and changes of the nominal scene that are given beside a file, as options of a command or of a library call.
+/// Settings and changes of the nominal scene given as options of a command or a library call, in addition to a file.
 #pragma once
 
 #include "montecarlo/foundation/formats/json_reader.hpp"
@@ -10,17 +10,16 @@
 
 namespace wingspread {
 
-/// Reads settings that were given as options over those that hold, by the rules of the file they
-/// otherwise stand in.
-/// @param given their keys and values, as a campaign has them; "t_end" stands for --t-end
-/// @param read  notes what is wrong
-/// @throws SpecError that names the options
+/// Reads options by the rules of the campaign's keys.
+/// @param given the options as an object with the campaign's keys: "t_end" for --t-end
+/// @param read  reads the object and notes problems
+/// @throws SpecError that names options instead of pointers
 void override_settings(const Json& given, const std::function<void(const JsonCursor&)>& read);
 
-/// @throws SpecError with all that is wrong with them
+/// Applies changes "PATH=VALUE". @throws SpecError with all problems
 [[nodiscard]] Scene changed_scene(Scene scene, const std::vector<std::string>& changes);
-/// Its resolved JSON and its cases follow.
-/// @throws as above, and when a case cannot be had any more
+/// The same for a campaign's nominal scene; the campaign is validated again.
+/// @throws as above, and if a case no longer fits the scene
 void change_scene(Campaign& campaign, const std::vector<std::string>& changes);
 
 } // namespace wingspread

@@ -24,7 +24,7 @@ void refuse_unknown_output(const JsonCursor& at, const std::string& output,
   at.refuse("an output of the campaign, or a status" + did_you_mean(output, known));
 }
 
-/// Reads width or relative_width, of which there has to be one.
+/// Reads `width` or `relative_width`; exactly one is required.
 void read_width(JsonObject& object, WidthGoal& goal) {
   const bool absolute = object.find("width").has_value();
   goal.relative = object.find("relative_width").has_value();
@@ -42,7 +42,7 @@ void read_width(JsonObject& object, WidthGoal& goal) {
   object.optional("relative_width", goal.width, "a number, > 0", is_positive);
 }
 
-/// A status has a share, and an output has quantiles.
+/// Reads the quantile: required for an output, refused for a status.
 void read_quantile(JsonObject& object, WidthGoal& goal) {
   const auto quantile = object.find("quantile");
   if (!object.is_object() || goal.output.empty()) return;
@@ -107,7 +107,7 @@ std::string text_of(const DecisionGoal& goal) {
   return fmt::format("{}{}", decision_prefix, goal.requirement);
 }
 
-/// Splits off what follows the last `mark`, which has to be there.
+/// Removes the last `mark` and the text after it from `text`; returns that text, nothing without a mark.
 std::optional<std::string_view> split_last(std::string_view& text, char mark) {
   const std::size_t at = text.rfind(mark);
   if (at == std::string_view::npos) return std::nullopt;

@@ -17,26 +17,25 @@ constexpr std::size_t most_correlations = 100'000;
 
 using Matrix = Eigen::MatrixXd;
 
-/// Of the coefficients that a message proposes. Rounding them changes an eigenvalue by some
-/// half_unit times the number of dispersions that they couple at most: with twice that left between
-/// the eigenvalues and zero, the matrix as proposed is possible.
+/// Rounding unit of proposed coefficients. Rounding changes an eigenvalue by at most half_unit times the number of
+/// coupled dispersions; with eigenvalues above twice that, the rounded matrix is positive definite.
 constexpr double unit = 1e-4, half_unit = unit / 2;
 
-/// Far above what rounding makes of an eigenvalue, far below what anybody knows of a correlation.
+/// Required of the smallest eigenvalue: far above its rounding error, far below the accuracy of any correlation.
 constexpr double least_eigenvalue = 1e-9;
 
 constexpr std::string_view expected_pair = "an array of two dispersions' names";
 
 bool is_inside(const double& coefficient) { return -1 < coefficient && coefficient < 1; }
 
-/// The dispersion named at the cursor; a problem and nothing when there is none.
+/// The index of the named dispersion; nothing, with a problem, if there is none.
 std::optional<std::size_t> read_name(const JsonCursor& at,
                                      const std::vector<Dispersion>* dispersions) {
   std::string name;
   if (!at.read(name, "a string, the name of a dispersion") || !dispersions) return std::nullopt;
   const auto found = std::ranges::find(*dispersions, name, &Dispersion::name);
   if (found != dispersions->end()) return static_cast<std::size_t>(found - dispersions->begin());
-  std::vector<std::string> names, copies; // all, and those of the "each" of that name
+  std::vector<std::string> names, copies; // all names, and the copies of an `each` with this name
   for (const Dispersion& each : *dispersions) {
     names.push_back(each.name);
     if (each.name.starts_with(name + '.')) copies.push_back(each.name);
@@ -47,7 +46,7 @@ std::optional<std::size_t> read_name(const JsonCursor& at,
   return std::nullopt;
 }
 
-/// The two dispersions; a problem and nothing when they are not two.
+/// The indices of the two dispersions; nothing, with a problem, if they are not two.
 std::optional<std::pair<std::size_t, std::size_t>>
 read_pair(const JsonCursor& at, const std::vector<Dispersion>* dispersions) {
   if (!at.value().is_array() || at.value().size() != 2) {
@@ -62,7 +61,7 @@ read_pair(const JsonCursor& at, const std::vector<Dispersion>* dispersions) {
   return std::nullopt;
 }
 
-/// One correlation; nothing when it noted a problem.
+/// Reads one correlation; nothing if it noted a problem.
 std::optional<RankCorrelation> read_correlation(const JsonCursor& at,
                                                 const std::vector<Dispersion>* dispersions) {
   RankCorrelation correlation;
@@ -80,8 +79,7 @@ std::optional<RankCorrelation> read_correlation(const JsonCursor& at,
 
 double rounded(double coefficient) { return std::round(coefficient / unit) * unit; }
 
-/// `"a" and "b" 0.5, …`: the coefficients that have to change,
-/// as the nearest possible matrix has them.
+/// `"a" and "b" 0.5, …`: the coefficients of the nearest possible matrix that differ from the given ones.
 std::string proposal(const Matrix& matrix, const std::vector<Dispersion>& dispersions) {
   const auto coupled = ((matrix.array() != 0).rowwise().count() > 1).count();
   const double margin = 2 * half_unit * static_cast<double>(coupled);
@@ -101,7 +99,7 @@ std::string proposal(const Matrix& matrix, const std::vector<Dispersion>& disper
 void refuse_impossible(const JsonCursor& at, const std::vector<RankCorrelation>& correlations,
                        const std::vector<Dispersion>& dispersions) {
   const Matrix matrix = normal_correlations(dispersions.size(), correlations);
-  // With so much to spare it factors in whatever order the dispersions are taken.
+  // With this reserve, Cholesky's factorization succeeds in any order of the dispersions.
   if (cholesky(matrix - least_eigenvalue * Matrix::Identity(matrix.rows(), matrix.cols()))) return;
   const double smallest =
       Eigen::SelfAdjointEigenSolver<Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);

@@ -1,4 +1,4 @@
-/// A campaign's rank correlations: which dispersions vary together, and how much.
+/// The campaign's key `correlations`: rank correlations between dispersions.
 #pragma once
 
 #include "distributions/copula.hpp"
@@ -9,12 +9,9 @@
 
 namespace wingspread {
 
-/// Reads the list of correlations.
-///
-/// Notes a problem, besides what cannot be read, for names that no dispersion has, pairs named
-/// twice, and coefficients that no dispersions can have all together: then with those nearest to
-/// them that some can.
-/// @param dispersions null when they have problems of their own: then names are not looked up
+/// Reads the list of correlations. Notes problems: unknown names, repeated pairs, and coefficients without a positive
+/// definite matrix; the message then has the nearest possible ones.
+/// @param dispersions null if they have problems: then names are not looked up
 [[nodiscard]] std::vector<RankCorrelation>
 read_wanted_correlations(const JsonCursor& at, const std::vector<Dispersion>* dispersions);
 

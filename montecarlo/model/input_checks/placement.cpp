@@ -21,7 +21,7 @@ Placement placement_of(const Base& base) {
   return {base.motion == BaseMotion::free ? base.position : Eigen::Vector2d{0, 0}, base.angle};
 }
 
-/// Angles come out in (−180°, 180°], and rounding as 0.
+/// In (−180°, 180°]; magnitudes below 1e-9° become 0.
 double in_degrees(double angle) {
   const double degrees = std::remainder(angle * 180 / std::numbers::pi, 360.0);
   return std::abs(degrees) < 1e-9 ? 0 : degrees;

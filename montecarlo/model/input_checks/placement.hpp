@@ -1,9 +1,9 @@
-/// Where the bodies of a scene are at given hinge angles: what a designer compares with the drawing.
+/// The bodies' positions at given hinge angles, to compare with the drawing.
 ///
 /// | symbol | meaning                                                    | unit |
 /// |--------|------------------------------------------------------------|------|
 /// | θ_i    | absolute angle of body i: θ_i = θ_p + φ_i  [MODEL.md §1]   | rad  |
-/// | r_i    | its centre of mass: r_i = r_p + R(θ_p) c_pi − R(θ_i) c_ii  | m    |
+/// | r_i    | centre of mass of body i: r_i = r_p + R(θ_p) c_pi − R(θ_i) c_ii  | m    |
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -19,7 +19,7 @@ struct Placement {
   double angle = 0;               ///< rad
 };
 
-/// All bodies, in the scene's order. The base stands where it is at the start; a fixed one in the origin.
+/// Places all bodies, in the scene's order, with the base at its initial position; a fixed base is at the origin.
 /// @param angles of the hinges, in the scene's order, rad
 /// @pre outward_order(scene) is not empty
 [[nodiscard]] std::vector<Placement> place_bodies(const Scene& scene,
@@ -28,7 +28,7 @@ struct Placement {
 [[nodiscard]] std::vector<double> stowed_angles(const Scene& scene);
 [[nodiscard]] std::vector<double> latched_angles(const Scene& scene);
 
-/// A table of every body stowed and deployed, in m and degrees, and the mass of all of them.
+/// A table of all bodies stowed and deployed, in m and degrees, and their total mass.
 [[nodiscard]] std::string describe_placement(const Scene& scene);
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// The base from JSON and back: its motion, by constants and by a table of time.
+/// Reads and writes a scene's base: its motion, by constants or by a table over time.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-/// The words for each way in which a base moves, in the order of its values.
+/// The words of `motion`, by BaseMotion.
 inline constexpr std::array<std::string_view, 3> base_motion_names{"fixed", "prescribed", "free"};
 
 void read_base(const JsonCursor& at, Base& base);

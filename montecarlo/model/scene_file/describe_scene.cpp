@@ -13,14 +13,13 @@ std::string describe_vector(const Eigen::Vector2d& vector) {
   return fmt::format("({}, {})", vector.x(), vector.y());
 }
 
-/// ", times 1.2, plus 0.1 N·m": nothing where it changes nothing.
+/// ", times 1.2, plus 0.1 N·m"; empty parts for 1 and 0.
 std::string describe_change(double scale, double offset = 0) {
   return (scale == 1 ? "" : fmt::format(", times {}", scale)) +
          (offset == 0 ? "" : fmt::format(", plus {} N·m", offset));
 }
 
-/// ", acceleration and rate by a table of 5 times from 0 to 10 s, linear, times 1.2": what is constant
-/// comes before.
+/// Constant motions, then ", acceleration and rate by a table of 5 times from 0 to 10 s, linear, times 1.2".
 std::string describe_prescribed(const Base& base) {
   const BaseTable* table = base.table.get();
   std::string text;
@@ -63,7 +62,7 @@ std::string describe_table(const TorqueTable& table) {
                      interpolation_names[static_cast<std::size_t>(table.interpolation())]);
 }
 
-/// Nothing for a torque that is zero throughout.
+/// Empty for a torque that is 0 along the travel.
 std::string describe_torque(const char* name, const HingeTorque& torque) {
   const bool is_line = torque.table == nullptr;
   if (is_line && torque.torque_stowed == 0 && torque.torque_latched == 0 && torque.offset == 0)
@@ -74,7 +73,7 @@ std::string describe_torque(const char* name, const HingeTorque& torque) {
   return fmt::format("; {} {}{}", name, law, describe_change(torque.scale, torque.offset));
 }
 
-/// Nothing for a hinge without friction.
+/// Empty for a hinge without friction.
 std::string describe_friction(const Friction& friction) {
   const bool exact = friction.model == FrictionModel::exact;
   const double static_level = friction.static_level.value_or(friction.coulomb);
@@ -154,7 +153,7 @@ std::string describe_loop(const Scene& scene, const Synchronisation& loop) {
                      loop.stiffness, loop.damping, preload);
 }
 
-/// Nothing in empty space.
+/// Empty without gravity and air.
 std::string describe_environment(const Environment& environment) {
   std::string text;
   if (!environment.gravity.isZero(0))

@@ -1,4 +1,4 @@
-/// What a scene holds, in words: for `wingspread check`.
+/// A scene in words, for `wingspread check`.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -7,7 +7,7 @@
 
 namespace wingspread {
 
-/// The scene's name, base, bodies, hinges and loops, a line for each, and what surrounds it.
+/// One line each for the name, the base, every body, hinge and loop, gravity and air.
 [[nodiscard]] std::string describe(const Scene& scene);
 
 } // namespace wingspread

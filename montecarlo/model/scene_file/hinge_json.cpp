@@ -11,14 +11,14 @@ namespace wingspread {
 namespace {
 
 Way way_of(const Hinge& hinge) {
-  if (hinge.stowed == hinge.latched) return Way::unknown; // noted elsewhere
+  if (hinge.stowed == hinge.latched) return Way::unknown; // the scene's checks note that
   return hinge.stowed < hinge.latched ? Way::up : Way::down;
 }
 
-/// Which way the hinge goes, as far as its angles could be read.
+/// Reads both angles. Returns the hinge's sense; unknown if an angle could not be read.
 Way read_angle(const JsonCursor& at, Hinge& hinge) {
   JsonObject object(at, "an object with the stowed and the latched angle");
-  // Not zero: the two are compared, and one that is missing differs from whatever the other is.
+  // NaN, so that a missing angle never equals the other: the scene's checks compare the two.
   hinge.stowed = std::numeric_limits<double>::quiet_NaN();
   const bool stowed = object.required("stowed", hinge.stowed, Dimension{"rad"});
   const bool latched =
@@ -27,7 +27,7 @@ Way read_angle(const JsonCursor& at, Hinge& hinge) {
   return object.is_object() && stowed && latched ? way_of(hinge) : Way::unknown;
 }
 
-/// What the other model of friction has is refused, and never ignored.
+/// Refuses a key of the exact friction model beside the regularized one.
 void refuse_static(JsonObject& friction) {
   if (const auto at = friction.find("static"))
     at->refuse("no static level with the regularized model (\"model\": \"exact\" has one)");
@@ -48,7 +48,7 @@ void read_friction(const JsonCursor& at, Friction& friction) {
   object.refuse_others();
 }
 
-/// A·|rate|^p is a torque.
+/// The unit of A in the torque A·|rate|^p.
 std::string power_unit(double exponent) { return fmt::format("N·m·(s/rad)^{}", exponent); }
 
 void read_power_law(JsonObject& object, Damper& damper) {
@@ -110,7 +110,7 @@ std::optional<std::string> read_end(JsonObject& object, std::string_view key,
   return at && at->read(name, expected) ? std::optional(name) : std::nullopt;
 }
 
-/// What acts across the hinge.
+/// Reads all torques, the damper, stop and latch.
 void read_laws(JsonObject& object, Way way, Hinge& hinge) {
   if (const auto spring = object.find("spring")) read_spring(*spring, way, hinge.spring);
   if (const auto harness = object.find("harness")) read_harness(*harness, way, hinge.harness);
@@ -172,7 +172,7 @@ HingeEnds read_hinge(const JsonCursor& at, Hinge& hinge) {
   return ends;
 }
 
-// What real hinges have more is not there when it is not used: it does not change a campaign's hash.
+// Optional parts are written only where they are used: a campaign's hash depends on the JSON.
 Json write_hinge(const Scene& scene, const Hinge& hinge) {
   const bool on_base = hinge.parent == base_index;
   Json json{{"name", hinge.name},

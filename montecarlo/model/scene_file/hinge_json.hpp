@@ -1,4 +1,4 @@
-/// A hinge from JSON and back: its joint, and all that acts across it.
+/// Reads and writes a hinge: its joint, torques, damper, stop and latch.
 #pragma once
 
 #include "montecarlo/model/scene_file/scene_tree.hpp"
@@ -8,16 +8,16 @@
 
 namespace wingspread {
 
-/// The words for each enumeration, in the order of its values.
+/// The words of `model` and `law`, by the enumerations' values.
 inline constexpr std::array<std::string_view, 2> friction_model_names{"regularized", "exact"};
 inline constexpr std::array<std::string_view, 3> damper_law_names{"viscous", "power",
                                                                   "eddy_current"};
 
-/// Reads a hinge but for its ends, whose names it returns.
+/// Reads a hinge. Returns the names of its ends, for link_hinges.
 [[nodiscard]] HingeEnds read_hinge(const JsonCursor& at, Hinge& hinge);
 
-/// The hinge in full.
-/// @param scene that knows the names of its bodies
+/// The hinge with all defaults explicit.
+/// @param scene for the bodies' names
 [[nodiscard]] Json write_hinge(const Scene& scene, const Hinge& hinge);
 
 [[nodiscard]] Json write_vector(const Eigen::Vector2d& vector);

@@ -46,19 +46,19 @@ Array read_list(JsonObject& object, std::string_view key, std::string_view expec
   return list ? list->elements() : Array{};
 }
 
-/// Of what need not be there at all.
+/// An optional list.
 Array read_synchronisation_list(JsonObject& object) {
   const auto list = object.find("synchronisations");
   if (list && !list->value().is_array()) list->refuse("an array of synchronisations");
   return list ? list->elements() : Array{};
 }
 
-/// With its index for a name, a parameter's path is its pointer.
+/// Names each object by its index: then a fault's path is its pointer.
 template <class Named> void number(std::vector<Named>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) all[i].name = std::to_string(i);
 }
 
-/// A problem for each parameter that physics forbids, less those in places that have one already.
+/// Notes a problem for each unphysical parameter whose pointer has no problem yet.
 void refuse_unphysical(const JsonCursor& at, Scene scene) {
   number(scene.bodies);
   number(scene.hinges);
@@ -73,7 +73,7 @@ void refuse_unphysical(const JsonCursor& at, Scene scene) {
     };
     if (std::ranges::any_of(known, covers)) continue;
     const Json::json_pointer place(below);
-    const bool stated = at.value().contains(place); // else it is a default
+    const bool stated = at.value().contains(place); // else the fault is in a default
     at.refuse(stated ? describe_value(at.value()[place]) : fault.found, fault.expected, below);
   }
 }

@@ -12,7 +12,7 @@
 namespace wingspread {
 namespace {
 
-/// A number within a base, body, hinge, synchronisation or the surroundings.
+/// One number of a base, body, hinge, synchronisation or environment. The tables below list all of them.
 template <class Owner> struct Field {
   template <class Get>
   constexpr Field(std::string_view field_path, std::string_view field_unit, Get get,
@@ -25,7 +25,7 @@ template <class Owner> struct Field {
   const double& (*read)(const Owner&);
   double& (*write)(Owner&);
   bool (*exists)(const Owner&); ///< null: always
-  std::string_view needs;       ///< for it to exist
+  std::string_view needs;       ///< what has the field, for a message
 
   [[nodiscard]] bool in(const Owner& owner) const { return !exists || exists(owner); }
 };
@@ -155,7 +155,7 @@ constexpr std::array environment_fields{
 
 using Owner = SceneParameter::Owner;
 
-/// Calls `use(owner, its fields)` with what a parameter belongs to.
+/// Calls `use(owner, fields)` with the parameter's owner and its table of fields.
 template <class SceneType, class Use>
 decltype(auto) with_owner(const SceneParameter& parameter, SceneType& scene, Use use) {
   switch (parameter.owner) {
@@ -173,16 +173,16 @@ decltype(auto) with_owner(const SceneParameter& parameter, SceneType& scene, Use
   return use(scene.base, base_fields);
 }
 
-/// The word that paths begin with, by kind of owner.
+/// The first word of a path, by Owner.
 constexpr std::array<std::string_view, 5> lists{"base", "bodies", "hinges", "synchronisations",
                                                 "environment"};
 
-/// A path cut at its first dots: bodies.NAME.field, or base.field.
+/// The parts of a path: bodies.NAME.field, or base.field.
 struct Path {
   std::string_view list, name, field;
 };
 
-/// Of which there is but one.
+/// Whether paths have no name after this word.
 bool is_nameless(std::string_view list) { return list == "base" || list == "environment"; }
 
 Path split(std::string_view path) {
@@ -197,7 +197,7 @@ Path split(std::string_view path) {
   return {list, name, path};
 }
 
-/// Whether the name is what the pattern says, in which each `*` stands for any characters, or none.
+/// Whether the name matches the pattern; `*` matches any characters.
 bool is_like(std::string_view name, std::string_view pattern) {
   std::size_t n = 0, p = 0, star = pattern.size(), after_star = 0;
   while (n < name.size()) {
@@ -205,7 +205,7 @@ bool is_like(std::string_view name, std::string_view pattern) {
       star = p++, after_star = n;
     } else if (p < pattern.size() && pattern[p] == name[n]) {
       ++n, ++p;
-    } else if (star < pattern.size()) { // the last star takes one more
+    } else if (star < pattern.size()) { // let the last star match one more character
       p = star + 1, n = ++after_star;
     } else {
       return false;
@@ -214,7 +214,7 @@ bool is_like(std::string_view name, std::string_view pattern) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-/// Adds what `path` matches among owners of one kind; notes why when it is nothing but could be.
+/// Adds the path's matches among owners of one kind. Where an owner lacks the field, notes what would have it.
 template <class Named, std::size_t n>
 void match(Owner kind, std::span<const Named> owners, const std::array<Field<Named>, n>& fields,
            const Path& path, ParameterMatches& found) {
@@ -240,7 +240,7 @@ void list_paths(const std::string& prefix, const Named& owner,
     if (field.in(owner)) paths.push_back(prefix + std::string(field.path));
 }
 
-/// All paths that could have been meant: with the path's pattern for the names that are like it.
+/// All paths of the scene, for suggestions; names that match the path's pattern are replaced by the pattern.
 std::vector<std::string> candidates(const Scene& scene, const Path& path) {
   std::vector<std::string> paths = parameter_paths(scene);
   if (path.name.find('*') == std::string_view::npos) return paths;

@@ -11,50 +11,48 @@
 
 namespace wingspread {
 
-/// One parameter of a scene, and of every copy of it.
-/// Cheap to copy and to follow: no search, no string.
+/// One number of a scene, valid in every copy of the scene. Access costs no search and no string.
 struct SceneParameter {
   enum class Owner { base, body, hinge, synchronisation, environment };
   Owner owner = Owner::base;
-  int index = 0; ///< of the body, hinge or synchronisation
-  int field = 0; ///< of its kind of owner
+  int index = 0; ///< index of the body, hinge or synchronisation
+  int field = 0; ///< index into the owner's table of fields (scene_parameter.cpp)
 
   [[nodiscard]] double& in(Scene& scene) const;
   [[nodiscard]] double in(const Scene& scene) const;
   auto operator<=>(const SceneParameter&) const = default;
 };
 
-/// A parameter that a path names.
+/// One match of a path.
 struct ParameterMatch {
   SceneParameter parameter;
-  std::string name; ///< of its body, hinge or synchronisation; else empty
+  std::string name; ///< name of its body, hinge or synchronisation; empty for base and environment
 };
 
-/// What a path names, or why it names nothing.
+/// All matches of a path.
 struct ParameterMatches {
   std::vector<ParameterMatch> matches; ///< in the scene's order
-  std::string expected;                ///< what would do; empty when there are matches
+  std::string expected; ///< without matches: what the path should name, for a message
 };
 
-/// Follows a path. In its name each `*` stands for any characters, or none: `*` is every one of them,
-/// `panel_*` those whose names begin so. Only those match that have the parameter: a hinge without a
-/// latch, say, has no latch.stiffness.
+/// Finds the parameters of a path. In the name, `*` matches any characters: `*` all names, `panel_*` names with this
+/// beginning. Only objects with the parameter match: a hinge without a latch has no latch.stiffness.
 [[nodiscard]] ParameterMatches resolve(const Scene& scene, std::string_view path);
 
-/// Reads a path; a problem when it names nothing.
-/// @param scene null when it has problems of its own: then paths are not looked up
+/// Reads a path; notes a problem if nothing matches.
+/// @param scene null if the scene has problems: then paths are not looked up
 [[nodiscard]] std::vector<ParameterMatch> read_path(const JsonCursor& at, const Scene* scene);
-/// Reads an array of paths, at least one; a problem for each parameter that is named twice.
+/// Reads an array of at least one path; notes a problem for each repeated parameter.
 [[nodiscard]] std::vector<SceneParameter> read_paths(const JsonCursor& at, const Scene* scene);
 
 /// The path of one parameter.
 [[nodiscard]] std::string path_of(const Scene& scene, const SceneParameter& parameter);
 [[nodiscard]] std::vector<std::string> paths_of(const Scene& scene,
                                                 std::span<const SceneParameter> parameters);
-/// Its unit, e.g. "kg"; empty of what has no dimension.
+/// The SI unit, e.g. "kg"; empty for a dimensionless number.
 [[nodiscard]] std::string_view unit_of(const SceneParameter& parameter);
 
-/// The paths of all parameters that the scene has.
+/// The paths of all parameters of the scene.
 [[nodiscard]] std::vector<std::string> parameter_paths(const Scene& scene);
 
 } // namespace wingspread

@@ -39,7 +39,7 @@ void check_names_of(const JsonCursor& at, const char* list, const std::vector<Na
   }
 }
 
-/// The body of that name; nothing when there is none.
+/// The index of the body with this name; nothing if there is none.
 std::optional<int> body_index(const Scene& scene, const std::string& name) {
   const auto same = [&](const Body& body) { return body.name == name; };
   const auto found = std::ranges::find_if(scene.bodies, same);
@@ -60,9 +60,9 @@ bool distinct_names(const std::vector<Body>& bodies) {
   return names.size() == bodies.size();
 }
 
-/// Looks up both ends of a hinge; false when that failed, with a problem for each name unknown.
+/// Sets both ends of a hinge; returns false, with a problem for each unknown name, if one is missing.
 bool link(const JsonCursor& at, const HingeEnds& ends, const Scene& scene, Hinge& hinge) {
-  if (!ends.parent || !ends.child) return false; // noted when it was read
+  if (!ends.parent || !ends.child) return false; // has a problem already
   const auto parent = *ends.parent == base_name ? base_index : body_index(scene, *ends.parent);
   const auto child = body_index(scene, *ends.child);
   if (!parent)
@@ -76,7 +76,7 @@ bool link(const JsonCursor& at, const HingeEnds& ends, const Scene& scene, Hinge
   return parent && child;
 }
 
-/// Notes each body that is the child of several hinges, or of none.
+/// Notes a problem for each body that is the child of several hinges or of none.
 bool check_children(const JsonCursor& at, const Scene& scene) {
   std::vector<std::optional<std::size_t>> hinge_of(scene.bodies.size());
   bool sound = true;
@@ -98,14 +98,14 @@ bool check_children(const JsonCursor& at, const Scene& scene) {
   return sound;
 }
 
-/// A body that never leads back to the base, and its ancestors until they repeat: "a < b < a".
+/// Notes a cycle of bodies, each the child of the next: "a < b < a".
 /// @pre every body is the child of one hinge, and the hinges are no tree
 void refuse_cycle(const JsonCursor& at, const Scene& scene) {
   const std::size_t n = scene.bodies.size();
   std::vector<std::size_t> hinge_of(n);
   for (std::size_t h = 0; h < n; ++h) hinge_of[scene.hinges[h].child] = h;
   const auto parent = [&](int body) { return scene.hinges[hinge_of[body]].parent; };
-  const auto ancestor = [&](int body) { // so far up that it is on a cycle, or the base
+  const auto ancestor = [&](int body) { // n steps up: on a cycle, or the base
     for (std::size_t step = 0; step < n && body != base_index; ++step) body = parent(body);
     return body;
   };

@@ -1,4 +1,4 @@
-/// What the names in a scene have to be, and the tree that they spell.
+/// Checks the names in a scene, and links hinges to bodies by name into a tree.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -10,23 +10,22 @@
 
 namespace wingspread {
 
-/// The names of the bodies that a hinge joins, where they could be read.
+/// The names of the bodies that a hinge joins; nothing where a name could not be read.
 struct HingeEnds {
   std::optional<std::string> parent;
   std::optional<std::string> child;
 };
 
-/// Notes a problem for each name of a body, hinge or synchronisation that is empty, used twice, `base` for a body,
-/// or holds a character with a meaning of its own: names stand in parameter paths ("." and "*"), in
-/// column headers ("," and quotes), in latch orders (">") and in JSON pointers ("/").
+/// Notes a problem for each name that is empty, used twice, `base` for a body, or has a reserved character. Reserved
+/// are the separators of parameter paths ("." and "*"), column headers ("," and quotes), latch orders (">") and JSON
+/// pointers ("/").
 /// @param at the scene
 void check_names(const JsonCursor& at, const Scene& scene);
 
-/// Turns the names of each hinge's ends into the indices that the scene has, and notes a problem
-/// for each name that no body has and whatever keeps the hinges from being a tree rooted at base.
-/// Does nothing while two bodies share a name.
+/// Sets each hinge's parent and child from the names of its ends. Notes a problem for each unknown name, and if the
+/// hinges are no tree rooted at base. Does nothing if two bodies share a name.
 /// @param at   the scene
-/// @param ends as many as hinges
+/// @param ends one for each hinge
 void link_hinges(const JsonCursor& at, const std::vector<HingeEnds>& ends, Scene& scene);
 
 } // namespace wingspread

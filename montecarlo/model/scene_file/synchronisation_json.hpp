@@ -1,4 +1,4 @@
-/// Synchronisation loops between hinges, from JSON and back.
+/// Reads and writes synchronisation loops between hinges.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -11,20 +11,20 @@
 
 namespace wingspread {
 
-/// The names of the two hinges that a loop goes around, where they could be read.
+/// The names of a loop's two hinges; nothing where a name could not be read.
 using LoopEnds = std::array<std::optional<std::string>, 2>;
 
-/// Reads a loop but for its hinges, whose names it returns.
+/// Reads a loop. Returns the names of its hinges, for link_synchronisations.
 [[nodiscard]] LoopEnds read_synchronisation(const JsonCursor& at, Synchronisation& loop);
 
-/// Turns the names of the loops' hinges into the indices that the scene has, and notes a problem for each that
-/// no hinge has, and for a loop around one hinge alone.
+/// Sets each loop's hinges from their names. Notes a problem for each unknown name, and for a loop with one hinge
+/// twice.
 /// @param at   the scene
-/// @param ends as many as loops
+/// @param ends one for each loop
 void link_synchronisations(const JsonCursor& at, const std::vector<LoopEnds>& ends, Scene& scene);
 
-/// The loop in full.
-/// @param scene that knows the names of its hinges
+/// The loop with all defaults explicit.
+/// @param scene for the hinges' names
 [[nodiscard]] Json write_synchronisation(const Scene& scene, const Synchronisation& loop);
 
 } // namespace wingspread

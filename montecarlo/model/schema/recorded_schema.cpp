@@ -15,10 +15,10 @@ namespace {
 using What = Question::What;
 using Questions = std::vector<const Question*>;
 
-/// A value of a specimen, and what was asked of it.
+/// A value of a specimen with its questions.
 struct Instance {
   const Json* value;
-  const std::map<std::string, Questions>* by_pointer; ///< of its whole specimen
+  const std::map<std::string, Questions>* by_pointer; ///< questions of the whole specimen
   std::string pointer;
 
   [[nodiscard]] Questions questions() const {
@@ -29,13 +29,13 @@ struct Instance {
     return std::ranges::any_of(questions(),
                                [&](const Question* each) { return each->what == what; });
   }
-  /// The name of what it is, where that stands in several places; else empty.
+  /// The kind's name if objects of the kind occur in several places; else empty.
   [[nodiscard]] std::string kind() const {
     for (const Question* each : questions())
       if (each->what == What::object && !each->key.empty()) return each->key;
     return "";
   }
-  /// Whether anything was asked of it or of what it holds.
+  /// Whether a question was asked of the value or anything inside it.
   [[nodiscard]] bool was_read() const {
     const auto next = by_pointer->lower_bound(pointer);
     return next != by_pointer->end() &&
@@ -50,7 +50,7 @@ struct Instance {
 };
 using Instances = std::vector<Instance>;
 
-/// Objects of which their reader knows the same keys.
+/// Objects for which the reader knows the same keys.
 struct Shape {
   std::set<std::string> keys;
   Instances instances;
@@ -69,7 +69,7 @@ Instances with_key(const Instances& all, const std::string& key) {
   return values;
 }
 
-/// Whether a reader said of one of the objects that it has to have the key, and all of them have it.
+/// Whether all objects have the key and a reader required it of one of them.
 bool is_required(const Instances& objects, const std::string& key) {
   const auto says_so = [&](const Instance& object) {
     return std::ranges::any_of(object.questions(), [&](const Question* each) {
@@ -83,7 +83,7 @@ bool is_required(const Instances& objects, const std::string& key) {
 
 class Builder {
 public:
-  /// @param kinds the objects of each kind that stands in several places, from all of them
+  /// @param kinds all objects of each kind that occurs in several places
   explicit Builder(std::map<std::string, Instances> kinds) : kinds_(std::move(kinds)) {}
 
   [[nodiscard]] Json definitions() {
@@ -128,7 +128,7 @@ private:
     return schema;
   }
 
-  /// What a reader expects there, in its own words.
+  /// The expectation of the first reader that states one.
   static std::string description_of(const Instances& all) {
     for (const Instance& each : all)
       for (const Question* question : each.questions())
@@ -148,7 +148,7 @@ private:
     const bool real = any_question(all, {What::number, What::quantity});
     if (!given && !real && !any_question(all, {What::integer})) return;
     Json part{{"type", real ? "number" : "integer"}};
-    std::set<std::string> bounds; // where readers differ, they have none in common
+    std::set<std::string> bounds; // used only if all readers agree
     for (const Instance& each : all)
       for (const Question* question : each.questions())
         if (question->what == What::number || question->what == What::quantity ||
@@ -158,7 +158,7 @@ private:
     parts.push_back(std::move(part));
   }
 
-  /// Free text, or words: those of a choice, and those that a reader compares with.
+  /// Free text, or an enumeration: the words of choices and the strings in specimens.
   static void add_strings(const Instances& all, Json& parts) {
     if (any_question(all, {What::text, What::quantity}))
       return void(parts.push_back({{"type", "string"}}));
@@ -219,7 +219,7 @@ private:
     return shapes;
   }
 
-  /// The choices by which an object's shape is known: every shape requires them, and no word is of two shapes.
+  /// The keys of choices that decide an object's shape: required by every shape, with no word common to two shapes.
   static std::set<std::string> deciding_keys(const std::vector<Shape>& shapes) {
     std::set<std::string> deciding;
     for (const std::string& key : shapes[0].keys) {
@@ -250,7 +250,8 @@ private:
       for (const std::string& key : shape.keys) {
         Instances values = with_key(shape.instances, key);
         const auto is_object = [](const Instance& each) { return each.value->is_object(); };
-        if (values.empty() || std::ranges::any_of(values, is_object)) // one reader for all shapes
+        if (values.empty() ||
+            std::ranges::any_of(values, is_object)) // all shapes have the same reader
           values = with_key(everywhere, key);
         if (values.empty())
           gaps.push_back(fmt::format("{}/{}: a key that no specimen has", place, key));
@@ -274,7 +275,7 @@ private:
           gaps.push_back(fmt::format("{}: the word \"{}\" that no specimen has", place, word));
   }
 
-  /// The words that stand there, and no others.
+  /// An enumeration of the words in these values.
   static Json words_schema(const Instances& values) {
     Json words = Json::array();
     for (const Instance& each : values)

@@ -1,12 +1,12 @@
-/// A JSON Schema out of what readers ask of specimens.
+/// Builds a JSON Schema from the questions that readers ask of specimen documents.
 ///
-/// Readers are code; each asks a document for keys, and says of each value what it expects (JsonObject, JsonCursor).
-/// Those questions, asked of specimens that have every key there is, are the schema: where a reader learns a new key, the
-/// schema has it, and where no specimen has the key, that is a gap. Objects of one place of which readers know different
-/// keys (dampers by their law) become alternatives.
+/// A reader asks a document for keys and states what it expects of each value (JsonObject, JsonCursor). Asked of
+/// specimens with every key, these questions are the schema. A new key of a reader is in the schema at once; if no
+/// specimen has the key, that is a gap, and a test fails. Objects at one place with different keys (dampers by their
+/// law) become alternatives.
 ///
-/// It takes all that the readers take, and refuses unknown keys and wrong types. What holds between values (a sum, a name
-/// that has to be another's) the readers alone know.
+/// The schema accepts all that the readers accept, and refuses unknown keys and wrong types. Conditions between values
+/// are left to the readers.
 #pragma once
 
 #include "montecarlo/foundation/formats/json_reader.hpp"
@@ -16,7 +16,7 @@
 
 namespace wingspread {
 
-/// A document and what was asked of it.
+/// A document and the questions asked of it.
 struct Specimen {
   Json document;
   std::vector<Question> questions;
@@ -24,13 +24,13 @@ struct Specimen {
 
 struct RecordedSchema {
   Json schema;
-  /// What no specimen shows, each with its place: a key, a word of a choice that decides on keys, an array's elements.
+  /// Keys, words that decide on keys, and array elements that no specimen has, each with its place.
   std::vector<std::string> gaps;
 };
 
 [[nodiscard]] RecordedSchema recorded_schema(const std::vector<Specimen>& specimens);
 
-/// The bounds of "a number, kg, > 0 and < 1" or "an integer from 2 to 200" as keywords of a schema.
+/// The bounds in "a number, kg, > 0 and < 1" or "an integer from 2 to 200" as schema keywords.
 [[nodiscard]] Json bounds_of(std::string_view expected);
 
 } // namespace wingspread

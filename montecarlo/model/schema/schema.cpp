@@ -8,7 +8,7 @@
 namespace wingspread {
 namespace {
 
-/// @param read reads a specimen's document and notes what it asks
+/// @param read reads a specimen's document and records its questions
 template <class Read>
 RecordedSchema schema_of(std::vector<Json> documents, const char* title, const Read& read) {
   std::vector<Specimen> specimens;
@@ -17,7 +17,7 @@ RecordedSchema schema_of(std::vector<Json> documents, const char* title, const R
     try {
       read(specimen);
     } catch (const SpecError&) {
-      // A file that a specimen names is not there: what was asked is known all the same.
+      // Specimens name files that do not exist; the questions are recorded nevertheless.
     }
   }
   RecordedSchema recorded = recorded_schema(specimens);

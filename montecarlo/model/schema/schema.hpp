@@ -7,11 +7,11 @@
 
 namespace wingspread {
 
-/// Documents that have, all together, every key that their readers know.
+/// Documents that together have every key of their readers.
 [[nodiscard]] std::vector<Json> scene_specimens();
 [[nodiscard]] std::vector<Json> campaign_specimens();
 
-/// Draft 7, made of what the readers ask of the specimens. Cost: question these, some milliseconds.
+/// JSON Schemas, draft 7. Cost: reads all specimens, some milliseconds.
 [[nodiscard]] RecordedSchema scene_schema();
 [[nodiscard]] RecordedSchema campaign_schema();
 

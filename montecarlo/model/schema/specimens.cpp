@@ -2,8 +2,8 @@
 
 #include <array>
 
-// Where a reader learns a new key, give it to one of these: a test names the keys, and the words of choices that decide
-// on keys, that are in none of them. What is read as text in one place and as a number in another stands in both ways.
+// A new key of a reader needs a specimen: a test lists the keys, and the words that decide on keys, that no specimen
+// has. A value that may be text or a number is in the specimens both ways.
 namespace wingspread {
 namespace {
 
@@ -69,7 +69,7 @@ constexpr std::array<std::string_view, 5> scenes{
   "hinges": [ { "name": "root", "parent": "base", "child": "panel", "parent_point": [0, 0],
                 "child_point": [-0.5, 0], "angle": { "stowed": 1.5, "latched": 0 } } ] })"};
 
-// Those without a scene have the first one.
+// A campaign without a scene gets the first scene.
 constexpr std::array<std::string_view, 4> campaigns{R"({
   "dispersions": [
     { "name": "a", "distribution": { "type": "normal", "mean": "10 g", "std": "1 g",

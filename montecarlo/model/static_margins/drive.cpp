@@ -10,21 +10,22 @@
 namespace wingspread {
 namespace {
 
-/// Where a hinge stands.
-struct Stand {
+/// The state of one hinge of a drive.
+struct HingeState {
   double travel; ///< y_k, rad
   double gear;   ///< G_k
 };
 
 double whole_travel(const Hinge& hinge) { return std::abs(hinge.latched - hinge.stowed); }
 
-/// The share of its own way; what has none stays at its beginning.
+/// y as a share of the hinge's own travel; 0 for a hinge without travel.
 double share_of(const Hinge& hinge, double travel) {
   const double whole = whole_travel(hinge);
   return whole > 0 ? travel / whole : 0;
 }
 
-double given(const Synchronisation& loop, double travel) {
+/// g(y).
+double transmitted(const Synchronisation& loop, double travel) {
   return loop.table ? loop.table->value_at(travel) : loop.ratio * travel;
 }
 
@@ -32,39 +33,42 @@ double slope_of(const Synchronisation& loop, double travel) {
   return loop.table ? loop.table->slope_at(travel) : loop.ratio;
 }
 
-/// The travel of a loop's first hinge at which it gives this to the second.
-double taken_back(const Synchronisation& loop, double travel_of_second, double whole) {
+/// y of the first hinge with g(y) = y of the second, by bisection.
+double inverse_transmitted(const Synchronisation& loop, double travel_of_second, double whole) {
   if (!loop.table) return travel_of_second / loop.ratio;
   double from = 0, to = whole;
-  const bool rises = given(loop, to) > given(loop, from);
+  const bool rises = transmitted(loop, to) > transmitted(loop, from);
   for (double middle = std::midpoint(from, to); from < middle && middle < to;
        middle = std::midpoint(from, to))
-    ((given(loop, middle) < travel_of_second) == rises ? from : to) = middle;
+    ((transmitted(loop, middle) < travel_of_second) == rises ? from : to) = middle;
   return to;
 }
 
-Stand follow(const Scene& scene, const HingeDrive& drive, std::size_t member, const Stand& from) {
+/// The state of a hinge, from its neighbour's.
+HingeState follow(const Scene& scene, const HingeDrive& drive, std::size_t member,
+                  const HingeState& from) {
   const HingeDrive::Link& link = drive.links[member - 1];
   const Synchronisation& loop = scene.synchronisations[link.loop];
-  if (link.forward) return {given(loop, from.travel), slope_of(loop, from.travel) * from.gear};
+  if (link.forward)
+    return {transmitted(loop, from.travel), slope_of(loop, from.travel) * from.gear};
   const Hinge& hinge = scene.hinges[drive.hinges[member]];
-  const double travel = taken_back(loop, from.travel, whole_travel(hinge));
+  const double travel = inverse_transmitted(loop, from.travel, whole_travel(hinge));
   const double gear = slope_of(loop, travel);
-  return {travel, gear != 0 ? from.gear / gear : 0}; // a loop that hands on nothing
+  return {travel, gear != 0 ? from.gear / gear : 0}; // a flat piece of g transmits no torque
 }
 
-std::vector<Stand> stands_at(const Scene& scene, const HingeDrive& drive, double x) {
-  std::vector<Stand> stands{{x * whole_travel(scene.hinges[drive.hinges.front()]), 1}};
+std::vector<HingeState> states_at(const Scene& scene, const HingeDrive& drive, double x) {
+  std::vector<HingeState> states{{x * whole_travel(scene.hinges[drive.hinges.front()]), 1}};
   for (std::size_t member = 1; member < drive.hinges.size(); ++member)
-    stands.push_back(follow(scene, drive, member, stands[drive.links[member - 1].from]));
-  return stands;
+    states.push_back(follow(scene, drive, member, states[drive.links[member - 1].from]));
+  return states;
 }
 
 double share_at(const Scene& scene, const HingeDrive& drive, std::size_t member, double x) {
-  return share_of(scene.hinges[drive.hinges[member]], stands_at(scene, drive, x)[member].travel);
+  return share_of(scene.hinges[drive.hinges[member]], states_at(scene, drive, x)[member].travel);
 }
 
-/// Adds the x at which a hinge is at places of its own way, of those that it comes past.
+/// Adds the x at which a hinge passes the given places of its own travel. Places it does not pass are left out.
 void add_places(const Scene& scene, const HingeDrive& drive, std::size_t member,
                 const std::vector<double>& places, std::vector<double>& points) {
   const double first = share_at(scene, drive, member, 0), last = share_at(scene, drive, member, 1);
@@ -78,13 +82,13 @@ void add_places(const Scene& scene, const HingeDrive& drive, std::size_t member,
   }
 }
 
-/// Places along the curves of the loops' tables.
+/// Adds places along the loops' tables: between knots, g is a cubic, and margins may have minima inside.
 void add_loop_places(const Scene& scene, const HingeDrive& drive, std::vector<double>& points) {
   for (std::size_t member = 1; member < drive.hinges.size(); ++member) {
     const HingeDrive::Link& link = drive.links[member - 1];
     const Synchronisation& loop = scene.synchronisations[link.loop];
     if (!loop.table) continue;
-    const std::size_t first = link.forward ? link.from : member; // has the table's knots
+    const std::size_t first = link.forward ? link.from : member; // the knots are its travels
     std::vector<double> knots;
     for (const double travel : loop.table->knots())
       if (const double x = share_of(scene.hinges[drive.hinges[first]], travel); x > 0 && x < 1)
@@ -96,7 +100,7 @@ void add_loop_places(const Scene& scene, const HingeDrive& drive, std::vector<do
   }
 }
 
-/// A hinge's own places in terms of x, hinge by hinge.
+/// Every hinge's places, as x of the leading hinge.
 template <class PlacesOf>
 std::vector<double> by_leader(const Scene& scene, const HingeDrive& drive,
                               const PlacesOf& places_of) {
@@ -112,7 +116,7 @@ bool has_drive(const Hinge& hinge) {
          spring.offset != 0;
 }
 
-/// The hinges that loops connect with this one, ascending.
+/// The hinges coupled to this one by loops, directly or through others, and itself; ascending.
 std::vector<int> connected_with(const Scene& scene, int hinge) {
   std::vector<int> group{hinge};
   for (std::size_t k = 0; k < group.size(); ++k)
@@ -134,10 +138,10 @@ int leader_of(const Scene& scene, const std::vector<int>& group) {
   return free == group.end() ? group.front() : *free;
 }
 
-/// The hinges that turn with the leading one, each by one loop.
+/// The hinges coupled to the leader; each is reached by one loop.
 HingeDrive drive_led_by(const Scene& scene, int leader) {
   HingeDrive drive{{leader}, {}};
-  const auto take = [&](std::size_t from, int loop, int hinge, bool forward) {
+  const auto add = [&](std::size_t from, int loop, int hinge, bool forward) {
     if (std::ranges::find(drive.hinges, hinge) != drive.hinges.end()) return;
     drive.hinges.push_back(hinge);
     drive.links.push_back({from, loop, forward});
@@ -147,13 +151,13 @@ HingeDrive drive_led_by(const Scene& scene, int leader) {
       const Synchronisation& loop = scene.synchronisations[i];
       if (!(loop.stiffness > 0)) continue;
       const int hinge = drive.hinges[k];
-      if (loop.first == hinge) take(k, i, loop.second, true);
-      if (loop.second == hinge) take(k, i, loop.first, false);
+      if (loop.first == hinge) add(k, i, loop.second, true);
+      if (loop.second == hinge) add(k, i, loop.first, false);
     }
   return drive;
 }
 
-HingeExtras extras_of(const MotorizationSpec& spec, int hinge) {
+HingeExtras extras_of(const StaticMarginSpec& spec, int hinge) {
   return {spec.torques[hinge], spec.rates[hinge]};
 }
 
@@ -176,17 +180,17 @@ std::string name_of(const HingeDrive& drive, const Scene& scene) {
   return name;
 }
 
-MotorizationTerms terms_at(const Scene& scene, const HingeDrive& drive, double x,
-                           const MotorizationSpec& spec) {
+TorqueTerms terms_at(const Scene& scene, const HingeDrive& drive, double x,
+                     const StaticMarginSpec& spec) {
   const int leader = drive.hinges.front();
-  MotorizationTerms terms = terms_at(scene.hinges[leader], x, extras_of(spec, leader));
+  TorqueTerms terms = terms_at(scene.hinges[leader], x, extras_of(spec, leader));
   if (drive.hinges.size() == 1) return terms;
-  const std::vector<Stand> stands = stands_at(scene, drive, x);
-  for (std::size_t member = 1; member < stands.size(); ++member) {
+  const std::vector<HingeState> states = states_at(scene, drive, x);
+  for (std::size_t member = 1; member < states.size(); ++member) {
     const int index = drive.hinges[member];
     const Hinge& hinge = scene.hinges[index];
-    const double share = std::clamp(share_of(hinge, stands[member].travel), 0.0, 1.0);
-    add_terms(hinge, share, stands[member].gear, extras_of(spec, index), terms);
+    const double share = std::clamp(share_of(hinge, states[member].travel), 0.0, 1.0);
+    add_terms(hinge, share, states[member].gear, extras_of(spec, index), terms);
   }
   return terms;
 }
@@ -206,7 +210,7 @@ std::vector<double> places_of_least(const Scene& scene, const HingeDrive& drive)
   return points;
 }
 
-Margins least_margins(const Scene& scene, const HingeDrive& drive, const MotorizationSpec& spec,
+Margins least_margins(const Scene& scene, const HingeDrive& drive, const StaticMarginSpec& spec,
                       Margins* at) {
   Margins least;
   least.fill(std::numeric_limits<double>::infinity());

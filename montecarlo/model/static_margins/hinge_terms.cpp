@@ -11,7 +11,7 @@
 namespace wingspread {
 namespace {
 
-/// Where a torque that is linear in the travel is zero.
+/// The x at which a linear torque is zero.
 std::optional<double> root_of_line(const HingeTorque& torque) {
   const double stowed = torque.scale * torque.torque_stowed + torque.offset;
   const double latched = torque.scale * torque.torque_latched + torque.offset;
@@ -19,7 +19,7 @@ std::optional<double> root_of_line(const HingeTorque& torque) {
   return x > 0 && x < 1 ? std::optional(x) : std::nullopt;
 }
 
-/// Where a torque is zero that changes its sense between two places.
+/// The x at which a torque is zero, by bisection. @pre the torque has different signs at both ends
 double root_between(const HingeTorque& torque, const Hinge& hinge, double from, double to) {
   const bool sense = torque_at(torque, hinge, from) > 0;
   for (double middle = std::midpoint(from, to); from < middle && middle < to;
@@ -28,12 +28,12 @@ double root_between(const HingeTorque& torque, const Hinge& hinge, double from, 
   return to;
 }
 
-/// The share of the way at which the hinge has an angle.
+/// The x at which the hinge has an angle.
 double travel_at(const Hinge& hinge, double angle) {
   return (angle - hinge.stowed) / (hinge.latched - hinge.stowed);
 }
 
-/// The ends of the travel and the knots of a table between them, and places between these.
+/// Places along a table's pieces that lie on the travel.
 std::vector<double> places_along(const TorqueTable& table, const Hinge& hinge) {
   std::vector<double> knots;
   for (const double angle : table.angle())
@@ -53,16 +53,16 @@ void add_roots(const HingeTorque& torque, const Hinge& hinge, std::vector<double
       points.push_back(root_between(torque, hinge, places[k - 1], places[k]));
 }
 
-/// Whether a damper acts at x; both edges of its window are within it.
+/// Whether the damper acts at x. Both edges of its window count as inside.
 bool acts_at(const Damper& damper, const Hinge& hinge, double x) {
   if (!damper.window) return true;
   const auto [from, to] = std::minmax((*damper.window)[0], (*damper.window)[1]);
-  constexpr double slack = 1e-9; // an edge that is looked at comes back rounded
+  constexpr double slack = 1e-9; // rad: the edges' x are rounded
   const double angle = std::lerp(hinge.stowed, hinge.latched, x);
   return from - slack <= angle && angle <= to + slack;
 }
 
-/// What damper and viscous friction resist with at a rate, N·m.
+/// The resisting torque of damper and viscous friction at a rate, N·m.
 double damping_at(const Hinge& hinge, double x, double rate) {
   double torque = hinge.friction.scale * hinge.friction.viscous * rate;
   if (rate > 0 && hinge.damper && acts_at(*hinge.damper, hinge, x))
@@ -73,10 +73,10 @@ double damping_at(const Hinge& hinge, double x, double rate) {
 } // namespace
 
 void add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& extras,
-               MotorizationTerms& terms) {
+               TorqueTerms& terms) {
   const double size = std::abs(gear);
   const double spring = gear * torque_at(hinge.spring, hinge, x);
-  const MotorizationTerms& other = extras.other;
+  const TorqueTerms& other = extras.other;
   terms.available += size * other.available + std::max(spring, 0.0);
   terms.spring += size * other.spring + std::max(-spring, 0.0);
   terms.harness += size * other.harness + std::max(gear * torque_at(hinge.harness, hinge, x), 0.0);
@@ -90,8 +90,8 @@ void add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& ext
   terms.delivered += size * other.delivered;
 }
 
-MotorizationTerms terms_at(const Hinge& hinge, double x, const HingeExtras& extras) {
-  MotorizationTerms terms;
+TorqueTerms terms_at(const Hinge& hinge, double x, const HingeExtras& extras) {
+  TorqueTerms terms;
   add_terms(hinge, x, 1, extras, terms);
   return terms;
 }
@@ -119,7 +119,9 @@ std::vector<double> places_of_least(const Hinge& hinge) {
 }
 
 std::vector<double> parts_between(std::vector<double> knots) {
-  constexpr int parts = 8; // of a cubic piece: its least lies hardly below that of their ends
+  // Heuristic: a cubic's minimum between the ends of eight parts is little below them. Fewer parts would miss a
+  // margin's dip inside a steep piece.
+  constexpr int parts = 8;
   knots.insert(knots.end(), {0, 1});
   std::ranges::sort(knots);
   std::vector<double> places{0};

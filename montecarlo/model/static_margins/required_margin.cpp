@@ -10,7 +10,7 @@
 namespace wingspread {
 namespace {
 
-/// The kinds, as a campaign has them.
+/// The words of the key `motorization`, by MarginKind.
 constexpr std::array<std::string_view, 5> kind_words{"ECSS", "NASA", "NASA_one_spring_out", "GEVS",
                                                      "AIAA"};
 constexpr std::string_view every_hinge = "*";
@@ -57,8 +57,9 @@ std::vector<HingeDrive> required_drives(const Scene& scene, const RequiredMargin
 }
 
 double least_margin(const Scene& scene, std::span<const HingeDrive> drives, MarginKind kind,
-                    const MotorizationSpec& spec) {
-  double least = std::numeric_limits<double>::infinity();
+                    const StaticMarginSpec& spec) {
+  if (!unphysical(scene).empty()) return std::numeric_limits<double>::quiet_NaN();
+  double least = std::numeric_limits<double>::max();
   for (const HingeDrive& drive : drives)
     least = std::min(least, least_margins(scene, drive, spec)[static_cast<std::size_t>(kind)]);
   return least;

@@ -1,9 +1,8 @@
-/// A static margin that is required: of which hinges, by which standard.
+/// A static margin that a campaign requires: by which standard, of which hinges.
 ///
 ///     { "motorization": "NASA", "hinge": "*", "min": 0, "probability": 0.99, "confidence": 0.9 }
 ///
-/// What counts of a draw is the least margin over the travel, and of several hinges that of the worst: the
-/// requirement speaks of wings, and a wing has the margin of its worst hinge.
+/// A draw's value is its least margin over the travel. With "*" it is the margin of the worst hinge.
 #pragma once
 
 #include "montecarlo/model/static_margins/drive.hpp"
@@ -21,21 +20,22 @@ struct RequiredMargin {
   bool operator==(const RequiredMargin&) const = default;
 };
 
-/// Reads the keys `motorization` and `hinge` of a requirement, and notes what is wrong with them.
-/// @param scene null when it has problems of its own: then hinges are not looked up
+/// Reads the keys `motorization` and `hinge` of a requirement, and notes problems.
+/// @param scene null if the scene has problems: then the hinge is not looked up
 void read_required_margin(JsonObject& object, const Scene* scene, RequiredMargin& margin);
 
-/// "NASA": the kind as a campaign has it.
+/// "NASA": the word of the key `motorization`.
 [[nodiscard]] std::string_view word_of(const RequiredMargin& margin);
-/// "NASA margin of root", "NASA margin of every hinge": what a report calls the quantity.
+/// "NASA margin of root", "NASA margin of every hinge".
 [[nodiscard]] std::string name_of(const RequiredMargin& margin);
 
-/// The drives of the scene whose margins count.
+/// The drives that the requirement is about.
 [[nodiscard]] std::vector<HingeDrive> required_drives(const Scene& scene,
                                                       const RequiredMargin& margin);
 
-/// The least margin of a scene over the travels of these. +∞ where nothing resists any of them.
+/// The least margin over the travels of these drives; the largest finite number if nothing resists, NaN for an
+/// unphysical scene.
 [[nodiscard]] double least_margin(const Scene& scene, std::span<const HingeDrive> drives,
-                                  MarginKind kind, const MotorizationSpec& spec);
+                                  MarginKind kind, const StaticMarginSpec& spec);
 
 } // namespace wingspread

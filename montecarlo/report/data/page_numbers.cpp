@@ -1,23 +1,8 @@
 #include "montecarlo/report/data/page_numbers.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <charconv>
-#include <cmath>
-
 namespace wingspread {
 
-double rounded(double value, int digits) {
-  if (!std::isfinite(value)) return value;
-  std::array<char, 64> text{};
-  const char* end = fmt::format_to(text.data(), "{:.{}g}", value, digits);
-  double result = value;
-  std::from_chars(text.data(), end, result);
-  return result == 0 ? 0 : result; // no -0
-}
-
-Json page_number(double value, int digits) { return json_number(rounded(value, digits)); }
+Json page_number(double value, int digits) { return json_number(value, digits); }
 
 Json page_number(const std::optional<double>& value) {
   return value ? page_number(*value) : Json(nullptr);

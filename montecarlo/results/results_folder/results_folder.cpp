@@ -7,7 +7,7 @@
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/summary/static_margins.hpp"
+#include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
 

@@ -3,7 +3,7 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/results/streaming/streaming_summary.hpp"
-#include "montecarlo/results/summary/static_margins.hpp"
+#include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "montecarlo/results/streaming/streaming_statistics.hpp"
 
+#include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
-#include "montecarlo/results/summary/static_margins.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "montecarlo/analyses/margin/margin_study.hpp"
-#include "montecarlo/analyses/margin/motorization_study.hpp"
 #include "montecarlo/analyses/margin/scaled_springs.hpp"
+#include "montecarlo/engine/runs/static_margin_draws.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "tests/montecarlo/margin_support.hpp"
@@ -269,8 +269,8 @@ TEST_CASE("where the lower edge lies outside of the range no weaker springs are 
   CHECK((window.upper > 1 && window.upper < 1.5));
   REQUIRE(search.recommended);
   CHECK(*search.recommended >= 1);
-  const MotorizationStudy present =
-      study_motorization(result.campaigns[0], result.campaigns[0].scene);
+  const StaticMarginStudy present =
+      study_static_margins(result.campaigns[0], result.campaigns[0].scene);
   CHECK(present.drives[0].worst[0] < 0); // why: it is short of torque at rest as it is
   CHECK(present.drives[0].worst[1] < 0);
 }

@@ -80,7 +80,7 @@ TEST_CASE("What a margin sets otherwise is read too", "[margin]") {
   const MarginSpec& margin = *campaign.margin;
   CHECK((margin.lowest == 0.5 && margin.highest == 3));
   CHECK((margin.mode == MarginMode::each && !margin.nominal && margin.one_spring_out));
-  const MotorizationSpec& factors = campaign.motorization;
+  const StaticMarginSpec& factors = campaign.motorization;
   CHECK(factors.springs_per_hinge == 4);
   CHECK((factors.gevs.known == 1.5 && factors.gevs.variable == 2.5));
   CHECK((factors.aiaa.known == 1.25 && factors.aiaa.variable == 4));

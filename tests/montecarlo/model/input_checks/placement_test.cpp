@@ -10,7 +10,7 @@ using namespace wingspread;
 using namespace wingspread::test;
 
 // By hand, from the drawing: panels of 1.01 m in a stack of 0.04 m steps, upright; deployed in line.
-TEST_CASE("the seed scene's bodies stand in a stack, and in line", "[notices]") {
+TEST_CASE("the seed scene's bodies stand in a stack, and in line", "[warnings]") {
   const std::string text = describe_placement(read_scene_file(three_panel_file()));
   CHECK(text ==
         "centres of mass                                     stowed                          "
@@ -26,7 +26,7 @@ TEST_CASE("the seed scene's bodies stand in a stack, and in line", "[notices]") 
         "mass of 3 bodies: 30 kg\n");
 }
 
-TEST_CASE("a body is where its hinge holds it, on a base that is turned", "[notices]") {
+TEST_CASE("a body is where its hinge holds it, on a base that is turned", "[warnings]") {
   Scene scene;
   scene.base.motion = BaseMotion::free;
   scene.base.position = {1, 2};

@@ -55,9 +55,9 @@ TEST_CASE("hinges in loops have their margin together, each by its gear", "[moto
   const std::vector<HingeDrive> drives = drives_of(scene);
   REQUIRE(drives.size() == 1);
   CHECK(name_of(drives[0], scene) == "root+mid+tip");
-  MotorizationSpec spec = default_motorization(scene);
+  StaticMarginSpec spec = default_static_margins(scene);
   spec.torques[1].adhesion = 0.05; // at mid, twice as far from the root
-  const MotorizationTerms terms = terms_at(scene, drives[0], 0.3, spec);
+  const TorqueTerms terms = terms_at(scene, drives[0], 0.3, spec);
   CHECK(terms.available == Approx(4).epsilon(1e-14));
   CHECK(terms.friction == Approx(1.1).epsilon(1e-14));
   CHECK(terms.adhesion == Approx(0.1).epsilon(1e-14));
@@ -67,7 +67,7 @@ TEST_CASE("hinges in loops have their margin together, each by its gear", "[moto
 TEST_CASE("whichever of a loop leads, the margin is the same", "[motorization]") {
   Scene scene = looped();
   scene.hinges[1].spring = {0.4, -0.3}; // pulls back from 4/7 of its way on
-  const MotorizationSpec spec = default_motorization(scene);
+  const StaticMarginSpec spec = default_static_margins(scene);
   const Margins forward = least_margins(scene, drives_of(scene).front(), spec);
   scene.synchronisations[0] = loop_of(1, 0, 0.5);
   const std::vector<HingeDrive> drives = drives_of(scene);
@@ -98,8 +98,8 @@ TEST_CASE("a hinge that a loop turns backwards resists by its spring", "[motoriz
   scene.synchronisations.pop_back();
   scene.synchronisations[0].ratio = -1;
   scene.hinges[1].spring = {0.7, 0.7};
-  const MotorizationTerms terms =
-      terms_at(scene, drives_of(scene).front(), 0.5, default_motorization(scene));
+  const TorqueTerms terms =
+      terms_at(scene, drives_of(scene).front(), 0.5, default_static_margins(scene));
   CHECK((terms.available == 3 && terms.spring == 0.7));
   CHECK(terms.friction == 0.7); // 0.5 and 0.2
 }
@@ -112,7 +112,7 @@ TEST_CASE("a loop by a table has its gear from place to place, and its least is 
   Synchronisation& loop = scene.synchronisations[0];
   loop.table = std::make_shared<const Curve>(std::vector{0.0, 0.5, 1.0}, std::vector{0.0, 0.5, 2.0},
                                              Interpolation::linear, Beyond::straight);
-  const MotorizationSpec spec = default_motorization(scene);
+  const StaticMarginSpec spec = default_static_margins(scene);
   const HingeDrive drive = drives_of(scene).front();
   CHECK(terms_at(scene, drive, 0.25, spec).friction == Approx(0.5 + 0.2).epsilon(1e-14));
   CHECK(terms_at(scene, drive, 0.75, spec).friction == Approx(0.5 + 3 * 0.2).epsilon(1e-14));

@@ -1,6 +1,6 @@
 #include "core/scene/torque.hpp"
 #include "montecarlo/model/static_margins/hinge_terms.hpp"
-#include "montecarlo/model/static_margins/motorization.hpp"
+#include "montecarlo/model/static_margins/static_margin.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +27,7 @@ Hinge hinge_with(const HingeTorque& spring, const HingeTorque& harness, double c
 
 TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motorization]") {
   Hinge hinge = hinge_with({2, -1}, {-0.1, 0.3}, 0.02);
-  const MotorizationTerms stowed = terms_at(hinge, 0), latched = terms_at(hinge, 1);
+  const TorqueTerms stowed = terms_at(hinge, 0), latched = terms_at(hinge, 1);
   CHECK((stowed.available == 2 && stowed.spring == 0));
   CHECK((latched.available == 0 && latched.spring == 1));
   CHECK(stowed.harness == 0); // it helps there, and is not counted on
@@ -37,7 +37,7 @@ TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motoriza
   CHECK(terms_at(hinge, 0).friction == 0.02);
   hinge.friction.static_level = 0.05; // holds at rest
   CHECK(terms_at(hinge, 0).friction == 0.05);
-  MotorizationTerms other;
+  TorqueTerms other;
   other.adhesion = 0.5, other.hysteresis = 0.25;
   CHECK(terms_at(hinge, 1, {other}).adhesion == 0.5);
   CHECK(terms_at(hinge, 1, {other}).hysteresis == 0.25);
@@ -51,7 +51,7 @@ TEST_CASE("no place of the travel is worse than the turning points", "[motorizat
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> torque(-0.5, 2), level(0, 0.2);
   const auto margins = [](const Hinge& hinge, double x) {
-    const MotorizationTerms terms = terms_at(hinge, x);
+    const TorqueTerms terms = terms_at(hinge, x);
     return std::pair{ecss_margin(terms, {}), nasa_static_margin(terms, {})};
   };
   for (int trial = 0; trial < 200; ++trial) {
@@ -74,7 +74,7 @@ TEST_CASE("scale and offset are in a hinge's terms", "[motorization]") {
   Hinge hinge = hinge_with({2, 1}, {0.1, 0.3}, 0.02);
   hinge.spring.scale = 0.5, hinge.spring.offset = -0.75;
   hinge.harness.scale = 2, hinge.friction.scale = 3;
-  const MotorizationTerms latched = terms_at(hinge, 1);
+  const TorqueTerms latched = terms_at(hinge, 1);
   CHECK((latched.available == 0 && latched.spring == 0.25));
   CHECK(latched.harness == 0.6);
   CHECK(latched.friction == 3 * 0.02);
@@ -90,7 +90,7 @@ TEST_CASE("a torque test both ways has half its hysteresis in the friction", "[m
       std::make_shared<const TorqueTable>(std::vector{1.5, 0.5, 0.0}, std::vector{1.0, 0.6, -0.2},
                                           std::vector{1.2, 1.0, 0.6}, Interpolation::linear);
   hinge.friction.scale = 2;
-  const MotorizationTerms terms = terms_at(hinge, 2.0 / 3);
+  const TorqueTerms terms = terms_at(hinge, 2.0 / 3);
   CHECK(terms.available == Approx(0.8).epsilon(1e-15)); // the mean of the curves at 0.5 rad
   CHECK(terms.friction == Approx(2 * (0.02 + 0.2)).epsilon(1e-15));
   CHECK(terms_at(hinge, 1).available == Approx(0.2).epsilon(1e-15));
@@ -158,7 +158,7 @@ TEST_CASE("the margin of a torque test both ways is its mean over half its diffe
   hinge.spring.table =
       std::make_shared<const TorqueTable>(std::vector{1.5, 0.5, 0.0}, std::vector{2.0, 1.6, 1.0},
                                           std::vector{2.4, 2.0, 1.8}, Interpolation::linear);
-  const MotorizationTerms between = terms_at(hinge, 1 / 3.0);
+  const TorqueTerms between = terms_at(hinge, 1 / 3.0);
   CHECK(between.available == Approx(2.0).epsilon(1e-14));
   CHECK(between.friction == Approx(0.2).epsilon(1e-14));
   CHECK(phase_margin(between, {1.5, 2}) == Approx(2.0 / 0.4 - 1).epsilon(1e-13));

@@ -1,6 +1,6 @@
 // The statistics without rows against those of the rows themselves: of made-up runs, of which there can be many.
 #include "montecarlo/results/streaming/streaming_summary.hpp"
-#include "montecarlo/results/summary/static_margins.hpp"
+#include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 

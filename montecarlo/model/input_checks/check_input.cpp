@@ -1,0 +1,74 @@
+#include "montecarlo/model/input_checks/check_input.hpp"
+
+#include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/clearance_check.hpp"
+#include "montecarlo/model/input_checks/dispersion_checks.hpp"
+#include "montecarlo/model/input_checks/shape_checks.hpp"
+#include "montecarlo/model/input_checks/size_checks.hpp"
+#include "montecarlo/model/input_checks/torque_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+/// Returns the nominal deployment.
+Outcome check_scene(const Scene& scene, const Integration& integration, InputWarnings& warnings) {
+  check_sizes(scene, warnings);
+  check_torques(scene, warnings);
+  check_shape(scene, warnings);
+  return check_clearance(scene, integration, warnings);
+}
+
+/// Warns of the first torque problem of each case that the nominal wing does not have.
+void check_cases(const Campaign& campaign, const InputWarnings& nominal, InputWarnings& warnings) {
+  const auto is_nominal = [&](const InputWarning& warning) {
+    return std::ranges::find(nominal.list(), warning.pointer, &InputWarning::pointer) !=
+           nominal.list().end();
+  };
+  for (std::size_t k = 0; k < campaign.cases.size(); ++k) {
+    InputWarnings own(nominal.place());
+    check_torques(nominal_scene(campaign_of_case(campaign, campaign.cases[k])), own);
+    for (const InputWarning& warning : own.list())
+      if (!is_nominal(warning))
+        warnings.add(fmt::format("/cases/{}", k),
+                     fmt::format("in case {}: at {} {}", campaign.cases[k].name, warning.pointer,
+                                 warning.found),
+                     warning.usual);
+  }
+}
+
+} // namespace
+
+ScenePlace scene_place(const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  const Json document = parse_json_file(file);
+  const auto scene = document.find("scene");
+  if (scene == document.end()) return {file.string()};
+  if (!scene->is_string()) return {file.string(), "/scene"};
+  return {(file.parent_path() / scene->get<std::string>()).string()};
+}
+
+std::vector<InputWarning> check_input(const Scene& scene, const Integration& integration,
+                                      const std::filesystem::path& file) {
+  InputWarnings warnings(scene_place(file));
+  (void)check_scene(scene, integration, warnings);
+  return warnings.list();
+}
+
+std::vector<InputWarning> check_input(const Campaign& campaign, const std::filesystem::path& file) {
+  InputWarnings scene(scene_place(file)), rest({file.string()});
+  const Outcome nominal = check_scene(nominal_scene(campaign), campaign.integration, scene);
+  check_cases(campaign, scene, rest);
+  check_dispersions(campaign, rest);
+  check_correlations(campaign, rest);
+  check_requirements(campaign, nominal, rest);
+  std::vector<InputWarning> all = scene.list();
+  all.insert(all.end(), rest.list().begin(), rest.list().end());
+  return all;
+}
+
+} // namespace wingspread

@@ -1,0 +1,278 @@
+#include "montecarlo/model/input_checks/dispersion_checks.hpp"
+
+#include "core/scene/scene.hpp"
+#include "distributions/prepared_distribution.hpp"
+#include "montecarlo/foundation/formats/output_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace wingspread {
+namespace {
+
+// Heuristics. Too tight, they warn of good campaigns and are no longer read; too wide, they miss a wrong unit.
+constexpr double tail = 0.025; // on either side of the central 95 %
+constexpr double widest_angle =
+    0.1;                   // rad: between a hinge's tolerance and a degree taken for a radian
+constexpr double far = 30; // of a value set and the nominal value; inches for metres: 39
+constexpr double least_probability = 1e-9;
+constexpr double one_cause = 0.8, several_causes = 0.5; // Spearman's coefficients
+
+/// The numbers of a law that the rules compare.
+struct Spread {
+  explicit Spread(const Distribution& distribution)
+      : law(distribution), lower(law.quantile(tail)), median(law.quantile(0.5)),
+        upper(law.quantile_complement(tail)),
+        mean(distribution.truncate ? median : moments(distribution.law).mean) {}
+
+  PreparedDistribution law;
+  double lower, median, upper; ///< of the central 95 %
+  double mean;                 ///< of a truncated law its median
+  [[nodiscard]] double half_width() const { return (upper - lower) / 2; }
+  [[nodiscard]] double furthest() const { return std::max(std::abs(lower), std::abs(upper)); }
+};
+
+/// One dispersed parameter: path, unit and nominal value.
+struct Target {
+  Target(const Scene& scene, const SceneParameter& parameter)
+      : path(path_of(scene, parameter)), unit(unit_of(parameter)), nominal(parameter.in(scene)) {}
+
+  std::string path;
+  std::string_view unit;
+  double nominal;
+  [[nodiscard]] bool is_angle() const { return unit == "rad"; }
+  [[nodiscard]] bool is_spring() const {
+    return path.find(".spring.") != std::string::npos && !path.ends_with("offset");
+  }
+  /// "2 N·m"; a number without a dimension alone.
+  [[nodiscard]] std::string text(double value) const {
+    return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
+  }
+};
+
+/// The nominal value's magnitude; for a coordinate of a hinge point, the length of its vector.
+double size_of(const Scene& scene, const SceneParameter& parameter, const Target& target) {
+  double other = 0;
+  const std::string_view path = target.path;
+  if (path.ends_with("_point.0") || path.ends_with("_point.1")) {
+    const std::string twin =
+        std::string(path.substr(0, path.size() - 1)) + (path.ends_with('0') ? '1' : '0');
+    const ParameterMatches found = resolve(scene, twin);
+    if (!found.matches.empty()) other = found.matches.front().parameter.in(scene);
+  }
+  return std::hypot(parameter.in(scene), other);
+}
+
+/// Checks one dispersion at one of its targets. Each rule returns whether it has warned.
+class TargetCheck {
+public:
+  TargetCheck(const Scene& scene, const SceneParameter& parameter, Apply apply,
+              const Spread& spread, std::string place, InputWarnings& warnings)
+      : scene_(scene), parameter_(parameter), apply_(apply), spread_(spread),
+        place_(std::move(place)), target_(scene, parameter), warnings_(warnings) {}
+
+  [[nodiscard]] bool warns() const {
+    return wide_angle() || far_scale() || large_add() || far_set() || wrong_side();
+  }
+
+private:
+  bool warn(std::string found, std::string usual) const {
+    warnings_.add(place_, std::move(found), std::move(usual));
+    return true;
+  }
+
+  [[nodiscard]] bool far_scale() const {
+    if (apply_ != Apply::scale || (spread_.mean >= 0.5 && spread_.mean <= 2)) return false;
+    return warn(
+        fmt::format("a factor of {:.4g} on average, for {}", spread_.mean, target_.path),
+        "a mean factor from 0.5 to 2 (\"add\" and \"set\" take values in the parameter's unit)");
+  }
+
+  [[nodiscard]] bool large_add() const {
+    const double size = size_of(scene_, parameter_, target_);
+    if (apply_ != Apply::add || size == 0 || target_.is_angle()) return false;
+    if (std::abs(spread_.mean) <= 0.5 * size && spread_.furthest() <= size) return false;
+    return warn(fmt::format("{} on average, up to {}, added to {}, {}", target_.text(spread_.mean),
+                            target_.text(spread_.furthest()), target_.path,
+                            target_.text(target_.nominal)),
+                "draws about 0, below the nominal value (\"scale\" applies a factor)");
+  }
+
+  [[nodiscard]] bool far_set() const {
+    const double size = std::abs(target_.nominal);
+    if (apply_ != Apply::set || size == 0 || target_.is_angle()) return false;
+    const double ratio = spread_.median / target_.nominal;
+    if (ratio > 1 / far && ratio < far) return false;
+    return warn(fmt::format("a median of {} for {}, nominally {}", target_.text(spread_.median),
+                            target_.path, target_.text(target_.nominal)),
+                fmt::format("a median of 1/{0} to {0} times the nominal value", far));
+  }
+
+  [[nodiscard]] bool wide_angle() const {
+    if (!target_.is_angle()) return false;
+    const double per_draw = apply_ == Apply::scale ? std::abs(target_.nominal) : 1;
+    if (per_draw * spread_.half_width() > widest_angle)
+      return warn(fmt::format("±{:.4g} rad of {} (95 % of the draws)",
+                              per_draw * spread_.half_width(), target_.path),
+                  fmt::format("up to ±{} rad (write degrees as \"0.5 deg\")", widest_angle));
+    if (apply_ == Apply::scale || std::abs(spread_.median) <= 2 * std::numbers::pi) return false;
+    return warn(fmt::format("a median of {:.4g} rad for {}", spread_.median, target_.path),
+                "an angle within a turn, ±6.28 rad (write degrees as \"90 deg\")");
+  }
+
+  /// P(the dispersed parameter is < 0), or > 0 for a negative nominal value.
+  [[nodiscard]] double probability_of_other_side() const {
+    const bool negative = target_.nominal < 0;
+    const double zero = apply_ == Apply::add ? -target_.nominal : 0;
+    const bool upwards = negative && apply_ != Apply::scale;
+    return upwards ? spread_.law.cdf_complement(zero)
+                   : spread_.law.cdf(std::nextafter(zero, -1e300));
+  }
+
+  /// Whether a negative value of the parameter is unphysical.
+  [[nodiscard]] bool is_physical_size() const {
+    Scene negative = scene_;
+    parameter_.in(negative) = -1;
+    return unphysical(negative).size() > unphysical(scene_).size();
+  }
+
+  [[nodiscard]] bool wrong_side() const {
+    if (target_.nominal == 0) return false;
+    const double probability = probability_of_other_side();
+    if (probability < least_probability) return false;
+    const bool spring = target_.is_spring();
+    if (!spring && !is_physical_size()) return false;
+    return warn(fmt::format("a draw that {1} {2} with a probability of {0:.3g}", probability,
+                            spring ? "changes the sign of" : "makes negative", target_.path),
+                fmt::format("a probability below {} (a lognormal law, or \"truncate\")",
+                            least_probability));
+  }
+
+  const Scene& scene_;
+  const SceneParameter& parameter_;
+  Apply apply_;
+  const Spread& spread_;
+  std::string place_;
+  Target target_;
+  InputWarnings& warnings_;
+};
+
+/// The pointer of a dispersion in the file. Copies of an `each` share one pointer; their names begin with its name.
+std::string place_of(const Json& resolved, const std::string& name) {
+  const Json& list = resolved.at("dispersions");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string own = list[i].at("name").get<std::string>();
+    if (own == name || (list[i].contains("each") && name.starts_with(own + ".")))
+      return fmt::format("/dispersions/{}", i);
+  }
+  return "/dispersions";
+}
+
+/// Warns of tables with half of the draws beyond one end: they all get the value at that end.
+void check_through(const Dispersion& dispersion, const Spread& spread, const std::string& place,
+                   InputWarnings& warnings) {
+  for (std::size_t k = 0; k < dispersion.through.size(); ++k) {
+    const std::vector<double>& at = dispersion.through[k].table.knots();
+    if (spread.median >= at.front() && spread.median <= at.back()) continue;
+    warnings.add(fmt::format("{}/through/{}/table/at", place, k),
+                 fmt::format("a table from {:.4g} to {:.4g} for draws with the median {:.4g}",
+                             at.front(), at.back(), spread.median),
+                 "a table that covers the draws (it is constant beyond its ends)");
+  }
+}
+
+bool are_named(const std::vector<RankCorrelation>& all, std::size_t a, std::size_t b) {
+  return std::ranges::any_of(all, [&](const RankCorrelation& each) {
+    return (each.first == a && each.second == b) || (each.first == b && each.second == a);
+  });
+}
+
+/// Three dispersions that are correlated pairwise; nothing if there are none.
+std::optional<std::array<std::size_t, 3>> common_cause(std::vector<RankCorrelation> all) {
+  std::erase_if(all, [](const auto& each) { return std::abs(each.spearman) < several_causes; });
+  for (const RankCorrelation& pair : all)
+    for (const RankCorrelation& other : all)
+      if (other.first == pair.first && other.second != pair.second &&
+          are_named(all, pair.second, other.second))
+        return std::array{pair.first, pair.second, other.second};
+  return std::nullopt;
+}
+
+constexpr const char* usual_cause =
+    "one draw for a common cause, with \"through\" (a temperature, a lot); correlations are for "
+    "what is measured together";
+
+/// The output's value in the nominal deployment; nothing if it has none.
+std::optional<double> nominal_of(const Campaign& campaign, const std::string& output,
+                                 const Outcome& nominal) {
+  const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);
+  const auto column = std::ranges::find(columns, output, &OutputColumn::name);
+  if (column == columns.end()) return std::nullopt;
+  const double value = output_of(*column, nominal);
+  return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& nominal,
+                       InputWarnings& warnings) {
+  const Requirement& own = campaign.requirements[k];
+  const std::string at = fmt::format("/requirements/{}", k);
+  const std::string key = own.max ? "/max" : "/min";
+  const double limit = own.max ? *own.max : own.min.value_or(0);
+  const std::string unit = parse_output_name(own.output).unit;
+  const std::optional<double> value = nominal_of(campaign, own.output, nominal);
+  const bool rises = is_peak(own.output) && campaign.scene.base.motion == BaseMotion::prescribed &&
+                     campaign.scene.base.angular_acceleration != 0;
+  if (limit < 0 && (own.absolute || is_peak(own.output)))
+    warnings.add(at + key, fmt::format("a limit of {} {} on a magnitude", limit, unit),
+                 "a limit ≥ 0");
+  else if (value && !own.absolute && limit * *value < 0)
+    warnings.add(at + key,
+                 fmt::format("a limit of {} {}; the nominal {} is {:.4g} {}", limit, unit,
+                             own.output, *value, unit),
+                 "a limit on the same side of zero; \"abs\": true limits the magnitude");
+  else if (rises)
+    warnings.add(at,
+                 fmt::format("a limit on {} with a base that turns faster and faster", own.output),
+                 "a base with a constant rate: with a growing rate no peak is proven final, and "
+                 "every run breaks the requirement");
+}
+
+} // namespace
+
+void check_dispersions(const Campaign& campaign, InputWarnings& warnings) {
+  for (const Dispersion& dispersion : campaign.dispersions) {
+    const Spread spread(dispersion.distribution);
+    const std::string place = place_of(campaign.resolved, dispersion.name);
+    for (const SceneParameter& target : dispersion.targets)
+      if (TargetCheck(campaign.scene, target, dispersion.apply, spread, place, warnings).warns())
+        break;
+    check_through(dispersion, spread, place, warnings);
+  }
+}
+
+void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
+  const auto& all = campaign.wanted_correlations;
+  const auto name = [&](std::size_t which) { return campaign.dispersions[which].name; };
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (std::abs(all[k].spearman) >= one_cause)
+      warnings.add(
+          fmt::format("/correlations/{}", k),
+          fmt::format("{} of {} and {}", all[k].spearman, name(all[k].first), name(all[k].second)),
+          usual_cause);
+  if (const auto three = common_cause(all))
+    warnings.add("/correlations",
+                 fmt::format("{}, {} and {}, each correlated with the others", name((*three)[0]),
+                             name((*three)[1]), name((*three)[2])),
+                 usual_cause);
+}
+
+void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings) {
+  for (std::size_t k = 0; k < campaign.requirements.size(); ++k)
+    check_requirement(campaign, k, nominal, warnings);
+}
+
+} // namespace wingspread

@@ -1,0 +1,30 @@
+/// Checks of a campaign's dispersions, correlations and requirements.
+#pragma once
+
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/model/input_checks/input_warning.hpp"
+
+namespace wingspread {
+
+/// Warns of each dispersion by the first rule that it breaks (an `each` at its first match):
+///
+/// - scale: the mean is outside 0.5 to 2;
+/// - add: the mean exceeds half the nominal value, or the central 95 % of the draws exceed it (for a coordinate: the
+///   length of its vector). A factor meant for "scale" breaks this rule;
+/// - set: the median is more than 30 times the nominal value or less than 1/30 (inches for metres: 39);
+/// - an angle's central 95 % are wider than ±0.1 rad, or an angle is set beyond a turn (degrees for radians);
+/// - with a probability of 1e-9 or more, a draw (the others nominal) changes a spring's sign or makes a physical size
+///   negative;
+/// - through: half of the draws lie beyond one end of the table.
+void check_dispersions(const Campaign& campaign, InputWarnings& warnings);
+
+/// Warns of correlations of 0.8 and more, and of three dispersions correlated pairwise by 0.5 and more: they probably
+/// have one cause, which `through` draws once.
+void check_correlations(const Campaign& campaign, InputWarnings& warnings);
+
+/// Warns of requirements that no run or every run meets: a limit on the other side of zero than the nominal value, a
+/// negative limit of a magnitude, and a limit on a peak while the base's rate grows (no peak is then proven final).
+/// @param nominal the nominal deployment
+void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings);
+
+} // namespace wingspread

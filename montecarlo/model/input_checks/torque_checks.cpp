@@ -1,0 +1,89 @@
+#include "montecarlo/model/input_checks/torque_checks.hpp"
+
+#include "core/scene/torque.hpp"
+#include "montecarlo/model/static_margins/drive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+constexpr double negligible =
+    1e-9; // of the largest torque; far above rounding, far below any real torque
+
+double angle_at(const Hinge& hinge, double share) {
+  return std::lerp(hinge.stowed, hinge.latched, share);
+}
+
+/// The least of some values (at most 0), its place, and the largest magnitude of all.
+struct Least {
+  double value = 0, at = 0, largest = 0;
+  void add(double next, double x) {
+    largest = std::max(largest, std::abs(next));
+    if (next < value) value = next, at = x;
+  }
+};
+
+bool is_negative(const Least& least) { return least.value < -negligible * least.largest; }
+
+/// Returns false if the spring pushes away from the latch somewhere.
+bool check_spring(const std::string& at, const Hinge& hinge, InputWarnings& warnings) {
+  Least least;
+  for (const double x : places_of_least(hinge)) least.add(torque_at(hinge.spring, hinge, x), x);
+  if (!is_negative(least)) return true;
+  warnings.add(at + "/spring",
+               fmt::format("{:.4g} N·m at {:.4g} rad, which pushes away from the latch",
+                           least.value, angle_at(hinge, least.at)),
+               "a torque > 0: positive deploys, in whichever sense the hinge turns");
+  return false;
+}
+
+void check_latch(const std::string& at, const Hinge& hinge, InputWarnings& warnings) {
+  if (!hinge.latch)
+    warnings.add(at + "/latch", "no latch",
+                 "a latch: a hinge without one never counts as deployed, and nothing holds it");
+  else if (hinge.latch->stiffness == 0)
+    warnings.add(at + "/latch/stiffness", "0 N·m/rad",
+                 "> 0: a latch without stiffness does not hold the hinge");
+}
+
+/// Spring less harness less friction at rest, referred to the drive's leading hinge, N·m.
+double net_torque(const Scene& scene, const HingeDrive& drive, double x,
+                  const StaticMarginSpec& spec) {
+  const TorqueTerms terms = terms_at(scene, drive, x, spec);
+  return terms.available - terms.spring - terms.friction - terms.harness;
+}
+
+void check_net(const Scene& scene, const HingeDrive& drive, InputWarnings& warnings) {
+  const StaticMarginSpec spec = default_static_margins(scene);
+  Least least;
+  for (const double x : places_of_least(scene, drive))
+    least.add(net_torque(scene, drive, x, spec), x);
+  if (!is_negative(least)) return;
+  const int leading = drive.hinges.front();
+  warnings.add(fmt::format("/hinges/{}/spring", leading),
+               fmt::format("a net static torque of {1:.4g} N·m at {2:.4g} rad of {0}: spring less "
+                           "harness less friction at rest",
+                           name_of(drive, scene), least.value,
+                           angle_at(scene.hinges[leading], least.at)),
+               "≥ 0 on the whole travel: a wing that stops where it is < 0 does not start again");
+}
+
+} // namespace
+
+void check_torques(const Scene& scene, InputWarnings& warnings) {
+  std::vector<bool> pushes;
+  for (std::size_t h = 0; h < scene.hinges.size(); ++h) {
+    const std::string at = fmt::format("/hinges/{}", h);
+    pushes.push_back(check_spring(at, scene.hinges[h], warnings));
+    check_latch(at, scene.hinges[h], warnings);
+  }
+  for (const HingeDrive& drive : drives_of(scene))
+    if (std::ranges::all_of(drive.hinges, [&](int h) { return pushes[h]; }))
+      check_net(scene, drive, warnings);
+}
+
+} // namespace wingspread

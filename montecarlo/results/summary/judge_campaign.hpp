@@ -1,0 +1,21 @@
+/// Verdicts on all requirements of a campaign. A required static margin is no output of a run: it is computed from the
+/// row's draws (static_margins). A run that did not deploy breaks it, like every requirement (verdict.hpp).
+#pragma once
+
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/results/summary/verdict.hpp"
+
+#include <vector>
+
+namespace wingspread {
+
+/// One column for each required static margin, named as the requirement's output; the values are least_margin's.
+/// Cost: one scene and its margins for each row. @pre the results have the campaign's draws
+[[nodiscard]] std::vector<Column> static_margin_columns(const Campaign& campaign,
+                                                        const Results& results);
+
+/// Judges all requirements. @param looks as in judge_all
+[[nodiscard]] std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& results,
+                                                  long looks = 1);
+
+} // namespace wingspread

@@ -1,0 +1,254 @@
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+#include "tests/support/source_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <variant>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+const std::filesystem::path studies = std::filesystem::path(source_folder) / "studies";
+
+std::vector<InputWarning> check_file(const std::filesystem::path& file) {
+  const std::variant<Scene, Campaign> read = read_file(file);
+  if (const Scene* scene = std::get_if<Scene>(&read)) return check_input(*scene, {}, file);
+  return check_input(std::get<Campaign>(read), file);
+}
+
+/// The scene of that name, or the campaign with its scene inside.
+Json document_of(const std::string& name) {
+  const bool campaign = name.starts_with("campaigns/");
+  Json document = parse_json_file(studies / name);
+  if (campaign)
+    document["scene"] =
+        parse_json_file(studies / "campaigns" / document["scene"].get<std::string>());
+  return document;
+}
+
+std::string text_of(const std::vector<InputWarning>& warnings) {
+  std::string text;
+  for (const InputWarning& warning : warnings) text += to_string(warning) + '\n';
+  return text;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, '|');) words.push_back(word);
+  return words;
+}
+
+/// A mistake in an input, and the warning expected of it.
+struct Mistake {
+  const char* what;
+  const char* document;
+  const char* patch;   ///< JSON merge patch: pointer → value; null: taken away
+  const char* pointer; ///< of the warning
+  const char* found;   ///< key words of its `found`, separated by |
+};
+
+/// Changes the values at the pointers of an object.
+Json changed(Json document, const Json& patch) {
+  for (const auto& [pointer, value] : patch.items()) {
+    const Json::json_pointer at(pointer);
+    if (!value.is_null())
+      document[at] = value;
+    else
+      document[at.parent_pointer()].erase(at.back());
+  }
+  return document;
+}
+
+constexpr const char* flight = "scenes/three_panel_flight.json";
+constexpr const char* yoke = "scenes/yoke_wing.json";
+constexpr const char* seed = "campaigns/seed.json";
+constexpr const char* margin = "campaigns/margin.json";
+constexpr const char* driven = "campaigns/prescribed_base.json";
+
+const std::vector<Mistake> mistakes{
+    // units
+    {"stowed in degrees", flight, R"({"/hinges/0/angle/stowed": 90})", "/hinges/0/angle/stowed",
+     "90 rad"},
+    {"folded by -180 degrees", flight, R"({"/hinges/1/angle/stowed": -180})",
+     "/hinges/1/angle/stowed", "-180 rad"},
+    {"latched in degrees", flight, R"({"/hinges/2/angle/latched": 180})", "/hinges/2/angle/latched",
+     "180 rad"},
+    {"more than a turn to go", flight,
+     R"({"/hinges/2/angle/stowed": 3.5, "/hinges/2/angle/latched": -3.5})", "/hinges/2/angle",
+     "a travel of 7 rad"},
+    {"a table in degrees", yoke, R"({"/hinges/0/harness/table/angle": [90, 63, 31.5, 9, 0]})",
+     "/hinges/0/harness/table/angle", "90 rad"},
+    {"a damper's window in degrees", yoke, R"({"/hinges/0/damper/window": [60, 0]})",
+     "/hinges/0/damper/window/0", "60 rad"},
+    {"a stop's gap in degrees", yoke, R"({"/hinges/0/stop/gap": 0.5})", "/hinges/0/stop/gap",
+     "0.5 rad|1.571 rad"},
+    {"a hinge in millimetres", flight, R"({"/hinges/0/child_point": [-505, 20]})",
+     "/hinges/0/child_point", "505.4 m"},
+    {"a hinge in inches", flight, R"({"/hinges/0/child_point": [-19.9, 0.79]})",
+     "/bodies/0/inertia", "radius of gyration|0.2"},
+    {"the parent's hinge in centimetres", flight, R"({"/hinges/1/parent_point": [50.5, -2]})",
+     "/hinges/1/parent_point", "50.54 m"},
+    {"inertia in kg·mm²", flight, R"({"/bodies/0/inertia": 5e5})", "/bodies/0/inertia",
+     "radius of gyration|223.6 m"},
+    {"inertia in kg·cm²", flight, R"({"/bodies/1/inertia": 5e3})", "/bodies/1/inertia",
+     "22.36 m|0.5054 m"},
+    {"mass in grams", flight, R"({"/bodies/2/mass": 10000})", "/bodies/2/inertia",
+     "0.007071 m|0.5054 m"},
+    // torques
+    {"a spring with the sign of its rotation", flight,
+     R"({"/hinges/1/spring": {"torque_stowed": -1.5, "torque_latched": -0.5}})", "/hinges/1/spring",
+     "-1.5 N·m|-3.142 rad"},
+    {"a spring that is spent before the latch", flight,
+     R"({"/hinges/2/spring/torque_latched": -0.2})", "/hinges/2/spring", "-0.2 N·m|0 rad"},
+    {"a harness stiffer than the spring", flight, R"({"/hinges/2/harness/torque_latched": 0.5})",
+     "/hinges/2/spring", "net static torque|tip|-0.4"},
+    {"friction in N·mm", flight, R"({"/hinges/0/friction/coulomb": 20})", "/hinges/0/spring",
+     "net static torque|root|-1"},
+    {"springs too weak for the harnesses of a coupled wing", yoke,
+     R"({"/hinges/0/spring/scale": 0.1, "/hinges/1/spring/scale": 0.1, "/hinges/2/spring/scale": 0.1,
+         "/hinges/3/spring/scale": 0.1, "/hinges/4/spring/scale": 0.1})",
+     "/hinges/0/spring", "net static torque|root+h1+h2+h3+h4|-"},
+    {"a forgotten latch", flight, R"({"/hinges/1/latch": null})", "/hinges/1/latch", "no latch"},
+    {"a latch that holds nothing", flight, R"({"/hinges/1/latch/stiffness": 0})",
+     "/hinges/1/latch/stiffness", "0 N·m/rad"},
+    // geometry
+    {"the root's hinge points swapped", flight,
+     R"({"/hinges/0/parent_point": [-0.505, 0.02], "/hinges/0/child_point": [0, 0]})",
+     "/hinges/0/child_point", "0 m|panel_1"},
+    {"an inner hinge's points swapped", flight,
+     R"({"/hinges/1/parent_point": [-0.505, -0.02], "/hinges/1/child_point": [0.505, -0.02]})",
+     "/hinges/1/parent_point", "panel_1|panel_2|root"},
+    {"a child that folds back", flight, R"({"/hinges/2/child_point": [0.505, 0.02]})",
+     "/hinges/2/child_point", "panel_3|folds back|panel_2"},
+    {"an offset of the wrong sign", flight, R"({"/hinges/1/child_point": [-0.505, 0.02]})",
+     "/hinges/1/child_point", "panel_2|0.04 m|panel_1"},
+    {"the same, as it is stowed", flight, R"({"/hinges/1/child_point": [-0.505, 0.02]})",
+     "/hinges/1/angle/stowed", "panel_1|panel_2|centres of mass|stowed"},
+    {"a panel in the place of the one before the last", flight,
+     R"({"/hinges/2/parent_point": [0.505, -0.02], "/hinges/2/child_point": [-0.505, -0.02]})",
+     "/hinges/2/angle/stowed", "panel_1|panel_3|centres of mass|stowed"},
+    {"folded across the stack", flight, R"({"/hinges/2/angle/stowed": 3.6})",
+     "/hinges/2/angle/stowed", "panel_1|panel_3|stowed"},
+    {"the wrong sense of rotation", flight, R"({"/hinges/2/angle/stowed": -3.141592653589793})",
+     "/hinges/2/angle", "panel_3|turns through|panel_2|-3.142|0 rad"},
+    // laws
+    {"an increment used as a factor", seed,
+     R"({"/dispersions/0/distribution": {"type": "normal", "mean": 0, "std": 0.03}})",
+     "/dispersions/0", "a factor of 0|hinges.root.spring.torque_stowed"},
+    {"per cent used as a factor", seed,
+     R"({"/dispersions/0/distribution": {"type": "normal", "mean": 100, "std": 3}})",
+     "/dispersions/0", "a factor of 100"},
+    {"a factor used as an increment", seed, R"({"/dispersions/0/apply": "add"})", "/dispersions/0",
+     "1 N·m|1.059 N·m|added|hinges.root.spring.torque_latched|1.4 N·m"},
+    {"a standard deviation in per cent", seed,
+     R"({"/dispersions/0/distribution": {"type": "normal", "mean": 1, "std": 3}})",
+     "/dispersions/0", "probability of 0.369|sign|hinges.root.spring.torque_stowed"},
+    {"a mass that can be negative", seed,
+     R"({"/dispersions/3": {"name": "mass", "distribution": {"type": "normal", "mean": 10, "std": 2},
+         "apply": "set", "each": "bodies.*.mass"}})",
+     "/dispersions/3", "probability of 2.87e-07|negative|bodies.panel_1.mass"},
+    {"a stiffness that can be negative", seed,
+     R"({"/dispersions/3": {"name": "k", "distribution": {"type": "uniform", "lower": -0.5, "upper": 2},
+         "apply": "scale", "each": "hinges.*.latch.stiffness"}})",
+     "/dispersions/3", "probability of 0.2|negative|hinges.root.latch.stiffness"},
+    {"a mass in grams", seed,
+     R"({"/dispersions/3": {"name": "mass", "distribution": {"type": "uniform", "lower": 9800,
+         "upper": 10200}, "apply": "set", "each": "bodies.*.mass"}})",
+     "/dispersions/3", "median|1e+04 kg|bodies.panel_1.mass|10 kg"},
+    {"a tolerance in degrees", seed,
+     R"({"/dispersions/3": {"name": "tilt", "distribution": {"type": "normal", "mean": 0, "std": 0.5},
+         "apply": "add", "each": "hinges.*.angle.stowed"}})",
+     "/dispersions/3", "±0.98 rad|hinges.root.angle.stowed|95 %"},
+    {"an angle drawn in degrees", seed,
+     R"({"/dispersions/3": {"name": "tilt", "distribution": {"type": "uniform", "lower": 89.95,
+         "upper": 90.05}, "apply": "set", "to": ["hinges.root.angle.stowed"]}})",
+     "/dispersions/3", "90 rad|hinges.root.angle.stowed"},
+    {"a temperature in kelvin, and its table in degrees", seed,
+     R"({"/dispersions/3": {"name": "temperature",
+         "distribution": {"type": "normal", "mean": 250, "std": 10},
+         "through": [{"to": ["hinges.root.friction.coulomb"], "apply": "scale",
+                      "table": {"at": [-100, 20, 60], "value": [3, 1, 0.8]}}]}})",
+     "/dispersions/3/through/0/table/at", "-100|60|250"},
+    {"a case in which the harness holds the wing", seed,
+     R"({"/cases": [{"name": "hot"},
+                    {"name": "cold", "scale": {"hinges.tip.harness.torque_latched": 9}}]})",
+     "/cases/1", "case cold|/scene/hinges/2/spring|net static torque|tip|-"},
+    {"a lot as a correlation", seed,
+     R"({"/correlations": [{"between": ["root_spring", "mid_spring"], "spearman": 0.95}]})",
+     "/correlations/0", "0.95|root_spring|mid_spring"},
+    {"a temperature as correlations", seed,
+     R"({"/correlations": [{"between": ["root_spring", "mid_spring"], "spearman": 0.6},
+                           {"between": ["tip_spring", "mid_spring"], "spearman": 0.6},
+                           {"between": ["root_spring", "tip_spring"], "spearman": 0.6}]})",
+     "/correlations", "root_spring|mid_spring|tip_spring"},
+    // requirements
+    {"a limit on a rate of the other sign", margin,
+     R"({"/requirements/3": {"output": "tip.latch_rate", "max": 4.5, "probability": 0.99,
+                             "confidence": 0.9}})",
+     "/requirements/3/max", "4.5 rad/s|nominal tip.latch_rate|-"},
+    {"a magnitude below zero", margin, R"({"/requirements/1/max": -300})", "/requirements/1/max",
+     "-300 N·m|magnitude"},
+    {"a peak that is never proven", driven,
+     R"({"/scene/base/angular_acceleration": 0.01,
+         "/requirements": [{"output": "root.peak_moment", "max": 300, "probability": 0.9,
+                            "confidence": 0.9}]})",
+     "/requirements/0", "root.peak_moment|base"}};
+
+} // namespace
+
+TEST_CASE("the shipped scenes and campaigns get no warning", "[warnings]") {
+  int files = 0;
+  for (const char* folder : {"scenes", "campaigns", "../examples"}) {
+    if (!std::filesystem::exists(studies / folder)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(studies / folder)) {
+      if (entry.path().extension() != ".json") continue;
+      CAPTURE(entry.path().string());
+      CHECK(text_of(check_file(entry.path())) == "");
+      ++files;
+    }
+  }
+  CHECK(files >= 19);
+}
+
+TEST_CASE("each mistake gets a warning at its pointer", "[warnings]") {
+  const Folder folder;
+  for (const auto& [what, document, patch, pointer, found] : mistakes) {
+    const Json spoilt = changed(document_of(document), parse_json(patch));
+    const auto file = folder.write("spoilt.json", spoilt.dump());
+    const std::vector<InputWarning> warnings = check_file(file);
+    const auto at_place = std::ranges::find(warnings, std::string(pointer), &InputWarning::pointer);
+    CAPTURE(what, text_of(warnings));
+    REQUIRE(at_place != warnings.end());
+    for (const std::string& word : words_of(found))
+      CHECK_THAT(at_place->found, Catch::Contains(word));
+    CHECK_FALSE(at_place->usual.empty());
+    CHECK(at_place->file == file.string());
+    CHECK(warnings.size() <= 6); // few enough to be read
+  }
+  CHECK(mistakes.size() >= 24);
+}
+
+TEST_CASE("a scene's warnings name the scene's file and pointer", "[warnings]") {
+  const Folder folder;
+  Json campaign = document_of(seed);
+  campaign["scene"]["hinges"][0]["angle"]["stowed"] = 90;
+  const auto inside = folder.write("inside.json", campaign.dump());
+  const InputWarning first = check_file(inside).at(0);
+  CHECK(first.file == inside.string());
+  CHECK(first.pointer == "/scene/hinges/0/angle/stowed");
+  CHECK(first.found == "90 rad");
+  const auto scene = folder.write("wing.json", campaign["scene"].dump());
+  CHECK((scene_place(scene).file == scene.string() && scene_place(scene).prefix.empty()));
+  campaign["scene"] = "wing.json";
+  const auto outside = folder.write("outside.json", campaign.dump());
+  CHECK(check_file(outside).at(0).file == scene.string());
+  CHECK(check_file(outside).at(0).pointer == "/hinges/0/angle/stowed");
+}

@@ -1,0 +1,134 @@
+#include "montecarlo/engine/runs/static_margin_draws.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// The panel with a harness besides.
+Campaign harnessed(int runs) {
+  Json json = one_panel_margin(runs);
+  json["scene"]["hinges"][0]["harness"] = {{"torque_stowed", 0.05}, {"torque_latched", 0.1}};
+  json["statistics"] = {{"quantiles", {0.1, 0.5}}};
+  json["margin"]["motorization"] = {{"points", 5}};
+  return campaign_of(json);
+}
+
+} // namespace
+
+TEST_CASE("nominal margins at every angle are those of the formulas", "[motorization]") {
+  const Campaign campaign = harnessed(20);
+  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  REQUIRE(study.drives.size() == 1);
+  const DriveMargins& root = study.drives.front();
+  REQUIRE(root.travel.size() == 5);
+  for (const TravelPoint& point : root.travel) {
+    const double spring = 2 - 1.8 * point.x, harness = 0.05 + 0.05 * point.x;
+    CHECK(point.angle == Approx(1.5707963267948966 * (1 - point.x)).margin(1e-15));
+    CHECK(point.margins[0] == Approx(0.8 * spring / (2 * (3 * 0.8 + 3 * harness)) - 1));
+    CHECK(point.margins[1] == Approx(spring / (3 * (0.8 + harness)) - 1));
+    CHECK(point.margins[2] == Approx(0.5 * spring / (0.8 + harness) - 1));
+    CHECK(point.margins[3] == Approx(spring / (3 * (0.8 + harness)) - 1)); // critical design
+    CHECK(point.margins[4] == point.margins[3]);
+  }
+  CHECK(root.worst_angle == Margins{0, 0, 0, 0, 0});
+  CHECK(root.worst == root.travel.back().margins);
+}
+
+TEST_CASE("dispersed margins are those of the draws, with the worst of them", "[motorization]") {
+  const Campaign campaign = harnessed(200);
+  const DriveMargins root = study_static_margins(campaign, campaign.scene).drives.front();
+  const RunPlan plan(campaign);
+  std::vector<std::pair<double, long>> margins; // NASA, half-way
+  std::vector<double> draws(3);
+  for (long run = 0; run < 200; ++run) {
+    plan.draw(run, draws);
+    margins.emplace_back(1.1 * draws[0] / (3 * (0.8 + draws[1] + 0.075)) - 1, run);
+  }
+  std::ranges::sort(margins);
+  const MarginSpread& spread = root.travel[2].spread[1];
+  REQUIRE(spread.quantiles.size() == 2);
+  CHECK(spread.least == Approx(margins.front().first).epsilon(1e-12));
+  CHECK(spread.worst_run == margins.front().second);
+  CHECK(spread.quantiles[0] == Approx(margins[19].first).epsilon(1e-12)); // X_(20) of 200
+  CHECK(spread.quantiles[1] == Approx(margins[99].first).epsilon(1e-12));
+  CHECK(spread.share_short == 1);
+  CHECK(root.worst_spread[1].least <= spread.least);
+  CHECK(root.worst_spread[1].share_short == 1);
+}
+
+TEST_CASE("draws that are unphysical have no margins, and are counted", "[motorization]") {
+  Json json = one_panel_margin(200);
+  json["dispersions"][2]["distribution"] = {{"type", "normal"}, {"mean", 1}, {"std", 1}};
+  const Campaign campaign = campaign_of(json);
+  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  CHECK(study.invalid > 10);
+  CHECK(study.draws + study.invalid == 200);
+}
+
+TEST_CASE("a hinge without spring and latch drives nothing, and has no margin", "[motorization]") {
+  Json json = small_campaign();
+  json["margin"] =
+      parse_json(R"({ "scale": ["hinges.root.spring.torque_stowed"], "range": [0.5, 2] })");
+  const Campaign campaign = campaign_of(json);
+  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  REQUIRE(study.drives.size() == 1);
+  CHECK(study.drives[0].hinge == "root");
+}
+
+// More places than are worked out at a time: the margins of each are still those of its own x.
+TEST_CASE("margins at many places are each place's own", "[motorization]") {
+  Json json = one_panel_margin(100);
+  json["scene"]["hinges"][0]["harness"] = {{"torque_stowed", 0.05}, {"torque_latched", 0.1}};
+  json["statistics"] = {{"quantiles", {0.3}}};
+  json["margin"]["motorization"] = {{"points", 150}};
+  const Campaign campaign = campaign_of(json);
+  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  const DriveMargins& root = study.drives.front();
+  REQUIRE(root.travel.size() == 150);
+  const RunPlan plan(campaign);
+  std::vector<double> draws(3);
+  std::vector<double> worst(100, 1e300); // NASA's, over the ends of the travel
+  for (const TravelPoint& point : root.travel) {
+    std::vector<std::pair<double, long>> margins;
+    for (long run = 0; run < 100; ++run) {
+      plan.draw(run, draws);
+      const double spring = draws[0] * (2 - 1.8 * point.x), harness = 0.05 + 0.05 * point.x;
+      margins.emplace_back(spring / (3 * (0.8 + draws[1] + harness)) - 1, run);
+      worst[static_cast<std::size_t>(run)] =
+          std::min(worst[static_cast<std::size_t>(run)], margins.back().first);
+    }
+    const auto is_short = [](const auto& margin) { return margin.first < 0; };
+    const MarginSpread& spread = point.spread[1];
+    CHECK(spread.share_short ==
+          static_cast<double>(std::ranges::count_if(margins, is_short)) / 100);
+    std::ranges::sort(margins);
+    CHECK(spread.least == Approx(margins.front().first).epsilon(1e-12));
+    CHECK(spread.worst_run == margins.front().second);
+    CHECK(spread.quantiles.at(0) == Approx(margins[29].first).epsilon(1e-12));
+  }
+  std::ranges::sort(worst);
+  CHECK(root.worst_spread[1].quantiles.at(0) == Approx(worst[29]).epsilon(1e-12));
+  CHECK(root.worst_spread[1].least == Approx(worst[0]).epsilon(1e-12));
+}
+
+TEST_CASE("a margin of nothing is enough: those below it are short", "[motorization]") {
+  Json json = one_panel_margin(20);
+  Json& hinge = json["scene"]["hinges"][0];
+  hinge["spring"] = {{"torque_stowed", 3}, {"torque_latched", 3}};
+  hinge["friction"] = {{"model", "exact"}, {"coulomb", 1}, {"static", 1}};
+  Json dispersion = json["dispersions"][2]; // the mass has no part in it
+  json["dispersions"] = Json::array({dispersion});
+  const Campaign campaign = campaign_of(json);
+  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  const DriveMargins& root = study.drives.front();
+  CHECK(root.worst[1] == 0); // by NASA: 3/(3 · 1) − 1
+  CHECK(root.worst_spread[1].least == 0);
+  CHECK(root.worst_spread[1].share_short == 0);
+  CHECK(root.worst_spread[0].share_short == 1); // by ECSS it takes six times the friction
+}
