@@ -48,11 +48,9 @@ template <class T> struct Bulge {
   }
 };
 
-/// The number of samples that the searches of a run may make. A constant load on a body that turns at ω
-/// needs about 1e5·abs(ω) samples a second; where the curvature bound is far too pessimistic, searches
-/// give up and report "unknown". Heuristic: a run gains 1e6 samples a second and 300 a step, and keeps
-/// 1e6 at most. The input that breaks this: a hinge stuck under a constant load on a body that turns
-/// faster than 10 rad/s. At 20 rad/s the samples last for a second; the run then fails, with a reason.
+/// How many samples the searches of a run may make. A load that stays as it is takes some 1e5 times the rate of turn
+/// in each second of motion. One whose bulge is many orders above what it does would have them make as many: they give
+/// up, and what they were asked is not known.
 class SampleBudget {
 public:
   /// Restores the full budget at the start of a run.

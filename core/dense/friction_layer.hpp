@@ -26,11 +26,8 @@ namespace wingspread {
 /// Largest change of a rate in a step, times d. Heuristic: above it the error estimate misses the layer, below it
 /// steps through the layer multiply.
 inline constexpr double longest_leap = 3;
-/// The share of a rate that a planned step keeps on its way towards the layer, and the change of rate
-/// planned inside the layer, in ω_s. Accepted are changes of up to `longest_leap` times d: a rate may
-/// fall to 1/(1 + 3) = 0.25 of itself, or by 3 ω_s. Heuristic: 0.35 and 1.2 leave room for accelerations
-/// that grow by 15 % (0.75/0.65), or to 2.5-fold, in the next step. Where they grow faster, the step is
-/// rejected and made again, shorter: that costs time and no accuracy, since `cut` decides.
+/// What a step is planned to leave of a rate that goes towards the layer, and how far it may go inside,
+/// times ω_s: by measurement, so that few tries are refused.
 inline constexpr double kept_inward = 0.35, reach_inside = 1.2;
 
 template <class T> struct LayerLimits {

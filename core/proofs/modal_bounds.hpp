@@ -79,7 +79,9 @@ struct HingeBounds : HingeLoads {
 
 /// The matrices of (5) to (9), made once for a latched wing, and the bounds that follow from a state.
 ///
-/// Vectors have room for the largest model in place: an attempt to prove something allocates nothing.
+/// Vectors have room for the largest model in place: a proof attempt allocates nothing. Matrices of
+/// sizes known to the compiler, for chains of up to four, saved 2 % of the instructions of a run of the
+/// seed campaign (callgrind, 1,000 runs: 2.56 M against 2.61 M a run), and are not kept.
 class ModalBounds {
 public:
   /// One number for each mode that is kept: one mode of each conjugate pair.

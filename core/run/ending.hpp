@@ -48,7 +48,7 @@ public:
   void start() {
     stall_.reset();
     final_peaks_.reset();
-    latches_were_left_ = true;
+    latches_were_left_ = true, peaks_are_proven_ = false;
     schedule_.restart(SoughtProof::stall);
   }
 
@@ -64,7 +64,9 @@ public:
     latches_were_left_ = latches_left();
     if (!schedule_.count_step(sought())) return false;
     if (latches_left() && !prove_stall()) return false;
-    return !wants_peaks() || prove_peaks_final();
+    if (!wants_peaks()) return true;
+    peaks_are_proven_ = prove_peaks_final();
+    return peaks_are_proven_;
   }
 
   /// Whether the latch just engaged ends the run, and no peak at t⁺ is asked for: nobody needs the
@@ -82,10 +84,10 @@ public:
       end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
     else if (!is_cut_short && prove_stall())
       end.status = Status::stalled, end.reason = *stall_;
+    if (!wants_peaks()) return end;
     end.peaks_final =
-        wants_peaks() &&
-        (is_stuck_for_good(run_.system) ||
-         ((latches_left() ? prove_stall() : diary_.any_latch()) && prove_peaks_final()));
+        peaks_are_proven_ || is_stuck_for_good(run_.system) ||
+        ((latches_left() ? prove_stall() : diary_.any_latch()) && prove_peaks_final());
     return end;
   }
 
@@ -129,7 +131,7 @@ private:
   /// Proves that no peak will rise. @pre no hinge will latch any more
   [[nodiscard]] bool prove_peaks_final() {
     const Goal& goal = run_.goal;
-    // a run that has stalled may still swing back, up to its end only
+    // of a stalled run overtravel is reported up to the run's end only: it need not be final
     const bool tells_overtravel = goal.overtravel && !latches_left();
     const SeenPeaks<T> seen{goal.peak_moment ? &peaks_.moments() : nullptr,
                             goal.peak_force ? &peaks_.forces() : nullptr,
@@ -146,6 +148,7 @@ private:
   FinalPeaks<T, AnySystem> final_peaks_;
   std::optional<std::string> stall_; ///< why no open hinge will latch; none: not proven
   bool latches_were_left_ = true;    ///< at the step counted last
+  bool peaks_are_proven_ = false;    ///< final, from where the run stands on
 };
 
 } // namespace wingspread

@@ -5,7 +5,7 @@
 /// | the loop                             | `run` and `go` below: a step is asked for, made and judged  |
 /// | the next step's size and method      | stepping.hpp                                                |
 /// | a step that ends at an event         | landing.hpp                                                 |
-/// | the instant at which a latch engages | `finish_step` below, by Landing::happens; events/latches.hpp |
+/// | the instant at which a latch engages | `finish_step` below: apply_events; events/latches.hpp       |
 /// | a peak inside a step                 | peak_search.hpp, and the room peaks/                        |
 /// | an early end, and its proof          | ending.hpp, and the room proofs/                            |
 /// | the record of the run                | diary.hpp                                                   |
@@ -215,13 +215,13 @@ private:
     if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_)))
       return ask_for_step(stepping_.plan_again());
     stepping_.choose_next_size();
-    if (landing_.finds_event()) return ask_to_end(Stage::landing);
+    if (landing_.cut_at_event()) return ask_to_end(Stage::landing);
     accept();
   }
 
   void judge_landing(const Verdict& verdict) {
     if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
-    if (landing_.misses_event(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
+    if (landing_.correct_end(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
     accept();
   }
 
@@ -252,7 +252,7 @@ private:
     }
     diary_.notify();
     const bool at_knot = run_.system.enter_piece(step.t);
-    if (landing_.happens(diary_.latches())) {
+    if (landing_.apply_events(diary_.latches())) {
       if (diary_.is_watched() || !ending_.ends_at_latch()) restart(landing_.let_go());
     } else {
       if (stepping_.choose_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());

@@ -19,9 +19,9 @@ template <class T, class AnySystem> class Landing {
 public:
   Landing(Underway<T, AnySystem>& run, Events<T, AnySystem>& events) : run_(run), events_(events) {}
 
-  /// Looks for an event in a step just accepted.
-  /// @return whether there is one; the step under way is then cut to end there, and must be made again
-  [[nodiscard]] bool finds_event() {
+  /// Cuts a step just accepted at the first event inside.
+  /// @return whether there is one: the step must then be made again, to the event
+  [[nodiscard]] bool cut_at_event() {
     due_ = events_.first(run_.step, run_.x, run_.dxdt);
     if (!due_) return false;
     corrections_ = 0;
@@ -30,11 +30,11 @@ public:
     return true;
   }
 
-  /// Judges the end of a cut step that was accepted.
+  /// Corrects the end of a cut step that was accepted: Newton's step to the event.
   /// @param rtol relative tolerance of the step, 0 where the method does not resolve accelerations
   /// @return whether the step is cut anew, and must be made again; if not, its end is the event
-  [[nodiscard]] bool misses_event(double rtol) {
-    if (due_->event == Event::graze) return finds_release();
+  [[nodiscard]] bool correct_end(double rtol) {
+    if (due_->event == Event::graze) return cut_at_release();
     Step<T>& step = run_.step;
     const auto at = events_.indicator(*due_, step);
     const T late = at.value / at.slope, size = larger(late, T(-late));
@@ -60,7 +60,7 @@ public:
   /// engage (events/latches.hpp), hinges stick or begin to slide.
   /// @param latches those that engage are added
   /// @return whether anything happened; the right-hand side has then changed
-  [[nodiscard]] bool happens(std::vector<LatchEvent>& latches) {
+  [[nodiscard]] bool apply_events(std::vector<LatchEvent>& latches) {
     return events_.happen(due_, run_.step, latches);
   }
 
@@ -72,7 +72,7 @@ public:
 private:
   /// Looks again for a release, in a step that ends where the moment that holds a hinge is largest.
   /// @return whether the moment passes its limit on the way; the step is then cut to end there
-  [[nodiscard]] bool finds_release() {
+  [[nodiscard]] bool cut_at_release() {
     if (++corrections_ > 3) return false; // heuristic: the interpolant's word then stands
     const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt);
     if (!seen) return false;
