@@ -135,9 +135,9 @@ bool StreamingFolder::begin(Evaluator& evaluator) {
   if (evaluator.make(*plan_, range, {keep}) < range.size()) return false;
   statistics_.emplace(plan_->campaign(), plan_->names(), pilot);
   write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
+  write_file(stored_.folder / statistics_file, streaming_statistics_text(stored_, *statistics_, 0));
   open_broken(0);
   add(own);
-  save();
   return true;
 }
 

@@ -74,7 +74,9 @@ OutputSummary output_summary(const std::string& name, const StreamingStatistics:
                              long runs, const StatisticsSpec& spec) {
   OutputSummary summary{name, {}, 0, runs - output.values.count(), {}, {}};
   const RankedPopulation values(output.values);
-  summary.moments = output.sums.moments(output.scale, output.values.min(), output.values.max());
+  const bool any = values.count() > 0;
+  summary.moments = output.sums.moments(output.scale, any ? values.min() : undefined,
+                                        any ? values.max() : undefined);
   summary.mean_error = summary.moments.std / std::sqrt(static_cast<double>(values.count()));
   summary.quantiles = quantiles_of(values, spec);
   summary.histogram = histogram_of(values, spec.bins);
