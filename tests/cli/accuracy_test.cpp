@@ -57,8 +57,8 @@ TEST_CASE("a campaign says what its integration contributes") {
   CHECK(lines[0] == "ACCURACY of the integration           unit   largest error     RMS error "
                     "std error of mean     ratio");
   CHECK(lines[1].starts_with("  root.latch_time                     s     "));
-  CHECK(out.find("\n  6 of 60 runs again by dopri5 at rtol 1e-10 (auto at 1e-06 before): status or "
-                 "order of latching") != std::string::npos);
+  CHECK(out.find("\n  6 of 60 runs repeated by dopri5 at rtol 1e-10 (campaign: auto at 1e-06)") !=
+        std::string::npos);
   CHECK(parse_json_file(setting.folder.path() / "r" / timing_file)["accuracy"]["runs"] == 6);
 }
 

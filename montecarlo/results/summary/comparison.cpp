@@ -119,7 +119,7 @@ std::string all_output_lines(Cases cases) {
 std::string requirement_lines(const std::vector<CaseSummary>& all, Cases cases) {
   const auto count = cases.front().summary.requirements.size();
   if (count == 0) return "";
-  std::string text = heading("REQUIREMENT, runs that break it (allowed)", cases);
+  std::string text = heading("REQUIREMENT, runs that break it / allowed", cases);
   for (std::size_t i = 0; i < count; ++i) {
     const auto verdict = [i](const CaseSummary& each) -> const Verdict& {
       return each.summary.requirements[i];
@@ -130,7 +130,7 @@ std::string requirement_lines(const std::vector<CaseSummary>& all, Cases cases) 
     });
     text += line("", cases, [&](const CaseSummary& each) {
       const auto& allowed = verdict(each).allowed;
-      return fmt::format("{} (may {})", verdict(each).failures(),
+      return fmt::format("{} / {}", verdict(each).failures(),
                          allowed ? std::to_string(*allowed) : "–");
     });
   }
