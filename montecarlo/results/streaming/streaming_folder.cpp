@@ -23,7 +23,7 @@ std::string broken_header(const ResultNames& names) {
   return header;
 }
 
-/// The rows' static margins that are required, one after the other.
+/// The required static margins of each row.
 std::vector<std::vector<double>> margins_of(const RunPlan& plan, const Batch& batch) {
   const auto takes_margins = [](const Requirement& requirement) {
     return requirement.static_margin.has_value();
@@ -141,7 +141,7 @@ bool StreamingFolder::begin(Evaluator& evaluator) {
   return true;
 }
 
-/// Behind what the statistics know of it.
+/// Opens broken_runs.csv at the length recorded in the statistics, and cuts off the rest.
 void StreamingFolder::open_broken(std::uint64_t bytes) {
   const std::filesystem::path path = stored_.folder / broken_runs_file;
   std::error_code why;
