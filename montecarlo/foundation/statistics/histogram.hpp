@@ -7,11 +7,12 @@
 
 namespace wingspread {
 
-/// Let the data choose the bins.
+/// The data decide the number of bins.
 struct AutoBins {};
-/// The data's choice, or a fixed number of bins > 0.
+/// AutoBins, or a fixed number of bins > 0.
 using Bins = std::variant<AutoBins, int>;
 
+/// Most automatic bins. Heuristic: more cannot be told apart in a table or chart.
 inline constexpr int most_auto_bins = 200;
 
 /// Bin i is [edges[i], edges[i + 1]); the last one is closed, so that every value is in one bin.

@@ -13,7 +13,7 @@
 namespace wingspread {
 namespace {
 
-/// A value and the row that it stands in.
+/// A value and its row.
 struct Placed {
   double value;
   std::uint32_t row;

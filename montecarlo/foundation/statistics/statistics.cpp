@@ -12,8 +12,8 @@ namespace wingspread {
 
 namespace {
 
-/// The mean as shift + rest: the shift takes away what all values have in common, exactly where it
-/// is large, so that deviations do not cancel.
+/// The mean as shift + rest. Subtracting the shift, one of the values, is exact if the values are close to each other,
+/// so deviations lose no digits.
 struct ShiftedMean {
   double shift, rest;
   [[nodiscard]] double deviation(double value) const { return (value - shift) - rest; }
@@ -25,7 +25,7 @@ ShiftedMean shifted_mean(std::span<const double> values) {
   return {values.front(), sum.value() / static_cast<double>(values.size())};
 }
 
-/// Largest |deviation|: sums of its powers neither overflow nor vanish once it is divided out.
+/// Largest |deviation|. Sums of powers of deviations divided by it neither overflow nor vanish.
 double largest_deviation(std::span<const double> values, const ShiftedMean& mean) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::abs(mean.deviation(value)));

@@ -1,4 +1,4 @@
-/// Shards without rows, put together.
+/// Merges shards made with --no-rows.
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/results/streaming/streaming_folder.hpp"
@@ -11,7 +11,7 @@
 namespace wingspread {
 namespace {
 
-/// Of folders sorted by their first run, what keeps them from being all runs of one campaign.
+/// @throws SpecError unless the folders, sorted by first run, hold all runs of one campaign
 void refuse_unlike(const std::vector<StoredCampaign>& parts) {
   std::vector<Problem> problems;
   const StoredCampaign& first = parts.front();
@@ -39,7 +39,7 @@ void refuse_unlike(const std::vector<StoredCampaign>& parts) {
   if (!problems.empty()) throw SpecError(std::move(problems));
 }
 
-/// The rows of one shard's broken runs, less the header.
+/// Appends one shard's broken_runs.csv. @return bytes written
 std::uint64_t append_broken(const StoredCampaign& part, std::uint64_t bytes, bool with_header,
                             OutputFile& to) {
   InputFile in(part.folder / broken_runs_file);

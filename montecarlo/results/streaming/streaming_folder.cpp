@@ -23,7 +23,7 @@ std::string broken_header(const ResultNames& names) {
   return header;
 }
 
-/// The rows' static margins that are required, one after the other.
+/// The required static margins of each row.
 std::vector<std::vector<double>> margins_of(const RunPlan& plan, const Batch& batch) {
   const auto takes_margins = [](const Requirement& requirement) {
     return requirement.static_margin.has_value();
@@ -135,13 +135,13 @@ bool StreamingFolder::begin(Evaluator& evaluator) {
   if (evaluator.make(*plan_, range, {keep}) < range.size()) return false;
   statistics_.emplace(plan_->campaign(), plan_->names(), pilot);
   write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
+  write_file(stored_.folder / statistics_file, streaming_statistics_text(stored_, *statistics_, 0));
   open_broken(0);
   add(own);
-  save();
   return true;
 }
 
-/// Behind what the statistics know of it.
+/// Opens broken_runs.csv at the length recorded in the statistics, and cuts off the rest.
 void StreamingFolder::open_broken(std::uint64_t bytes) {
   const std::filesystem::path path = stored_.folder / broken_runs_file;
   std::error_code why;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The pilot's values of a required output.
+/// The values of a required output in the pilot.
 std::vector<double> pilot_values(const Results& pilot, std::span<const Column> margins,
                                  const RequiredOutput& required) {
   const Column& column = required.column < pilot.outputs.size()
@@ -55,7 +55,7 @@ std::vector<RequiredOutput> required_outputs(const Campaign& campaign, const Res
 
 StreamingStatistics::StreamingStatistics(const Campaign& campaign, const ResultNames& names)
     : campaign_(&campaign) {
-  // Columns of static margins in the order of static_margin_columns, of which the names are all that is asked for.
+  // Only the names of the static margins' columns are needed here.
   const std::vector<Column> margins = static_margin_columns(campaign, Results(names));
   required_ = required_outputs(campaign, names, names_of(margins));
   for (const std::string& output : names.outputs)

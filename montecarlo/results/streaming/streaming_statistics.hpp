@@ -97,7 +97,6 @@ private:
   bool add_requirements(const ResultRow& row, std::span<const double> margins);
   void add_texts(const ResultRow& row);
   void add_correlations(const ResultRow& row);
-  template <class Use> void each_part(const Use& use);
 
   const Campaign* campaign_;
   long runs_ = 0;

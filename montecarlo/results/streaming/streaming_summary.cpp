@@ -13,7 +13,7 @@ namespace {
 
 using Bin = ValueCounts::Bin;
 
-/// As good as infinite, as of verdict.cpp.
+/// Treated as infinite, as in verdict.cpp.
 constexpr double no_number = std::numeric_limits<double>::max();
 
 std::vector<QuantileEstimate> quantiles_of(const RankedPopulation& values,
@@ -36,7 +36,7 @@ std::vector<QuantileEstimate> quantiles_of(const RankedPopulation& values,
   return estimates;
 }
 
-/// An edge near the wanted one at which the number of values below is known, and that number.
+/// The edge nearest to the wanted one below which the number of values is known, and that number.
 std::pair<double, long> edge_near(const std::vector<Bin>& bins, double wanted) {
   const auto next =
       std::ranges::partition_point(bins, [&](const Bin& bin) { return bin.upper <= wanted; });
@@ -47,7 +47,7 @@ std::pair<double, long> edge_near(const std::vector<Bin>& bins, double wanted) {
              : std::pair(next->upper, next->below + next->count);
 }
 
-/// Bins of nearly equal width: their edges are where counts are known exactly.
+/// Bins of nearly equal width: edges are moved to where counts are exact.
 Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
   if (values.count() == 0) return {};
   const long n = values.count();
@@ -74,22 +74,24 @@ OutputSummary output_summary(const std::string& name, const StreamingStatistics:
                              long runs, const StatisticsSpec& spec) {
   OutputSummary summary{name, {}, 0, runs - output.values.count(), {}, {}};
   const RankedPopulation values(output.values);
-  summary.moments = output.sums.moments(output.scale, output.values.min(), output.values.max());
+  const bool any = values.count() > 0;
+  summary.moments = output.sums.moments(output.scale, any ? values.min() : undefined,
+                                        any ? values.max() : undefined);
   summary.mean_error = summary.moments.std / std::sqrt(static_cast<double>(values.count()));
   summary.quantiles = quantiles_of(values, spec);
   summary.histogram = histogram_of(values, spec.bins);
   return summary;
 }
 
-/// A required output's values over all runs, those that are worse than any number at the wrong end.
+/// A required output's values over all runs, with runs worse than any number at the bad end.
 class RankedRequired {
 public:
   explicit RankedRequired(const RequiredPopulation& population)
       : values_(population.values), worse_(population.worse) {}
 
   [[nodiscard]] const RankedPopulation& numbers() const { return values_; }
-  /// The one of that rank from above, 1 for the largest; nothing where it is worse than any number.
-  /// @param below whether those that are worse stand at the lower end
+  /// The value of that rank from above, 1 for the largest; nothing if it is worse than any number.
+  /// @param below whether runs worse than any number rank at the lower end
   [[nodiscard]] std::optional<OrderStatistic> from_above(long rank, bool below) const {
     const long place = below ? rank : rank - worse_;
     return place < 1 || place > values_.count()
@@ -127,7 +129,7 @@ Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSp
   return limits;
 }
 
-/// What is said of the output's own values. The limit itself bounds those of a requirement that is passed.
+/// Sets the values of the output. If the requirement is passed, the guaranteed value is at least as good as the limit.
 void add_values(const RankedRequired& values, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
   const bool is_min = requirement.min.has_value();
@@ -201,7 +203,7 @@ void add_correlations(const ResultNames& names, const StreamingStatistics& stati
                                       statistics.correlations()->of(i, j)});
 }
 
-/// As overtravels (overtravel.hpp) counts them of rows.
+/// As overtravels (overtravel.hpp) does for rows.
 void add_overtravels(const Scene& scene, const ResultNames& names,
                      const StreamingStatistics& statistics, Summary& summary) {
   for (const Hinge& hinge : scene.hinges) {
