@@ -164,10 +164,9 @@ TEST_CASE("run --no-rows refuses what takes rows, and folders that have them") {
   };
   Json json = quick_campaign(64);
   json["sampling"]["design"] = "sobol";
-  CHECK_THAT(refusal(json),
-             HasFacts({"error: --no-rows: found draws that depend on each other", "\"random\""}));
+  CHECK_THAT(refusal(json), HasFacts({"error: --no-rows: found dependent draws", "\"random\""}));
   CHECK_THAT(refusal(quick_campaign(64), {"--until", "deployed 0.1"}),
-             HasFacts({"error: --no-rows: found goals to stop at"}));
+             HasFacts({"error: --no-rows: found stopping goals"}));
   json = quick_campaign(64);
   json["cases"] = parse_json(R"([{ "name": "hot" }])");
   CHECK_THAT(refusal(json), HasFacts({"error: --no-rows: found a campaign with cases"}));
