@@ -37,7 +37,7 @@ void check_both_senses(const Scene& scene, const Arrival& exact, double t_end) {
 /// A fluid damper that lets ω = T^n'/A' rad/s through, T in in·lbf.
 struct FluidDamper {
   double A, exponent; ///< A', n'
-  double seconds;     ///< from 60 to 28 in·lbf over 90°
+  double seconds;     ///< to deploy by 90° under 60 to 28 in·lbf, s
 };
 constexpr double inch_pound = 0.1129848290276167; // N·m
 /// A rate coefficient of a T^−b gives T = a T^−b ω: n' = 1 + b.

@@ -10,7 +10,7 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// `count` wings whose masses, springs, dampers, stops, backlashes, loops and air vary.
+/// `count` units of a wing whose real hinges (springs, harnesses, dampers, loops, stops) are dispersed.
 std::vector<Scene> real_units(const Scene& drawing, int count) {
   std::vector<Scene> scenes;
   for (int k = 0; k < count; ++k) {
