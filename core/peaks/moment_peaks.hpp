@@ -25,12 +25,9 @@ public:
   MomentOverStep(const AnySystem& system, const Step<T>& step, int i)
       : system_(system), hinge_(system.wing().hinges[i]), step_(step), i_(i),
         latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
-        smoothed_(system.layout().smoothed && hinge_.has_latch) {
-    const Layout& at = system.layout();
-    const LinearLaw<T>& law = system.work().laws[i];
-    angle_ = step.coordinate(at.angle(i), at.freedoms());
-    rate_ = derivative(angle_, step.h);
-    linear_ = linear_moment(law, angle_, rate_);
+        smoothed_(system.layout().smoothed && hinge_.has_latch), angle_(angle_of(i)),
+        rate_(derivative(angle_, step.h)),
+        linear_(linear_moment(system.work().laws[i], angle_, rate_)) {
     if (smoothed_) latch_ = full_latch_load(hinge_, angle_, rate_);
   }
 

@@ -1,5 +1,6 @@
 // A base's table of time and its integrals against the oracle's own curves, by Gauss's points.
 #include "core/laws/driven_base.hpp"
+#include "core/mechanics/wing.hpp"
 #include "tests/support/hinge_laws.hpp"
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/real_scenes.hpp"
