@@ -123,13 +123,12 @@ TEST_CASE("runs that fail numerically are counted, and told by the exit code") {
   for (const auto& [status, share] : summary["status"].items()) sum += share["count"].get<long>();
   CHECK(sum == 30);
   // Φ(−10/6), by scipy 1.10.1
-  CHECK(error == "warning: " + setting.campaign +
-                     ": /dispersions/1: found a probability of 0.0478 that a draw takes below 0 "
-                     "bodies.panel_1.mass, usual is less than 1e-09: a law that ends before "
-                     "(lognormal, or \"truncate\")\nerror: " +
-                     summary["status"]["failed"]["count"].dump() +
-                     " of 30 runs failed numerically; " + setting.out +
-                     "/summary.json has their reasons\n");
+  CHECK_THAT(error,
+             Catch::StartsWith("warning: " + setting.campaign + ": /dispersions/1: found ") &&
+                 Catch::Contains("bodies.panel_1.mass") && Catch::Contains("0.0478"));
+  CHECK_THAT(error, Catch::EndsWith("\nerror: " + summary["status"]["failed"]["count"].dump() +
+                                    " of 30 runs failed numerically; " + setting.out +
+                                    "/summary.json has their reasons\n"));
 }
 
 TEST_CASE("runs that stall are counted with their reasons, and are no failures") {
