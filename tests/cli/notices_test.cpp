@@ -15,7 +15,7 @@ std::string spoilt_scene(const Folder& folder) {
 }
 
 const std::string found = "/hinges/1/latch/stiffness: found 0 N·m/rad, ";
-const std::string usual = "> 0: nothing holds the hinge when it is latched\n";
+const std::string usual = "> 0: a latch without stiffness does not hold the hinge\n";
 
 } // namespace
 

@@ -306,7 +306,7 @@ TEST_CASE("what holds for independent draws is refused with Sobol' points, by it
       parse_json(R"([{ "between": ["root_spring", "mass.panel_2"], "spearman": 0.5 }])");
   const std::string plain = program.file(json);
   const std::string reason = " with the design \"sobol\", expected the design \"random\": their "
-                             "statistics are exact for independent draws, and hold for no others\n";
+                             "statistics hold for independent draws only\n";
   const auto until = program({"run", plain, "--out", program.out, "--until", "stalled 0.1"});
   CHECK(until.code == 2);
   CHECK(until.error == "error: --until: found goals to stop at" + reason);

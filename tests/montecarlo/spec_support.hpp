@@ -1,4 +1,4 @@
-/// For the tests of what reads JSON: a small document to spoil, and the messages that come of it.
+/// For the tests of JSON readers: small documents, ways to spoil them, and the messages.
 #pragma once
 
 #include "montecarlo/foundation/formats/files.hpp"
@@ -8,6 +8,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -34,7 +36,7 @@ inline Json small_scene() {
         "angle": { "stowed": -3, "latched": 0 } } ] })");
 }
 
-/// The same wing with all that real hinges can have.
+/// The same wing with all optional parts of hinges.
 inline Json real_scene() {
   Json scene = small_scene();
   Json& root = scene["hinges"][0];
@@ -74,11 +76,11 @@ inline Json small_campaign() {
   return campaign;
 }
 
-/// One change to a document, and what it leads to.
+/// One change to a document, and the message that it causes.
 struct Spoiled {
   const char* pointer;
   const char* value;   ///< JSON; empty: the value is removed
-  const char* message; ///< all problems, one line each
+  const char* message; ///< all problems, one line each; tests compare its facts (facts_of)
 };
 
 inline Json spoil(Json document, const Spoiled& change) {
@@ -105,6 +107,24 @@ template <class Read> std::string message_of(Read read) {
   return "";
 }
 
+/// The facts of a message: of each line its place, then all numbers, quoted words, units and comparison signs. Tests
+/// compare facts, so that rewording a message does not break them.
+inline std::vector<std::string> facts_of(const std::string& message) {
+  static const std::regex fact(
+      R"re("[^"]*"|'[^']*'|[<>]=?|≤|≥|-?\d+(\.\d+)?(e[-+]?\d+)?|[^\s,;:]*[·²³][^\s,;:]*)re");
+  std::vector<std::string> facts;
+  std::istringstream lines(message);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t found = line.find("found ");
+    facts.push_back(line.substr(0, found));
+    const std::string rest = found == line.npos ? "" : line.substr(found);
+    for (std::sregex_iterator it(rest.begin(), rest.end(), fact); it != std::sregex_iterator();
+         ++it)
+      facts.push_back(it->str());
+  }
+  return facts;
+}
+
 /// The problems that `read` notes when it is given the document.
 template <class Read> std::string problems_of(const Json& document, Read read) {
   std::vector<Problem> problems;
@@ -112,7 +132,7 @@ template <class Read> std::string problems_of(const Json& document, Read read) {
   return SpecError(problems).what();
 }
 
-/// What a settings' reader makes of its defaults, and the problems that it notes.
+/// The settings read over defaults, and the problems.
 template <class Settings> struct Reading {
   Settings settings;
   std::string problems;
@@ -126,8 +146,8 @@ Reading<Settings> read(const char* json, Settings settings,
   return {settings, problems};
 }
 
-/// A folder of its own, empty at first and gone at the end. Test cases run side by side, each in a
-/// process: its number is part of the name.
+/// A temporary folder, removed at the end. The process number is part of its name, because test cases run in parallel
+/// processes.
 class Folder {
 public:
   Folder()

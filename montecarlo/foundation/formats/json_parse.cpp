@@ -13,15 +13,15 @@
 namespace wingspread {
 namespace {
 
-/// "line 3, column 1" of a text's byte, counted from 1; one beyond the end is where it ends.
+/// "line 3, column 1" of a byte, all counted from 1.
 std::string place_in(std::string_view text, std::size_t byte) {
   const std::string_view read = text.substr(0, std::min(byte, text.size()));
   const std::size_t line_start = read.rfind('\n') + 1; // npos + 1 is 0
   return fmt::format("line {}, column {}", 1 + std::ranges::count(read, '\n'), byte - line_start);
 }
 
-/// Takes the document from the parser, value by value, and what is wrong with it. (The parser's own
-/// builder keeps the last of the values of a key that stands twice, without a word.)
+/// Builds the document from the parser's events and collects problems. The parser's own builder silently keeps the last
+/// value of a repeated key.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
 public:
   DocumentBuilder(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
@@ -48,8 +48,8 @@ public:
     Container& in = open_.back();
     in.key = std::move(key);
     if (in.value->contains(in.key))
-      problems.push_back(
-          {file_, next_pointer(), fmt::format("the key \"{}\" a second time", in.key), "it once"});
+      problems.push_back({file_, next_pointer(),
+                          fmt::format("the key \"{}\" a second time", in.key), "the key once"});
     return true;
   }
 
@@ -70,14 +70,14 @@ private:
     std::string key; ///< of an object: that of its last member
   };
 
-  /// Puts a value where the parser has come to. @return true: to go on
+  /// Adds a value at the parser's position. Returns true: continue parsing.
   bool add(Json value) {
     (void)place(std::move(value));
     return true;
   }
 
   bool open(Json container) {
-    if (open_.size() == most_json_levels) { // whoever walks through it calls itself at each level
+    if (open_.size() == most_json_levels) {
       problems.push_back({file_, next_pointer(), "one more level of brackets",
                           fmt::format("at most {}", most_json_levels)});
       return false;
@@ -98,7 +98,7 @@ private:
     return &((*in)[key] = std::move(value));
   }
 
-  /// Of the value that comes next.
+  /// The pointer of the next value.
   [[nodiscard]] std::string next_pointer() const {
     std::string pointer;
     for (const auto& [in, key] : open_) {

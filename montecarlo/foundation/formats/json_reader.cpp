@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t longest_shown = 61; // characters of a string in a message
 
-/// The value as an integer, whichever way JSON wrote it: 10000, 1e4 and 10000.0 are one number.
+/// The value as an integer; JSON may write it as 10000, 1e4 or 10000.0.
 template <class Integer> std::optional<Integer> as_integer(const Json& value) {
   using Limits = std::numeric_limits<Integer>;
   if (value.is_number_unsigned()) {
@@ -42,7 +42,7 @@ bool read_integer(const JsonCursor& at, Integer& out, std::string_view expected)
   return true;
 }
 
-/// Reads all elements of an array, or leaves `out` as it was.
+/// Reads all elements of an array; keeps `out` if one cannot be read.
 template <class Expected>
 bool read_each(const JsonCursor& at, std::vector<double>& out, const Expected& expected) {
   std::vector<double> numbers(at.value().size());
@@ -53,7 +53,7 @@ bool read_each(const JsonCursor& at, std::vector<double>& out, const Expected& e
   return all;
 }
 
-/// What is expected where the number that was found is none that JSON has.
+/// The expectation for a nan or infinity (from an option: JSON has none).
 std::string finite(std::string_view expected) {
   constexpr std::string_view number = "a number";
   return expected.starts_with(number)
@@ -73,11 +73,13 @@ std::string describe_value(const Json& value) {
   case Json::value_t::array:
     return fmt::format("an array of {}", value.size());
   case Json::value_t::string:
-    return "string " + shortened(value.dump(), longest_shown);
+    return "string " + as_written(value);
   default:
     return value.dump();
   }
 }
+
+std::string as_written(const Json& value) { return shortened(value.dump(), longest_shown); }
 
 std::string quoted_list(std::span<const std::string_view> words) {
   std::string list;

@@ -1,12 +1,12 @@
-/// Reads values out of a JSON document, and collects every problem on the way with its pointer.
+/// Reads values from a JSON document and collects all problems with their pointers.
 ///
 ///     JsonObject object(at, "a body");
-///     object.required("mass", body.mass, "a number, kg, > 0");
-///     object.optional("inertia", body.inertia, "a number, kg·m², > 0");
+///     object.required("mass", body.mass, Dimension{"kg", "> 0"}, is_positive);
+///     object.optional("name", body.name, "a string");
 ///     object.refuse_others();
 ///
-/// Nothing is thrown: what could not be read keeps the value it had, and the problem is in the
-/// list.
+/// Readers throw nothing: a value that cannot be read keeps its default, and the problem is in the list. A message
+/// names the value as the user wrote it (`string "5 deg/s"`), not in SI.
 #pragma once
 
 #include "montecarlo/foundation/formats/json_parse.hpp"
@@ -24,17 +24,19 @@
 
 namespace wingspread {
 
-/// Of a list that people write: bodies, dispersions, requirements. Some of what is done with them takes the square
-/// of their number.
+/// The longest list in a document (bodies, dispersions, requirements); some checks cost the square of their number.
 inline constexpr std::size_t most_elements = 1000;
 
-/// What a JSON value is, for a message: `-1`, `string "abc"`, `an array of 3`, `an object`.
+/// A JSON value in a message: `-1`, `string "abc"`, `an array of 3`, `an object`.
 [[nodiscard]] std::string describe_value(const Json& value);
+
+/// A number as the user wrote it: `1.5`, `"90 deg"`.
+[[nodiscard]] std::string as_written(const Json& value);
 
 /// `"a", "b" or "c"`.
 [[nodiscard]] std::string quoted_list(std::span<const std::string_view> words);
 
-/// Something that a reader has asked of a document: what schemas are made of (schema/).
+/// A record of what a reader asked of a document; schemas are made from these (model/schema).
 struct Question {
   enum class What {
     object,
@@ -49,17 +51,18 @@ struct Question {
     choice
   };
   What what;
-  std::string pointer;              ///< of the value that was asked
-  std::string expected;             ///< for people; may be empty
-  std::string key{};                ///< of an object, or the name of its kind
+  std::string pointer;              ///< of the value
+  std::string expected;             ///< the message's words; may be empty
+  std::string key{};                ///< a member's key, or the name of a kind of object
   std::vector<std::string> words{}; ///< of a choice
 };
 
-/// A value of the document and its place. Problems found there go to the list it was made with.
+/// A value of a document and its pointer. Problems go to the list given to the constructor.
 class JsonCursor {
 public:
-  /// The whole document. @pre all outlive the cursor and all that are made from it
-  /// @param questions gets all that is asked of the document, in its order; null: nobody wants to know
+  /// The whole document. @pre all arguments outlive the cursor and all cursors made from it
+  /// @param file      name for the messages
+  /// @param questions receives all questions in order; may be null
   JsonCursor(const Json& document, std::string file, std::vector<Problem>& problems,
              std::vector<Question>* questions = nullptr);
 
@@ -72,35 +75,35 @@ public:
   [[nodiscard]] JsonCursor member(std::string_view key) const;
   /// @pre value() is an array longer than that
   [[nodiscard]] JsonCursor element(std::size_t index) const;
-  /// The elements; nothing when it is no array, and a problem and nothing when there are more.
+  /// The elements. Empty if the value is no array; empty, with a problem, if there are more than `most`.
   [[nodiscard]] std::vector<JsonCursor> elements(std::size_t most = most_elements) const;
 
-  /// Notes a problem here; returns false, for the caller to hand on. `below` is appended to the
-  /// pointer, for what is missing and has no value of its own.
+  /// Notes a problem at this value; returns false, so that a reader can return the result.
+  /// @param found default: describe_value
+  /// @param below appended to the pointer, for a missing member
   bool refuse(std::string_view expected) const;
   bool refuse(std::string_view found, std::string_view expected, std::string_view below = "") const;
 
-  /// The same for a value that is there before: "3 a second time".
+  /// Notes a problem for a repeated value: "3 a second time".
   bool refuse_repeated(std::string_view expected) const;
   bool refuse_repeated(std::string_view what, std::string_view expected) const;
 
-  /// Reads the value. When it is of another type, or an integer out of its type's range, notes the
-  /// problem, leaves `out` as it was and returns false.
+  /// Reads the value. For another type, or an integer out of range: notes a problem, keeps `out` and returns false.
   bool read(double& out, std::string_view expected) const;
   bool read(std::int64_t& out, std::string_view expected) const;
   bool read(std::uint64_t& out, std::string_view expected) const;
   bool read(std::string& out, std::string_view expected) const;
   bool read(std::vector<double>& out, std::string_view expected) const;
 
-  /// The same for numbers that have a dimension: a string with a unit of it will do too.
+  /// The same for quantities: SI numbers, or strings with a unit (quantity.hpp).
   bool read(double& out, const Dimension& dimension) const;
   bool read(Eigen::Vector2d& out, const Dimension& dimension) const;
   bool read(std::vector<double>& out, const Dimension& dimension) const;
 
-  /// The index of the word that stands here; a problem and nothing when it is none of them.
+  /// The index of the value among the words; nothing, with a problem, if it is none of them.
   [[nodiscard]] std::optional<std::size_t> choice(std::span<const std::string_view> words) const;
 
-  /// Notes that something is asked here.
+  /// Records a question about this value.
   void note(Question::What what, std::string_view expected, std::string_view key = "") const {
     if (questions_)
       questions_->push_back({what, pointer_, std::string(expected), std::string(key)});
@@ -113,25 +116,26 @@ private:
   std::vector<Question>* questions_;
 };
 
-// What numbers have to hold, for JsonObject below.
+// Conditions for JsonObject.
 [[nodiscard]] inline bool is_positive(const double& number) { return number > 0; }
 [[nodiscard]] inline bool is_not_negative(const double& number) { return number >= 0; }
 [[nodiscard]] inline bool is_proper_share(const double& number) { return number > 0 && number < 1; }
 
-/// The members of an object. Remembers the keys it was asked for: they are the known ones.
+/// Reads the members of an object. The keys that were asked for are the known keys.
 class JsonObject {
 public:
-  /// Notes a problem when the value is no object; then no member is missed.
+  /// Notes a problem if the value is no object; then missing members are not reported.
   /// @param what for the message, e.g. "a body"
   JsonObject(const JsonCursor& at, std::string_view what);
 
-  /// The member, if there.
+  /// The member; nothing if missing.
   [[nodiscard]] std::optional<JsonCursor> find(std::string_view key);
-  /// The member; a problem and nothing when it is not there.
+  /// The member; nothing, with a problem, if missing.
   [[nodiscard]] std::optional<JsonCursor> require(std::string_view key, std::string_view expected);
 
-  /// Each reads a member into `out`, which stays as it was when that cannot be done, and returns
-  /// false when it noted a problem. `holds` says which values will do; `expected` says it in words.
+  /// Reads a member into `out`. With a problem: keeps `out` and returns false.
+  /// @param expected the condition in words
+  /// @param holds    the condition; null: none
   template <class T> using Holds = bool (*)(const T&);
   template <class T>
   bool required(std::string_view key, T& out, std::string_view expected,
@@ -145,7 +149,7 @@ public:
     const auto at = find(key);
     return at ? read(*at, out, expected, holds) : true;
   }
-  /// Of numbers that have a dimension, SI or strings with their units.
+  /// The same for quantities: SI numbers, or strings with a unit.
   template <class T> bool required(std::string_view key, T& out, const Dimension& dimension) {
     const auto at = require(key, expected(out, dimension));
     return at ? at->read(out, dimension) : !is_object();
@@ -154,7 +158,7 @@ public:
     const auto at = find(key);
     return at ? at->read(out, dimension) : true;
   }
-  /// The same for numbers that not all will do: `holds` is what the dimension's condition says.
+  /// The same with a condition; the dimension has it in words.
   bool required(std::string_view key, double& out, const Dimension& dimension,
                 Holds<double> holds) {
     const auto at = require(key, expected_number(dimension));
@@ -165,7 +169,7 @@ public:
     const auto at = find(key);
     return at ? read(*at, out, dimension, holds) : true;
   }
-  /// Of words that stand in the order of the enumeration's values.
+  /// The same for words in the order of the enumeration's values.
   template <class Enum>
   bool required_choice(std::string_view key, Enum& out, std::span<const std::string_view> words) {
     const auto at = require(key, quoted_list(words));
@@ -177,10 +181,10 @@ public:
     return at ? choose(*at, out, words) : true;
   }
 
-  /// Says that its keys are names from elsewhere, and not those of a format.
+  /// Declares that the keys are names given by the user (of hinges, say), for the schema.
   void keys_are_names() const { at_.note(Question::What::names, ""); }
 
-  /// Notes a problem for each key that was not asked for, with the known one nearest to it.
+  /// Notes a problem for each unknown key, with the nearest known key. Call it last.
   void refuse_others() const;
 
   [[nodiscard]] bool is_object() const { return at_.value().is_object(); }

@@ -16,27 +16,26 @@ namespace {
 
 constexpr const char* expected_scene = "a scene, or the name of the file that holds it";
 
-/// More dispersions than Sobol' points have coordinates.
+/// Refuses more dispersions than Sobol' points have coordinates.
 void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, std::size_t dispersions) {
   if (sampling.design == DesignKind::sobol && dispersions > most_sobol_dimensions)
     at.refuse(fmt::format("{} dispersions", dispersions),
               fmt::format("up to {} with the design \"sobol\"", most_sobol_dimensions));
 }
 
-/// What holds for independent draws only is refused with the designs whose draws depend on each
-/// other, rather than left to mislead.
+/// Refuses a part whose statistics hold for independent draws only, with a design whose draws depend on each other.
 void refuse_dependent_draws(const JsonCursor& at, const char* what, DesignKind design) {
   if (design == DesignKind::random) return;
   at.refuse(fmt::format("{} with the design \"{}\"", what,
                         design_names[static_cast<std::size_t>(design)]),
-            "the design \"random\": their statistics are exact for independent draws, and hold for "
-            "no others");
+            "the design \"random\": these statistics hold for independent draws only");
 }
 
-/// Its checkpoints were fixed beforehand, and no more of them can be.
+/// Refuses goals to stop at in an extended campaign: its checkpoints were fixed before the first run.
 void refuse_extended_rule(const JsonCursor& at) {
-  at.refuse("goals to stop at",
-            "none, for a campaign that was extended beyond the runs first made");
+  at.refuse(
+      "goals to stop at",
+      "no goals: the campaign was extended, and its checkpoints were fixed before the first run");
 }
 
 std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs) {
@@ -46,12 +45,11 @@ std::vector<std::string> output_names(const Scene& scene, const Outputs& outputs
   return names;
 }
 
-/// Requirements and goals to stop at: what names the campaign's outputs, and needs its draws to be
-/// independent.
-/// @param scene null when it or its outputs are wrong themselves: then no output is missed
+/// Reads requirements and goals to stop at. Both name outputs of the campaign and need independent draws.
+/// @param scene null if the scene or the outputs have problems: then unknown outputs are not reported
 class GuaranteeReader {
 public:
-  /// @param t_end of the runs; none: limits on times are not compared with it
+  /// @param t_end end of the runs; nothing: limits on times are not checked
   GuaranteeReader(const Scene* scene, const Outputs& outputs, DesignKind design,
                   std::optional<double> t_end)
       : scene_(scene), design_(design), t_end_(t_end) {
@@ -64,7 +62,7 @@ public:
     if (t_end_) refuse_late_limits(at, requirements, *t_end_);
     if (!requirements.empty()) refuse_dependent_draws(at, "requirements", design_);
   }
-  /// @param requirements the campaign's; null when they are wrong themselves
+  /// @param requirements the campaign's; null if they have problems
   void read(const JsonCursor& at, const std::vector<Requirement>* requirements,
             StoppingRule& until) const {
     std::vector<std::string> names;
@@ -85,7 +83,7 @@ GuaranteeReader guarantee_reader(const Campaign& campaign) {
   return {&campaign.scene, campaign.outputs, campaign.sampling.design, campaign.integration.t_end};
 }
 
-/// A scene that stands in the campaign, or in the file that is named there.
+/// Reads a scene inside the campaign, or from the file that the campaign names.
 Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& directory) {
   if (!at.value().is_string()) return read_scene(at);
   std::string name;
@@ -104,7 +102,7 @@ Scene read_scene_member(const JsonCursor& at, const std::filesystem::path& direc
   return {};
 }
 
-/// By itself: with the springs of a hinge.
+/// The campaign's own key `motorization`: in contrast to the margin's, with `springs_per_hinge`.
 Json motorization_by_itself(const StaticMarginSpec& motorization, const Scene& scene) {
   Json json = write_static_margins(motorization, scene);
   json["springs_per_hinge"] = motorization.springs_per_hinge;
@@ -118,7 +116,7 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
             {"integration", write_integration(campaign.integration)},
             {"outputs", write_outputs(campaign.outputs)},
             {"statistics", write_statistics(campaign.statistics)}};
-  // Not there when there are none: what a campaign does not use does not change its hash.
+  // Written only where used: a campaign's hash depends on the JSON.
   if (!campaign.wanted_correlations.empty())
     json["correlations"] =
         write_wanted_correlations(campaign.wanted_correlations, campaign.dispersions);
@@ -136,7 +134,7 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
   return json;
 }
 
-/// Reads a campaign part by part: what comes later is looked up only in what was sound before.
+/// Reads a campaign part by part. Later parts look names up only in earlier parts without problems.
 class CampaignReader {
 public:
   CampaignReader(const Json& document, std::filesystem::path directory, const std::string& file,
@@ -145,7 +143,7 @@ public:
         object_(JsonCursor(document, file, problems_, questions), "a campaign: an object"),
         was_run_(document.is_object() && document.contains(stamp_key)) {}
 
-  /// @throws SpecError with all that is wrong
+  /// @throws SpecError with all problems
   [[nodiscard]] Campaign read() {
     read_scene_and_dispersions();
     read_settings();
@@ -166,7 +164,7 @@ private:
     if (const auto at = object_.find(key)) reader(*at, part);
   }
 
-  /// What is recorded, asked for or not. One that was run stays what it was, with its columns.
+  /// Adds outputs that are always recorded. Not for stored campaigns, which keep their columns.
   void add_recorded() {
     campaign_.outputs.insert(OutputFamily::overtravel);
     match_peaks_final(campaign_.outputs);
@@ -233,7 +231,7 @@ private:
                              "tolerance limits", design);
   }
 
-  /// Static margins are judged by what the campaign says, or what its margin does.
+  /// Reads `margin` and `motorization`; the latter may stand in either place.
   void read_margins() {
     campaign_.motorization = default_static_margins(campaign_.scene);
     const auto own = object_.find("motorization");
@@ -242,20 +240,20 @@ private:
     if (!margin) return;
     if (own && margin->value().is_object() && margin->value().contains("motorization"))
       margin->member("motorization")
-          .refuse_repeated("\"motorization\"", "it once: here, or in the campaign");
+          .refuse_repeated("\"motorization\"", "the key once: here or in the campaign");
     campaign_.margin = read_margin(*margin, scene_, campaign_.motorization);
   }
 
   std::filesystem::path directory_;
   std::vector<Problem> problems_;
   JsonObject object_;
-  bool was_run_; ///< it is stamped: the campaign of results that there are
+  bool was_run_; ///< the document has a stamp: it is the campaign of a results folder
   Campaign campaign_;
   Json resolved_dispersions_ = Json::array();
-  const Scene* scene_ = nullptr; ///< null when it has problems of its own
-  bool named_ = false;           ///< the dispersions have none either
+  const Scene* scene_ = nullptr; ///< null if the scene has problems
+  bool named_ = false;           ///< scene and dispersions have no problems
   bool outputs_known_ = false;
-  std::optional<double> t_end_; ///< that requirements have to keep to
+  std::optional<double> t_end_; ///< upper limit of required times
 };
 
 Campaign read_document(const Json& document, const std::filesystem::path& directory,
@@ -310,7 +308,8 @@ void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
                       fmt::format("at least {}, one for each of the campaign's replicates",
                                   campaign.sampling.replicates)}});
   Sampling& sampling = campaign.sampling;
-  if (seed && *seed != sampling.seed) sampling.extended_from.clear(); // nobody has seen those draws
+  if (seed && *seed != sampling.seed)
+    sampling.extended_from.clear(); // new draws, not analysed before
   sampling.runs = runs.value_or(sampling.runs);
   sampling.seed = seed.value_or(sampling.seed);
   std::erase_if(sampling.extended_from, [&](std::int64_t seen) { return seen >= sampling.runs; });
@@ -319,10 +318,11 @@ void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
 
 namespace {
 
-/// What was resolved of a campaign and then changed, read again.
-Campaign read_again(const Campaign& campaign, const Json& changed) {
+/// Re-validates a campaign after its resolved JSON was changed.
+Campaign revalidate(const Campaign& campaign, const Json& changed) {
   Campaign read = read_document(changed, {}, "");
-  read.outputs = campaign.outputs; // overtravel is not to be added once more
+  read.outputs =
+      campaign.outputs; // the reader adds overtravel, which stored campaigns may not have
   read.resolved["outputs"] = write_outputs(read.outputs);
   return read;
 }
@@ -332,7 +332,7 @@ Campaign read_again(const Campaign& campaign, const Json& changed) {
 Campaign with_scene(const Campaign& campaign, const Scene& scene) {
   Json json = campaign.resolved;
   json["scene"] = write_scene(scene);
-  return read_again(campaign, json);
+  return revalidate(campaign, json);
 }
 
 Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec) {
@@ -343,7 +343,7 @@ Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec) {
   for (const auto& [name, distribution] : spec.distributions)
     for (Json& dispersion : json["dispersions"])
       if (dispersion["name"] == name) dispersion["distribution"] = write_distribution(distribution);
-  return read_again(campaign, json);
+  return revalidate(campaign, json);
 }
 
 std::vector<Campaign> campaigns_of(const Campaign& campaign) {

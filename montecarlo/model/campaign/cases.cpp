@@ -16,7 +16,7 @@ namespace {
 constexpr const char* name_expected =
     "a string, the name of a folder: letters, digits, \"_\" and \"-\"";
 
-/// The parameters that a dispersion sets, by its name: whatever they were is lost.
+/// Maps each parameter that a dispersion sets (not scales or adds to) to the dispersion's name.
 std::map<SceneParameter, std::string> set_by_draws(const std::vector<Dispersion>& dispersions) {
   std::map<SceneParameter, std::string> writers;
   for (const Dispersion& dispersion : dispersions)
@@ -27,7 +27,6 @@ std::map<SceneParameter, std::string> set_by_draws(const std::vector<Dispersion>
   return writers;
 }
 
-/// Reads cases one by one.
 class CaseReader {
 public:
   CaseReader(const Scene* scene, const Dispersions* dispersions, std::filesystem::path directory)
@@ -66,7 +65,7 @@ private:
     }
   }
 
-  /// Changes that a dispersion would undo.
+  /// Refuses changes that a dispersion would overwrite.
   void refuse_lost(const JsonCursor& at, std::span<const CaseChange> changes) const {
     for (const CaseChange& change : changes)
       if (const auto found = set_by_draws_.find(change.target); found != set_by_draws_.end())
@@ -106,8 +105,10 @@ private:
   }
 
   void refuse_unphysical_case(const JsonCursor& at, const CaseSpec& spec) const {
+    const Json set = at.value().value("set", Json::object()); // the values as written, by path
     for (const Fault& fault : unphysical(scene_of_case(*scene_, spec)))
-      at.refuse(fmt::format("{} of {}", fault.path, fault.found),
+      at.refuse(fmt::format("{} of {}", fault.path,
+                            set.contains(fault.path) ? as_written(set[fault.path]) : fault.found),
                 fmt::format("{}, in the case too", fault.expected));
   }
 

@@ -14,7 +14,7 @@
 namespace wingspread {
 namespace {
 
-/// "2 N·m"; of what has no dimension, the number alone.
+/// "2 N·m"; without a unit the number only.
 std::string with_unit(double value, std::string_view unit) {
   return fmt::format("{}{}{}", value, unit.empty() ? "" : " ", unit);
 }
@@ -41,7 +41,7 @@ std::string describe_table(const Curve& table) {
                      draws.front(), draws.back());
 }
 
-/// A line, and one more for each thing that a `through` drives.
+/// One line, and one more for each entry of a `through`.
 std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
   std::string text = fmt::format("{}: {}", dispersion.name, describe(dispersion.distribution));
   for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve* table) {
@@ -53,13 +53,12 @@ std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion
   return text;
 }
 
-/// Which parameters more than one draw changes, and in what order.
+/// The parameters that several draws change, with the order of the draws.
 std::string describe_shared(const Campaign& campaign) {
   std::string text;
   for (const auto& [paths, draws] : shared_targets(campaign.dispersions, campaign.scene))
-    text += fmt::format("  {}: one after the other, {}\n", fmt::join(paths, ", "),
-                        fmt::join(draws, ", then "));
-  return text.empty() ? "" : "changed by more than one draw\n" + text;
+    text += fmt::format("  {}: {}\n", fmt::join(paths, ", "), fmt::join(draws, ", then "));
+  return text.empty() ? "" : "parameters changed by several draws\n" + text;
 }
 
 std::string describe_case(const Campaign& campaign, const CaseSpec& spec) {
@@ -85,7 +84,7 @@ std::string describe_cases(const Campaign& campaign) {
   return text;
 }
 
-/// What a design that stratifies makes of the numbers; nothing for independent draws.
+/// The replicates of a design and their sizes; empty for independent draws.
 std::string describe_replicates(const Sampling& sampling) {
   if (!has_replicates(sampling)) return "";
   const auto each = static_cast<std::uint64_t>(sampling.runs / sampling.replicates);
@@ -96,7 +95,7 @@ std::string describe_replicates(const Sampling& sampling) {
   if (sampling.replicates > 1)
     text = fmt::format(", {} replicates of {} runs", sampling.replicates,
                        even ? fmt::format("{}", each) : fmt::format("{} or {}", each, each + 1));
-  if (uneven_net) text += "; Sobol' points are at their best in powers of two";
+  if (uneven_net) text += "; Sobol' points are most accurate with powers of two";
   if (sampling.replicates == 1) text += "; one replicate, so no bounds";
   return text;
 }
@@ -106,7 +105,7 @@ std::string describe_sampling(const Sampling& sampling) {
                      counted(sampling.runs, "run", "runs"), sampling.seed) +
          describe_replicates(sampling) +
          (sampling.extended_from.empty() ? ""
-                                         : fmt::format(", extended: looked at after {} runs",
+                                         : fmt::format(", extended: interim analyses after {} runs",
                                                        fmt::join(sampling.extended_from, ", ")));
 }
 
@@ -138,7 +137,7 @@ std::string describe_statistics(const StatisticsSpec& statistics) {
                      statistics.confidence, bins ? std::to_string(*bins) : "auto");
 }
 
-/// With what the number of runs can show of it.
+/// The requirement, and how many failures the campaign's runs allow.
 std::string describe_requirement(const Campaign& campaign, const Requirement& requirement) {
   const long runs = campaign.sampling.runs;
   const double p = requirement.probability;
@@ -169,8 +168,8 @@ std::string describe_guarantees(const Campaign& campaign) {
   for (const Requirement& requirement : campaign.requirements)
     text += "requirement: " + describe_requirement(campaign, requirement) + "\n";
   for (const StoppingGoal& goal : campaign.until)
-    text += (std::holds_alternative<WidthGoal>(goal) ? "until the interval's width is: "
-                                                     : "until it is passed or disproved: ") +
+    text += (std::holds_alternative<WidthGoal>(goal) ? "stop at an interval's width of: "
+                                                     : "stop when decided: ") +
             to_string(goal) + "\n";
   if (campaign.margin)
     text += "margin: " + describe_margin(*campaign.margin, campaign.scene) + "\n";

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 6> columns_of_runs{"run",         "status
 
 constexpr std::size_t most_dispersions = 10'000;
 
-/// A dispersion of the campaign and where it was read.
+/// A dispersion and its place in the document.
 struct Sourced {
   Dispersion dispersion;
   JsonCursor at;
@@ -38,14 +38,14 @@ bool is_taken(const std::string& name) {
          *parse_output_name(name).unit != '\0';
 }
 
-/// The paths of an `each`: one, or a list.
+/// The paths of an `each`, which may be one string or a list.
 std::vector<JsonCursor> paths_of_each(const JsonCursor& each) {
   if (!each.value().is_array()) return {each};
   if (each.value().empty()) each.refuse("a path, or an array of at least one");
   return each.elements();
 }
 
-/// Adds a parameter to the copy that belongs to its body, hinge or synchronisation: a new one if there is none.
+/// Adds a parameter to the copy for its body, hinge or synchronisation; makes the copy if there is none.
 void add_match(const ParameterMatch& match, const Dispersion& pattern,
                std::vector<Dispersion>& copies) {
   const auto has_its_owner = [&](const Dispersion& copy) {
@@ -60,7 +60,7 @@ void add_match(const ParameterMatch& match, const Dispersion& pattern,
   copy->targets.push_back(match.parameter);
 }
 
-/// One copy of the dispersion for each body, hinge or synchronisation that `each` matches, named after it.
+/// Copies the dispersion for each body, hinge or synchronisation that `each` matches.
 std::vector<Dispersion> expand(const JsonCursor& each, const Scene* scene,
                                const Dispersion& pattern) {
   std::vector<Dispersion> copies;
@@ -70,9 +70,8 @@ std::vector<Dispersion> expand(const JsonCursor& each, const Scene* scene,
       if (match.name.empty()) {
         path.refuse("the path of a body's or a hinge's parameter (\"to\" takes the base's)");
       } else if (!seen.empty() && seen.begin()->owner != match.parameter.owner) {
-        path.refuse(describe_value(path.value()) + " beside parameters of another kind of thing",
-                    "parameters of bodies alone, of hinges or of synchronisations: they share one "
-                    "draw for each");
+        path.refuse(describe_value(path.value()) + " beside parameters of other objects",
+                    "parameters of bodies only, of hinges only or of synchronisations only");
         break;
       } else if (!seen.insert(match.parameter).second) {
         path.refuse_repeated(path_of(*scene, match.parameter), "each parameter once");
@@ -83,34 +82,31 @@ std::vector<Dispersion> expand(const JsonCursor& each, const Scene* scene,
   return copies;
 }
 
-/// The unit that all parameters of these paths have; empty where they have none in common.
+/// The common unit of all parameters of these paths; empty if there is none.
 std::string_view common_unit(const Json& paths, const Scene& scene) {
   std::set<std::string_view> units;
-  const auto take = [&](const Json& path) {
+  const auto add = [&](const Json& path) {
     if (!path.is_string()) return;
     for (const ParameterMatch& match : resolve(scene, path.get<std::string>()).matches)
       units.insert(unit_of(match.parameter));
   };
   if (paths.is_array())
-    for (const Json& path : paths) take(path);
+    for (const Json& path : paths) add(path);
   else
-    take(paths);
+    add(paths);
   return units.size() == 1 ? *units.begin() : "";
 }
 
-/// The knots of a table: where, ascending.
+/// Reads a table's `at`.
 bool read_knots(JsonObject& table, std::vector<double>& at_draws) {
   const std::string expected = fmt::format("an array of 2 to {} numbers, ascending", most_knots);
   const auto at = table.require("at", expected);
   if (!at || !at->read(at_draws, expected)) return false;
   if (!can_be_knots(at_draws.size())) return at->refuse(expected);
-  for (std::size_t k = 1; k < at_draws.size(); ++k)
-    if (!(at_draws[k] > at_draws[k - 1]))
-      return at->element(k).refuse(fmt::format("more than {}, the one before", at_draws[k - 1]));
-  return true;
+  return check_ascending(*at, at_draws, "draw");
 }
 
-/// @param resolved the table, to get numbers in SI
+/// @param resolved the table's JSON; receives the values in SI
 void read_drive_table(const JsonCursor& at, std::string_view unit, Driven& driven, Json& resolved) {
   JsonObject object(at, "a table: an object with at and value");
   std::vector<double> draws, values;
@@ -122,7 +118,7 @@ void read_drive_table(const JsonCursor& at, std::string_view unit, Driven& drive
   resolved = {{"at", draws}, {"value", values}};
   driven.table = Curve(std::move(draws), std::move(values), Interpolation::monotone);
   if (!is_finite(driven.table))
-    at.refuse("a curve too steep for numbers", "draws further apart, or smaller values");
+    at.refuse("a curve that overflows", "draws further apart, or smaller values");
 }
 
 Driven read_driven(const JsonCursor& at, const Scene* scene, Json& resolved) {
@@ -147,7 +143,7 @@ void read_through(const JsonCursor& at, const Scene* scene, Dispersion& dispersi
     dispersion.through.push_back(read_driven(element, scene, resolved[i++]));
 }
 
-/// The targets of a dispersion that is read but for them: itself, or its copies.
+/// Reads the targets. Returns the dispersion, or its copies for an `each`.
 std::vector<Dispersion> read_targets(JsonObject& object, const Scene* scene, Dispersion dispersion,
                                      Json& resolved) {
   const auto to = object.find("to"), each = object.find("each"), through = object.find("through");
@@ -189,12 +185,12 @@ std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene
   return read;
 }
 
-/// Notes each name that is another column's, or shares its random stream with another.
+/// Notes each name that is another column's, or has the random stream of another name.
 void check_names(const std::vector<Sourced>& all) {
   std::map<std::uint64_t, std::string> streams;
   for (const auto& [dispersion, at] : all) {
     const std::string& name = dispersion.name;
-    if (name.empty()) continue; // noted when it was read
+    if (name.empty()) continue; // has a problem already
     const auto refuse = [&, &place = at](const std::string& found, std::string_view expected) {
       place.refuse(fmt::format("\"{}\", {}", name, found), expected, "/name");
     };
@@ -204,12 +200,11 @@ void check_names(const std::vector<Sourced>& all) {
     else if (!is_new && same->second == name)
       refuse("the name of another dispersion too", "a name of its own");
     else if (!is_new)
-      refuse(fmt::format("whose random stream is that of \"{}\" too", same->second),
-             "another name");
+      refuse(fmt::format("which has the random stream of \"{}\"", same->second), "another name");
   }
 }
 
-/// Notes each dispersion that sets a parameter which one before it has written.
+/// Notes each "set" of a parameter that an earlier dispersion has changed.
 void check_order(const std::vector<Sourced>& all, const Scene& scene) {
   std::map<SceneParameter, std::string> writers;
   for (const auto& [dispersion, at] : all)
@@ -218,9 +213,9 @@ void check_order(const std::vector<Sourced>& all, const Scene& scene) {
       for (const SceneParameter& target : targets) {
         const auto [writer, first] = writers.emplace(target, by.name);
         if (!first && how == Apply::set)
-          place.refuse(fmt::format("\"set\" of {}, which \"{}\" has written before",
+          place.refuse(fmt::format("\"set\" of {} after \"{}\" has changed it",
                                    path_of(scene, target), writer->second),
-                       "nothing before a \"set\", which would undo it",
+                       "\"set\" first: it overwrites earlier changes",
                        by.through.empty() ? "/apply" : "/through");
       }
     });

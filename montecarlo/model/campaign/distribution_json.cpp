@@ -43,7 +43,7 @@ std::string expected_of(const std::vector<double>&, Range range) {
   return range == Range::finite ? "an array of numbers" : "an array of numbers, ≥ 0";
 }
 
-/// The parameters that have the unit of what is drawn.
+/// The parameters that have the unit of the draws.
 constexpr std::array<std::string_view, 8> in_drawn_unit{"mean",  "std",   "lower",  "mode",
                                                         "upper", "scale", "values", "value"};
 
@@ -52,7 +52,7 @@ bool has_string(const Json& value) {
   return std::ranges::any_of(value, [](const Json& each) { return each.is_string(); });
 }
 
-/// Where strings stand for numbers of the drawn unit, they are read as such.
+/// Reads a number, or a string with a unit if the parameter has the draws' unit.
 template <class T>
 void read_parameter(JsonObject& object, std::string_view name, T& value, Range range,
                     std::string_view unit) {
@@ -74,8 +74,8 @@ double parse_cell(const CsvReader& reader, const std::string& cell, const std::s
   throw reader.error(column, fmt::format("'{}'", cell), "a finite number");
 }
 
-/// The numbers of one column of a CSV file whose first record names its columns.
-/// @throws SpecError at the first fault
+/// Reads one column of a CSV file with a header.
+/// @throws SpecError at the first problem
 std::vector<double> read_column(std::istream& in, const std::string& file,
                                 const std::string& column) {
   CsvReader reader(in, file);
@@ -83,8 +83,9 @@ std::vector<double> read_column(std::istream& in, const std::string& file,
   const std::vector<std::string> header = has_header ? reader.cells() : std::vector<std::string>{};
   const auto index = static_cast<std::size_t>(std::ranges::find(header, column) - header.begin());
   if (std::ranges::count(header, column) != 1)
-    throw reader.error(column, index == header.size() ? "no such column" : "it more than once",
-                       "it once in the header");
+    throw reader.error(column,
+                       index == header.size() ? "no such column" : "the column more than once",
+                       "the column once in the header");
   std::vector<double> values;
   while (reader.next()) {
     const std::vector<std::string>& cells = reader.cells();

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::array<std::string_view, 2> case_names{"nominal", "one_spring_out"};
 constexpr const char* expected_range = "an array of two numbers, 0 < lower < upper";
-constexpr const char* expected_widest = "an array of two numbers > 0, about \"range\"";
-/// How far a range is widened on either side if nothing is said: three octaves.
+constexpr const char* expected_widest = "an array of two numbers > 0 that enclose \"range\"";
+/// Default of `widest`: the range widened by three octaves on either side. Heuristic: edges beyond are not found.
 constexpr double widening = 8;
 
 bool is_point_count(const std::int64_t& number) {
@@ -52,7 +52,7 @@ void read_cases(const JsonCursor& at, MarginSpec& margin) {
   margin.one_spring_out = cases.contains(1);
 }
 
-/// Those of a spring's numbers that it has.
+/// The given fields of a hinge's spring, as far as the spring has them.
 std::vector<SceneParameter> of_spring(const Scene& scene, int hinge,
                                       std::initializer_list<std::string_view> fields) {
   std::vector<SceneParameter> parameters;

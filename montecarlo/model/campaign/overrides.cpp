@@ -6,12 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace wingspread {
 namespace {
 
-/// "/t_end" → "--t-end"; what lies deeper is the option's too.
+/// "/t_end" → "--t-end"; also for deeper pointers ("/t_end/0").
 std::string option_of(std::string_view pointer) {
   const std::string_view key = pointer.substr(std::min<std::size_t>(1, pointer.size()));
   std::string option = "--" + std::string(key.substr(0, key.find('/')));
@@ -31,6 +32,7 @@ void override_settings(const Json& given, const std::function<void(const JsonCur
 Scene changed_scene(Scene scene, const std::vector<std::string>& changes) {
   std::vector<Problem> problems;
   std::vector<CaseChange> read;
+  std::map<std::string, std::string> written; // the values as given, by path
   for (const std::string& change : changes) {
     const std::size_t equals = std::min(change.find('='), change.size());
     const std::string path = change.substr(0, equals);
@@ -42,13 +44,16 @@ Scene changed_scene(Scene scene, const std::vector<std::string>& changes) {
       its.push_back({"", "", fmt::format("\"{}\"", change), "PATH=VALUE"});
     else
       read_change(JsonCursor(value, "", its), path, Apply::set, scene, read);
+    for (std::size_t k = written.size(); k < read.size(); ++k)
+      written.emplace(path_of(scene, read[k].target), text);
     for (Problem& problem : its)
       problems.push_back({"", "--set " + path, problem.found, problem.expected});
   }
   if (problems.empty()) make_changes(read, scene);
-  for (const Fault& fault : unphysical(scene))
-    problems.push_back(
-        {"", "--set", fmt::format("{} of {}", fault.path, fault.found), fault.expected});
+  for (const Fault& fault : unphysical(scene)) {
+    const std::string& found = written.contains(fault.path) ? written[fault.path] : fault.found;
+    problems.push_back({"", "--set", fmt::format("{} of {}", fault.path, found), fault.expected});
+  }
   if (!problems.empty()) throw SpecError(std::move(problems));
   return scene;
 }

@@ -31,7 +31,7 @@ void refuse_unknown_output(const JsonCursor& at, const std::string& output,
   at.refuse("an output of the campaign, or \"deployed\"" + did_you_mean(output, known));
 }
 
-/// A plain number is in the output's unit; a string names its own.
+/// Reads a number in the output's unit, or a string with a unit.
 bool read_limit(const JsonCursor& at, const std::string& output, double& limit) {
   const std::string unit = parse_output_name(output).unit;
   return at.value().is_string() && !unit.empty() ? at.read(limit, Dimension{unit})
@@ -52,7 +52,7 @@ void read_limits(JsonObject& object, Requirement& requirement) {
       object.at().refuse("a limit", "neither max nor min: a run has deployed or has not");
   } else if (has_max == has_min) {
     object.at().refuse(has_max ? "both max and min" : "neither max nor min",
-                       "one of them (for both, two requirements)");
+                       "one of them (write two requirements for both)");
   }
 }
 
@@ -67,21 +67,20 @@ void read_absolute(JsonObject& object, Requirement& requirement) {
     requirement.absolute = at->value().get<bool>();
 }
 
-/// Notes each member of a group whose confidence is not that of the first: it is that of all of them together.
+/// Notes each member of a group with another confidence than the first: a group has one joint confidence.
 void check_groups(const JsonCursor& at, std::span<const Requirement> requirements) {
   for (std::size_t i = 0; i < requirements.size(); ++i) {
     const Requirement& own = requirements[i];
     const auto first = std::ranges::find(requirements, own.group, &Requirement::group);
     if (own.group.empty() || own.confidence == first->confidence || own.confidence == 0) continue;
-    at.element(i).refuse(fmt::format("{}", own.confidence),
-                         fmt::format("{}, as of the others of the group \"{}\": it is that of all "
-                                     "of them together",
-                                     first->confidence, own.group),
-                         "/confidence");
+    at.element(i).refuse(
+        fmt::format("{}", own.confidence),
+        fmt::format("{}, the joint confidence of the group \"{}\"", first->confidence, own.group),
+        "/confidence");
   }
 }
 
-/// A static margin has no output of its own, and is limited from below: by 0 if nothing is said.
+/// Reads a requirement on a static margin. Its only limit is `min`, 0 by default.
 void read_static_margin(JsonObject& object, const Scene* scene, Requirement& requirement) {
   requirement.static_margin.emplace();
   read_required_margin(object, scene, *requirement.static_margin);
@@ -148,12 +147,11 @@ void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requi
     const std::string quantity = parse_output_name(own.output).quantity;
     const bool is_time = quantity == "latch_time" || quantity == "deployment_time";
     if (!is_time || !limit || *limit <= t_end) continue;
-    at.element(i).refuse(fmt::format("{} s", *limit),
-                         fmt::format("at most t_end, {} s: a run ends there, and what has not "
-                                     "latched by then breaks the requirement (a later limit wants "
-                                     "a later t_end)",
-                                     t_end),
-                         own.max ? "/max" : "/min");
+    at.element(i)
+        .member(own.max ? "max" : "min")
+        .refuse(fmt::format("at most t_end, {} s: a hinge that has not latched by then breaks the "
+                            "requirement (raise t_end for a later limit)",
+                            t_end));
   }
 }
 

@@ -17,22 +17,15 @@ namespace {
 constexpr std::string_view expected_table =
     "a table: an object with time and acceleration, angular_acceleration or rate";
 
-bool check_times(const JsonCursor& at, const std::vector<double>& time) {
-  for (std::size_t k = 1; k < time.size(); ++k)
-    if (!(time[k] > time[k - 1]))
-      return at.element(k).refuse(fmt::format("more than {}, the time before", time[k - 1]));
-  return true;
-}
-
 bool read_times(JsonObject& table, std::vector<double>& time) {
   const std::string expected = expected_column("s");
   const auto at = table.require("time", expected);
   if (!at || !at->read(time, Dimension{"s"})) return false;
   if (!can_be_knots(time.size())) return at->refuse(expected);
-  return check_times(*at, time);
+  return check_ascending(*at, time, "time");
 }
 
-/// A column of pairs.
+/// Reads a column of pairs.
 bool read_accelerations(const JsonCursor& at, std::size_t times,
                         std::vector<Eigen::Vector2d>& column) {
   if (!at.value().is_array() || at.value().size() != times)
@@ -56,7 +49,7 @@ bool is_finite(const BaseTable& table) {
   });
 }
 
-/// What the table gives must not stand beside it too.
+/// Refuses keys that the table gives too.
 void refuse_beside(JsonObject& base, const BaseTable::Columns& columns) {
   const auto refuse = [&](const char* key, const char* given) {
     if (const auto at = base.find(key))
@@ -101,7 +94,7 @@ void read_table(const JsonCursor& at, JsonObject& base_object, Interpolation int
   if (is_finite(table))
     base.table = std::make_shared<const BaseTable>(std::move(table));
   else
-    at.refuse("a curve too steep for numbers", "times further apart, or a smaller motion");
+    at.refuse("a curve that overflows", "times further apart, or a smaller motion");
 }
 
 void read_prescribed(JsonObject& object, Base& base) {

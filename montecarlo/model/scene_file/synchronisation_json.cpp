@@ -27,13 +27,6 @@ LoopEnds read_between(JsonObject& object) {
   return ends;
 }
 
-bool check_ascending(const JsonCursor& at, const std::vector<double>& travel) {
-  for (std::size_t k = 1; k < travel.size(); ++k)
-    if (!(travel[k] > travel[k - 1]))
-      return at.element(k).refuse(fmt::format("more than {}, the travel before", travel[k - 1]));
-  return true;
-}
-
 void read_ratio_table(const JsonCursor& at, Synchronisation& loop) {
   JsonObject object(at, "a table: an object with travel and travel_of_second");
   const Dimension dimension{"rad"};
@@ -42,14 +35,14 @@ void read_ratio_table(const JsonCursor& at, Synchronisation& loop) {
   object.refuse_others();
   if (!travel || !second || !travel->read(loop.travel, dimension)) return;
   if (!can_be_knots(loop.travel.size())) return void(travel->refuse(expected_column("rad")));
-  if (!check_ascending(*travel, loop.travel) ||
+  if (!check_ascending(*travel, loop.travel, "travel") ||
       !read_column_beside(*second, loop.travel, "travels", dimension, loop.travel_of_second))
     return;
   Curve curve(loop.travel, loop.travel_of_second, Interpolation::monotone, Beyond::straight);
   if (is_finite(curve))
     loop.table = std::make_shared<const Curve>(std::move(curve));
   else
-    at.refuse("a curve too steep for numbers", "travels further apart");
+    at.refuse("a curve that overflows", "travels further apart");
 }
 
 void read_ratio(const JsonCursor& at, Synchronisation& loop) {
@@ -67,7 +60,7 @@ std::optional<int> hinge_index(const Scene& scene, const std::string& name) {
   return static_cast<int>(found - scene.hinges.begin());
 }
 
-/// The hinge that one end of a loop names; the first of all when it names none, with a problem.
+/// The index of the hinge that one end names; 0, with a problem, if it is unknown.
 int link_end(const JsonCursor& between, std::size_t end, const std::string& name,
              const Scene& scene) {
   const auto index = hinge_index(scene, name);
@@ -97,7 +90,7 @@ LoopEnds read_synchronisation(const JsonCursor& at, Synchronisation& loop) {
 
 void link_synchronisations(const JsonCursor& at, const std::vector<LoopEnds>& ends, Scene& scene) {
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (!ends[i][0] || !ends[i][1]) continue; // noted when it was read
+    if (!ends[i][0] || !ends[i][1]) continue; // has a problem already
     const JsonCursor between = at.member("synchronisations").element(i).member("between");
     Synchronisation& loop = scene.synchronisations[i];
     loop.first = link_end(between, 0, *ends[i][0], scene);

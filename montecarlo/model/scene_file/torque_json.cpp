@@ -14,21 +14,21 @@ namespace {
 
 constexpr Dimension torque_dimension{"N·m"};
 
-/// What stands beside another key that it contradicts is refused, and never ignored.
+/// Refuses keys that contradict another key.
 void refuse_beside(JsonObject& object, std::initializer_list<std::string_view> keys,
                    std::string_view other) {
   for (const std::string_view key : keys)
     if (const auto at = object.find(key)) at->refuse(fmt::format("no {} beside a {}", key, other));
 }
 
-/// Notes the first angle that does not lie further on the way than the one before it.
+/// Notes the first angle that is not further along the travel than the angle before; returns false if there is one.
 bool check_order(const JsonCursor& at, const std::vector<double>& angle, Way way) {
   const double sense = way == Way::unknown ? angle[1] - angle[0] : way == Way::up ? 1 : -1;
   for (std::size_t k = 1; k < angle.size(); ++k)
     if (!((angle[k] - angle[k - 1]) * sense > 0))
       return at.element(k).refuse(
           fmt::format("{} than {}, the angle before: from stowed towards latched",
-                      sense < 0 ? "less" : "more", angle[k - 1]));
+                      sense < 0 ? "less" : "more", as_written(at.element(k - 1).value())));
   return true;
 }
 
@@ -46,12 +46,12 @@ bool read_torques(JsonObject& table, std::string_view key, const std::vector<dou
   return at && read_column_beside(*at, angle, "angles", torque_dimension, torque);
 }
 
-/// Keeps the table, unless its curves leave the range of numbers: knots all but coincide.
-void keep(const JsonCursor& at, TorqueTable table, HingeTorque& torque) {
+/// Stores the table; notes a problem if its curves overflow because knots nearly coincide.
+void store(const JsonCursor& at, TorqueTable table, HingeTorque& torque) {
   if (is_finite(table.drive()) && is_finite(table.friction()))
     torque.table = std::make_shared<const TorqueTable>(std::move(table));
   else
-    at.refuse("a curve too steep for numbers", "angles further apart, or smaller torques");
+    at.refuse("a curve that overflows", "angles further apart, or smaller torques");
 }
 
 void read_table(const JsonCursor& at, Way way, Interpolation interpolation, HingeTorque& torque) {
@@ -59,25 +59,27 @@ void read_table(const JsonCursor& at, Way way, Interpolation interpolation, Hing
   std::vector<double> angle, values;
   const bool good =
       read_angles(object, way, angle) && read_torques(object, "torque", angle, values);
-  (void)object.find("torque"); // known, whatever became of the angles
+  (void)object.find("torque"); // a known key, even if the angles have problems
   object.refuse_others();
-  if (good) keep(at, TorqueTable(std::move(angle), std::move(values), interpolation), torque);
+  if (good) store(at, TorqueTable(std::move(angle), std::move(values), interpolation), torque);
 }
 
-bool check_hysteresis(const JsonCursor& at, const std::vector<double>& deploying,
+/// Notes the first stowing torque below the deploying torque; returns false if there is one.
+bool check_hysteresis(JsonObject& test, const std::vector<double>& deploying,
                       const std::vector<double>& stowing) {
   for (std::size_t k = 0; k < stowing.size(); ++k)
     if (stowing[k] < deploying[k])
-      return at.element(k).refuse(
-          fmt::format(">= {}, the deploying torque at that angle", deploying[k]));
+      return test.find("stowing")->element(k).refuse(
+          fmt::format("≥ {}, the deploying torque at that angle",
+                      as_written(test.find("deploying")->element(k).value())));
   return true;
 }
 
-/// The least value of a cubic piece over 0 … h.
+/// The minimum of a cubic c over [0, h].
 double lowest(const std::array<double, 4>& c, double h) {
   const auto value = [&](double u) { return c[0] + u * (c[1] + u * (c[2] + u * c[3])); };
   double least = std::min(value(0), value(h));
-  // c1 + 2 c2 u + 3 c3 u² = 0, without cancellation
+  // The roots of c1 + 2 c2 u + 3 c3 u², by the formula without cancellation.
   const double q =
       -(c[2] + std::copysign(std::sqrt(std::max(c[2] * c[2] - 3 * c[1] * c[3], 0.0)), c[2]));
   for (const double u : {q / (3 * c[3]), c[1] / q})
@@ -85,7 +87,8 @@ double lowest(const std::array<double, 4>& c, double h) {
   return least;
 }
 
-/// Between knots the two curves may cross where they nearly touch at a knot.
+/// Checks that the stowing curve is nowhere below the deploying curve between knots: interpolation can make curves
+/// cross that nearly touch at a knot.
 bool check_between(const JsonCursor& at, const TorqueTable& table) {
   const auto largest = [](double most, double torque) { return std::max(most, std::abs(torque)); };
   const double scale =
@@ -108,12 +111,12 @@ void read_measured(const JsonCursor& at, Way way, Interpolation interpolation,
   bool good = read_angles(object, way, angle);
   good = good && read_torques(object, "deploying", angle, deploying);
   good = good && read_torques(object, "stowing", angle, stowing) &&
-         check_hysteresis(*object.find("stowing"), deploying, stowing);
+         check_hysteresis(object, deploying, stowing);
   for (const char* key : {"deploying", "stowing"}) (void)object.find(key);
   object.refuse_others();
   if (!good) return;
   TorqueTable table(std::move(angle), std::move(deploying), std::move(stowing), interpolation);
-  if (check_between(at, table)) keep(at, std::move(table), torque);
+  if (check_between(at, table)) store(at, std::move(table), torque);
 }
 
 void read_line(JsonObject& object, HingeTorque& torque) {
@@ -169,6 +172,15 @@ bool read_column_beside(const JsonCursor& at, const std::vector<double>& knots,
   return true;
 }
 
+bool check_ascending(const JsonCursor& at, const std::vector<double>& column,
+                     std::string_view what) {
+  for (std::size_t k = 1; k < column.size(); ++k)
+    if (!(column[k] > column[k - 1]))
+      return at.element(k).refuse(
+          fmt::format("more than {}, the {} before", as_written(at.element(k - 1).value()), what));
+  return true;
+}
+
 bool is_finite(const Curve& curve) {
   return std::ranges::all_of(curve.pieces(), [](const Curve::Piece& piece) {
     return std::isfinite(piece.integral) &&
@@ -196,7 +208,7 @@ Json write_torque(const HingeTorque& torque) {
     json["torque_stowed"] = torque.torque_stowed;
     json["torque_latched"] = torque.torque_latched;
   }
-  // Not there when they do nothing: what a scene does not use does not change its hash.
+  // Written only where they have an effect: a scene's hash depends on the JSON.
   if (torque.scale != 1) json["scale"] = torque.scale;
   if (torque.offset != 0) json["offset"] = torque.offset;
   return json;

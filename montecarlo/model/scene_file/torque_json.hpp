@@ -1,4 +1,5 @@
-/// Torques of springs and harnesses from JSON and back: by two numbers, by a table, by a torque test both ways.
+/// Reads and writes torques of springs and harnesses: two numbers, a table, or a torque test both ways. Also what all
+/// tables share.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -11,7 +12,7 @@
 
 namespace wingspread {
 
-/// The words for each way of interpolation, in the order of its values.
+/// The words of `interpolation`, by Interpolation.
 inline constexpr std::array<std::string_view, 2> interpolation_names{"monotone", "linear"};
 
 inline constexpr std::size_t most_knots = 1000; ///< of a table; at least two
@@ -21,23 +22,29 @@ inline constexpr std::size_t most_knots = 1000; ///< of a table; at least two
   return size >= 2 && size <= most_knots;
 }
 
-/// What a column of a table has to be: "an array of 2 to 1000 numbers, rad".
+/// "an array of 2 to 1000 numbers, rad": the expectation for a column of a table.
 [[nodiscard]] std::string expected_column(std::string_view unit);
 
-/// Reads `at` into a column with as many numbers as `knots` has; notes a problem and returns false when it is
-/// none.
+/// Reads a column as long as `knots`; returns false if it noted a problem.
 bool read_column_beside(const JsonCursor& at, const std::vector<double>& knots,
                         std::string_view knots_name, const Dimension& dimension,
                         std::vector<double>& column);
 
-/// Whether a curve's coefficients are numbers; not so where knots all but coincide.
+/// Notes the first number that is not greater than the number before; returns false if there is one.
+/// @param at     the array
+/// @param column the array as read
+/// @param what   one number in words: "time"
+bool check_ascending(const JsonCursor& at, const std::vector<double>& column,
+                     std::string_view what);
+
+/// Whether a curve's coefficients are finite; they overflow if knots nearly coincide.
 [[nodiscard]] bool is_finite(const Curve& curve);
 
-/// A hinge's way: the sense in which its angle grows from stowed to latched.
+/// The sense of a hinge's angle from stowed to latched.
 enum class Way { unknown, up, down };
 
-/// Reads a spring, which a torque test both ways may stand for, or a harness.
-/// @param way that a table's angles have to run; `unknown` when the hinge's own could not be read
+/// Only a spring may have a torque test both ways.
+/// @param way required sense of a table's angles; `unknown` if the hinge's angles could not be read
 void read_spring(const JsonCursor& at, Way way, HingeTorque& spring);
 void read_harness(const JsonCursor& at, Way way, HingeTorque& harness);
 

@@ -44,7 +44,7 @@ TEST_CASE("Each fault of the sampling is told", "[campaign_settings]") {
        {R"({"run": 1})",
         "/run: found the unknown key \"run\", expected \"design\", \"runs\", \"seed\", "
         "\"replicates\" or \"extended_from\" (did you mean \"runs\"?)"}}));
-  CHECK(read(json, Sampling{}, read_sampling).problems == message);
+  CHECK(facts_of(read(json, Sampling{}, read_sampling).problems) == facts_of(message));
 }
 
 TEST_CASE("A tolerance is a number, and the refusal of \"auto\" shows one", "[campaign_settings]") {
@@ -98,7 +98,7 @@ TEST_CASE("A step is read with the method that takes it", "[campaign_settings]")
        {R"({"method": "runge_kutta4", "step": "1 m"})",
         "/step: found string \"1 m\", expected a number, s, > 0, or a string of a number and its "
         "unit: \"s\", \"ms\" or \"min\""}}));
-  CHECK(read(json, Integration{}, read_integration).problems == message);
+  CHECK(facts_of(read(json, Integration{}, read_integration).problems) == facts_of(message));
 }
 
 TEST_CASE("Times and angles of the integration may have their units", "[campaign_settings]") {
@@ -147,7 +147,7 @@ TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
        {R"({"tend": 1})",
         "/tend: found the unknown key \"tend\", expected \"method\", \"step\", "
         "\"rtol\", \"atol\", \"latch\", \"t_end\" or \"max_steps\" (did you mean \"t_end\"?)"}}));
-  CHECK(read(json, Integration{}, read_integration).problems == message);
+  CHECK(facts_of(read(json, Integration{}, read_integration).problems) == facts_of(message));
 }
 
 TEST_CASE("An unknown method is told with the known ones", "[campaign_settings]") {
@@ -191,7 +191,7 @@ TEST_CASE("Each fault of the statistics is told", "[campaign_settings]") {
        {R"({"bin": 3})",
         "/bin: found the unknown key \"bin\", expected \"quantiles\", \"confidence\", "
         "\"bins\", \"tolerance\" or \"accuracy_runs\" (did you mean \"bins\"?)"}}));
-  CHECK(read(json, StatisticsSpec{}, read_statistics).problems == message);
+  CHECK(facts_of(read(json, StatisticsSpec{}, read_statistics).problems) == facts_of(message));
 }
 
 TEST_CASE("Lists that nobody writes by hand are refused before anything is done",
@@ -201,9 +201,9 @@ TEST_CASE("Lists that nobody writes by hand are refused before anything is done"
     json["quantiles"].push_back(i / 1002.0);
     json["tolerance"].push_back({{"probability", 0.9}, {"confidence", 0.9}});
   }
-  CHECK(read(json.dump().c_str(), StatisticsSpec{}, read_statistics).problems ==
-        "/quantiles: found an array of 1001, expected at most 1000 quantiles\n"
-        "/tolerance: found an array of 1001, expected at most 1000 of them");
+  CHECK(facts_of(read(json.dump().c_str(), StatisticsSpec{}, read_statistics).problems) ==
+        facts_of("/quantiles: found an array of 1001, expected at most 1000 quantiles\n"
+                 "/tolerance: found an array of 1001, expected at most 1000 of them"));
   json["quantiles"].erase(0);
   json["tolerance"].erase(0);
   CHECK(read(json.dump().c_str(), StatisticsSpec{}, read_statistics).problems.empty());
@@ -220,15 +220,16 @@ TEST_CASE("Tolerance limits are read, and each fault of them is told", "[campaig
   CHECK(write_statistics(statistics)["tolerance"].dump() ==
         R"([{"probability":0.95,"confidence":0.9,"side":"upper"},)"
         R"({"probability":0.9,"confidence":0.5,"side":"both"}])");
-  CHECK(read(R"({"tolerance": [{"probability": 1, "side": "left"}, 3]})", StatisticsSpec{},
-             read_statistics)
-            .problems ==
-        "/tolerance/0/probability: found 1, expected a number, > 0 and < 1\n"
-        "/tolerance/0/confidence: found nothing, expected a number, > 0 and < 1\n"
-        "/tolerance/0/side: found string \"left\", expected \"upper\", \"lower\" or \"both\"\n"
-        "/tolerance/1: found 3, expected an object with probability and confidence");
-  CHECK(read(R"({"tolerance": 1})", StatisticsSpec{}, read_statistics).problems ==
-        "/tolerance: found 1, expected an array of tolerance limits");
+  CHECK(facts_of(read(R"({"tolerance": [{"probability": 1, "side": "left"}, 3]})", StatisticsSpec{},
+                      read_statistics)
+                     .problems) ==
+        facts_of(
+            "/tolerance/0/probability: found 1, expected a number, > 0 and < 1\n"
+            "/tolerance/0/confidence: found nothing, expected a number, > 0 and < 1\n"
+            "/tolerance/0/side: found string \"left\", expected \"upper\", \"lower\" or \"both\"\n"
+            "/tolerance/1: found 3, expected an object with probability and confidence"));
+  CHECK(facts_of(read(R"({"tolerance": 1})", StatisticsSpec{}, read_statistics).problems) ==
+        facts_of("/tolerance: found 1, expected an array of tolerance limits"));
 }
 
 TEST_CASE("the looks before a campaign was extended are read, and written where there are any") {

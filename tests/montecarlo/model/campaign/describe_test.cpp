@@ -54,9 +54,9 @@ TEST_CASE("Replicates and correlations are described", "[describe]") {
   };
   CHECK(sampling("sobol", 4096, 16) == "sobol, 4096 runs, seed 1, 16 replicates of 256 runs");
   CHECK(sampling("sobol", 4100, 16) ==
-        "sobol, 4100 runs, seed 1, 16 replicates of 256 or 257 runs; Sobol' points are at their "
-        "best in powers of two");
-  CHECK(sampling("sobol", 1000, 1) == "sobol, 1000 runs, seed 1; Sobol' points are at their best "
+        "sobol, 4100 runs, seed 1, 16 replicates of 256 or 257 runs; Sobol' points are most "
+        "accurate with powers of two");
+  CHECK(sampling("sobol", 1000, 1) == "sobol, 1000 runs, seed 1; Sobol' points are most accurate "
                                       "in powers of two; one replicate, so no bounds");
   CHECK(sampling("latin_hypercube", 100, 3) ==
         "latin_hypercube, 100 runs, seed 1, 3 replicates of 33 or 34 runs");
@@ -90,7 +90,7 @@ TEST_CASE("What a campaign asks for is described with what its runs can show", "
         "requirement: deployed, 99.865 % at 90 %: cannot be shown with 1000 runs, it takes 1705\n");
   document["until"] = parse_json(R"([{ "output": "deployed", "width": 0.01 }])");
   CHECK_THAT(describe(read_campaign(document.dump(), "")),
-             Catch::EndsWith("until the interval's width is: deployed 0.01\n"));
+             Catch::EndsWith("stop at an interval's width of: deployed 0.01\n"));
 }
 
 TEST_CASE("Causes, cases and draws that act on one parameter are described", "[describe]") {
@@ -114,8 +114,8 @@ TEST_CASE("Causes, cases and draws that act on one parameter are described", "[d
       "    scale by 3 to 0.8 over -100 to 60: hinges.root.spring.scale (nominal 1), "
       "hinges.mid.spring.scale (nominal 1)\n"
       "  spring.root: normal (mean 1, std 0.05), scale hinges.root.spring.scale (nominal 1)\n"
-      "changed by more than one draw\n"
-      "  hinges.root.spring.scale: one after the other, temperature scales, then spring.root "
+      "parameters changed by several draws\n"
+      "  hinges.root.spring.scale: temperature scales, then spring.root "
       "scales\n"
       "3 cases\n"
       "  cold: temperature: constant (value -60)\n"

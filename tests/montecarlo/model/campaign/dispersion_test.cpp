@@ -143,7 +143,9 @@ TEST_CASE("Each fault of a `through` is told", "[dispersion]") {
         "/0/through/0/table: found a curve too steep for numbers, expected draws further apart, or "
         "smaller values"}}));
   CAPTURE(pointer, value);
-  CHECK(list_problems({test::spoil(parse_json(temperature), {pointer, value, ""})}) == message);
+  CHECK(
+      test::facts_of(list_problems({test::spoil(parse_json(temperature), {pointer, value, ""})})) ==
+      test::facts_of(message));
 }
 
 TEST_CASE("Parameters that several draws change are told, with the order", "[dispersion]") {
@@ -211,7 +213,7 @@ TEST_CASE("Numbers without a dimension, or with several, have no unit", "[disper
             "distribution": {"type": "constant", "value": "2 m"}})",
         "/0/distribution/value: found string \"2 m\", expected a number, kg, or a string of a "
         "number and its unit: \"kg\", \"g\" or \"lb\""}}));
-  CHECK(list_problems({parse_json(json)}) == message);
+  CHECK(test::facts_of(list_problems({parse_json(json)})) == test::facts_of(message));
 }
 
 TEST_CASE("Each fault of a dispersion is told", "[dispersion]") {
@@ -232,7 +234,7 @@ TEST_CASE("Each fault of a dispersion is told", "[dispersion]") {
         "/0: found neither \"to\" nor \"each\" nor \"through\", expected one of them\n"
         "/0/too: found the unknown key \"too\", expected \"name\", \"distribution\", \"to\", "
         "\"each\", \"through\" or \"apply\" (did you mean \"to\"?)"}}));
-  CHECK(list_problems({parse_json(json)}) == message);
+  CHECK(test::facts_of(list_problems({parse_json(json)})) == test::facts_of(message));
 }
 
 TEST_CASE("Each fault of a dispersion's targets is told", "[dispersion]") {
@@ -274,8 +276,8 @@ TEST_CASE("Each fault of a dispersion's targets is told", "[dispersion]") {
         "/0/each/1: found bodies.inner.mass a second time, expected each parameter once"},
        {R"("each": "base.mass")",
         "/0/each: found string \"base.mass\", expected a base whose motion is \"free\""}}));
-  CHECK(list_problems({dispersion("m", R"("apply": "scale", )" + std::string(targets))}) ==
-        message);
+  CHECK(test::facts_of(list_problems({dispersion(
+            "m", R"("apply": "scale", )" + std::string(targets))})) == test::facts_of(message));
 }
 
 TEST_CASE("`each` needs a name to call its draws by", "[dispersion]") {
@@ -326,8 +328,8 @@ TEST_CASE("No two draws share a random stream", "[dispersion]") {
             {dispersion("8yn0iYCKYHlIj4-BwPqk", R"("apply": "scale", "to": ["bodies.inner.mass"])"),
              dispersion("GReLUrM4wMqfg9yzV3KQ",
                         R"("apply": "scale", "to": ["bodies.inner.mass"])")}) ==
-        "/1/name: found \"GReLUrM4wMqfg9yzV3KQ\", whose random stream is that of "
-        "\"8yn0iYCKYHlIj4-BwPqk\" too, expected another name");
+        "/1/name: found \"GReLUrM4wMqfg9yzV3KQ\", which has the random stream of "
+        "\"8yn0iYCKYHlIj4-BwPqk\", expected another name");
 }
 
 TEST_CASE("A draw is not lost to a later one that sets its target", "[dispersion]") {
@@ -351,9 +353,9 @@ TEST_CASE("A draw is not lost to a later one that sets its target", "[dispersion
   CAPTURE(first, second);
   CHECK(list_problems({of("a", first), of("b", second)}) ==
         (sound ? ""
-               : "/1/apply: found \"set\" of bodies.inner.mass, which \"a\" has written before, "
+               : "/1/apply: found \"set\" of bodies.inner.mass after \"a\" has changed it, "
                  "expected "
-                 "nothing before a \"set\", which would undo it"));
+                 "\"set\" first: it overwrites earlier changes"));
 }
 
 TEST_CASE("Nor is one to a later table that sets its target", "[dispersion]") {
@@ -361,11 +363,11 @@ TEST_CASE("Nor is one to a later table that sets its target", "[dispersion]") {
   draw["through"][0]["apply"] = "set";
   CHECK(list_problems(
             {dispersion("s", R"("apply": "scale", "to": ["hinges.mid.spring.scale"])"), draw}) ==
-        "/1/through: found \"set\" of hinges.mid.spring.scale, which \"s\" has written before, "
-        "expected nothing before a \"set\", which would undo it");
+        "/1/through: found \"set\" of hinges.mid.spring.scale after \"s\" has changed it, "
+        "expected \"set\" first: it overwrites earlier changes");
 }
 
 TEST_CASE("The list of dispersions is an array", "[dispersion]") {
-  CHECK(read_list(parse_json("{}")).problems ==
-        "found an object, expected an array of dispersions");
+  CHECK(test::facts_of(read_list(parse_json("{}")).problems) ==
+        test::facts_of("found an object, expected an array of dispersions"));
 }

@@ -156,7 +156,7 @@ TEST_CASE("Each fault of a margin is told", "[margin]") {
        {"/motorization", R"({"points": 1})",
         "/margin/motorization/points: found 1, expected an integer from 2 to 1000"}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(margin_problems(change) == change.message);
+  CHECK(test::facts_of(margin_problems(change)) == test::facts_of(change.message));
 }
 
 TEST_CASE("What does not go with the sized parameters is refused", "[margin]") {

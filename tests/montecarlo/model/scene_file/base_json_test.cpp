@@ -109,7 +109,7 @@ TEST_CASE("Each fault of a base's table is told", "[base_json]") {
         "/base/table: found the unknown key \"table\", expected \"motion\"\n"
         "/base/interpolation: found the unknown key \"interpolation\", expected \"motion\""}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(spoilt_scene(change) == change.message);
+  CHECK(test::facts_of(spoilt_scene(change)) == test::facts_of(change.message));
 }
 
 TEST_CASE("A base's table is dispersed by its scale, and by no number that it gives",

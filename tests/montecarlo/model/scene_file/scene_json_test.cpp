@@ -173,7 +173,7 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
         "/hinges/0/latch/damping: found nothing, expected a number, N·m·s/rad, ≥ 0"},
        {"/hinges/0/latch/stiffness", "-1", "/hinges/0/latch/stiffness: found -1, expected >= 0"}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(spoilt_small_scene(change) == change.message);
+  CHECK(test::facts_of(spoilt_small_scene(change)) == test::facts_of(change.message));
 }
 
 TEST_CASE("All faults of a scene are told together, under the name of its file", "[scene_json]") {
@@ -300,6 +300,7 @@ TEST_CASE("Each fault of plates and surroundings is told", "[scene_json]") {
         "/bodies/0/plate/drag: found the unknown key \"drag\", expected \"from\", \"to\", "
         "\"width\" or \"drag_coefficient\""}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(test::message_of([&] { return read_scene(test::spoil(test::real_scene(), change)); }) ==
-        change.message);
+  CHECK(test::facts_of(test::message_of([&] {
+          return read_scene(test::spoil(test::real_scene(), change));
+        })) == test::facts_of(change.message));
 }

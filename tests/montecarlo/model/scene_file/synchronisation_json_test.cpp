@@ -117,7 +117,7 @@ TEST_CASE("Each fault of a loop is told", "[synchronisation]") {
         "\"between\", \"ratio\", \"stiffness\", \"damping\" or \"preload\" (did you mean "
         "\"preload\"?)"}}));
   CAPTURE(change.pointer, change.value);
-  CHECK(spoilt_synchronisation(change) == change.message);
+  CHECK(test::facts_of(spoilt_synchronisation(change)) == test::facts_of(change.message));
 }
 
 TEST_CASE("Loops are written in full, and not at all where there are none", "[synchronisation]") {
