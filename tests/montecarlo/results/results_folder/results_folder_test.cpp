@@ -134,7 +134,8 @@ TEST_CASE("requirements are judged from the folder, and those of a file in their
             ": /0/output: found string \"root.x\", expected an output of the campaign, "
             "or \"deployed\"\n" +
             file.string() +
-            ": /0: found neither max nor min, expected one of them (write two requirements for both)");
+            ": /0: found neither max nor min, expected one of them (write two requirements for "
+            "both)");
 }
 
 TEST_CASE("a campaign without a stamp is another tool's, and read in full") {
