@@ -1,7 +1,7 @@
 /// The program that mpirun starts: on rank 0 it is the one of every day, on the others it makes runs for that.
 #include "montecarlo/analyses/rare/limit_state.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
-#include "montecarlo/engine/mpi/mpi_wire.hpp"
+#include "montecarlo/engine/mpi/mpi_transport.hpp"
 #include "montecarlo/engine/mpi/rank_evaluator.hpp"
 #include "montecarlo/engine/mpi/serve.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
@@ -13,7 +13,7 @@ namespace wingspread {
 namespace {
 
 int work(int argc, char** argv) {
-  const std::unique_ptr<Wire> wire = mpi_wire();
+  const std::unique_ptr<Transport> wire = mpi_transport();
   if (wire->rank() > 0) {
     const Interrupt interrupt;
     serve(*wire, measure_of_recipe, interrupt.flag());
@@ -27,8 +27,8 @@ int work(int argc, char** argv) {
 } // namespace
 
 // In place of the library's.
-std::unique_ptr<Evaluator> evaluator_of(const Crew& crew, const std::atomic<bool>& stop) {
-  std::unique_ptr<Wire> wire = mpi_wire();
+std::unique_ptr<Evaluator> evaluator_of(const ThreadPool& crew, const std::atomic<bool>& stop) {
+  std::unique_ptr<Transport> wire = mpi_transport();
   if (wire->size() == 1) return std::make_unique<ThreadEvaluator>(crew, stop);
   return std::make_unique<RankEvaluator>(std::move(wire), crew, stop);
 }

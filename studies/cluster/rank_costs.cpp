@@ -74,7 +74,7 @@ double take_in(const RunPlan& plan, const std::vector<std::string>& messages,
     InOrder in_order(sink, 1024);
     least = std::min(least, seconds_of([&] {
                        for (const std::string& message : messages) {
-                         Unpacker bytes(message);
+                         Deserializer bytes(message);
                          (void)kind_of(bytes);
                          for (FinishedChunk& each : take_report(bytes).finished)
                            in_order.finish(each.chunk.number, std::move(each.batch), true);

@@ -4,14 +4,13 @@
 //     integration   | mean of e |                  by a tolerance, e the error of a run; | mean of e | ≤ RMS of e
 //
 // and N runs at a tolerance cost N times a run's evaluations. Measured for several campaigns: σ; the block
-// means' spread against σ/√N; e against a reference at rtol 1e-12 by another method; evaluations and time; and which
-// tolerance "auto" takes for N from 1e2 to 1e6.
+// means' spread against σ/√N; e against a reference at rtol 1e-12 by another method; evaluations and time.
 //
 //   build/release/studies/error_budget                 20,000 runs of each campaign for σ, 200 for errors; minutes
 //   build/release/studies/error_budget --quick         400 and 16
 
 #include "core/deployment.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
+#include "montecarlo/engine/accuracy/accuracy.hpp"
 #include "montecarlo/engine/runs/runner.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
@@ -42,7 +41,6 @@ struct Tables {
   study::Table errors{"campaign", "rtol",  "runs", "in doubt",   "evaluations", "cpu [us]",
                       "output",   "sigma", "rms",  "mean error", "largest"};
   study::Table sampling{"campaign", "output", "runs", "blocks", "spread", "sigma"};
-  study::Table chosen{"campaign", "runs", "rtol"};
 };
 
 Integration at_tolerance(Integration how, const char* method, double rtol) {
@@ -127,17 +125,6 @@ void study_tolerance(Campaign campaign, const std::string& name, double rtol,
              evaluations, microseconds, found.in_doubt.size(), sizes.repeated);
 }
 
-void study_choice(Campaign campaign, const std::string& name, Tables& tables) {
-  for (const std::int64_t runs : {100, 1000, 10'000, 100'000, 1'000'000}) {
-    campaign.sampling.runs = runs;
-    campaign.tolerance = ToleranceChoice{};
-    settle_tolerance(campaign, {});
-    tables.chosen.add({name, static_cast<double>(runs), campaign.integration.rtol});
-    fmt::print("{:16} {:8} runs: \"auto\" takes rtol {:g}\n", name, runs,
-               campaign.integration.rtol);
-  }
-}
-
 void study_campaign(const std::string& name, const Sizes& sizes, Tables& tables) {
   Campaign campaign = read_campaign_file(fmt::format("studies/campaigns/{}.json", name));
   campaign.cases.clear();
@@ -158,7 +145,6 @@ void study_campaign(const std::string& name, const Sizes& sizes, Tables& tables)
                  first_runs(sizes.repeated), {});
   for (const double rtol : tolerances)
     study_tolerance(campaign, name, rtol, reference, sigma, sizes, tables);
-  study_choice(campaign, name, tables);
 }
 
 void study_all(const study::StudyOptions& options) {
@@ -167,7 +153,6 @@ void study_all(const study::StudyOptions& options) {
   for (const char* name : campaigns) study_campaign(name, sizes, tables);
   tables.errors.write(options.folder / "error_budget.csv");
   tables.sampling.write(options.folder / "sampling.csv");
-  tables.chosen.write(options.folder / "chosen.csv");
 }
 
 } // namespace

@@ -1,10 +1,10 @@
 // What a team of threads costs and gives by the work that there is for it, with the processors free and with as many
 // other threads that want them all. Means, as it is the slow ones that are waited for. What comes of it is
-// `operations_worth_a_team` (montecarlo/foundation/platform/team.hpp).
+// `operations_worth_threads` (montecarlo/foundation/platform/thread_pool.hpp).
 //
 //   build/release/studies/team_costs
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <fmt/format.h>
 
@@ -70,7 +70,7 @@ double mean_time(int threads, std::size_t operations, double seconds) {
 } // namespace
 
 int main() {
-  const int all = team_size(0);
+  const int all = thread_count(0);
   fmt::print("{:>12}{:>24}{:>24}\n", "", "processors free, µs", "all wanted, µs");
   fmt::print("{:>12}{:>12}{:>12}{:>12}{:>12}\n", "operations", "1 thread", fmt::format("{}", all),
              "1 thread", fmt::format("{}", all));

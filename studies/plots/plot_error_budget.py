@@ -46,7 +46,7 @@ def draw_work(axes, tolerances, spread):
     axes.set_xlabel("evaluations of the whole campaign", fontsize=9)
 
 
-def draw_tolerances(axes, tolerances, chosen):
+def draw_tolerances(axes, tolerances):
     """What a run's tolerance leaves, beside what the number of runs does."""
     rtols = [its.rtol for its in tolerances]
     axes.plot(rtols, [its.rms for its in tolerances], "o-", color="tab:blue", label="a run's RMS error", markersize=4)
@@ -58,13 +58,6 @@ def draw_tolerances(axes, tolerances, chosen):
         if n > 1e2:  # of the first it is where the last has its sampling error
             axes.axhline(0.01 * sampling, color="0.45", linewidth=1, linestyle=":")
             axes.text(min(rtols), 0.0125 * sampling, f"1 % of it, N = 1e{round(math.log10(n))}", fontsize=8, color="0.3", ha="right")
-    for rtol in set(chosen.values()):
-        its = next((t for t in tolerances if math.isclose(t.rtol, rtol, rel_tol=1e-9)), None)
-        if its:
-            runs = [f"1e{round(math.log10(n))}" for n, chose in sorted(chosen.items()) if chose == rtol]
-            axes.plot([rtol], [its.rms], "*", color="tab:red", markersize=13, zorder=5)
-            axes.annotate(f'"auto", N = {runs[0]} … {runs[-1]}' if len(runs) > 1 else f'"auto", N = {runs[0]}', (rtol, its.rms),
-                          textcoords="offset points", xytext=(9, 6), ha="left", fontsize=8, color="tab:red")
     axes.set_xscale("log"), axes.set_yscale("log"), axes.invert_xaxis()
     axes.set_xlabel("rtol", fontsize=9)
 
@@ -92,30 +85,28 @@ def mean_spread(rows):
     return spread
 
 
-def print_table(name, tolerances, chosen):
+def print_table(name, tolerances):
     print(f"\n{name}: errors over sigma, the worst output; runs that a budget of 1e9 evaluations pays for, and its error")
     print(f"{'rtol':>8}{'evaluations':>13}{'us':>9}{'in doubt':>10}{'RMS':>11}{'mean':>11}{'runs':>12}{'error':>11}")
     for its in tolerances:
         runs = 1e9 / its.evaluations
         print(f"{its.rtol:8.0e}{its.evaluations:13,.0f}{its.cpu:9.0f}{its.in_doubt:6.0f}/{its.runs:.0f}"
               f"{its.rms:11.1e}{its.mean:11.1e}{runs:12,.0f}{its.total(runs):11.2e}")
-    print('"auto": ' + ", ".join(f"{n:.0e} runs {rtol:g}" for n, rtol in sorted(chosen.items())))
 
 
 def main(folder):
     folder = pathlib.Path(folder)
-    errors, sampling, chosen = (read_rows(folder / f"{name}.csv") for name in ("error_budget", "sampling", "chosen"))
+    errors, sampling = (read_rows(folder / f"{name}.csv") for name in ("error_budget", "sampling"))
     names = distinct(errors, "campaign")
     figure, grid = plt.subplots(3, len(names), figsize=(4.6 * len(names), 11.5), squeeze=False)
     for column, name in zip(grid.T, names):
         its = [row for row in errors if row["campaign"] == name]
         tolerances = [Tolerance([row for row in its if row["rtol"] == rtol]) for rtol in distinct(its, "rtol")]
-        takes = {row["runs"]: row["rtol"] for row in chosen if row["campaign"] == name}
         draw_work(column[0], tolerances, mean_spread([row for row in sampling if row["campaign"] == name]))
-        draw_tolerances(column[1], tolerances, takes)
+        draw_tolerances(column[1], tolerances)
         draw_gain(column[2], tolerances)
         column[0].set_title(TITLES.get(name, name), fontsize=11)
-        print_table(name, tolerances, takes)
+        print_table(name, tolerances)
         for axes in column:
             axes.grid(True, color="0.9", linewidth=0.6)
             axes.tick_params(labelsize=8)

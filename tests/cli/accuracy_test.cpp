@@ -30,15 +30,6 @@ Json latch_campaign(int runs) {
   return json;
 }
 
-/// Without a tolerance of its own, and so little dispersed that it takes a tight one.
-Json open_campaign(int runs) {
-  Json json = latch_campaign(runs);
-  json["dispersions"][0]["distribution"]["std"] = 1e-7;
-  json["dispersions"].erase(1);
-  json["integration"] = {{"rtol", "auto"}, {"t_end", 20}};
-  return json;
-}
-
 } // namespace
 
 TEST_CASE("a campaign says what its integration contributes") {
@@ -64,10 +55,10 @@ TEST_CASE("a campaign says what its integration contributes") {
   REQUIRE(begin != std::string::npos);
   const std::vector<std::string> lines = lines_of(out.substr(begin + 1));
   CHECK(lines[0] == "ACCURACY of the integration           unit   largest error     RMS error "
-                    "error of the mean  RMS/that");
+                    "std error of mean     ratio");
   CHECK(lines[1].starts_with("  root.latch_time                     s     "));
-  CHECK(out.find("\n  6 of 60 runs again by dopri5 at rtol 1e-10 (auto at 1e-06 before): status or "
-                 "order of latching") != std::string::npos);
+  CHECK(out.find("\n  6 of 60 runs repeated by dopri5 at rtol 1e-10 (campaign: auto at 1e-06)") !=
+        std::string::npos);
   CHECK(parse_json_file(setting.folder.path() / "r" / timing_file)["accuracy"]["runs"] == 6);
 }
 
@@ -116,47 +107,13 @@ TEST_CASE("accuracy is of all runs: of no shard, no part, and no rows of another
   CHECK_FALSE(setting.summary("foreign").contains("accuracy"));
 }
 
-TEST_CASE("a tolerance left to the campaign is part of it, however it is run", "[parallel]") {
-  const Setting setting(open_campaign(80));
-  const auto [code, out, error] = setting.run("whole", {"--threads", "1"});
-  CHECK(code == 0);
-  const Json chosen =
-      parse_json_file(setting.folder.path() / "whole" / campaign_file)["integration"];
-  CHECK(chosen["rtol"] < 1e-6);
-  CHECK(chosen["rtol_pilot"]["runs"] == 32);
-  CHECK(error.starts_with("note: rtol "));
-  CHECK(error.ends_with(", by a pilot of 32 runs\n"));
-  CHECK(setting.run("one", {"--shard", "1/2", "--threads", "2"}).code == 0);
-  CHECK(setting.run("two", {"--shard", "2/2"}).code == 0);
-  const Finished merged = run_program(
-      setting.folder, {"merge", setting.at("one"), setting.at("two"), "--out", setting.at("both")});
-  CHECK(merged.code == 0);
-  CHECK(contents(setting.at("both")) == contents(setting.at("whole")));
-  CHECK(setting.run("whole", {"--resume"}).code == 0);
-  CHECK(contents(setting.at("both")) == contents(setting.at("whole")));
-  const Finished replayed =
-      run_program(setting.folder, {"replay", setting.at("whole"), "--run", "17"});
-  CHECK(replayed.code == 0);
-  CHECK(replayed.error.empty());
-  // More runs are added at the tolerance of the first ones, whatever their number would call for.
-  CHECK(setting.run("whole", {"--resume", "--runs", "160"}).code == 0);
-  CHECK(parse_json_file(setting.folder.path() / "whole" / campaign_file)["integration"] == chosen);
-}
-
-TEST_CASE("one deployment has no sampling error to choose its tolerance by") {
-  const Setting setting(open_campaign(80));
-  const auto refused =
-      run_program(setting.folder, {"simulate", setting.campaign, "--rtol", "auto"});
+TEST_CASE("a campaign that leaves its tolerance open is told to write a number") {
+  Json json = latch_campaign(80);
+  json["integration"]["rtol"] = "auto";
+  const Setting setting(json);
+  const Finished refused = setting.run("r");
   CHECK(refused.code == 2);
-  CHECK(refused.error == "error: --rtol: found auto, expected a number: only a campaign has a "
-                         "sampling error to weigh errors by\n"
-                         "error: see wingspread simulate --help\n");
-  const auto usual = run_program(setting.folder, {"simulate", setting.campaign, "--json"});
-  const auto same =
-      run_program(setting.folder, {"simulate", setting.campaign, "--json", "--rtol", "1e-8"});
-  CHECK(usual.code == 0);
-  CHECK(usual.out == same.out);
-  CHECK(run_program(setting.folder, {"check", setting.campaign})
-            .out.find("rtol chosen by a pilot, at most 1e-06 and errors within 1 % of the sampling "
-                      "error") != std::string::npos);
+  CHECK(refused.error.find("/integration/rtol: found string \"auto\"") != std::string::npos);
+  CHECK(refused.error.find("for example 1e-8") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(setting.at("r")));
 }

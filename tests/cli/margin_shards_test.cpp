@@ -1,6 +1,6 @@
 // A study of margins whose first looks were made in shards.
 #include "montecarlo/analyses/margin/margin_report.hpp"
-#include "montecarlo/results/checkpoint/shard_looks.hpp"
+#include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/montecarlo/margin_support.hpp"
@@ -68,7 +68,7 @@ TEST_CASE("margin goes on from shards of its first looks to the bytes of one pro
   CHECK(contents(shards.at("part2")) == before);
 
   // rows of a shard that were changed
-  const auto log = shards.folder.path() / "part2" / looks_file;
+  const auto log = shards.folder.path() / "part2" / checkpoint_file;
   std::fstream bytes(log, std::ios::in | std::ios::out | std::ios::binary);
   bytes.seekp(3000);
   bytes.put('\x7F').put('\x01');
@@ -76,9 +76,8 @@ TEST_CASE("margin goes on from shards of its first looks to the bytes of one pro
   const Finished damaged = shards.margin("out2", from);
   CHECK(damaged.code == 2);
   CHECK_THAT(damaged.error,
-             Catch::Contains(log.string() +
-                             ": found rows that were cut off or damaged, expected all "
-                             "rows of a shard that was finished"));
+             Catch::Contains(log.string() + ": found missing or damaged rows, expected all "
+                                            "rows of a finished shard"));
 }
 
 TEST_CASE("shards that are missing, unfinished, of another study or no shards are refused") {
@@ -124,7 +123,7 @@ TEST_CASE("a study from shards goes on after a kill with the same shards", "[par
   std::vector<std::string> words{"margin",         shards.campaign, "--out",
                                  shards.at("cut"), "--threads",     "1"};
   words.insert(words.end(), from.begin(), from.end());
-  const auto log = shards.folder.path() / "cut" / looks_file;
+  const auto log = shards.folder.path() / "cut" / checkpoint_file;
   const Program program(shards.folder, words);
   for (int i = 0; i < 20'000; ++i) {
     std::error_code not_yet;
@@ -137,7 +136,7 @@ TEST_CASE("a study from shards goes on after a kill with the same shards", "[par
   const Finished without = shards.margin("cut", {"--resume"});
   CHECK(without.code == 2);
   CHECK_THAT(without.error,
-             Catch::Contains("look 1: campaign ") &&
+             Catch::Contains("analysis 1: campaign ") &&
                  Catch::Contains("(shards that it was given with --from are to be given again)"));
   from.push_back("--resume");
   CHECK(shards.margin("cut", from).out == whole.out);

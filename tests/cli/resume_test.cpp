@@ -62,7 +62,7 @@ Resumable margin_of(const Folder& folder) {
   json["requirements"].push_back(
       {{"output", "root.peak_moment"}, {"max", 400}, {"probability", 0.9}, {"confidence", 0.9}});
   return {{"margin", folder.write("margin.json", json.dump()), "--threads", "2"},
-          looks_file,
+          checkpoint_file,
           margin_json_file};
 }
 
@@ -70,7 +70,7 @@ Resumable rare_of(const Folder& folder) {
   return {{"rare", folder.write("rare.json", quick_campaign(10).dump()), "--output",
            "root.latch_time", "--above", "6", "--samples", "400", "--repeats", "3", "--threads",
            "2"},
-          looks_file,
+          checkpoint_file,
           rare_json_file};
 }
 
@@ -132,12 +132,12 @@ TEST_CASE("margin and rare interrupted say so, are refused without --resume, and
     const Finished refused = place.run(study, out);
     CHECK(refused.code == 2);
     CHECK(refused.error == "error: " + folder +
-                               ": found a study that was interrupted, expected a new or an empty "
-                               "folder (--resume goes on with this one)\n");
+                               ": found an interrupted study, expected a new or an empty "
+                               "folder (--resume continues this one)\n");
     const Finished other = place.run(study, out, {"--resume", "--seed", "99"});
     CHECK(other.code == 2);
     CHECK_THAT(other.error, Catch::Contains("looks.log: /wingspread/seed: found ") &&
-                                Catch::Contains(", expected 99, to go on with what is there\n") &&
+                                Catch::Contains(", expected 99, to continue what is there\n") &&
                                 Catch::Contains("/wingspread/hash: found "));
     CHECK(contents(folder) == before);
     const Finished resumed = place.run(study, out, {"--resume"});
@@ -160,7 +160,7 @@ TEST_CASE("a byte of a study's log that was changed is seen, said, and costs run
   const Finished whole = place.run(study, "whole");
   Finished finished;
   REQUIRE(place.cut(study, "cut", 20'000, SIGKILL, {}, finished));
-  const auto log = place.folder.path() / "cut" / looks_file;
+  const auto log = place.folder.path() / "cut" / checkpoint_file;
   std::fstream bytes(log, std::ios::in | std::ios::out | std::ios::binary);
   bytes.seekp(9000);
   bytes.put('\x7F').put('\x01');
@@ -169,8 +169,7 @@ TEST_CASE("a byte of a study's log that was changed is seen, said, and costs run
   CHECK(resumed.code == whole.code);
   CHECK_THAT(
       resumed.error,
-      Catch::Matches("warning: .*looks.log was damaged behind run [0-9]+ of the study: those "
-                     "that followed were made again\n(.|\n)*"));
+      Catch::Matches("warning: .*looks.log was damaged after run [0-9]+ of the study(.|\n)*"));
   CHECK(contents(place.folder.path() / "cut") == contents(place.folder.path() / "whole"));
 }
 

@@ -1,5 +1,5 @@
 // run --no-rows, as a user has it.
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
@@ -48,6 +48,8 @@ TEST_CASE("run --no-rows says what run says, and keeps the rows of broken runs a
   CHECK(none.error == rows.error);
   const std::filesystem::path folder = made.none;
   CHECK_FALSE(std::filesystem::exists(folder / runs_file));
+  const Json timing = parse_json_file(folder / timing_file);
+  CHECK((timing["runs"] == 10'000 && timing["runs_before"] == 0)); // the pilot's are this session's
   const Json full = parse_json_file(std::filesystem::path(made.rows) / summary_file),
              found = parse_json_file(folder / summary_file);
   for (const char* key : {"runs", "status", "reasons", "latch_order", "nominal"})
@@ -166,13 +168,10 @@ TEST_CASE("run --no-rows refuses what takes rows, and folders that have them") {
   };
   Json json = quick_campaign(64);
   json["sampling"]["design"] = "sobol";
-  CHECK_THAT(
-      refusal(json),
-      Catch::Contains("error: --no-rows: found draws that depend on each other, expected the "
-                      "design \"random\": bounds from replicates take the rows\n"));
-  CHECK(
-      refusal(quick_campaign(64), {"--until", "deployed 0.1"}) ==
-      "error: --no-rows: found goals to stop at, expected none: they are looked at in the rows\n");
+  CHECK_THAT(refusal(json), Catch::Contains("error: --no-rows: found dependent draws, expected the "
+                                            "design \"random\""));
+  CHECK_THAT(refusal(quick_campaign(64), {"--until", "deployed 0.1"}),
+             Catch::Contains("error: --no-rows: found stopping goals, expected none"));
   json = quick_campaign(64);
   json["cases"] = parse_json(R"([{ "name": "hot" }])");
   CHECK(refusal(json) ==
@@ -191,13 +190,13 @@ TEST_CASE("run --no-rows refuses what takes rows, and folders that have them") {
   CHECK(
       run_program(folder, {"run", campaign, "--out", none, "--no-rows", "--resume", "--runs", "99"})
           .error == "error: " + none +
-                        "/campaign.json: /sampling/runs: found 64, expected 99: without rows no "
-                        "runs are added to those that were asked for\n");
+                        "/campaign.json: /sampling/runs: found 64, expected 99: a campaign "
+                        "without rows cannot be extended\n");
   std::string state = read_text(std::filesystem::path(none) / statistics_file).value();
   state[state.size() / 2] = static_cast<char>(state[state.size() / 2] ^ 4);
   std::ofstream(std::filesystem::path(none) / statistics_file, std::ios::binary) << state;
   CHECK(run_program(folder, {"analyze", none}).error ==
         "error: " + none +
             "/statistics.bin: found a damaged file, expected statistics that `run "
-            "--no-rows` wrote: what its sum says\n");
+            "--no-rows` wrote: the checksum matches\n");
 }

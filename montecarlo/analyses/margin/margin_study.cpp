@@ -125,7 +125,7 @@ public:
   /// Makes a part of the runs, and looks at none.
   void make(const std::vector<SceneParameter>& parameters, double scale, const Shard& shard) {
     for_each_case(parameters, scale, [&](const Campaign& campaign, const MarginCase&) {
-      const RunRange part = part_of_look({0, campaign.sampling.runs}, shard);
+      const RunRange part = part_of_analysis({0, campaign.sampling.runs}, shard);
       make(RunPlan(campaign), part, part.size(), [](const Batch&) {});
     });
     ++looks_;

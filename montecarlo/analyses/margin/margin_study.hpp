@@ -36,7 +36,7 @@
 #include "montecarlo/engine/runs/evaluator.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
 #include "montecarlo/model/campaign/campaign.hpp"
-#include "montecarlo/results/checkpoint/shard_looks.hpp"
+#include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 
 #include <functional>
 
@@ -55,7 +55,7 @@ void find_margin(const Campaign& campaign, Evaluator& evaluator,
 
 /// Makes a part of the runs of those looks that do not depend on what others came to: every search's first scales in
 /// all cases. What they come to nobody asks: it is for a log, out of which `find_margin` has them again.
-/// @param shard which part of each look's runs (part_of_look, shard_looks.hpp)
+/// @param shard which part of each look's runs (part_of_analysis, shard_checkpoints.hpp)
 /// @return how many runs were made
 /// @throws as find_margin does
 long make_first_looks(const Campaign& campaign, const Shard& shard, Evaluator& evaluator,

@@ -2,7 +2,7 @@
 
 #include "montecarlo/engine/accuracy/chosen_runs.hpp"
 #include "montecarlo/engine/runs/runner.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <algorithm>
@@ -17,13 +17,14 @@
 namespace wingspread {
 namespace {
 
-constexpr double tighter = 1e-3; ///< a reference's tolerance, as a share of the campaign's
-constexpr double tightest_explicit = 1e-13; ///< below it round-off says what a step's error is
-constexpr double tightest_implicit = 1e-12; ///< seulex takes ten times the steps below it
+constexpr double tighter = 1e-3; ///< tolerance of a reference, as a share of the campaign's
+constexpr double tightest_explicit =
+    1e-13; ///< below, round-off dominates the error estimate of a step
+constexpr double tightest_implicit = 1e-12; ///< below, seulex takes ten times the steps
 constexpr double loosest = 1e-10;
 constexpr long times_the_steps = 100, least_steps = 20'000;
 
-/// The nearest number of three decimal digits: 1e-11, where a product is 1.0000000000000001e-11.
+/// Rounds to three decimal digits: 1e-11 in place of a product of 1.0000000000000001e-11.
 double in_three_digits(double x) {
   std::array<char, 32> text{};
   char* const first = text.data();
@@ -33,7 +34,7 @@ double in_three_digits(double x) {
   return x;
 }
 
-/// Tolerances together: atol keeps its ratio to rtol.
+/// Sets rtol and scales atol with it.
 Integration with_tolerance(Integration integration, std::string method, double rtol) {
   integration.method = std::move(method);
   integration.atol *= rtol / integration.rtol;
@@ -41,7 +42,8 @@ Integration with_tolerance(Integration integration, std::string method, double r
   return integration;
 }
 
-/// The same outcome: errors are of numbers then.
+/// Whether two runs have the same status, latch order and outputs that happened: only then do their numbers differ by
+/// an error.
 bool agree(const ResultRow& a, const ResultRow& b) {
   const auto happened_alike = [](double x, double y) { return std::isnan(x) == std::isnan(y); };
   return a.status == b.status && a.latch_order == b.latch_order &&
@@ -65,7 +67,9 @@ OutputAccuracy error_of(const std::string& name, std::size_t column,
   return found;
 }
 
-/// Steps that a reference may take, by what some of the runs take as they are.
+/// Step limit of a reference: 100 times the steps of three of the runs, at least 20,000. Heuristic: dopri5 at a
+/// tolerance 1000 times tighter takes about 4 times the steps of a non-stiff run, and far more than 100 times those
+/// of a stiff one. A smaller factor would reject usable references, a larger one wastes time on stiff runs.
 long steps_allowed(const Campaign& campaign, std::span<const long> runs) {
   const RunPlan plan(campaign);
   Runner runner(plan);
@@ -109,7 +113,7 @@ Accuracy compare_rows(const ResultNames& names, std::span<const ResultRow> rows,
 }
 
 std::vector<ResultRow> make_again(const Campaign& campaign, const Integration& integration,
-                                  std::span<const long> runs, const Crew& crew) {
+                                  std::span<const long> runs, const ThreadPool& pool) {
   Campaign again = campaign;
   again.integration = integration;
   const RunPlan plan(again);
@@ -123,14 +127,14 @@ std::vector<ResultRow> make_again(const Campaign& campaign, const Integration& i
     const auto place = std::ranges::lower_bound(runs, row.run) - runs.begin();
     rows[static_cast<std::size_t>(place)] = std::move(row);
   };
-  on_team(
-      team_size(crew.threads), [&] { (void)Runner(plan).run_all(crew.set, next, keep); },
+  run_on_threads(
+      thread_count(pool.threads), [&] { (void)Runner(plan).run_all(pool.set, next, keep); },
       [&] { claimed = runs.size(); });
   return rows;
 }
 
 Accuracy compare_with_reference(const Campaign& campaign, std::span<const ResultRow> rows,
-                                const Crew& crew) {
+                                const ThreadPool& pool) {
   const ResultNames names = RunPlan(campaign).names();
   std::vector<long> runs;
   std::ranges::transform(rows, std::back_inserter(runs), &ResultRow::run);
@@ -138,9 +142,9 @@ Accuracy compare_with_reference(const Campaign& campaign, std::span<const Result
   const long steps = steps_allowed(campaign, runs);
   for (Integration reference : references_of(campaign.integration)) {
     reference.max_steps = steps;
-    std::vector<ResultRow> made = make_again(campaign, reference, std::span(runs).first(1), crew);
+    std::vector<ResultRow> made = make_again(campaign, reference, std::span(runs).first(1), pool);
     if (made.front().status == Status::failed) continue;
-    std::ranges::move(make_again(campaign, reference, std::span(runs).subspan(1), crew),
+    std::ranges::move(make_again(campaign, reference, std::span(runs).subspan(1), pool),
                       std::back_inserter(made));
     accuracy = compare_rows(names, rows, made);
     accuracy.reference_method = reference.method;
@@ -158,7 +162,7 @@ std::size_t count_repeated(const Campaign& campaign, std::size_t runs) {
 }
 
 std::optional<Accuracy> measure_accuracy(const Campaign& campaign, const Results& results,
-                                         const Crew& crew) {
+                                         const ThreadPool& pool) {
   const auto began = std::chrono::steady_clock::now();
   std::vector<ResultRow> rows;
   const std::size_t count = count_repeated(campaign, results.size());
@@ -167,7 +171,7 @@ std::optional<Accuracy> measure_accuracy(const Campaign& campaign, const Results
       rows.push_back(results.row(row));
   results.release();
   if (rows.empty()) return std::nullopt;
-  Accuracy accuracy = compare_with_reference(campaign, rows, crew);
+  Accuracy accuracy = compare_with_reference(campaign, rows, pool);
   accuracy.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return accuracy.runs > 0 ? std::optional(std::move(accuracy)) : std::nullopt;

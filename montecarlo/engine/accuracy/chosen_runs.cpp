@@ -13,12 +13,12 @@ namespace {
 using Rows = std::vector<std::size_t>;
 using Quantity = OutputColumn::Quantity;
 
-/// The rows of the least keys, up to a number of them; of equal keys the first row.
+/// Keeps the rows of the `most` least keys; ties go to the first row.
 class Least {
 public:
   explicit Least(std::size_t most) : most_(most) {}
 
-  /// @param key NaN: the row does not count
+  /// @param key NaN: the row is ignored
   void offer(double key, std::size_t row) {
     if (std::isnan(key)) return;
     if (heap_.size() == most_ && !(std::pair(key, row) < heap_.front())) return;
@@ -29,7 +29,7 @@ public:
     heap_.pop_back();
   }
 
-  /// The least first.
+  /// The least key first.
   [[nodiscard]] Rows rows() && {
     std::ranges::sort_heap(heap_);
     Rows rows;
@@ -39,10 +39,10 @@ public:
 
 private:
   std::size_t most_;
-  std::vector<std::pair<double, std::size_t>> heap_; ///< the largest in front
+  std::vector<std::pair<double, std::size_t>> heap_; ///< largest in front
 };
 
-/// The first of each list, then the second of each, and so on.
+/// The first element of each list, then the second of each, and so on.
 Rows interleaved(const std::vector<Rows>& lists) {
   Rows all;
   std::size_t longest = 0;
@@ -53,7 +53,7 @@ Rows interleaved(const std::vector<Rows>& lists) {
   return all;
 }
 
-/// The rows that may be chosen, by what they have in common.
+/// The rows that may be chosen, and the lists they are chosen from.
 class Candidates {
 public:
   Candidates(const Campaign& campaign, const Results& results, std::size_t count)
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  /// Calls take(row) for every row that may be chosen, and lets go of what has been read.
+  /// Calls take(row) for every row that may be chosen, and releases the columns already read.
   template <class Take> void for_each_row(const Take& take) const {
     constexpr std::size_t window = 1 << 16;
     for (std::size_t first = 0; first < usable_.size(); first += window) {
@@ -172,7 +172,7 @@ private:
     return interleaved({least(gap), least(slowest), least(latest)});
   }
 
-  /// What makes (x − shift) · scale of a column 0 on average and 1 as the standard deviation.
+  /// Shift and scale of a column: (x − shift) · scale has mean 0 and standard deviation 1.
   struct Scaled {
     const Column* column;
     double shift, scale;

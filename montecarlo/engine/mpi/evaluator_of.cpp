@@ -2,10 +2,10 @@
 
 namespace wingspread {
 
-// In a file of its own and in no unity build: the program that is built with MPI has another definition of it, and the
-// linker takes this one from the library only where it has found none.
-std::unique_ptr<Evaluator> evaluator_of(const Crew& crew, const std::atomic<bool>& stop) {
-  return std::make_unique<ThreadEvaluator>(crew, stop);
+// A file of its own, outside unity builds: the MPI program defines this function too, and the linker takes this one
+// from the library only if no other exists.
+std::unique_ptr<Evaluator> evaluator_of(const ThreadPool& pool, const std::atomic<bool>& stop) {
+  return std::make_unique<ThreadEvaluator>(pool, stop);
 }
 
 } // namespace wingspread

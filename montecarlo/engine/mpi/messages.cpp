@@ -4,15 +4,15 @@
 
 namespace wingspread {
 
-std::string word(Told kind) {
-  Packer packer;
+std::string bare_message(MessageKind kind) {
+  Serializer packer;
   packer.put(kind);
   return packer.take();
 }
 
 std::string open_message(const PlanDescription& description) {
-  Packer packer;
-  packer.put(Told::open);
+  Serializer packer;
+  packer.put(MessageKind::open);
   packer.put(description.campaign);
   packer.put(description.recipe);
   packer.put(description.own_points);
@@ -22,7 +22,7 @@ std::string open_message(const PlanDescription& description) {
   return packer.take();
 }
 
-PlanDescription take_description(Unpacker& message) {
+PlanDescription read_description(Deserializer& message) {
   PlanDescription description;
   description.campaign = message.take_text();
   description.recipe = message.take_text();
@@ -34,8 +34,8 @@ PlanDescription take_description(Unpacker& message) {
 }
 
 std::string chunk_message(const Chunk& chunk, const RunPlan& plan) {
-  Packer packer;
-  packer.put(Told::chunk);
+  Serializer packer;
+  packer.put(MessageKind::chunk);
   packer.put(chunk);
   if (plan.has_own_points()) {
     std::vector<Tails> point(plan.campaign().dispersions.size());
@@ -47,17 +47,17 @@ std::string chunk_message(const Chunk& chunk, const RunPlan& plan) {
   return packer.take();
 }
 
-Chunk take_chunk(Unpacker& message) { return message.take<Chunk>(); }
+Chunk read_chunk(Deserializer& message) { return message.take<Chunk>(); }
 
-std::vector<Tails> take_points(Unpacker& message, long runs, std::size_t dispersions) {
+std::vector<Tails> read_points(Deserializer& message, long runs, std::size_t dispersions) {
   std::vector<Tails> points(static_cast<std::size_t>(runs) * dispersions);
   for (Tails& u : points) u = message.take<Tails>();
   return points;
 }
 
 std::string report_message(const Report& report) {
-  Packer packer;
-  packer.put(Told::report);
+  Serializer packer;
+  packer.put(MessageKind::report);
   packer.put(report.wanted);
   packer.put(report.stopped);
   packer.put(report.finished.size());
@@ -69,7 +69,7 @@ std::string report_message(const Report& report) {
   return packer.take();
 }
 
-Report take_report(Unpacker& message) {
+Report read_report(Deserializer& message) {
   Report report;
   report.wanted = message.take<long>();
   report.stopped = message.take<bool>();
@@ -83,14 +83,14 @@ Report take_report(Unpacker& message) {
 }
 
 std::string closed_message(const Closing& closing) {
-  Packer packer;
-  packer.put(Told::closed);
+  Serializer packer;
+  packer.put(MessageKind::closed);
   packer.put(closing.occupancy);
   packer.put(closing.failure);
   return packer.take();
 }
 
-Closing take_closing(Unpacker& message) {
+Closing read_closing(Deserializer& message) {
   Closing closing;
   closing.occupancy = message.take<Occupancy>();
   closing.failure = message.take_text();

@@ -1,16 +1,16 @@
-/// What the ranks of a job tell each other.
+/// The messages between the ranks of a job.
 ///
 ///   rank 0 → another                                    another → rank 0
-///   open    a plan, by its description
-///   chunk   runs to make, with their points where       report  chunks that it has finished, and how
-///           the plan has points of its own                      many more it wants
+///   open    description of a plan
+///   chunk   runs to make, with their points if the      report  finished chunks, and how many more are wanted
+///           plan has points of its own
 ///   stop    begin no further run
-///   close   no more chunks of this plan will come       closed  all that was begun has been reported
+///   close   no more chunks of this plan will come       closed  everything begun has been reported
 ///   leave   the job is done
 #pragma once
 
-#include "montecarlo/engine/mpi/parcel.hpp"
-#include "montecarlo/engine/runs/chunk_team.hpp"
+#include "montecarlo/engine/mpi/serializer.hpp"
+#include "montecarlo/engine/runs/chunk_scheduler.hpp"
 
 #include <string>
 #include <string_view>
@@ -18,32 +18,35 @@
 
 namespace wingspread {
 
-enum class Told : unsigned char { open, chunk, stop, close, leave, report, closed };
+enum class MessageKind : unsigned char { open, chunk, stop, close, leave, report, closed };
 
-/// What a message is; taken out of it first.
-[[nodiscard]] inline Told kind_of(Unpacker& message) { return message.take<Told>(); }
+/// Reads the kind of a message. To be read first.
+[[nodiscard]] inline MessageKind kind_of(Deserializer& message) {
+  return message.take<MessageKind>();
+}
 
-/// A message of no more than its kind.
-[[nodiscard]] std::string word(Told kind);
+/// A message that consists of its kind only.
+[[nodiscard]] std::string bare_message(MessageKind kind);
 
-/// How a plan's runs are to be made, and of what a rank makes the plan again.
+/// Everything another rank needs to rebuild a plan and make its runs.
 struct PlanDescription {
-  std::string campaign;    ///< as JSON, resolved: what runs depend on
+  std::string campaign;    ///< resolved JSON, less what runs do not depend on
   std::string recipe;      ///< of its measure; empty: the campaign's outputs
-  bool own_points = false; ///< come with every chunk
+  bool own_points = false; ///< points come with every chunk
   bool wants_csv = false;
-  int threads = 0; ///< 0: as many as a rank has
+  int threads = 0; ///< 0: as many as the rank has
   InstructionSet set = InstructionSet::scalar;
   bool operator==(const PlanDescription&) const = default;
 };
 [[nodiscard]] std::string open_message(const PlanDescription& description);
-[[nodiscard]] PlanDescription take_description(Unpacker& message);
+[[nodiscard]] PlanDescription read_description(Deserializer& message);
 
-/// @param plan whose points go with it, if it has its own
+/// @param plan its points are added if it has its own
 [[nodiscard]] std::string chunk_message(const Chunk& chunk, const RunPlan& plan);
-[[nodiscard]] Chunk take_chunk(Unpacker& message);
-/// The points that come behind a chunk, run by run. @param dispersions of each
-[[nodiscard]] std::vector<Tails> take_points(Unpacker& message, long runs, std::size_t dispersions);
+[[nodiscard]] Chunk read_chunk(Deserializer& message);
+/// The points after a chunk, run by run. @param dispersions of the campaign
+[[nodiscard]] std::vector<Tails> read_points(Deserializer& message, long runs,
+                                             std::size_t dispersions);
 
 struct FinishedChunk {
   Chunk chunk;
@@ -52,19 +55,19 @@ struct FinishedChunk {
 };
 
 struct Report {
-  long wanted = 0; ///< chunks that it wants now, besides those that it has
+  long wanted = 0; ///< chunks wanted now, besides those the rank has
   std::vector<FinishedChunk> finished{};
-  bool stopped = false; ///< it was told so by a signal of its own
+  bool stopped = false; ///< the rank received a signal
 };
 [[nodiscard]] std::string report_message(const Report& report);
-[[nodiscard]] Report take_report(Unpacker& message);
+[[nodiscard]] Report read_report(Deserializer& message);
 
-/// How it went with a plan.
+/// The end of a plan on a rank.
 struct Closing {
   Occupancy occupancy{};
-  std::string failure{}; ///< what broke it off; empty: nothing
+  std::string failure{}; ///< error that ended the rank's work; empty: none
 };
 [[nodiscard]] std::string closed_message(const Closing& closing);
-[[nodiscard]] Closing take_closing(Unpacker& message);
+[[nodiscard]] Closing read_closing(Deserializer& message);
 
 } // namespace wingspread

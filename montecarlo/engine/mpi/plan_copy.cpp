@@ -9,8 +9,8 @@
 namespace wingspread {
 namespace {
 
-/// What runs depend on, and no more. Stamped, as the campaign of results that there are: its outputs are those that
-/// it has, and no others are added.
+/// The parts of a campaign that runs depend on. Stamped like stored results, so that no outputs are added when it is
+/// read.
 std::string text_of(const Campaign& campaign) {
   Json json = campaign.resolved;
   for (const char* key :
@@ -23,11 +23,12 @@ std::string text_of(const Campaign& campaign) {
 
 } // namespace
 
-std::optional<PlanDescription> describe(const RunPlan& plan, const Crew& crew, bool wants_csv) {
+std::optional<PlanDescription> describe(const RunPlan& plan, const ThreadPool& pool,
+                                        bool wants_csv) {
   const std::string recipe = plan.measure() ? plan.measure()->recipe : "";
   if (plan.measure() && recipe.empty()) return std::nullopt;
   return PlanDescription{
-      text_of(plan.campaign()), recipe, plan.has_own_points(), wants_csv, crew.threads, crew.set};
+      text_of(plan.campaign()), recipe, plan.has_own_points(), wants_csv, pool.threads, pool.set};
 }
 
 PlanCopy::PlanCopy(PlanDescription description, const MeasureMaker& make_measure)
@@ -41,15 +42,15 @@ PlanCopy::PlanCopy(PlanDescription description, const MeasureMaker& make_measure
   }
 }
 
-Crew PlanCopy::crew() const {
+ThreadPool PlanCopy::pool() const {
   const std::vector<InstructionSet>& here = instruction_sets();
   const bool has_it = std::ranges::find(here, description_.set) != here.end();
   return {description_.threads, has_it ? description_.set : here.back()};
 }
 
-void PlanCopy::expect(const Chunk& chunk, Unpacker& message) {
+void PlanCopy::expect(const Chunk& chunk, Deserializer& message) {
   if (!description_.own_points) return;
-  Points points{chunk.runs, take_points(message, chunk.runs.size(), campaign_.dispersions.size())};
+  Points points{chunk.runs, read_points(message, chunk.runs.size(), campaign_.dispersions.size())};
   const std::lock_guard lock(guard_);
   points_.emplace(chunk.runs.first, std::move(points));
 }

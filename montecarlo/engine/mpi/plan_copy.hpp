@@ -1,4 +1,4 @@
-/// A plan that goes to another process: told in words, and made again of them.
+/// Sends a plan to another process, which rebuilds it from its description.
 #pragma once
 
 #include "montecarlo/engine/mpi/messages.hpp"
@@ -11,14 +11,14 @@
 
 namespace wingspread {
 
-/// @return none of a plan that cannot be told: its measure has no recipe
-[[nodiscard]] std::optional<PlanDescription> describe(const RunPlan& plan, const Crew& crew,
+/// @return nothing if the plan cannot be rebuilt: its measure has no recipe
+[[nodiscard]] std::optional<PlanDescription> describe(const RunPlan& plan, const ThreadPool& pool,
                                                       bool wants_csv);
 
-/// The plan again, made of its description. Its runs have the bits of the first one's.
+/// A plan rebuilt from its description. Its runs have the same bits.
 class PlanCopy {
 public:
-  /// @param make_measure makes the plan's measure, if it has one
+  /// @param make_measure builds the plan's measure, if it has one
   /// @throws SpecError, and what `make_measure` throws
   PlanCopy(PlanDescription description, const MeasureMaker& make_measure);
   PlanCopy(const PlanCopy&) = delete;
@@ -27,11 +27,12 @@ public:
 
   [[nodiscard]] const PlanDescription& description() const { return description_; }
   [[nodiscard]] const RunPlan& plan() const { return *plan_; }
-  /// The crew that it asks for, with the instructions that this processor has.
-  [[nodiscard]] Crew crew() const;
+  /// The thread pool asked for, with instructions that this processor has.
+  [[nodiscard]] ThreadPool pool() const;
 
-  /// Takes the points of a chunk that has come, behind it in the message; and forgets them when it is done. On any thread.
-  void expect(const Chunk& chunk, Unpacker& message);
+  /// Stores the points of a chunk, which follow it in the message. On any thread.
+  void expect(const Chunk& chunk, Deserializer& message);
+  /// Drops the points of a finished chunk. On any thread.
   void forget(const Chunk& chunk);
 
 private:
@@ -44,7 +45,7 @@ private:
   PlanDescription description_;
   Campaign campaign_;
   mutable std::mutex guard_;
-  std::map<long, Points> points_; ///< by the first run of their chunk; guarded
+  std::map<long, Points> points_; ///< by first run of the chunk; guarded
   std::optional<RunPlan> plan_;
 };
 

@@ -2,7 +2,7 @@
 
 #include "montecarlo/engine/mpi/plan_copy.hpp"
 #include "montecarlo/foundation/formats/machine_error.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <fmt/format.h>
 
@@ -17,32 +17,33 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// Between looks at the wire when nothing came: while this rank's threads make runs they are not to be disturbed, and
-/// the others have chunks in store; when they have none left, an answer is wanted.
+/// Pauses between polls of the transport. Heuristic: 4 ms while rank 0's threads work, so that polling (25 µs each)
+/// takes below 1 % of a processor and other ranks have chunks in store meanwhile; 50 µs at the end, when only answers
+/// are missing. A longer pause starves the ranks, a shorter one takes time from rank 0's threads.
 constexpr microseconds between_looks{4000}, at_the_end{50};
 
-/// One plan's chunks, handed out to the ranks that ask for them.
+/// Sends the chunks of one plan to the ranks that ask for them.
 class Dispatch {
 public:
-  Dispatch(Wire& wire, const RunPlan& plan, RunRange range, RangeDesk& desk)
-      : wire_(wire), plan_(plan), range_(range), desk_(desk), left_(range.size()),
-        others_(static_cast<std::size_t>(wire.size())) {}
+  Dispatch(Transport& transport, const RunPlan& plan, RunRange range, RangeQueue& queue)
+      : transport_(transport), plan_(plan), range_(range), queue_(queue), left_(range.size()),
+        others_(static_cast<std::size_t>(transport.size())) {}
 
-  /// @param ranks of the others, how many; the first of them
+  /// @param ranks number of other ranks to use, the first ones
   void open(const PlanDescription& description, long ranks) {
     const std::string message = open_message(description);
     for (int rank = 1; rank <= ranks; ++rank) {
       other(rank).is_open = true;
-      wire_.send(rank, message);
+      transport_.send(rank, message);
     }
     open_ = ranks;
   }
 
-  /// Until all have closed. @param own_done whether this rank's own threads are done
+  /// Receives and sends until all ranks have closed. @param own_done whether this rank's threads have ended
   void run(const std::atomic<bool>& own_done) {
     while (open_ > 0) {
       bool something = false;
-      while (const auto message = wire_.receive()) {
+      while (const auto message = transport_.receive()) {
         take(*message);
         something = true;
       }
@@ -52,7 +53,7 @@ public:
   }
 
   [[nodiscard]] const Occupancy& occupancy() const { return occupancy_; }
-  /// @throws what the sink did, else what another rank reports
+  /// @throws the sink's exception, else the error of another rank
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
     if (!failure_.empty()) throw MachineError(failure_);
@@ -60,30 +61,30 @@ public:
 
 private:
   struct Other {
-    long wanted = 0;      ///< chunks that it waits for
-    long held = 0;        ///< runs that it has been given and not reported
-    bool is_open = false; ///< it has not said that it has closed
+    long wanted = 0;      ///< chunks the rank waits for
+    long held = 0;        ///< runs sent to the rank and not reported
+    bool is_open = false; ///< it has not sent `closed`
     bool told_close = false, told_stop = false;
   };
   [[nodiscard]] Other& other(int rank) { return others_[static_cast<std::size_t>(rank)]; }
 
   void take(const Message& message) {
-    Unpacker bytes(message.bytes);
-    const Told kind = kind_of(bytes);
-    if (kind == Told::report) take_in(message.from, take_report(bytes));
-    if (kind == Told::closed) close(message.from, take_closing(bytes));
+    Deserializer bytes(message.bytes);
+    const MessageKind kind = kind_of(bytes);
+    if (kind == MessageKind::report) receive_report(message.from, read_report(bytes));
+    if (kind == MessageKind::closed) close(message.from, read_closing(bytes));
   }
 
-  void take_in(int from, Report&& report) {
+  void receive_report(int from, Report&& report) {
     other(from).wanted += report.wanted;
-    if (report.stopped) desk_.break_off();
+    if (report.stopped) queue_.break_off();
     for (const FinishedChunk& each : report.finished) other(from).held -= each.chunk.runs.size();
     try {
       for (FinishedChunk& each : report.finished)
-        desk_.finish(each.chunk, std::move(each.batch), each.complete);
+        queue_.finish(each.chunk, std::move(each.batch), each.complete);
     } catch (...) {
       if (!thrown_) thrown_ = std::current_exception();
-      desk_.break_off();
+      queue_.break_off();
     }
   }
 
@@ -95,44 +96,45 @@ private:
       failure_ = fmt::format("rank {}: {}", from, closing.failure);
   }
 
-  /// One chunk to each in turn, as long as there are chunks and ranks that want them. Towards the end none may hold more
-  /// than its share of what is left, lest the others wait for it.
+  /// Sends one chunk to each rank in turn while chunks and requests are left. Near the end no rank may hold more than
+  /// its share of the runs left, so that the others need not wait for it.
   void hand_out() {
-    const bool over = desk_.stopped() || desk_.is_exhausted();
+    const bool over = queue_.stopped() || queue_.is_exhausted();
     bool handed = !over;
     while (handed) {
       handed = false;
       for (std::size_t i = 1; i < others_.size(); ++i) {
         if (others_[i].wanted == 0 || others_[i].held > left_ / std::ssize(others_)) continue;
-        const std::optional<Chunk> chunk = desk_.claim();
+        const std::optional<Chunk> chunk = queue_.claim();
         if (!chunk) break;
         --others_[i].wanted;
         others_[i].held += chunk->runs.size();
         left_ = range_.last - chunk->runs.last;
-        wire_.send(static_cast<int>(i), chunk_message(*chunk, plan_));
+        transport_.send(static_cast<int>(i), chunk_message(*chunk, plan_));
         handed = true;
       }
     }
-    if (over || desk_.stopped() || desk_.is_exhausted()) end_all();
+    if (over || queue_.stopped() || queue_.is_exhausted()) end_all();
   }
 
   void end_all() {
-    const bool stopped = desk_.stopped();
+    const bool stopped = queue_.stopped();
     for (std::size_t i = 1; i < others_.size(); ++i) {
       Other& each = others_[i];
       if (!each.is_open) continue;
       if (stopped && !std::exchange(each.told_stop, true))
-        wire_.send(static_cast<int>(i), word(Told::stop));
-      if (!std::exchange(each.told_close, true)) wire_.send(static_cast<int>(i), word(Told::close));
+        transport_.send(static_cast<int>(i), bare_message(MessageKind::stop));
+      if (!std::exchange(each.told_close, true))
+        transport_.send(static_cast<int>(i), bare_message(MessageKind::close));
     }
   }
 
-  Wire& wire_;
+  Transport& transport_;
   const RunPlan& plan_;
   const RunRange range_;
-  RangeDesk& desk_;
-  long left_;                 ///< runs that were not claimed when a chunk was last handed out
-  std::vector<Other> others_; ///< by rank; the first is this one
+  RangeQueue& queue_;
+  long left_;                 ///< runs unclaimed when a chunk was last sent
+  std::vector<Other> others_; ///< by rank; entry 0 is unused
   long open_ = 0;
   Occupancy occupancy_{};
   std::exception_ptr thrown_;
@@ -142,21 +144,21 @@ private:
 } // namespace
 
 long RankEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
-  const int team = team_size(crew_.threads);
-  const auto description = describe(plan, crew_, sink.wants_csv);
+  const int team = thread_count(pool_.threads);
+  const auto description = describe(plan, pool_, sink.wants_csv);
   // As many ranks as there can be chunks for, and this one.
-  const long ranks = description ? std::min<long>(wire_->size() - 1, range.size() / team) : 0;
-  RangeDesk desk(range, static_cast<int>((ranks + 1) * team), sink, stop_);
-  Dispatch dispatch(*wire_, plan, range, desk);
+  const long ranks = description ? std::min<long>(transport_->size() - 1, range.size() / team) : 0;
+  RangeQueue queue(range, static_cast<int>((ranks + 1) * team), sink, stop_);
+  Dispatch dispatch(*transport_, plan, range, queue);
   if (ranks > 0) dispatch.open(*description, ranks);
   std::exception_ptr thrown;
   std::atomic<bool> own_done = false;
   std::thread own([&] {
     try {
-      occupancy_ += make_chunks(plan, crew_, sink.wants_csv, desk);
+      occupancy_ += make_chunks(plan, pool_, sink.wants_csv, queue);
     } catch (...) {
       thrown = std::current_exception();
-      desk.break_off();
+      queue.break_off();
     }
     own_done = true;
   });
@@ -165,11 +167,12 @@ long RankEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& s
   occupancy_ += dispatch.occupancy();
   if (thrown) std::rethrow_exception(thrown);
   dispatch.rethrow();
-  return desk.done();
+  return queue.done();
 }
 
-void dismiss(Wire& wire) {
-  for (int rank = 1; rank < wire.size(); ++rank) wire.send(rank, word(Told::leave));
+void dismiss(Transport& transport) {
+  for (int rank = 1; rank < transport.size(); ++rank)
+    transport.send(rank, bare_message(MessageKind::leave));
 }
 
 } // namespace wingspread

@@ -1,35 +1,36 @@
-/// The ranks of a job, as what makes the runs of a command.
+/// The evaluator that uses all ranks of an MPI job.
 #pragma once
 
-#include "montecarlo/engine/mpi/wire.hpp"
+#include "montecarlo/engine/mpi/transport.hpp"
 #include "montecarlo/engine/runs/evaluator.hpp"
 
 #include <memory>
 
 namespace wingspread {
 
-/// Rank 0's. It hands out chunks to the ranks that ask for them, makes others with its own threads, and puts all in
-/// order; the sink is called on this rank alone. A plan that cannot be told to others it makes by itself.
+/// Rank 0's evaluator. Sends chunks to the ranks that ask for them, makes others with its own threads, and puts all
+/// in order. Only rank 0 calls the sink. A plan that cannot be described is made on rank 0 alone.
 class RankEvaluator final : public Evaluator {
 public:
-  /// @param stop once true, no further run is begun on any rank
-  RankEvaluator(std::unique_ptr<Wire> wire, Crew crew, const std::atomic<bool>& stop)
-      : wire_(std::move(wire)), crew_(crew), stop_(stop) {}
+  /// @param stop once true, no further run begins on any rank
+  RankEvaluator(std::unique_ptr<Transport> transport, ThreadPool pool,
+                const std::atomic<bool>& stop)
+      : transport_(std::move(transport)), pool_(pool), stop_(stop) {}
 
-  /// @throws besides, MachineError for what goes wrong on another rank
+  /// @throws also MachineError for an error on another rank
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
 
   [[nodiscard]] const Occupancy& occupancy() const override { return occupancy_; }
-  [[nodiscard]] int ranks() const override { return wire_->size(); }
+  [[nodiscard]] int ranks() const override { return transport_->size(); }
 
 private:
-  std::unique_ptr<Wire> wire_;
-  Crew crew_;
+  std::unique_ptr<Transport> transport_;
+  ThreadPool pool_;
   const std::atomic<bool>& stop_;
   Occupancy occupancy_{};
 };
 
-/// Tells all others that the job is done: serve() returns there. For rank 0.
-void dismiss(Wire& wire);
+/// Tells all other ranks that the job is done, so that serve() returns there. On rank 0.
+void dismiss(Transport& transport);
 
 } // namespace wingspread

@@ -1,7 +1,7 @@
 #include "montecarlo/engine/mpi/serve.hpp"
 
 #include "montecarlo/engine/mpi/plan_copy.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -17,28 +17,28 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// How long to wait before the next look at the wire, which takes some 25 µs of the processor: while threads make runs
-/// they are not to be disturbed, and whenever one takes a chunk from the store there is a look besides; while they have
-/// nothing to do, an answer is wanted.
+/// Pauses before polling the transport, which takes some 25 µs. Heuristic: 8 ms while threads work (a claimed chunk
+/// triggers a poll besides), 50 µs while they are idle. A longer idle pause delays answers, a shorter busy one takes
+/// time from the threads.
 constexpr microseconds while_busy{8000}, while_idle{50};
 
-/// Chunks in store for a thread, at first and at most: as many as it takes not to wait for a message's way, which
-/// depends on how long runs take.
+/// Chunks in store per thread, at first and at most. Heuristic: enough that no thread waits for a message; the store
+/// doubles up to the maximum if one did. Too few starve fast runs, too many make the ranks end at different times.
 constexpr long first_store = 4, most_store = 64;
 
-/// Waits for a message: the longer, the longer none has come. Then an answer is had at once where messages follow each
-/// other, and a rank that has nothing to do while rank 0 works out statistics leaves the processor to it.
-Message next_message(Wire& wire) {
+/// Waits for a message, polling less often the longer none came. So answers come fast while messages follow each
+/// other, and an idle rank leaves the processor to rank 0's statistics.
+Message next_message(Transport& transport) {
   for (microseconds wait = while_idle;; wait = std::min(2 * wait, while_busy)) {
-    if (auto message = wire.receive()) return std::move(*message);
+    if (auto message = transport.receive()) return std::move(*message);
     std::this_thread::sleep_for(wait);
   }
 }
 
-/// The chunks that a rank has in store, and those that its team has finished.
-class StoreDesk final : public ChunkDesk {
+/// A rank's chunks in store, and the chunks its threads have finished.
+class LocalQueue final : public ChunkQueue {
 public:
-  explicit StoreDesk(const std::atomic<bool>& stop) : stop_(stop) {}
+  explicit LocalQueue(const std::atomic<bool>& stop) : stop_(stop) {}
 
   [[nodiscard]] std::optional<Chunk> claim() override {
     const std::lock_guard lock(mutex_);
@@ -85,7 +85,7 @@ public:
     const std::lock_guard lock(mutex_);
     return std::ssize(store_);
   }
-  /// Whether a thread has waited for a chunk since this was last asked.
+  /// Whether a thread has waited for a chunk since the last call.
   [[nodiscard]] bool was_short() {
     const std::lock_guard lock(mutex_);
     return std::exchange(was_short_, false);
@@ -94,7 +94,7 @@ public:
     const std::lock_guard lock(mutex_);
     return std::exchange(finished_, {});
   }
-  /// Waits a while for something to change.
+  /// Waits up to the pause for a change.
   void pause() {
     std::unique_lock lock(mutex_);
     if (!finished_.empty()) return;
@@ -112,119 +112,121 @@ private:
   bool ended_ = false, has_claimed_ = false, was_short_ = false;
 };
 
-/// One plan, from its opening to its closing. This thread is on the wire, a team beside it makes the runs.
+/// One plan, from `open` to `closed`. The calling thread handles messages; the thread pool makes the runs.
 class Session {
 public:
-  Session(Wire& wire, PlanCopy& copy, const std::atomic<bool>& stop)
-      : wire_(wire), copy_(copy), stop_(stop), desk_(stop),
-        threads_(team_size(copy.crew().threads)) {}
+  Session(Transport& transport, PlanCopy& copy, const std::atomic<bool>& stop)
+      : transport_(transport), copy_(copy), stop_(stop), queue_(stop),
+        threads_(thread_count(copy.pool().threads)) {}
 
   void run() {
-    std::thread team([this] { work(); });
-    while (!team_done_) {
-      while (const auto message = wire_.receive()) heed(Unpacker(message->bytes));
+    std::thread worker([this] { work(); });
+    while (!work_done_) {
+      while (const auto message = transport_.receive()) handle(Deserializer(message->bytes));
       report();
-      if (!team_done_) desk_.pause();
+      if (!work_done_) queue_.pause();
     }
-    team.join();
+    worker.join();
     report();
     while (!closing_) { // it ended by itself: a signal, an exception
-      const Message message = next_message(wire_);
-      heed(Unpacker(message.bytes));
+      const Message message = next_message(transport_);
+      handle(Deserializer(message.bytes));
     }
-    wire_.send(0, closed_message(end_));
+    transport_.send(0, closed_message(end_));
   }
 
 private:
   void work() noexcept {
     try {
       end_.occupancy =
-          make_chunks(copy_.plan(), copy_.crew(), copy_.description().wants_csv, desk_);
+          make_chunks(copy_.plan(), copy_.pool(), copy_.description().wants_csv, queue_);
     } catch (const std::bad_alloc&) {
       end_.failure = "found no memory left, expected more of it";
     } catch (const std::exception& error) {
       end_.failure = error.what();
     }
-    team_done_ = true;
-    desk_.break_off();
+    work_done_ = true;
+    queue_.break_off();
   }
 
-  void heed(Unpacker message) {
+  void handle(Deserializer message) {
     switch (kind_of(message)) {
-    case Told::chunk: {
-      const Chunk chunk = take_chunk(message);
+    case MessageKind::chunk: {
+      const Chunk chunk = read_chunk(message);
       copy_.expect(chunk, message);
-      desk_.add(chunk);
+      queue_.add(chunk);
       --asked_;
       break;
     }
-    case Told::stop:
-      desk_.break_off();
+    case MessageKind::stop:
+      queue_.break_off();
       break;
-    case Told::close:
+    case MessageKind::close:
       closing_ = true;
-      desk_.end();
+      queue_.end();
       break;
     default:
       break;
     }
   }
 
-  /// Tells what is finished, and asks for as many chunks as the store lacks.
+  /// Sends finished chunks, and asks for as many chunks as the store lacks.
   void report() {
-    Report report{.finished = desk_.take_finished()};
+    Report report{.finished = queue_.take_finished()};
     for (const FinishedChunk& each : report.finished) copy_.forget(each.chunk);
-    const bool over = closing_ || team_done_ || desk_.stopped();
-    if (desk_.was_short()) store_each_ = std::min(2 * store_each_, most_store);
-    if (!over) report.wanted = std::max(0L, threads_ * store_each_ - desk_.in_store() - asked_);
-    report.stopped = (stop_ || team_done_) && !closing_ && !std::exchange(told_, true);
+    const bool over = closing_ || work_done_ || queue_.stopped();
+    if (queue_.was_short()) store_per_thread_ = std::min(2 * store_per_thread_, most_store);
+    if (!over)
+      report.wanted = std::max(0L, threads_ * store_per_thread_ - queue_.in_store() - asked_);
+    report.stopped = (stop_ || work_done_) && !closing_ && !std::exchange(stop_reported_, true);
     if (report.finished.empty() && report.wanted == 0 && !report.stopped) return;
     asked_ += report.wanted;
-    wire_.send(0, report_message(report));
+    transport_.send(0, report_message(report));
   }
 
-  Wire& wire_;
+  Transport& transport_;
   PlanCopy& copy_;
   const std::atomic<bool>& stop_;
-  StoreDesk desk_;
+  LocalQueue queue_;
   const long threads_;
-  long store_each_ = first_store;
-  long asked_ = 0; ///< chunks that were asked for and have not come
-  bool closing_ = false, told_ = false;
+  long store_per_thread_ = first_store;
+  long asked_ = 0; ///< chunks asked for that have not arrived
+  bool closing_ = false, stop_reported_ = false;
   Closing end_{};
-  std::atomic<bool> team_done_ = false;
+  std::atomic<bool> work_done_ = false;
 };
 
-/// Says what is wrong with a plan, and waits until rank 0 closes it.
-void refuse(Wire& wire, const std::string& why) {
-  wire.send(0, report_message({.stopped = true}));
+/// Reports why a plan cannot be made here, and waits until rank 0 closes it.
+void refuse(Transport& transport, const std::string& why) {
+  transport.send(0, report_message({.stopped = true}));
   while (true) {
-    const Message message = next_message(wire);
-    Unpacker bytes(message.bytes);
-    if (kind_of(bytes) == Told::close) return wire.send(0, closed_message({.failure = why}));
+    const Message message = next_message(transport);
+    Deserializer bytes(message.bytes);
+    if (kind_of(bytes) == MessageKind::close)
+      return transport.send(0, closed_message({.failure = why}));
   }
 }
 
 } // namespace
 
-void serve(Wire& wire, const MeasureMaker& make_measure, const std::atomic<bool>& stop) {
+void serve(Transport& transport, const MeasureMaker& make_measure, const std::atomic<bool>& stop) {
   std::optional<PlanCopy> copy; // of the last plan, which often comes again
   while (true) {
-    const Message message = next_message(wire);
-    Unpacker bytes(message.bytes);
-    const Told kind = kind_of(bytes);
-    if (kind == Told::leave) return;
-    if (kind != Told::open) continue;
-    PlanDescription description = take_description(bytes);
+    const Message message = next_message(transport);
+    Deserializer bytes(message.bytes);
+    const MessageKind kind = kind_of(bytes);
+    if (kind == MessageKind::leave) return;
+    if (kind != MessageKind::open) continue;
+    PlanDescription description = read_description(bytes);
     try {
       if (!copy || copy->description() != description)
         copy.emplace(std::move(description), make_measure);
     } catch (const std::exception& error) {
       copy.reset();
-      refuse(wire, error.what());
+      refuse(transport, error.what());
       continue;
     }
-    Session(wire, *copy, stop).run();
+    Session(transport, *copy, stop).run();
   }
 }
 

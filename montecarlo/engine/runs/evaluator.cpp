@@ -1,14 +1,14 @@
 #include "montecarlo/engine/runs/evaluator.hpp"
 
-#include "montecarlo/engine/runs/chunk_team.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/engine/runs/chunk_scheduler.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 
 namespace wingspread {
 
 long ThreadEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
-  RangeDesk desk(range, team_size(crew_.threads), sink, stop_);
-  occupancy_ += make_chunks(plan, crew_, sink.wants_csv, desk);
-  return desk.done();
+  RangeQueue queue(range, thread_count(pool_.threads), sink, stop_);
+  occupancy_ += make_chunks(plan, pool_, sink.wants_csv, queue);
+  return queue.done();
 }
 
 } // namespace wingspread

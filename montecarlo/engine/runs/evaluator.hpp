@@ -1,5 +1,4 @@
-/// All runs of a plan, whoever makes them: the one way in which `run`, `margin`, `sensitivity` and
-/// `rare` have their runs made.
+/// The evaluator makes all runs of a plan. `run`, `margin`, `sensitivity` and `rare` use no other way.
 #pragma once
 
 #include "montecarlo/engine/runs/runner.hpp"
@@ -18,19 +17,19 @@ struct RunRange {
   bool operator==(const RunRange&) const = default;
 };
 
-/// Consecutive runs, done.
+/// Consecutive finished runs.
 struct Batch {
   std::vector<ResultRow> rows;
-  std::string csv; ///< their lines of runs.csv, where they are wanted
+  std::string csv; ///< their lines of runs.csv, if the sink wants them
 };
 
-/// Takes batches, one at a time and in the order of their runs, on any of the team's threads.
+/// Receives batches, one at a time and in the order of their runs, on any thread of the pool.
 struct BatchSink {
   std::function<void(const Batch&)> take;
-  bool wants_csv = false; ///< lines are made by the threads that make the runs
+  bool wants_csv = false; ///< let the threads that make the runs format the lines
 };
 
-/// Makes runs. What it hands on does not depend on how, or by how many, they are made.
+/// Makes runs. The batches do not depend on the number of threads or processes.
 class Evaluator {
 public:
   Evaluator() = default;
@@ -38,40 +37,37 @@ public:
   Evaluator& operator=(const Evaluator&) = delete;
   virtual ~Evaluator() = default;
 
-  /// Makes the runs of a range and hands them to the sink without a gap.
-  /// @return how many runs were handed on; fewer than the range has only when it was stopped
-  /// @throws what the sink throws, and what a run does (out of memory); then too the sink has had
-  ///   all batches up to there
+  /// Makes the runs of a range and delivers them to the sink without a gap.
+  /// @return runs delivered; fewer than the range only after a stop
+  /// @throws what the sink throws, and what a run throws (out of memory); all batches before that were delivered
   virtual long make(const RunPlan& plan, RunRange range, const BatchSink& sink) = 0;
 
-  /// How full the lanes were, in all that it has made.
+  /// How full the lanes were in all runs made so far.
   [[nodiscard]] virtual const Occupancy& occupancy() const = 0;
 
-  /// How many processes make them.
+  /// Number of processes that make runs.
   [[nodiscard]] virtual int ranks() const { return 1; }
 };
 
-/// How this machine makes them.
-struct Crew {
+/// The threads of a process and the instructions they use.
+struct ThreadPool {
   int threads = 0;                                ///< 0: as many as OpenMP offers
-  InstructionSet set = instruction_sets().back(); ///< how many runs a thread makes at once
+  InstructionSet set = instruction_sets().back(); ///< decides how many runs a thread makes at once
 };
 
-/// Threads of this process. They claim chunks of runs from a counter, so none waits for another, and
-/// fill their lanes from them without a pause; finished chunks are put in order before they are
-/// handed on.
+/// Makes runs on the threads of this process. Threads claim chunks from a shared counter, so none waits for another;
+/// finished chunks are put in order before delivery.
 class ThreadEvaluator final : public Evaluator {
 public:
-  /// @param stop once true, no further run is begun; what is done up to the first run that is
-  ///   missing is still handed on
-  ThreadEvaluator(Crew crew, const std::atomic<bool>& stop) : crew_(crew), stop_(stop) {}
+  /// @param stop once true, no further run begins; finished runs before the first missing one are still delivered
+  ThreadEvaluator(ThreadPool pool, const std::atomic<bool>& stop) : pool_(pool), stop_(stop) {}
 
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
 
   [[nodiscard]] const Occupancy& occupancy() const override { return occupancy_; }
 
 private:
-  Crew crew_;
+  ThreadPool pool_;
   const std::atomic<bool>& stop_;
   Occupancy occupancy_{};
 };

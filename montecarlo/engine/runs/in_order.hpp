@@ -1,4 +1,4 @@
-/// What several threads finish, handed on in the order of its numbers.
+/// Delivers batches in the order of their chunks.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -11,22 +11,21 @@
 
 namespace wingspread {
 
-/// Hands batches on in the order of their chunks, whichever order they are finished in; those that are finished
-/// before their turn wait. What may wait is bounded: a chunk far ahead of the oldest one that is not finished is not
-/// to be begun yet.
+/// Delivers batches in chunk order, whatever order they finish in. A batch that finishes early waits. The number
+/// waiting is bounded: a chunk too far ahead of the oldest unfinished one must not begin yet.
 class InOrder {
 public:
-  /// @param most_ahead chunks that may be begun beyond those that were handed on, ≥ 1
+  /// @param most_ahead most chunks begun beyond those delivered, ≥ 1
   InOrder(const BatchSink& sink, long most_ahead) : sink_(sink), most_ahead_(most_ahead) {}
 
-  /// Whether the chunk may be begun now.
+  /// Whether the chunk may begin now.
   [[nodiscard]] bool may_begin(long chunk) const {
     const std::lock_guard lock(mutex_);
     return chunk < next_ + most_ahead_;
   }
 
-  /// Waits until the chunk may be begun, or something ends all work.
-  /// @param ended asked ten times a second
+  /// Waits until the chunk may begin, or `ended()` is true.
+  /// @param ended called ten times a second
   template <class Ended> void wait_for(long chunk, const Ended& ended) {
     std::unique_lock lock(mutex_);
     const auto over = [&] { return chunk < next_ + most_ahead_ || ended(); };
@@ -34,7 +33,7 @@ public:
     }
   }
 
-  /// @param complete false when the chunk was broken off: nothing after it will be handed on
+  /// @param complete false if the chunk was cut short: later chunks are not delivered
   void finish(long chunk, Batch batch, bool complete) {
     const std::lock_guard lock(mutex_);
     waiting_.emplace(chunk, Finished{std::move(batch), complete});
@@ -42,7 +41,7 @@ public:
     moved_.notify_all();
   }
 
-  /// Runs handed on. @pre all threads are done
+  /// Runs delivered. @pre all threads have ended
   [[nodiscard]] long done() const { return done_; }
 
 private:

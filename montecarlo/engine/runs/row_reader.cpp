@@ -68,9 +68,8 @@ bool RowReader::next() {
   return true;
 }
 
-/// Goes to the next record that is to be read; false at the end, or at one that is to be dropped. What
-/// a crash cuts off is a part of the last line, for rows are written line by line: a quote that is open
-/// from an earlier line to the end of the file is a fault, and what follows it are rows.
+/// Reads the next record; false at the end, or at a record to drop. Rows are written line by line, so a crash cuts
+/// only the last line. A quote open from an earlier line is a fault, because the lines after it are rows.
 bool RowReader::next_wanted() {
   if (!csv_.next()) return false;
   unterminated_ = !csv_.terminated();

@@ -1,4 +1,4 @@
-/// runs.csv, row by row: as much of it in memory as a row is long.
+/// Reads runs.csv row by row, in the memory of one row.
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
@@ -13,23 +13,22 @@ namespace wingspread {
 class RowReader {
 public:
   /// Reads the header.
-  /// @param file name for the error messages
+  /// @param file name for error messages
   /// @pre the stream outlives the reader
   /// @throws SpecError as next() does
   RowReader(std::istream& in, std::string file, const ResultNames& names, UnterminatedRow last);
 
-  /// Reads the next row; false when there is none.
-  /// @throws SpecError for what read_results (results.hpp) throws it
+  /// Reads the next row. @return false at the end. @throws SpecError as read_results (results.hpp)
   [[nodiscard]] bool next();
-  /// The one that was read. The reference holds; the next one takes its place.
+  /// The row read last. The reference stays valid; next() overwrites the row.
   [[nodiscard]] const ResultRow& row() const { return row_; }
 
-  /// Length of the file up to the last complete line that was read; 0: no header.
+  /// Length of the file up to the last complete line read; 0: no header.
   [[nodiscard]] std::size_t complete_bytes() const { return complete_bytes_; }
-  /// Whether something follows after that, at the end of the file.
+  /// Whether bytes follow that line at the end of the file.
   [[nodiscard]] bool unterminated() const { return unterminated_; }
 
-  /// An error to throw about the current row.
+  /// An error about the current row, for the caller to throw.
   [[nodiscard]] SpecError error(const std::string& column, std::string found,
                                 std::string expected) const {
     return csv_.error(column, std::move(found), std::move(expected));

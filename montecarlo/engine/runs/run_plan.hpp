@@ -1,4 +1,4 @@
-/// What all runs of a campaign share: where each is drawn, how far it goes, and what is kept of it.
+/// What all runs of a campaign share: how to draw them, what to compute, and which outputs to keep.
 ///
 ///   run k → point of the unit cube → dependence → quantiles → draws (→ scene: campaign.hpp)
 #pragma once
@@ -17,48 +17,49 @@
 
 namespace wingspread {
 
-/// Another rule than the campaign's design that puts runs into the unit cube; pure.
-/// @param u one for each dispersion in their order, to be set, by both of its tails: each > 0
+/// A rule that places runs in the unit cube, in place of the campaign's design. Pure.
+/// @param u output, one per dispersion in order, each as both of its tails > 0
 using UnitPoints = std::function<void(long run, std::span<Tails> u)>;
 
-/// One number to take of a run in place of the campaign's outputs.
+/// A single number computed from a run, in place of the campaign's outputs.
 struct Measure {
   std::string name;
   Goal goal; ///< what a run has to compute for it
-  /// Of the scene that was run; pure. Kept as it is, NaN and infinity too.
+  /// Of the scene that was run; pure. NaN and infinity are kept.
   std::function<double(const Scene&, const Outcome&)> of;
-  std::string recipe{}; ///< what another process makes it of; empty: none can
+  std::string recipe{}; ///< from which another process rebuilds the measure; empty: impossible
 };
 
-/// Makes a measure from its recipe, in a process that has the campaign and not the measure.
-/// @pre the campaign outlives the measure. @throws what making it takes
+/// Rebuilds a measure from its recipe in another process.
+/// @pre the campaign outlives the measure
+/// @throws what building it throws
 using MeasureMaker = std::function<Measure(const Campaign& campaign, const std::string& recipe)>;
 
-/// Immutable, so one plan serves all threads.
+/// Immutable, so all threads share one plan.
 class RunPlan {
 public:
   /// @pre the campaign outlives the plan
   explicit RunPlan(const Campaign& campaign);
-  /// The campaign's runs at other points than its own.
+  /// The campaign's runs at points of another rule than its design.
   RunPlan(const Campaign& campaign, UnitPoints points);
-  /// Besides, all that is kept of them is the measure: the only column of outputs.
+  /// As above, with the measure as the only output column.
   RunPlan(const Campaign& campaign, UnitPoints points, Measure measure);
 
   [[nodiscard]] const Campaign& campaign() const { return *campaign_; }
   [[nodiscard]] const ResultNames& names() const { return names_; }
-  /// The campaign's own columns of outputs, where no measure is in their place.
+  /// The campaign's output columns; empty if a measure replaces them.
   [[nodiscard]] const std::vector<OutputColumn>& columns() const { return columns_; }
   [[nodiscard]] const std::optional<Measure>& measure() const { return measure_; }
   /// What a run has to compute.
   [[nodiscard]] const Goal& goal() const { return goal_; }
 
-  /// The draws of run k, one for each dispersion in their order. Pure.
-  /// @param draws as many as the campaign has dispersions
+  /// The draws of run k. Pure.
+  /// @param draws output, one per dispersion in order
   void draw(long k, std::span<double> draws) const;
 
-  /// Whether its points are others than those of the campaign's design.
+  /// Whether UnitPoints replace the campaign's design.
   [[nodiscard]] bool has_own_points() const { return bool(points_); }
-  /// Run k's point of the unit cube. Pure. @param u as many as there are dispersions
+  /// Run k's point of the unit cube. Pure. @param u output, one per dispersion
   void place(long k, std::span<Tails> u) const;
 
 private:
@@ -70,7 +71,7 @@ private:
   std::vector<PreparedDistribution> distributions_;
   PreparedDesign design_;
   GaussianCopula copula_;
-  UnitPoints points_; ///< empty: the design's
+  UnitPoints points_; ///< empty: the campaign's design
 };
 
 } // namespace wingspread

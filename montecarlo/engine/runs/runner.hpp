@@ -1,5 +1,5 @@
-/// One run of a campaign, and the row of the results that it gives. The evaluator that makes all
-/// runs and the replay that makes one again both go through here, so they cannot differ.
+/// Makes one run of a campaign and its row of results. The evaluator and `replay` both use the runner, so they cannot
+/// differ.
 ///
 ///   run k → draws → scene → core's Deployment → Outcome → ResultRow
 #pragma once
@@ -12,31 +12,30 @@
 
 namespace wingspread {
 
-/// Makes runs one after another; each thread has its own.
+/// Makes runs one after another; one per thread.
 class Runner {
 public:
   /// @pre the plan outlives the runner
   explicit Runner(const RunPlan& plan);
 
-  /// Run k's row. An unphysical draw gives a row of status `invalid`.
+  /// Run k's row. Unphysical draws give a row of status `invalid`.
   [[nodiscard]] ResultRow run(long k);
 
-  /// Run k in full, with its row: watched, and with its energy audited, neither of which changes a
-  /// bit of the row.
+  /// Run k in full, with its row. Observing a run and auditing its energy change no bit of the row.
   struct Replay {
     Outcome outcome;
     ResultRow row;
   };
   [[nodiscard]] Replay replay(long k, const Observer& observer);
 
-  /// The rows of the runs that `next` names until it names none, several at once; each row is that
-  /// of `run`. @param done takes them in the order in which they end
+  /// Makes the runs that `next` names until it returns nothing, several at once. Each row has the bits of run()'s.
+  /// @param done receives rows in the order in which runs end
   Occupancy run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
                     const std::function<void(ResultRow&&)>& done);
 
 private:
   [[nodiscard]] Replay make(long k, const Goal& goal, const Observer& observer);
-  /// Draws for run k into `draws` and sets the scene to it.
+  /// Draws run k into `draws` and applies the draws to the scene.
   void set_scene(long k, std::vector<double>& draws, Scene& scene) const;
   [[nodiscard]] ResultRow row_of(long k, std::vector<double>&& draws, Outcome& outcome);
   [[nodiscard]] std::vector<double> outputs_of(std::span<const double> draws,
@@ -44,7 +43,7 @@ private:
 
   const RunPlan* plan_;
   Deployment deployment_;
-  Scene scene_; ///< of some run: the campaign's, as `apply` left it
+  Scene scene_; ///< the campaign's, with some run's draws applied
 };
 
 } // namespace wingspread

@@ -27,14 +27,14 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// Another one after each start of the machine; empty where the system does not tell.
+/// Identifies the machine's current boot; empty if the system does not tell.
 std::string boot_name() {
   std::ifstream in("/proc/sys/kernel/random/boot_id");
   std::string name;
   return std::getline(in, name) ? name : "";
 }
 
-/// What stands in the file: "process 123 on HOST, boot BOOT".
+/// The file's content: "process 123 on HOST, boot BOOT".
 std::string own_name() {
   return fmt::format("process {} on {}, boot {}", getpid(), host_name(), boot_name());
 }
@@ -45,7 +45,7 @@ std::string name_in(int file) {
   return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : "";
 }
 
-/// Whether the file names a process that lives.
+/// Whether the process named in the file lives.
 bool is_alive(const std::string& name) {
   pid_t process = 0;
   constexpr std::size_t number_at = std::string_view("process ").size();
@@ -76,7 +76,7 @@ int open_lock(const std::filesystem::path& path) {
   return file;
 }
 
-/// Whether the folder keeps this process from making or changing its lock. One that is not there can be made.
+/// Whether this process cannot create or change the folder's lock. A missing folder can be created.
 bool is_read_only(const std::filesystem::path& folder, const std::filesystem::path& path) {
   const auto may_write = [](const std::filesystem::path& its) {
     return faccessat(AT_FDCWD, its.c_str(), W_OK, AT_EACCESS) == 0 ||
@@ -101,7 +101,7 @@ bool is_at(int file, const std::filesystem::path& path) {
          open_file.st_dev == named.st_dev && open_file.st_ino == named.st_ino;
 }
 
-/// The locked file; nothing when its last holder took it away meanwhile.
+/// The locked file; nothing if its last holder has removed it meanwhile.
 std::optional<int> take(const std::filesystem::path& folder, const std::filesystem::path& path) {
   const int file = open_lock(path);
   const std::string holder = name_in(file);
@@ -117,10 +117,10 @@ std::optional<int> take(const std::filesystem::path& folder, const std::filesyst
   refuse_path(path, error, expected_lock);
 }
 
-/// Throws when another process writes to a folder that this one cannot write to.
+/// @throws if another process holds a folder that this process cannot write to
 void refuse_writer(const std::filesystem::path& folder, const std::filesystem::path& path) {
   const int file = open_without_signals(path, O_RDONLY);
-  if (file < 0) return; // nobody holds it
+  if (file < 0) return; // not locked
   const std::string holder = name_in(file);
   const bool held = flock(file, LOCK_SH | LOCK_NB) != 0 &&
                     (errno == EWOULDBLOCK || (errno != EINTR && is_alive(holder)));
@@ -128,7 +128,7 @@ void refuse_writer(const std::filesystem::path& folder, const std::filesystem::p
   if (held) refuse_second(folder, holder);
 }
 
-/// Who holds it, into the file. @return 0, or the error
+/// Writes the holder into the file. @return 0, or the error
 int write_name(int file) {
   const std::string name = own_name();
   if (ftruncate(file, 0) != 0) return errno;
@@ -164,7 +164,8 @@ FolderLock::FolderLock(std::filesystem::path folder, For purpose)
 
 FolderLock::~FolderLock() {
   if (file_ < 0) return;
-  unlink(path_.c_str()); // first: who finds it afterwards has another file
+  unlink(
+      path_.c_str()); // before closing: a process that opens the path afterwards gets another file
   close(file_);
   if (made_) rmdir(folder_.c_str()); // only if nothing is in it
 }

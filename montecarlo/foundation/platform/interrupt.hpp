@@ -1,4 +1,4 @@
-/// Ctrl-C, asked for politely: what is done is kept.
+/// Ctrl-C and SIGTERM as a flag, so that finished work is kept.
 #pragma once
 
 #include <atomic>
@@ -6,14 +6,13 @@
 
 namespace wingspread {
 
-/// Thrown where what was begun cannot be finished: it was asked to stop.
+/// Thrown when a computation is stopped before its result is complete.
 struct Stopped {};
 
-/// The exit status of a program that a signal ended.
+/// The exit status of a program ended by a signal.
 inline constexpr int interrupted_status = 130;
 
-/// While one exists, SIGINT and SIGTERM raise a flag and do not end the program; a second one does.
-/// One at a time.
+/// While one exists, the first SIGINT or SIGTERM sets a flag, and the second ends the program. At most one at a time.
 class Interrupt {
 public:
   Interrupt();
@@ -21,14 +20,14 @@ public:
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  /// True from the first signal on.
+  /// True after the first signal.
   [[nodiscard]] const std::atomic<bool>& flag() const;
 
-  /// Whether it was SIGTERM: who sends it, a scheduler, kills what has not ended some seconds later.
+  /// Whether the signal was SIGTERM: a scheduler kills the program some seconds later.
   [[nodiscard]] bool is_urgent() const;
 
-  /// From now on a signal ends the program there and then, for what is under way can be made again.
-  /// @param words its last, to standard error; they outlive this
+  /// From now on a signal prints `words` to standard error and ends the program: only repeatable work is left.
+  /// @param words outlive this object
   void end_at_once(const char* words);
 
 private:

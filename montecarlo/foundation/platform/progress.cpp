@@ -48,7 +48,7 @@ Tally tally_of(const StudyProgress& progress, long before) {
 
 std::string progress_line(const Tally& tally, double seconds) {
   std::string text = bar(share_of(tally));
-  if (tally.looks > 0) text += fmt::format(" look {} of at most {} ·", tally.look, tally.looks);
+  if (tally.looks > 0) text += fmt::format(" analysis {} of at most {} ·", tally.look, tally.looks);
   text += tally.at_most ? fmt::format(" {} of at most {} runs", tally.done, tally.total)
                         : fmt::format(" {}/{} runs", tally.done, tally.total);
   const double rate = static_cast<double>(tally.done - tally.before) / seconds;

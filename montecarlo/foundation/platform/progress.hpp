@@ -1,4 +1,4 @@
-/// How far a campaign has come, on a terminal.
+/// A progress line on a terminal.
 #pragma once
 
 #include <chrono>
@@ -7,33 +7,34 @@
 
 namespace wingspread {
 
-/// What there is to tell.
+/// Numbers that the progress line shows.
 struct Tally {
   long done = 0, total = 0;
-  long before = 0;  ///< of those done, how many an earlier session had made
+  long before = 0;  ///< runs of `done` that an earlier session made
   long invalid = 0; ///< runs with an unphysical draw
   long failed = 0;  ///< runs whose integration could not go on
   long stalled = 0, timed_out = 0;
-  std::string picture{};    ///< a line below it; may be empty
-  long look = 0, looks = 0; ///< of a study: the one that is under way, and how many there will be
-  bool at_most = false;     ///< that and the total are known by an upper bound, which falls
+  std::string picture{};    ///< line drawn below; may be empty
+  long look = 0, looks = 0; ///< interim analysis under way, and how many there will be
+  bool at_most = false;     ///< `looks` and `total` are upper bounds, which fall
 };
 
-/// How far a study has come, whose looks depend on what earlier ones came to.
+/// Progress of a study whose interim analyses depend on earlier results.
 struct StudyProgress {
-  long look = 0, most_looks = 0; ///< the one that is under way, from 1, and no more than so many
-  long runs = 0, most_runs = 0;  ///< made, and no more than so many
+  long look = 0,
+       most_looks = 0;          ///< interim analysis under way, from 1; upper bound of their number
+  long runs = 0, most_runs = 0; ///< runs made; upper bound of their number
 };
 
-/// As a tally. @param before runs that an earlier session had made
+/// @param before runs that an earlier session made
 [[nodiscard]] Tally tally_of(const StudyProgress& progress, long before);
 
-/// One line: a bar, done of total, runs a second, the time left, what else became of runs so far. Where the total is a
-/// bound nothing is said of the time.
+/// One line: a bar, done of total, runs per second, time left, and counts of runs that did not deploy. No time left
+/// if the total is an upper bound.
 /// @param seconds since this session began
 [[nodiscard]] std::string progress_line(const Tally& tally, double seconds);
 
-/// Keeps that line and the picture up to date. Writes nothing at all when the stream is not a terminal.
+/// Shows the line and the picture on a terminal. Writes nothing to other streams.
 class Progress {
 public:
   explicit Progress(std::FILE* stream);
@@ -41,11 +42,11 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Rewrites the line, ten times a second at most and when all is done. It does not run backwards: a tally of a
-  /// smaller share than one that was shown is not shown.
+  /// Rewrites the line at most ten times a second, and once all runs are done. The bar never runs backwards: a
+  /// smaller share than before is not shown.
   void show(const Tally& tally);
 
-  /// Ends the line, so that something else can be printed; the next one is shown below that.
+  /// Ends the line, so that other text can be printed; the next line is shown below that text.
   void pause();
 
   [[nodiscard]] double seconds() const;
@@ -53,9 +54,9 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  std::FILE* stream_; ///< null when there is no one to look
+  std::FILE* stream_; ///< null: not a terminal
   Clock::time_point start_ = Clock::now(), last_{};
-  double share_ = 0; ///< that was shown
+  double share_ = 0; ///< largest share shown
   bool shown_ = false, pictured_ = false;
 };
 

@@ -1,9 +1,8 @@
-/// Columns that may be longer than memory should hold.
+/// Columns that may exceed memory.
 ///
-/// A short column is ordinary memory. A longer one lies in a temporary file of its own, mapped into
-/// memory: in the folder that TMPDIR names, else in /var/tmp. The file has no name, so that nothing
-/// is left of it however the program ends. What is resident of it is given back as it grows, and
-/// wherever release() says that it has been read; it comes back when it is touched.
+/// A short column is ordinary memory. A longer one is an unnamed temporary file, mapped into memory, in the folder
+/// that TMPDIR names, else in /var/tmp. The file has no name, so nothing is left however the program ends. Resident
+/// memory is returned to the system as a column grows and by release(); pages come back when they are touched.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +15,11 @@
 
 namespace wingspread {
 
-/// Longer columns than this go to a file, and as much of a growing one is resident.
+/// A longer column goes to a file. Also the resident part of a growing column. Heuristic: 256 KiB times some hundred
+/// columns is tens of MB; a smaller value means more system calls, a larger one more memory.
 inline constexpr std::size_t spill_bytes = std::size_t{1} << 18;
 
-/// A temporary file without a name, mapped as a whole.
+/// An unnamed temporary file, mapped as a whole.
 class TemporaryFile {
 public:
   TemporaryFile() = default;
@@ -31,14 +31,14 @@ public:
   ~TemporaryFile();
 
   void swap(TemporaryFile& other) noexcept;
-  /// Null as long as it is empty.
+  /// Null if the file is empty.
   [[nodiscard]] std::byte* data() const { return data_; }
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Makes it longer, by zeros; what is mapped may move.
-  /// @param bytes more than its size
-  /// @throws MachineError that names the folder, when it has no room or cannot be written
+  /// Extends the file by zeros. The mapping may move.
+  /// @param bytes more than size()
+  /// @throws MachineError that names the folder, if it has no room or cannot be written
   void grow(std::size_t bytes);
-  /// Lets go of the memory that the bytes [first, last) take up; their values stay.
+  /// Returns the memory of the bytes [first, last) to the system. Their values stay.
   void release(std::size_t first, std::size_t last) const;
 
 private:
@@ -47,7 +47,7 @@ private:
   std::size_t size_ = 0;
 };
 
-/// A vector of plain values that spills into a file. Pointers and spans hold until it grows.
+/// A vector of plain values that spills into a file. Pointers and spans are valid until it grows.
 template <class T> class Spilled {
   static_assert(std::is_trivially_copyable_v<T>);
 
@@ -91,7 +91,7 @@ public:
   [[nodiscard]] const T& front() const { return data_[0]; }
   [[nodiscard]] const T& back() const { return data_[size_ - 1]; }
 
-  /// @throws MachineError when there is no room for it on disk
+  /// @throws MachineError if the disk has no room
   void push_back(const T& value) {
     const T copy = value; // it may be one of these
     if (size_ == room_) make_room();
@@ -101,8 +101,8 @@ public:
     for (const T& value : values) push_back(value);
   }
 
-  /// Lets go of the memory of all values, or of those in [first, last), that lie in a file. For
-  /// whoever has read them and is not to hold them; they stay what they are.
+  /// Returns the memory of values in a file, all or [first, last), to the system. The values stay. Call after reading
+  /// a long column.
   void release() const { release(0, size_); }
   void release(std::size_t first, std::size_t last) const {
     if (file_.data()) file_.release(first * sizeof(T), last * sizeof(T));
@@ -139,11 +139,11 @@ private:
     memory_ = {};
   }
 
-  std::vector<T> memory_; ///< while it is short
+  std::vector<T> memory_; ///< used while the column is short
   TemporaryFile file_;
   T* data_ = nullptr;
   std::size_t size_ = 0;
-  std::size_t room_ = 0; ///< the size at which there is something to be done first
+  std::size_t room_ = 0; ///< size at which make_room() must run
 };
 
 } // namespace wingspread

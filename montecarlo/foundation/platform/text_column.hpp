@@ -1,4 +1,4 @@
-/// Columns of texts, one a row, that may be longer than memory should hold (spilled.hpp).
+/// Columns of texts, one per row, that may exceed memory (spilled.hpp).
 #pragma once
 
 #include "montecarlo/foundation/platform/spilled.hpp"
@@ -9,48 +9,47 @@
 
 namespace wingspread {
 
-/// Texts end to end. Views of them hold until the next one is added.
+/// Texts stored end to end. Views are valid until the next text is added.
 class TextColumn {
 public:
   void push_back(std::string_view text);
   [[nodiscard]] std::string_view operator[](std::size_t row) const;
   [[nodiscard]] std::size_t size() const { return ends_.size(); }
-  /// As of Spilled.
+  /// As Spilled::release().
   void release() const;
 
 private:
   Spilled<char> text_;
-  Spilled<std::uint64_t> ends_; ///< of each row's text
+  Spilled<std::uint64_t> ends_; ///< end of each row's text
 };
 
-/// Texts that come again and again, each kept once: dictionary encoding. In memory are some 16
-/// bytes for each different one.
+/// Dictionary encoding: each different text is stored once. Takes some 16 bytes of memory per different text.
 class DictionaryColumn {
 public:
   void push_back(std::string_view text);
   [[nodiscard]] std::string_view operator[](std::size_t row) const { return texts_[codes_[row]]; }
   [[nodiscard]] std::size_t size() const { return codes_.size(); }
-  /// The different texts, in the order in which they first came.
+  /// The different texts, in order of first appearance.
   [[nodiscard]] const TextColumn& texts() const { return texts_; }
-  /// Which of them each row has.
+  /// Index into texts() of each row.
   [[nodiscard]] const Spilled<std::uint32_t>& codes() const { return codes_; }
   void release() const;
 
 private:
-  /// Of an open-addressed hash table with linear probing.
+  /// A slot of an open-addressing hash table with linear probing.
   struct Slot {
     std::uint32_t hash = 0;
     std::uint32_t code = vacant;
   };
   static constexpr std::uint32_t vacant = UINT32_MAX;
 
-  /// The text's slot, or the vacant one where it belongs.
+  /// The slot of the text, or the vacant slot where the text belongs.
   [[nodiscard]] Slot& find(std::uint32_t hash, std::string_view text);
   void widen();
 
   TextColumn texts_;
   Spilled<std::uint32_t> codes_;
-  std::vector<Slot> slots_; ///< a power of two, at most half of them taken
+  std::vector<Slot> slots_; ///< a power of two of slots, at most half of them taken
 };
 
 } // namespace wingspread

@@ -1,9 +1,8 @@
-/// Confidence bounds of independent draws, whatever their distribution: of proportions and
-/// quantiles, by the binomial law. Exact for any n. (Draws that depend on each other:
-/// replicate_bounds.hpp.)
+/// Confidence bounds of proportions and quantiles from independent draws of any distribution, by the binomial law.
+/// Exact for any n. (Dependent draws: replicate_bounds.hpp.)
 ///
-/// Symbols: α = 1 − confidence; every interval leaves α/2 on either side, so that each end on its
-/// own is a one-sided bound with confidence 1 − α/2.
+/// Symbols: α = 1 − confidence; every interval leaves α/2 on either side, so each end by itself is a one-sided bound
+/// with confidence 1 − α/2.
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"
@@ -19,18 +18,17 @@ namespace wingspread {
 /// @pre 0 ≤ hits ≤ n, 0 < confidence < 1
 [[nodiscard]] Interval clopper_pearson(long hits, long n, double confidence);
 
-/// One-sided: the proportion above which `hits` or fewer would be seen with probability
-/// 1 − confidence at most. 1 for hits = n.
+/// One-sided upper bound: the proportion at which `hits` or fewer have probability 1 − confidence. 1 for hits = n.
 [[nodiscard]] double clopper_pearson_upper(long hits, long n, double confidence);
 
-/// One-sided, from below. 0 for hits = 0.
+/// One-sided lower bound. 0 for hits = 0.
 [[nodiscard]] double clopper_pearson_lower(long hits, long n, double confidence);
 
-/// The same for a share that need not come to a whole number of hits; changes steadily with n.
+/// The interval for a share that need not be a whole number of hits; continuous in n.
 /// @pre n > 0, 0 ≤ share ≤ 1
 [[nodiscard]] Interval clopper_pearson_of_share(double share, double n, double confidence);
 
-/// Ranks, from 1, of the order statistics that bound a quantile; none where no rank does.
+/// Ranks, from 1, of the order statistics that bound a quantile; nothing if no rank does.
 struct RankBounds {
   std::optional<long> lower, upper;
 };

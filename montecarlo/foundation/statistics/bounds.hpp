@@ -1,4 +1,4 @@
-/// What bounds a quantity with some confidence.
+/// Confidence bounds.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@ struct Interval {
   double lower, upper;
 };
 
-/// An interval whose ends may not exist: the sample is too small for them.
+/// An interval whose ends may not exist because the sample is too small.
 struct Bounds {
   std::optional<double> lower, upper;
 };

@@ -22,16 +22,6 @@ Extent range_of(std::span<const double> sorted) {
   return {lower - half, lower + half};
 }
 
-int auto_bins(std::span<const double> sorted) {
-  const double spread = sorted.back() - sorted.front();
-  if (spread == 0) return 1;
-  const double n = static_cast<double>(sorted.size());
-  const double iqr = quantile(sorted, 0.75) - quantile(sorted, 0.25);
-  const double bins =
-      iqr > 0 ? std::ceil(spread / (2 * iqr) * std::cbrt(n)) : std::ceil(std::log2(n)) + 1;
-  return static_cast<int>(std::clamp(bins, 1.0, double{most_auto_bins}));
-}
-
 /// The number of bins that leaves at least four roundings between neighbouring edges.
 int with_room(int bins, const Extent& range) {
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
@@ -56,11 +46,21 @@ double Histogram::density(std::size_t bin) const {
          (edges[bin + 1] - edges[bin]);
 }
 
+int count_bins(const Bins& bins, long n, double spread, double iqr) {
+  if (const int* fixed = std::get_if<int>(&bins)) return *fixed;
+  if (spread == 0) return 1;
+  const auto count = static_cast<double>(n);
+  const double wanted =
+      iqr > 0 ? std::ceil(spread / (2 * iqr) * std::cbrt(count)) : std::ceil(std::log2(count)) + 1;
+  return static_cast<int>(std::clamp(wanted, 1.0, double{most_auto_bins}));
+}
+
 Histogram histogram(std::span<const double> sorted, const Bins& bins) {
   if (sorted.empty()) return {};
   const Extent range = range_of(sorted);
-  const int* fixed = std::get_if<int>(&bins);
-  Histogram result{edges_of(range, with_room(fixed ? *fixed : auto_bins(sorted), range)), {}};
+  const int wanted = count_bins(bins, std::ssize(sorted), sorted.back() - sorted.front(),
+                                quantile(sorted, 0.75) - quantile(sorted, 0.25));
+  Histogram result{edges_of(range, with_room(wanted, range)), {}};
   auto from = sorted.begin();
   for (std::size_t i = 1; i < result.edges.size(); ++i) {
     const bool last = i + 1 == result.edges.size();

@@ -7,11 +7,12 @@
 
 namespace wingspread {
 
-/// Let the data choose the bins.
+/// The data decide the number of bins.
 struct AutoBins {};
-/// The data's choice, or a fixed number of bins > 0.
+/// AutoBins, or a fixed number of bins > 0.
 using Bins = std::variant<AutoBins, int>;
 
+/// Most automatic bins. Heuristic: more cannot be told apart in a table or chart.
 inline constexpr int most_auto_bins = 200;
 
 /// Bin i is [edges[i], edges[i + 1]); the last one is closed, so that every value is in one bin.
@@ -24,11 +25,14 @@ struct Histogram {
   [[nodiscard]] double density(std::size_t bin) const;
 };
 
-/// Histogram of values that are sorted, smallest first, over [min, max] in bins of equal width.
-///
-/// AutoBins: ⌈(max − min)/h⌉ bins with h = 2 IQR n^(−1/3) (D. Freedman, P. Diaconis, Z. Wahrsch.
-/// verw. Geb. 57 (1981) 453–476), IQR = X_(⌈3n/4⌉) − X_(⌈n/4⌉); Sturges' ⌈log2 n⌉ + 1 where the IQR
-/// is 0; at most `most_auto_bins`; one where all values are equal. Fixed: as many as asked for.
+/// The number of bins. Fixed: as many as asked for. AutoBins: ⌈(max − min)/h⌉ with h = 2 IQR n^(−1/3) (D. Freedman,
+/// P. Diaconis, Z. Wahrsch. verw. Geb. 57 (1981) 453–476); Sturges' ⌈log2 n⌉ + 1 if the IQR is 0; at most
+/// `most_auto_bins`; one if all values are equal.
+/// @param spread max − min
+/// @param iqr    X_(⌈3n/4⌉) − X_(⌈n/4⌉)
+[[nodiscard]] int count_bins(const Bins& bins, long n, double spread, double iqr);
+
+/// Histogram of sorted values, smallest first, over [min, max] in bins of equal width: count_bins() of them.
 /// A range too narrow for that many distinct edges takes as many as it has room for.
 /// Equal values v lie in the middle of [v − w, v + w], w = |v|/2, or 1/2 where v = 0.
 /// A value on an inner edge counts above it, by comparison with the edge as it is reported.

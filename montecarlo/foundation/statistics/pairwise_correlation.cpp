@@ -1,6 +1,6 @@
 #include "montecarlo/foundation/statistics/pairwise_correlation.hpp"
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <algorithm>
@@ -37,10 +37,10 @@ std::map<Presence, std::vector<std::size_t>> by_presence(std::span<const RankedC
   return groups;
 }
 
-/// A column over the rows that it has together with others.
+/// A column restricted to the rows in which others have values too.
 class KeptColumn {
 public:
-  /// @param keep in which rows the column and the others have values; empty: all
+  /// @param keep the rows in which all of them have values; empty: all rows
   KeptColumn(const RankedColumn& column, const Presence& keep) {
     if (keep.empty()) {
       column_ = &column;
@@ -53,7 +53,7 @@ public:
   }
 
   [[nodiscard]] std::size_t size() const { return values().size(); }
-  /// z of the rows' values and of their ranks, from the first row on; zeros where there is none.
+  /// z of values and ranks, starting at row `first`; zeros if undefined.
   void standardize(std::size_t first, std::span<double> value_z, std::span<double> rank_z) const {
     for (std::size_t i = 0; i < value_z.size(); ++i)
       value_z[i] = value_standard_ ? value_standard_->of(values()[first + i]) : 0;
@@ -64,7 +64,7 @@ public:
     values().release(first, last);
     doubled_ranks().release(first, last);
   }
-  /// None where Pearson's is undefined: too few rows, or all the same.
+  /// Nothing if Pearson's correlation is undefined: too few rows, or all equal.
   [[nodiscard]] const std::optional<Standard>& value_standard() const { return value_standard_; }
   [[nodiscard]] const std::optional<Standard>& rank_standard() const { return rank_standard_; }
 
@@ -92,7 +92,7 @@ private:
   std::optional<Standard> value_standard_, rank_standard_;
 };
 
-/// Columns that have their values in the same rows.
+/// Columns with values in the same rows.
 struct ColumnGroup {
   std::vector<KeptColumn> x, y;
 };
@@ -105,7 +105,7 @@ std::vector<KeptColumn> keep_columns(std::span<const RankedColumn> columns,
   constexpr double operations = 8; // of a row: two standards, and what is kept
   const double all =
       operations * static_cast<double>(which.size() * columns.front().values().size());
-  for_each_task(team_within(team_for(threads, all), bytes), which.size(),
+  for_each_task(threads_within_memory(threads_worth(threads, all), bytes), which.size(),
                 [&](std::size_t i) { kept[i].emplace(columns[which[i]], keep); });
   std::vector<KeptColumn> result;
   for (auto& column : kept) result.push_back(std::move(*column));
@@ -116,7 +116,7 @@ struct Products {
   Sum values, ranks; ///< Σ z_x z_y
 };
 
-/// The sums of some of a group's pairs, which are numbered by x and then y.
+/// The sums for some pairs of a group. Pairs are numbered by x, then y.
 class PairSums {
 public:
   PairSums(const ColumnGroup& group, std::size_t first, std::size_t last)
@@ -186,10 +186,10 @@ Correlation correlation_of(const KeptColumn& x, const KeptColumn& y, const Produ
           of(x.rank_standard(), y.rank_standard(), products.ranks)};
 }
 
-/// By x and then y.
+/// Ordered by x, then y.
 std::vector<Correlation> correlate(const ColumnGroup& group, int threads) {
   const std::size_t pairs = group.x.size() * group.y.size();
-  const int team = team_for(threads, 2 * static_cast<double>(pairs * group.x.front().size()));
+  const int team = threads_worth(threads, 2 * static_cast<double>(pairs * group.x.front().size()));
   const auto parts = std::min<std::size_t>(pairs, static_cast<std::size_t>(team));
   std::vector<Correlation> result(pairs);
   for_each_task(team, parts, [&](std::size_t part) {

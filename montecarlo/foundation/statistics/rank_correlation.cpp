@@ -1,9 +1,11 @@
 #include "montecarlo/foundation/statistics/rank_correlation.hpp"
 
 #include "distributions/copula.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/foundation/statistics/two_sided.hpp"
+
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -16,24 +18,16 @@ using Matrix = Eigen::MatrixXd;
 
 Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-/// The inverse of a correlation matrix, by its Cholesky factor; nothing when it is singular. By
-/// hand, as the factor is: the same bytes however a library was compiled.
+/// The inverse of a correlation matrix from its Cholesky factor L: L⁻ᵀ L⁻¹. Nothing if the matrix is singular.
+/// In long double, for which Eigen has no vector code: the same bytes whatever the processor's vector registers.
 std::optional<Matrix> inverse_of(const Matrix& correlations) {
   const auto factor = cholesky(correlations);
   if (!factor) return std::nullopt;
-  const Eigen::Index n = correlations.rows();
-  Matrix root = Matrix::Zero(n, n); // L⁻¹
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = j; i < n; ++i) {
-      double rest = i == j ? 1 : 0;
-      for (Eigen::Index k = j; k < i; ++k) rest -= (*factor)(i, k) * root(k, j);
-      root(i, j) = rest / (*factor)(i, i);
-    }
-  Matrix inverse = Matrix::Zero(n, n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < n; ++j)
-      for (Eigen::Index k = std::max(i, j); k < n; ++k) inverse(i, j) += root(k, i) * root(k, j);
-  return inverse;
+  using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Wide identity = Wide::Identity(correlations.rows(), correlations.cols());
+  const Wide root =
+      factor->cast<long double>().triangularView<Eigen::Lower>().solve(identity); // L⁻¹
+  return Matrix((root.transpose() * root).cast<double>());
 }
 
 } // namespace
@@ -57,7 +51,7 @@ PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& col
     }
   Matrix correlations = Matrix::Identity(index(varying_.size()), index(varying_.size()));
   const auto pairs = static_cast<double>(varying_.size() * varying_.size()) / 2;
-  const int team = team_for(threads, pairs * static_cast<double>(rows_));
+  const int team = threads_worth(threads, pairs * static_cast<double>(rows_));
   for_each_task(team, varying_.size(), [&](std::size_t i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double products =

@@ -31,29 +31,28 @@
 
 namespace wingspread {
 
-/// (2) of Spearman's coefficient, two-sided; none for n ≤ 3.
-/// @pre −1 ≤ coefficient ≤ 1, of independent rows
+/// Two-sided bounds (2) of Spearman's coefficient; none for n ≤ 3.
+/// @pre −1 ≤ coefficient ≤ 1, from independent rows
 [[nodiscard]] Bounds rank_correlation_bounds(double coefficient, long n, double confidence);
 
-/// Columns that others are correlated with, each given all the rest: (1).
+/// Partial correlations (1) of a quantity with each of k columns, given all others.
 class PartialCorrelations {
 public:
   /// Cost O(n k² + k³).
   /// @param columns k of them, equally long, finite
-  /// @param threads as of team_size (team.hpp)
+  /// @param threads as of thread_count (team.hpp)
   explicit PartialCorrelations(const std::vector<Spilled<double>>& columns, int threads = 1);
 
   /// How many columns vary.
   [[nodiscard]] long varying() const { return static_cast<long>(varying_.size()); }
-  /// Whether those that vary cannot be told apart: one is a combination of others.
+  /// Whether one varying column is a linear combination of others.
   [[nodiscard]] bool entangled() const { return !inverse_; }
 
-  /// R² of each column by all the others, adjusted for their number: 1 − (n − 1)/((n − k) (C⁻¹)_jj).
-  /// NaN for one that does not vary, and for all when they are entangled or n ≤ k.
+  /// R² of each column explained by all others, adjusted for their number: 1 − (n − 1)/((n − k) (C⁻¹)_jj). NaN for a
+  /// constant column, and for all if entangled or n ≤ k.
   [[nodiscard]] std::vector<double> explained() const;
 
-  /// r of each column: NaN for one that does not vary, and for all when y does not, when they are
-  /// entangled, or when n ≤ k + 1.
+  /// r of each column: NaN for a constant column, and for all if y is constant, columns are entangled, or n ≤ k + 1.
   /// @param plain c: Pearson's correlation of each column with y; cost O(k²)
   [[nodiscard]] std::vector<double> given(std::span<const double> plain) const;
 
@@ -61,7 +60,7 @@ private:
   std::size_t columns_;
   long rows_;
   std::vector<std::size_t> varying_;
-  std::optional<Eigen::MatrixXd> inverse_; ///< C⁻¹ of those that vary
+  std::optional<Eigen::MatrixXd> inverse_; ///< C⁻¹ of the varying columns
 };
 
 } // namespace wingspread

@@ -1,7 +1,9 @@
 #include "montecarlo/foundation/statistics/ranked_column.hpp"
 
-#include "montecarlo/foundation/platform/team.hpp"
-#include "montecarlo/foundation/statistics/number_sort.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+
+#include <boost/sort/pdqsort/pdqsort.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -11,7 +13,7 @@
 namespace wingspread {
 namespace {
 
-/// A value and the row that it stands in.
+/// A value and its row.
 struct Placed {
   double value;
   std::uint32_t row;
@@ -27,7 +29,9 @@ RankedColumn::RankedColumn(const Spilled<double>& values) : values_(&values) {
     if (!std::isnan(values[row])) sorted.push_back({values[row], static_cast<std::uint32_t>(row)});
   values.release();
   complete_ = sorted.size() == values.size();
-  sort_by_number(std::span(sorted), [](const Placed& placed) { return placed.value; });
+  boost::sort::pdqsort_branchless(
+      sorted.begin(), sorted.end(),
+      [](const Placed& a, const Placed& b) { return a.value < b.value; });
   std::vector<std::uint32_t> doubled(values.size(), 0);
   for (std::size_t first = 0, end = 0; first < sorted.size(); first = end) {
     while (end < sorted.size() && sorted[end].value == sorted[first].value) ++end;
@@ -72,7 +76,7 @@ std::vector<RankedColumn> rank_columns(std::span<const Spilled<double>* const> c
   const std::size_t rows = columns.empty() ? 0 : columns.front()->size();
   const std::size_t bytes = 44 * rows; // 36 of vectors
   const double operations = sorting_operations(rows) * static_cast<double>(columns.size());
-  for_each_task(team_within(team_for(threads, operations), bytes), columns.size(),
+  for_each_task(threads_within_memory(threads_worth(threads, operations), bytes), columns.size(),
                 [&](std::size_t i) { ranked[i].emplace(*columns[i]); });
   std::vector<RankedColumn> result;
   for (auto& column : ranked) result.push_back(std::move(*column));

@@ -1,4 +1,4 @@
-/// Columns of numbers, sorted and ranked once, that statistics of ranks share.
+/// Columns of numbers with their ranks, shared by rank statistics.
 #pragma once
 
 #include "montecarlo/foundation/platform/spilled.hpp"
@@ -9,8 +9,7 @@
 
 namespace wingspread {
 
-/// A column made ready to be correlated with others: sorted and ranked once. Keeps a reference to
-/// the values. NaN marks what is missing.
+/// A column and its ranks. Keeps a reference to the values. NaN marks missing values.
 class RankedColumn {
 public:
   /// Cost O(n log n). @pre fewer than 2³¹ values
@@ -18,14 +17,13 @@ public:
   explicit RankedColumn(Spilled<double>&&) = delete;
 
   [[nodiscard]] const Spilled<double>& values() const { return *values_; }
-  /// Twice the mid-ranks from 1 of the values that are there (ties share the mean of their ranks),
-  /// a whole number; 0 where there is none.
+  /// Twice the mid-ranks from 1 of the present values (ties share their mean rank): whole numbers; 0 if missing.
   [[nodiscard]] const Spilled<std::uint32_t>& doubled_ranks() const { return doubled_ranks_; }
   [[nodiscard]] bool complete() const { return complete_; }
   /// Mid-ranks of all values. @pre complete()
   [[nodiscard]] std::vector<double> ranks() const;
-  /// Mid-ranks of the values at which `keep` is true, among themselves and in their order. Cost
-  /// O(n). @pre no kept value is missing
+  /// Mid-ranks of the values with `keep`, among themselves and in their order. Cost O(n).
+  /// @pre no kept value is missing
   [[nodiscard]] std::vector<double> ranks_where(const std::vector<bool>& keep) const;
 
 private:
@@ -34,9 +32,11 @@ private:
   bool complete_ = true;
 };
 
-/// The columns ranked, several at once. @param threads as of team_size (team.hpp)
+/// The columns ranked, several at once. @param threads as of thread_count (team.hpp)
 /// @pre the columns outlive what comes back
 [[nodiscard]] std::vector<RankedColumn>
+/// Ranks the columns, several at once. @param threads as of thread_count (thread_pool.hpp)
+/// @pre the columns outlive the result
 rank_columns(std::span<const Spilled<double>* const> columns, int threads = 1);
 
 } // namespace wingspread

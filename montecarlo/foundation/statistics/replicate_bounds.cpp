@@ -18,10 +18,10 @@ struct Share {
   double value, error;
 };
 
-/// Of replicates of sizes n_r with hits h_r, F = Σh/Σn. As of a ratio estimator:
+/// F = Σh/Σn of replicates with sizes n_r and hits h_r, with the error of a ratio estimator:
 /// s² = R/(R − 1) · Σ(h_r − F n_r)² / (Σn)² (W. G. Cochran, Sampling Techniques, 3rd ed. (1977),
-/// eq. 6.13 without the finite-population factor). The differences, times Σn, are of whole numbers:
-/// where the replicates agree the error is exactly 0.
+/// eq. 6.13 without the finite-population factor). The differences times Σn are whole numbers,
+/// so the error is exactly 0 if all replicates agree.
 Share share_of(std::span<const long> hits, std::span<const long> sizes) {
   const auto hit = static_cast<double>(std::reduce(hits.begin(), hits.end()));
   const auto all = static_cast<double>(std::reduce(sizes.begin(), sizes.end()));

@@ -1,6 +1,6 @@
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
-#include "montecarlo/foundation/statistics/number_sort.hpp"
+#include <boost/sort/pdqsort/pdqsort.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -12,8 +12,8 @@ namespace wingspread {
 
 namespace {
 
-/// The mean as shift + rest: the shift takes away what all values have in common, exactly where it
-/// is large, so that deviations do not cancel.
+/// The mean as shift + rest. Subtracting the shift, one of the values, is exact if the values are close to each other,
+/// so deviations lose no digits.
 struct ShiftedMean {
   double shift, rest;
   [[nodiscard]] double deviation(double value) const { return (value - shift) - rest; }
@@ -25,7 +25,7 @@ ShiftedMean shifted_mean(std::span<const double> values) {
   return {values.front(), sum.value() / static_cast<double>(values.size())};
 }
 
-/// Largest |deviation|: sums of its powers neither overflow nor vanish once it is divided out.
+/// Largest |deviation|. Sums of powers of deviations divided by it neither overflow nor vanish.
 double largest_deviation(std::span<const double> values, const ShiftedMean& mean) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::abs(mean.deviation(value)));
@@ -45,11 +45,17 @@ void add_shape(std::span<const double> values, const ShiftedMean& mean, Moments&
   }
   const double m2 = sum2.value() / n, m3 = sum3.value() / n, m4 = sum4.value() / n;
   result.std = scale * std::sqrt(sum2.value() / (n - 1));
-  if (n > 2) result.skewness = m3 / (m2 * std::sqrt(m2)) * std::sqrt(n * (n - 1)) / (n - 2);
-  if (n > 3) result.kurtosis = (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (m4 / (m2 * m2) - 3) + 6);
+  set_shape(m2, m3, m4, result);
 }
 
 } // namespace
+
+void set_shape(double m2, double m3, double m4, Moments& moments) {
+  const auto n = static_cast<double>(moments.count);
+  if (n > 2) moments.skewness = m3 / (m2 * std::sqrt(m2)) * std::sqrt(n * (n - 1)) / (n - 2);
+  if (n > 3)
+    moments.kurtosis = (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (m4 / (m2 * m2) - 3) + 6);
+}
 
 Moments moments(std::span<const double> values) {
   Moments result{static_cast<long>(values.size()),
@@ -81,8 +87,15 @@ std::vector<double> sorted_present(std::span<const double> values) {
   present.reserve(values.size());
   std::ranges::copy_if(values, std::back_inserter(present),
                        [](double v) { return !std::isnan(v); });
-  sort_numbers(present);
+  sort_values(present);
   return present;
+}
+
+void sort_values(std::span<double> values) {
+  boost::sort::pdqsort_branchless(values.begin(), values.end());
+  // −0 and 0 are equal to the comparison: put −0 first, so that the sign of a minimum does not depend on the rows' order.
+  std::ranges::partition(std::ranges::equal_range(values, 0.0),
+                         [](double zero) { return std::signbit(zero); });
 }
 
 long quantile_rank(long n, double p) {

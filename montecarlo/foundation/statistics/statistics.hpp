@@ -1,7 +1,7 @@
 /// Sample statistics: pure functions of numbers, stable in floating point.
 ///
-/// Symbols: n sample size, m_r = Σ(x − x̄)^r / n central moments, X_(i) i-th smallest (from 1).
-/// What is undefined for a sample comes back as NaN.
+/// Symbols: n sample size, m_r = Σ(x − x̄)^r / n central moments, X_(i) i-th smallest (from 1). Undefined results are
+/// NaN.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace wingspread {
 
-/// What has no value.
+/// Stands for a number that does not exist.
 inline constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 /// Compensated sum: its error does not grow with the number of terms.
@@ -43,40 +43,51 @@ struct Moments {
   double kurtosis;
 };
 
-/// Moments of finite values. Two passes about the first value, scaled by the largest deviation: a
-/// mean of 1e9 costs a standard deviation of 1 no digits beyond those the values have lost.
-/// Cost O(n). Source: D. N. Joanes, C. A. Gill, The Statistician 47 (1998) 183–189.
+/// Moments of finite values. Two passes about the first value, scaled by the largest deviation: with a mean of 1e9 a
+/// standard deviation of 1 loses only the digits that the values have lost. Cost O(n). Source: D. N. Joanes, C. A.
+/// Gill, The Statistician 47 (1998) 183–189.
 [[nodiscard]] Moments moments(std::span<const double> values);
 
-/// Whether not all values are the same.
+/// Sets skewness and kurtosis from central moments m_2 > 0, m_3, m_4 in any one unit. @pre the count is set
+void set_shape(double m2, double m3, double m4, Moments& moments);
+
+/// Whether the values differ.
 [[nodiscard]] bool varies(std::span<const double> values);
 
 /// The values that are not NaN, smallest first. Cost O(n log n).
 [[nodiscard]] std::vector<double> sorted_present(std::span<const double> values);
 
-/// ⌈np⌉, at least 1: the rank of the sample quantile. An np that round-off alone keeps from a whole
-/// number counts as that number (100 · 0.07 is 7).
+/// Sorts in place, smallest first, −0 before 0. Cost O(n log n): 25 ms for 10⁶ normal values, where std::sort takes 100 to
+/// 130 ms, 5 s of a campaign of 10⁶ runs with 50 columns. @pre no NaN
+void sort_values(std::span<double> values);
+
+/// Cost of sorting n values and of using each once, in the operations of team.hpp.
+[[nodiscard]] constexpr double sorting_operations(std::size_t items) {
+  return 16 * static_cast<double>(items);
+}
+
+/// The rank of the sample quantile: ⌈np⌉, at least 1. If only round-off separates np from a whole number, that number
+/// counts (100 · 0.07 is 7).
 /// @pre n > 0, 0 ≤ p ≤ 1
 [[nodiscard]] long quantile_rank(long n, double p);
 
-/// Sample quantile X_(⌈np⌉): the inverse of the empirical distribution function, min{x : F_n(x) ≥
-/// p}. No interpolation: it is a value that occurred, and the distribution-free bounds
-/// (binomial_bounds.hpp) hold for the same order statistics. Definition 1 of R. J. Hyndman, Y. Fan, The
-/// American Statistician 50 (1996) 361–365. NaN for an empty sample. Cost O(1).
-/// @param sorted smallest first.
+/// Sample quantile X_(⌈np⌉): the inverse of the empirical distribution function, min{x : F_n(x) ≥ p}. Not
+/// interpolated: it is a value that occurred, and the distribution-free bounds (binomial_bounds.hpp) hold for the
+/// same order statistics. Definition 1 of R. J. Hyndman, Y. Fan, The American Statistician 50 (1996) 361–365. NaN for
+/// an empty sample. Cost O(1).
+/// @param sorted smallest first
 [[nodiscard]] double quantile(std::span<const double> sorted, double p);
 
-/// A sample's scale, on which its mean is 0 and its largest deviation 1: sums of powers neither
-/// overflow nor vanish.
+/// Standardises a sample: mean 0 and largest deviation 1, so that sums of powers neither overflow nor vanish.
 struct Standard {
-  double shift, rest; ///< x̄ = shift + rest; the shift is what all values have in common
+  double shift, rest; ///< x̄ = shift + rest; shift is one of the values
   double scale;
   double squares; ///< Σz²
   /// z of a value.
   [[nodiscard]] double of(double value) const { return ((value - shift) - rest) / scale; }
 };
 
-/// None for fewer than two values and for a constant sample. Cost O(n). @pre finite
+/// Nothing for fewer than two values and for a constant sample. Cost O(n). @pre finite
 [[nodiscard]] std::optional<Standard> standard_of(std::span<const double> values);
 
 /// Σ z_x z_y. Cost O(n). @pre equally long

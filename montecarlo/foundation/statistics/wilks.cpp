@@ -15,7 +15,7 @@ namespace {
 
 using Binomial = boost::math::binomial_distribution<double, MathPolicy>;
 
-/// Whether a probability is at most 1 − c; round-off alone keeps none from it.
+/// Whether a probability is at most 1 − c, up to round-off.
 bool is_at_most_risk(double probability, double c) {
   return probability <= (1 - c) * (1 + 1e-12) + std::numeric_limits<double>::epsilon();
 }
@@ -26,8 +26,8 @@ bool shows(long n, double p, double c, long k) {
   return is_at_most_risk(cdf(Binomial(static_cast<double>(n), 1 - p), static_cast<double>(k)), c);
 }
 
-/// The least number of (first, last] that holds, where those that do not come before those that
-/// do; `last` unless one before it holds.
+/// Bisection: the least number in (first, last] that holds, or `last` if none does.
+/// @pre holds() is false up to some number and true beyond
 template <class Holds> long least(long first, long last, const Holds& holds) {
   while (last - first > 1) {
     const long middle = first + (last - first) / 2;
@@ -36,7 +36,7 @@ template <class Holds> long least(long first, long last, const Holds& holds) {
   return last;
 }
 
-/// The least number of runs that holds; doubles before it bisects, for few are cheaper to judge.
+/// The least number of runs that holds. Doubles before it bisects, because small numbers are cheaper to test.
 template <class Holds> std::optional<long> least_runs(long more_than, const Holds& holds) {
   long last = more_than + 1;
   while (last < most_runs_sized && !holds(last)) last = std::min(2 * last, most_runs_sized);
@@ -44,7 +44,7 @@ template <class Holds> std::optional<long> least_runs(long more_than, const Hold
   return least(more_than, last, holds);
 }
 
-/// Decreases with n steadily, where that of whole hits goes up and down.
+/// The width for a share of hits: decreases with n, unlike the width for whole numbers of hits.
 double expected_width(long n, double confidence, double proportion) {
   const Interval interval =
       clopper_pearson_of_share(proportion, static_cast<double>(n), confidence);
@@ -77,11 +77,14 @@ std::optional<long> runs_for_width(double width, double confidence, double propo
   return least_runs(0, [&](long n) { return expected_width(n, confidence, proportion) <= width; });
 }
 
-Bounds tolerance_limits(std::span<const double> sorted, Side side, double p, double c) {
-  const long n = std::ssize(sorted);
+long tolerance_order(long n, Side side, double p, double c) {
   const auto allowed = allowed_failures(n, p, c);
-  if (!allowed) return {};
-  const long order = side == Side::both ? (*allowed + 1) / 2 : *allowed + 1;
+  if (!allowed) return 0;
+  return side == Side::both ? (*allowed + 1) / 2 : *allowed + 1;
+}
+
+Bounds tolerance_limits(std::span<const double> sorted, Side side, double p, double c) {
+  const long n = std::ssize(sorted), order = tolerance_order(n, side, p, c);
   if (order == 0) return {};
   const auto finite = [&](long index) {
     const double value = sorted[static_cast<std::size_t>(index)];

@@ -1,7 +1,6 @@
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/margin/margin_study.hpp"
 #include "montecarlo/analyses/margin/scaled_springs.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
@@ -11,8 +10,8 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/checkpoint/logged_evaluator.hpp"
-#include "montecarlo/results/checkpoint/shard_looks.hpp"
+#include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
+#include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 
 #include <CLI/CLI.hpp>
@@ -81,7 +80,7 @@ int conclude_finished_margin(const Json& study) {
 }
 
 /// What was finished before it was stopped; the rest is in the log.
-int keep_unfinished(const Campaign& campaign, const MarginResult& result, LookLog& log,
+int keep_unfinished(const Campaign& campaign, const MarginResult& result, Checkpoint& log,
                     const std::filesystem::path& out) {
   write_file(out / margin_csv_file, margin_csv(campaign, result));
   log.sync();
@@ -113,7 +112,7 @@ int margin_shard(const Campaign& campaign, const MarginOptions& options, const S
   StudyFolder folder(options.out, about, shard_file, options.resume);
   const Interrupt interrupt;
   const auto maker = evaluator_of(crew_of(options.crew), interrupt.flag());
-  LoggedEvaluator evaluator(*maker, folder.log(), interrupt.flag());
+  CheckpointedEvaluator evaluator(*maker, folder.log(), interrupt.flag());
   Progress progress(stderr);
   try {
     const long runs =
@@ -142,7 +141,6 @@ int margin_shard(const Campaign& campaign, const MarginOptions& options, const S
 int margin_study(const MarginOptions& options) {
   Campaign campaign = read_campaign_file(options.campaign);
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
-  settle_tolerance(campaign, crew_of(options.crew));
   if (const auto shard = parse_shard(options.shard)) return margin_shard(campaign, options, *shard);
   const Json about = about_study(campaign, std::nullopt);
   StudyFolder folder(options.out, about, margin_json_file, options.resume);
@@ -150,9 +148,9 @@ int margin_study(const MarginOptions& options) {
     return conclude_finished_margin(show_finished(options.out / margin_json_file, options.json));
   const Interrupt interrupt;
   const auto maker = evaluator_of(crew_of(options.crew), interrupt.flag());
-  LoggedEvaluator logged(*maker, folder.log(), interrupt.flag());
-  ShardLooks evaluator(options.from, about, campaign.sampling.runs, maker_of(options), logged,
-                       interrupt.flag());
+  CheckpointedEvaluator logged(*maker, folder.log(), interrupt.flag());
+  ShardCheckpoints evaluator(options.from, about, campaign.sampling.runs, maker_of(options), logged,
+                             interrupt.flag());
   Progress progress(stderr);
   MarginResult result;
   try {

@@ -1,5 +1,4 @@
 #include "montecarlo/analyses/rare/rare_report.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
@@ -9,7 +8,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/checkpoint/logged_evaluator.hpp"
+#include "montecarlo/results/checkpoint/checkpointed_evaluator.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
@@ -133,14 +132,13 @@ int rare(const RareCommandOptions& given) {
   options.event = event_of(given);
   Campaign campaign = chosen_case(read_campaign_file(given.campaign), given.of_case);
   override_sampling(campaign, std::nullopt, given.seed);
-  settle_tolerance(campaign, crew_of(given.crew));
   options.confidence = confidence_of(given, campaign.statistics);
   const auto folder = open_folder(given, options, campaign);
   if (folder && folder->is_finished())
     return conclude_finished_rare(show_finished(given.out / rare_json_file, given.json));
   const Interrupt interrupt;
   const auto maker = evaluator_of(crew_of(given.crew), interrupt.flag());
-  std::optional<LoggedEvaluator> logged;
+  std::optional<CheckpointedEvaluator> logged;
   if (folder) logged.emplace(*maker, folder->log(), interrupt.flag());
   Evaluator& evaluator = logged ? *logged : *maker;
   Progress progress(stderr);

@@ -6,10 +6,10 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
-#include "montecarlo/results/checkpoint/shard_looks.hpp"
+#include "montecarlo/results/checkpoint/shard_checkpoints.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
 #include "montecarlo/results/results_folder/merge.hpp"
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -62,7 +62,7 @@ Summary merge_without_rows(const MergeOptions& options) {
   if (options.preview)
     throw SpecError({{options.folders.front().string(), "", "--preview of shards without rows",
                       "it of shards with rows"}});
-  return merge_rowless(options.folders, options.out);
+  return merge_streaming(options.folders, options.out);
 }
 
 int merge(const MergeOptions& options) {
@@ -77,7 +77,7 @@ int merge(const MergeOptions& options) {
       const auto cases = merge_cases(options.folders, options.out, kind);
       return show_all(read_stored_campaign(options.out), cases, options.display);
     }
-    const Summary summary = is_rowless(options.folders.front())
+    const Summary summary = is_streaming_folder(options.folders.front())
                                 ? merge_without_rows(options)
                                 : merge_folders(options.folders, options.out, kind);
     return show_results(read_stored_campaign(options.out), summary, options.display);
@@ -104,9 +104,9 @@ Summary summarize_again(const StoredCampaign& stored, const AnalyzeOptions& opti
   StoredCampaign there = stored;
   there.folder = to;
   make_folder(to);
-  if (is_rowless(stored.folder)) {
+  if (is_streaming_folder(stored.folder)) {
     if (!options.requirements.empty()) refuse_rowless(stored.folder);
-    return write_tally_statistics(there, read_tally(stored).tally, spec);
+    return write_streaming_statistics(there, read_streaming_statistics(stored).statistics, spec);
   }
   const Results results = read_stored_results(stored).results;
   return write_statistics(there, results, spec);

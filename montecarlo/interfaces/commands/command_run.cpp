@@ -1,4 +1,3 @@
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
@@ -7,7 +6,7 @@
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/live_histogram.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/commands/commands.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/interfaces/terminal/overall_progress.hpp"
@@ -16,7 +15,7 @@
 #include "montecarlo/model/input_checks/examine.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "montecarlo/results/results_folder/folder_writer.hpp"
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -59,7 +58,7 @@ std::string math_library() {
 }
 
 /// timing.json: what this session did and on what.
-std::string timing_text(const Tally& tally, double seconds, const Crew& crew,
+std::string timing_text(const Tally& tally, double seconds, const ThreadPool& crew,
                         const Evaluator& evaluator, bool interrupted) {
   const long made = tally.done - tally.before;
   const Occupancy& lanes = evaluator.occupancy();
@@ -67,7 +66,7 @@ std::string timing_text(const Tally& tally, double seconds, const Crew& crew,
                     {"math_library", math_library()},
                     {"processors", std::thread::hardware_concurrency()},
                     {"ranks", evaluator.ranks()},
-                    {"threads", team_size(crew.threads)},
+                    {"threads", thread_count(crew.threads)},
                     {"instruction_set", to_string(crew.set)},
                     {"lanes", lanes_of(crew.set)},
                     {"lane_occupancy", lanes.tries > 0 ? Json(static_cast<double>(lanes.busy) /
@@ -108,28 +107,29 @@ std::size_t watched_output(const RunPlan& plan) {
 /// What there is before the first run is made. @return false when it was stopped in the pilot
 bool begin(const FolderWriter& folder, Evaluator& /*evaluator*/, Tally& tally) {
   count(folder.results(), tally);
+  tally.before = tally.done;
   return true;
 }
-bool begin(RowlessFolder& folder, Evaluator& evaluator, Tally& tally) {
+bool begin(StreamingFolder& folder, Evaluator& evaluator, Tally& tally) {
   if (!folder.begin(evaluator)) return false;
-  const RunTally& made = folder.tally();
+  const StreamingStatistics& made = folder.statistics();
   tally.done = made.runs();
   tally.invalid = made.count_of(Status::invalid);
   tally.failed = made.count_of(Status::failed);
   tally.stalled = made.count_of(Status::stalled);
   tally.timed_out = made.count_of(Status::timed_out);
+  tally.before = folder.resumed();
   return true;
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
 template <class Folder>
-bool make_remaining(Folder& folder, const RunPlan& plan, const Crew& crew,
+bool make_remaining(Folder& folder, const RunPlan& plan, const ThreadPool& crew,
                     const Interrupt& interrupt, OverallProgress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const auto evaluator = evaluator_of(crew, interrupt.flag());
   Tally tally{.total = folder.stored().runs().size()};
   if (!begin(folder, *evaluator, tally)) return true;
-  tally.before = tally.done;
   const std::size_t watched = watched_output(plan);
   const std::string& name = plan.names().outputs[watched];
   LiveHistogram histogram(name, parse_output_name(name).unit);
@@ -185,9 +185,9 @@ Summary write_summary(const FolderWriter& folder, int threads, const std::string
   }
 }
 
-Summary write_summary(const RowlessFolder& folder, int /*threads*/, const std::string& /*kept*/) {
-  return write_tally_statistics(folder.stored(), folder.tally(),
-                                folder.stored().campaign.statistics);
+Summary write_summary(const StreamingFolder& folder, int /*threads*/, const std::string& /*kept*/) {
+  return write_streaming_statistics(folder.stored(), folder.statistics(),
+                                    folder.stored().campaign.statistics);
 }
 
 /// Adds to timing.json what it took to know the accuracy.
@@ -263,34 +263,6 @@ int run_cases(const Campaign& campaign, const RunOptions& options) {
   return worst;
 }
 
-/// The tolerance that the campaign in the folder was given when it was begun, if it is the same one.
-void take_over_tolerance(Campaign& campaign, const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder / campaign_file)) return;
-  const Campaign there = read_stored_campaign(folder).campaign;
-  if (!there.tolerance || !there.tolerance->pilot) return;
-  if (there.tolerance->pilot->seed != campaign.sampling.seed ||
-      there.tolerance->share != campaign.tolerance->share)
-    return;
-  campaign.integration = there.integration;
-  campaign.tolerance = there.tolerance;
-  campaign.resolved["integration"] = write_integration(campaign.integration, campaign.tolerance);
-}
-
-/// Chooses the tolerance where that is left to the campaign. One that goes on keeps its own.
-void settle(Campaign& campaign, const RunOptions& options) {
-  if (!campaign.tolerance || campaign.tolerance->pilot) return;
-  if (options.resume) take_over_tolerance(campaign, options.out);
-  settle_tolerance(campaign, crew_of(options.crew));
-  const TolerancePilot& pilot = *campaign.tolerance->pilot;
-  fmt::print(stderr, "note: rtol {:g}, by a pilot of {} runs\n", campaign.integration.rtol,
-             pilot.runs);
-  if (!pilot.reached)
-    fmt::print(stderr,
-               "warning: no tolerance keeps errors within {:g} % of the sampling error: it is "
-               "the tightest\n",
-               100 * campaign.tolerance->share);
-}
-
 int run(const RunOptions& options) {
   (void)crew_of(options.crew); // refused before anything is read
   Campaign campaign = read_campaign_file(options.campaign);
@@ -298,7 +270,6 @@ int run(const RunOptions& options) {
   override_sampling(campaign, options.sampling.runs, options.sampling.seed);
   override_until(campaign, options.until);
   heed(examine(campaign, options.campaign), options.strict);
-  settle(campaign, options);
   if (!options.no_rows && !campaign.cases.empty()) return run_cases(campaign, options);
   if (campaign.cases.empty()) (void)chosen_cases(campaign, options.cases); // there are none
   OverallProgress progress(shard_runs(campaign.sampling.runs, parse_shard(options.shard)).size());
@@ -306,7 +277,7 @@ int run(const RunOptions& options) {
     progress.pause();
     return show_results(stored, summary, options.display);
   };
-  return options.no_rows ? run_into<RowlessFolder>(campaign, options.out, options, progress, show)
+  return options.no_rows ? run_into<StreamingFolder>(campaign, options.out, options, progress, show)
                          : run_into<FolderWriter>(campaign, options.out, options, progress, show);
 }
 

@@ -1,7 +1,6 @@
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
 #include "montecarlo/analyses/sensitivity/sobol_report.hpp"
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
@@ -117,7 +116,7 @@ int sobol_again(const SensitivityOptions& options) {
 }
 
 /// Makes the runs that are left. @return whether it was interrupted
-bool make_runs_of(const RunPlan& plan, RunRange own, RunRange remaining, const Crew& crew,
+bool make_runs_of(const RunPlan& plan, RunRange own, RunRange remaining, const ThreadPool& crew,
                   const BatchSink& sink) {
   const Interrupt interrupt;
   Progress progress(stderr);
@@ -140,19 +139,18 @@ SaltelliDesign design_again(const SensitivityOptions& options) {
   return read_design_file(options.from);
 }
 
-SaltelliDesign new_design(const SensitivityOptions& options, const Crew& crew) {
+SaltelliDesign new_design(const SensitivityOptions& options) {
   SaltelliDesign design{chosen_case(read_campaign_file(options.from), options.of_case),
                         options.samples.value_or(1000), std::nullopt};
   override_sampling(design.campaign, std::nullopt, options.seed);
-  settle_tolerance(design.campaign, crew);
   return design;
 }
 
-SaltelliDesign design_of(const SensitivityOptions& options, const Crew& crew) {
+SaltelliDesign design_of(const SensitivityOptions& options) {
   if (!options.shard.empty() && options.out.empty())
     throw SpecError({{"", "--shard", "no --out", "the folder for its runs"}});
   SaltelliDesign design =
-      is_design_file(options.from) ? design_again(options) : new_design(options, crew);
+      is_design_file(options.from) ? design_again(options) : new_design(options);
   design.shard = parse_shard(options.shard);
   return design;
 }
@@ -168,8 +166,8 @@ int show_shard(const SaltelliDesign& design, const Results& results,
 }
 
 int sobol_new(const SensitivityOptions& options) {
-  const Crew crew = crew_of(options.crew);
-  const SaltelliDesign design = design_of(options, crew);
+  const ThreadPool crew = crew_of(options.crew);
+  const SaltelliDesign design = design_of(options);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
   const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
   if (runs > most_runs)

@@ -34,11 +34,6 @@ struct ReplayOptions {
   bool json = false;
 };
 
-std::string refuse_auto(const std::string& text) {
-  if (text != "auto") return "";
-  return "found auto, expected a number: only a campaign has a sampling error to weigh errors by";
-}
-
 /// Calls `run` with an observer that writes the trajectory, or with none when no file is named.
 template <class Run>
 auto write_trajectory(const std::filesystem::path& path, const Scene& scene, const Run& run) {
@@ -116,9 +111,8 @@ void add_simulate(CLI::App& app, Action& action) {
       ->type_name("S");
   command->add_option("--method", options->settings.method, "See wingspread methods");
   command->add_option("--step", options->settings.step, "The step of a method with a fixed one, s");
-  command
-      ->add_option("--rtol", options->settings.rtol, "Relative tolerance of a step, at least 1e-15")
-      ->check(refuse_auto);
+  command->add_option("--rtol", options->settings.rtol,
+                      "Relative tolerance of a step, at least 1e-15");
   command->add_option("--atol", options->settings.atol,
                       "Absolute tolerance of a step, rad and rad/s");
   command->add_option("--t-end", options->settings.t_end, "Where to stop, s");
@@ -126,8 +120,7 @@ void add_simulate(CLI::App& app, Action& action) {
       ->type_name("event|smoothed:EPS")
       ->check(refuse_latch);
   command->footer(
-      R"(Settings that are not given are the campaign's, or for a scene the defaults of a campaign. Where the
-campaign leaves its rtol to a pilot ("auto"), one deployment is integrated at the default.
+      R"(Settings that are not given are the campaign's, or for a scene the defaults of a campaign.
 
 Example:
   wingspread simulate three_panel.json --t-end 20

@@ -1,5 +1,5 @@
-#include "montecarlo/engine/accuracy/automatic_tolerance.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/engine/runs/evaluator.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/table.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
@@ -63,7 +63,6 @@ Table run(const Input& input, const RunOptions& options) {
   change_scene(campaign, options.set);
   override_sampling(campaign, options.runs, options.seed);
   std::vector<std::string> notices = notices_of(campaign, input.file);
-  settle_tolerance(campaign, {.threads = options.threads});
   if (!campaign.cases.empty() || !options.of_case.empty())
     campaign = chosen_case(campaign, options.of_case);
   Stamp stamp = stamp_of(campaign, {});

@@ -1,6 +1,6 @@
 #include "core/deployment.hpp"
 #include "montecarlo/foundation/formats/nearest.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/model/campaign/outputs.hpp"
 #include "montecarlo/model/scene_file/scene_parameter.hpp"
@@ -140,7 +140,8 @@ bool Model::evaluate(std::span<const double> x, std::span<double> y, int threads
     DeploymentPack(instruction_sets().back(), model.task.integration, model.goal)
         .run(model.task.scene, next, done);
   };
-  on_team(static_cast<int>(std::min<long>(team_size(threads), rows)), work, [&] { broken = true; });
+  run_on_threads(static_cast<int>(std::min<long>(thread_count(threads), rows)), work,
+                 [&] { broken = true; });
   return ended == rows;
 }
 

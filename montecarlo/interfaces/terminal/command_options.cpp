@@ -1,7 +1,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 
 #include "montecarlo/foundation/formats/number_text.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 
 #include <CLI/CLI.hpp>
@@ -65,7 +65,7 @@ void add_crew_options(CLI::App& command, CrewOptions& options) {
       ->type_name("NAME");
 }
 
-Crew crew_of(const CrewOptions& options) {
+ThreadPool crew_of(const CrewOptions& options) {
   return {options.threads, instruction_set(options.isa, options.lanes)};
 }
 

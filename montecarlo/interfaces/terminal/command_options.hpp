@@ -37,7 +37,7 @@ struct CrewOptions {
 void add_crew_options(CLI::App& command, CrewOptions& options);
 
 /// @throws CLI::ValidationError where this processor has not got what is asked for
-[[nodiscard]] Crew crew_of(const CrewOptions& options);
+[[nodiscard]] ThreadPool crew_of(const CrewOptions& options);
 
 /// "2/5"; nothing when it is no shard.
 [[nodiscard]] std::optional<Shard> parse_shard(std::string_view text);

@@ -7,7 +7,7 @@
 #include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/results/checkpoint/study_folder.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
-#include "montecarlo/results/streaming/rowless_folder.hpp"
+#include "montecarlo/results/streaming/streaming_folder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 10> own_files{runs_file,
                                                      histograms_csv_file,
                                                      statistics_file,
                                                      broken_runs_file,
-                                                     looks_file,
+                                                     checkpoint_file,
                                                      extremes_file,
                                                      margin_csv_file,
                                                      design_runs_file,

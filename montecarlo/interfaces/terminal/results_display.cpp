@@ -84,8 +84,9 @@ bool wants_table(const Display& display) {
 namespace {
 
 void print_files(const std::filesystem::path& folder) {
-  for (const char* file : {campaign_file, is_rowless(folder) ? broken_runs_file : runs_file,
-                           summary_file, histograms_json_file, histograms_csv_file})
+  for (const char* file :
+       {campaign_file, is_streaming_folder(folder) ? broken_runs_file : runs_file, summary_file,
+        histograms_json_file, histograms_csv_file})
     fmt::print("{}\n", (folder / file).string());
 }
 

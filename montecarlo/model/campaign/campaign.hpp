@@ -31,7 +31,6 @@ struct Campaign {
       wanted_correlations; ///< between dispersions; their matrix is possible
   Sampling sampling;
   Integration integration;
-  std::optional<ToleranceChoice> tolerance; ///< `"rtol": "auto"`, and what has come of it
   Outputs outputs = default_outputs();
   StatisticsSpec statistics;
   std::vector<Requirement> requirements;

@@ -115,7 +115,7 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
   Json json{{"scene", write_scene(campaign.scene)},
             {"dispersions", std::move(dispersions)},
             {"sampling", write_sampling(campaign.sampling)},
-            {"integration", write_integration(campaign.integration, campaign.tolerance)},
+            {"integration", write_integration(campaign.integration)},
             {"outputs", write_outputs(campaign.outputs)},
             {"statistics", write_statistics(campaign.statistics)}};
   // Not there when there are none: what a campaign does not use does not change its hash.
@@ -197,8 +197,7 @@ private:
   void read_settings() {
     read_part("sampling", read_sampling, campaign_.sampling);
     std::size_t before = problems_.size();
-    if (const auto at = object_.find("integration"))
-      read_integration(*at, campaign_.integration, campaign_.tolerance);
+    if (const auto at = object_.find("integration")) read_integration(*at, campaign_.integration);
     if (!was_run_ && problems_.size() == before) t_end_ = campaign_.integration.t_end;
     before = problems_.size();
     read_part("outputs", read_outputs, campaign_.outputs);

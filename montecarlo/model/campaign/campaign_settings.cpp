@@ -16,7 +16,7 @@ constexpr std::int64_t most_accuracy_runs = 10'000;
 constexpr const char* accuracy_runs_expected = "an integer from 0 (none) to 10000";
 
 constexpr double least_rtol = 1e-15; ///< double precision knows of no smaller differences
-constexpr const char* rtol_expected = "a number, ≥ 1e-15 and < 1";
+constexpr const char* rtol_expected = "a number, ≥ 1e-15 and < 1, for example 1e-8";
 
 bool is_rtol(const double& rtol) { return rtol >= least_rtol && rtol < 1; }
 bool is_at_least_1(const std::int64_t& number) { return number >= 1; }
@@ -142,25 +142,7 @@ void read_sampling(const JsonCursor& at, Sampling& sampling) {
   object.refuse_others();
 }
 
-namespace {
-
-void read_tolerances(JsonObject& object, Integration& integration,
-                     std::optional<ToleranceChoice>* choice) {
-  const auto rtol = object.find("rtol");
-  const bool automatic = rtol && rtol->value() == "auto";
-  if (automatic && !choice)
-    rtol->refuse(
-        fmt::format("{}: only a campaign has a sampling error to weigh errors by", rtol_expected));
-  if (!automatic)
-    object.optional("rtol", integration.rtol,
-                    choice ? fmt::format("{}, or \"auto\"", rtol_expected) : rtol_expected,
-                    is_rtol);
-  object.optional("atol", integration.atol, "a number, > 0", is_positive);
-  if (choice) read_tolerance_choice(object, automatic, *choice);
-}
-
-void read_all(const JsonCursor& at, Integration& integration,
-              std::optional<ToleranceChoice>* choice) {
+void read_integration(const JsonCursor& at, Integration& integration) {
   JsonObject object(at, "an object with the integration");
   const auto method = object.find("method");
   const bool known = !method || read_method(*method, integration.method);
@@ -169,24 +151,14 @@ void read_all(const JsonCursor& at, Integration& integration,
     refuse_step(*step, integration.method);
   else
     object.optional("step", integration.step, Dimension{"s", "> 0"}, is_positive);
-  read_tolerances(object, integration, choice);
+  object.optional("rtol", integration.rtol, rtol_expected, is_rtol);
+  object.optional("atol", integration.atol, "a number, > 0", is_positive);
   if (const auto latch = object.find("latch")) read_latch_form(*latch, integration.smoothing);
   object.optional("t_end", integration.t_end, Dimension{"s", "> 0"}, is_positive);
   std::int64_t max_steps = integration.max_steps;
   object.optional("max_steps", max_steps, "an integer, ≥ 1", is_at_least_1);
   integration.max_steps = static_cast<long>(max_steps);
   object.refuse_others();
-}
-
-} // namespace
-
-void read_integration(const JsonCursor& at, Integration& integration) {
-  read_all(at, integration, nullptr);
-}
-
-void read_integration(const JsonCursor& at, Integration& integration,
-                      std::optional<ToleranceChoice>& choice) {
-  read_all(at, integration, &choice);
 }
 
 void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
@@ -211,15 +183,13 @@ Json write_sampling(const Sampling& sampling) {
   return json;
 }
 
-Json write_integration(const Integration& integration,
-                       const std::optional<ToleranceChoice>& choice) {
+Json write_integration(const Integration& integration) {
   const Json latch =
       integration.smoothing ? Json{{"smoothed", *integration.smoothing}} : Json("event");
   Json json{{"method", integration.method}, {"rtol", integration.rtol},
             {"atol", integration.atol},     {"latch", latch},
             {"t_end", integration.t_end},   {"max_steps", integration.max_steps}};
   if (has_fixed_step(integration.method)) json["step"] = integration.step;
-  if (choice) write_tolerance_choice(*choice, json);
   return json;
 }
 

@@ -1,8 +1,6 @@
 /// The parts of a campaign that say how its runs are drawn, integrated and summed up; what they
 /// leave behind is in outputs.hpp.
 ///
-/// `"rtol": "auto"` is in tolerance_choice.hpp.
-///
 /// Each `read_` starts from what is already there (the defaults), and notes its problems in the
 /// cursor's list; each `write_` gives the same in full.
 #pragma once
@@ -12,7 +10,6 @@
 #include "montecarlo/foundation/formats/json_reader.hpp"
 #include "montecarlo/foundation/statistics/histogram.hpp"
 #include "montecarlo/foundation/statistics/wilks.hpp"
-#include "montecarlo/model/campaign/tolerance_choice.hpp"
 
 #include <array>
 #include <cstdint>
@@ -67,14 +64,10 @@ struct StatisticsSpec {
 
 void read_sampling(const JsonCursor& at, Sampling& sampling);
 void read_integration(const JsonCursor& at, Integration& integration);
-/// That of a campaign, whose tolerance may be left to it. @param choice of the tolerance, if it is
-void read_integration(const JsonCursor& at, Integration& integration,
-                      std::optional<ToleranceChoice>& choice);
 void read_statistics(const JsonCursor& at, StatisticsSpec& statistics);
 
 [[nodiscard]] Json write_sampling(const Sampling& sampling);
-[[nodiscard]] Json write_integration(const Integration& integration,
-                                     const std::optional<ToleranceChoice>& choice = {});
+[[nodiscard]] Json write_integration(const Integration& integration);
 [[nodiscard]] Json write_statistics(const StatisticsSpec& statistics);
 
 } // namespace wingspread

@@ -115,24 +115,14 @@ std::string describe_correlation(const Campaign& campaign, const RankCorrelation
                      campaign.dispersions[correlation.second].name, correlation.spearman);
 }
 
-std::string describe_tolerances(const Integration& integration,
-                                const std::optional<ToleranceChoice>& choice) {
-  if (choice && !choice->pilot)
-    return fmt::format("rtol chosen by a pilot, at most 1e-06 and errors within {:g} % of the "
-                       "sampling error",
-                       100 * choice->share);
-  return fmt::format("rtol {}, atol {}", integration.rtol, integration.atol);
-}
-
-std::string describe_integration(const Integration& integration,
-                                 const std::optional<ToleranceChoice>& choice) {
+std::string describe_integration(const Integration& integration) {
   const std::string latch =
       integration.smoothing ? fmt::format("smoothed over {} rad", *integration.smoothing) : "event";
   const std::string step =
       has_fixed_step(integration.method) ? fmt::format(", step {} s", integration.step) : "";
-  return fmt::format("method {}{}, {}, latch {}, up to {} s and {} steps", integration.method, step,
-                     describe_tolerances(integration, choice), latch, integration.t_end,
-                     integration.max_steps);
+  return fmt::format("method {}{}, rtol {}, atol {}, latch {}, up to {} s and {} steps",
+                     integration.method, step, integration.rtol, integration.atol, latch,
+                     integration.t_end, integration.max_steps);
 }
 
 std::string describe_outputs(const Outputs& outputs) {
@@ -219,7 +209,7 @@ std::string describe(const Campaign& campaign) {
   for (const RankCorrelation& correlation : campaign.wanted_correlations)
     text += fmt::format("  {}\n", describe_correlation(campaign, correlation));
   text += "sampling: " + describe_sampling(campaign.sampling) + "\n";
-  text += "integration: " + describe_integration(campaign.integration, campaign.tolerance) + "\n";
+  text += "integration: " + describe_integration(campaign.integration) + "\n";
   text += "outputs: " + describe_outputs(campaign.outputs) + "\n";
   text += "statistics: " + describe_statistics(campaign.statistics) + "\n";
   return text + describe_guarantees(campaign);

@@ -1,7 +1,7 @@
 #include "montecarlo/report/data/causes_json.hpp"
 
 #include "montecarlo/analyses/sensitivity/rank_report.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 
 #include <algorithm>
@@ -202,7 +202,7 @@ std::vector<std::size_t> scatter_rows(const Column& x, const Column& y, std::siz
 Json scatters_json(const PageSource& source, const PageDetail& detail, int threads) {
   const std::vector<Pair> pairs = strongest_pairs(source, detail.scatters);
   std::vector<Json> scatters(pairs.size());
-  for_each_task(team_within(threads, 24 * source.results.size()), pairs.size(),
+  for_each_task(threads_within_memory(threads, 24 * source.results.size()), pairs.size(),
                 [&](std::size_t i) { scatters[i] = scatter_json(source, pairs[i]); });
   source.results.release();
   return scatters;

@@ -33,7 +33,7 @@ struct Pair {
 [[nodiscard]] std::vector<std::size_t> scatter_rows(const Column& x, const Column& y,
                                                     std::size_t most);
 
-/// @param threads as of team_size (team.hpp); the bytes do not depend on them
+/// @param threads as of thread_count (team.hpp); the bytes do not depend on them
 [[nodiscard]] Json scatters_json(const PageSource& source, const PageDetail& detail, int threads);
 
 } // namespace wingspread

@@ -1,7 +1,6 @@
 #include "montecarlo/report/data/convergence.hpp"
 
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
-#include "montecarlo/foundation/statistics/number_sort.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/foundation/statistics/two_sided.hpp"
 
@@ -17,7 +16,7 @@ template <class Value, class Number>
 void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number) {
   const auto less = [&](const Value& a, const Value& b) { return number(a) < number(b); };
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(sorted);
-  sort_by_number(std::span(middle, values.end()), number);
+  std::stable_sort(middle, values.end(), less);
   std::inplace_merge(values.begin(), middle, values.end(), less);
 }
 

@@ -1,7 +1,7 @@
 #include "montecarlo/report/data/envelopes_json.hpp"
 
 #include "montecarlo/engine/runs/runner.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/motion.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "montecarlo/engine/runs/runner.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/motion.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/results/results_folder/replay.hpp"

@@ -21,7 +21,7 @@ struct ChosenRun {
 [[nodiscard]] std::vector<ChosenRun> chosen_runs(const PageSource& source, std::size_t most = 11);
 
 /// The nominal run, then the chosen ones made again. None where they cannot be (PageSource::replayable).
-/// @param threads as of team_size (team.hpp)
+/// @param threads as of thread_count (team.hpp)
 [[nodiscard]] Json motions_json(const PageSource& source, const PageDetail& detail, int threads);
 
 } // namespace wingspread

@@ -1,7 +1,7 @@
 #include "montecarlo/report/data/output_json.hpp"
 
 #include "montecarlo/foundation/formats/output_name.hpp"
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/convergence.hpp"
 #include "montecarlo/report/data/distribution_curve.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
@@ -130,7 +130,7 @@ Json outputs_json(const PageSource& source, const PageDetail& detail, int thread
   const std::size_t count = std::min(source.results.outputs.size(), detail.outputs);
   const std::size_t bytes = (source.replication.replicates > 0 ? 64 : 16) * source.results.size();
   std::vector<Json> blocks(count);
-  for_each_task(team_within(threads, bytes), count,
+  for_each_task(threads_within_memory(threads, bytes), count,
                 [&](std::size_t i) { blocks[i] = output_json(source, i, detail); });
   return blocks;
 }

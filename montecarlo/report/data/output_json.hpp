@@ -7,7 +7,7 @@
 namespace wingspread {
 
 /// Cost: each column sorted once and gone through five times; memory: 16 bytes a run for each thread.
-/// @param threads as of team_size (team.hpp); the bytes do not depend on them
+/// @param threads as of thread_count (team.hpp); the bytes do not depend on them
 [[nodiscard]] Json outputs_json(const PageSource& source, const PageDetail& detail, int threads);
 
 } // namespace wingspread

@@ -27,7 +27,7 @@ struct PageSource {
 };
 
 /// Reads a folder and works out its statistics.
-/// @param threads as of team_size (team.hpp)
+/// @param threads as of thread_count (team.hpp)
 /// @throws SpecError as read_stored_results does
 [[nodiscard]] std::unique_ptr<PageSource> read_page_source(StoredCampaign stored,
                                                            const std::string& label,

@@ -6,7 +6,7 @@
 
 namespace wingspread {
 
-/// @param threads as of team_size (team.hpp); the bytes do not depend on them
+/// @param threads as of thread_count (team.hpp); the bytes do not depend on them
 [[nodiscard]] Json set_json(const PageSource& source, const PageDetail& detail, int threads);
 
 } // namespace wingspread

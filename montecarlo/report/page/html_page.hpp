@@ -19,7 +19,7 @@ struct PageSources {
 
 /// Reads folders of results: a set each or, of a campaign with cases, one for each case; and folders that `margin`,
 /// `sensitivity` of a campaign or `rare` left.
-/// @param threads as of team_size (team.hpp)
+/// @param threads as of thread_count (team.hpp)
 /// @throws SpecError for what is none, is broken, or comes to more than 12 sets
 [[nodiscard]] PageSources read_page_sources(std::span<const std::filesystem::path> folders,
                                             int threads);

@@ -20,14 +20,14 @@ std::uint64_t sum_of(std::uint64_t sum, std::string_view bytes) {
   return sum;
 }
 
-/// Of a record and all before it.
+/// The checksum of a record and all before it.
 std::uint64_t sum_of(std::uint64_t before, std::uint32_t size, std::string_view record) {
   std::array<char, sizeof size> bytes;
   std::memcpy(bytes.data(), &size, sizeof size);
   return sum_of(sum_of(before, {bytes.data(), bytes.size()}), record);
 }
 
-/// Appends the record with its head. @return its sum
+/// Appends the record with its head. @return its checksum
 std::uint64_t append_framed(std::string& buffer, std::uint64_t before, std::string_view record) {
   const auto size = static_cast<std::uint32_t>(record.size());
   const std::uint64_t sum = sum_of(before, size, record);
@@ -43,7 +43,7 @@ RecordReader::RecordReader(const std::filesystem::path& path) : in_(path) {
   std::array<char, magic.size()> there{};
   in_.read(there.data(), there.size());
   if (std::string_view(there.data(), static_cast<std::size_t>(in_.gcount())) != magic)
-    throw SpecError({{path.string(), "", "another kind of file", "a log of this program's"}});
+    throw SpecError({{path.string(), "", "another kind of file", "a checkpoint of this program"}});
   end_ = {magic.size(), first_sum};
 }
 

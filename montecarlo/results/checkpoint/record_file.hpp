@@ -1,11 +1,10 @@
-/// A file of records that grows: whatever cuts it off or changes it, what is read of it was written so.
+/// Append-only file of records. A torn or altered tail is detected and ignored.
 ///
 ///   magic                                   a line of text
-///   size u32 · sum u64 · size bytes         a record; so on to the end
+///   size u32 · sum u64 · size bytes         a record; repeated
 ///
-/// The sum is FNV-1a over the size and the bytes, begun with the sum of the record before: a step of it is one to one,
-/// so that a change of any one byte shows in its own record, and a record that is lost, doubled or moved in the next.
-/// From the first record that does not hold, nothing is read.
+/// The sum is FNV-1a over size and bytes, starting from the sum of the record before. A change of any byte shows in
+/// its own record, and a lost, doubled or moved record in the next. Nothing is read from the first invalid record on.
 #pragma once
 
 #include "montecarlo/foundation/formats/input_file.hpp"
@@ -19,33 +18,34 @@
 
 namespace wingspread {
 
-/// No record is longer: a size beyond is no size.
+/// Longest record. Heuristic: records have some 64 KiB; a larger size is read as damage, so that no allocation
+/// follows a random number.
 inline constexpr std::size_t most_record_bytes = std::size_t{64} << 20;
 
-/// Where a file of records can be gone on with.
+/// Where to append to a file of records.
 struct RecordsEnd {
-  std::size_t bytes = 0; ///< up to its last record that holds
+  std::size_t bytes = 0; ///< length up to the last valid record
   std::uint64_t sum = 0; ///< of that record
 };
 
-/// How it ends behind that.
+/// What follows the last valid record.
 enum class RecordsTail {
-  clean,   ///< nothing follows
-  cut_off, ///< less than a record: what a crash leaves
-  damaged  ///< something that nobody wrote so
+  clean,   ///< nothing
+  cut_off, ///< less than a record: left by a crash
+  damaged  ///< bytes that are no valid record
 };
 
 class RecordReader {
 public:
-  /// @throws SpecError when it is no file of records; as InputFile does
+  /// @throws SpecError if it is no file of records; as InputFile does
   explicit RecordReader(const std::filesystem::path& path);
 
-  /// Reads the next record; false when there is none that holds.
+  /// Reads the next record; false if no valid one is left.
   [[nodiscard]] bool next();
-  /// The one that was read; the next one takes its place.
+  /// The record read last; next() overwrites it.
   [[nodiscard]] const std::string& record() const { return record_; }
 
-  /// Behind the record that was read last.
+  /// The end of the record read last.
   [[nodiscard]] RecordsEnd end() const { return end_; }
   /// @pre next() returned false
   [[nodiscard]] RecordsTail tail() const { return tail_; }
@@ -59,14 +59,14 @@ private:
 
 class RecordWriter {
 public:
-  /// Begins a file with its first record: whole, or not at all.
+  /// Creates a file with its first record, atomically.
   RecordWriter(const std::filesystem::path& path, std::string_view first);
-  /// Goes on behind a file's last record that holds, and cuts off what follows it.
-  /// @throws as refuse_path (machine_error.hpp) does, here and below
+  /// Appends after the last valid record, and cuts off what follows.
+  /// @throws as refuse_path (machine_error.hpp), here and below
   RecordWriter(const std::filesystem::path& path, RecordsEnd end);
 
   void add(std::string_view record);
-  /// Returns when all is on the device.
+  /// Returns when everything is on the device.
   void sync() { out_->sync(); }
 
 private:

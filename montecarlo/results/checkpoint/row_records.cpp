@@ -47,7 +47,7 @@ std::string framed(long first, std::uint32_t count, std::uint64_t draws, std::st
   return record += rows;
 }
 
-/// Takes numbers and texts off the front.
+/// Reads numbers and texts from the front.
 class Taking {
 public:
   explicit Taking(std::string_view bytes) : bytes_(bytes) {}
@@ -114,7 +114,7 @@ std::vector<ResultRow> rows_of_record(std::string_view record, const RunPlan& pl
   const long count = bytes.number<std::uint32_t>();
   const auto recorded = bytes.number<std::uint64_t>();
   const auto refuse = [&] {
-    throw SpecError({{file, "", fmt::format("rows from run {} on with other draws", next.first),
+    throw SpecError({{file, "", fmt::format("rows with other draws from run {} on", next.first),
                       "those of this study, made by this program on one kind of machine"}});
   };
   if (bytes.is_short() || first != next.first || count > next.size()) refuse();

@@ -18,14 +18,13 @@ namespace {
 }
 
 void refuse_unsuitable(const std::filesystem::path& folder, const char* last, bool resume) {
-  const bool has_log = std::filesystem::exists(folder / looks_file);
+  const bool has_log = std::filesystem::exists(folder / checkpoint_file);
   if (!resume && has_log)
-    refuse_folder(folder, "a study that was interrupted",
-                  "a new or an empty folder (--resume goes on with this one)");
+    refuse_folder(folder, "an interrupted study",
+                  "a new or an empty folder (--resume continues this one)");
   if (!resume) return refuse_used_folder(folder, "a new or an empty folder");
   if (!has_log && !std::filesystem::exists(folder / last) && !is_new_folder(folder))
-    refuse_folder(folder, "no study that was interrupted",
-                  "one to go on with, or a new or an empty folder");
+    refuse_folder(folder, "no interrupted study", "one to continue, or a new or an empty folder");
 }
 
 } // namespace
@@ -35,29 +34,29 @@ StudyFolder::StudyFolder(std::filesystem::path folder, const Json& about, const 
     : folder_(std::move(folder)) {
   refuse_unsuitable(folder_, last, resume);
   lock_.emplace(folder_);
-  refuse_unsuitable(folder_, last, resume); // the folder may be another by now
-  const bool finished =
-      std::filesystem::exists(folder_ / last) && !std::filesystem::exists(folder_ / looks_file);
+  refuse_unsuitable(folder_, last, resume); // it may have changed before the lock
+  const bool finished = std::filesystem::exists(folder_ / last) &&
+                        !std::filesystem::exists(folder_ / checkpoint_file);
   if (finished)
     refuse_other_study(folder_ / last, parse_json_file(folder_ / last), about);
   else
-    log_.emplace(folder_ / looks_file, about);
+    log_.emplace(folder_ / checkpoint_file, about);
 }
 
 void StudyFolder::finish() {
-  const std::filesystem::path file = folder_ / looks_file;
+  const std::filesystem::path file = folder_ / checkpoint_file;
   log_.reset();
   if (unlink(file.c_str()) != 0 && errno != ENOENT)
     refuse_path(file, errno, "a file that can be taken away");
   sync_folder(folder_);
 }
 
-void warn_if_damaged(const LookLog& log, const std::filesystem::path& folder) {
+void warn_if_damaged(const Checkpoint& log, const std::filesystem::path& folder) {
   if (log.was_damaged())
-    fmt::print(stderr,
-               "warning: {} was damaged behind run {} of the study: those that followed were made "
-               "again\n",
-               (folder / looks_file).string(), log.read());
+    fmt::print(
+        stderr,
+        "warning: {} was damaged after run {} of the study: the runs after it were repeated\n",
+        (folder / checkpoint_file).string(), log.read());
 }
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// What each column of runs.csv is, for files that can say so.
+/// Name, unit and description of each column of runs.csv, for files that hold them.
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
@@ -12,21 +12,21 @@ namespace wingspread {
 struct ExportColumn {
   enum class Kind { run, status, draw, output, peaks_final, latch_order, reason };
   Kind kind;
-  std::size_t index = 0; ///< of a draw or an output: its place in the row
+  std::size_t index = 0; ///< of a draw or an output: its position in the row
   std::string name;      ///< as in runs.csv
-  std::string unit;      ///< empty: none, or not one alone
+  std::string unit;      ///< empty: none, or several
   std::string description;
 };
 
-/// The columns in the order in which runs.csv has them.
+/// The columns in the order of runs.csv.
 [[nodiscard]] std::vector<ExportColumn> export_columns(const Campaign& campaign,
                                                        const ResultNames& names);
 
-/// What is meant by an output of that name: "when root reaches its latched angle for the first time".
+/// The meaning of an output: "when root reaches its latched angle for the first time".
 [[nodiscard]] std::string describe_output(const std::string& name);
 
-/// The unit of a draw's numbers: that of all parameters that it is set to or added to; empty where they have none in
-/// common, where it is a factor, and where a table stands between.
+/// The unit of a draw: that of all parameters it sets or adds to. Empty if they have different ones, if the draw is a
+/// factor, or if it acts through a table.
 [[nodiscard]] std::string draw_unit(const Dispersion& dispersion);
 
 } // namespace wingspread

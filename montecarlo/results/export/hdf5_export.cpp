@@ -31,7 +31,7 @@ constexpr std::size_t most_chunk_bytes = std::size_t{1} << 20;
 constexpr hsize_t least_chunk = 64, most_chunk = 16384; // rows
 constexpr int deflate_level = 4; // 6 takes twice the time for 1 % of numbers that were drawn
 
-/// How many rows there are, and the longest of their texts.
+/// The number of rows, and the lengths of the longest texts.
 struct Extent {
   hsize_t rows = 0;
   std::size_t latch_order = 1, reason = 1; ///< bytes
@@ -47,13 +47,13 @@ Extent extent_of(const StoredCampaign& stored) {
   return extent;
 }
 
-/// What the library could not do, and the system's error behind it if there is one.
+/// The library's error, and the system error behind it if there is one.
 struct Failure {
   int error;
   std::string what;
 };
 
-/// The system's error that the library met, if it tells one: the first of its stack says it in words.
+/// The system error that the library met, from the text on top of its error stack.
 int system_error() {
   int error = 0;
   const auto look = [](unsigned, const H5E_error2_t* entry, void* found) -> herr_t {
@@ -66,7 +66,7 @@ int system_error() {
   return error;
 }
 
-/// Does what may fail on the device; the library forgets why at its next call.
+/// Calls a function that may fail on the device, and reads the error at once: the library's next call erases it.
 template <class Action> void on_device(const Action& action) {
   try {
     action();
@@ -75,8 +75,8 @@ template <class Action> void on_device(const Action& action) {
   }
 }
 
-/// To close a file that cannot be written would fail as its writing did, aloud in a destructor, and end the program when
-/// the library does so at its end: what is left to write goes into memory, where it is forgotten.
+/// Closing a file that cannot be written fails too: in a destructor with a message, and at the library's exit it ends the
+/// program. So the remaining data is redirected into memory and dropped.
 void divert(const H5::H5File& file) {
   void* handle = nullptr;
   if (H5Fget_vfd_handle(file.getId(), H5P_DEFAULT, &handle) < 0) return;
@@ -115,7 +115,7 @@ H5::DataType type_of(const ExportColumn& column, const Extent& extent) {
   return H5::PredType::IEEE_F64LE;
 }
 
-/// Rows in a chunk: few enough that all columns' chunks, and the longest texts, fit into memory.
+/// Rows per chunk: few enough that the chunks of all columns, with the longest texts, fit into memory.
 hsize_t chunk_rows(std::span<const ExportColumn> columns, const Extent& extent) {
   std::size_t row = 0, longest = 0;
   for (const ExportColumn& column : columns) {
@@ -140,7 +140,7 @@ void add_attribute(H5::H5Object& object, const char* name, const H5::PredType& t
   object.createAttribute(name, type, H5::DataSpace(H5S_SCALAR)).write(type, &value);
 }
 
-/// As the name of a link, where "/" would end a group's and "." is the group itself.
+/// A column name as a link name: "/" separates groups and "." is the group itself.
 std::string link_name(std::string name, std::set<std::string>& taken) {
   for (std::size_t at = 0; (at = name.find('/', at)) != std::string::npos;)
     name.replace(at, 1, "∕");
@@ -149,7 +149,7 @@ std::string link_name(std::string name, std::set<std::string>& taken) {
   return name;
 }
 
-/// A column's dataset, and its values that wait to be written.
+/// A column's dataset, and its values not yet written.
 class ColumnWriter {
 public:
   ColumnWriter(H5::Group& group, const ExportColumn& column, const std::string& link,
@@ -177,7 +177,7 @@ public:
     if (++count_ == chunk_) flush();
   }
 
-  /// Behind the last row.
+  /// Call after the last row.
   void flush() {
     if (count_ == 0) return;
     const H5::DataSpace rows(1, &count_);
@@ -262,7 +262,7 @@ void write_table(H5::Group& group, const StoredCampaign& stored) {
   for (ColumnWriter& writer : writers) writer.flush();
 }
 
-/// Of a group, or of a file, which is one: links in the order in which they are made, and no times.
+/// Properties of a group or file: links in order of creation, and no times.
 void set_up_group(hid_t properties) {
   H5Pset_obj_track_times(properties, false);
   H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
@@ -279,7 +279,7 @@ H5::Group make_group(H5::H5File& file, const std::string& name) {
   return group;
 }
 
-/// The folder's own rows, or those of its cases.
+/// Writes the folder's rows, or those of its cases.
 void write_tables(const StoredCampaign& stored, H5::H5File& file) {
   if (!is_cases_folder(stored.folder)) return write_table(file, stored);
   add_stamp(file, stored);

@@ -1,4 +1,4 @@
-/// A results folder as HDF5: README.md of this room says what is in the file.
+/// A results folder as HDF5. README.md of this room describes the file.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,10 @@ namespace wingspread {
 /// Whether the program was built with HDF5.
 [[nodiscard]] bool has_hdf5();
 
-/// Writes the rows of a results folder, or those of all cases of one, in place of what was there.
-///
-/// The rows are read twice: how long their texts are has to be known first. Memory: 32 MiB and what HDF5 takes, however
-/// many rows there are.
-/// @throws SpecError when the folder is broken or has no rows' file; MachineError where the program has no HDF5, and
-///   when the file cannot be written
+/// Writes the rows of a results folder, or of all cases, replacing an existing file. Reads the rows twice, because
+/// HDF5 needs the length of texts first. Memory: 32 MiB and what HDF5 takes, for any number of rows.
+/// @throws SpecError if the folder is broken or has no file of rows; MachineError if the program has no HDF5, or the
+///   file cannot be written
 void export_hdf5(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 } // namespace wingspread

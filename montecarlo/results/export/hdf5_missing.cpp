@@ -1,4 +1,4 @@
-/// In place of hdf5_export.cpp where the program is built without HDF5.
+/// Replaces hdf5_export.cpp in a program built without HDF5.
 #include "montecarlo/foundation/formats/machine_error.hpp"
 #include "montecarlo/results/export/hdf5_export.hpp"
 

@@ -29,7 +29,7 @@ SpecError unknown_case(const std::vector<CaseSpec>& cases, const std::string& na
   return SpecError({{"", "--case", fmt::format("\"{}\"", name), expected}});
 }
 
-/// The case that is meant; nothing where the campaign has none and none is named.
+/// The named case; nothing if the campaign has no cases and none is named.
 const CaseSpec* find_case(const std::vector<CaseSpec>& cases, const std::string& name) {
   if (cases.empty() && name.empty()) return nullptr;
   if (name.empty())

@@ -16,7 +16,7 @@
 namespace wingspread {
 namespace {
 
-/// Why these runs cannot be added to those that are there; nothing when they can.
+/// Why runs cannot be added to the existing ones; nothing if they can.
 std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaign& ours,
                                       const Stamp& stamp) {
   if (ours.sampling.runs < there.campaign.sampling.runs)
@@ -32,13 +32,13 @@ std::optional<std::string> fixed_runs(const StoredCampaign& there, const Campaig
   return std::nullopt;
 }
 
-/// A value that two documents do not have in common; null: there is none.
+/// A value that differs between two documents; null: missing.
 struct Difference {
   std::string pointer;
   const Json *found, *expected;
 };
 
-/// The deepest values that differ; arrays of different lengths are one.
+/// The deepest values that differ; arrays of different lengths differ as a whole.
 void find_differences(const Json& found, const Json& expected, const std::string& pointer,
                       std::vector<Difference>& all) {
   if (found.is_object() && expected.is_object()) {
@@ -61,9 +61,9 @@ void find_differences(const Json& found, const Json& expected, const std::string
 
 std::string describe_side(const Json* value) { return value ? describe_value(*value) : "nothing"; }
 
-/// What sets a campaign apart from the one that is there: the first values that differ, or hashes where the same values
-/// stand in another order.
-/// @param told the pointer of a problem that is known
+/// How a campaign differs from the stored one: the first values that differ, or the hashes if the same values have
+/// another order.
+/// @param told pointer of a problem already reported
 void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::string_view told,
                         std::vector<Problem>& problems) {
   constexpr std::size_t most_told = 5;
@@ -84,14 +84,14 @@ void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::
                         fmt::format("{}, to continue what is there: {}", hash, reason)});
 }
 
-/// The looks that were taken when these rows had been made and more runs are added to them.
+/// The interim analyses so far, if more runs are added to these rows.
 std::vector<std::int64_t> looks_before(const Sampling& there, std::int64_t rows) {
   std::vector<std::int64_t> looks = there.extended_from;
   if (rows > 0 && (looks.empty() || rows > looks.back())) looks.push_back(rows);
   return looks;
 }
 
-/// A shard cannot tell what all runs up to a checkpoint come to.
+/// A shard cannot do interim analyses, which need all runs up to them.
 void refuse_stopping_shard(const Campaign& campaign, const std::optional<Shard>& shard) {
   if (shard && !campaign.until.empty())
     throw SpecError({{"", "", describe(shard) + " of a campaign that may stop early",

@@ -20,7 +20,7 @@ void refuse_stopping(const StoredCampaign& stored) {
                       "a campaign that may stop early", "one that can have shards"}});
 }
 
-/// The campaign as one of its folders has it.
+/// The campaign as stored in one of its folders.
 StoredCampaign stored_in(const Part& part, const StoredCampaign& whole) {
   StoredCampaign stored = whole;
   stored.folder = part.folder;
@@ -34,7 +34,7 @@ void find_present(Part& part, const StoredCampaign& whole) {
 }
 
 /// Writes the rows in the order of their runs.
-/// @param parts complete, and no run in two of them
+/// @param parts complete and disjoint
 void write_in_order(std::vector<Part> parts, const StoredCampaign& whole) {
   constexpr std::size_t block_bytes = 1 << 16;
   std::ranges::sort(parts, {}, [](const Part& part) { return part.own.first; });
@@ -52,21 +52,21 @@ void write_in_order(std::vector<Part> parts, const StoredCampaign& whole) {
   out.finish();
 }
 
-/// An earlier merging of the same folders may have been cut off: it is done again. An earlier preview makes room.
+/// @throws SpecError unless `out` is new or empty, an interrupted merge of the same folders, or an earlier preview
 void refuse_other_folder(const std::filesystem::path& out, const std::string& text) {
   const auto there = read_text(out / campaign_file);
   if (there != text && !(there && read_stored_campaign(out).stamp.preview))
     refuse_used_folder(out, "a new or an empty folder for the merged results");
 }
 
-/// What is to be merged, when nothing speaks against it.
+/// The checked input of a merge.
 struct Merging {
   StoredCampaign whole;
   std::vector<Part> parts;
   std::string campaign; ///< campaign.json's text
 };
 
-/// The cases that are in any of the folders, in the campaign's order.
+/// The cases found in any of the folders, in the campaign's order.
 std::vector<CaseSpec> cases_in(const std::vector<std::filesystem::path>& folders) {
   std::vector<CaseSpec> cases;
   for (const CaseSpec& spec : read_stored_campaign(folders.front()).campaign.cases)
@@ -77,7 +77,7 @@ std::vector<CaseSpec> cases_in(const std::vector<std::filesystem::path>& folders
   return cases;
 }
 
-/// What makes the shards of a campaign again, as the first folder has it.
+/// The command that makes a shard of the campaign in the first folder.
 ShardMaker maker_of(const std::vector<std::filesystem::path>& folders) {
   const std::filesystem::path campaign = folders.front() / campaign_file;
   ShardMaker maker{"wingspread run " + shell_word(campaign.string()), ""};
@@ -87,7 +87,7 @@ ShardMaker maker_of(const std::vector<std::filesystem::path>& folders) {
   return maker;
 }
 
-/// Takes for a preview what is there of the runs, if some are missing.
+/// Labels the merge as a preview if runs are missing.
 void preview(Merging& merging, PartFaults& faults) {
   const long of = merging.whole.campaign.sampling.runs;
   long there = 0;
@@ -97,9 +97,9 @@ void preview(Merging& merging, PartFaults& faults) {
   if (there < of) merging.whole.stamp.preview = Preview{there, of};
 }
 
-/// Looks at the folders of a campaign, or of one of its cases, and notes what keeps them from being merged.
-/// @param of_case empty: the folders are those that were named; else the case's are in them
-/// @throws SpecError when they are no folders of one campaign
+/// Checks the folders of a campaign, or of one of its cases, and collects the reasons why they cannot be merged.
+/// @param of_case empty: the folders themselves; else the case's folders in them
+/// @throws SpecError if they are not folders of one campaign
 Merging look_at(const std::vector<std::filesystem::path>& folders, const std::string& of_case,
                 const std::filesystem::path& out, MergeKind kind, PartFaults& faults) {
   Merging merging;
@@ -134,14 +134,14 @@ Merging look_at(const std::vector<std::filesystem::path>& folders, const std::st
   return merging;
 }
 
-/// What was made of an earlier preview, and what was made of that.
+/// Removes the files of an earlier preview, and those computed from them.
 void drop_preview(const std::filesystem::path& folder) {
   for (const char* file : {summary_file, histograms_json_file, histograms_csv_file, runs_file,
                            "sensitivity.json", "sensitivity.csv", "report.html"})
     std::filesystem::remove(folder / file);
 }
 
-/// @pre nothing speaks against it
+/// @pre the input was checked
 Summary write_merged(Merging&& merging) {
   auto& [whole, parts, text] = merging;
   const FolderLock lock(whole.folder);

@@ -1,4 +1,4 @@
-/// Shards put together again.
+/// Merges shards.
 #pragma once
 
 #include "montecarlo/results/summary/comparison.hpp"
@@ -10,21 +10,20 @@
 namespace wingspread {
 
 enum class MergeKind {
-  whole, ///< all runs have to be there
-  preview ///< any of them: what is written says so (Stamp::preview), and is taken for the whole by nothing
+  whole, ///< all runs must be there
+  preview ///< the runs that are there; the result is labelled (Stamp::preview), and never taken for the whole
 };
 
-/// Writes the folder that running the whole campaign at once would have written, byte for byte; a preview of it
-/// has the rows that there are. Its rows are read one at a time: what grows with their number are the statistics'
-/// columns alone.
-/// @param folders of one campaign, seed and version, in any order, with each run in one of them; in none for a preview
+/// Writes the folder that running the whole campaign at once would write, byte for byte. A preview has the rows that
+/// exist. Rows are read one at a time: only the statistics' columns grow with their number.
+/// @param folders of one campaign, seed and version, in any order; each run is in exactly one, or for a preview in at
+///   most one
 /// @param out     new or empty, or an earlier preview
-/// @throws MissingRuns (parts.hpp) when runs are missing, SpecError with all else that keeps them from being merged;
-///   then nothing is written
+/// @throws MissingRuns (parts.hpp) if runs are missing, SpecError for any other obstacle; nothing is written then
 Summary merge_folders(const std::vector<std::filesystem::path>& folders,
                       const std::filesystem::path& out, MergeKind kind = MergeKind::whole);
 
-/// The same for folders of a campaign with cases: those of each case into one, and cases.json.
+/// As merge_folders for a campaign with cases: merges each case, and writes cases.json.
 std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& folders,
                                      const std::filesystem::path& out,
                                      MergeKind kind = MergeKind::whole);

@@ -40,8 +40,8 @@ RunRange common(const RunRange& a, const RunRange& b) {
   return {std::max(a.first, b.first), std::min(a.last, b.last)};
 }
 
-/// What is left of the range.
-/// @param present in order
+/// The runs of the range that are missing.
+/// @param present increasing
 std::vector<RunRange> missing_in(const RunRange& range, const std::vector<RunRange>& present) {
   std::vector<RunRange> missing;
   const auto add = [&](long first, long last) {
@@ -62,7 +62,7 @@ RunList listed(const std::vector<RunRange>& ranges) {
   return list;
 }
 
-/// "part2" → "part3": the folder's name with another shard's number in place of its own, where it has that.
+/// "part2" → "part3": the folder's name with another shard's number, if the name has its own.
 std::optional<std::filesystem::path> renumbered(const Part& part, long index) {
   const std::string name = part.out.filename().string(),
                     own = std::to_string(part.stamp.shard->index);
@@ -82,7 +82,7 @@ std::string command(const ShardMaker& maker, const std::filesystem::path& out,
   return text + maker.more + (resume ? " --resume" : "");
 }
 
-/// For a shard that no folder is of. One that is there, and was not named, is gone on with.
+/// The command for a shard without a folder. If a folder of that name exists, the command resumes it.
 std::string command_for(const ShardMaker& maker, const Part& sibling, const Shard& shard) {
   const std::filesystem::path other =
       sibling.out.parent_path() / fmt::format("shard_{}_of_{}", shard.index, shard.of);
@@ -90,7 +90,7 @@ std::string command_for(const ShardMaker& maker, const Part& sibling, const Shar
   return command(maker, out, shard, std::filesystem::exists(out));
 }
 
-/// The shards that lie in what nobody has, of those numbers of shards that there are.
+/// Adds the commands of the shards that lie within the missing runs, for the numbers of shards in use.
 void add_commands(const std::vector<Part>& parts, const std::vector<RunRange>& nobodys, long runs,
                   const ShardMaker& maker, PartFaults& faults) {
   std::map<long, const Part*, std::greater<>> siblings; // by their number of shards

@@ -1,4 +1,4 @@
-/// Folders that have parts of the same runs: which of them they have, which are missing, and what makes those.
+/// Folders with parts of the same runs: which runs they have, which are missing, and the commands that make those.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -11,40 +11,41 @@
 
 namespace wingspread {
 
-/// A folder, and the runs that it has: one range, unless it is broken or not finished.
+/// A folder and its runs: one range, unless it is broken or unfinished.
 struct Part {
   std::filesystem::path folder;
-  std::filesystem::path out; ///< what --out names to make it: the folder, or the one with all cases
+  std::filesystem::path
+      out; ///< argument of --out that makes it: the folder, or the one with all cases
   Stamp stamp;
-  RunRange own; ///< that it should have
+  RunRange own; ///< runs that it should have
   std::vector<RunRange> present{};
 
-  /// @pre runs come in order
+  /// @pre runs increase
   void add(long run);
-  /// How many it has.
+  /// Number of runs present.
   [[nodiscard]] long count() const;
 };
 
-/// Runs are missing, and known is what makes them.
+/// Runs are missing, and the commands that make them are known.
 class MissingRuns : public SpecError {
 public:
   MissingRuns(std::vector<Problem> problems, std::vector<std::string> commands)
       : SpecError(std::move(problems)), commands_(std::move(commands)) {}
 
-  /// A command for each shard that is missing or not finished, to be typed as it is; none for runs of no shard.
+  /// A command for each missing or unfinished shard, ready to type; none for runs without a shard.
   [[nodiscard]] const std::vector<std::string>& commands() const { return commands_; }
 
 private:
   std::vector<std::string> commands_;
 };
 
-/// What keeps parts from being put together.
+/// Collects the reasons why parts cannot be merged.
 class PartFaults {
 public:
-  /// What is the same in several cases of a campaign is said once.
+  /// A problem that several cases share is listed once.
   void add(Problem problem);
   void add(std::string command);
-  /// @throws MissingRuns when commands would help, else SpecError; nothing without a problem
+  /// @throws MissingRuns if commands would help, else SpecError; does nothing without a problem
   void refuse() const;
 
 private:
@@ -52,23 +53,23 @@ private:
   std::vector<std::string> commands_;
 };
 
-/// How shards of these runs are made.
+/// The command that makes a shard.
 struct ShardMaker {
-  std::string command;   ///< less --out and what follows, e.g. "wingspread run part1/campaign.json"
-  std::string more = ""; ///< behind that
+  std::string command;   ///< up to --out, e.g. "wingspread run part1/campaign.json"
+  std::string more = ""; ///< after --out and --shard
 };
 
-/// A word of a command as a shell takes it.
+/// Quotes a word for a shell.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
 /// @param file of each folder that has its stamp
-/// @throws SpecError with each folder that is not of the first one's campaign, seed and version, or is a preview
+/// @throws SpecError with each folder of another campaign, seed or version than the first one, and each preview
 void refuse_strangers(const std::vector<Part>& parts, const char* file);
 
-/// A problem for each folder that has runs of those before it.
+/// Adds a problem for each folder that repeats runs of an earlier one.
 void find_doubles(const std::vector<Part>& parts, PartFaults& faults);
 
-/// A problem for each folder that lacks runs of its own, and one for runs that no folder should have had.
+/// Adds a problem for each folder that lacks runs of its own, and one for runs that no folder should have had.
 /// @param runs of the whole
 void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& maker,
                   PartFaults& faults);

@@ -13,7 +13,7 @@
 namespace wingspread {
 namespace {
 
-/// The same number, or both none.
+/// Whether two numbers are equal, or both missing.
 bool same(double a, double b) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -21,8 +21,8 @@ bool same(double a, double b) {
 
 std::string shown(double value) { return std::isnan(value) ? "nothing" : csv_cell(value); }
 
-/// Where in runs.csv a reader of rows is to begin to come to a run soon: at the beginning of a row, by bisection, for
-/// the runs increase. Behind the header where that cannot be told.
+/// The position in runs.csv from which to read to reach a run soon: the start of a row, by bisection, since runs
+/// increase. The end of the header if bisection fails.
 std::size_t place_before(InputFile& in, long run, std::size_t header_bytes) {
   constexpr std::size_t near = 1 << 16; // bytes that may as well be read
   std::size_t first = header_bytes, last = in.size();
@@ -45,7 +45,7 @@ std::size_t place_before(InputFile& in, long run, std::size_t header_bytes) {
   return first;
 }
 
-/// The run's row, if the reader comes to it.
+/// The run's row, if the reader reaches one.
 std::optional<ResultRow> find_row(RowReader& reader, long run) {
   while (reader.next())
     if (reader.row().run >= run)

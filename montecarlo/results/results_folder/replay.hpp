@@ -1,4 +1,4 @@
-/// A run of a results folder, made again.
+/// Repeats a run of a results folder.
 #pragma once
 
 #include "montecarlo/results/results_folder/results_folder.hpp"
@@ -13,23 +13,23 @@ struct Replayed {
   ResultNames names;
   std::string
       file; ///< whose rows it is compared with: runs.csv or, of a folder without rows, broken_runs.csv
-  bool recorded = false; ///< whether that has the run
-  /// A line for each column in which the recorded row differs from this one by as much as a bit.
+  bool recorded = false; ///< whether that file has the run
+  /// A line for each column whose recorded value differs from this run in any bit.
   std::vector<std::string> differences;
 };
 
-/// Run k's row of rows_file(), if it is there. Cost: of a logarithm of the file's length, in time and memory.
-/// @throws SpecError when what is read of it is broken
+/// Run k's row of rows_file(), if it is there. Cost: logarithmic in the file's length, in time and memory.
+/// @throws SpecError if a row read on the way is broken
 [[nodiscard]] std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run);
 
-/// Asks for run k of a folder.
+/// A checked request for run k of a folder.
 class ReplayRequest {
 public:
   /// @pre the campaign outlives the request
-  /// @throws SpecError when the campaign has no such run, or runs.csv is broken
+  /// @throws SpecError if the campaign has no such run, or runs.csv is broken
   ReplayRequest(const StoredCampaign& stored, long run);
 
-  /// @param observer sees the trajectory
+  /// @param observer receives the trajectory
   [[nodiscard]] Replayed replay(const Observer& observer) const;
 
 private:
@@ -40,15 +40,16 @@ private:
 
 /// A line for each column in which two rows of one table differ, by as much as a bit.
 [[nodiscard]] std::vector<std::string>
+/// A line for each column in which two rows differ in any bit.
 differences(const ResultNames& names, const ResultRow& recorded, const ResultRow& computed);
 
-/// Makes a row again, before more are put behind it: on another machine, with another library of mathematics or by a
-/// program that was changed it may come out otherwise, and so may the next ones.
-/// @param file that the row is from
-/// @throws SpecError with each column that differs by as much as a bit
+/// Repeats a recorded row before more are appended. On another machine, with another math library or after a change
+/// of the program it may differ, and so may the next rows.
+/// @param file of the row
+/// @throws SpecError with each column that differs in any bit
 void refuse_other_row(const RunPlan& plan, const ResultRow& recorded,
                       const std::filesystem::path& file);
-/// The same of the last of the rows.
+/// refuse_other_row() for the last row.
 void refuse_other_rows(const RunPlan& plan, const Results& results,
                        const std::filesystem::path& file);
 

@@ -30,7 +30,7 @@ std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
   return path;
 }
 
-/// The stamp for summary.json, which also says when runs are missing.
+/// The stamp for summary.json, which marks missing runs.
 Json about(const StoredCampaign& stored, const Summary& summary) {
   Json json = stamp_json(stored.stamp);
   if (stored.foreign) json["foreign"] = true;
@@ -39,14 +39,14 @@ Json about(const StoredCampaign& stored, const Summary& summary) {
   return json;
 }
 
-/// What decides when the campaign stops: at its own confidence, whatever the summary's.
+/// The goals of the stopping rule, at the campaign's own confidence, not the summary's.
 std::vector<GoalFound> goals_of(const Campaign& campaign, const Results& results,
                                 std::span<const Verdict> verdicts) {
   return find_goals(campaign.until, results, verdicts,
                     at_each_of(campaign.statistics.confidence, count_looks(campaign)));
 }
 
-/// Whether the rows up to a checkpoint meet every goal.
+/// Whether the rows up to an interim analysis meet every goal.
 bool goals_are_met(const Campaign& campaign, const Results& results) {
   const auto decides = [](const StoppingGoal& goal) {
     return std::holds_alternative<DecisionGoal>(goal);
@@ -67,7 +67,7 @@ void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, lo
   }
 }
 
-/// Another tool's rows may do without what is recorded here, asked for or not, unless their campaign asks for it.
+/// Rows of another tool may lack columns that this program always records, unless their campaign asks for them.
 void match_recorded(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
   std::string header;
   if (std::filesystem::exists(runs)) {
@@ -130,16 +130,16 @@ void add_nominal(const Campaign& campaign, Summary& summary) {
     summary.outputs[i].nominal = output_of(columns[i], outcome);
 }
 
-bool is_rowless(const std::filesystem::path& folder) {
+bool is_streaming_folder(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / statistics_file);
 }
 
 std::string rows_file(const std::filesystem::path& folder) {
-  return is_rowless(folder) ? broken_runs_file : runs_file;
+  return is_streaming_folder(folder) ? broken_runs_file : runs_file;
 }
 
 void refuse_rowless(const std::filesystem::path& folder) {
-  if (is_rowless(folder))
+  if (is_streaming_folder(folder))
     throw SpecError(
         {{folder.string(), "", "a campaign that was run with --no-rows",
           fmt::format("one with {}: what is asked for takes every run's row", runs_file)}});

@@ -1,4 +1,4 @@
-/// Rows that come batch by batch: kept for the statistics, and appended to their file.
+/// Appends rows to their file batch by batch, and keeps them for the statistics.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -11,30 +11,29 @@
 
 namespace wingspread {
 
-/// The rows of a folder that is being made. Whatever is left of the file, after a signal or a
-/// crash, can be gone on with.
+/// The rows of a folder while it runs. Whatever a signal or a crash leaves of the file can be continued.
 class RowWriter {
 public:
   RowWriter(std::filesystem::path file, const ResultNames& names);
 
-  /// Takes what was read of the file, and cuts off what is behind its last complete row.
-  /// @throws SpecError unless the runs follow each other from `first` on without a gap
+  /// Takes the rows read from the file, and cuts off what follows its last complete row.
+  /// @throws SpecError unless runs follow each other from `first` without a gap
   void go_on_behind(ResultsFile&& read, long first);
 
-  /// Opens the file; a new one gets its header. To be called once, before the first batch.
-  /// @throws as refuse_path (machine_error.hpp) does when it cannot be written, here and below
+  /// Opens the file; writes the header of a new one. Call once, before the first batch.
+  /// @throws as refuse_path (machine_error.hpp) if it cannot be written, here and below
   void open(const ResultNames& names);
 
-  /// Adds the next rows, to the file and to memory; where memory has no more room for them (its temporary
-  /// files do not), to the file alone from then on. Every ten seconds it sees to it that they are on the device.
+  /// Appends the next rows to the file and to memory. If memory and its temporary files are full, only to the file
+  /// from then on. Writes to the device every ten seconds.
   void add(const Batch& batch);
 
-  /// Sees to it that all rows are on the device, and closes the file. Once, and as the last.
+  /// Writes all rows to the device and closes the file. Once, last.
   void finish();
 
-  /// How many rows there are in the file.
+  /// Rows in the file.
   [[nodiscard]] long count() const { return count_; }
-  /// @throws MachineError when there was no room for them
+  /// @throws MachineError if there was no room for the rows
   [[nodiscard]] const Results& results() const;
 
 private:
@@ -50,8 +49,8 @@ private:
   std::optional<MachineError> no_room_;
 };
 
-/// @throws SpecError unless the runs follow each other from `first` on without a gap
-/// @param file that they are from
+/// @throws SpecError unless runs follow each other from `first` without a gap
+/// @param file of the rows, for the message
 void refuse_gaps(const Results& results, long first, const std::filesystem::path& file);
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// What says which campaign, seed and program results are from.
+/// The stamp: which campaign, seed and program version results belong to.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -18,27 +18,27 @@ struct Shard {
 };
 inline constexpr long most_shards = 1'000'000;
 
-/// Its runs of R: from ⌊(I − 1)R/N⌋ up to, not including, ⌊I·R/N⌋. All of them without a shard.
+/// The shard's runs of R: ⌊(I − 1)R/N⌋ up to, excluding, ⌊I·R/N⌋. All runs without a shard.
 /// @pre 1 ≤ index ≤ of ≤ most_shards
 [[nodiscard]] RunRange shard_runs(long runs, const std::optional<Shard>& shard);
 
-/// Results that some runs of the campaign are missing from, anywhere: a look at what there is so far, and no more.
+/// Marks results in which runs are missing anywhere: provisional.
 struct Preview {
   long runs = 0, of = 0;
   bool operator==(const Preview&) const = default;
 };
 
-/// What identifies a file of results and its folder: the value of its key "wingspread".
+/// Identifies a file of results and its folder: the value of the key "wingspread".
 struct Stamp {
   std::string version; ///< of the program
   std::uint64_t seed = 0;
-  std::string hash; ///< of the campaign; the same for all of its shards
+  std::string hash; ///< of the campaign; equal for all its shards
   std::optional<Shard> shard;
   std::optional<Preview> preview{};
   bool operator==(const Stamp&) const = default;
 };
 
-/// That of a campaign as this program runs it.
+/// The stamp of a campaign run by this program.
 [[nodiscard]] Stamp stamp_of(const Campaign& campaign, const std::optional<Shard>& shard);
 
 /// "shard 2/5", or "all runs".
@@ -48,7 +48,7 @@ struct Stamp {
 
 [[nodiscard]] Json stamp_json(const Stamp& stamp);
 
-/// Reads the stamp of a document, which has to have one, and notes what is wrong.
+/// Reads the stamp of a document, which must have one; notes problems in the cursor.
 [[nodiscard]] Stamp read_stamp(const JsonCursor& document);
 
 } // namespace wingspread

@@ -5,8 +5,8 @@
 
 namespace wingspread {
 
-/// "0.1.0+g1a2b3c4d5e6f", with ".dirty" behind it where the sources were changed after that commit; "0.1.0" where they
-/// are in no repository.
+/// "0.1.0+g1a2b3c4d5e6f" with the commit, followed by ".dirty" if sources were changed after it; "0.1.0" outside a
+/// repository.
 [[nodiscard]] std::string_view version();
 
 } // namespace wingspread

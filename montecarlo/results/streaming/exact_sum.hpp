@@ -1,4 +1,4 @@
-/// Sums of doubles without any rounding: the same whatever the order of the terms, and however they are shared out.
+/// Sums of doubles without rounding: independent of the order of the terms and of how they are split.
 #pragma once
 
 #include "montecarlo/results/streaming/state_file.hpp"
@@ -9,12 +9,12 @@
 
 namespace wingspread {
 
-/// All bits of a sum, from 2^-1074 up: one number of 67 digits to the base 2^32, each in 64 bits, so that carries wait.
-/// A term is two additions. Source: R. M. Neal, Fast exact summation using small and large superaccumulators,
-/// arXiv:1505.05571 (2015).
+/// All bits of a sum from 2^-1074 up: a number of 67 digits to the base 2^32, each in 64 bits, so that carries can be
+/// postponed. A term costs two additions. Source: R. M. Neal, Fast exact summation using small and large
+/// superaccumulators, arXiv:1505.05571 (2015).
 class ExactSum {
 public:
-  /// @param term finite; what is not counts as nothing and spoils the sum: value() is NaN
+  /// @param term if not finite, it is not added and value() is NaN from then on
   void add(double term) { put(std::bit_cast<std::uint64_t>(term)); }
   void subtract(double term) { put(std::bit_cast<std::uint64_t>(term) ^ sign_bit); }
   void add(const ExactSum& other);
@@ -23,7 +23,7 @@ public:
   /// The nearest double, or its neighbour.
   [[nodiscard]] double value() const;
 
-  /// The same sum is the same bytes.
+  /// Equal sums give equal bytes.
   void write(StateWriter& to) const;
   void read(StateReader& from);
 
@@ -31,6 +31,7 @@ private:
   static constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
   static constexpr std::uint64_t fraction_bits = (std::uint64_t{1} << 52) - 1;
   static constexpr std::uint64_t low_digit = 0xffffffff;
+  /// Terms until carries are due: a digit grows by at most 2^52 per term, so 2^11 = 2048 terms fit in 63 bits.
   static constexpr int most_waiting =
       2000; // terms until carries are due: a digit grows by at most 2^52 a term
   using Digits = std::array<std::int64_t, 67>;
@@ -54,7 +55,7 @@ private:
     if (++waiting_ == most_waiting) settle();
   }
 
-  /// Hands carries on: every digit but the last is then in [0, 2^32).
+  /// Propagates carries: every digit but the last is in [0, 2^32) afterwards.
   void settle();
   static void settle(Digits& digits);
 

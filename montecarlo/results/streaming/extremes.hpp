@@ -1,4 +1,4 @@
-/// The largest or smallest of many values, with the runs that they are from.
+/// The largest or smallest of many values, with their runs.
 #pragma once
 
 #include "montecarlo/results/streaming/state_file.hpp"
@@ -15,16 +15,17 @@ struct RunValue {
   bool operator==(const RunValue&) const = default;
 };
 
-/// Up to so many: those at one end and, of equal ones, those of the lowest runs. The same whatever the order in which they
+/// Keeps the `most` smallest (or largest) values; ties go to the lowest run. Independent of the order in which values
 /// come.
 class Extremes {
 public:
   enum class End { lowest, highest };
   Extremes(End end, std::size_t most) : sign_(end == End::lowest ? 1 : -1), most_(most) {}
 
-  /// @param value not NaN; infinite ones are values like any other
+  /// @param value not NaN; may be infinite
   void add(double value, long run) {
     const RunValue mine{sign_ * value, run};
+    /// Whether `a` is more extreme; values have their sign turned so that lower is more extreme.
     if (heap_.size() == most_ && !is_before(mine, heap_.front())) return;
     put(mine);
   }
@@ -33,7 +34,7 @@ public:
   }
 
   [[nodiscard]] std::size_t size() const { return heap_.size(); }
-  /// From the end inwards.
+  /// The most extreme value first.
   [[nodiscard]] std::vector<RunValue> sorted() const;
 
   void write(StateWriter& to) const;
@@ -48,7 +49,7 @@ private:
 
   double sign_;
   std::size_t most_;
-  std::vector<RunValue> heap_; ///< the one farthest from the end first
+  std::vector<RunValue> heap_; ///< the least extreme first
 };
 
 } // namespace wingspread

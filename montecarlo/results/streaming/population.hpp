@@ -1,4 +1,4 @@
-/// The values of one number over many runs: their order statistics, as far as they are known without the values.
+/// The values of one quantity over many runs: its order statistics, as far as they are known without the values.
 #pragma once
 
 #include "montecarlo/results/streaming/extremes.hpp"
@@ -6,15 +6,15 @@
 
 namespace wingspread {
 
-/// So many of the largest and of the smallest values are kept, with their runs: what an upper tolerance limit takes at
-/// p = 0.9973 up to 10⁶ runs, at p = 0.99999 up to 4·10⁸.
+/// How many of the largest and of the smallest values are kept, with their runs. An upper tolerance limit at p =
+/// 0.9973 takes fewer up to 10⁶ runs, at p = 0.99999 up to 4·10⁸.
 inline constexpr std::size_t kept_extremes = 4096;
 
-/// An order statistic: exact where it is among the extremes that are kept, else by the bin that it lies in.
+/// An order statistic: exact if it is among the kept extremes, else interpolated in its bin.
 struct OrderStatistic {
-  double value;        ///< in a bin by its rank, as if its values were spread evenly
-  double lower, upper; ///< it lies within these; equal to the value where that is exact
-  long rank_error = 0; ///< the value's own rank is at most so far off
+  double value;        ///< in a bin by its rank, as if the bin's values were evenly spread
+  double lower, upper; ///< it lies within; both equal value if exact
+  long rank_error = 0; ///< the rank of value is at most this far off
 };
 
 class Population {
@@ -48,7 +48,7 @@ private:
   Extremes lowest_, highest_;
 };
 
-/// A population sorted, to be asked several times.
+/// A population sorted once, for several queries.
 class RankedPopulation {
 public:
   explicit RankedPopulation(const Population& population);

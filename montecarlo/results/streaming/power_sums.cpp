@@ -7,14 +7,14 @@
 namespace wingspread {
 namespace {
 
-/// Of a correlation's sums over n runs.
+/// The sums of a correlation over n runs.
 struct Sums {
   double n, x, y, xx, yy, xy;
 };
 
 double pearson_of(const Sums& s) {
   const double of_x = s.xx - s.x * s.x / s.n, of_y = s.yy - s.y * s.y / s.n;
-  // What a constant column leaves is rounding: its z is 0 but where the pilot saw another value.
+  // A constant column leaves only rounding: its z is 0, unless the pilot saw another value.
   constexpr double nothing = 64 * std::numeric_limits<double>::epsilon();
   if (s.n < 2 || !(of_x > nothing * s.xx) || !(of_y > nothing * s.yy)) return undefined;
   return std::clamp((s.xy - s.x * s.y / s.n) / std::sqrt(of_x * of_y), -1.0, 1.0);
@@ -53,9 +53,7 @@ Moments PowerSums::moments(const Scale& scale, double min, double max) const {
   if (m2 == 0) return result;
   const double m3 = c - 3 * a * b + 2 * a * a * a;
   const double m4 = d - 4 * a * c + 6 * a * a * b - 3 * a * a * a * a;
-  if (count > 2) result.skewness = m3 / (m2 * std::sqrt(m2)) * std::sqrt(n * (n - 1)) / (n - 2);
-  if (count > 3)
-    result.kurtosis = (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (m4 / (m2 * m2) - 3) + 6);
+  set_shape(m2, m3, m4, result);
   return result;
 }
 

@@ -1,7 +1,7 @@
-/// Powers and products of columns, summed without rounding: moments and Pearson's correlations that do not depend on the
+/// Exact sums of powers and products of columns. The moments and Pearson correlations from them do not depend on the
 /// order of the runs.
 ///
-///   z = (x − s) 2^−e   with a shift s and a scale 2^e near the values' own: no digits are lost to a mean far from 0
+///   z = (x − s) 2^−e   with shift s and scale 2^e near those of the values: a mean far from 0 costs no digits
 #pragma once
 
 #include "montecarlo/foundation/statistics/pairwise_correlation.hpp"
@@ -15,15 +15,15 @@
 
 namespace wingspread {
 
-/// z of a column's values.
+/// Maps a column's values to z.
 struct Scale {
   double shift = 0, per_unit = 1; ///< 2^−e
   [[nodiscard]] double of(double value) const { return (value - shift) * per_unit; }
   bool operator==(const Scale&) const = default;
 };
 
-/// By a pilot's values: their mean, and their standard deviation's power of two.
-/// @param values any; those that are not finite are left out
+/// The shift is the median of the values, the scale the power of two next below their standard deviation.
+/// @param values of the pilot; those that are not finite are ignored
 [[nodiscard]] Scale scale_of(std::span<const double> values);
 
 /// n and Σz, Σz², Σz³, Σz⁴.
@@ -46,15 +46,15 @@ struct PowerSums {
   void read(StateReader& from);
 };
 
-/// Of each of some columns x with each of others y: over the runs in which both have a value.
+/// Pearson correlations of columns x with columns y, each pair over the runs in which both have a value.
 ///
-/// Sums over the runs in which y has none are kept in place of those in which it has one, for they are fewer.
+/// Stores sums over all runs of x, and for each pair those over the runs in which y is missing, which are few.
 class CoMoments {
 public:
   CoMoments() = default;
   CoMoments(std::size_t xs, std::size_t ys);
 
-  /// @param x, y z's of one run; NaN where there is none
+  /// @param x, y the z values of one run; NaN if missing
   void add(std::span<const double> x, std::span<const double> y);
   void add(const CoMoments& other);
   [[nodiscard]] Correlation of(std::size_t x, std::size_t y) const;

@@ -1,31 +1,22 @@
 #include "montecarlo/results/streaming/state_file.hpp"
 
+#include "distributions/random_stream.hpp"
+
 #include <utility>
 
 namespace wingspread {
-namespace {
-
-/// FNV-1a. Source: G. Fowler, L. C. Noll, K.-P. Vo, http://www.isthe.com/chongo/tech/comp/fnv/
-std::uint64_t sum_of(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-  return sum;
-}
-
-} // namespace
-
 std::string StateWriter::finish() && {
-  put(sum_of(bytes_));
+  put(stream_name(bytes_).hash);
   return std::move(bytes_);
 }
 
 StateReader::StateReader(std::string bytes, std::string file)
     : bytes_(std::move(bytes)), file_(std::move(file)) {
   std::uint64_t sum = 0;
-  if (bytes_.size() < sizeof sum) throw broken("a whole file");
+  if (bytes_.size() < sizeof sum) throw broken("at least a checksum");
   std::memcpy(&sum, bytes_.data() + bytes_.size() - sizeof sum, sizeof sum);
   bytes_.resize(bytes_.size() - sizeof sum);
-  if (sum_of(bytes_) != sum) throw broken("what its sum says");
+  if (stream_name(bytes_).hash != sum) throw broken("the checksum matches");
 }
 
 std::string StateReader::get_text() {
@@ -35,7 +26,7 @@ std::string StateReader::get_text() {
 
 std::size_t StateReader::get_count(std::size_t bytes) {
   const auto count = get<std::uint64_t>();
-  if (count > (bytes_.size() - at_) / bytes) throw broken("as many as it says");
+  if (count > (bytes_.size() - at_) / bytes) throw broken("as many items as announced");
   return static_cast<std::size_t>(count);
 }
 
@@ -45,7 +36,7 @@ SpecError StateReader::broken(std::string_view what) const {
 }
 
 const char* StateReader::take(std::size_t count) {
-  if (count > bytes_.size() - at_) throw broken("more of it");
+  if (count > bytes_.size() - at_) throw broken("more bytes");
   const char* there = bytes_.data() + at_;
   at_ += count;
   return there;

@@ -1,4 +1,4 @@
-/// The bytes of a state that is kept in a file: plain numbers one behind the other, least byte first.
+/// A state as bytes in a file: plain numbers one after the other, little-endian, with a checksum at the end.
 #pragma once
 
 #include "montecarlo/foundation/formats/spec_error.hpp"
@@ -25,7 +25,7 @@ public:
     put(std::uint64_t{text.size()});
     bytes_.append(text);
   }
-  /// With a sum behind them by which a damaged file is told.
+  /// Appends the checksum (FNV-1a).
   [[nodiscard]] std::string finish() &&;
 
 private:
@@ -34,8 +34,8 @@ private:
 
 class StateReader {
 public:
-  /// @param file name for the messages
-  /// @throws SpecError when the sum is not that of the bytes
+  /// @param file name for messages
+  /// @throws SpecError if the checksum does not match
   StateReader(std::string bytes, std::string file);
 
   template <class Number> [[nodiscard]] Number get() {
@@ -45,7 +45,7 @@ public:
     return value;
   }
   [[nodiscard]] std::string get_text();
-  /// How many of something there are, each of which takes `bytes` at least.
+  /// Reads a number of items that take at least `bytes` each. @throws SpecError if the file is too short for them
   [[nodiscard]] std::size_t get_count(std::size_t bytes);
   [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
   [[nodiscard]] SpecError broken(std::string_view what) const;

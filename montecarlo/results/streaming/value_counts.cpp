@@ -17,7 +17,7 @@ constexpr int least_exponent = -1000, most_exponent = 900;
 
 constexpr int bits_of(int octave) { return std::max(most_bits - octave, least_bits); }
 
-/// Bins of all octaves before this one.
+/// Number of bins in all octaves before this one.
 constexpr std::int64_t bins_before(int octave) {
   const int falling = std::min(octave, most_bits - least_bits);
   const std::int64_t in_falling =
@@ -37,7 +37,7 @@ std::int64_t bin_of(double j) {
   return linear_bins + bins_before(octave) + static_cast<std::int64_t>(within);
 }
 
-/// The least j of a bin; infinite behind the last one.
+/// The least j of a bin; infinite after the last bin.
 double least_of(std::int64_t bin) {
   if (bin <= linear_bins) return static_cast<double>(bin);
   const std::int64_t beyond = bin - linear_bins;
@@ -49,12 +49,12 @@ double least_of(std::int64_t bin) {
                     linear_bits + octave - bits_of(octave));
 }
 
-/// A stretch of the values, and the standard deviation of a normal law that has as much in as short a one.
+/// An interval of the values, and the standard deviation of a normal law with the same share in an equally short one.
 struct Dense {
   double middle, deviation;
 };
 
-/// The shortest stretch that is not of one value alone; the widest share last.
+/// The shortest interval with a fifth of the values; with a larger share if a fifth of them are equal.
 Dense densest(std::span<const double> sorted) {
   struct Share {
     double part, deviations; // the length of a normal law's shortest stretch with that part of it
@@ -85,7 +85,7 @@ Grid grid_of(std::vector<double> values) {
   const double deviation = dense.deviation > 0 ? dense.deviation : 1;
   constexpr int per_deviation = 13; // binary digits
   Grid grid;
-  // Not finer than the values' own digits, so that j is exact.
+  // Not finer than the spacing of doubles near the values, so that j is exact.
   const int finest = dense.middle == 0 ? least_exponent : std::ilogb(dense.middle) - 51;
   grid.exponent = std::clamp(std::max(std::ilogb(deviation) - per_deviation, finest),
                              least_exponent, most_exponent);
@@ -97,7 +97,7 @@ ValueCounts::ValueCounts(const Grid& grid)
     : grid_(grid), per_width_(std::ldexp(1.0, -grid.exponent)),
       pages_(static_cast<std::size_t>(2 * one_side) / page_size + 1) {}
 
-/// From 0 up: negative j as far below the middle as −1 − j is above it.
+/// Index from 0; negative j lie as far below the middle as −1 − j lies above it.
 std::int64_t ValueCounts::index_of(double value) const {
   constexpr double largest = std::numeric_limits<double>::max();
   const double j = std::clamp(std::floor(value * per_width_) - grid_.origin, -largest, largest);
@@ -132,7 +132,7 @@ std::vector<ValueCounts::Bin> ValueCounts::bins() const {
     if (count > 0) found.push_back({lower, upper, below, count});
     below += count;
   };
-  // 0 is an edge unless it lies so far out that bins are wide: then zeros are among the others of theirs.
+  // 0 is an edge, unless it lies so far out that a wide bin straddles it: then zeros are counted in that bin.
   constexpr double above_zero = std::numeric_limits<double>::denorm_min();
   const auto add_zeros = [&] { add(0, above_zero, std::exchange(zeros, 0)); };
   for (std::size_t p = 0; p < pages_.size(); ++p)

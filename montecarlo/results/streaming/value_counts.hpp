@@ -1,16 +1,16 @@
-/// How often values fell where: counts that do not depend on the order of the values or on how they were shared out,
-/// in memory that does not grow with their number.
+/// Counts values in bins. The counts do not depend on the order of the values or on how they were split, and memory
+/// does not grow with their number.
 ///
 ///   symbol  meaning
-///   w       width of the narrowest bins: a power of two, about 1/8192 of the standard deviation of the values' densest part
-///   o       origin, where it lies, in units of w: a whole number
+///   w       width of the narrowest bins: a power of two, about 1/8192 standard deviation of the values' densest part
+///   o       origin in units of w: a whole number
 ///   j       floor(x/w) − o, a whole number, exact in doubles
 ///
-/// Bins are one j wide for |j| < 2^17, which is 16 such deviations either way; beyond, each octave [2^(17+i), 2^(18+i)) of j
-/// is cut into 2^max(16−i, 6) of them: ever coarser, never lost. Edges are exact: a value lies in [lower, upper) of its bin
-/// by comparison with them. So ranks at edges are known, and an order statistic lies between those of its bin: what is not
-/// known is said with every number that is taken from it. (Sketches that promise a rank error, as those of Greenwald and
-/// Khanna or t-digests, depend on the order of the values, and t-digests promise none.)
+/// Bins are one j wide for |j| < 2^17, i.e. 16 such deviations either way. Beyond, each octave [2^(17+i), 2^(18+i))
+/// of j is cut into 2^max(16−i, 6) bins: coarser, but no value is lost. Edges are exact: a value is compared with the
+/// edges of its bin. So ranks at edges are known, an order statistic lies between the edges of its bin, and each
+/// number carries its uncertainty. (Ruled out: sketches that promise a rank error, e.g. Greenwald–Khanna or t-digest.
+/// They depend on the order of the values, and t-digest promises no error.)
 #pragma once
 
 #include "montecarlo/results/streaming/state_file.hpp"
@@ -29,8 +29,9 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-/// By the densest part of a pilot's values: its shortest stretch that holds a fifth of them, or more where values repeat.
-/// @param values any; NaN and infinite ones are left out
+/// The grid for the densest part of the values: their shortest interval that holds a fifth of them, or more if values
+/// repeat.
+/// @param values of the pilot; NaN and infinite ones are ignored
 [[nodiscard]] Grid grid_of(std::vector<double> values);
 
 class ValueCounts {
@@ -41,12 +42,12 @@ public:
   /// @pre of the same grid
   void add(const ValueCounts& other);
 
-  /// A bin, and how many values lie below it.
+  /// A bin, and the number of values below it.
   struct Bin {
     double lower, upper; ///< the values are in [lower, upper)
     long below, count;
   };
-  /// Those with values in them, from the lowest on. Cost: that of all bins there can be, some 2600 pages.
+  /// The bins that hold values, from the lowest. Cost: a pass over all possible pages, some 2600.
   [[nodiscard]] std::vector<Bin> bins() const;
   [[nodiscard]] const Grid& grid() const { return grid_; }
 

@@ -22,7 +22,7 @@ constexpr int name_width = 46, case_width = 13;
 
 using Cases = std::span<const CaseSummary>;
 
-/// The less, the worse.
+/// Ranks verdicts: smaller is worse.
 auto standing(const Verdict& verdict) {
   constexpr std::array rank{2, 0, 1}; // pass, fail, undecided
   return std::tuple(rank[static_cast<std::size_t>(verdict.decision)],
@@ -30,7 +30,7 @@ auto standing(const Verdict& verdict) {
                     verdict.share);
 }
 
-/// Each verdict had its chance of a false pass, in each of the cases.
+/// Every verdict of every case had its chance of a false pass.
 double joint_confidence_of(const std::vector<CaseSummary>& cases) {
   std::vector<double> confidences;
   for (const CaseSummary& each : cases)
@@ -39,7 +39,7 @@ double joint_confidence_of(const std::vector<CaseSummary>& cases) {
   return joint_confidence(confidences);
 }
 
-/// What stands in each case's own summary.json, less the runs that break it.
+/// A verdict as in the case's own summary.json, without the runs that break it.
 Json requirement_json(const std::vector<CaseSummary>& cases, const std::vector<Json>& summaries,
                       std::size_t requirement) {
   const std::size_t worst = worst_case(cases, requirement);
@@ -61,7 +61,7 @@ Json requirement_json(const std::vector<CaseSummary>& cases, const std::vector<J
 
 using Cell = std::function<std::string(const CaseSummary&)>;
 
-/// A line with a cell for each case. A name that has no room in its column has a line of its own.
+/// A line with a cell per case. A name too long for its column has a line of its own.
 std::string line(std::string_view name, Cases cases, const Cell& cell) {
   std::string text = in_column(name, name_width);
   for (const CaseSummary& each : cases) text += right_aligned(cell(each), case_width);
@@ -89,7 +89,7 @@ std::string quantile_name(double p) {
   return p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * p);
 }
 
-/// The mean, and of the quantiles the first and the last.
+/// The mean, the first and the last quantile.
 std::string output_lines(const OutputSummary& output, std::size_t index, Cases cases) {
   std::string text =
       fmt::format("{}{}{}\n", output.name, *parse_output_name(output.name).unit ? ", " : "",
@@ -119,7 +119,7 @@ std::string all_output_lines(Cases cases) {
 std::string requirement_lines(const std::vector<CaseSummary>& all, Cases cases) {
   const auto count = cases.front().summary.requirements.size();
   if (count == 0) return "";
-  std::string text = heading("REQUIREMENT, runs that break it (and may)", cases);
+  std::string text = heading("REQUIREMENT, runs that break it / allowed", cases);
   for (std::size_t i = 0; i < count; ++i) {
     const auto verdict = [i](const CaseSummary& each) -> const Verdict& {
       return each.summary.requirements[i];
@@ -130,7 +130,7 @@ std::string requirement_lines(const std::vector<CaseSummary>& all, Cases cases) 
     });
     text += line("", cases, [&](const CaseSummary& each) {
       const auto& allowed = verdict(each).allowed;
-      return fmt::format("{} (may {})", verdict(each).failures(),
+      return fmt::format("{} / {}", verdict(each).failures(),
                          allowed ? std::to_string(*allowed) : "–");
     });
   }

@@ -1,6 +1,5 @@
-/// The cases of a campaign side by side: plain data from their summaries, cases.json, and a table for the terminal.
-///
-/// All cases are run with the same draws, so that what differs between them is the case; each verdict holds for itself.
+/// The cases of a campaign side by side: cases.json and a table for the terminal. All cases have the same draws, so
+/// differences come from the case. Each verdict holds by itself.
 #pragma once
 
 #include "montecarlo/foundation/formats/json.hpp"
@@ -12,27 +11,27 @@
 
 namespace wingspread {
 
-/// What the runs of a case come to.
+/// The results of a case.
 struct CaseSummary {
   std::string name;
   Summary summary;
-  bool partial = false; ///< runs of it are missing
+  bool partial = false; ///< runs are missing
 };
 
-/// In which case a requirement stands worst: failed before undecided before passed, then the least margin, then the
-/// least share of runs that keep to it. The first of those that are equal.
-/// @param requirement its number in each summary, which all have the same ones
+/// The case in which a requirement does worst: failed before undecided before passed, then by the least margin, then
+/// by the least share of runs that meet it. Ties go to the first case.
+/// @param requirement its index, the same in all summaries
 /// @pre at least one case
 [[nodiscard]] std::size_t worst_case(const std::vector<CaseSummary>& cases,
                                      std::size_t requirement);
 
-/// cases.json: status, outputs and requirements with the cases beside each other.
+/// cases.json: status, outputs and requirements of all cases side by side.
 /// @param about the value of "wingspread"
 [[nodiscard]] Json cases_json(const std::vector<CaseSummary>& cases, const Json& about);
 
 /// Shares of outcomes, mean and outermost quantiles of every output, and requirements with their worst case.
-/// @param title  its first line
-/// @param folder where the cases' folders are
+/// @param title  first line
+/// @param folder that holds the cases' folders
 [[nodiscard]] std::string cases_table(const std::vector<CaseSummary>& cases, std::string_view title,
                                       std::string_view folder);
 

@@ -1,4 +1,4 @@
-/// Hinges that turn through their stowed angle, where nothing stops them: panels of a stack would have gone through
+/// Overtravel: hinges without a stop that turn beyond their stowed angle, where panels of a stack would pass through
 /// each other.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace wingspread {
 
-/// Up to this much is taken for give in the hinge.
+/// Tolerated angle. Heuristic: play and flexibility of a hinge stay below 1 deg; a smaller limit warns of harmless
+/// runs, a larger one hides contact.
 inline constexpr double most_overtravel = 0.017453292519943295; // 1 deg, rad
 
 struct Overtravel {
@@ -19,8 +20,7 @@ struct Overtravel {
   double largest = 0; ///< of all runs, rad
 };
 
-/// The hinges without a stop that turn further than that in any run, in the scene's order.
-/// Cost O(N) for each such hinge.
+/// The hinges without a stop that exceed most_overtravel in any run, in the scene's order. Cost O(N) per hinge.
 [[nodiscard]] std::vector<Overtravel> overtravels(const Scene& scene, const Results& results);
 [[nodiscard]] std::vector<Overtravel> overtravels(const Scene& scene, const Outcome& outcome);
 

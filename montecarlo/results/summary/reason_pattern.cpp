@@ -1,5 +1,6 @@
 #include "montecarlo/results/summary/reason_pattern.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 namespace wingspread {
@@ -50,6 +51,32 @@ std::string to_string(const ReasonPattern& pattern) {
   for (std::size_t i = 0; i < pattern.numbers.size(); ++i)
     text += pattern.numbers[i] + pattern.words[i + 1];
   return text;
+}
+
+void ReasonCounts::add(Status status, std::string_view reason) {
+  if (reason.empty()) return;
+  const ReasonPattern pattern = pattern_of(reason);
+  Group& group = groups.try_emplace({status, pattern.words}, Group{pattern}).first->second;
+  widen(group.pattern, pattern);
+  ++group.count;
+}
+
+void ReasonCounts::add(const ReasonCounts& other) {
+  for (const auto& [key, theirs] : other.groups) {
+    Group& group = groups.try_emplace(key, Group{theirs.pattern}).first->second;
+    widen(group.pattern, theirs.pattern);
+    group.count += theirs.count;
+  }
+}
+
+std::vector<ReasonCount> ReasonCounts::sorted() const {
+  std::vector<ReasonCount> reasons;
+  for (const auto& [key, group] : groups)
+    reasons.push_back({key.first, to_string(group.pattern), group.count});
+  std::ranges::stable_sort(reasons, [](const ReasonCount& a, const ReasonCount& b) {
+    return a.status != b.status ? a.status < b.status : a.count > b.count;
+  });
+  return reasons;
 }
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// How far the goals are reached by which a campaign may stop (campaign/stopping_rule.hpp).
+/// How far the goals of a stopping rule are reached (campaign/stopping_rule.hpp).
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
@@ -11,22 +11,21 @@
 
 namespace wingspread {
 
-/// A goal and how far it is reached. A quantile's interval is over the runs in which the output
-/// happened.
+/// A goal and its state. The interval of a quantile is over the runs in which the output happened.
 struct GoalFound {
   StoppingGoal goal;
-  std::optional<double> width; ///< of the interval, absolute; nothing where a bound does not exist
+  std::optional<double> width; ///< of the interval, absolute; nothing if a bound does not exist
   bool met = false;
 };
 
-/// @param verdicts   on the campaign's requirements, at their confidence of one look
+/// @param verdicts   on the campaign's requirements, at their confidence for one analysis
 /// @param confidence of each interval, two-sided
-/// @pre the draws of the runs are independent; the results have the outputs
+/// @pre draws of runs are independent; the results have the outputs
 [[nodiscard]] std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& results,
                                                 std::span<const Verdict> verdicts,
                                                 double confidence);
 
-/// Whether every goal is met; false without any.
+/// Whether every goal is met; false without goals.
 [[nodiscard]] bool are_met(std::span<const GoalFound> goals);
 
 } // namespace wingspread

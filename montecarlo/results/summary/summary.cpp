@@ -1,8 +1,7 @@
 #include "montecarlo/results/summary/summary.hpp"
 
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
-#include "montecarlo/foundation/statistics/number_sort.hpp"
 #include "montecarlo/foundation/statistics/replicate_bounds.hpp"
 #include "montecarlo/results/summary/reason_pattern.hpp"
 
@@ -11,20 +10,14 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <utility>
 
 namespace wingspread {
 
 namespace {
 
-Bounds share_bounds(const std::vector<bool>& hit, long hits, double confidence,
-                    const Replication& replication) {
-  if (hit.empty()) return {};
-  if (replication.replicates == 0) {
-    const Interval interval = clopper_pearson(hits, static_cast<long>(hit.size()), confidence);
-    return {interval.lower, interval.upper};
-  }
+Bounds replicate_share_bounds(const std::vector<bool>& hit, double confidence,
+                              const Replication& replication) {
   std::vector<long> hits_of(static_cast<std::size_t>(replication.replicates), 0), sizes = hits_of;
   for (std::size_t row = 0; row < hit.size(); ++row) {
     const auto replicate = static_cast<std::size_t>(replication.of_row[row]);
@@ -34,38 +27,24 @@ Bounds share_bounds(const std::vector<bool>& hit, long hits, double confidence,
   return replicate_proportion_bounds(hits_of, sizes, confidence);
 }
 
-StatusShare status_share(const Results& results, Status status, double confidence,
-                         const Replication& replication) {
+StatusShare share_of_status(const Results& results, Status status, double confidence,
+                            const Replication& replication) {
   std::vector<bool> hit;
   for (const Status each : results.status) hit.push_back(each == status);
-  const long count = std::ranges::count(hit, true);
-  const double rate = static_cast<double>(count) / static_cast<double>(results.size());
-  return {status, count, rate, share_bounds(hit, count, confidence, replication)};
+  StatusShare share =
+      status_share(status, std::ranges::count(hit, true), std::ssize(results.status), confidence);
+  if (replication.replicates > 0 && !hit.empty())
+    share.bounds = replicate_share_bounds(hit, confidence, replication);
+  return share;
 }
 
 std::vector<ReasonCount> count_reasons(const Results& results) {
-  struct Group {
-    ReasonPattern pattern;
-    long count = 0;
-  };
-  std::map<std::pair<Status, std::vector<std::string>>, Group> groups; // by status and words
-  for (std::size_t row = 0; row < results.size(); ++row) {
-    if (results.reason[row].empty()) continue;
-    const ReasonPattern pattern = pattern_of(results.reason[row]);
-    Group& group =
-        groups.try_emplace({results.status[row], pattern.words}, Group{pattern, 0}).first->second;
-    widen(group.pattern, pattern);
-    ++group.count;
-  }
-  std::vector<ReasonCount> reasons;
-  for (const auto& [key, group] : groups)
-    reasons.push_back({key.first, to_string(group.pattern), group.count});
-  std::ranges::stable_sort(reasons, [](const ReasonCount& a, const ReasonCount& b) {
-    return a.status != b.status ? a.status < b.status : a.count > b.count;
-  });
+  ReasonCounts counts;
+  for (std::size_t row = 0; row < results.size(); ++row)
+    counts.add(results.status[row], results.reason[row]);
   results.reason.release();
   results.status.release();
-  return reasons;
+  return counts.sorted();
 }
 
 void count_latch_orders(const DictionaryColumn& column, Summary& summary) {
@@ -139,8 +118,8 @@ void summarize_columns(const Results& results, const StatisticsSpec& spec,
   summary.outputs.resize(results.outputs.size());
   const std::size_t tasks = 1 + results.outputs.size();
   const int team =
-      team_for(threads, sorting_operations(results.size()) * static_cast<double>(tasks));
-  for_each_task(team_within(team, bytes), tasks, [&](std::size_t task) {
+      threads_worth(threads, sorting_operations(results.size()) * static_cast<double>(tasks));
+  for_each_task(threads_within_memory(team, bytes), tasks, [&](std::size_t task) {
     if (task == 0)
       summary.reasons = count_reasons(results);
     else
@@ -168,6 +147,14 @@ std::vector<DrawCorrelation> correlate_draws(const Results& results, int threads
 
 } // namespace
 
+StatusShare status_share(Status status, long count, long runs, double confidence) {
+  StatusShare share{status, count, static_cast<double>(count) / static_cast<double>(runs), {}};
+  if (runs == 0) return share;
+  const Interval interval = clopper_pearson(count, runs, confidence);
+  share.bounds = {interval.lower, interval.upper};
+  return share;
+}
+
 Column deployed_column(const Results& results) {
   Column column{"deployed", {}};
   for (const Status status : results.status) {
@@ -186,7 +173,7 @@ Summary summarize(const Results& results, const StatisticsSpec& spec,
   summary.confidence = spec.confidence;
   summary.replicates = replication.replicates;
   for (const Status status : statuses)
-    summary.statuses.push_back(status_share(results, status, spec.confidence, replication));
+    summary.statuses.push_back(share_of_status(results, status, spec.confidence, replication));
   count_latch_orders(results.latch_order, summary);
   summarize_columns(results, spec, replication, threads, summary);
   summary.correlations = correlate_draws(results, threads);

@@ -1,8 +1,8 @@
-/// What a campaign's results come to: plain data, from which the files (summary_json.hpp) and the
-/// terminal's table (table.hpp) are written.
+/// The statistics of a campaign as plain data, from which the files (summary_json.hpp) and the terminal's table
+/// (table.hpp) are written.
 ///
-/// Nothing is dropped silently: each output is summarised over the runs in which it happened, with
-/// the number in which it did not. The same results give the same summary, bit for bit.
+/// Nothing is dropped silently: each output is summarised over the runs in which it happened, with the number of runs
+/// in which it did not. The same results give the same summary, bit for bit.
 #pragma once
 
 #include "montecarlo/engine/accuracy/accuracy.hpp"
@@ -13,6 +13,7 @@
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/campaign_settings.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
+#include "montecarlo/results/summary/reason_pattern.hpp"
 #include "montecarlo/results/summary/replication.hpp"
 #include "montecarlo/results/summary/stopping.hpp"
 #include "montecarlo/results/summary/verdict.hpp"
@@ -31,14 +32,11 @@ struct StatusShare {
   Bounds bounds;
 };
 
-/// How many runs of one status gave this reason; "…" for the numbers in which theirs differ.
-struct ReasonCount {
-  Status status;
-  std::string reason;
-  long count = 0;
-};
+/// The share of a status, with Clopper–Pearson bounds for independent runs; no bounds without runs.
+[[nodiscard]] StatusShare status_share(Status status, long count, long runs, double confidence);
 
-/// Of latch orders the most frequent, up to this many: long chains may latch otherwise in each run.
+/// Most latch orders listed, the most frequent ones. Heuristic: long chains may have one per run, and summary.json
+/// should stay readable; the rest is only counted.
 inline constexpr std::size_t most_latch_orders = 1000;
 
 struct LatchOrderCount {
@@ -46,9 +44,9 @@ struct LatchOrderCount {
   long count = 0;
 };
 
-/// How far off a quantile may be that is taken from counts, where rows are not kept.
+/// The error of a quantile from streaming statistics.
 struct QuantileError {
-  long rank;           ///< the value's own rank is at most so far from the quantile's
+  long rank;           ///< the rank of value is at most this far from the quantile's
   double lower, upper; ///< the quantile is within these
 };
 
@@ -56,7 +54,7 @@ struct QuantileEstimate {
   double p;
   double value; ///< NaN without values
   Bounds bounds;
-  std::optional<QuantileError> error{}; ///< none of rows
+  std::optional<QuantileError> error{}; ///< nothing if computed from rows
 };
 
 struct ToleranceLimitEstimate {
@@ -67,8 +65,8 @@ struct ToleranceLimitEstimate {
 struct OutputSummary {
   std::string name;
   Moments moments;       ///< over the runs in which it happened; `moments.count` of them
-  double mean_error = 0; ///< standard error of the mean; NaN where nothing tells it
-  long missing = 0;      ///< runs in which it did not
+  double mean_error = 0; ///< standard error of the mean; NaN if unknown
+  long missing = 0;      ///< runs in which it did not happen
   std::vector<QuantileEstimate> quantiles;
   Histogram histogram;
   std::vector<ToleranceLimitEstimate> tolerance_limits{}; ///< over all runs (verdict.hpp)
@@ -76,24 +74,23 @@ struct OutputSummary {
       nominal{}; ///< of the nominal run; NaN where it did not happen, nothing where there is none
 };
 
-/// What became of the wing with nothing dispersed.
+/// The run without dispersions.
 struct NominalRun {
   Status status = Status::failed;
   std::string latch_order, reason;
 };
 
-/// 1 for a run that deployed, 0 for one that stalled or timed out, NaN for the others: what became
-/// of them is not known.
+/// 1 for a run that deployed, 0 for one that stalled or timed out, NaN for the others, whose outcome is unknown.
 [[nodiscard]] Column deployed_column(const Results& results);
 
-/// Between a draw and an output, or `deployed` (deployed_column(); Pearson's is then the
-/// point-biserial correlation).
+/// Correlation of a draw with an output or with `deployed` (deployed_column(); then Pearson's is the point-biserial
+/// correlation).
 struct DrawCorrelation {
   std::string draw, output;
   Correlation value;
 };
 
-/// Of how many runs the peaks are proven, were cut by t_end, and are not known (it failed, or was invalid).
+/// Numbers of runs whose peaks are proven, cut by t_end, or unknown (failed or invalid runs).
 struct PeaksCount {
   long proven = 0, cut = 0, unknown = 0;
 };
@@ -101,32 +98,32 @@ struct PeaksCount {
 struct Summary {
   long runs = 0;
   double confidence = 0; ///< of all bounds, two-sided
-  int replicates = 0;    ///< that the bounds come from; 0: they are binomial, for independent draws
+  int replicates = 0;    ///< behind the bounds; 0: binomial bounds, for independent draws
   std::vector<StatusShare> statuses;         ///< all five
   std::vector<ReasonCount> reasons;          ///< by status, then the most frequent, then by text
   std::vector<LatchOrderCount> latch_orders; ///< the most frequent first, then by name
-  long latch_order_kinds = 0;                ///< how many there are, those not listed among them
+  long latch_order_kinds = 0;                ///< all kinds, with those not listed
   long without_latch = 0;                    ///< runs in which no hinge latched
   std::vector<OutputSummary> outputs;        ///< in the order of the columns
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
-  // What the campaign asks for beyond its statistics; write_statistics (results_folder.hpp) adds it.
+  /// Added by write_statistics (results_folder.hpp) if the campaign asks for it.
   std::vector<Verdict> requirements{};
-  std::optional<NominalRun> nominal{};   ///< its outputs stand with theirs
-  std::optional<Accuracy> accuracy{};    ///< of the integration; none where nobody measured it
+  std::optional<NominalRun> nominal{};   ///< its outputs are in `outputs`
+  std::optional<Accuracy> accuracy{};    ///< of the integration; nothing if not measured
   std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
-  std::optional<PeaksCount> peaks{};     ///< none where it was not recorded
-  std::vector<GoalFound> until{};        ///< what decides when it stops
-  bool stopped = false;                  ///< they did, before all runs were made
-  long looks = 1;                        ///< at growing data: each bound's α is shared among them
-  bool without_rows = false;             ///< worked out of counts and sums (rowless/)
-  std::vector<long> looked_at{}; ///< numbers of runs before the campaign was extended: looks too
+  std::optional<PeaksCount> peaks{};     ///< nothing if not recorded
+  std::vector<GoalFound> until{};        ///< goals of the stopping rule
+  bool stopped = false;                  ///< all goals were met before all runs were made
+  long looks = 1; ///< interim analyses, the last one included: they share the α of each bound
+  bool without_rows = false;     ///< computed from streaming statistics
+  std::vector<long> looked_at{}; ///< numbers of runs before each extension: interim analyses too
 };
 
-/// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes a run for
-/// each thread, and no more threads than 1 GiB has room for; what is read of the results is
-/// released. Temporary files: 4 bytes a run for each column, and 12 where values are missing.
-/// @param threads as of team_size (team.hpp); the summary does not depend on them
-/// @pre replication.of_row is as long as the results unless there are no replicates
+/// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes per run and thread; as many
+/// threads as fit into 1 GiB. Columns are released after reading. Temporary files: 4 bytes per run and column, and 12
+/// where values are missing.
+/// @param threads as of thread_count (thread_pool.hpp); does not change the summary
+/// @pre replication.of_row is as long as the results, unless there are no replicates
 [[nodiscard]] Summary summarize(const Results& results, const StatisticsSpec& spec,
                                 const Replication& replication = {}, int threads = 0);
 

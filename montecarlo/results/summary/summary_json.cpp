@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view replicates_agree =
     "no bounds: all replicates agree, which says nothing about the error";
 
-/// Of bounds that hold at several looks at once.
+/// How bounds hold at several interim analyses at once.
 std::string at_looks(const Summary& summary) {
   if (summary.looks == 1) return "";
   if (!summary.looked_at.empty())
@@ -33,7 +33,7 @@ std::string at_looks(const Summary& summary) {
       at_each_of(summary.confidence, summary.looks), summary.looks);
 }
 
-/// Where bounds are from, for independent draws and for replicates.
+/// The definitions of bounds, for independent draws and for replicates.
 std::string source_of(const Summary& summary, const char* independent, const char* replicated) {
   if (summary.replicates == 0) return independent + at_looks(summary);
   if (summary.replicates == 1) return std::string(one_replicate);
@@ -213,7 +213,7 @@ Json output_json(const Summary& summary, const OutputSummary& output) {
   return json;
 }
 
-/// The runs that break a requirement, and how to see one again.
+/// The runs that break a requirement, and the command that replays one.
 void add_broken(Json& json, const Verdict& verdict) {
   const auto& broken = verdict.broken;
   const auto shown = static_cast<std::ptrdiff_t>(std::min(broken.size(), most_broken));
@@ -255,7 +255,7 @@ Json groups_json(std::span<const GroupVerdict> groups) {
   return json;
 }
 
-/// When the campaign stops, and how far it has come.
+/// The goals of the stopping rule, and how far they are reached.
 Json until_json(const Summary& summary) {
   Json goals = Json::array();
   for (const auto& [goal, width, met] : summary.until) {
@@ -267,7 +267,7 @@ Json until_json(const Summary& summary) {
   return {{"stopped", summary.stopped}, {"checkpoints", summary.looks}, {"widths", goals}};
 }
 
-/// A campaign that was extended: at which numbers of runs it was looked at before, and what that costs.
+/// An extended campaign: the numbers of runs at earlier interim analyses, and their effect on bounds.
 Json extended_json(const Summary& summary) {
   double harmonic = 0; // look k takes α/k
   for (long look = 1; look <= summary.looks; ++look) harmonic += 1.0 / static_cast<double>(look);

@@ -1,6 +1,6 @@
 /// The files of the statistics: summary.json, histograms.json, histograms.csv.
 ///
-/// What is undefined or did not happen is null (json.hpp). Every definition in use is named in it.
+/// A value that is undefined or did not happen is null (json.hpp). summary.json names every definition it uses.
 #pragma once
 
 #include "montecarlo/foundation/formats/json.hpp"
@@ -10,17 +10,17 @@
 
 namespace wingspread {
 
-/// Reasons beyond this many, the rarest, are counted together: `reasons_omitted` holds their runs,
-/// and `latch_order_omitted` those of the latch orders that the summary does not list.
+/// Reasons listed, the most frequent ones. `reasons_omitted` counts the runs with others, `latch_order_omitted` those
+/// with latch orders that the summary does not list.
 inline constexpr std::size_t most_reasons = 100;
-/// Of the runs that break a requirement the worst, up to this many; `broken_omitted` counts others.
+/// Runs listed that break a requirement, the worst ones; `broken_omitted` counts the others.
 inline constexpr std::size_t most_broken = 1000;
 
 /// summary.json.
-/// @param about what the caller says of the campaign and the program; the value of "wingspread".
+/// @param about campaign and program: the value of "wingspread"
 [[nodiscard]] Json summary_json(const Summary& summary, const Json& about);
 
-/// What the integration contributes, its key `accuracy`; null where nobody measured it.
+/// The value of its key `accuracy`; null if not measured.
 [[nodiscard]] Json accuracy_json(const Summary& summary);
 
 /// histograms.json: per output its unit, count, missing, edges, counts and density.

@@ -99,7 +99,7 @@ std::string label(const OutputName& name) {
   return name.quantity == "rate_at" ? "rate at " + name.other : spaced(name.quantity);
 }
 
-/// With a digit less where five leave no blank before the column.
+/// Four digits in place of five if those would leave no blank before the column.
 std::string in_number_column(double value) {
   const std::string text = in_digits(value);
   const bool fits = count_characters(text) < number_width;
@@ -128,7 +128,7 @@ std::string output_block(const Summary& summary, std::span<const NumberColumn> c
   return text;
 }
 
-/// As many blocks as it takes to keep the lines within the width.
+/// Splits the columns into blocks so that lines keep within the width.
 std::string outputs(const Summary& summary) {
   if (summary.outputs.empty()) return "";
   const std::vector<NumberColumn> columns = number_columns(summary);
@@ -139,7 +139,8 @@ std::string outputs(const Summary& summary) {
   }
   const auto incomplete = [](const OutputSummary& output) { return output.missing > 0; };
   if (std::ranges::any_of(summary.outputs, incomplete))
-    text += fmt::format("\nEach output over the runs in which it happened, of {}.\n", summary.runs);
+    text +=
+        fmt::format("\nEach output: over the runs in which it happened, of {}.\n", summary.runs);
   return text;
 }
 
@@ -148,13 +149,13 @@ std::string in_two_digits(double error) {
   return std::isnan(error) ? "–" : fmt::format("{:.2g}", error);
 }
 
-/// What the integration contributes to each output, beside what the number of runs does.
+/// The integration error of each output, beside the standard error of its mean.
 std::string accuracy(const Summary& summary) {
   if (!summary.accuracy) return "";
   const Accuracy& found = *summary.accuracy;
   std::string text =
       fmt::format("\n{:<38}{:<6}{:>14}{:>14}{:>18}{:>10}\n", "ACCURACY of the integration", "unit",
-                  "largest error", "RMS error", "error of the mean", "RMS/that");
+                  "largest error", "RMS error", "std error of mean", "ratio");
   for (std::size_t i = 0; i < found.outputs.size(); ++i) {
     const auto& [name, runs, largest, rms] = found.outputs[i];
     const double sampling = summary.outputs[i].mean_error, share = 100 * rms / sampling;
@@ -165,14 +166,13 @@ std::string accuracy(const Summary& summary) {
         right_aligned(std::isfinite(share) ? fmt::format("{:.1g} %", share) : "–", 10));
   }
   std::string note = fmt::format(
-      "{} of {} runs again by {} at rtol {:g} ({} at {:g} before): status or order of "
-      "latching in doubt in {}.",
+      "{} of {} runs repeated by {} at rtol {:g} (campaign: {} at {:g}); ratio is RMS error to "
+      "standard error of the mean. Runs whose status or latch order differs: {}.",
       found.runs, summary.runs, found.reference_method, found.reference_rtol, found.method,
-      found.rtol, found.in_doubt.empty() ? "none" : fmt::format("{}", found.in_doubt.size()));
-  if (!found.in_doubt.empty())
-    note += fmt::format(" They are runs {}.", fmt::join(found.in_doubt, ", "));
+      found.rtol,
+      found.in_doubt.empty() ? "none" : fmt::format("{}", fmt::join(found.in_doubt, ", ")));
   if (found.unreached > 0)
-    note += fmt::format(" {} more could not be finished so.", found.unreached);
+    note += fmt::format(" The reference could not finish {} more.", found.unreached);
   return text + "  " + wrapped(note, 2) + '\n';
 }
 
@@ -198,7 +198,7 @@ std::string tolerance(const Summary& summary) {
          text;
 }
 
-/// The worst of the runs that break a requirement, and how to see the first again.
+/// The worst runs that break a requirement, and the command that replays the first.
 std::string broken_runs(const Verdict& verdict, std::string_view folder) {
   constexpr std::size_t most = 6;
   if (verdict.broken.empty() || folder.empty()) return "";
@@ -208,12 +208,12 @@ std::string broken_runs(const Verdict& verdict, std::string_view folder) {
   return text + (verdict.broken.size() > most ? ", …\n" : "\n");
 }
 
-/// Which requirements hold together at the confidence that they share.
+/// The verdicts of groups of requirements, at their joint confidence.
 std::string groups(const Summary& summary) {
   std::string text;
   for (const auto& [name, confidence, members, passed, decision] :
        judge_groups(summary.requirements))
-    text += fmt::format("  group {}: {}: {} of {} pass, all together at {:.10g} %\n", name,
+    text += fmt::format("  group {}: {}: {} of {} pass, joint confidence {:.10g} %\n", name,
                         to_string(decision), passed, members, 100 * confidence);
   return text;
 }
@@ -221,7 +221,7 @@ std::string groups(const Summary& summary) {
 std::string requirements(const Summary& summary, std::string_view folder) {
   if (summary.requirements.empty()) return "";
   std::string text = fmt::format("\n{:<46}{:<10}{:>8}{:>8}{:>13}{:>13}\n", "REQUIREMENT", "verdict",
-                                 "broken", "may", "observed", "guaranteed");
+                                 "broken", "allowed", "observed", "guaranteed");
   for (const Verdict& verdict : summary.requirements) {
     const bool share = verdict.requirement.output == deployed_output;
     text += fmt::format(
@@ -235,10 +235,11 @@ std::string requirements(const Summary& summary, std::string_view folder) {
   }
   text += groups(summary);
   const auto passes = [](const Verdict& verdict) { return verdict.decision == Decision::pass; };
+  const double joint = joint_confidence(summary.requirements);
   if (std::ranges::count_if(summary.requirements, passes) > 1)
     text +=
-        fmt::format("  Those that pass hold each for itself; all together at {:.10g} % or more.\n",
-                    100 * joint_confidence(summary.requirements));
+        fmt::format("  Joint confidence of {} requirements: {}.\n", summary.requirements.size(),
+                    joint > 0 ? fmt::format("at least {:.10g} %", 100 * joint) : "no guarantee");
   return text;
 }
 
@@ -252,7 +253,7 @@ std::string warning_lines(const Summary& summary) {
 std::string stopping(const Summary& summary) {
   if (summary.until.empty()) return "";
   std::string text =
-      fmt::format("\n{:<58}{:>20}{:>20}\n", "UNTIL THE INTERVAL'S WIDTH IS", "found", "reached");
+      fmt::format("\n{:<58}{:>20}{:>20}\n", "STOPPING GOAL, interval width", "found", "reached");
   for (const auto& [goal, width, met] : summary.until) {
     const bool decision = std::holds_alternative<DecisionGoal>(goal);
     const std::string found = decision ? (met ? "decided" : "open") : in_digits_if_any(width);
@@ -268,7 +269,7 @@ std::string files(const Summary& summary, std::string_view folder) {
                      summary.without_rows ? "broken_runs.csv, extremes.csv" : "runs.csv");
 }
 
-/// Neighbouring bins put together, so that at most `most` are left.
+/// Merges neighbouring bins down to at most `most`.
 Histogram coarser(const Histogram& histogram, std::size_t most) {
   const std::size_t group = (histogram.counts.size() + most - 1) / most;
   if (group <= 1) return histogram;

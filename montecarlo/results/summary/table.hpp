@@ -1,4 +1,4 @@
-/// The summary as text for a terminal: text_layout.hpp says how wide.
+/// The summary as text for a terminal (width: text_layout.hpp).
 #pragma once
 
 #include "montecarlo/results/summary/summary.hpp"
@@ -8,18 +8,16 @@
 
 namespace wingspread {
 
-/// Outcomes with their shares and bounds, why runs did not deploy, latch orders, and the mean,
-/// standard deviation and quantiles of every output, hinge by hinge; then what the campaign asks
-/// for: tolerance limits, requirements with the runs that break them, goals to stop at. Hinges that turn
-/// through their neighbours are warned of.
-/// @param title its first line: what was run, how often, from which seed.
-/// @param folder where the files are; empty when there are none.
+/// Outcomes with shares and bounds, reasons, latch orders, statistics of every output hinge by hinge, accuracy,
+/// tolerance limits, requirements with the runs that break them, stopping goals, and warnings.
+/// @param title first line: campaign, number of runs, seed
+/// @param folder of the files; empty: none
 [[nodiscard]] std::string summary_table(const Summary& summary, std::string_view title,
                                         std::string_view folder);
 
-/// A histogram as horizontal bars, their length as the density. Neighbouring bins are put together
-/// until at most 20 are left; each line has its bin's lower edge and its count.
-/// @param width of the lines, in columns, at least 40.
+/// A histogram as horizontal bars whose length is the density. Merges neighbouring bins down to at most 20. Each line
+/// has its bin's lower edge and count.
+/// @param width of the lines in columns, at least 40
 [[nodiscard]] std::string draw_histogram(std::string_view name, std::string_view unit,
                                          const Histogram& histogram, int width);
 

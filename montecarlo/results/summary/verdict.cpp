@@ -19,22 +19,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// As good as infinite: a static margin where nothing resists.
+/// Treated as infinite: the static margin of a hinge without resistance.
 constexpr double no_number = std::numeric_limits<double>::max();
 
-/// How bad a run is: its value seen from the limit's side, so that larger is worse; the limit in
-/// the same way. Of "deployed", 0 where it did.
+/// How bad a run is: sign_of · value, so that larger is worse; for "deployed" 0 if it deployed.
 struct Badness {
   long run;
   double value;
 };
-
-double sign_of(const Requirement& requirement) { return requirement.min ? -1 : 1; }
-
-double limit_of(const Requirement& requirement) {
-  if (requirement.max) return *requirement.max;
-  return requirement.min ? -*requirement.min : 0;
-}
 
 const Column* column_of(const Results& results, std::span<const Column> besides,
                         const Requirement& requirement) {
@@ -46,10 +38,10 @@ const Column* column_of(const Results& results, std::span<const Column> besides,
   return nullptr;
 }
 
-/// What is asked of an output's values before they are compared.
+/// How to read an output's values before comparing them.
 struct Reading {
   bool absolute = false;
-  bool is_peak = false; ///< one that t_end cut says nothing
+  bool is_peak = false; ///< a peak cut by t_end does not count
 };
 
 Reading reading_of(const Column* column, bool absolute) {
@@ -60,7 +52,7 @@ bool is_cut(const Results& results, std::size_t row, const Reading& how) {
   return how.is_peak && results.peaks_final[row] == PeaksFinal::no;
 }
 
-/// The value, where the run deployed and has one that counts; else infinite.
+/// The value if the run deployed and the value counts; else infinite.
 double value_or_infinite(const Results& results, std::size_t row, double value,
                          const Reading& how) {
   if (results.status[row] != Status::deployed || std::isnan(value) || is_cut(results, row, how))
@@ -68,7 +60,7 @@ double value_or_infinite(const Results& results, std::size_t row, double value,
   return how.absolute ? std::abs(value) : value;
 }
 
-/// The numbers of the runs that break it, the worst first; those that are equally bad by their number.
+/// The runs that break the requirement, the worst first; ties by run number.
 Spilled<long> breaking(const Requirement& requirement, const Results& results, const Column* column,
                        long& cut) {
   const double sign = sign_of(requirement), limit = limit_of(requirement);
@@ -92,13 +84,13 @@ Spilled<long> breaking(const Requirement& requirement, const Results& results, c
   return broken;
 }
 
-Decision decide(const Verdict& verdict) {
+Decision decision_of(const Verdict& verdict) {
   if (verdict.allowed)
     return verdict.failures() <= *verdict.allowed ? Decision::pass : Decision::fail;
   return verdict.disproved ? Decision::fail : Decision::undecided;
 }
 
-/// Fills in what is said of the output's own values.
+/// Sets the values of the output.
 void add_values(const RankedOutput& output, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
   const auto value_at = [&](long place) -> std::optional<double> { // the worst has place 0
@@ -118,15 +110,15 @@ void add_values(const RankedOutput& output, Verdict& verdict) {
     verdict.beyond_zero = beyond_zero(numbers.front(), numbers.back(), requirement);
 }
 
-/// @param ranks      the output's; null for "deployed"
-/// @param confidence to be shown at by itself, were there one look
+/// @param ranks      of the output; null for "deployed"
+/// @param confidence to show it at, if there were only one analysis
 Verdict judge_one(const Requirement& requirement, const Results& results, const Column* column,
                   const RankedOutput* ranks, double confidence, long looks) {
   Verdict verdict;
   verdict.requirement = requirement;
   verdict.runs = static_cast<long>(results.size());
   verdict.broken = breaking(requirement, results, column, verdict.cut);
-  conclude(confidence, looks, verdict);
+  decide(confidence, looks, verdict);
   if (ranks)
     add_values(*ranks, verdict);
   else if (verdict.allowed)
@@ -135,6 +127,13 @@ Verdict judge_one(const Requirement& requirement, const Results& results, const 
 }
 
 } // namespace
+
+double sign_of(const Requirement& requirement) { return requirement.min ? -1 : 1; }
+
+double limit_of(const Requirement& requirement) {
+  if (requirement.max) return *requirement.max;
+  return requirement.min ? -*requirement.min : 0;
+}
 
 std::string_view to_string(Decision decision) {
   switch (decision) {
@@ -148,7 +147,7 @@ std::string_view to_string(Decision decision) {
   return "undecided";
 }
 
-void conclude(double confidence, long looks, Verdict& verdict) {
+void decide(double confidence, long looks, Verdict& verdict) {
   verdict.confidence_alone = confidence;
   verdict.confidence = at_each_of(confidence, looks);
   const double p = verdict.requirement.probability, c = verdict.confidence;
@@ -158,7 +157,7 @@ void conclude(double confidence, long looks, Verdict& verdict) {
   verdict.disproved = is_disproved(n, p, c, broken);
   verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
   verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
-  verdict.decision = decide(verdict);
+  verdict.decision = decision_of(verdict);
 }
 
 std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
@@ -177,7 +176,7 @@ RankedOutput::RankedOutput(const Results& results, const Column& output, bool ab
     if (value != infinity) values_.push_back(value);
   }
   results.release();
-  std::ranges::sort(values_);
+  sort_values(values_);
   worse_ = runs - values_.size();
   if (worse_ == 0) return;
   values_.insert(values_.begin(), worse_, -infinity);

@@ -1,4 +1,4 @@
-/// What a verdict rests on, for the JSON files that hold verdicts.
+/// The evidence of a verdict, for JSON files with verdicts.
 #pragma once
 
 #include "montecarlo/foundation/formats/json.hpp"
@@ -6,8 +6,8 @@
 
 namespace wingspread {
 
-/// {"failures": {"seen", "allowed"}, "observed": {"share", "value"}, "guaranteed": {"share",
-/// "value"}}; no values of "deployed".
+/// {"failures": {"seen", "allowed"}, "observed": {"share", "value"}, "guaranteed": {"share", "value"}}; without
+/// values for "deployed".
 [[nodiscard]] Json evidence_json(const Verdict& verdict);
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// What is to be warned of in a campaign's results, in words: one text for the table and for summary.json.
+/// Warnings about a campaign's results: one text for the table and for summary.json.
 #pragma once
 
 #include "montecarlo/results/summary/summary.hpp"
@@ -8,11 +8,10 @@
 
 namespace wingspread {
 
-/// How many runs have peaks that are proven, that t_end cut, and of which that is not known.
+/// Numbers of runs whose peaks are proven, cut by t_end, or unknown.
 [[nodiscard]] PeaksCount count_peaks_final(const Results& results);
 
-/// Hinges that turn through their neighbours, peaks that t_end cut, and limits on the other side of zero from every
-/// value: one line each, in this order.
+/// Overtravel, peaks cut by t_end, and limits on the other side of zero from every value: a line each, in this order.
 [[nodiscard]] std::vector<std::string> warnings(const Summary& summary);
 
 } // namespace wingspread

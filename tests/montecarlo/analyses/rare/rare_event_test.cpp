@@ -30,7 +30,7 @@ Json one_panel(double coulomb) {
 double coulomb_for(double beta) { return 1.1 - beta * std::hypot(1.1 * 0.05, 0.03); }
 double tail(double beta) { return std::erfc(beta / std::sqrt(2)) / 2; }
 
-RareResult estimate(const Json& campaign, const RareOptions& options, const Crew& crew = {}) {
+RareResult estimate(const Json& campaign, const RareOptions& options, const ThreadPool& crew = {}) {
   ThreadEvaluator evaluator(crew, never);
   return estimate_rare_event(campaign_of(campaign), options, evaluator, untold);
 }
@@ -150,13 +150,13 @@ TEST_CASE("an output beyond a limit, above and below, agrees with its own quanti
 TEST_CASE("the same seed gives the same estimate for any threads and lanes, another seed another",
           "[parallel]") {
   Json json = one_panel(coulomb_for(3));
-  const auto with = [&](const Crew& crew) {
+  const auto with = [&](const ThreadPool& crew) {
     return estimate(json, {.samples = 200, .repeats = 2}, crew);
   };
   const RareResult one = with({.threads = 1});
-  std::vector<Crew> crews{{.threads = 2}, {.threads = 5}};
+  std::vector<ThreadPool> crews{{.threads = 2}, {.threads = 5}};
   for (const InstructionSet set : instruction_sets()) crews.push_back({.threads = 2, .set = set});
-  for (const Crew& crew : crews) {
+  for (const ThreadPool& crew : crews) {
     const RareResult again = with(crew);
     CHECK(again.estimate.probability == one.estimate.probability);
     CHECK(again.estimate.variation == one.estimate.variation);

@@ -3,7 +3,7 @@
 #include "montecarlo/analyses/sensitivity/saltelli.hpp"
 #include "montecarlo/engine/mpi/rank_evaluator.hpp"
 #include "montecarlo/foundation/formats/machine_error.hpp"
-#include "tests/montecarlo/engine/mpi/memory_wire.hpp"
+#include "tests/montecarlo/engine/mpi/memory_transport.hpp"
 #include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/pairwise_correlation.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "tests/montecarlo/sample_support.hpp"
@@ -140,7 +140,7 @@ TEST_CASE("many columns at once have each pair's bits, on any number of threads"
 }
 
 TEST_CASE("where there is work for a team it has the bits of one thread", "[parallel]") {
-  const std::size_t enough = 1 + static_cast<std::size_t>(operations_worth_a_team) / (2 * 3 * 3);
+  const std::size_t enough = 1 + static_cast<std::size_t>(operations_worth_threads) / (2 * 3 * 3);
   for (const std::size_t rows : {enough - 2, enough}) { // below and above, of the complete pairs
     const Columns x = with_gaps(21, rows, {0, 3, 0, 0}), y = with_gaps(22, rows, {0, 0, 5, 0});
     const auto alone = pairwise_correlations(ranked(x), ranked(y));

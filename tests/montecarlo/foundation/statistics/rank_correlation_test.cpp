@@ -1,4 +1,4 @@
-#include "montecarlo/foundation/platform/team.hpp"
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/rank_correlation.hpp"
 #include "tests/montecarlo/sample_support.hpp"
 
@@ -56,7 +56,7 @@ TEST_CASE("how far a column follows from the others") {
 
 TEST_CASE("partial coefficients have the same bits for any number of threads", "[parallel]") {
   constexpr std::size_t columns = 12, pairs = columns * columns / 2;
-  const auto enough = static_cast<std::size_t>(operations_worth_a_team) / pairs;
+  const auto enough = static_cast<std::size_t>(operations_worth_threads) / pairs;
   for (const std::size_t rows : {std::size_t{100}, enough - 1, enough + 1}) {
     std::vector<Spilled<double>> drawn;
     for (std::size_t j = 0; j < columns; ++j)

@@ -4,7 +4,10 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -126,4 +129,25 @@ TEST_CASE("quantiles invert the empirical distribution function") {
 
 TEST_CASE("sorted_present leaves NaN out") {
   CHECK(sorted_present(std::vector{3.0, none, -1.0, none}) == std::vector{-1.0, 3.0});
+}
+
+TEST_CASE("values of every size and sign are sorted, −0 before 0") {
+  std::mt19937_64 random(11);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const std::size_t n : {0u, 1u, 2u, 30u, 5000u}) {
+    std::vector<double> values(n);
+    for (double& value : values) {
+      const double size = std::exp(1400 * (uniform(random) - 0.5)); // 1e-304 … 1e304
+      const double kind = uniform(random);
+      value = kind < 0.1 ? 0.0 : kind < 0.2 ? -0.0 : kind < 0.6 ? size : -size;
+    }
+    if (n > 2) values[0] = infinity, values[1] = -infinity, values[2] = 5e-324;
+    std::vector<double> expected = values;
+    std::ranges::sort(expected, [](double a, double b) { return std::strong_order(a, b) < 0; });
+    sort_values(values);
+    CAPTURE(n);
+    CHECK(std::ranges::equal(values, expected, [](double a, double b) {
+      return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    }));
+  }
 }

@@ -206,7 +206,7 @@ TEST_CASE("All faults of a campaign are told together", "[campaign_json]") {
         "without control characters\n"
         "c.json: /dispersions/0/apply: found string \"times\", expected \"set\", \"scale\" or "
         "\"add\"\n"
-        "c.json: /integration/rtol: found 2, expected a number, ≥ 1e-15 and < 1, or \"auto\"\n"
+        "c.json: /integration/rtol: found 2, expected a number, ≥ 1e-15 and < 1, for example 1e-8\n"
         "c.json: /statistics/confidence: found 2, expected a number, > 0 and < 1");
 }
 

@@ -47,10 +47,9 @@ TEST_CASE("Each fault of the sampling is told", "[campaign_settings]") {
   CHECK(read(json, Sampling{}, read_sampling).problems == message);
 }
 
-TEST_CASE("One run has no sampling error to choose a tolerance by", "[campaign_settings]") {
+TEST_CASE("A tolerance is a number, and the refusal of \"auto\" shows one", "[campaign_settings]") {
   CHECK(read(R"({"rtol": "auto"})", Integration{}, read_integration).problems ==
-        "/rtol: found string \"auto\", expected a number, ≥ 1e-15 and < 1: only a campaign has a "
-        "sampling error to weigh errors by");
+        "/rtol: found string \"auto\", expected a number, ≥ 1e-15 and < 1, for example 1e-8");
 }
 
 TEST_CASE("Integration is read over its defaults, and written in full", "[campaign_settings]") {
@@ -117,11 +116,12 @@ TEST_CASE("Times and angles of the integration may have their units", "[campaign
 TEST_CASE("Each fault of the integration is told", "[campaign_settings]") {
   const auto [json, message] = GENERATE(values<Case>(
       {{"[]", "found an array of 0, expected an object with the integration"},
-       {R"({"rtol": 0})", "/rtol: found 0, expected a number, ≥ 1e-15 and < 1"},
-       {R"({"rtol": 1e-40})", "/rtol: found 1e-40, expected a number, ≥ 1e-15 and < 1"},
+       {R"({"rtol": 0})", "/rtol: found 0, expected a number, ≥ 1e-15 and < 1, for example 1e-8"},
+       {R"({"rtol": 1e-40})",
+        "/rtol: found 1e-40, expected a number, ≥ 1e-15 and < 1, for example 1e-8"},
        {R"({"rtol": 9e-16, "atol": 1e-40})",
-        "/rtol: found 9e-16, expected a number, ≥ 1e-15 and < 1"},
-       {R"({"rtol": 1})", "/rtol: found 1, expected a number, ≥ 1e-15 and < 1"},
+        "/rtol: found 9e-16, expected a number, ≥ 1e-15 and < 1, for example 1e-8"},
+       {R"({"rtol": 1})", "/rtol: found 1, expected a number, ≥ 1e-15 and < 1, for example 1e-8"},
        {R"({"atol": -1e-9})", "/atol: found -1e-09, expected a number, > 0"},
        {R"({"t_end": 0})", "/t_end: found 0, expected a number, s, > 0"},
        {R"({"t_end": "-1 min"})", "/t_end: found string \"-1 min\", expected a number, s, > 0"},

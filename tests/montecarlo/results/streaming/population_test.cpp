@@ -153,5 +153,5 @@ TEST_CASE("state file: damage is told") {
   bytes[3] = static_cast<char>(bytes[3] ^ 1);
   CHECK_THROWS_WITH(StateReader(bytes, "file"),
                     "file: found a damaged file, expected statistics that `run --no-rows` wrote: "
-                    "what its sum says");
+                    "checksum");
 }

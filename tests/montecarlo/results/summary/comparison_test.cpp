@@ -78,10 +78,10 @@ TEST_CASE("cases stand side by side", "[comparison]") {
         "  mean                                               5.0000       9.0000\n"
         "  1 %                                                5.0000       9.0000\n"
         "  99 %                                               5.0000       9.0000\n"
-        "\nREQUIREMENT, runs that break it (and may)               hot         cold\n"
+        "\nREQUIREMENT, runs that break it / allowed               hot         cold\n"
         "T-1: deployment_time ≤ 8 s, 80 % at 90 %\n"
         "  worst: cold                                          pass         fail\n"
-        "                                                  0 (may 1)   20 (may 1)\n"
+        "                                                      0 / 1       20 / 1\n"
         "\nFILES  out: cases.json, and a results folder for each case\n");
   cases[0].partial = true;
   cases[0].name = "a_case_with_a_long_name";

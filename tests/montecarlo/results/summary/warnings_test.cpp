@@ -63,7 +63,7 @@ TEST_CASE("a group is told in the table and in summary.json") {
   both[0].group = both[1].group = "rates";
   summary.requirements = judge_all(both, results);
   CHECK_THAT(summary_table(summary, "four", ""),
-             Catch::Contains("  group rates: pass: 2 of 2 pass, all together at 40 %\n"));
+             Catch::Contains("  group rates: pass: 2 of 2 pass, joint confidence 40 %\n"));
   const Json json = summary_json(summary, {});
   CHECK(json["groups"][0] == Json{{"group", "rates"},
                                   {"confidence", .4},

@@ -1,0 +1,99 @@
+#include "montecarlo/foundation/platform/thread_pool.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <omp.h>
+
+// GCC's OpenMP runtime synchronises with futexes, which the thread sanitizer does not see: it would report the start and
+// the end of the threads as races. release() and acquire() tell it of both. One store escapes them: the compiler passes
+// the address of the shared data after release(), just before the start. So start_and_join, which touches nothing else
+// of the shared data, is not instrumented; everything it calls is.
+#ifdef __SANITIZE_THREAD__
+extern "C" {
+void __tsan_acquire(void* address);
+void __tsan_release(void* address);
+}
+namespace {
+char edge; // its address is all that matters
+void acquire() { __tsan_acquire(&edge); }
+void release() { __tsan_release(&edge); }
+} // namespace
+#else
+namespace {
+void acquire() {}
+void release() {}
+} // namespace
+#endif
+
+namespace wingspread {
+namespace {
+
+/// The data that the threads share.
+struct SharedWork {
+  const std::function<void()>& work;
+  const std::function<void()>& on_exception;
+  std::mutex mutex{};
+  std::exception_ptr first{};
+
+  void one_thread() noexcept {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!first) first = std::current_exception();
+      on_exception();
+    }
+  }
+};
+
+} // namespace
+
+int thread_count(int wanted) { return wanted > 0 ? wanted : omp_get_max_threads(); }
+
+int threads_worth(int wanted, double operations) {
+  return operations < operations_worth_threads ? 1 : thread_count(wanted);
+}
+
+namespace {
+
+[[gnu::no_sanitize_thread]] void start_and_join(int threads, SharedWork& shared_work) {
+  release();
+#pragma omp parallel num_threads(threads) default(none) shared(shared_work)
+  {
+    acquire();
+    shared_work.one_thread();
+    release();
+  }
+  acquire();
+}
+
+} // namespace
+
+void run_on_threads(int threads, const std::function<void()>& work,
+                    const std::function<void()>& on_exception) {
+  SharedWork shared_work{work, on_exception};
+  start_and_join(thread_count(threads), shared_work);
+  if (shared_work.first) std::rethrow_exception(shared_work.first);
+}
+
+void for_each_task(int threads, std::size_t count, const std::function<void(std::size_t)>& task) {
+  std::atomic<std::size_t> next = 0;
+  const auto most = static_cast<int>(std::clamp<std::size_t>(count, 1, 1024));
+  run_on_threads(
+      std::min(thread_count(threads), most),
+      [&] {
+        for (std::size_t i = next++; i < count; i = next++) task(i);
+      },
+      [&] { next = count; });
+}
+
+int threads_within_memory(int wanted, std::size_t bytes_each) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 30;
+  const auto most = static_cast<int>(
+      std::clamp<std::size_t>(most_bytes / std::max<std::size_t>(bytes_each, 1), 1, 1024));
+  return std::min(thread_count(wanted), most);
+}
+
+} // namespace wingspread

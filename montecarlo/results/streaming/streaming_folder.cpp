@@ -1,0 +1,191 @@
+#include "montecarlo/results/streaming/streaming_folder.hpp"
+
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/input_file.hpp"
+#include "montecarlo/results/streaming/streaming_summary.hpp"
+#include "montecarlo/results/summary/static_margins.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+constexpr std::string_view magic = "wingspread run --no-rows, 1";
+
+std::string broken_header(const ResultNames& names) {
+  std::string header;
+  append_header(header, names);
+  return header;
+}
+
+/// The required static margins of each row.
+std::vector<std::vector<double>> margins_of(const RunPlan& plan, const Batch& batch) {
+  const auto takes_margins = [](const Requirement& requirement) {
+    return requirement.static_margin.has_value();
+  };
+  std::vector<std::vector<double>> margins(batch.rows.size());
+  if (std::ranges::none_of(plan.campaign().requirements, takes_margins)) return margins;
+  Results rows(plan.names());
+  for (const ResultRow& row : batch.rows) rows.append(row);
+  for (const Column& column : static_margin_columns(plan.campaign(), rows))
+    for (std::size_t i = 0; i < margins.size(); ++i) margins[i].push_back(column.values[i]);
+  return margins;
+}
+
+[[noreturn]] void refuse(const char* found, const char* expected) {
+  throw SpecError({{"", "--no-rows", found, expected}});
+}
+
+} // namespace
+
+void refuse_without_rows(const Campaign& campaign) {
+  if (campaign.sampling.design != DesignKind::random)
+    refuse("dependent draws", "the design \"random\": bounds from replicates need the rows");
+  if (!campaign.until.empty()) refuse("stopping goals", "none: interim analyses need the rows");
+  if (!campaign.cases.empty())
+    refuse("a campaign with cases", "one without: run each case's campaign by itself");
+  if (!campaign.sampling.extended_from.empty())
+    refuse("a campaign that was extended", "a number of runs that is fixed beforehand");
+}
+
+std::string streaming_statistics_text(const StoredCampaign& stored,
+                                      const StreamingStatistics& statistics,
+                                      std::uint64_t broken_bytes) {
+  StateWriter to;
+  to.put(magic);
+  to.put(std::string_view(stored.stamp.hash));
+  to.put(std::string_view(stored.stamp.version));
+  to.put(broken_bytes);
+  statistics.write(to);
+  return std::move(to).finish();
+}
+
+StoredStatistics read_streaming_statistics(const StoredCampaign& stored) {
+  const std::filesystem::path path = stored.folder / statistics_file;
+  InputFile in(path);
+  StateReader from({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()},
+                   path.string());
+  if (from.get_text() != magic) throw from.broken("a format of this version");
+  if (from.get_text() != stored.stamp.hash) throw from.broken("the campaign of campaign.json");
+  (void)from.get_text();
+  const auto broken_bytes = from.get<std::uint64_t>();
+  StoredStatistics read{
+      StreamingStatistics(stored.campaign, RunPlan(stored.campaign).names(), from), broken_bytes};
+  if (!from.at_end()) throw from.broken("no bytes after the end");
+  return read;
+}
+
+Summary write_streaming_statistics(const StoredCampaign& stored,
+                                   const StreamingStatistics& statistics,
+                                   const StatisticsSpec& spec) {
+  Summary summary = streaming_summary(stored, statistics, spec);
+  write_summary_files(stored, summary);
+  write_file(stored.folder / extremes_file,
+             extremes_csv(RunPlan(stored.campaign).names(), statistics));
+  return summary;
+}
+
+StreamingFolder::StreamingFolder(std::filesystem::path folder, const RunPlan& plan,
+                                 const std::optional<Shard>& shard, bool resume)
+    : plan_(&plan), stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)} {
+  refuse_without_rows(stored_.campaign);
+  constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
+  if (!resume)
+    refuse_used_folder(stored_.folder, expected);
+  else if (!is_new_folder(stored_.folder))
+    (void)read_stored_campaign(stored_.folder); // before anything is made in what is no such folder
+  lock_.emplace(stored_.folder);
+  if (!resume) refuse_used_folder(stored_.folder, expected);
+  if (is_new_folder(stored_.folder)) return;
+  const StoredCampaign there = read_stored_campaign(stored_.folder);
+  refuse_other_campaign(there, stored_.campaign, stored_.stamp);
+  if (there.campaign.sampling.runs != stored_.campaign.sampling.runs)
+    throw SpecError({{(stored_.folder / campaign_file).string(), "/sampling/runs",
+                      std::to_string(there.campaign.sampling.runs),
+                      fmt::format("{}: a campaign without rows cannot be extended",
+                                  stored_.campaign.sampling.runs)}});
+  if (std::filesystem::exists(stored_.folder / runs_file))
+    throw SpecError({{stored_.folder.string(), "", "a folder of a campaign that keeps its rows",
+                      "one that was begun with --no-rows"}});
+}
+
+bool StreamingFolder::begin(Evaluator& evaluator) {
+  if (is_streaming_folder(stored_.folder)) {
+    StoredStatistics read = read_streaming_statistics(stored_);
+    statistics_.emplace(std::move(read.statistics));
+    resumed_ = statistics_->runs();
+    open_broken(read.broken_bytes);
+    return true;
+  }
+  Results pilot(plan_->names());
+  Batch own; // the pilot's runs that this shard has to make anyway
+  const RunRange range{0, std::min<long>(grid_pilot_runs, plan_->campaign().sampling.runs)};
+  const RunRange runs = stored_.runs();
+  const auto keep = [&](const Batch& batch) {
+    for (const ResultRow& row : batch.rows) {
+      pilot.append(row);
+      if (runs.first <= row.run && row.run < runs.last) own.rows.push_back(row);
+    }
+  };
+  if (evaluator.make(*plan_, range, {keep}) < range.size()) return false;
+  statistics_.emplace(plan_->campaign(), plan_->names(), pilot);
+  write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
+  write_file(stored_.folder / statistics_file, streaming_statistics_text(stored_, *statistics_, 0));
+  open_broken(0);
+  add(own);
+  return true;
+}
+
+/// Opens broken_runs.csv at the length recorded in the statistics, and cuts off the rest.
+void StreamingFolder::open_broken(std::uint64_t bytes) {
+  const std::filesystem::path path = stored_.folder / broken_runs_file;
+  std::error_code why;
+  const std::uint64_t there =
+      std::filesystem::exists(path) ? std::filesystem::file_size(path, why) : 0;
+  if (there < bytes)
+    throw SpecError({{path.string(), "", fmt::format("{} bytes", there),
+                      fmt::format("{}, as {} says", bytes, statistics_file)}});
+  if (there > bytes) std::filesystem::resize_file(path, bytes, why);
+  if (why) refuse_path(path, why.value(), "a file that can be written");
+  broken_.emplace(path, OutputFile::From::end);
+  broken_bytes_ = bytes;
+  if (bytes > 0) return;
+  const std::string header = broken_header(plan_->names());
+  broken_->write(header);
+  broken_bytes_ = header.size();
+}
+
+RunRange StreamingFolder::remaining() const {
+  const RunRange runs = stored_.runs();
+  return {runs.first + count(), runs.last};
+}
+
+void StreamingFolder::add(const Batch& batch) {
+  const std::vector<std::vector<double>> margins = margins_of(*plan_, batch);
+  std::string csv;
+  for (std::size_t i = 0; i < batch.rows.size(); ++i)
+    if (statistics_->add(batch.rows[i], margins[i])) append_row(csv, batch.rows[i]);
+  if (!csv.empty()) broken_->write(csv);
+  broken_bytes_ += csv.size();
+  if (Clock::now() - saved_ > std::chrono::seconds(30)) save();
+}
+
+void StreamingFolder::save() {
+  broken_->sync(); // before what says how long it is
+  write_file(stored_.folder / statistics_file,
+             streaming_statistics_text(stored_, *statistics_, broken_bytes_));
+  saved_ = Clock::now();
+}
+
+void StreamingFolder::finish() {
+  if (!broken_) return; // stopped in the pilot
+  save();
+  broken_->close();
+}
+
+} // namespace wingspread

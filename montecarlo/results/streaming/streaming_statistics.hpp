@@ -1,0 +1,121 @@
+/// Streaming statistics: all that is kept of a campaign's runs with --no-rows. Counts, exact sums and extremes.
+///
+/// They do not depend on the order of the runs or on how runs are split among objects that are added together: every
+/// member is a whole number, an exact sum, or chosen by value and run. So the same runs give the same bytes on any
+/// number of threads, after interruptions, and from shards.
+#pragma once
+
+#include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/model/campaign/campaign.hpp"
+#include "montecarlo/results/streaming/population.hpp"
+#include "montecarlo/results/streaming/power_sums.hpp"
+#include "montecarlo/results/summary/reason_pattern.hpp"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// Further kinds of latch orders, in order of appearance, are counted together. Heuristic: 100,000 texts take some 10
+/// MB; with more kinds, merging shards is refused, because the rest cannot be split.
+inline constexpr std::size_t most_order_kinds = 100'000;
+/// No correlations for more pairs of draws and outputs than this. A pair takes 5 exact sums of 552 bytes: 40,000
+/// pairs are 110 MB.
+inline constexpr std::size_t most_streaming_pairs = 40'000;
+
+/// An output used by a requirement or a tolerance limit, over all runs. Runs worse than any number are counted apart.
+struct RequiredOutput {
+  std::string output;
+  bool absolute = false;
+  std::size_t column = 0; ///< index into the outputs, followed by the static margins
+  bool operator==(const RequiredOutput&) const = default;
+};
+
+/// The required outputs of a campaign, each once. @param margins names of the static margins' columns
+[[nodiscard]] std::vector<RequiredOutput> required_outputs(const Campaign& campaign,
+                                                           const ResultNames& names,
+                                                           const std::vector<std::string>& margins);
+
+/// The runs that break a requirement.
+struct RequirementCounts {
+  long failures = 0, cut = 0; ///< `cut`: deployed runs among them whose peak t_end cut
+  Extremes worst;             ///< worst values; infinite if worse than any number
+};
+
+struct RequiredPopulation {
+  Population values;
+  long worse = 0; ///< runs worse than any number
+};
+
+class StreamingStatistics {
+public:
+  /// Empty. @param pilot the campaign's first runs, which decide where bins lie
+  StreamingStatistics(const Campaign& campaign, const ResultNames& names, const Results& pilot);
+  /// Reads what write() wrote. @throws SpecError if it is damaged or of another campaign
+  StreamingStatistics(const Campaign& campaign, const ResultNames& names, StateReader& from);
+
+  /// @param margins the run's required static margins, in the order of static_margin_columns
+  /// @return whether the run's row is to be kept: it did not deploy, or breaks a requirement
+  bool add(const ResultRow& row, std::span<const double> margins);
+  /// @pre of the same campaign and other runs
+  /// @throws SpecError if more than most_order_kinds latch orders were counted
+  void add(const StreamingStatistics& other);
+  void write(StateWriter& to) const;
+
+  [[nodiscard]] long runs() const { return runs_; }
+  [[nodiscard]] long count_of(Status status) const {
+    return status_[static_cast<std::size_t>(status)];
+  }
+
+  struct Output {
+    Population values;
+    Scale scale;
+    PowerSums sums;
+    long beyond_stowed = 0; ///< of an overtravel: values beyond most_overtravel
+  };
+  [[nodiscard]] const std::vector<Output>& outputs() const { return outputs_; }
+  [[nodiscard]] const std::vector<RequiredOutput>& required() const { return required_; }
+  [[nodiscard]] const std::vector<RequiredPopulation>& required_values() const {
+    return populations_;
+  }
+  [[nodiscard]] const std::vector<RequirementCounts>& requirements() const {
+    return requirement_counts_;
+  }
+  [[nodiscard]] const std::map<std::string, long>& latch_orders() const { return orders_; }
+  [[nodiscard]] long other_orders() const { return other_orders_; }
+  [[nodiscard]] const std::array<long, 3>& peaks() const { return peaks_; } ///< by PeaksFinal
+  [[nodiscard]] const ReasonCounts& reasons() const { return reasons_; }
+  /// Each draw with each output and, last, with `deployed`; nothing if there are too many pairs.
+  [[nodiscard]] const std::optional<CoMoments>& correlations() const { return correlations_; }
+
+private:
+  StreamingStatistics(const Campaign& campaign, const ResultNames& names);
+  void add_outputs(const ResultRow& row);
+  bool add_requirements(const ResultRow& row, std::span<const double> margins);
+  void add_texts(const ResultRow& row);
+  void add_correlations(const ResultRow& row);
+
+  const Campaign* campaign_;
+  long runs_ = 0;
+  std::array<long, 5> status_{};
+  std::array<long, 3> peaks_{};
+  std::vector<Output> outputs_;
+  std::vector<bool> is_overtravel_;
+  std::vector<RequiredOutput> required_;
+  std::vector<bool> is_peak_; ///< of each of them
+  std::vector<RequiredPopulation> populations_;
+  std::vector<RequirementCounts> requirement_counts_;
+  std::vector<std::size_t>
+      population_of_; ///< each requirement's; none of "deployed": as many as there are
+  std::vector<Scale> draw_scales_;
+  std::optional<CoMoments> correlations_;
+  std::map<std::string, long> orders_;
+  long other_orders_ = 0;
+  ReasonCounts reasons_;
+  std::vector<double> draw_z_, output_z_, seen_; ///< of one run; the last: required outputs
+};
+
+} // namespace wingspread

@@ -1,0 +1,272 @@
+#include "montecarlo/results/streaming/streaming_summary.hpp"
+
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
+#include "montecarlo/foundation/statistics/bonferroni.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+using Bin = ValueCounts::Bin;
+
+/// Treated as infinite, as in verdict.cpp.
+constexpr double no_number = std::numeric_limits<double>::max();
+
+std::vector<QuantileEstimate> quantiles_of(const RankedPopulation& values,
+                                           const StatisticsSpec& spec) {
+  std::vector<QuantileEstimate> estimates;
+  const long n = values.count();
+  for (const double p : spec.quantiles) {
+    if (n == 0) {
+      estimates.push_back({p, undefined, {}});
+      continue;
+    }
+    const OrderStatistic found = values.at(quantile_rank(n, p));
+    const RankBounds ranks = quantile_rank_bounds(n, p, spec.confidence);
+    Bounds bounds;
+    if (ranks.lower) bounds.lower = values.at(*ranks.lower).lower;
+    if (ranks.upper) bounds.upper = values.at(*ranks.upper).upper;
+    estimates.push_back(
+        {p, found.value, bounds, QuantileError{found.rank_error, found.lower, found.upper}});
+  }
+  return estimates;
+}
+
+/// The edge nearest to the wanted one below which the number of values is known, and that number.
+std::pair<double, long> edge_near(const std::vector<Bin>& bins, double wanted) {
+  const auto next =
+      std::ranges::partition_point(bins, [&](const Bin& bin) { return bin.upper <= wanted; });
+  if (next == bins.end()) return {wanted, bins.back().below + bins.back().count};
+  if (wanted <= next->lower) return {wanted, next->below};
+  return wanted - next->lower < next->upper - wanted
+             ? std::pair(next->lower, next->below)
+             : std::pair(next->upper, next->below + next->count);
+}
+
+/// Bins of nearly equal width: edges are moved to where counts are exact.
+Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
+  if (values.count() == 0) return {};
+  const long n = values.count();
+  if (values.min() == values.max()) return {histogram(std::vector{values.min()}, 1).edges, {n}};
+  const double iqr =
+      values.at(quantile_rank(n, 0.75)).value - values.at(quantile_rank(n, 0.25)).value;
+  const int wanted = count_bins(bins, n, values.max() - values.min(), iqr);
+  Histogram result{{values.min()}, {}};
+  long below = 0;
+  for (int i = 1; i < wanted; ++i) {
+    const auto [edge, count] = edge_near(
+        values.bins(), std::lerp(values.min(), values.max(), static_cast<double>(i) / wanted));
+    if (!(edge > result.edges.back() && edge < values.max())) continue;
+    result.edges.push_back(edge);
+    result.counts.push_back(count - below);
+    below = count;
+  }
+  result.edges.push_back(values.max());
+  result.counts.push_back(n - below);
+  return result;
+}
+
+OutputSummary output_summary(const std::string& name, const StreamingStatistics::Output& output,
+                             long runs, const StatisticsSpec& spec) {
+  OutputSummary summary{name, {}, 0, runs - output.values.count(), {}, {}};
+  const RankedPopulation values(output.values);
+  const bool any = values.count() > 0;
+  summary.moments = output.sums.moments(output.scale, any ? values.min() : undefined,
+                                        any ? values.max() : undefined);
+  summary.mean_error = summary.moments.std / std::sqrt(static_cast<double>(values.count()));
+  summary.quantiles = quantiles_of(values, spec);
+  summary.histogram = histogram_of(values, spec.bins);
+  return summary;
+}
+
+/// A required output's values over all runs, with runs worse than any number at the bad end.
+class RankedRequired {
+public:
+  explicit RankedRequired(const RequiredPopulation& population)
+      : values_(population.values), worse_(population.worse) {}
+
+  [[nodiscard]] const RankedPopulation& numbers() const { return values_; }
+  /// The value of that rank from above, 1 for the largest; nothing if it is worse than any number.
+  /// @param below whether runs worse than any number rank at the lower end
+  [[nodiscard]] std::optional<OrderStatistic> from_above(long rank, bool below) const {
+    const long place = below ? rank : rank - worse_;
+    return place < 1 || place > values_.count()
+               ? std::nullopt
+               : std::optional(values_.at(values_.count() + 1 - place));
+  }
+  [[nodiscard]] std::optional<OrderStatistic> from_below(long rank, bool below) const {
+    const long place = below ? rank - worse_ : rank;
+    return place < 1 || place > values_.count() ? std::nullopt : std::optional(values_.at(place));
+  }
+
+private:
+  RankedPopulation values_;
+  long worse_;
+};
+
+std::optional<double> number_of(const std::optional<OrderStatistic>& found,
+                                double OrderStatistic::*which) {
+  if (!found || !(std::abs((*found).*which) < no_number)) return std::nullopt;
+  return (*found).*which;
+}
+
+/// As tolerance_limits (wilks.hpp), at the outer edges of the bins.
+Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSpec& spec,
+                 long looks) {
+  const long order =
+      tolerance_order(runs, spec.side, spec.probability, at_each_of(spec.confidence, looks));
+  if (order == 0) return {};
+  Bounds limits;
+  if (spec.side != Side::upper)
+    limits.lower =
+        number_of(values.from_below(order, spec.side == Side::lower), &OrderStatistic::lower);
+  if (spec.side != Side::lower)
+    limits.upper = number_of(values.from_above(order, false), &OrderStatistic::upper);
+  return limits;
+}
+
+/// Sets the values of the output. If the requirement is passed, the guaranteed value is at least as good as the limit.
+void add_values(const RankedRequired& values, Verdict& verdict) {
+  const Requirement& requirement = verdict.requirement;
+  const bool is_min = requirement.min.has_value();
+  const auto from_worst = [&](long place) { // the worst has place 0
+    return is_min ? values.from_below(place + 1, true) : values.from_above(place + 1, false);
+  };
+  if (verdict.runs > 0)
+    verdict.observed =
+        number_of(from_worst(verdict.runs - quantile_rank(verdict.runs, requirement.probability)),
+                  &OrderStatistic::value);
+  if (verdict.allowed)
+    verdict.guaranteed = number_of(from_worst(*verdict.allowed),
+                                   is_min ? &OrderStatistic::lower : &OrderStatistic::upper);
+  if (verdict.guaranteed && verdict.decision == Decision::pass)
+    verdict.guaranteed = is_min ? std::max(*verdict.guaranteed, *requirement.min)
+                                : std::min(*verdict.guaranteed, *requirement.max);
+  if (verdict.guaranteed)
+    verdict.margin = limit_of(requirement) - sign_of(requirement) * *verdict.guaranteed;
+  if (values.numbers().count() > 0)
+    verdict.beyond_zero = beyond_zero(values.numbers().min(), values.numbers().max(), requirement);
+}
+
+std::vector<Verdict> verdicts_of(const Campaign& campaign, const StreamingStatistics& statistics,
+                                 const std::vector<RankedRequired>& ranked, long looks) {
+  std::vector<Verdict> verdicts;
+  for (std::size_t r = 0; r < campaign.requirements.size(); ++r) {
+    const Requirement& requirement = campaign.requirements[r];
+    const RequirementCounts& counted = statistics.requirements()[r];
+    Verdict verdict;
+    verdict.requirement = requirement;
+    verdict.runs = statistics.runs();
+    for (const RunValue& worst : counted.worst.sorted()) verdict.broken.push_back(worst.run);
+    verdict.not_listed = counted.failures - std::ssize(verdict.broken);
+    verdict.cut = counted.cut;
+    decide(confidence_alone(campaign.requirements, requirement), looks, verdict);
+    const auto found = std::ranges::find_if(statistics.required(), [&](const RequiredOutput& each) {
+      return each.output == requirement.output && each.absolute == requirement.absolute;
+    });
+    if (found != statistics.required().end())
+      add_values(ranked[static_cast<std::size_t>(found - statistics.required().begin())], verdict);
+    else if (verdict.allowed)
+      verdict.margin = verdict.guaranteed_share - requirement.probability;
+    verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
+void add_counts(const StreamingStatistics& statistics, double confidence, Summary& summary) {
+  const long n = statistics.runs();
+  for (const Status status : statuses)
+    summary.statuses.push_back(status_share(status, statistics.count_of(status), n, confidence));
+  summary.reasons = statistics.reasons().sorted();
+  for (const auto& [order, count] : statistics.latch_orders())
+    if (order.empty())
+      summary.without_latch = count;
+    else
+      summary.latch_orders.push_back({order, count});
+  summary.latch_order_kinds = std::ssize(summary.latch_orders);
+  std::ranges::stable_sort(summary.latch_orders, std::greater{}, &LatchOrderCount::count);
+  if (summary.latch_orders.size() > most_latch_orders)
+    summary.latch_orders.resize(most_latch_orders);
+}
+
+void add_correlations(const ResultNames& names, const StreamingStatistics& statistics,
+                      Summary& summary) {
+  if (!statistics.correlations()) return;
+  for (std::size_t i = 0; i < names.draws.size(); ++i)
+    for (std::size_t j = 0; j <= names.outputs.size(); ++j)
+      summary.correlations.push_back({names.draws[i],
+                                      j < names.outputs.size() ? names.outputs[j] : "deployed",
+                                      statistics.correlations()->of(i, j)});
+}
+
+/// As overtravels (overtravel.hpp) does for rows.
+void add_overtravels(const Scene& scene, const ResultNames& names,
+                     const StreamingStatistics& statistics, Summary& summary) {
+  for (const Hinge& hinge : scene.hinges) {
+    const auto found = std::ranges::find(names.outputs, hinge.name + ".overtravel");
+    if (hinge.stop || found == names.outputs.end()) continue;
+    const StreamingStatistics::Output& output =
+        statistics.outputs()[static_cast<std::size_t>(found - names.outputs.begin())];
+    if (output.beyond_stowed > 0)
+      summary.overtravels.push_back({hinge.name, output.beyond_stowed, output.values.max()});
+  }
+}
+
+} // namespace
+
+Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistics& statistics,
+                          const StatisticsSpec& spec) {
+  const Campaign& campaign = stored.campaign;
+  const ResultNames names = RunPlan(campaign).names();
+  Summary summary;
+  summary.runs = statistics.runs();
+  summary.confidence = spec.confidence;
+  summary.without_rows = true;
+  add_counts(statistics, spec.confidence, summary);
+  for (std::size_t i = 0; i < names.outputs.size(); ++i)
+    summary.outputs.push_back(
+        output_summary(names.outputs[i], statistics.outputs()[i], statistics.runs(), spec));
+  add_correlations(names, statistics, summary);
+  std::vector<RankedRequired> ranked;
+  for (const RequiredPopulation& population : statistics.required_values())
+    ranked.emplace_back(population);
+  summary.requirements = verdicts_of(campaign, statistics, ranked, summary.looks);
+  for (std::size_t q = 0; q < ranked.size(); ++q) {
+    const RequiredOutput& required = statistics.required()[q];
+    if (required.absolute || required.column >= names.outputs.size()) continue;
+    for (const ToleranceLimitSpec& limit : spec.tolerance_limits)
+      summary.outputs[required.column].tolerance_limits.push_back(
+          {limit, limits_of(ranked[q], statistics.runs(), limit, summary.looks)});
+  }
+  add_nominal(campaign, summary);
+  add_overtravels(campaign.scene, names, statistics, summary);
+  if (names.peaks_final) {
+    const auto& peaks = statistics.peaks();
+    const auto of = [&](PeaksFinal final) { return peaks[static_cast<std::size_t>(final)]; };
+    summary.peaks = {of(PeaksFinal::yes), of(PeaksFinal::no), of(PeaksFinal::unknown)};
+  }
+  return summary;
+}
+
+std::string extremes_csv(const ResultNames& names, const StreamingStatistics& statistics) {
+  std::string csv = "output,end,rank,run,value\n";
+  const auto add = [&](const std::string& name, const char* end, const Extremes& extremes) {
+    long rank = 0;
+    for (const auto& [value, run] : extremes.sorted()) {
+      append_csv_cell(csv, name);
+      append_csv_cells(csv, std::string_view(end), ++rank, run, value);
+      csv += '\n';
+    }
+  };
+  for (std::size_t i = 0; i < names.outputs.size(); ++i) {
+    add(names.outputs[i], "lowest", statistics.outputs()[i].values.lowest());
+    add(names.outputs[i], "highest", statistics.outputs()[i].values.highest());
+  }
+  return csv;
+}
+
+} // namespace wingspread

@@ -1,0 +1,256 @@
+// The statistics without rows against those of the rows themselves: of made-up runs, of which there can be many.
+#include "montecarlo/results/streaming/streaming_summary.hpp"
+#include "montecarlo/results/summary/static_margins.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+constexpr long made_up = 40'000;
+
+Campaign required_campaign() {
+  Json json = full_campaign(static_cast<int>(made_up));
+  json["requirements"] = parse_json(R"([
+    { "output": "deployed", "probability": 0.9, "confidence": 0.9 },
+    { "output": "root.peak_moment", "max": 3, "probability": 0.5, "confidence": 0.9 },
+    { "output": "root.peak_moment", "max": 2, "probability": 0.9973, "confidence": 0.9 },
+    { "output": "mid.latch_rate", "max": 1.5, "abs": true, "probability": 0.5, "confidence": 0.9 },
+    { "output": "tip.latch_time", "min": -2, "probability": 0.6, "confidence": 0.9 },
+    { "motorization": "NASA", "hinge": "*", "min": 0.5, "probability": 0.7, "confidence": 0.9 } ])");
+  json["statistics"] = parse_json(R"({ "quantiles": [0.001, 0.1, 0.5, 0.9, 0.999],
+    "tolerance": [{ "probability": 0.9, "confidence": 0.9, "side": "both" },
+                  { "probability": 0.6, "confidence": 0.9, "side": "upper" },
+                  { "probability": 0.6, "confidence": 0.9, "side": "lower" }] })");
+  return campaign_of(json);
+}
+
+/// A run with normal outputs, a tenth of them missing, of every status.
+ResultRow made_up_row(const ResultNames& names, long run) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(run) * 0x9e3779b97f4a7c15 + 1);
+  std::normal_distribution<double> normal;
+  const auto share = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
+  ResultRow row;
+  row.run = run;
+  const double kind = share();
+  row.status = kind < 0.93   ? Status::deployed
+               : kind < 0.96 ? Status::stalled
+               : kind < 0.98 ? Status::timed_out
+               : kind < 0.99 ? Status::invalid
+                             : Status::failed;
+  row.draws.push_back(1 + 0.05 * normal(random));
+  for (std::size_t i = 1; i < names.draws.size(); ++i)
+    row.draws.push_back(10 + 0.1 * normal(random));
+  for (std::size_t i = 0; i < names.outputs.size(); ++i)
+    row.outputs.push_back(
+        share() < 0.1 ? undefined : static_cast<double>(i) / 7 + row.draws[0] + normal(random));
+  row.latch_order = kind > 0.97 ? "" : share() < 0.7 ? "root>mid>tip" : "mid>root>tip";
+  if (row.status == Status::invalid)
+    row.reason = "bodies.panel_1.mass is " + std::to_string(-share()) + ", expected > 0";
+  if (row.status == Status::stalled)
+    row.reason = share() < 0.5 ? "friction holds tip" : "root turns back";
+  row.peaks_final = row.status >= Status::invalid ? PeaksFinal::unknown
+                    : share() < 0.98              ? PeaksFinal::yes
+                                                  : PeaksFinal::no;
+  return row;
+}
+
+/// The same runs with their rows and without.
+struct Both {
+  Campaign campaign = required_campaign();
+  StoredCampaign stored{"nowhere", campaign, stamp_of(campaign, {})};
+  ResultNames names = RunPlan(stored.campaign).names();
+  Results rows{names};
+  std::vector<Column> margins;
+
+  Both() {
+    for (long run = 0; run < made_up; ++run) rows.append(made_up_row(names, run));
+    margins = static_margin_columns(stored.campaign, rows);
+  }
+
+  [[nodiscard]] StreamingStatistics empty_statistics() const {
+    Results pilot(names);
+    for (std::size_t i = 0; i < 4096; ++i) pilot.append(rows.row(i));
+    return {stored.campaign, names, pilot};
+  }
+
+  void add(StreamingStatistics& statistics, std::size_t row, long* kept = nullptr) const {
+    std::vector<double> of_row;
+    for (const Column& column : margins) of_row.push_back(column.values[row]);
+    const bool is_kept = statistics.add(rows.row(row), of_row);
+    if (kept && is_kept) ++*kept;
+  }
+
+  [[nodiscard]] StreamingStatistics whole_statistics(long* kept = nullptr) const {
+    StreamingStatistics statistics = empty_statistics();
+    for (std::size_t row = 0; row < rows.size(); ++row) add(statistics, row, kept);
+    return statistics;
+  }
+};
+
+const Both& both() {
+  static const Both made;
+  return made;
+}
+
+std::string bytes_of(const StreamingStatistics& statistics) {
+  StateWriter to;
+  statistics.write(to);
+  return std::move(to).finish();
+}
+
+/// a ≤ b where there are both; none where there is none.
+bool holds(std::optional<double> a, std::optional<double> b) {
+  return a.has_value() == b.has_value() && (!a || *a <= *b);
+}
+
+} // namespace
+
+TEST_CASE("without rows: counts, moments and correlations are those of the rows") {
+  const Both& made = both();
+  const StatisticsSpec& spec = made.stored.campaign.statistics;
+  const Summary full = summarize(made.rows, spec),
+                found = streaming_summary(made.stored, made.whole_statistics(), spec);
+  REQUIRE(found.runs == made_up);
+  for (std::size_t i = 0; i < full.statuses.size(); ++i) {
+    CHECK(found.statuses[i].count == full.statuses[i].count);
+    CHECK(found.statuses[i].bounds.upper == full.statuses[i].bounds.upper);
+  }
+  REQUIRE(found.reasons.size() == full.reasons.size());
+  for (std::size_t i = 0; i < full.reasons.size(); ++i) {
+    CHECK(found.reasons[i].reason == full.reasons[i].reason);
+    CHECK(found.reasons[i].count == full.reasons[i].count);
+  }
+  REQUIRE(found.latch_orders.size() == full.latch_orders.size());
+  CHECK(found.latch_orders[1].count == full.latch_orders[1].count);
+  CHECK(found.without_latch == full.without_latch);
+  REQUIRE(found.outputs.size() == full.outputs.size());
+  for (std::size_t i = 0; i < full.outputs.size(); ++i) {
+    const Moments &a = found.outputs[i].moments, &b = full.outputs[i].moments;
+    CHECK(a.count == b.count);
+    CHECK(found.outputs[i].missing == full.outputs[i].missing);
+    CHECK(a.min == b.min);
+    CHECK(a.max == b.max);
+    CHECK(a.mean == Approx(b.mean).epsilon(1e-14).margin(1e-14)); // of values of order 1
+    CHECK(a.std == Approx(b.std).epsilon(1e-13));
+    CHECK(a.skewness == Approx(b.skewness).margin(1e-12));
+    CHECK(a.kurtosis == Approx(b.kurtosis).margin(1e-12));
+  }
+  REQUIRE(found.correlations.size() == full.correlations.size());
+  for (std::size_t i = 0; i < full.correlations.size(); ++i) {
+    CHECK(found.correlations[i].output == full.correlations[i].output);
+    CHECK(found.correlations[i].value.count == full.correlations[i].value.count);
+    CHECK(found.correlations[i].value.pearson ==
+          Approx(full.correlations[i].value.pearson).margin(1e-12));
+  }
+}
+
+TEST_CASE("without rows: quantiles are within what they say, and bounds hold those of the rows") {
+  const Both& made = both();
+  const StatisticsSpec& spec = made.stored.campaign.statistics;
+  const Summary full = summarize(made.rows, spec),
+                found = streaming_summary(made.stored, made.whole_statistics(), spec);
+  for (std::size_t i = 0; i < full.outputs.size(); ++i) {
+    CAPTURE(full.outputs[i].name);
+    for (std::size_t k = 0; k < spec.quantiles.size(); ++k) {
+      const QuantileEstimate &a = found.outputs[i].quantiles[k], &b = full.outputs[i].quantiles[k];
+      CHECK((a.error->lower <= b.value && b.value <= a.error->upper));
+      CHECK(a.error->rank <=
+            20); // of 36,000 values 2^-13 deviations apart: 36,000 · 0.4/4096 and chance
+      CHECK(holds(a.bounds.lower, b.bounds.lower));
+      CHECK(holds(b.bounds.upper, a.bounds.upper));
+      CHECK(*a.bounds.upper - *b.bounds.upper < 1e-3);
+      CHECK(*b.bounds.lower - *a.bounds.lower < 1e-3);
+    }
+    CHECK(found.outputs[i].quantiles[0].value == full.outputs[i].quantiles[0].value); // an extreme
+    const Histogram& histogram = found.outputs[i].histogram;
+    CHECK(std::ssize(histogram.counts) == std::ssize(full.outputs[i].histogram.counts));
+    for (std::size_t bin = 0; bin < histogram.counts.size(); ++bin) {
+      const bool last = bin + 1 == histogram.counts.size();
+      const double lower = histogram.edges[bin], upper = histogram.edges[bin + 1];
+      const long inside = std::ranges::count_if(made.rows.outputs[i].values, [&](double value) {
+        return lower <= value && (value < upper || (last && value == upper));
+      });
+      CHECK(histogram.counts[bin] == inside);
+    }
+  }
+}
+
+TEST_CASE("without rows: verdicts are those of the rows, and what they guarantee is no less safe") {
+  const Both& made = both();
+  long kept = 0;
+  const StreamingStatistics statistics = made.whole_statistics(&kept);
+  const Summary found = streaming_summary(made.stored, statistics, made.stored.campaign.statistics);
+  const std::vector<Verdict> full = judge_campaign(made.stored.campaign, made.rows);
+  REQUIRE(found.requirements.size() == full.size());
+  std::set<long> broken;
+  for (std::size_t i = 0; i < made.rows.size(); ++i)
+    if (made.rows.status[i] != Status::deployed) broken.insert(made.rows.runs[i]);
+  bool passed = false, failed = false;
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    const Verdict &a = found.requirements[i], &b = full[i];
+    CAPTURE(to_string(b.requirement));
+    CHECK(a.decision == b.decision);
+    CHECK(a.failures() == b.failures());
+    CHECK(a.cut == b.cut);
+    CHECK(a.allowed == b.allowed);
+    CHECK(evidence(a) == evidence(b));
+    CHECK(a.guaranteed_share == b.guaranteed_share);
+    CHECK(std::ssize(a.broken) == std::min<long>(b.failures(), most_broken));
+    CHECK(std::equal(a.broken.begin(), a.broken.end(), b.broken.begin()));
+    const bool is_min = b.requirement.min.has_value();
+    if (b.requirement.output != "deployed")
+      CHECK((is_min ? holds(a.guaranteed, b.guaranteed) : holds(b.guaranteed, a.guaranteed)));
+    CHECK(a.margin.has_value() == b.margin.has_value());
+    if (a.margin) CHECK((*a.margin >= 0) == (a.decision == Decision::pass));
+    if (a.margin) CHECK(*a.margin == Approx(*b.margin).margin(1e-3));
+    if (a.observed) CHECK(*a.observed == Approx(*b.observed).margin(1e-3));
+    broken.insert(b.broken.begin(), b.broken.end());
+    passed = passed || b.decision == Decision::pass;
+    failed = failed || b.decision == Decision::fail;
+  }
+  CHECK((passed && failed)); // or the test has lost its variety
+  CHECK(kept == std::ssize(broken));
+}
+
+TEST_CASE("without rows: tolerance limits hold those of the rows") {
+  const Both& made = both();
+  const StatisticsSpec& spec = made.stored.campaign.statistics;
+  const Summary found = streaming_summary(made.stored, made.whole_statistics(), spec);
+  for (std::size_t i = 0; i < found.outputs.size(); ++i) {
+    const RankedOutput ranks(made.rows, made.rows.outputs[i]);
+    REQUIRE(found.outputs[i].tolerance_limits.size() == 3);
+    for (const auto& [limit, limits] : found.outputs[i].tolerance_limits) {
+      const Bounds full = output_limits(ranks, limit);
+      CHECK(holds(limits.lower, full.lower));
+      CHECK(holds(full.upper, limits.upper));
+      if (full.upper) CHECK(*limits.upper - *full.upper < 1e-3);
+    }
+  }
+}
+
+TEST_CASE("without rows: the same bytes in any order, however runs are shared out, and read back") {
+  const Both& made = both();
+  const std::string whole = bytes_of(made.whole_statistics());
+  std::vector<std::size_t> order(made.rows.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  StreamingStatistics parts[3] = {made.empty_statistics(), made.empty_statistics(),
+                                  made.empty_statistics()};
+  for (std::size_t i = 0; i < order.size(); ++i)
+    made.add(parts[i < 11 ? 0 : i < 30'001 ? 1 : 2], order[i]);
+  parts[2].add(parts[0]);
+  StateReader from(bytes_of(parts[2]), "state");
+  StreamingStatistics read(made.stored.campaign, made.names, from);
+  CHECK(from.at_end());
+  read.add(parts[1]);
+  CHECK(bytes_of(read) == whole);
+}
