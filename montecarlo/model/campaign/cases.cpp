@@ -105,7 +105,7 @@ private:
   }
 
   void refuse_unphysical_case(const JsonCursor& at, const CaseSpec& spec) const {
-    const Json set = at.value().value("set", Json::object()); // the values as written, by path
+    const Json set = at.value().is_object() ? at.value().value("set", Json::object()) : Json();
     for (const Fault& fault : unphysical(scene_of_case(*scene_, spec)))
       at.refuse(fmt::format("{} of {}", fault.path,
                             set.contains(fault.path) ? as_written(set[fault.path]) : fault.found),

@@ -57,7 +57,7 @@ TEST_CASE("Replicates and correlations are described", "[describe]") {
         "sobol, 4100 runs, seed 1, 16 replicates of 256 or 257 runs; Sobol' points are most "
         "accurate with powers of two");
   CHECK(sampling("sobol", 1000, 1) == "sobol, 1000 runs, seed 1; Sobol' points are most accurate "
-                                      "in powers of two; one replicate, so no bounds");
+                                      "with powers of two; one replicate, so no bounds");
   CHECK(sampling("latin_hypercube", 100, 3) ==
         "latin_hypercube, 100 runs, seed 1, 3 replicates of 33 or 34 runs");
   CHECK(sampling("random", 100, 1) == "random, 100 runs, seed 1");

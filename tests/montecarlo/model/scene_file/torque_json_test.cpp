@@ -118,7 +118,7 @@ TEST_CASE("Each fault of a torque is told with place, found and expected", "[tor
         "/hinges/0/spring/measured/stowing: found nothing, expected an array of 2 to 1000 numbers, "
         "N·m"},
        {"/hinges/0/spring/measured/stowing/1", "1.4",
-        "/hinges/0/spring/measured/stowing/1: found 1.4, expected >= 1.5, the deploying torque at "
+        "/hinges/0/spring/measured/stowing/1: found 1.4, expected ≥ 1.5, the deploying torque at "
         "that angle"},
        {"/hinges/0/spring",
         R"({"measured": {"angle": [1.5, 1, 0.5, 0], "deploying": [0, 0, 1, 1], "stowing": [3, 0, 1, 9]}})",
