@@ -40,7 +40,7 @@ TEST_CASE("margin, from a requirement missed to new springs that meet it") {
   const auto [code, text, error] = program({"margin", campaign, "--out", out});
   CHECK(code == 0);
   CHECK(error.empty());
-  CHECK_THAT(text, Catch::StartsWith("one_panel · margin · 300 runs a scale and case") &&
+  CHECK_THAT(text, Catch::StartsWith("one_panel · margin · 300 runs per scale") &&
                        Catch::Contains("weakest springs") && Catch::Contains("strongest springs") &&
                        Catch::Contains("all requirements are met") &&
                        Catch::Contains("ECSS-E-ST-33-01C") && Catch::Contains("NASA-STD-5017B"));

@@ -305,7 +305,7 @@ TEST_CASE("what holds for independent draws is refused with Sobol' points, by it
   json["correlations"] =
       parse_json(R"([{ "between": ["root_spring", "mass.panel_2"], "spearman": 0.5 }])");
   const std::string plain = program.file(json);
-  const std::string reason = " with the design \"sobol\", expected the design \"random\": their "
+  const std::string reason = " with the design \"sobol\", expected the design \"random\": these "
                              "statistics hold for independent draws only\n";
   const auto until = program({"run", plain, "--out", program.out, "--until", "stalled 0.1"});
   CHECK(until.code == 2);

@@ -4,6 +4,19 @@
 #include "montecarlo/engine/runs/static_margin_draws.hpp"
 
 namespace wingspread {
+namespace {
+
+/// Static margins with other springs. The worst draws do not list the scale, which is a constant.
+StaticMarginStudy study_scaled(const Campaign& campaign,
+                               const std::vector<SceneParameter>& parameters, double scale) {
+  const Campaign other = scaled(campaign, parameters, scale);
+  StaticMarginStudy study = study_static_margins(other, scaled(campaign.scene, parameters, scale));
+  for (DriveMargins& drive : study.drives)
+    for (Json& draw : drive.worst_draw) draw.erase(other.dispersions.back().name);
+  return study;
+}
+
+} // namespace
 
 MarginReport margin_report(const Campaign& campaign, const MarginResult& result) {
   MarginReport report{
@@ -15,9 +28,7 @@ MarginReport margin_report(const Campaign& campaign, const MarginResult& result)
   if (search && *search->recommended != 1) {
     const double scale = *search->recommended;
     for (const Campaign& each : result.campaigns)
-      cases.push_back({scale, each.of_case,
-                       study_static_margins(scaled(each, search->scaled, scale),
-                                            scaled(each.scene, search->scaled, scale))});
+      cases.push_back({scale, each.of_case, study_scaled(each, search->scaled, scale)});
   }
   return report;
 }

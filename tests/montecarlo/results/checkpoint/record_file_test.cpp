@@ -125,7 +125,6 @@ TEST_CASE("a record that was lost, doubled or exchanged ends what is believed") 
 TEST_CASE("another kind of file is refused") {
   const Folder folder;
   const std::string path = folder.write("log", "run,status\n");
-  CHECK_THROWS_WITH(RecordReader(path), path + ": found another kind of file, expected a log of "
-                                               "this program's");
+  CHECK_THROWS_WITH(RecordReader(path), Catch::StartsWith(path) && Catch::Contains("another kind"));
   CHECK_THROWS_WITH(RecordReader(folder.write("empty", "")), Catch::Contains("another kind"));
 }

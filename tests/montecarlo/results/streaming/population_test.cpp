@@ -151,7 +151,7 @@ TEST_CASE("state file: damage is told") {
   CHECK(from.get_text() == "text");
   CHECK(from.at_end());
   bytes[3] = static_cast<char>(bytes[3] ^ 1);
-  CHECK_THROWS_WITH(StateReader(bytes, "file"),
-                    "file: found a damaged file, expected statistics that `run --no-rows` wrote: "
-                    "checksum");
+  CHECK_THROWS_WITH(StateReader(bytes, "file"), Catch::StartsWith("file: ") &&
+                                                    Catch::Contains("damaged") &&
+                                                    Catch::Contains("checksum"));
 }

@@ -66,7 +66,7 @@ TEST_CASE("the table shows outcomes, reasons, latch orders, outputs by hinge, an
                            "N·m",
                            "\ntip\n",
                            "\nwing\n",
-                           "Each output over the runs in which it happened, of 100.",
+                           "over the runs in which it happened, of 100.",
                            "FILES  out: runs.csv, summary.json, histograms.json, histograms.csv\n"})
     CHECK_THAT(table, Catch::Contains(part));
   CHECK_THAT(table, Catch::Contains("  stalled" + std::string(49, ' ') + "10    10.000 %"));
