@@ -207,6 +207,7 @@ TEST_CASE("How static margins are judged may stand in the campaign itself, once"
   CHECK_FALSE(resolved.contains("motorization"));
   json["margin"]["motorization"] = Json::object();
   CHECK(test::message_of([&] { return read_campaign(json.dump(), ""); }) ==
-        "/margin/motorization: found \"motorization\" a second time, expected the key once: here or in "
+        "/margin/motorization: found \"motorization\" a second time, expected the key once: here "
+        "or in "
         "the campaign");
 }
