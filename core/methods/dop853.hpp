@@ -109,7 +109,9 @@ public:
                 State<T>& error) {
     const std::size_t size = from.x.size();
     k_[0] = from.dxdt;
-    [&]<std::size_t... I>(std::index_sequence<I...>) { (stage<I + 1>(system, from, h, x1), ...); }
+    [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+      (stage<I + 1>(system, from, h, x1), ...);
+    }
     (std::make_index_sequence<dop853::stages - 1>{});
     error_3_.resize(size);
     for (std::size_t c = 0; c < size; ++c) {

@@ -79,9 +79,7 @@ struct HingeBounds : HingeLoads {
 
 /// The matrices of (5) to (9), made once for a latched wing, and the bounds that follow from a state.
 ///
-/// Vectors have room for the largest model in place: a proof attempt allocates nothing. Matrices of
-/// sizes known to the compiler, for chains of up to four, saved 2 % of the instructions of a run of the
-/// seed campaign (callgrind, 1,000 runs: 2.56 M against 2.61 M a run), and are not kept.
+/// Vectors have room for the largest model in place: a proof attempt allocates nothing.
 class ModalBounds {
 public:
   /// One number for each mode that is kept: one mode of each conjugate pair.
@@ -149,7 +147,7 @@ private:
 
   [[nodiscard]] bool find_modes();
   void keep_rounding(const Matrix& residual);
-  void keep_columns(const Matrix& vectors);
+  void keep_columns(const Matrix& vectors, const Matrix& moments);
   void keep_rows();
   void keep_push(const Matrix& by_turns);
   void keep_cap(const double* least, const double* rest);
@@ -159,11 +157,12 @@ private:
   [[nodiscard]] HingeBounds bounds_inside(const Box& box, const Image& image) const;
 
   template <class Products> [[nodiscard]] auto sizes_of_rows(const Products& products) const;
-  [[nodiscard]] Matrix sizes_of_columns(const Matrix& products) const;
+  template <class Products> [[nodiscard]] Matrix sizes_of_columns(const Products& products) const;
 
   const RestModel* model_;
   std::vector<Mode> modes_; ///< those kept
   Matrix inverse_;          ///< M_0⁻¹
+  Matrix drive_;            ///< P_v M_0⁻¹, the columns of P for rates times M_0⁻¹
   Matrix rows_; ///< P of a real W, with columns v of a real mode, v and v' of a pair v ± iv'
   Matrix way_, rate_of_;                    ///< |W_u|, |W_v|, pairs counted twice
   Matrix turn_, swing_;                     ///< |S W_v|, |S W_v Λ|, likewise

@@ -29,12 +29,18 @@ Complex over(const Complex& a, const Complex& b) {
 
 } // namespace
 
-bool Modes::find(const RestModel& model, const Matrix& first_order) {
-  return (model.size() <= few_bodies && find_one_by_one(model)) || find_at_once(first_order);
+bool Modes::find(const RestModel& model, const Matrix& inverse) {
+  return (model.size() <= few_bodies && find_one_by_one(model)) || find_at_once(model, inverse);
 }
 
-bool Modes::find_at_once(const Matrix& first_order) {
-  const Eigen::EigenSolver<Matrix> at_once(first_order);
+bool Modes::find_at_once(const RestModel& model, const Matrix& inverse) {
+  const int n = model.size();
+  Matrix L = Matrix::Zero(2L * n, 2L * n); // ż = L z, z = (u, u̇)
+  L.topRightCorner(n, n).setIdentity();
+  L.bottomLeftCorner(n, n) = -inverse.lazyProduct(model.stiffness);
+  L.bottomRightCorner(n, n) = -inverse.lazyProduct(model.damping);
+  if (!L.allFinite()) return false;
+  const Eigen::EigenSolver<Matrix> at_once(L);
   if (at_once.info() != Eigen::Success) return false;
   const auto& values = at_once.eigenvalues();
   values_.assign(values.begin(), values.end());
@@ -46,7 +52,8 @@ bool Modes::find_one_by_one(const RestModel& model) {
   const int n = model.size();
   undamped_.compute(model.stiffness, model.mass);
   if (undamped_.info() != Eigen::Success) return false;
-  values_.resize(2UL * n), columns_.resize(2L * n, 2L * n), Q_.resize(n, n), right_.resize(n);
+  values_.resize(2UL * n), columns_.resize(2L * n, 2L * n);
+  Q_.resize(n, n), slope_.resize(n, n), right_.resize(n);
   for (int j = 0; j < n; ++j)
     if (!find_two(model, 2 * j)) return false;
   return are_apart();
@@ -95,25 +102,30 @@ void Modes::improve(const RestModel& model, Complex& value) {
   const int n = model.size();
   const Matrix &mass = model.mass, &damping = model.damping, &stiffness = model.stiffness;
   const Complex square = times(value, value), twice = 2.0 * value;
-  const auto slope = [&](int i, int k) { return twice * mass(i, k) + damping(i, k); };
-  for (int i = 0; i < n; ++i) {
-    right_(i) = 0;
-    for (int k = 0; k < n; ++k) {
-      Q_(i, k) = square * mass(i, k) + value * damping(i, k) + stiffness(i, k);
-      right_(i) += times(slope(i, k), x_(k));
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i <= k; ++i) { // all are symmetric
+      const double m = mass(i, k), c = damping(i, k);
+      Q_(i, k) = Q_(k, i) = square * m + value * c + stiffness(i, k);
+      slope_(i, k) = slope_(k, i) = twice * m + c;
     }
+  for (int i = 0; i < n; ++i) {
+    Complex sum(0);
+    for (int k = 0; k < n; ++k) sum += times(slope_(i, k), x_(k));
+    right_(i) = sum;
   }
   y_ = right_;
   solve_for_y();
   Complex above(0), below(0);
   for (int i = 0; i < n; ++i) {
     above += times(y_(i), right_(i));
-    for (int k = 0; k < n; ++k) below += times(times(y_(i), slope(i, k)), y_(k));
+    Complex sum(0);
+    for (int k = 0; k < n; ++k) sum += times(slope_(i, k), y_(k));
+    below += times(y_(i), sum);
   }
   value -= over(above, below);
   double largest = 0;
   for (int i = 0; i < n; ++i) largest = std::max(largest, size_of(y_(i)));
-  x_ = y_ / largest;
+  x_ = y_ * (1 / largest);
 }
 
 /// y ← Q⁻¹ y, by elimination with pivots. Near an eigenvalue Q is nearly singular: that makes y long,
@@ -122,20 +134,22 @@ void Modes::solve_for_y() {
   const int n = static_cast<int>(x_.size());
   for (int k = 0; k < n; ++k) {
     int pivot = k;
+    double largest = size_of(Q_(k, k));
     for (int i = k + 1; i < n; ++i)
-      if (size_of(Q_(i, k)) > size_of(Q_(pivot, k))) pivot = i;
+      if (const double size = size_of(Q_(i, k)); size > largest) pivot = i, largest = size;
     for (int c = k; pivot != k && c < n; ++c) std::swap(Q_(k, c), Q_(pivot, c));
     std::swap(y_(k), y_(pivot));
-    if (size_of(Q_(k, k)) == 0) Q_(k, k) = std::numeric_limits<double>::epsilon();
+    if (largest == 0) Q_(k, k) = std::numeric_limits<double>::epsilon();
+    Q_(k, k) = over(1.0, Q_(k, k)); // from here on its inverse
     for (int i = k + 1; i < n; ++i) {
-      const Complex share = over(Q_(i, k), Q_(k, k));
+      const Complex share = times(Q_(i, k), Q_(k, k));
       for (int c = k + 1; c < n; ++c) Q_(i, c) -= times(share, Q_(k, c));
       y_(i) -= times(share, y_(k));
     }
   }
   for (int k = n - 1; k >= 0; --k) {
     for (int c = k + 1; c < n; ++c) y_(k) -= times(Q_(k, c), y_(c));
-    y_(k) = over(y_(k), Q_(k, k));
+    y_(k) = times(y_(k), Q_(k, k));
   }
 }
 
