@@ -114,8 +114,13 @@ private:
   /// Whether the peaks seen lie above the loads of the linear model. @pre modes_
   [[nodiscard]] bool linear_loads_are_below(const SeenPeaks<T>& seen,
                                             const ModalBounds::ModeVector& start) const {
-    const HingeLoads linear = modes_->linear_loads(start);
-    return no_load_can_rise(seen, model_.size(), linear.moment, linear.force, 1);
+    for (int i = 1; i <= model_.size(); ++i) {
+      if (seen.moments && !(modes_->linear_moment(i - 1, start) <= (*seen.moments)[i].value))
+        return false;
+      if (seen.forces && !(modes_->linear_force(i - 1, start) <= (*seen.forces)[i].value))
+        return false;
+    }
+    return true;
   }
 
   /// @pre modes_

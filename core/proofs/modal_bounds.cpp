@@ -15,6 +15,13 @@ constexpr double wider = 1.02; ///< heuristic: by what a box is wider than its i
 /// A·B, by sums written out: of the few bodies of a wing a library's blocks take longer to begin.
 template <class A, class B> auto product(const A& a, const B& b) { return a.lazyProduct(b); }
 
+/// Row i of A·v.
+double sum_of_row(const Eigen::MatrixXd& A, int i, const ModalBounds::ModeVector& v) {
+  double sum = 0;
+  for (int k = 0; k < v.size(); ++k) sum += A(i, k) * v(k);
+  return sum;
+}
+
 /// A⁻¹ by Gauss and Jordan's elimination with pivots; not finite where A is singular. For the few
 /// hinges of a wing a library's LU costs six times as much (callgrind, three hinges).
 Eigen::MatrixXd inverse_of(Eigen::MatrixXd A) {
@@ -220,9 +227,12 @@ HingeVector ModalBounds::rates(const ModeVector& start) const {
   return product(rate_of_, start + swung_);
 }
 
-HingeLoads ModalBounds::linear_loads(const ModeVector& modes) const {
-  const HingeVector x = product(force_x_, modes), y = product(force_y_, modes);
-  return {product(moment_of_, modes), (x.array().square() + y.array().square()).sqrt()};
+double ModalBounds::linear_moment(int i, const ModeVector& modes) const {
+  return sum_of_row(moment_of_, i, modes);
+}
+
+double ModalBounds::linear_force(int i, const ModeVector& modes) const {
+  return size_of(sum_of_row(force_x_, i, modes), sum_of_row(force_y_, i, modes));
 }
 
 /// Widens a box until it holds its image. Heuristic: too wide a margin gives poor bounds, too small
@@ -309,12 +319,16 @@ void ModalBounds::cap_modes(double energy, const Box& box, Image& image) const {
 /// (8), rounded up. @param image of the box, inside it
 HingeBounds ModalBounds::bounds_inside(const Box& box, const Image& image) const {
   constexpr double rounded_up = 1 + 1e-6; // far more than some hundred operations lose
-  const auto [moment, force] = linear_loads(image.box.modes);
   const BodyVector shaken = image.added.array() + image.turned.array() * box.accelerations.array() +
                             image.spin.array().square();
   HingeBounds bounds;
-  bounds.moment = rounded_up * (moment + image.remainder + model_->moment.cwiseAbs());
-  bounds.force = rounded_up * (force + product(lever_, shaken) + model_->weight);
+  bounds.moment.resize(size()), bounds.force.resize(size());
+  for (int i = 0; i < size(); ++i) {
+    bounds.moment(i) = linear_moment(i, image.box.modes);
+    bounds.force(i) = linear_force(i, image.box.modes);
+  }
+  bounds.moment = rounded_up * (bounds.moment + image.remainder + model_->moment.cwiseAbs());
+  bounds.force = rounded_up * (bounds.force + product(lever_, shaken) + model_->weight);
   bounds.way = image.way;
   return bounds;
 }

@@ -69,12 +69,10 @@
 namespace wingspread {
 
 /// The most that each hinge sees, 0 … n − 1.
-struct HingeLoads {
+struct HingeBounds {
   HingeVector moment; ///< N·m
   HingeVector force;  ///< N
-};
-struct HingeBounds : HingeLoads {
-  HingeVector way; ///< off rest, rad
+  HingeVector way;    ///< off rest, rad
 };
 
 /// The matrices of (5) to (9), made once for a latched wing, and the bounds that follow from a state.
@@ -99,8 +97,9 @@ public:
 
   /// The largest rates of the hinges from that start on in the linear model, rad/s.
   [[nodiscard]] HingeVector rates(const ModeVector& start) const;
-  /// Loads while |w| stays below these: parts of what `bound` returns.
-  [[nodiscard]] HingeLoads linear_loads(const ModeVector& modes) const;
+  /// Moment, N·m, and force, N, of hinge i while |w| stays below these: parts of what `bound` returns.
+  [[nodiscard]] double linear_moment(int i, const ModeVector& modes) const;
+  [[nodiscard]] double linear_force(int i, const ModeVector& modes) const;
 
   /// Bounds from that start on. Cost O(n²) a pass.
   /// @param energy that is never exceeded, J, where there is one

@@ -46,14 +46,13 @@ private:
   [[nodiscard]] bool find_two(const RestModel& model, int column);
   [[nodiscard]] std::optional<Complex> converge_from(const RestModel& model, Complex value);
   void improve(const RestModel& model, Complex& value);
-  void solve_for_y();
+  template <class Size> void improve_by(Size n, const RestModel& model, Complex& value);
   void keep_pair(int column, const Complex& value);
   void keep_one(int column, double value);
   [[nodiscard]] bool are_apart() const;
 
   Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> undamped_;
-  using ComplexRows = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  ComplexRows Q_, slope_;          ///< Q(λ), Q'(λ)
+  Eigen::MatrixXcd Q_, slope_;     ///< Q(λ), Q'(λ): symmetric
   Eigen::VectorXcd x_, y_, right_; ///< of (1)
   std::vector<Complex> values_;
   Matrix columns_;
