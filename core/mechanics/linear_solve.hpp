@@ -119,13 +119,6 @@ public:
     right_.resize(count);
   }
 
-  /// Factorizes M at (x, t) as if no hinge stuck: for bounds that hold after any hinge slips.
-  template <class Topology, BaseMotion M>
-  void factorize_unlocked(const System<T, Topology, M>& system, const State<T>& x, const T& t) {
-    factorize_with(system, x, t, [](int) { return HingeConstraint<T>{}; });
-    loops_.clear();
-  }
-
   /// Solves (1) by (2) with the last factorization. @param tau tau(i) of hinge i; a free base has none
   /// @param qdd freedoms() numbers: those of a free base first
   template <class Topology, BaseMotion M, class Moment>

@@ -1,10 +1,10 @@
 #include "core/proofs/modal_bounds.hpp"
 
-#include <Eigen/Dense>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 namespace wingspread {
 
@@ -14,6 +14,39 @@ constexpr double wider = 1.02; ///< heuristic: by what a box is wider than its i
 
 /// A·B, by sums written out: of the few bodies of a wing a library's blocks take longer to begin.
 template <class A, class B> auto product(const A& a, const B& b) { return a.lazyProduct(b); }
+
+/// Row i of A·v.
+double sum_of_row(const Eigen::MatrixXd& A, int i, const ModalBounds::ModeVector& v) {
+  double sum = 0;
+  for (int k = 0; k < v.size(); ++k) sum += A(i, k) * v(k);
+  return sum;
+}
+
+/// A⁻¹ by Gauss and Jordan's elimination with pivots; not finite where A is singular. For the few
+/// hinges of a wing a library's LU costs six times as much (callgrind, three hinges).
+Eigen::MatrixXd inverse_of(Eigen::MatrixXd A) {
+  const auto n = static_cast<int>(A.rows());
+  ModalBounds::ModeVector column(n);
+  std::array<int, 2 * most_modelled_bodies> pivots;
+  for (int k = 0; k < n; ++k) {
+    int& pivot = pivots[k] = k;
+    for (int i = k + 1; i < n; ++i)
+      if (std::abs(A(i, k)) > std::abs(A(pivot, k))) pivot = i;
+    for (int c = 0; pivot != k && c < n; ++c) std::swap(A(k, c), A(pivot, c));
+    const double inverse = 1 / A(k, k);
+    for (int i = 0; i < n; ++i) column(i) = A(i, k), A(i, k) = 0;
+    A(k, k) = 1, column(k) = 0;
+    for (int c = 0; c < n; ++c) {
+      double* of = &A(0, c);
+      const double share = of[k] * inverse;
+      for (int i = 0; i < n; ++i) of[i] -= column(i) * share;
+      of[k] = share;
+    }
+  }
+  for (int k = n - 1; k >= 0; --k)
+    for (int i = 0; pivots[k] != k && i < n; ++i) std::swap(A(i, k), A(i, pivots[k]));
+  return A;
+}
 
 double size_of(double real, double imaginary) {
   return std::sqrt(real * real + imaginary * imaginary);
@@ -44,7 +77,7 @@ double size_of_residual(const Eigen::MatrixXd& E, const Mode& of, const Mode& by
 /// |p_j x| of every mode, from the products of the rows of P.
 template <class Products> auto ModalBounds::sizes_of_rows(const Products& products) const {
   using Kept = std::conditional_t<Products::ColsAtCompileTime == 1, ModeVector, Matrix>;
-  const typename Products::PlainObject all = products;
+  const auto& all = products.eval();
   Kept sizes(modes(), all.cols());
   for (int k = 0; k < all.cols(); ++k)
     for (int m = 0; m < modes(); ++m) {
@@ -56,7 +89,8 @@ template <class Products> auto ModalBounds::sizes_of_rows(const Products& produc
 }
 
 /// |x w_j| of every mode, pairs counted twice, from the products of the columns of W.
-Eigen::MatrixXd ModalBounds::sizes_of_columns(const Matrix& products) const {
+template <class Products>
+Eigen::MatrixXd ModalBounds::sizes_of_columns(const Products& products) const {
   Matrix sizes(products.rows(), modes());
   for (int m = 0; m < modes(); ++m)
     for (int k = 0; k < products.rows(); ++k) {
@@ -79,24 +113,25 @@ std::optional<ModalBounds> ModalBounds::make(const RestModel& model, const doubl
 /// Finds the modes and what they move. @return whether all of them decay
 bool ModalBounds::find_modes() {
   const int n = size();
-  inverse_ = model_->mass.llt().solve(Matrix::Identity(n, n));
-  Matrix L = Matrix::Zero(2L * n, 2L * n);
-  L.topRightCorner(n, n).setIdentity();
-  L.bottomLeftCorner(n, n) = -product(inverse_, model_->stiffness);
-  L.bottomRightCorner(n, n) = -product(inverse_, model_->damping);
-  if (!L.allFinite()) return false;
+  inverse_ = inverse_of(model_->mass);
+  if (!inverse_.allFinite() || !model_->damping.allFinite()) return false;
   Modes found;
-  if (!found.find(*model_, L)) return false;
+  if (!found.find(*model_, inverse_)) return false;
   for (int j = 0; j < 2 * n; ++j) {
     const std::complex<double>& value = found.values()[j];
     if (!(value.real() < 0)) return false;
     if (value.imag() >= 0) modes_.push_back({j, value.imag() > 0, value});
   }
-  rows_ = found.columns().partialPivLu().inverse();
+  const Matrix& W = found.columns();
+  rows_ = inverse_of(W);
   if (!rows_.allFinite()) return false;
-  const Matrix changes = product(L, found.columns());
-  keep_rounding(product(rows_, changes) - found.blocks());
-  keep_columns(found.columns());
+  drive_ = product(rows_.rightCols(n), inverse_);
+  const Matrix moments =
+      product(model_->stiffness, W.topRows(n)) + product(model_->damping, W.bottomRows(n));
+  // L W = (W_v, −M_0⁻¹(K W_u + C W_v))
+  keep_rounding(product(rows_.leftCols(n), W.bottomRows(n)) - product(drive_, moments) -
+                found.blocks());
+  keep_columns(W, moments);
   return true;
 }
 
@@ -108,8 +143,8 @@ void ModalBounds::keep_rounding(const Matrix& residual) {
           -1 / modes_[m].value.real() * size_of_residual(residual, modes_[m], modes_[k]);
 }
 
-/// What the modes move. @param vectors W
-void ModalBounds::keep_columns(const Matrix& vectors) {
+/// What the modes move. @param vectors W @param moments K W_u + C W_v
+void ModalBounds::keep_columns(const Matrix& vectors, const Matrix& moments) {
   const int n = size();
   ModeVector quick(modes()); // |λ|
   for (int m = 0; m < modes(); ++m)
@@ -119,10 +154,10 @@ void ModalBounds::keep_columns(const Matrix& vectors) {
   const Matrix turns = product(model_->turns, rates);
   turn_ = sizes_of_columns(turns);
   swing_ = turn_ * quick.asDiagonal();
-  moment_of_ = sizes_of_columns(product(model_->stiffness, ways) + product(model_->damping, rates));
+  moment_of_ = sizes_of_columns(moments);
   const Matrix &x = model_->lever_x, &y = model_->lever_y;
-  force_x_ = sizes_of_columns(product(y, turns)) * quick.asDiagonal();
-  force_y_ = sizes_of_columns(product(x, turns)) * quick.asDiagonal();
+  force_x_ = sizes_of_columns(product(y, turns).eval()) * quick.asDiagonal();
+  force_y_ = sizes_of_columns(product(x, turns).eval()) * quick.asDiagonal();
   lever_ = (x.array().square() + y.array().square()).sqrt();
 }
 
@@ -131,9 +166,8 @@ void ModalBounds::keep_rows() {
   ModeVector time(modes()); // 1/α
   for (int m = 0; m < modes(); ++m) time(m) = -1 / modes_[m].value.real();
   const Matrix& S = model_->turns;
-  const Matrix drive = product(rows_.rightCols(size()), inverse_);
-  by_hinges_ = time.asDiagonal() * sizes_of_rows(drive);
-  const Matrix by_turns = product(drive, S.transpose());
+  by_hinges_ = time.asDiagonal() * sizes_of_rows(drive_);
+  const Matrix by_turns = product(drive_, S.transpose());
   by_turns_ = time.asDiagonal() * sizes_of_rows(by_turns);
   keep_push(by_turns);
   const Matrix answer = product(S, inverse_);
@@ -165,10 +199,9 @@ void ModalBounds::keep_cap(const double* least, const double* rest) {
   const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(rest, n) - model_->angles;
   offset_ = sizes_of_rows(product(rows_.leftCols(n), apart));
   const auto quick = rows_.rightCols(n);
-  const Matrix slow = product(quick, inverse_);
   Eigen::VectorXd squares(2L * n);
   for (int j = 0; j < 2 * n; ++j) {
-    squares(j) = std::abs(quick.row(j).dot(slow.row(j)));
+    squares(j) = std::abs(quick.row(j).dot(drive_.row(j)));
     for (int i = 0; i < n; ++i) squares(j) += rows_(j, i) * rows_(j, i) / least[i];
   }
   by_energy_ = sizes_of_rows(squares.cwiseSqrt());
@@ -194,9 +227,12 @@ HingeVector ModalBounds::rates(const ModeVector& start) const {
   return product(rate_of_, start + swung_);
 }
 
-HingeLoads ModalBounds::linear_loads(const ModeVector& modes) const {
-  const HingeVector x = product(force_x_, modes), y = product(force_y_, modes);
-  return {product(moment_of_, modes), (x.array().square() + y.array().square()).sqrt()};
+double ModalBounds::linear_moment(int i, const ModeVector& modes) const {
+  return sum_of_row(moment_of_, i, modes);
+}
+
+double ModalBounds::linear_force(int i, const ModeVector& modes) const {
+  return size_of(sum_of_row(force_x_, i, modes), sum_of_row(force_y_, i, modes));
 }
 
 /// Widens a box until it holds its image. Heuristic: too wide a margin gives poor bounds, too small
@@ -283,12 +319,16 @@ void ModalBounds::cap_modes(double energy, const Box& box, Image& image) const {
 /// (8), rounded up. @param image of the box, inside it
 HingeBounds ModalBounds::bounds_inside(const Box& box, const Image& image) const {
   constexpr double rounded_up = 1 + 1e-6; // far more than some hundred operations lose
-  const auto [moment, force] = linear_loads(image.box.modes);
   const BodyVector shaken = image.added.array() + image.turned.array() * box.accelerations.array() +
                             image.spin.array().square();
   HingeBounds bounds;
-  bounds.moment = rounded_up * (moment + image.remainder + model_->moment.cwiseAbs());
-  bounds.force = rounded_up * (force + product(lever_, shaken) + model_->weight);
+  bounds.moment.resize(size()), bounds.force.resize(size());
+  for (int i = 0; i < size(); ++i) {
+    bounds.moment(i) = linear_moment(i, image.box.modes);
+    bounds.force(i) = linear_force(i, image.box.modes);
+  }
+  bounds.moment = rounded_up * (bounds.moment + image.remainder + model_->moment.cwiseAbs());
+  bounds.force = rounded_up * (bounds.force + product(lever_, shaken) + model_->weight);
   bounds.way = image.way;
   return bounds;
 }

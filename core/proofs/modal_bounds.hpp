@@ -69,19 +69,15 @@
 namespace wingspread {
 
 /// The most that each hinge sees, 0 … n − 1.
-struct HingeLoads {
+struct HingeBounds {
   HingeVector moment; ///< N·m
   HingeVector force;  ///< N
-};
-struct HingeBounds : HingeLoads {
-  HingeVector way; ///< off rest, rad
+  HingeVector way;    ///< off rest, rad
 };
 
 /// The matrices of (5) to (9), made once for a latched wing, and the bounds that follow from a state.
 ///
-/// Vectors have room for the largest model in place: a proof attempt allocates nothing. Matrices of
-/// sizes known to the compiler, for chains of up to four, saved 2 % of the instructions of a run of the
-/// seed campaign (callgrind, 1,000 runs: 2.56 M against 2.61 M a run), and are not kept.
+/// Vectors have room for the largest model in place: a proof attempt allocates nothing.
 class ModalBounds {
 public:
   /// One number for each mode that is kept: one mode of each conjugate pair.
@@ -101,8 +97,9 @@ public:
 
   /// The largest rates of the hinges from that start on in the linear model, rad/s.
   [[nodiscard]] HingeVector rates(const ModeVector& start) const;
-  /// Loads while |w| stays below these: parts of what `bound` returns.
-  [[nodiscard]] HingeLoads linear_loads(const ModeVector& modes) const;
+  /// Moment, N·m, and force, N, of hinge i while |w| stays below these: parts of what `bound` returns.
+  [[nodiscard]] double linear_moment(int i, const ModeVector& modes) const;
+  [[nodiscard]] double linear_force(int i, const ModeVector& modes) const;
 
   /// Bounds from that start on. Cost O(n²) a pass.
   /// @param energy that is never exceeded, J, where there is one
@@ -149,7 +146,7 @@ private:
 
   [[nodiscard]] bool find_modes();
   void keep_rounding(const Matrix& residual);
-  void keep_columns(const Matrix& vectors);
+  void keep_columns(const Matrix& vectors, const Matrix& moments);
   void keep_rows();
   void keep_push(const Matrix& by_turns);
   void keep_cap(const double* least, const double* rest);
@@ -159,11 +156,12 @@ private:
   [[nodiscard]] HingeBounds bounds_inside(const Box& box, const Image& image) const;
 
   template <class Products> [[nodiscard]] auto sizes_of_rows(const Products& products) const;
-  [[nodiscard]] Matrix sizes_of_columns(const Matrix& products) const;
+  template <class Products> [[nodiscard]] Matrix sizes_of_columns(const Products& products) const;
 
   const RestModel* model_;
   std::vector<Mode> modes_; ///< those kept
   Matrix inverse_;          ///< M_0⁻¹
+  Matrix drive_;            ///< P_v M_0⁻¹, the columns of P for rates times M_0⁻¹
   Matrix rows_; ///< P of a real W, with columns v of a real mode, v and v' of a pair v ± iv'
   Matrix way_, rate_of_;                    ///< |W_u|, |W_v|, pairs counted twice
   Matrix turn_, swing_;                     ///< |S W_v|, |S W_v Λ|, likewise

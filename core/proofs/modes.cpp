@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace wingspread {
@@ -27,14 +28,46 @@ Complex over(const Complex& a, const Complex& b) {
           (a.imag() * b.real() - a.real() * b.imag()) / size};
 }
 
-} // namespace
-
-bool Modes::find(const RestModel& model, const Matrix& first_order) {
-  return (model.size() <= few_bodies && find_one_by_one(model)) || find_at_once(first_order);
+/// y ← Q⁻¹ y, by elimination with pivots. Near an eigenvalue Q is nearly singular: that makes y long,
+/// and its direction no less accurate. @param Q row by row; overwritten
+template <class Size> void solve(Size n, Complex* Q, Complex* y) {
+  for (int k = 0; k < n; ++k) {
+    Complex* of = Q + k * n;
+    int pivot = k;
+    double largest = size_of(of[k]);
+    for (int i = k + 1; i < n; ++i)
+      if (const double size = size_of(Q[i * n + k]); size > largest) pivot = i, largest = size;
+    for (int c = k; pivot != k && c < n; ++c) std::swap(of[c], Q[pivot * n + c]);
+    std::swap(y[k], y[pivot]);
+    if (largest == 0) of[k] = std::numeric_limits<double>::epsilon();
+    of[k] = over(1.0, of[k]); // from here on its inverse
+    for (int i = k + 1; i < n; ++i) {
+      Complex* row = Q + i * n;
+      const Complex share = times(row[k], of[k]);
+      for (int c = k + 1; c < n; ++c) row[c] -= times(share, of[c]);
+      y[i] -= times(share, y[k]);
+    }
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    for (int c = k + 1; c < n; ++c) y[k] -= times(Q[k * n + c], y[c]);
+    y[k] = times(y[k], Q[k * n + k]);
+  }
 }
 
-bool Modes::find_at_once(const Matrix& first_order) {
-  const Eigen::EigenSolver<Matrix> at_once(first_order);
+} // namespace
+
+bool Modes::find(const RestModel& model, const Matrix& inverse) {
+  return (model.size() <= few_bodies && find_one_by_one(model)) || find_at_once(model, inverse);
+}
+
+bool Modes::find_at_once(const RestModel& model, const Matrix& inverse) {
+  const int n = model.size();
+  Matrix L = Matrix::Zero(2L * n, 2L * n); // ż = L z, z = (u, u̇)
+  L.topRightCorner(n, n).setIdentity();
+  L.bottomLeftCorner(n, n) = -inverse.lazyProduct(model.stiffness);
+  L.bottomRightCorner(n, n) = -inverse.lazyProduct(model.damping);
+  if (!L.allFinite()) return false;
+  const Eigen::EigenSolver<Matrix> at_once(L);
   if (at_once.info() != Eigen::Success) return false;
   const auto& values = at_once.eigenvalues();
   values_.assign(values.begin(), values.end());
@@ -46,7 +79,8 @@ bool Modes::find_one_by_one(const RestModel& model) {
   const int n = model.size();
   undamped_.compute(model.stiffness, model.mass);
   if (undamped_.info() != Eigen::Success) return false;
-  values_.resize(2UL * n), columns_.resize(2L * n, 2L * n), Q_.resize(n, n), right_.resize(n);
+  values_.resize(2UL * n), columns_.resize(2L * n, 2L * n);
+  Q_.resize(n, n), slope_.resize(n, n), y_.resize(n), right_.resize(n);
   for (int j = 0; j < n; ++j)
     if (!find_two(model, 2 * j)) return false;
   return are_apart();
@@ -92,51 +126,50 @@ std::optional<Complex> Modes::converge_from(const RestModel& model, Complex valu
 }
 
 void Modes::improve(const RestModel& model, Complex& value) {
-  const int n = model.size();
-  const Matrix &mass = model.mass, &damping = model.damping, &stiffness = model.stiffness;
-  const Complex square = times(value, value), twice = 2.0 * value;
-  const auto slope = [&](int i, int k) { return twice * mass(i, k) + damping(i, k); };
-  for (int i = 0; i < n; ++i) {
-    right_(i) = 0;
-    for (int k = 0; k < n; ++k) {
-      Q_(i, k) = square * mass(i, k) + value * damping(i, k) + stiffness(i, k);
-      right_(i) += times(slope(i, k), x_(k));
-    }
+  // Loops over a number of hinges that the compiler knows take half the instructions (callgrind).
+  using std::integral_constant;
+  switch (model.size()) {
+  case 1:
+    return improve_by(integral_constant<int, 1>(), model, value);
+  case 2:
+    return improve_by(integral_constant<int, 2>(), model, value);
+  case 3:
+    return improve_by(integral_constant<int, 3>(), model, value);
+  case 4:
+    return improve_by(integral_constant<int, 4>(), model, value);
+  default:
+    return improve_by(model.size(), model, value);
   }
-  y_ = right_;
-  solve_for_y();
-  Complex above(0), below(0);
-  for (int i = 0; i < n; ++i) {
-    above += times(y_(i), right_(i));
-    for (int k = 0; k < n; ++k) below += times(times(y_(i), slope(i, k)), y_(k));
-  }
-  value -= over(above, below);
-  double largest = 0;
-  for (int i = 0; i < n; ++i) largest = std::max(largest, size_of(y_(i)));
-  x_ = y_ / largest;
 }
 
-/// y ← Q⁻¹ y, by elimination with pivots. Near an eigenvalue Q is nearly singular: that makes y long,
-/// and its direction no less accurate.
-void Modes::solve_for_y() {
-  const int n = static_cast<int>(x_.size());
-  for (int k = 0; k < n; ++k) {
-    int pivot = k;
-    for (int i = k + 1; i < n; ++i)
-      if (size_of(Q_(i, k)) > size_of(Q_(pivot, k))) pivot = i;
-    for (int c = k; pivot != k && c < n; ++c) std::swap(Q_(k, c), Q_(pivot, c));
-    std::swap(y_(k), y_(pivot));
-    if (size_of(Q_(k, k)) == 0) Q_(k, k) = std::numeric_limits<double>::epsilon();
-    for (int i = k + 1; i < n; ++i) {
-      const Complex share = over(Q_(i, k), Q_(k, k));
-      for (int c = k + 1; c < n; ++c) Q_(i, c) -= times(share, Q_(k, c));
-      y_(i) -= times(share, y_(k));
-    }
+template <class Size> void Modes::improve_by(Size n, const RestModel& model, Complex& value) {
+  const double *mass = model.mass.data(), *damping = model.damping.data(),
+               *stiffness = model.stiffness.data();
+  Complex *Q = Q_.data(), *slope = slope_.data(), *x = x_.data(), *y = y_.data(),
+          *right = right_.data();
+  const Complex square = times(value, value), twice = 2.0 * value;
+  for (int i = 0; i < n * n; ++i) {
+    Q[i] = square * mass[i] + value * damping[i] + stiffness[i];
+    slope[i] = twice * mass[i] + damping[i];
   }
-  for (int k = n - 1; k >= 0; --k) {
-    for (int c = k + 1; c < n; ++c) y_(k) -= times(Q_(k, c), y_(c));
-    y_(k) = over(y_(k), Q_(k, k));
+  for (int i = 0; i < n; ++i) {
+    Complex sum(0);
+    for (int k = 0; k < n; ++k) sum += times(slope[i * n + k], x[k]);
+    y[i] = right[i] = sum;
   }
+  solve(n, Q, y);
+  Complex above(0), below(0);
+  double largest = 0;
+  for (int i = 0; i < n; ++i) {
+    above += times(y[i], right[i]);
+    Complex sum(0);
+    for (int k = 0; k < n; ++k) sum += times(slope[i * n + k], y[k]);
+    below += times(y[i], sum);
+    largest = std::max(largest, size_of(y[i]));
+  }
+  value -= over(above, below);
+  const double scale = 1 / largest;
+  for (int i = 0; i < n; ++i) x[i] = scale * y[i];
 }
 
 void Modes::keep_pair(int column, const Complex& value) {

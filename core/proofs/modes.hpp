@@ -27,9 +27,9 @@ public:
   using Matrix = Eigen::MatrixXd;
   using Complex = std::complex<double>;
 
-  /// @param first_order L of ż = L z, z = (u, u̇)
+  /// @param inverse M⁻¹
   /// @return whether they could be found
-  [[nodiscard]] bool find(const RestModel& model, const Matrix& first_order);
+  [[nodiscard]] bool find(const RestModel& model, const Matrix& inverse);
 
   /// By (1) alone, for any number of bodies. @return whether all converged, to different eigenvalues
   [[nodiscard]] bool find_one_by_one(const RestModel& model);
@@ -42,17 +42,17 @@ public:
   [[nodiscard]] Matrix blocks() const;
 
 private:
-  [[nodiscard]] bool find_at_once(const Matrix& first_order);
+  [[nodiscard]] bool find_at_once(const RestModel& model, const Matrix& inverse);
   [[nodiscard]] bool find_two(const RestModel& model, int column);
   [[nodiscard]] std::optional<Complex> converge_from(const RestModel& model, Complex value);
   void improve(const RestModel& model, Complex& value);
-  void solve_for_y();
+  template <class Size> void improve_by(Size n, const RestModel& model, Complex& value);
   void keep_pair(int column, const Complex& value);
   void keep_one(int column, double value);
   [[nodiscard]] bool are_apart() const;
 
   Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> undamped_;
-  Eigen::MatrixXcd Q_;
+  Eigen::MatrixXcd Q_, slope_;     ///< Q(λ), Q'(λ): symmetric
   Eigen::VectorXcd x_, y_, right_; ///< of (1)
   std::vector<Complex> values_;
   Matrix columns_;

@@ -36,6 +36,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -95,6 +96,10 @@ struct RestModel {
 
   [[nodiscard]] int size() const { return static_cast<int>(parents.size()); }
 
+  /// Whether a damper was made linear for a rate: other rates may then need another model.
+  [[nodiscard]] bool depends_on_rates() const {
+    return std::ranges::any_of(remainders, [](const auto& f) { return f.tuned_for != 0; });
+  }
   /// Whether the model's dampers fit these rates. Heuristic: a poor fit makes f large and the bounds
   /// useless, never wrong.
   [[nodiscard]] bool is_tuned_for(const HingeVector& rates) const;

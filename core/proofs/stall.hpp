@@ -52,6 +52,29 @@ template <class T>
   return potential(open, angle) - best;
 }
 
+/// g_i of (2), J: what the spring of hinge i gives on the way to the latch, less friction. The latched angle has P = 0.
+template <class T> [[nodiscard]] T given_to_latch(const HingeTerms<T>& hinge, const T& angle) {
+  using std::abs;
+  return potential(linear_law(hinge, false), angle) -
+         hinge.kinetic_friction * abs(angle - hinge.latched);
+}
+
+/// Whether the springs alone pay for the way of an open hinge to its latch: (1) holds with T = 0.
+template <class AnySystem, class T>
+[[nodiscard]] bool springs_reach_a_latch(const AnySystem& system, const State<T>& x) {
+  const Layout& at = system.layout();
+  T all(0);
+  for (int i = 1; i <= at.bodies; ++i)
+    all = all + most_given(system.wing().hinges[i], system.work().engaged[i], x[at.angle(i)]);
+  for (int i = 1; i <= at.bodies; ++i) {
+    const HingeTerms<T>& hinge = system.wing().hinges[i];
+    if (!hinge.has_latch || system.work().engaged[i]) continue;
+    const T &angle = x[at.angle(i)], others = all - most_given(hinge, false, angle);
+    if (!(others + given_to_latch(hinge, angle) < T(0))) return true;
+  }
+  return false;
+}
+
 } // namespace detail
 
 /// Proves by (1) that no open hinge will latch. Cost O(n).
@@ -65,6 +88,7 @@ template <class T, class Topology, BaseMotion M>
   const Layout& at = system.layout();
   if (at.smoothed || system.wing().is_real()) return std::nullopt;
   if (M == BaseMotion::free && !system.wing().plates.empty()) return std::nullopt; // wind
+  if (detail::springs_reach_a_latch(system, x)) return std::nullopt; // most attempts end here
   using std::abs;
   const TotalMotion<T> now = total_motion(system, x, t);
   T budget = M == BaseMotion::free ? now.central_kinetic() : now.kinetic;
@@ -81,8 +105,7 @@ template <class T, class Topology, BaseMotion M>
     const HingeTerms<T>& hinge = system.wing().hinges[i];
     if (!hinge.has_latch || system.work().engaged[i]) continue;
     const T own = detail::most_given(hinge, false, x[at.angle(i)]);
-    const T to_latch = potential(linear_law(hinge, false), x[at.angle(i)]) -
-                       hinge.kinetic_friction * abs(x[at.angle(i)] - hinge.latched);
+    const T to_latch = detail::given_to_latch(hinge, x[at.angle(i)]);
     const T missing = -(budget - own + to_latch);
     const T rounding = T(1e-9) * (scale + abs(to_latch)); // far more than O(n) operations lose
     if (!(missing > rounding)) return std::nullopt;

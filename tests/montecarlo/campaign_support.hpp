@@ -31,7 +31,7 @@ inline Json quick_campaign(int runs) {
   return campaign;
 }
 
-/// The same with all outputs; some draws are unphysical, and some runs time out.
+/// The same campaign with all outputs. Some of its draws are unphysical, and some of its runs time out.
 inline Json full_campaign(int runs) {
   Json campaign = quick_campaign(runs);
   campaign["outputs"] = {"latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at"};
@@ -54,7 +54,7 @@ inline Results rows_of(const RunPlan& plan, RunRange range, int threads = 2) {
   return results;
 }
 
-/// A rule of one goal, as `run --until` takes it.
+/// A stopping rule with one goal, in the syntax of `run --until`.
 inline StoppingRule rule_of(const char* text) {
   StoppingRule rule;
   std::vector<Problem> problems;

@@ -11,8 +11,8 @@
 
 namespace wingspread::test {
 
-/// One panel with a spring torque of 2a N·m stowed and 0.2a latched, and friction f. It reaches its latch if the mean
-/// torque 1.1a exceeds f, and then latches at the rate √(π (1.1 a − f)/J), from the work done on the travel π/2.
+/// One panel with friction f and a spring torque that falls from 2a N·m (stowed) to 0.2a (latched). It reaches its latch
+/// if the mean torque 1.1a exceeds f. The work done over the travel π/2 then gives the latch rate √(π (1.1 a − f)/J).
 inline Json one_panel_margin(int runs) {
   Json campaign = parse_json(R"({
     "scene": { "name": "one_panel", "base": { "motion": "fixed" },
@@ -43,9 +43,9 @@ inline Json one_panel_margin(int runs) {
   return campaign;
 }
 
-/// How many draws break each of the two requirements with scaled springs.
+/// Numbers of draws that break each of the two requirements, with scaled springs.
 struct ClosedForm {
-  long not_deployed = 0, too_fast = 0; ///< too fast, or not deployed
+  long not_deployed = 0, too_fast = 0; ///< too_fast: also those not deployed
 };
 inline ClosedForm closed_form(const Campaign& campaign, double scale, double limit = 0.8) {
   const RunPlan plan(campaign);

@@ -1,4 +1,4 @@
-/// Samples for tests of statistics, and what chance allows them.
+/// Samples for tests of statistics, and the tolerances that chance requires.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@
 
 namespace wingspread::test {
 
-/// Of a run that has no such number.
+/// The value of a run without this number.
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -39,8 +39,7 @@ inline Approx within(double value, double relative) {
   return Approx(value).epsilon(relative).margin(1e-300);
 }
 
-/// Five standard errors of a share seen in `trials`: chance leaves this band once in a million
-/// times.
+/// Five standard errors of a share observed in `trials`. Chance exceeds them about once in a million times.
 inline double band(double share, int trials) { return 5 * std::sqrt(share * (1 - share) / trials); }
 
 } // namespace wingspread::test

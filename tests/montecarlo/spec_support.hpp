@@ -95,7 +95,7 @@ inline Json spoil(Json document, const Spoiled& change) {
   return document;
 }
 
-/// The message of the SpecError or MachineError that `read` throws; empty when it throws none.
+/// The message of the SpecError or MachineError that `read` throws; empty if it throws neither.
 template <class Read> std::string message_of(Read read) {
   try {
     (void)read();
@@ -107,8 +107,8 @@ template <class Read> std::string message_of(Read read) {
   return "";
 }
 
-/// The facts of a message: of each line its place, then all numbers, quoted words, units and comparison signs. Tests
-/// compare facts, so that rewording a message does not break them.
+/// The facts of a message: for each line its place, then all its numbers, quoted words, units and comparison signs. Tests
+/// compare facts, so that a reworded message does not break them.
 inline std::vector<std::string> facts_of(const std::string& message) {
   static const std::regex fact(
       R"re("[^"]*"|'[^']*'|[<>]=?|≤|≥|-?\d+(\.\d+)?(e[-+]?\d+)?|[^\s,;:]*[·²³][^\s,;:]*)re");
@@ -132,7 +132,7 @@ template <class Read> std::string problems_of(const Json& document, Read read) {
   return SpecError(problems).what();
 }
 
-/// The settings read over defaults, and the problems.
+/// The settings read (defaults where the document has none), and the problems.
 template <class Settings> struct Reading {
   Settings settings;
   std::string problems;

@@ -1,4 +1,4 @@
-/// What acts on a body from outside its hinges, for the oracle: the air on a plate.
+/// The air drag on a body's plate, for the oracle.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -21,7 +21,7 @@ template <class Scalar>
   return {c * vector.x() - s * vector.y(), s * vector.x() + c * vector.y()};
 }
 
-/// e3 × a: the derivative of a rotated vector by its angle.
+/// e3 × a: the derivative of a rotated vector with respect to the angle of rotation.
 template <class Scalar> [[nodiscard]] Vector2<Scalar> turned(const Vector2<Scalar>& a) {
   return {-a.y(), a.x()};
 }
@@ -37,8 +37,8 @@ template <class Scalar> struct Load {
   Scalar moment;         ///< about the centre of mass, N·m
 };
 
-/// −½ ρ C b ∫ |v_n| v_n n along the plate, and its moment: by Gauss's points on either side of the
-/// point where v_n changes its sign, where the integrands are of the second and third power.
+/// −½ ρ C b ∫ |v_n| v_n n along the plate, and its moment. Gauss quadrature is exact on either side
+/// of the point where v_n changes its sign: the integrands are polynomials of degree 2 and 3 there.
 /// @param angle, rate of the body; velocity of its centre of mass
 template <class Scalar>
 [[nodiscard]] Load<Scalar> air_on_plate(const Plate& plate, const Scalar& density,

@@ -1,5 +1,4 @@
-/// Scenes whose motion is known in closed form, and what the tests that hold whole runs against
-/// such answers share.
+/// Scenes with a closed-form motion, and helpers for tests that compare whole runs with it.
 ///
 /// | symbol | meaning                                          | unit    |
 /// |--------|--------------------------------------------------|---------|
@@ -29,7 +28,7 @@ inline constexpr double panel_inertia = 0.5 + 10 * 0.5 * 0.5;
 
 // ---- a constant moment
 
-/// A hinge that a constant acceleration takes over `travel` to its latch. Positive: towards it.
+/// A hinge with constant acceleration at a distance `travel` from its latch. Positive: towards the latch.
 struct ConstantDrive {
   double acceleration, travel, initial_rate = 0;
 
@@ -70,8 +69,8 @@ inline void rub(Hinge& hinge, double kinetic, std::optional<double> static_level
   hinge.friction.static_level = static_level;
 }
 
-/// I ü = −κ u − b u̇ − friction: slides from one turning point to the next, each time about a centre
-/// τ_c/κ off, until one of them lies within τ_s/κ; there it stays. Underdamped, τ_c > 0.
+/// The motion by I ü = −κ u − b u̇ − friction. The hinge slides from one turning point to the next, each time about a
+/// centre at +τ_c/κ or −τ_c/κ. It stops for good at the first turning point within τ_s/κ of u = 0. Underdamped, τ_c > 0.
 class CoulombOscillator {
 public:
   struct Law {
@@ -87,7 +86,7 @@ public:
     while (end_.rate != 0 || std::abs(law_.stiffness * end_.u) > law_.static_level) slide();
   }
 
-  /// When it stops for ever.
+  /// The time at which the hinge stops for good.
   [[nodiscard]] double stop_time() const { return stop_; }
 
   [[nodiscard]] State at(double t) const {
@@ -106,14 +105,14 @@ private:
   void slide() {
     const double sense = end_.rate != 0 ? end_.rate : -end_.u;
     const Slide next{stop_, -std::copysign(law_.kinetic / law_.stiffness, sense), end_};
-    double phase = std::atan2(end_.rate, sine_of_rate(next)); // of the rate's next zero
+    double phase = std::atan2(end_.rate, sine_of_rate(next)); // at which the rate is next zero
     if (phase <= 0) phase += std::numbers::pi;
     slides_.push_back(next);
     stop_ += phase / omega_;
     end_ = {after(next, phase / omega_).u, 0};
   }
 
-  /// The rate of a slide is e^(−δt) (rate_0 cos ωt − this sin ωt).
+  /// The coefficient B in the rate of a slide, e^(−δt) (rate_0 cos ωt − B sin ωt).
   [[nodiscard]] double sine_of_rate(const Slide& slide) const {
     return omega_ * (slide.start.u - slide.centre) + decay_ * sine_of_angle(slide);
   }
@@ -149,8 +148,8 @@ inline Scene coaxial_discs(double first_inertia, double second_inertia) {
 
 // ---- runs
 
-/// Tolerances of `rtol` and a hundredth of it; fixed steps of `step`. Few enough steps that a run
-/// that does not get on says so soon.
+/// Settings with relative tolerance `rtol`, absolute tolerance rtol/100 and fixed steps of `step`. A run that makes no
+/// progress fails soon, after 200,000 steps.
 inline Integration within(double rtol, double t_end, double step = 1e-3) {
   Integration how;
   how.rtol = rtol, how.atol = 1e-2 * rtol, how.t_end = t_end, how.step = step;
@@ -161,14 +160,13 @@ inline Integration within(double rtol, double t_end, double step = 1e-3) {
 inline const Goal to_the_end{.to_t_end = true};
 inline const Goal latches_only{.peak_moment = false, .peak_force = false, .audit = false};
 
-/// How far `steps` steps may lead the run of an undamped oscillator of ω ≤ 1 astray when each keeps
-/// to its tolerance: their errors add up and do not grow. Twice that, for what a rate is off, over
-/// ω.
+/// A bound of the error of an undamped oscillator with ω ≤ 1 after `steps` steps, each within its tolerance. Such errors
+/// add up without growing. The factor 2 allows for the error of the rate, divided by ω.
 inline double astray(const Integration& how, long steps, double size) {
   return 2 * static_cast<double>(steps) * (how.rtol * size + how.atol);
 }
 
-/// Whether the run gave no result, and said why.
+/// Whether the run failed and gave a reason.
 inline bool gave_up(const Outcome& out) {
   return out.status == Status::failed && !out.reason.empty();
 }
@@ -187,13 +185,13 @@ inline bool finite(const Outcome& out) {
          all(out.final.angles) && all(out.final.rates) && out.final.base_position.allFinite() &&
          out.final.base_velocity.allFinite() && good(out.final.base_angle) &&
          good(out.final.base_rate) && good(out.energy.initial) &&
-         (out.status == Status::failed || // squares overflow first
+         (out.status == Status::failed || // energies have squares, which overflow first
           (good(out.energy.final) && good(out.energy.drift_before_first_latch))) &&
          std::all_of(out.latches.begin(), out.latches.end(),
                      [&](const LatchEvent& e) { return good(e.time) && all(e.rates); });
 }
 
-/// How a run ended, for the wing's balance.
+/// The state at the end of a run, for DenseWing::balance.
 inline WingState<long double> state_of(const Outcome& out, const DenseWing<long double>& wing) {
   WingState<long double> state = wing.initial_state();
   for (int i = 0; i < wing.size(); ++i)
@@ -206,8 +204,8 @@ inline WingState<long double> state_of(const Outcome& out, const DenseWing<long 
 
 /// Which methods may end `failed` instead of giving the right answer.
 enum class MayGiveUp {
-  fixed_step, ///< runge_kutta4, whose step is what it is
-  implicit,   ///< and those whose linear solves round too much for tiny steps after a release
+  fixed_step, ///< runge_kutta4, which cannot reduce its step
+  implicit,   ///< also rosenbrock_w and seulex: tiny steps after a release drown in round-off
   all_but_auto,
   all
 };
@@ -219,16 +217,16 @@ inline bool may_give_up(const MethodInfo& method, MayGiveUp which) {
   return which == MayGiveUp::all || method.name != "auto";
 }
 
-/// How many methods have to come to an answer where some may give up.
+/// The number of methods that may not give up.
 inline int least_judged(MayGiveUp which) {
   const auto may = [&](const MethodInfo& method) { return may_give_up(method, which); };
   return static_cast<int>(std::ranges::count_if(methods(), std::not_fn(may)));
 }
 
-/// Runs the scene with every method there is. A run that gives up must be allowed to; any other is
-/// for `judge` (outcome → CHECKs), and nothing that is told may be NaN.
-/// @param samples filled anew by every run, when given
-/// @return how many runs were judged: where all may give up, the caller demands a number
+/// Runs the scene with every method and CHECKs each outcome. Only the methods that `which` names may give up; `judge`
+/// checks all other outcomes. No value of any outcome may be NaN or infinite.
+/// @param samples cleared and filled by every run, if given
+/// @return the number of judged runs. Where all methods may give up it may be 0, so the caller should CHECK it
 template <class Judge>
 int with_every_method(const Scene& scene, Integration how, const Goal& goal, MayGiveUp which,
                       const Judge& judge, std::vector<Sample>* samples = nullptr) {
@@ -256,7 +254,7 @@ int with_every_method(const Scene& scene, Integration how, const Goal& goal, May
   return judged;
 }
 
-/// A scene of the same motion whose hinges stand in reverse.
+/// The same scene with its hinges listed in reverse order; its motion is the same.
 inline Scene reversed(Scene scene) {
   std::reverse(scene.hinges.begin(), scene.hinges.end());
   return scene;

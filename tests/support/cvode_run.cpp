@@ -35,8 +35,8 @@ int right_hand_side(realtype, N_Vector y, N_Vector derivative, void* data) {
   return 0;
 }
 
-/// Two root functions a hinge: the overtravel, which latches, and its rate, whose root, a turning
-/// point, makes CVODE notice a hinge that goes past its latch and comes back within one step.
+/// Two root functions per hinge. A root of the overtravel is the instant at which the hinge latches. A root of its rate is
+/// a turning point: it ends the step, so CVODE notices a hinge that passes its latch and returns within one step.
 int root_functions(realtype, N_Vector state, realtype* g, void* data) {
   const Ode& ode = *static_cast<const Ode*>(data);
   const Vector<double> y = values(state);
@@ -73,14 +73,14 @@ public:
     require(CVodeSetRootDirection(memory_.get(), direction.data()), "CVodeSetRootDirection");
   }
 
-  /// One internal step, or up to the next root in it. Returns whether a root was met.
+  /// Makes one internal step, which ends early at a root. Returns whether it ended at a root.
   [[nodiscard]] bool step() {
     const int flag = CVode(memory_.get(), options_.t_end, y_.get(), &time_, CV_ONE_STEP);
     require(flag, "CVode");
     return flag == CV_ROOT_RETURN;
   }
 
-  /// The hinge whose latch is the root just met, −1 when it was a turning point.
+  /// The hinge that latches at the root just found; −1 if the root is a turning point.
   [[nodiscard]] int latching_hinge() {
     std::vector<int> found(2 * ode_.hinges());
     require(CVodeGetRootInfo(memory_.get(), found.data()), "CVodeGetRootInfo");
@@ -105,7 +105,7 @@ public:
   }
 
 private:
-  /// S is of the order of ε, so its absolute tolerance is too.
+  /// Sets the tolerances. The smoothed latch's state S is of order ε, so its absolute tolerance is multiplied by ε.
   void set_tolerances() {
     Vector<double> absolute = Vector<double>::Constant(ode_.dimension(), options_.atol);
     if (options_.smoothing)

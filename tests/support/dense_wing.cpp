@@ -44,7 +44,7 @@ typename DenseWing<Scalar>::Link DenseWing<Scalar>::make_link(const Scene& scene
   return link;
 }
 
-/// Numbers the links so that parents come first, by sweeping over the hinges until none is left.
+/// Numbers the links so that parents come first, by repeated passes over the hinges.
 template <class Scalar> void DenseWing<Scalar>::number_outward(const Scene& scene) {
   const std::size_t n = scene.hinges.size();
   std::vector<int> link_of_body(scene.bodies.size(), -1);
@@ -127,7 +127,7 @@ Scalar DenseWing<Scalar>::friction(const Link& link, const Scalar& angle,
   return -link.friction_scale * (level * rate / sqrt(rate * rate + w * w) + link.viscous * rate);
 }
 
-/// All but what loops add.
+/// The moments across the hinges, without those of loops.
 template <class Scalar>
 Scalar DenseWing<Scalar>::moment(const Link& link, const WingState<Scalar>& state) const {
   const Scalar& angle = state.angles(link.hinge);
@@ -143,7 +143,7 @@ Scalar DenseWing<Scalar>::moment(const Link& link, const WingState<Scalar>& stat
   return sum;
 }
 
-/// s ∫ (spring − harness) dφ from φ to φ_latched, and what latch and stop have stored.
+/// The potential energy of a hinge: s ∫ (spring − harness) dφ from φ to φ_latched, and the energy in latch and stop.
 template <class Scalar>
 Scalar DenseWing<Scalar>::potential(const Link& link, const WingState<Scalar>& state) const {
   const Scalar& angle = state.angles(link.hinge);
@@ -162,7 +162,7 @@ Scalar DenseWing<Scalar>::out_of_step(const Loop<Scalar>& loop,
                           travel(loop.second, state.angles(loop.second)));
 }
 
-/// Adds what a loop pulls: τ along the second travel, −g' τ along the first.
+/// Adds the moments of the loops: τ along the second hinge's travel, −g' τ along the first hinge's.
 template <class Scalar>
 void DenseWing<Scalar>::pull(const Loop<Scalar>& loop, const WingState<Scalar>& state,
                              Vector<Scalar>& moments) const {
@@ -192,7 +192,7 @@ template <class Scalar> Load<Scalar> DenseWing<Scalar>::load(int k, const Motion
   return {load.force + air.force, air.moment};
 }
 
-/// (1) and its derivative.
+/// Positions by (1), and velocities by its derivative.
 template <class Scalar>
 typename DenseWing<Scalar>::Motion DenseWing<Scalar>::motion(const WingState<Scalar>& state) const {
   Motion result{Vector<Scalar>(size()), Vector<Scalar>(size()), Columns2<Scalar>(2, size()),
@@ -216,7 +216,7 @@ typename DenseWing<Scalar>::Motion DenseWing<Scalar>::motion(const WingState<Sca
   return result;
 }
 
-/// J_k of (2): only the columns of paths_[k], the last of which is the link's own angle.
+/// J_k of (2), only its columns paths_[k]; the last one belongs to the link's own angle.
 template <class Scalar>
 std::vector<Columns2<Scalar>> DenseWing<Scalar>::jacobians(const Motion& at,
                                                            const Scalar& base_angle) const {
@@ -255,7 +255,7 @@ Columns2<Scalar> DenseWing<Scalar>::biases(const Motion& at, const WingState<Sca
   return result;
 }
 
-/// (3), lower triangle only: paths ascend.
+/// M by (3), only its lower triangle: the indices in each path ascend.
 template <class Scalar>
 Matrix<Scalar>
 DenseWing<Scalar>::mass_matrix(const std::vector<Columns2<Scalar>>& jacobians) const {
@@ -278,14 +278,14 @@ DenseWing<Scalar>::mass_matrix(const std::vector<Columns2<Scalar>>& jacobians) c
   return mass;
 }
 
-/// The moments' part of (6): each turns its child one way and its parent the other.
+/// The part of (6) from the hinge moments: each acts on its child with one sign and on its parent with the other.
 template <class Scalar>
 Vector<Scalar> DenseWing<Scalar>::applied(const Vector<Scalar>& moments) const {
   Vector<Scalar> force = Vector<Scalar>::Zero(base_coordinates + size());
   for (int k = 0; k < size(); ++k) {
     const Scalar& across = moments(links_[k].hinge);
     force(base_coordinates + k) += across;
-    force(base_coordinates + links_[k].parent) -= across; // the base, −1, is coordinate 2: θ_0
+    force(base_coordinates + links_[k].parent) -= across; // parent −1: θ_0, coordinate 2
   }
   return force;
 }
@@ -296,7 +296,7 @@ Eigen::Matrix<Scalar, 3, 1> DenseWing<Scalar>::prescribed(const Scalar& time) co
   return driven_.accelerations(time);
 }
 
-/// q̈ from (4); what the base prescribes is moved to the right-hand side.
+/// q̈ from (4). The terms of a prescribed base motion are known and move to the right-hand side.
 template <class Scalar>
 Vector<Scalar> DenseWing<Scalar>::solve(const Matrix<Scalar>& mass, const Vector<Scalar>& force,
                                         const Scalar& time) const {

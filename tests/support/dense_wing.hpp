@@ -1,9 +1,8 @@
 /// An independent oracle of the mechanics: the wing as one dense system in absolute angles.
 ///
-/// It shares nothing with the recursion but the parameters; real hinges have their laws from
-/// hinge_laws.hpp. The generalized
-/// coordinates are q = (x_0, y_0, θ_0, θ_1 … θ_n): the base's origin and the absolute angle of the
-/// base and of every body. Then
+/// The oracle shares only the parameters with the recursion of core/. The laws of real hinges are in hinge_laws.hpp.
+/// The generalized coordinates are q = (x_0, y_0, θ_0, θ_1 … θ_n): the base's origin and the absolute angles of the base
+/// and of every body. Then
 ///
 ///     r_j  = r_p + R(θ_p) c_pj − R(θ_j) c_jj                          (1)
 ///     r̈_j  = J_j q̈ + b_j,   J_j = ∂r_j/∂q,  b_j = J̇_j q̇              (2)
@@ -16,11 +15,11 @@
 /// |--------|---------------------------------------------------|---------|--------|
 /// | q      | generalized coordinates                           | n + 3   | m, rad |
 /// | J_j    | Jacobian of body j's centre of mass               | 2×(n+3) | m, 1   |
-/// | b_j    | its acceleration at q̈ = 0                         | 2       | m/s²   |
+/// | b_j    | acceleration of this point at q̈ = 0               | 2       | m/s²   |
 /// | M      | mass matrix                                       | (n+3)²  | kg …   |
 /// | Q      | generalized forces                                | n + 3   | N, N·m |
 /// | F_j    | gravity and air on body j, inertial axes          | 2       | N      |
-/// | L_j    | moment of the air about its centre of mass        | 1       | N·m    |
+/// | L_j    | moment of the air about body j's centre of mass   | 1       | N·m    |
 /// | f_i    | force of hinge i on its child, inertial axes      | 2       | N      |
 #pragma once
 
@@ -43,7 +42,7 @@ template <class Scalar> using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 template <class Scalar> using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 template <class Scalar> using Columns2 = Eigen::Matrix<Scalar, 2, Eigen::Dynamic>;
 
-/// The state of a scene in its own terms. Vectors over hinges stand in Scene order.
+/// The state of a scene by hinge angles. Vectors over hinges are in Scene order.
 template <class Scalar> struct WingState {
   Vector<Scalar> angles;     ///< φ, n, rad
   Vector<Scalar> rates;      ///< φ̇, n, rad/s
@@ -52,9 +51,9 @@ template <class Scalar> struct WingState {
   Vector2<Scalar> base_velocity = Vector2<Scalar>::Zero(); ///< m/s
   Scalar base_angle{0};                                    ///< θ_0, rad
   Scalar base_rate{0};                                     ///< rad/s
-  Scalar time{0}; ///< s; matters to a base that is driven by a table
+  Scalar time{0}; ///< s; used only by a base that a table drives
 
-  /// The same state in another number.
+  /// The same state in another number type.
   template <class Other> [[nodiscard]] WingState<Other> cast() const {
     return {angles.template cast<Other>(),        rates.template cast<Other>(),
             engagement.template cast<Other>(),    base_position.template cast<Other>(),
@@ -63,7 +62,7 @@ template <class Scalar> struct WingState {
   }
 };
 
-/// What the state brings about. Hinges in Scene order.
+/// Accelerations and loads in a state. Hinges are in Scene order.
 template <class Scalar> struct WingResponse {
   Vector<Scalar> hinge_accelerations; ///< φ̈, n, rad/s²
   Vector2<Scalar> base_acceleration;  ///< of the origin, m/s²
@@ -72,10 +71,10 @@ template <class Scalar> struct WingResponse {
   Columns2<Scalar> forces;            ///< of each hinge on its child, inertial axes, 2×n, N
 };
 
-/// Energies and momenta of the bodies, and of the base when it is free.
+/// Energies and momenta of the bodies, and of the base if it is free.
 template <class Scalar> struct WingBalance {
   Scalar kinetic;   ///< J
-  Scalar potential; ///< springs and harnesses left, latches, stops and loops stored, heights, J
+  Scalar potential; ///< energy of springs, harnesses, latches, stops, loops and gravity's work, J
   Vector2<Scalar> linear_momentum; ///< kg·m/s
   Scalar angular_momentum;         ///< about the inertial origin, kg·m²/s
 };
@@ -107,7 +106,7 @@ public:
   /// Accelerations, moments and reactions. Cost O(n³).
   [[nodiscard]] WingResponse<Scalar> respond(const WingState<Scalar>& state) const;
 
-  /// The same for hinge moments that something else decides, n, N·m.
+  /// The same with the given hinge moments, n, N·m.
   [[nodiscard]] WingResponse<Scalar> respond(const WingState<Scalar>& state,
                                              const Vector<Scalar>& moments) const;
 

@@ -1,7 +1,7 @@
 /// Exact Coulomb friction on the dense wing: each hinge slides one way or the other, or sticks.
 ///
-/// What holds a hinge that sticks is found by the response's being linear in the hinge moments, and
-/// which hinges stick by trying every way there is: a method that core/ has no part of.
+/// The response is linear in the hinge moments, so a linear solve gives the moments that hold the sticking hinges. Which
+/// hinges stick is found by trying every combination. core/ uses neither method.
 #pragma once
 
 #include "tests/support/dense_wing.hpp"
@@ -28,7 +28,7 @@ public:
     contact_.assign(kinetic_.size(), 0);
   }
 
-  /// The scene without it.
+  /// The scene without its exact friction.
   [[nodiscard]] static Scene removed(Scene scene) {
     for (Hinge& hinge : scene.hinges) {
       if (hinge.friction.model != FrictionModel::exact) continue;
@@ -42,7 +42,7 @@ public:
   [[nodiscard]] bool acts(int hinge) const { return static_[hinge] > 0; }
   [[nodiscard]] bool sticks(int hinge) const { return acts(hinge) && contact_[hinge] == 0; }
 
-  /// The wing's response with friction as it now is. Its moments have what holds a hinge in them.
+  /// The wing's response in the present contact states. Its moments include those that hold sticking hinges.
   [[nodiscard]] WingResponse<Scalar> respond(const DenseWing<Scalar>& wing,
                                              const WingState<Scalar>& state) const {
     Vector<Scalar> moments = wing.moments(state);
@@ -54,7 +54,7 @@ public:
     if (held.empty()) return wing.respond(state, moments);
     const Vector<Scalar> free = wing.respond(state, moments).hinge_accelerations;
     const auto size = static_cast<Eigen::Index>(held.size());
-    Matrix<Scalar> yields(size, size); // accelerations by unit moments
+    Matrix<Scalar> yields(size, size); // acceleration of hinge j per moment at hinge k
     Vector<Scalar> unheld(size);
     for (Eigen::Index k = 0; k < size; ++k) {
       Vector<Scalar> pushed = moments;
@@ -70,18 +70,18 @@ public:
     return response;
   }
 
-  /// By how much what a hinge that sticks needs is beyond what it can hold, N·m; negative: it holds.
+  /// The moment that holds a sticking hinge minus its static friction, N·m; negative: the hinge keeps sticking.
   [[nodiscard]] Scalar excess(const DenseWing<Scalar>& wing, const WingState<Scalar>& state,
                               const WingResponse<Scalar>& response, int hinge) const {
     using std::abs;
     return abs(response.moments(hinge) - wing.moments(state)(hinge)) - static_[hinge];
   }
 
-  /// In which sense a hinge that slides does: its rate keeps this sign.
+  /// The sense in which a hinge slides: 1 or −1, the sign of its rate; 0 if it sticks.
   [[nodiscard]] int sense(int hinge) const { return contact_[hinge]; }
 
-  /// Finds what every hinge at rest does from here on, by trying every way.
-  /// @throws std::runtime_error if none is consistent
+  /// Decides which hinges at rest stick, and in which sense the others slide, by trying every combination.
+  /// @throws std::runtime_error if no combination is consistent
   void settle(const DenseWing<Scalar>& wing, const WingState<Scalar>& state) {
     std::vector<int> at_rest;
     for (int i = 0; i < wing.size(); ++i) {
@@ -92,7 +92,7 @@ public:
     }
     int ways = 1;
     for (std::size_t k = 0; k < at_rest.size(); ++k) ways *= 3;
-    for (int way = 0; way < ways; ++way) { // the first: all stick
+    for (int way = 0; way < ways; ++way) { // way 0: all stick
       int rest = way;
       for (const int i : at_rest) contact_[i] = std::array{0, 1, -1}[rest % 3], rest /= 3;
       if (consistent(wing, state, at_rest)) return;
@@ -112,7 +112,7 @@ private:
     return true;
   }
 
-  std::vector<Scalar> kinetic_, static_; ///< by hinge; static 0: the hinge has none
+  std::vector<Scalar> kinetic_, static_; ///< by hinge; static 0: no exact friction
   std::vector<int> contact_;             ///< by hinge: 1 forward, −1 backward, 0 sticks
   bool any_ = false;
 };

@@ -9,9 +9,9 @@ namespace wingspread::oracle {
 
 namespace {
 
-/// Fehlberg's order-8 formula, with every point of interest reached by a real step. Its error comes
-/// from halving the step: the embedded estimate compares stages at the two ends of the step only,
-/// so it is blind to quadratures, and to Ṡ = f(φ(t)) of a smoothed latch in particular.
+/// Fehlberg's order-8 formula, which reaches every point of interest by a real step. Two half steps give the error. The
+/// embedded error estimate compares only stages at the two ends of the step, so it cannot see errors of quadratures, such
+/// as that of Ṡ = f(φ(t)) of a smoothed latch.
 template <class Scalar> class Fehlberg {
 public:
   Fehlberg(WingOde<Scalar>& ode, const ReferenceOptions& options)
@@ -55,7 +55,7 @@ private:
   /// The state a step of h after the current one.
   [[nodiscard]] Vector<Scalar> stepped(const Scalar& h) const { return stepped(y_, h); }
 
-  /// The largest difference between two states, as a multiple of what is tolerated.
+  /// The largest difference between two states, as a multiple of the tolerance.
   [[nodiscard]] Scalar error(const Vector<Scalar>& whole, const Vector<Scalar>& halves) const {
     using std::abs;
     using std::max;
@@ -68,7 +68,7 @@ private:
     return largest;
   }
 
-  /// S is of the order of ε, so its absolute tolerance is too.
+  /// The absolute tolerance of an entry. The smoothed latch's state S is of order ε, so its tolerance is multiplied by ε.
   [[nodiscard]] Scalar absolute(Eigen::Index entry) const {
     const Eigen::Index mechanical = 2 * ode_.hinges() + 6;
     return entry < mechanical ? options_.atol : options_.atol * options_.smoothing.value_or(1);
@@ -81,7 +81,7 @@ private:
     return Scalar(std::clamp(factor, 0.2, 4.));
   }
 
-  /// Goes on by h, or to the first latch or change of contact on the way.
+  /// Advances by h, or to the first latch or change of contact within h.
   void accept(Scalar h, Vector<Scalar> next, bool to_end) {
     const Scalar whole = h;
     const int latching = first_latch(h, next), touching = first_contact(h, whole, next);
@@ -90,7 +90,7 @@ private:
     if (event) next = stepped(h);
     const Scalar upper = to_end && !event ? Scalar(options_.t_end) : Scalar(time_ + h);
     const int intervals =
-        ode_.smoothed() ? 12 : 2; // a smoothed latch's kinks hide from few samples
+        ode_.smoothed() ? 12 : 2; // few samples miss the kinks of a smoothed latch
     book_.step(time_, upper, intervals, [&](const Scalar& time) -> Vector<Scalar> {
       if (time == time_) return y_;
       return time == upper ? next : stepped(time - time_);
@@ -107,8 +107,8 @@ private:
     if (!ode_.smoothed()) step_ = std::min<Scalar>(step_, Scalar(1e-4));
   }
 
-  /// The hinge that latches first within a step of h that ends in `next`, −1 when none does; h then
-  /// becomes the step to that instant.
+  /// The hinge that latches first within a step of h that ends in `next`; −1 if none does. Reduces h to the step that ends
+  /// at this latch.
   [[nodiscard]] int first_latch(Scalar& h, const Vector<Scalar>& next) const {
     int first = -1;
     const Scalar whole = h;
@@ -121,7 +121,7 @@ private:
       };
       if (travel(next) < 0) {
         if (!(slowing(y_) < 0 && slowing(next) > 0)) continue;
-        past = crossing(whole, slowing); // it turns within the step: perhaps beyond the latch
+        past = crossing(whole, slowing); // the hinge turns back, perhaps beyond its latch
         if (travel(stepped(past)) < 0) continue;
       }
       const Scalar at = travel(y_) < 0 ? crossing(past, travel) : Scalar(0);
@@ -132,9 +132,9 @@ private:
     return first;
   }
 
-  /// The hinge whose exact friction first does something else before h, −1 if none does; h then
-  /// becomes the step to that instant. One that does so and thinks better of it is seen at the
-  /// step's middle. @param whole the step that ends in `next`
+  /// The hinge whose exact friction first changes its contact (slides, sticks) before h; −1 if none does. Reduces h to the
+  /// step that ends at this change. A change that is undone before the step's end shows in the state at its middle.
+  /// @param whole the step that ends in `next`
   [[nodiscard]] int first_contact(Scalar& h, const Scalar& whole,
                                   const Vector<Scalar>& next) const {
     if (!ode_.friction().any()) return -1;
@@ -147,7 +147,7 @@ private:
         past = whole / 2;
       else if (!(gap(next) >= 0))
         continue;
-      // one that has just begun to slide stands at zero
+      // a hinge that has just begun to slide starts with a gap of 0
       const Scalar at = gap(y_) < 0 ? crossing(past, gap) : crossing_after_start(past, gap);
       if (!(at < h)) continue;
       first = i;
@@ -163,8 +163,8 @@ private:
     return crossing(upper, g, upper / 1024);
   }
 
-  /// The step at which g(y) < 0 becomes ≥ 0: Illinois, each trial a real step.
-  /// Ends on the side ≥ 0.
+  /// The length of the step at whose end g(y) changes from < 0 to ≥ 0, by the Illinois method with real steps. The result
+  /// lies on the side g ≥ 0.
   template <class Function>
   [[nodiscard]] Scalar crossing(Scalar upper, const Function& g, Scalar lower = 0) const {
     using std::abs;

@@ -1,13 +1,12 @@
-/// The laws of real hinges, written for the oracle alone: tables by Hermite's basis
-/// and integrated by Gauss's points, everything a function of the present angles and rates. Nothing
-/// is kept from instant to instant, so an integrator meets kinks (a stop, a strand that goes slack)
-/// and jumps (the edges of a backlash or of a window) where they are.
+/// The laws of real hinges, written for the oracle alone. Tables use Hermite's basis and Gauss quadrature. Every moment is
+/// a function of the present angles and rates, without memory. So an integrator meets the kinks (a stop, a strand that
+/// goes slack) and the jumps (the edges of a backlash or of a window) themselves.
 ///
 /// | symbol | meaning                                              | unit       |
 /// |--------|------------------------------------------------------|------------|
 /// | x, v   | travel s (φ − φ_stowed) of a hinge, and its rate     | rad, rad/s |
 /// | y      | φ − φ_latched                                        | rad        |
-/// | e      | how far a loop is out of step, g(x_a) − x_b          | rad        |
+/// | e      | elongation of a loop, g(x_a) − x_b                   | rad        |
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -88,8 +87,8 @@ private:
     return (y_[k + 1] - y_[k]) / (x_[k + 1] - x_[k]);
   }
 
-  /// Fritsch & Butland's slope in Brodlie's form: d d'/(α d' + (1 − α) d), where the chords agree
-  /// in sign, α = (1 + h'/(h + h'))/3.
+  /// Fritsch & Butland's slope in Brodlie's form: d d'/(α d' + (1 − α) d) with α = (1 + h'/(h + h'))/3 where the chords d
+  /// and d' have equal signs, else 0.
   [[nodiscard]] Scalar slope_at(std::size_t k) const {
     const std::size_t last = x_.size() - 1;
     if (k == 0) return end_slope(x_[1] - x_[0], x_[2] - x_[1], chord(0), chord(1));
@@ -102,8 +101,8 @@ private:
     return d * e / (alpha * e + (1 - alpha) * d);
   }
 
-  /// The parabola's slope through three points, kept between 0 and thrice the chord's where it
-  /// would not follow the table's shape.
+  /// The end slope of the parabola through three points, limited to between 0 and three times the chord's slope where the
+  /// parabola would not follow the table's shape.
   [[nodiscard]] static Scalar end_slope(const Scalar& h, const Scalar& next, const Scalar& d,
                                         const Scalar& e) {
     using std::abs;
@@ -160,7 +159,7 @@ template <class Scalar> struct TorqueLaw {
   Scalar stowed{0}, latched{0};       ///< angles, rad
   Scalar at_stowed{0}, at_latched{0}; ///< N·m
   Scalar scale{1}, offset{0};
-  std::optional<Table<Scalar>> deploying, stowing; ///< the latter: of a test both ways
+  std::optional<Table<Scalar>> deploying, stowing; ///< stowing: if measured both ways
 
   TorqueLaw() = default;
   TorqueLaw(const Hinge& hinge, const HingeTorque& torque)
@@ -178,7 +177,7 @@ template <class Scalar> struct TorqueLaw {
     const Scalar x = (angle - stowed) / (latched - stowed);
     return scale * (at_stowed + (at_latched - at_stowed) * x) + offset;
   }
-  /// Coulomb's level that a test both ways shows, N·m.
+  /// Coulomb's level: half the difference between stowing and deploying torque, N·m; 0 without a stowing table.
   [[nodiscard]] Scalar level(const Scalar& angle) const {
     if (!stowing) return Scalar(0);
     return (stowing->value(angle) - deploying->value(angle)) / 2;
@@ -193,7 +192,7 @@ template <class Scalar> struct TorqueLaw {
   }
 };
 
-/// Opposes the rate.
+/// The moment of a damper, which opposes the rate.
 template <class Scalar>
 [[nodiscard]] Scalar damper_moment(const Damper& damper, const Scalar& angle, const Scalar& rate) {
   using std::abs;
@@ -219,7 +218,7 @@ template <class Scalar>
   return -scale * Scalar(damper.coefficient) * rate;
 }
 
-/// Along the travel: a contact that pushes and never pulls.
+/// The moment of a stop along the travel; a stop pushes and never pulls.
 template <class Scalar>
 [[nodiscard]] Scalar stop_moment(const Stop& stop, const Scalar& x, const Scalar& v) {
   const Scalar depth = -x - Scalar(stop.gap);
@@ -231,7 +230,7 @@ template <class Scalar> [[nodiscard]] Scalar stop_energy(const Stop& stop, const
   return depth > 0 ? Scalar(stop.stiffness) * depth * depth / 2 : Scalar(0);
 }
 
-/// How far an engaged latch is beyond its backlash; 0 within it.
+/// The angle by which an engaged latch is beyond its backlash; 0 within the backlash.
 template <class Scalar> [[nodiscard]] Scalar latch_strain(const Latch& latch, const Scalar& y) {
   const Scalar play = Scalar(latch.backlash) / 2;
   if (y > play) return y - play;

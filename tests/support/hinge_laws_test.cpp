@@ -14,7 +14,7 @@ namespace {
 
 using Shape = Interpolation;
 
-/// The energy a quarter of a step before and after, over a state that follows its accelerations.
+/// The state after a time h with constant accelerations.
 WingState<Quad> after(WingState<Quad> state, const WingResponse<Quad>& response, const Quad& h) {
   const Quad half = h * h / 2;
   state.angles += state.rates * h + response.hinge_accelerations * half;

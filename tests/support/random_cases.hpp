@@ -5,7 +5,8 @@
 
 namespace wingspread {
 
-/// `nightly` where tests/nightly runs the test (WINGSPREAD_NIGHTLY is set), else `quick`: few enough for every change.
+/// `nightly` if tests/nightly runs the test (WINGSPREAD_NIGHTLY is set); else `quick`, which is small enough to run after
+/// every change.
 inline int random_cases(int nightly, int quick) {
   return std::getenv("WINGSPREAD_NIGHTLY") != nullptr ? nightly : quick;
 }

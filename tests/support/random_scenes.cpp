@@ -75,7 +75,7 @@ Hinge random_hinge(const RandomScene& options, Draws& draws) {
   return hinge;
 }
 
-/// A panel hinge of the seed scene: the latch latched at 0.
+/// A panel hinge of the seed scene, which latches at 0.
 Hinge panel_hinge(std::string name, int parent, int child, double stowed, HingeTorque spring) {
   Hinge hinge;
   hinge.name = std::move(name);
@@ -87,7 +87,7 @@ Hinge panel_hinge(std::string name, int parent, int child, double stowed, HingeT
   return hinge;
 }
 
-/// The hinge seen in a mirror: x → −x, angles change sign; its bodies' numbers rise by `offset`.
+/// The mirror image of a hinge: x → −x, and angles change sign. `offset` is added to the numbers of its bodies.
 Hinge mirrored(Hinge hinge, int offset, const std::string& prefix) {
   hinge.name = prefix + hinge.name;
   if (hinge.parent != base_index) hinge.parent += offset;

@@ -10,8 +10,8 @@
 
 namespace wingspread::oracle {
 
-/// Draws that are the same on every platform:
-/// mt19937_64's bits and nothing of <random>'s distributions.
+/// Draws that are the same on every platform: they use mt19937_64, but no distribution of <random>, because
+/// implementations of these differ.
 class Draws {
 public:
   explicit Draws(std::uint64_t seed) : engine_(seed) {}
@@ -43,8 +43,8 @@ struct RandomScene {
 /// [0.02, 0.5]·mass·reach².
 [[nodiscard]] Scene random_scene(std::uint64_t seed, const RandomScene& options = {});
 
-/// A random state: angles all round, rates up to 2 rad/s, each latch engaged with probability 1/2;
-/// the base where and as its motion allows.
+/// A random state: angles in a full turn, rates up to 2 rad/s, each latch engaged with probability 1/2, and a motion of
+/// the base that the scene allows.
 [[nodiscard]] WingState<double> random_state(std::uint64_t seed, const Scene& scene);
 
 /// The three-panel seed scene.
@@ -62,8 +62,8 @@ struct RandomScene {
 /// φ = π/2 cos(ωt), ω² = 2/(π/2 · 3).
 [[nodiscard]] Scene harmonic_panel();
 
-/// The same panel under 2 N·m throughout, with a latch (1e4 N·m/rad, 100 N·m·s/rad): closed form
-/// before the latch, a damped oscillator about it after.
+/// The same panel under a constant 2 N·m, with a latch (1e4 N·m/rad, 100 N·m·s/rad). Its acceleration is constant before
+/// the latch engages; then it is a damped oscillator.
 [[nodiscard]] Scene latching_panel();
 
 } // namespace wingspread::oracle

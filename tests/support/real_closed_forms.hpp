@@ -18,7 +18,7 @@
 
 namespace wingspread::oracle {
 
-/// The root of f between a and b, to the last bits.
+/// The root of f between a and b, to round-off.
 template <class Function> [[nodiscard]] double root_between(double a, double b, const Function& f) {
   std::uintmax_t tries = 200;
   const boost::math::tools::eps_tolerance<double> enough(52);
@@ -26,7 +26,7 @@ template <class Function> [[nodiscard]] double root_between(double a, double b, 
   return std::midpoint(bracket.first, bracket.second);
 }
 
-/// When and how fast a hinge gets somewhere.
+/// Time and rate at which a hinge reaches an angle.
 struct Arrival {
   double time, rate; ///< s, rad/s
 };
@@ -65,7 +65,8 @@ struct Arrival {
   return {(growth - 1) * inertia / (B * start), start / growth};
 }
 
-/// Quasi-static: T_0 − k φ = T along the way, ω = T^n'/A', any units.
+/// The time of a quasi-static motion along `way`. The torque T falls linearly from `first` to `last`, and the rate is
+/// ω = T^n'/A'. Any consistent units.
 [[nodiscard]] inline double quasi_static_time(double first, double last, double way, double A,
                                               double exponent) {
   const double slope = (first - last) / way, n = exponent - 1;
@@ -74,8 +75,8 @@ struct Arrival {
 
 // ---- contacts
 
-/// The rate with which a contact I δ̈ = −k δ (1 + c δ̇) lets go what came with `speed`, > 0:
-/// u − ln(1 + u) of u = c δ̇ is the same on both ways.
+/// The rate, > 0, at which a body leaves a contact I δ̈ = −k δ (1 + c δ̇) that it hit with `speed`: u − ln(1 + u) with
+/// u = c δ̇ has the same value when it leaves as when it hits.
 [[nodiscard]] inline double hunt_crossley_rebound(double c, double speed) {
   const auto height = [](double u) { return u - std::log1p(u); };
   const double h = height(c * speed);
@@ -85,14 +86,14 @@ struct Arrival {
   return -u / c;
 }
 
-/// How deep it goes: ½ k δ² = I (u − ln(1 + u))/c².
+/// The largest depth δ of such a contact: ½ k δ² = I (u − ln(1 + u))/c².
 [[nodiscard]] inline double hunt_crossley_depth(double inertia, double k, double c, double speed) {
   const double u = c * speed;
   return std::sqrt(2 * inertia * (u - std::log1p(u)) / k) / c;
 }
 
-/// A latch without damping that has engaged at `rate`, with backlash β: flies from edge to edge, and
-/// turns at either on the spring k. @return angle from the latched one, and rate
+/// The motion of a latch with backlash and without damping, at a time t after it engaged at `rate`. The hinge moves freely
+/// between the edges of the backlash, and the spring k turns it back at each. @return angle from the latched one, and rate
 struct Played {
   double angle, rate;
 };
@@ -103,7 +104,7 @@ struct Played {
   double s = std::fmod(t, 2 * (fly + turn)) + fly / 2; // from the lower edge, upwards
   double sense = 1;
   if (s >= 2 * (fly + turn)) s -= 2 * (fly + turn);
-  if (s >= fly + turn) s -= fly + turn, sense = -1; // the same, upside down
+  if (s >= fly + turn) s -= fly + turn, sense = -1; // the second half mirrors the first
   if (s <= fly) return {sense * (rate * s - half), sense * rate};
   const double c = std::cos(w * (s - fly));
   return {sense * (half + rate / w * std::sin(w * (s - fly))), sense * rate * c};
@@ -111,16 +112,15 @@ struct Played {
 
 // ---- ground tests
 
-/// A quarter of a pendulum's swing from `amplitude`, I φ̈ = −m g d sin φ: when and how fast it
-/// passes the lowest point.
+/// The time and rate at which a pendulum, I φ̈ = −m g d sin φ, released at `amplitude`, first passes its lowest point.
 [[nodiscard]] inline Arrival pendulum_arrival(double inertia, double weight_arm, double amplitude) {
   const double w = std::sqrt(weight_arm / inertia), k = std::sin(amplitude / 2);
   return {boost::math::ellint_1(k) / w, 2 * w * k};
 }
 
-// ---- equal panels that a rigid loop keeps in step
+// ---- equal panels with rigid synchronisation loops
 
-/// Of EqualPanels, the root's angle φ from 0 to π/2.
+/// The motion of EqualPanels (real_scenes.hpp) in the root's angle φ, from 0 to π/2.
 struct RigidPanels {
   int panels;
   double mass, length;
@@ -130,7 +130,7 @@ struct RigidPanels {
     const double n = panels, c = std::cos(phi), s = std::sin(phi);
     return mass * length * length * (n / 12 + n * (4 * n * n - 1) / 12 * c * c + n / 4 * s * s);
   }
-  /// What the springs have given, J.
+  /// The work of the springs, J.
   [[nodiscard]] double work(double phi) const {
     const double x = 2 * phi;
     return 0.1 * (std::numbers::pi * phi - phi * phi / 2) +

@@ -22,7 +22,7 @@ ReferenceOutcome real_extended(const Scene& scene, double t_end) {
   return high_precision_run<long double>(scene, options);
 }
 
-/// A panel with a damper, thrown at 1 rad/s over 1 rad to a latch that does nothing.
+/// A panel with a damper and an initial rate of 1 rad/s, 1 rad before a latch that exerts no moment.
 Scene braked(const Damper& damper) {
   Scene scene = free_panel(0, 1);
   scene.hinges[0].damper = damper;

@@ -50,7 +50,7 @@ Interpolation interpolation(Draws& draws) {
   return draws.chance(0.7) ? Interpolation::monotone : Interpolation::linear;
 }
 
-/// What stowing takes: some 0.05 N·m and more above what deploying delivers, between knots too.
+/// Torques measured while stowing: at least 0.05 N·m above those measured while deploying, between the knots too.
 std::vector<double> stowing_above(const std::vector<double>& angle,
                                   const std::vector<double>& deploying, Interpolation how,
                                   Draws& draws) {
@@ -122,7 +122,7 @@ void draw_hinge(Hinge& hinge, const RealFeatures& features, Draws& draws) {
   if (features.scales) draw_scales(hinge, draws);
 }
 
-/// The loop's table passes through (0, 0), where both hinges are stowed, and ends within the way.
+/// Draws a loop's table, which passes through (0, 0), where both hinges are stowed, and ends before they are latched.
 void draw_table(Synchronisation& loop, Draws& draws) {
   std::vector<double> x{0}, y{0};
   const int count = 1 + draws.below(4);

@@ -9,10 +9,10 @@
 
 namespace wingspread::oracle {
 
-/// Which features random ones may have; each hinge, body and pair of hinges draws for itself.
+/// The features that a random scene may have. Each hinge, body and pair of hinges is drawn separately.
 struct RealFeatures {
   bool tables = true;   ///< springs and harnesses by tables of either interpolation
-  bool measured = true; ///< springs both ways
+  bool measured = true; ///< springs with torques measured both deploying and stowing
   bool scales = true;   ///< and offsets, of every law that has them
   bool dampers = true, windows = true;
   bool stops = true, backlash = true, loops = true, preloads = true;
@@ -37,15 +37,13 @@ torque_table(std::vector<double> angle, std::vector<double> deploying, std::vect
 void tabulate(Synchronisation& loop, std::vector<double> travel,
               std::vector<double> travel_of_second);
 
-/// The scene on a base that a random table of time drives, of either interpolation, by rates or by
-/// accelerations, from some time before or after 0 to some before or after t_end; what it does not
-/// give is constant.
+/// The scene on a base driven by a random table over time. The table has rates or accelerations, with either
+/// interpolation. It may start before or after 0, and end before or after t_end. Quantities without a column are constant.
 [[nodiscard]] Scene driven_by_table(Scene scene, std::uint64_t seed, double t_end);
 
-/// N equal uniform panels, hinges at their ends, folded flat: the root turns from 0 to π/2, each
-/// other from 0 to ±π, kept to twice the root's travel by loops of this stiffness (the root with
-/// the second, each with the next), under torques 0.1 (π − x) and 0.05 (3π/2 − x). Only the root
-/// latches, without moment.
+/// N equal uniform panels with hinges at their ends, folded flat. The root turns from 0 to π/2, each other hinge from 0 to
+/// ±π. Loops of this stiffness (root to second hinge, each further hinge to the next) keep these at twice the root's
+/// travel. Torques are 0.1 (π − x) and 0.05 (3π/2 − x). Only the root has a latch, which exerts no moment.
 struct EqualPanels {
   int panels = 3;
   double mass = 10, length = 2;
@@ -60,7 +58,7 @@ struct EqualPanels {
 
 /// A yoke of 0.8 m and four panels of 1.8 m, folded as an accordion.
 [[nodiscard]] Scene yoke_wing();
-/// With a stop on every hinge.
+/// The same wing with a stop on every hinge.
 [[nodiscard]] Scene yoke_wing_with_stops();
 
 } // namespace wingspread::oracle

@@ -1,5 +1,5 @@
-/// What both reference integrators of reference_run.hpp share: the dense wing as an ordinary
-/// differential equation, the hunt for peaks inside a step, and the book of a run.
+/// The parts that both reference integrators of reference_run.hpp share: the dense wing as an ordinary differential
+/// equation, the search for peaks inside a step, and the record of a run.
 ///
 /// The flat state y, for n hinges (2n + 6, n more when the latch is smoothed, one more when the base
 /// is driven by a table of time):
@@ -44,18 +44,18 @@ public:
     return wing_.has_latch(hinge) && !latched_[hinge];
   }
 
-  /// Notes that a hinge has reached its latch; in the event form its moment acts from now on.
+  /// Notes that a hinge has reached its latch. Unless latches are smoothed, the latch's moment acts from now on.
   void latch(int hinge) { latched_[hinge] = true; }
 
-  /// Exact friction: which hinges stick.
+  /// The exact friction and its present contact states.
   [[nodiscard]] const DryFriction<Scalar>& friction() const { return friction_; }
-  /// Something has changed for hinges with exact friction that are at rest.
+  /// Decides again which hinges at rest stick. Call after every event.
   void settle(const Vector<Scalar>& y) {
     if (friction_.any()) friction_.settle(wing_, state(y));
   }
-  /// Hinge i has come to rest: its rate is exactly zero.
+  /// Sets the rate of a hinge that has come to rest to exactly zero.
   void stop(int hinge, Vector<Scalar>& y) const { y(half() + hinge) = 0; }
-  /// Negative as long as hinge i goes on to slide as it does, or to stick.
+  /// Negative while a hinge keeps its contact state: it slides on in the same sense, or sticks on.
   [[nodiscard]] Scalar contact_gap(int hinge, const Vector<Scalar>& y) const {
     if (!friction_.acts(hinge)) return Scalar(-1);
     if (!friction_.sticks(hinge)) return Scalar(-friction_.sense(hinge) * y(half() + hinge));
@@ -98,7 +98,7 @@ public:
     return result;
   }
 
-  /// |M| of every hinge, then |f|, then how far it is beyond its stowed angle: 3n, N·m, N, rad.
+  /// 3n values: |M| of every hinge, N·m; |f| of every hinge, N; the angle of every hinge beyond its stowed angle, rad.
   [[nodiscard]] Vector<Scalar> magnitudes(const Vector<Scalar>& y) const {
     const WingResponse<Scalar> response = respond(y);
     const int n = hinges();
@@ -134,7 +134,7 @@ private:
   std::vector<bool> latched_;
 };
 
-/// The largest value of each of several quantities so far, and when.
+/// The largest value so far of each of several quantities, and its time.
 template <class Scalar> class PeakTable {
 public:
   explicit PeakTable(int quantities)
@@ -148,8 +148,8 @@ public:
   }
 
   /// Raises the peaks to what the quantities reach in [lower, upper].
-  /// @param at time → all quantities; smooth there but for zeros of magnitudes
-  /// @param intervals equal parts in which to sample first, ≥ 2
+  /// @param at time → all quantities; smooth in [lower, upper], except where a magnitude is 0
+  /// @param intervals number of equal parts of the first sampling, ≥ 2
   template <class At>
   void hunt(const Scalar& lower, const Scalar& upper, int intervals, const At& at) {
     const Scalar width = (upper - lower) / intervals;
@@ -175,8 +175,8 @@ public:
   }
 
 private:
-  /// Whether the parabola through three equidistant samples peaks about their interval, and, give
-  /// or take its own curvature, above the peak so far.
+  /// Whether the parabola through three equidistant samples has its peak in or near their interval, and this peak, plus
+  /// the second difference as a margin, exceeds the largest value so far.
   [[nodiscard]] bool may_exceed(int quantity, const Vector<Scalar>& left,
                                 const Vector<Scalar>& middle, const Vector<Scalar>& right) const {
     using std::abs;
@@ -197,7 +197,7 @@ private:
   Vector<Scalar> values_, times_;
 };
 
-/// Keeps a run's events, peaks and audits while an integrator goes on.
+/// Records a run's events, peaks and audits step by step.
 template <class Scalar> class RunBook {
 public:
   RunBook(WingOde<Scalar>& ode, const ReferenceOptions& options, const Vector<Scalar>& y)
@@ -213,8 +213,8 @@ public:
     ++outcome_.steps;
   }
 
-  /// Latches a hinge at time t and state y, together with all that are due at the same instant, and
-  /// takes the peaks just after.
+  /// Latches a hinge at time t and state y, and all other hinges that are due at the same instant. Updates the peaks with
+  /// the values just after.
   void latch(int hinge, const Scalar& time, const Vector<Scalar>& y) {
     const auto due = [&](int other) {
       return other == hinge ||
@@ -231,7 +231,7 @@ public:
     settle(time, y);
   }
 
-  /// Settles which hinges stick, and takes the peaks just after.
+  /// Decides which hinges stick, and updates the peaks with the values just after.
   void settle(const Scalar& time, const Vector<Scalar>& y) {
     ode_.settle(y);
     const Vector<Scalar> magnitudes = ode_.magnitudes(y);

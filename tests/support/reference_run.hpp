@@ -3,9 +3,9 @@
 /// Fehlberg's order-8 Runge–Kutta formula in extended or quadruple precision (events and peaks
 /// located by real steps, never on an interpolant).
 ///
-/// The laws of real hinges have kinks and jumps (hinge_laws.hpp); the step control meets them as
-/// any other error, and shrinks the steps there until they are met. A jump wants a tolerance that
-/// steps of the precision's own size can keep: 1e-14 rather than 1e-16 in long double.
+/// The laws of real hinges have kinks and jumps (hinge_laws.hpp). The step control treats them as any other error: it
+/// reduces the steps until the error is within tolerance. At a jump this ends only if the smallest possible steps meet the
+/// tolerance: use 1e-14 rather than 1e-16 in long double.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -17,13 +17,13 @@
 namespace wingspread::oracle {
 
 struct ReferenceOptions {
-  double t_end = 12;               ///< s; the run goes there whatever happens
+  double t_end = 12;               ///< s; the run never ends before
   double rtol = 1e-12;             ///< relative, per step; high_precision_run can do with 1e-17
   double atol = 1e-13;             ///< absolute, per step, rad, rad/s, m, m/s
   double max_step = 0.05;          ///< s
   bool stiff = false;              ///< CVODE: BDF instead of Adams
   std::optional<double> smoothing; ///< ε of the smoothed latch, rad and s; none: event latch
-  double coincidence = 1e-10;      ///< s: latches due within it of an engagement engage with it
+  double coincidence = 1e-10;      ///< s; latches due this soon after another engage with it
 };
 
 /// A hinge reached its latched angle from the stowed side.
@@ -40,7 +40,7 @@ struct ReferencePeak {
   double time = 0; ///< s
 };
 
-/// What a reference run yields. Vectors over hinges stand in Scene order.
+/// The results of a reference run. Vectors over hinges are in Scene order.
 struct ReferenceOutcome {
   std::vector<ReferenceLatch> latches;    ///< in order of time
   std::vector<ReferencePeak> peak_moment; ///< of |M|, N·m

@@ -192,8 +192,8 @@ TEST_CASE("random deployments agree between the multistep and the one-step refer
 }
 
 TEST_CASE("a hinge that passes its latch and comes back within one step is caught") {
-  // The harmonic panel's reach ends at −π/2, where it turns: a latch a hair short of that is passed
-  // for 2√(2·1e-6/0.667) s, one step. Just beyond it, it is never reached.
+  // The harmonic panel turns back at −π/2. A latch 1e-6 before this angle is passed only for 2√(2·1e-6/0.667) s, within
+  // one step. A latch just beyond it is never reached.
   Scene scene = harmonic_panel();
   const double omega = std::sqrt(2 / (pi / 2) / 3);
   scene.hinges[0].latch = Latch{10, 1};

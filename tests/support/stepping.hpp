@@ -1,4 +1,4 @@
-/// Steps of a method on a wing, by themselves: no events, no step control, no interpolant.
+/// Single steps of a method on a wing, without events, step control or interpolant.
 #pragma once
 
 #include "core/methods/steppers.hpp"
@@ -9,7 +9,7 @@
 
 namespace wingspread::oracle {
 
-/// A wing on a fixed base and a state of it. It keeps no event: a latch is engaged or it is not.
+/// A wing on a fixed base, and a state. No latch engages during steps: it is engaged from the start, or open.
 template <class T> struct TestWing {
   Wing<T> wing;
   Workspace<T> work;
@@ -52,9 +52,9 @@ template <class T> struct RingingWing : TestWing<T> {
   }
 };
 
-/// What a method goes on with from step to step.
+/// The data that a method carries from step to step.
 template <class T> struct Stepping {
-  T t = T(0), made = T(0); ///< made: the step last tried
+  T t = T(0), made = T(0); ///< made: the last trial step
   State<T> x, dxdt, x1, dxdt1;
 
   template <class AnySystem>
@@ -77,7 +77,7 @@ template <class T> struct Stepping {
   }
 };
 
-/// Tolerances that every step meets.
+/// Tolerances so loose that every step is accepted.
 inline constexpr Tolerance any_error{0, 1e200};
 
 /// The state after `count` equal steps of h, whatever their errors.
@@ -107,9 +107,9 @@ template <class T> [[nodiscard]] T apart(const State<T>& a, const State<T>& b) {
 [[nodiscard]] inline Tolerance seulex_of_order(int order) {
   return {std::pow(10., -(order - 1.5) / 0.6), 1e200};
 }
-/// … BulirschStoer extrapolates two columns, and accepts every step
+/// Tolerances with which BulirschStoer extrapolates two columns, and accepts every step.
 inline constexpr Tolerance bulirsch_stoer_of_order_4{1e200, 1e200};
-/// … or five, and refuses it.
+/// Tolerances with which BulirschStoer extrapolates five columns, and refuses every step.
 inline constexpr Tolerance bulirsch_stoer_of_order_10{1e-30, 1e-30};
 
 } // namespace wingspread::oracle

@@ -1,5 +1,4 @@
-/// Whole runs, and what holds them against references:
-/// another formulation, other integrators, closed forms.
+/// Whole runs, and their comparison with references: another formulation, other integrators, closed forms.
 #pragma once
 
 #include "tests/support/closed_forms.hpp"
@@ -13,7 +12,7 @@ namespace wingspread::oracle {
 
 inline double relative(double got, double expected) { return std::abs(got / expected - 1); }
 
-/// By `auto`, with all peaks.
+/// Runs a scene by the method `auto`, with all peaks.
 inline Outcome run(const Scene& scene, double rtol, double t_end, bool to_t_end = true) {
   Integration how;
   how.rtol = rtol, how.atol = 1e-2 * rtol, how.t_end = t_end;
@@ -22,7 +21,8 @@ inline Outcome run(const Scene& scene, double rtol, double t_end, bool to_t_end 
   return Deployment().run(scene, how, goal);
 }
 
-/// Latches to `latches`, peaks to `peaks`, relative.
+/// Compares times and rates of latches, and peaks, with a reference. `latches` and `peaks` are relative tolerances; that
+/// of rates is 10 · latches.
 inline void compare(const Outcome& got, const ReferenceOutcome& expected, double latches,
                     double peaks) {
   REQUIRE(got.latches.size() == expected.latches.size());
@@ -42,8 +42,8 @@ inline void compare(const Outcome& got, const ReferenceOutcome& expected, double
   }
 }
 
-/// Latches, in order, against a reference
-/// whose times and rates are multiplied by `pace` and 1/pace.
+/// Compares latches, in order, with those of a reference whose times are first multiplied by `pace`, and whose rates are
+/// divided by it.
 inline void check_latches(const Outcome& out, const ReferenceOutcome& exact, double tolerance,
                           double pace = 1) {
   REQUIRE(out.latches.size() == exact.latches.size());
@@ -64,7 +64,7 @@ inline void check_latch(const Outcome& out, const ConstantDrive& exact, double t
   CHECK(relative(std::abs(out.latches[0].rates[0]), exact.rate()) < tolerance);
 }
 
-/// In extended precision.
+/// A reference run in extended precision.
 inline ReferenceOutcome reference(const Scene& scene, double t_end) {
   ReferenceOptions options;
   options.t_end = t_end;
@@ -72,7 +72,7 @@ inline ReferenceOutcome reference(const Scene& scene, double t_end) {
   return high_precision_run<long double>(scene, options);
 }
 
-/// The seed scene so, to just after its last latch.
+/// The reference run of the seed scene, to just after its last latch.
 inline const ReferenceOutcome& seed_reference() {
   static const ReferenceOutcome outcome = reference(seed_scene(), 7);
   return outcome;

@@ -95,7 +95,7 @@ double confirmation_confidence(const Campaign& campaign, const MarginResult& res
 
 Failing telling(const ScaleLook& look) {
   Failing all;
-  std::size_t first = 0; // condition of the case
+  std::size_t first = 0; // the case's first condition
   for (const CaseLook& each : look) {
     std::optional<std::size_t>
         deployment; // the condition reported for the runs that did not deploy

@@ -35,17 +35,18 @@ struct MarginEdge {
 [[nodiscard]] MarginEdge lower_edge(const MarginSearch& search, const Window& window);
 [[nodiscard]] MarginEdge upper_edge(const MarginSearch& search, const Window& window);
 
-/// A lower bound of the confidence that the window lies within the true one: 1 − Σ(1 − c) over all conditions at each
-/// edge (an end of the range is no edge). Holds for draws in order (margin_study.hpp). 0 or below: no guarantee.
+/// A lower bound of the confidence that the found window lies within the true window: 1 − Σ(1 − c) over all conditions at
+/// each edge (an end of the range is no edge). It holds if no draw is out of order (margin_study.hpp). 0 or below: no
+/// guarantee.
 [[nodiscard]] double window_confidence(const Campaign& campaign, const MarginResult& result,
                                        const Window& window);
 
-/// A lower bound of the confidence that all requirements hold in all cases at one scale, fixed beforehand, at which all
-/// verdicts are "pass": the confirmation of a recommended scale.
+/// A lower bound of the confidence that all requirements hold in all cases at a confirmed scale: one that was fixed before
+/// the confirmation runs, all of whose verdicts are "pass".
 [[nodiscard]] double confirmation_confidence(const Campaign& campaign, const MarginResult& result);
 
-/// The failing conditions, without those that fail only because runs did not deploy. One of these stays per case: the
-/// requirement on "deployed" if it fails, else the first.
+/// The failing conditions to report. Of the conditions that fail only because runs did not deploy, it keeps one per case:
+/// the requirement on "deployed" if it fails, else the first.
 [[nodiscard]] Failing telling(const ScaleLook& look);
 
 /// A drawback of the recommended springs: a condition that more runs break than with the present springs, or whose

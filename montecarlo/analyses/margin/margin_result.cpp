@@ -10,7 +10,7 @@
 namespace wingspread {
 namespace {
 
-/// The number of draws that break the condition at a scale but not at the one before.
+/// The number of draws that break the condition at a scale of `looks` but not at the scale before it.
 long relapses(const std::vector<const ScaleLook*>& looks, const MarginCondition& condition) {
   std::set<long> relapsed;
   for (std::size_t k = 1; k < looks.size(); ++k) {
@@ -79,7 +79,7 @@ bool is_confirmed(const MarginSearch& search) {
 
 OutOfOrder out_of_order(const MarginSearch& search, const MarginCondition& condition,
                         double middle) {
-  std::vector<const ScaleLook*> below, above; // inwards
+  std::vector<const ScaleLook*> below, above; // each from its outermost scale inwards
   for (const auto& [scale, look] : search.seen) {
     if (scale <= middle) below.push_back(&look);
     if (scale >= middle) above.insert(above.begin(), &look);

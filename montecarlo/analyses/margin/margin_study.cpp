@@ -63,7 +63,7 @@ void add_cases(const Campaign& campaign, std::size_t index, std::vector<MarginCa
   }
 }
 
-/// The searches: one for all parameters, or one per hinge in the order of first mention.
+/// One search for all parameters, or one per hinge in the order of first mention.
 std::vector<MarginSearch> searches_of(const MarginSpec& spec, const Scene& scene) {
   if (spec.mode == MarginMode::joint) return {{.name = "joint", .scaled = spec.scaled}};
   std::vector<MarginSearch> searches;
@@ -108,7 +108,7 @@ public:
     for (Campaign& campaign : campaigns_) campaign.outputs = outputs_for(campaign.requirements);
   }
 
-  /// Bounds the number of scales in all, for the progress display.
+  /// Sets an upper bound of the number of scales, for the progress display.
   void limit_scales(long looks) {
     most_ = std::max(looks_ + 1, most_ == 0 ? looks : std::min(most_, looks));
   }
@@ -140,7 +140,7 @@ public:
   }
 
 private:
-  /// @param take called with the case's campaign at the scale, and the case
+  /// @param take called for each case with its campaign at the scale, and the case
   template <class Take>
   void for_each_case(const std::vector<SceneParameter>& parameters, double scale,
                      const Take& take) {
@@ -168,7 +168,7 @@ private:
     return look;
   }
 
-  /// @param runs of each case at a scale
+  /// @param runs number of runs of each case at a scale, for the progress display
   void make(const RunPlan& plan, RunRange range, long runs,
             const std::function<void(const Batch&)>& take) {
     const long cases = std::ssize(result_.cases);
@@ -214,7 +214,7 @@ MarginResult prepared(const Campaign& campaign) {
   return result;
 }
 
-/// An upper bound of the number of scales in all: finished searches, the current one, those to come, one confirmation each.
+/// An upper bound of the number of scales of all searches, finished or not, with one confirmation each.
 long most_looks_of(const std::vector<MarginSearch>& searches, const MarginSearch& current,
                    const SearchRange& range) {
   long most = std::ssize(searches);

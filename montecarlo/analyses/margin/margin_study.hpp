@@ -8,13 +8,14 @@
 ///
 /// Confidence of an edge. A verdict "pass" at a scale fixed beforehand holds with the requirement's confidence c. The
 /// search chooses the edge from many scales. Let s* be the true edge, and let every draw that breaks the requirement at a
-/// scale break it at all scales further out. Then the number of broken runs only grows outwards, so an edge beyond s*
-/// needs a pass at s* itself, whose probability is at most 1 − c. The search therefore costs no confidence. `out_of_order`
-/// counts the draws that behave otherwise; runs of another seed confirm the recommended scale. The joint confidence of all
-/// requirements in all cases at both edges is at least 1 − Σ(1 − c) (window_confidence).
+/// scale break it at all scales further out. Then the number of broken runs only grows outwards. So the search puts the
+/// edge beyond s* only if the runs at s* pass, and the probability of this pass is at most 1 − c. The choice among many
+/// scales therefore costs no confidence. `out_of_order` counts the draws that behave otherwise; runs of another seed
+/// confirm the recommended scale. The joint confidence of all requirements in all cases at both edges is at least
+/// 1 − Σ(1 − c) (window_confidence).
 ///
-/// The confirmation seed is drawn from the campaign's seed. Seed + 1 would be the user's next choice for fresh draws, and
-/// these would then be the draws that confirmed the scale.
+/// The confirmation seed is derived from the campaign's seed. It is not seed + 1: a user who wants fresh draws often
+/// takes that one, and would get the draws that confirmed the scale.
 ///
 /// A run ends when the outputs of the requirements are known. If none is a peak, it ends at the last latch: a run that
 /// would fail numerically after the last latch counts as deployed here, and as failed in `run` with peaks.
@@ -38,10 +39,10 @@ namespace wingspread {
 /// The seed of the runs that confirm a recommended scale.
 [[nodiscard]] std::uint64_t confirmation_seed(std::uint64_t seed);
 
-/// Finds the window: one, or one per hinge.
+/// Finds the window of all springs together, or one window per hinge (MarginSpec::mode).
 /// @param progress called with the progress, one call at a time
 /// @param result   filled scale by scale: after Stopped it has the finished scales
-/// @throws SpecError without /margin, without requirements, or with too few runs to show one of them; Stopped when the
+/// @throws SpecError without /margin, without requirements, or with too few runs to show a requirement; Stopped when the
 ///   evaluator makes fewer runs than requested
 void find_margin(const Campaign& campaign, Evaluator& evaluator,
                  const std::function<void(const StudyProgress&)>& progress, MarginResult& result);

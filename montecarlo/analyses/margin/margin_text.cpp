@@ -63,7 +63,7 @@ private:
     return fmt::format("  {:<20}{:>8}  {}\n", label, scale, wrapped(text, 32));
   }
 
-  /// The name of a condition, behind the label for the first condition and below it for the others.
+  /// A line with the name of a condition. Only the first condition's line has the label and the scale.
   [[nodiscard]] std::string first_or_next(bool first, const char* label, double scale,
                                           std::size_t condition) const {
     return first ? line(label, scale, name(condition))
@@ -171,7 +171,8 @@ private:
     return text;
   }
 
-  /// The passing scale; both scales of an edge that was not located because the window does not depend on it.
+  /// The passing scale of an edge. For an edge that was not located to the tolerance, because the window does not depend
+  /// on it: both scales.
   [[nodiscard]] std::string between(double passing, double failing) const {
     const double ratio = std::max(passing / failing, failing / passing);
     if (ratio <= 1 + report_.campaign.margin->edge_tolerance) return fmt::format("{}", passing);
@@ -251,7 +252,7 @@ private:
 
   [[nodiscard]] double confidence() const { return report_.campaign.statistics.confidence; }
 
-  /// The outputs of the failing requirements, each once, at their column.
+  /// The outputs of the failing requirements, each once, padded to the column where they start.
   [[nodiscard]] std::string outputs_of(const Failing& failing) const {
     std::vector<std::string> outputs;
     for (const std::size_t condition : failing) {

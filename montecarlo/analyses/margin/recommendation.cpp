@@ -42,7 +42,7 @@ bool holds_present(const Candidates& candidates, const Stretch& stretch) {
   return candidates[stretch.first].scale <= 1 && 1 <= candidates[stretch.last].scale;
 }
 
-/// The stretch with the present springs, else the widest by ratio.
+/// The stretch of least strain that contains the present springs; else the widest one by ratio.
 Stretch best_stretch(const Candidates& candidates) {
   const auto stretches = stretches_of_least(candidates);
   const auto present = std::ranges::find_if(
@@ -121,7 +121,7 @@ private:
     looked_ = true;
   }
 
-  /// Notes the candidate with less strain that its static margin ruled out.
+  /// Notes the best candidate that a static margin ruled out, if it has less strain than the recommended scale.
   void note_passed_over(const Candidates& all) {
     const auto best = std::ranges::min_element(all, {}, &Candidate::strain);
     const bool better =

@@ -2,17 +2,19 @@
 ///
 /// | symbol   | meaning                                                                        |
 /// |----------|--------------------------------------------------------------------------------|
-/// | k, n     | runs that break a condition at a scale, and all runs there                     |
+/// | k, n     | numbers of runs that break a condition at a scale, and of all runs there       |
 /// | 1 − p    | the share of runs that may break it, by its requirement                        |
 /// | σ(s)     | strain: max of k / (n (1 − p)) over the conditions, as observed                |
 ///
-/// Weak springs strain conditions on one side (deployment, static margins), strong springs those on the other (moments,
-/// rates). So σ has its minimum between the edges. If several neighbouring scales have the minimum (often 0: nothing
-/// fails), the present springs are kept if they are among them; else the geometric middle of the widest stretch is taken.
-/// If the minimum is above 0, or one scale alone has it, the cells beside it are halved down to the tolerance.
+/// Weak springs strain some conditions (deployment, static margins), strong springs strain others (moments, rates). So σ
+/// has its minimum between the edges. Neighbouring scales may share the minimum; often it is 0, because no run breaks any
+/// condition. Then the present springs are kept if they lie among these scales; else the geometric middle of the widest
+/// such stretch is taken. If the minimum is above 0, or a single scale has it, the cells beside it are halved down to the
+/// tolerance.
 ///
-/// No scale is recommended if the window lacks an edge, because the distance to that side is unknown. Scales with a static
-/// margin below 0 (weaker_springs.hpp) are passed over; the best of them is reported.
+/// No scale is recommended if the window lacks an edge, because the distance to that edge is unknown. Scales that a static
+/// margin below 0 rules out (weaker_springs.hpp) are passed over. The best of them is reported if it has less strain than
+/// the recommended scale.
 #pragma once
 
 #include "montecarlo/analyses/margin/margin_result.hpp"
@@ -28,7 +30,7 @@ namespace wingspread {
 
 /// The functions that a recommendation calls.
 struct RecommendationMeans {
-  double tolerance; ///< of scales, relative; the same as of the window's edges
+  double tolerance; ///< relative tolerance of scales, the same as for the window's edges
   /// Makes the runs at a new scale and stores them in MarginSearch::seen.
   std::function<void(double)> look;
   /// The static margin that rules the scale out, if any.

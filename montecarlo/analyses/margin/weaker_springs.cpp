@@ -13,7 +13,7 @@ namespace {
 constexpr std::array advised_by{MarginKind::ecss, MarginKind::nasa, MarginKind::gevs,
                                 MarginKind::aiaa};
 
-/// Adds the lowered margins of one case.
+/// Adds the static margins that the scale lowers in one case.
 void add_lowered(const Campaign& campaign, const std::vector<SceneParameter>& parameters,
                  double scale, std::vector<Shortfall>& all) {
   const Scene weaker = scaled(campaign.scene, parameters, scale);

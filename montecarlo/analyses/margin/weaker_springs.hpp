@@ -1,5 +1,5 @@
-/// Static margins of weaker springs. A deployment that succeeds by momentum does not show torque to spare at rest, so
-/// weaker springs need static margins as well.
+/// Static margins of weaker springs. A wing may deploy by momentum although its springs could not move it from rest. So
+/// successful runs alone do not justify weaker springs.
 ///
 /// If the campaign requires static margins, these bound the window like every requirement. If not, springs weaker than the
 /// present ones are ruled out when a static margin of the nominal wing (ECSS, NASA, GEVS, AIAA, with the campaign's
@@ -31,7 +31,8 @@ struct Shortfall {
                                                      const std::vector<SceneParameter>& parameters,
                                                      double scale);
 
-/// The lowest margin below 0 that rules the scale out; nothing if there is none, or for scales from 1.
+/// The lowest static margin that rules the scale out: below 0, and lower than with the present springs. Nothing if there
+/// is none, or if the scale is at least 1.
 [[nodiscard]] std::optional<Shortfall> shortfall_at(std::span<const Campaign> campaigns,
                                                     const std::vector<SceneParameter>& parameters,
                                                     double scale);

@@ -19,14 +19,14 @@ bool share_any(const Failing& a, const Failing& b) {
   return std::ranges::any_of(a, [&](std::size_t condition) { return b.contains(condition); });
 }
 
-/// (1)
+/// Whether a cell may contain an edge of the window, by (1).
 bool may_hold_edge(const Failing& a, const Failing& b) {
   return !(a.empty() && b.empty()) && !share_any(a, b);
 }
 
 bool differ(const Failing& a, const Failing& b) { return a != b; }
 
-/// (2)
+/// Whether the search must go on beyond this end, by (2).
 bool is_open(const Looks& looks, const Failing& at_end) {
   return std::ranges::none_of(at_end, [&](std::size_t condition) {
     return std::ranges::any_of(looks,
@@ -42,7 +42,7 @@ double further_up(double end, const SearchRange& range) {
   return std::min(rounded_scale(end * std::numbers::sqrt2, range.tolerance), range.highest);
 }
 
-/// The number of scales needed to halve a cell and all its parts down to the tolerance.
+/// The number of scales that halve a cell, and then all its parts, down to the tolerance.
 long most_halvings(double a, double b, double tolerance) {
   constexpr double for_rounding =
       0.01; // heuristic: rounded scales make unequal halves; 0 would count one halving too few
@@ -50,8 +50,8 @@ long most_halvings(double a, double b, double tolerance) {
   return wide <= 1 ? 0 : (1L << static_cast<int>(std::ceil(std::log2(wide) + for_rounding))) - 1;
 }
 
-/// The evaluated and possible scales, without those within cells. A closed end (2) stays closed, because more scales only
-/// add to ⋃ H: no scale follows beyond it, even before the grid is complete.
+/// The evaluated scales, the grid, and all scales by which the range may still be extended. An end where (2) is false
+/// stays so, because more scales only add to ⋃ H: the range is never extended beyond it, even before the grid is complete.
 std::vector<double> all_ends(const Looks& looks, const SearchRange& range) {
   std::set<double> scales;
   for (const auto& [scale, failing] : looks) scales.insert(scale);
@@ -88,7 +88,7 @@ private:
   /// Extends the range at open ends (2).
   void widen() {
     for (std::size_t before = 0;
-         before != looks_.size();) { // a condition that holds at one end can close the other
+         before != looks_.size();) { // a scale added at one end can make (2) false at the other
       before = looks_.size();
       while (looks_.begin()->first > range_.lowest && is_open(looks_, looks_.begin()->second))
         look(further_down(looks_.begin()->first, range_));

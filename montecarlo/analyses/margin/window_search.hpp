@@ -6,12 +6,12 @@
 ///
 ///     F(a) ∩ F(b) = ∅, not both empty,   F(s): the conditions that fail at scale s             (1)
 ///
-/// A condition that fails at both ends of a cell is taken to fail throughout the cell, which rules the cell out. Without
-/// such a condition a window may begin, end or lie within the cell. So a window narrower than a cell is found, and without
-/// a window every cell has a condition that rules it out. In that case the edges of every single condition are located
-/// too, as evidence.
+/// A condition that fails at both ends of a cell is assumed to fail throughout the cell, so no window lies in it. Without
+/// such a condition a window may begin or end in the cell, or lie within it. So the search also finds a window that is
+/// narrower than a cell. If it finds none, every cell has a condition that rules it out; then the edges of every single
+/// condition are located too, as evidence.
 ///
-/// An end of the range is not an edge. If no condition that holds further in fails there,
+/// An end of the range is not an edge. If no condition fails there that holds at another scale,
 ///
 ///     F(end) ∩ ⋃_s H(s) = ∅,    H(s): the conditions that hold at scale s                      (2)
 ///
@@ -36,7 +36,7 @@ struct SearchRange {
   double lower, upper; ///< 0 < lower < upper
   long points;         ///< of the grid, evenly by ratio, ≥ 2
   double tolerance;    ///< largest ratio of an edge's two scales, minus 1; > 0
-  /// Limits of the extension; by default there is none.
+  /// Limits of the extension. The default values allow no extension.
   double lowest = std::numeric_limits<double>::infinity(), highest = 0;
 };
 
@@ -56,8 +56,8 @@ struct Window {
 /// The scales that are always evaluated, in their order: the grid and 1.
 [[nodiscard]] std::vector<double> first_scales(const SearchRange& range);
 
-/// An upper bound of the number of scales in all, with those of the recommendation: every cell that may still be halved
-/// counts down to the tolerance. Decreases as scales are evaluated.
+/// An upper bound of the number of scales that the search and the recommendation evaluate. Every cell that is not ruled
+/// out counts as halved down to the tolerance. The bound decreases as scales are evaluated.
 /// @param looks the scales so far, first_scales() first
 [[nodiscard]] long most_looks(const Looks& looks, const SearchRange& range);
 
@@ -68,14 +68,14 @@ struct Window {
 [[nodiscard]] std::vector<Window> windows_of(const Looks& looks);
 [[nodiscard]] std::vector<Window> windows_of(const Looks& looks, std::size_t condition);
 
-/// The widest window by ratio, the lowest of equals; null without any.
+/// The widest window by ratio, the lowest of equally wide ones; null if there is no window.
 [[nodiscard]] const Window* widest(const std::vector<Window>& windows);
 
 /// The scale rounded to two digits more than the tolerance has.
 [[nodiscard]] double rounded_scale(double scale, double tolerance);
 
-/// The fewest conditions that rule out every scale: one that never holds, else two that never hold together, else all
-/// that ever fail; the lowest indices of equals. Empty if there is a window.
+/// Conditions that together rule out every evaluated scale: one that never holds, else two that never hold at the same
+/// scale, else all that fail at any scale. Of several choices the lowest indices. Empty if there is a window.
 [[nodiscard]] std::vector<std::size_t> closed_by(const Looks& looks);
 
 } // namespace wingspread

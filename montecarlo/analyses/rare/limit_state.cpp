@@ -34,11 +34,11 @@ Goal goal_for(const std::optional<OutputColumn>& column) {
   return goal;
 }
 
-/// Maps a share to a value above 0, monotonically: the identity above the knee, an exponential below it with the same
-/// value and slope there.
+/// Maps a share of any sign to a value above 0, monotonically: the identity above the knee; below, an exponential that
+/// continues it with equal value and slope.
 double positive_part(double share) {
-  // heuristic: a knee far above 0.01 hides differences between runs near the event, a much smaller one makes their g
-  // equal in double precision; neither biases the estimate, both cost runs
+  // Heuristic. A knee far above 0.01 hides differences between runs near the event. A knee far below makes g of these
+  // runs equal in double precision. Either costs runs; neither biases the estimate.
   constexpr double knee = 0.01;
   return share > knee ? share : knee * std::exp(share / knee - 1);
 }

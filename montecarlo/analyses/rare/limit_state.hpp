@@ -3,20 +3,22 @@
 ///   g < 0   the event happened
 ///   g > 0   it did not; the smaller g, the nearer the run came to the event
 ///
-/// The outcome alone decides the sign. The size only decides how many runs an estimate takes, not its limit.
+/// The outcome alone decides the sign of g, and only the sign decides the probability. The size of g decides how many
+/// runs an estimate takes.
 ///
 /// An output beyond a limit:  g = limit − value (event above) or value − limit (event below), in the output's unit. A run
 /// without the output (no deployment time, or a failed run without peaks) counts as the event, as it counts against a
 /// requirement.
 ///
-/// Not deployed:  for a deployed wing g is the least of its reserves, each as a share of the nominal wing's:
+/// Not deployed:  for a deployed wing g is the smallest of its reserves, each as a share of the nominal wing's:
 ///
-///   energy   kinetic and potential energy when the last hinge latched: the reserve against a barrier on the way (a
-///            harness stronger than its spring, with friction). For a single hinge this is the work of all torques over
-///            the travel, and a wing that stops short lacks the same quantity: g is continuous through 0
-///   time     from the last latch to t_end: a creeping wing runs out of it
-///   release  for each hinge that sticks: drive minus static friction at the stowed angle. Inertia may release the hinge
-///            without this reserve, so it is mapped to values above 0
+///   energy   kinetic and potential energy when the last hinge latches: the reserve against a barrier on the way (a
+///            harness stronger than its spring, with friction). For a single hinge this energy is the work of all
+///            torques over the travel. It tends to 0 for a wing that barely latches, as the remaining travel does for
+///            a wing that barely stops short: g is continuous at 0
+///   time     from the last latch to t_end: a creeping wing uses it up
+///   release  for each hinge that can stick at the stowed angle: drive minus static friction there. Inertia may release
+///            the hinge even if this reserve is negative, so positive values replace negative ones
 ///
 /// and for a wing that is not deployed, g is minus the largest remaining share of a hinge's travel.
 #pragma once
@@ -33,7 +35,7 @@ namespace wingspread {
 /// An event in a run.
 struct RareEvent {
   std::string output; ///< its name; empty: the event is "not deployed"
-  double limit = 0;   ///< of the output
+  double limit = 0;   ///< limit of the output, in its unit
   bool above = true;  ///< the event is a value above the limit; false: below
 };
 
@@ -54,7 +56,7 @@ public:
   [[nodiscard]] const RareEvent& event() const { return event_; }
   /// The quantities that a run must compute for the event.
   [[nodiscard]] const Goal& goal() const { return goal_; }
-  /// g of a run. NaN without the output, which counts as the event.
+  /// g of a run; NaN for a run without the output (subset_simulation counts NaN as the event).
   [[nodiscard]] double of(const Scene& scene, const Outcome& outcome) const;
   /// g as a Measure of a RunPlan, with the event as its recipe. @pre the limit state outlives it
   [[nodiscard]] Measure measure() const;
@@ -69,7 +71,7 @@ private:
   double energy_ = 1, time_ = 1; ///< reserves of the nominal wing, J and s
 };
 
-/// Rebuilds a measure from its recipe (LimitState::measure), on another process. Runs the nominal wing.
+/// Rebuilds, in another process, the measure of LimitState::measure from its recipe. Runs the nominal wing.
 /// @pre the campaign outlives the measure
 /// @throws SpecError as LimitState's constructor does
 [[nodiscard]] Measure measure_of_recipe(const Campaign& campaign, const std::string& recipe);

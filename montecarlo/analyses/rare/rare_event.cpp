@@ -13,7 +13,7 @@
 namespace wingspread {
 namespace {
 
-/// Φ(z) and 1 − Φ(z), both above 0. Beyond z = 8.2 Φ rounds to 1, so points there differ in 1 − Φ alone.
+/// Φ(z) and 1 − Φ(z), both above 0. Both are needed: beyond z = 8.2, Φ rounds to 1 and only 1 − Φ tells points apart.
 Tails unit_point(double z) {
   constexpr double least = std::numeric_limits<double>::min();
   const auto [below, above] = tails(Normal{}, z);

@@ -1,6 +1,6 @@
 /// The probability of a rare event in a campaign: independent subset simulations over its draws.
 ///
-///   z → u = Φ(z), with 1 − u → copula, quantiles → draws → run → g (limit_state.hpp)
+///   z → u = Φ(z) and 1 − u → copula, quantiles → draws → run → g (limit_state.hpp)
 #pragma once
 
 #include "montecarlo/analyses/rare/limit_state.hpp"
@@ -16,13 +16,13 @@ namespace wingspread {
 
 struct RareOptions {
   RareEvent event{};
-  long samples = 2000; ///< N of a level, a multiple of 10, ≥ 100
-  long repeats = 5;    ///< ≥ 1
+  long samples = 2000; ///< runs of a level (N), a multiple of 10, ≥ 100
+  long repeats = 5;    ///< independent subset simulations, ≥ 1
   double confidence = 0.95;
   double smallest = 1e-10;
 };
 
-/// The sampled point of the event nearest to the origin of the normal space: the most likely one met.
+/// The run of the event whose point is nearest to the origin of the normal space: the most likely one sampled.
 struct LikeliestRun {
   double distance; ///< |z|
   NormalPoint z;   ///< before the copula
@@ -32,10 +32,10 @@ struct LikeliestRun {
 };
 
 struct RareResult {
-  std::vector<SubsetEstimate> estimates; ///< the repetitions, without their points
+  std::vector<SubsetEstimate> estimates; ///< one per repeat; `inside` is empty
   RareEstimate estimate;
   std::array<long, 5> statuses{};        ///< of all runs made, in the order of Status
-  std::optional<LikeliestRun> likeliest; ///< none when the event was not met
+  std::optional<LikeliestRun> likeliest; ///< none if no sampled run has the event
 };
 
 /// @param progress called with the progress, one call at a time

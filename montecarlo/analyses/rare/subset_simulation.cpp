@@ -128,7 +128,7 @@ private:
     estimate_.probability *= share;
   }
 
-  /// Indices of c points in the event, evenly spread if ties make more.
+  /// Indices of c points with g ≤ threshold, evenly chosen if ties leave more than c.
   [[nodiscard]] std::vector<std::size_t> seeds(double threshold) const {
     std::vector<std::size_t> in;
     for (std::size_t k = 0; k < level_.g.size(); ++k)
@@ -139,7 +139,7 @@ private:
     return chosen;
   }
 
-  /// s_i, the standard deviation of each coordinate.
+  /// The standard deviation s_i of each coordinate i.
   [[nodiscard]] std::vector<double> spread(const std::vector<NormalPoint>& points) const {
     std::vector<double> s;
     for (std::size_t i = 0; i < dimensions_; ++i) {
@@ -203,7 +203,8 @@ private:
       ++moves;
     }
     const double share = static_cast<double>(moves) / static_cast<double>(at.size());
-    // Robbins-Monro; 1e3 only keeps λ finite when every move is accepted: s_i λ ≥ 1 moves freely (2)
+    // Robbins-Monro step. The bound of 1e3 keeps λ finite if every move is accepted. It is not felt: from s_i λ = 1 on,
+    // a larger λ changes no move (2).
     scale_ = std::min(1e3, scale_ * std::exp((share - aimed_at) / std::sqrt(step)));
     return moves;
   }

@@ -1,39 +1,39 @@
 /// Subset simulation: estimates of probabilities too small to count.
 ///
-/// The event is g(z) < 0, with z standard normal and independent in d dimensions. It is reached through more likely
-/// events {g ≤ b_1} ⊃ {g ≤ b_2} ⊃ …, each with about a tenth of the probability of the one before:
+/// The event is g(z) < 0, with z standard normal and independent in d dimensions. The simulation approaches it through
+/// more likely events {g ≤ b_1} ⊃ {g ≤ b_2} ⊃ …, each with about a tenth of the probability of the previous one:
 ///
 ///     P = Π P_j,    P_j = n_j / N                                                              (1)
 ///
 ///   symbol  meaning
 ///   N       number of points of a level
 ///   n_j     number of points of level j in the next event (at the last level: g < 0)
-///   c, L    number of chains of a level, and of points of a chain: c L = N, L = 1/0.1
+///   c, L    number of chains of a level, and of points of a chain: c L = N, L = 10
 ///   δ       coefficient of variation of an estimate
 ///   γ_j     increase of the variance because a chain's points are correlated
 ///
-/// The first level is plain sampling. Each later level starts c chains from points of the level before that lie in its
-/// event, and moves them by conditional sampling:
+/// The first level is plain sampling. Each later level starts c chains. Their first points (seeds) are the points of the
+/// previous level that lie in {g ≤ b_j}. Conditional sampling moves them:
 ///
 ///     z' = ρ z + √(1 − ρ²) ξ,  ξ standard normal; z' is taken if g(z') ≤ b_j, else z stays  (2)
 ///
-/// which leaves the normal law restricted to the event invariant, for any ρ_i of any coordinate. Coordinates in which the
-/// seeds lie close together move less: 1 − ρ_i² = min(1, λ s_i)², s_i the seeds' standard deviation. λ is adapted so that
-/// 44 % of the moves are accepted.
+/// This leaves the normal law restricted to {g ≤ b_j} invariant, and each coordinate may have a ρ_i of its own.
+/// Coordinates in which the seeds lie close together move less: 1 − ρ_i² = min(1, λ s_i)², with s_i the seeds' standard
+/// deviation. λ is adapted so that 44 % of the moves are accepted.
 ///
 ///     δ² = Σ δ_j²,  δ_j² = (1 − P_j)/(P_j N) (1 + γ_j)                                      (3)
 ///     γ_j = 2 Σ_k (1 − k/L) r_j(k)                                                          (4)
 ///
-/// with r_j(k) the correlation along the chains at distance k.
+/// with r_j(k) the correlation between points of a chain that are k steps apart.
 ///
-/// Bias: the estimate is too large on average by about 0.4 δ² (δ of one repetition, relative to P), because thresholds and
-/// shares come from the same points. Measured on events of known probability 8e-4: +1.6 ± 0.9 % with N = 2000, +4.7 ± 1.2 %
-/// with N = 500. The mean of repetitions has the same bias; it decreases as 1/N. Adapting λ within a level is not the
-/// cause: with λ fixed per level it was +3.9 ± 1.3 %.
+/// Bias: on average the estimate exceeds P by about 0.4 δ² P (δ of one repetition), because thresholds and shares come
+/// from the same points. Measured on events of known probability 8e-4: +1.6 ± 0.9 % with N = 2000, +4.7 ± 1.2 % with
+/// N = 500. The bias decreases as 1/N; averaging repetitions does not reduce it. Adapting λ within a level is not the
+/// cause: with λ fixed per level the bias was +3.9 ± 1.3 %.
 ///
 /// Sources: S.-K. Au, J. L. Beck, Probabilistic Engineering Mechanics 16 (2001) 263–277: (1), (3),
 /// (4); I. Papaioannou, W. Betz, K. Zwirglmaier, D. Straub, ibid. 41 (2015) 89–103: (2), and 44 %.
-/// (3) neglects the correlation between chains with similar seeds. Independent repetitions include it.
+/// (3) neglects the correlation between chains with similar seeds; the spread of independent repetitions includes it.
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"
@@ -48,13 +48,13 @@ namespace wingspread {
 
 using NormalPoint = std::vector<double>; ///< z
 
-/// g of each point: < 0 in the event, and decreasing towards it elsewhere. Any g with the right sign gives a correct
-/// estimate; one that decreases towards the event needs fewer runs. NaN counts as the event.
+/// Returns g of each point. g < 0 means the event; NaN counts as the event. Any g with the right sign gives a correct
+/// estimate; a g that decreases towards the event needs fewer runs.
 using LimitStateFunction = std::function<std::vector<double>(std::span<const NormalPoint>)>;
 
 struct SubsetOptions {
   long samples = 1000;     ///< N, a multiple of 10, ≥ 100
-  double smallest = 1e-10; ///< stop at probabilities below this
+  double smallest = 1e-10; ///< no further level once a level's probability is at most this
   std::uint64_t seed = 1;
   std::uint64_t repetition = 0; ///< repetitions with different numbers are independent
 };
@@ -69,22 +69,24 @@ struct SubsetLevel {
 };
 
 struct SubsetEstimate {
-  /// P. If the event was not reached: the probability of the last level, which contains the event; estimated upper bound,
-  /// not guaranteed
+  /// P. If the event was not reached: the probability of the last level. The level contains the event, so this is an
+  /// estimated upper bound, not guaranteed.
   double probability = 0;
   double variation = 0; ///< δ
-  bool reached = false; ///< whether points lie in the event
+  bool reached = false; ///< whether points of the last level lie in the event
   bool stuck = false;   ///< g is equal at the points of the last level, so no further level exists
   long evaluations = 0; ///< of g
   std::vector<SubsetLevel> levels;
   std::vector<NormalPoint> inside; ///< the last level's points in the event
 };
 
-/// One subset simulation. Pure if g is. g is called with all points of a step: N of the first level, c of every other.
+/// One subset simulation. Pure if g is. Calls g with all points of a step at once: N points for the first level, then c
+/// points for each step of the chains.
 [[nodiscard]] SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
                                                const SubsetOptions& options);
 
-/// An upper bound of the evaluations, unless many points have the same g.
+/// An upper bound of the number of evaluations of g, unless many points have equal g: then a level divides the
+/// probability by less than 10.
 [[nodiscard]] long most_evaluations(const SubsetOptions& options);
 
 /// The combined estimate of independent repetitions.
@@ -92,9 +94,9 @@ struct RareEstimate {
   double probability = 0; ///< their mean
   double variation = 0;   ///< coefficient of variation of the mean: the larger of the next two
   double from_chains = 0; ///< by (3)
-  double from_spread = 0; ///< from the spread of the repetitions; NaN for one
+  double from_spread = 0; ///< from the spread of the repetitions; NaN for a single repetition
   Interval interval;      ///< of P
-  bool reached = false;   ///< by all
+  bool reached = false;   ///< whether every repetition reached the event
   /// Relative bias of the mean (see above); 0 for plain sampling.
   double bias = 0;
   long evaluations = 0;
@@ -105,9 +107,10 @@ struct RareEstimate {
   }
 };
 
-/// The mean of the estimates. Its interval is P exp(± q δ), the wider of two: δ by (3) with the normal quantile q, or from
-/// the spread with Student's. If one repetition did not reach the event, there is only an estimated upper bound.
-/// @pre at least one
+/// The mean of the estimates. Its interval is P exp(± q δ), the wider of two: δ by (3) with the normal quantile q, and δ
+/// from the spread with Student's. If any repetition did not reach the event, the interval starts at 0 and its upper end
+/// is estimated, not guaranteed.
+/// @pre at least one estimate
 [[nodiscard]] RareEstimate combined(std::span<const SubsetEstimate> estimates, double confidence);
 
 } // namespace wingspread

@@ -17,13 +17,13 @@
 namespace wingspread {
 namespace {
 
-/// Adds up the tallies of all cases, which are run one after the other.
+/// Adds up the tallies of the cases, which run one after the other.
 class OverallTally {
 public:
-  /// @param runs of all cases together
+  /// @param runs number of runs of all cases together
   explicit OverallTally(long runs) : ended_{.total = runs} {}
 
-  /// All cases so far. @param own of the case that is running
+  /// The tally of all cases so far. @param own the tally of the case that is running
   [[nodiscard]] Tally with(const Tally& own) const {
     Tally all = ended_;
     all.done += own.done;
@@ -34,7 +34,7 @@ public:
     all.timed_out += own.timed_out;
     return all;
   }
-  /// A case has ended, perhaps before its last run (`until`).
+  /// Adds a case that has ended. If `until` ended it early, the total loses the runs that were not made.
   void add_case(const Tally& own) {
     ended_ = with(own);
     ended_.total -= own.total - own.done;
@@ -44,8 +44,8 @@ private:
   Tally ended_; ///< counts of the cases that have ended; the total is that of all cases
 };
 
-/// Counts the runs that a folder has before the first one of this session.
-/// @return false when it was stopped before that: streaming statistics begin with a pilot
+/// Counts the runs that a folder already has, before run_folder makes the others. For streaming statistics it makes the
+/// pilot runs of a new folder first. @return false if the evaluator was stopped during the pilot
 bool count_earlier_runs(const FolderWriter& folder, Evaluator& /*evaluator*/, Tally& tally) {
   const Results& results = folder.results();
   tally.done = std::ssize(results.runs);
@@ -95,7 +95,8 @@ Summary write_folder_statistics(const StreamingFolder& folder, int /*threads*/) 
                                     folder.stored().campaign.statistics);
 }
 
-/// Makes the runs and the statistics of one results folder. @return false when they were interrupted
+/// Makes the runs and the statistics of one results folder. @return false if the runs were interrupted, or the
+/// statistics were left for later
 template <class Folder>
 bool run_folder(const Campaign& campaign, const std::filesystem::path& out,
                 const RunRequest& request, const RunCallbacks& callbacks, OverallTally& overall,
@@ -126,7 +127,7 @@ CampaignResults run_cases(const RunRequest& request, const RunCallbacks& callbac
   const Campaign& campaign = request.campaign;
   const std::vector<CaseSpec> chosen = chosen_cases(campaign, request.cases);
   const CasesFolder folder(request.out, campaign, request.shard, request.resume);
-  std::filesystem::remove(request.out / cases_file); // it compares runs that are about to change
+  std::filesystem::remove(request.out / cases_file); // the cases compared there will change
   OverallTally overall(std::ssize(chosen) *
                        shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;
@@ -153,7 +154,7 @@ std::string describe(const RunsKept& runs) {
 CampaignResults run_campaign(const RunRequest& request, const RunCallbacks& callbacks) {
   const Campaign& campaign = request.campaign;
   if (!request.streaming && !campaign.cases.empty()) return run_cases(request, callbacks);
-  if (campaign.cases.empty()) (void)chosen_cases(campaign, request.cases); // refuses any name
+  if (campaign.cases.empty()) (void)chosen_cases(campaign, request.cases); // no case may be named
   OverallTally overall(shard_runs(campaign.sampling.runs, request.shard).size());
   CampaignResults results;
   const auto run = request.streaming ? run_folder<StreamingFolder> : run_folder<FolderWriter>;

@@ -21,7 +21,7 @@ namespace wingspread {
 
 /// Says which campaign to run, where and how.
 struct RunRequest {
-  Campaign campaign; ///< with all changes that options make to it
+  Campaign campaign; ///< after all changes by options
   std::filesystem::path out;
   std::vector<std::string> cases{}; ///< names of the cases to run; empty: all
   std::optional<Shard> shard{};
@@ -39,19 +39,20 @@ struct RunsKept {
 /// "500 of 2000 runs of case hot are kept".
 [[nodiscard]] std::string describe(const RunsKept& runs);
 
-/// How the caller follows and stops a run. run_campaign calls all of them; none may be empty.
+/// How the caller follows and stops a run. None of these functions may be empty.
 struct RunCallbacks {
-  /// A results folder is open and its first run is about to begin.
-  /// @return the flag that, once true, stops the runs; it lives until the next call or the end of run_campaign
+  /// Called when a results folder is open and its first run is about to begin.
+  /// @return a flag that stops the runs once it is true; it must live until the next call or the end of run_campaign
   std::function<const std::atomic<bool>&()> begin_runs;
-  /// Runs were made; the tally is that of all cases. Called on one thread at a time, any of the pool's.
+  /// Called with the tally over all cases, before a folder's first batch and after every batch. Calls come one at a time,
+  /// from any thread of the pool.
   std::function<void(const Tally&)> show_progress;
-  /// The folder's runs are on disk; only its statistics are missing, and `analyze` can make them later.
-  /// @return whether to make them now
+  /// Called when the folder's runs are on disk and only its statistics are missing.
+  /// @return whether to make the statistics now; `wingspread analyze` can make them later
   std::function<bool(const RunsKept&)> begin_statistics;
 };
 
-/// A results folder and its statistics, which are on disk too.
+/// A results folder and its statistics; both are on disk.
 struct FolderResults {
   StoredCampaign stored;
   Summary summary;
@@ -61,14 +62,14 @@ struct CampaignResults {
   std::vector<FolderResults>
       folders; ///< the folders run in this session whose statistics were made
   std::optional<RunsKept> interrupted; ///< the folder in which the run ended early
-  /// With cases, when the run was not interrupted: the outer folder, and all cases that have a folder.
+  /// Only for a campaign with cases that was not interrupted: the outer folder, and all cases that have a folder.
   std::optional<StoredCampaign> whole;
   std::vector<CaseSummary> cases;
 };
 
 /// Runs a campaign into `request.out`.
-/// @throws SpecError when the request is refused, with nothing written; MachineError when the machine refuses,
-///   with what is done kept
+/// @throws SpecError for a wrong request, before anything is written; MachineError if the machine lacks room, memory or
+///   permission (the finished runs stay on disk)
 [[nodiscard]] CampaignResults run_campaign(const RunRequest& request,
                                            const RunCallbacks& callbacks);
 

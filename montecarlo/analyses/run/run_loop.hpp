@@ -12,7 +12,7 @@ namespace wingspread {
 /// Counts rows by their status into the tally.
 void count_rows(const Batch& batch, Tally& tally);
 
-/// Rows kept in memory: what FolderWriter is for a results folder.
+/// Collects rows in memory, with the functions of FolderWriter that make_runs calls.
 class RowsInMemory {
 public:
   static constexpr bool wants_csv = false;
@@ -31,11 +31,11 @@ private:
   Results results_;
 };
 
-/// Makes the runs that `rows` still lacks. A campaign that may stop early makes them up to its next checkpoint, then
-/// asks `rows` again.
+/// Makes the runs that `rows` still lacks. For a campaign that may stop early, `rows.remaining()` ends at the next interim
+/// analysis and is asked again after it.
 /// @param rows  FolderWriter, StreamingFolder or RowsInMemory
 /// @param tally counts of the runs that `rows` has already; updated with every batch
-/// @param show  is given the tally after every batch, on one thread at a time
+/// @param show  called with the tally after every batch, one call at a time
 /// @return whether the evaluator was stopped before the last run
 template <class Rows, class Show>
 bool make_runs(Rows& rows, const RunPlan& plan, Evaluator& evaluator, Tally& tally,

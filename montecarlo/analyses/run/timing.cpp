@@ -22,7 +22,7 @@ std::string host_name() {
   return gethostname(name, sizeof name - 1) == 0 ? name : "";
 }
 
-/// The library that computes exp, log and sin: results are the same bytes only with the same one.
+/// The library that computes exp, log and sin. Only machines with the same library give the same bytes.
 std::string math_library() {
 #ifdef __GLIBC__
   return fmt::format("glibc {}", gnu_get_libc_version());

@@ -20,7 +20,7 @@ struct SessionTiming {
 void write_timing(const std::filesystem::path& folder, const SessionTiming& timing,
                   const ThreadPool& pool, const Evaluator& evaluator);
 
-/// Adds to timing.json how many runs and seconds the estimate of accuracy took; nothing without such an estimate.
+/// Adds to timing.json how many runs and seconds the accuracy estimate took; does nothing if the summary has none.
 void add_accuracy_timing(const std::filesystem::path& folder, const Summary& summary);
 
 } // namespace wingspread

@@ -15,7 +15,7 @@
 namespace wingspread {
 namespace {
 
-/// The part of design.json under the hash.
+/// The part of design.json that its hash covers.
 Json body(const SaltelliDesign& design) {
   return {{"samples", design.rows}, {"campaign", design.campaign.resolved}};
 }

@@ -3,7 +3,7 @@
 ///   design.json       the campaign in full, the number of rows, version and hash
 ///   design_runs.csv   a row for each run, as in a campaign's runs.csv
 ///
-/// Its runs depend on each other and are no sample of the campaign, so the folder is not a results folder.
+/// The runs of a design depend on each other and are no sample of the campaign, so the folder is not a results folder.
 #pragma once
 
 #include "montecarlo/analyses/sensitivity/saltelli.hpp"
@@ -33,7 +33,7 @@ struct SaltelliDesign {
 /// The runs of the design or its shard. @throws SpecError on overflow
 [[nodiscard]] RunRange runs_of(const SaltelliDesign& design);
 
-/// Whether the folder contains a design and no campaign's results.
+/// Whether the folder contains a design and no results of a campaign.
 [[nodiscard]] bool is_design_folder(const std::filesystem::path& folder);
 
 /// design.json's text.
@@ -53,7 +53,7 @@ struct SaltelliDesign {
                                            long first = 0);
 
 /// Calls `take` with each row. @param own the runs that the folder may have
-/// @throws SpecError if the file is broken or has another run
+/// @throws SpecError if the file is broken or has a run outside `own`
 void for_each_design_row(const std::filesystem::path& folder, const RunPlan& plan, RunRange own,
                          const std::function<void(const ResultRow&)>& take);
 
@@ -63,8 +63,8 @@ void for_each_design_row(const std::filesystem::path& folder, const RunPlan& pla
 /// Appends to design_runs.csv; an interrupted folder can be resumed.
 class DesignFolderWriter {
 public:
-  /// @param resume the folder may have the same design by the same version; else it must be new or empty
-  /// @throws SpecError otherwise; MachineError if another process has locked it, or it cannot be written
+  /// @param resume true: the folder may already have this design, made by the same version; false: it must be new or empty
+  /// @throws SpecError for any other content; MachineError if another process has locked the folder, or cannot write it
   DesignFolderWriter(const std::filesystem::path& folder, const SaltelliDesign& design,
                      const RunPlan& plan, bool resume);
 

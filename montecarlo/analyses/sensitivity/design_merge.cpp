@@ -10,7 +10,7 @@
 namespace wingspread {
 namespace {
 
-/// An interrupted merge of the same design is repeated; any other content is refused.
+/// Refuses a folder with content, unless it is an interrupted merge of the same design, which is then repeated.
 void refuse_other_folder(const std::filesystem::path& out, const SaltelliDesign& whole) {
   if (read_text(out / design_file) != design_text(whole))
     refuse_used_folder(out, "a new or an empty folder for the merged runs");

@@ -12,7 +12,7 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t most_lines = 8; ///< of an output's table
+constexpr std::size_t most_lines = 8; ///< lines of an output's table
 
 /// Indices of the dispersions, the largest size first, NaN last.
 std::vector<std::size_t> by_size(std::size_t count,

@@ -15,7 +15,7 @@
 namespace wingspread {
 namespace {
 
-/// The definition of the bounds for the design of the runs.
+/// Says in words how the bounds were computed, which depends on the campaign's design.
 std::string bounds_definition(const RankSensitivity& all) {
   if (all.replicates == 1) return std::string(one_replicate);
   if (all.replicates > 1)

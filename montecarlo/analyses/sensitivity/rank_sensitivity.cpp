@@ -14,8 +14,9 @@
 namespace wingspread {
 namespace {
 
-/// Heuristic: R² of a dispersion by the others from which `collinear` names it. With a smaller value chance names
-/// independent dispersions of small campaigns; with a larger one half of an effect goes unmentioned.
+/// Heuristic: `collinear` names a dispersion if the others explain at least this share (R²) of its variance. With a
+/// smaller value it names independent dispersions of small campaigns by chance. With a larger value, dispersions that
+/// share half of their variance with others go unmentioned.
 constexpr double most_explained = 0.5;
 constexpr int all_threads = 0;
 
@@ -70,7 +71,7 @@ private:
 
 using Coefficients = RankedDraws::Coefficients;
 
-/// The independent groups of runs for the jackknife.
+/// The independent groups of runs for the jackknife: the replicates of a design, or parts of independent draws.
 class Groups {
 public:
   Groups(const Replication& replication, std::size_t rows) : replication_(replication) {
@@ -95,7 +96,7 @@ private:
   int count_;
 };
 
-/// The coefficients of one output: over all its runs, and without each group.
+/// The coefficients of one output: over all its runs, and over the runs without each group.
 struct Found {
   long count = 0, held = 0;
   Coefficients all;
@@ -133,8 +134,8 @@ private:
     return jackknife_correlation_bounds((found.all.*kind)[j], without, confidence);
   }
 
-  /// Whether a coefficient differs from 0: for independent draws by Fisher's z in standard errors under ρ = 0; for
-  /// replicates by its bounds, true without bounds.
+  /// Whether a coefficient differs significantly from 0. For independent draws Fisher's z, in its standard errors under
+  /// ρ = 0, decides; for replicates the bounds decide, and without bounds the answer is true.
   [[nodiscard]] bool seen(const Found& found, std::size_t j) const {
     if (independent_)
       return standard_errors(found.all.spearman[j], found.count) > two_sided_normal(sure_) ||
@@ -157,7 +158,7 @@ private:
   double confidence_, sure_;
 };
 
-/// The coefficients of the outputs that are present in the same runs.
+/// The coefficients of outputs that have values in the same runs.
 std::vector<Found> coefficients(const std::vector<RankedColumn>& draws,
                                 const std::vector<const RankedColumn*>& outputs, const Rows& keep,
                                 const Groups& groups, bool& entangled) {
@@ -217,7 +218,7 @@ RankSensitivity rank_sensitivity(const Results& results, double confidence, cons
   const std::vector<RankedColumn> draws = ranked(drawn), ranks = ranked(outputs);
   Rows with_draws(results.size(), true); // an overflowed draw is NaN
   for (const Column* draw : drawn) keep_runs_with(*draw, with_draws);
-  std::map<Rows, std::vector<std::size_t>> together; // most outputs are present in the same runs
+  std::map<Rows, std::vector<std::size_t>> together; // most outputs have values in the same runs
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     Rows keep = with_draws;
     keep_runs_with(*outputs[i], keep);

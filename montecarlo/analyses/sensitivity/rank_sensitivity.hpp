@@ -11,7 +11,8 @@
 
 namespace wingspread {
 
-/// NaN without bounds if a column does not vary or has too few runs. No bounds either if all runs are of one replicate.
+/// A correlation with its bounds: NaN without bounds if a column is constant or has too few runs. If all runs belong to
+/// one replicate, there are no bounds either.
 struct Coefficient {
   double value;
   Bounds bounds;
@@ -27,7 +28,7 @@ struct OutputRanks {
   std::string output;
   long count = 0, missing = 0;     ///< runs with a value, and without one (left out)
   std::vector<RankEffect> effects; ///< per dispersion, in the campaign's order
-  bool entangled = false;          ///< two dispersions rank the runs alike: no partial coefficients
+  bool entangled = false;          ///< ranks are linearly dependent: no partial coefficients
 };
 
 struct RankSensitivity {
@@ -41,18 +42,19 @@ struct RankSensitivity {
   /// Dispersions that vary without a visible effect: none of their coefficients differs from 0 at the confidence shared
   /// over all outputs (Bonferroni).
   std::vector<std::string> idle;
-  /// Dispersions whose ranks depend on the other dispersions' (R² ≥ 0.5). Partial coefficients omit their joint effect.
+  /// Dispersions whose ranks are explained by those of the others (R² ≥ 0.5). Partial coefficients omit their joint effect.
   std::vector<std::string> collinear;
 };
 
-/// The properties of the runs that the bounds depend on.
+/// How the runs were made, as far as the bounds depend on it.
 struct RunsMade {
   Replication replication{};
   long looks = 1; ///< number of interim analyses at which the campaign could stop
 };
 
-/// The coefficients of all outputs with all dispersions. Bounds: for independent draws Spearman's by rank_correlation.hpp
-/// and the partial ones' by the jackknife over parts of the runs; for replicates all by the jackknife over these. Pure.
+/// The coefficients of all outputs with all dispersions. Pure.
+/// Bounds for independent draws: by rank_correlation.hpp for Spearman's coefficient, by the jackknife over parts of the
+/// runs for the partial one. Bounds for replicates: by the jackknife over the replicates.
 ///
 /// Cost for n runs and k dispersions: O(n k²) once per group of outputs present in the same runs, O(n k) per output; times
 /// 17 for the jackknife (16 parts and the whole), or times the replicates plus one.

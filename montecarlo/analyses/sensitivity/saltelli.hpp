@@ -1,8 +1,8 @@
 /// The design for Sobol' indices: N rows of d + 2 points each, as runs of a campaign.
 ///
-/// In each row the points A and B are one point of a 2d-dimensional design of the campaign's kind
-/// and seed: A's coordinates are the campaign's own, so that with independent draws A of row k is
-/// the campaign's run k. Which point of which row a run is: sobol_indices.hpp.
+/// The points A and B of a row are together one point of a 2d-dimensional design, of the campaign's kind and seed. A has
+/// the campaign's own coordinates: with independent draws, A of row k is the campaign's run k. SaltelliPoint
+/// (sobol_indices.hpp) says which point of which row a run is.
 #pragma once
 
 #include "montecarlo/engine/runs/run_plan.hpp"
@@ -12,7 +12,7 @@ namespace wingspread {
 /// The number of runs, N (d + 2). @throws SpecError on overflow
 [[nodiscard]] long saltelli_runs(long rows, std::size_t dispersions);
 
-/// The number of replicates of the rows: the campaign's, at most N.
+/// The number of replicates of the rows: that of the campaign, but at most N and at least 1.
 [[nodiscard]] long saltelli_replicates(const Sampling& sampling, long rows);
 
 /// The run plan of the design.

@@ -23,14 +23,14 @@ bool is_incomplete(std::span<const double> row) {
   return std::ranges::any_of(row, [](double value) { return std::isnan(value); });
 }
 
-/// A row's terms of the sums (1) and (2) for one dispersion.
+/// One row's terms of the sums (1) and (2), for one dispersion.
 struct Terms {
   double product; ///< f_B (f_ABi − f_A)
   double change;  ///< f_ABi − f_A
   double square;  ///< its square
 };
 
-/// The terms of all rows; f minus its mean over all rows.
+/// The terms of all rows. f is the output minus its mean over all rows.
 struct Table {
   std::vector<double> sum, square; ///< f_A + f_B and f_A² + f_B² of each row
   std::vector<Terms> terms;        ///< by row, then dispersion
@@ -56,8 +56,8 @@ struct Estimate {
   double first, total;
 };
 
-/// (1) and (2) of all dispersions over the listed rows, which may repeat. f_B is centred on the listed rows' own mean m:
-/// Σ (f_B − m)(f_ABi − f_A).
+/// (1) and (2) of all dispersions over the listed rows, which may repeat. For (1) the mean m over the listed rows is
+/// subtracted from f_B: Σ (f_B − m)(f_ABi − f_A).
 std::vector<Estimate> estimates(const Table& table, std::span<const std::size_t> rows) {
   const double n = static_cast<double>(rows.size());
   std::vector<Terms> sums(table.dispersions, Terms{0, 0, 0});
@@ -83,7 +83,7 @@ std::vector<Estimate> estimates(const Table& table, std::span<const std::size_t>
 
 /// Draws row numbers with replacement.
 void resample(std::uint64_t seed, long number, std::vector<std::size_t>& rows) {
-  // a control character: no dispersion has this name
+  // the stream's name has a control character, which no dispersion's name may contain
   RandomStream stream(seed, static_cast<std::uint64_t>(number),
                       stream_name("\x7F"
                                   "bootstrap"));
@@ -98,7 +98,7 @@ Bounds percentiles(const std::vector<double>& values, double confidence) {
   return {quantile(sorted, tail), quantile(sorted, 1 - tail)};
 }
 
-/// The estimates of all dispersions for several choices of rows.
+/// The estimates of all dispersions, for each of several selections of rows.
 using Choices = std::vector<std::vector<Estimate>>;
 
 Choices resampled(const Table& table, std::size_t rows, const SobolBounds& how) {
@@ -111,7 +111,7 @@ Choices resampled(const Table& table, std::size_t rows, const SobolBounds& how) 
   return all;
 }
 
-/// The estimates without each replicate in turn; empty if there are fewer than two replicates.
+/// The estimates that leave out each replicate in turn; empty if there are fewer than two replicates.
 Choices without_each(const Table& table, std::size_t rows, std::size_t replicates) {
   Choices all;
   if (replicates < 2 || rows < replicates) return all;

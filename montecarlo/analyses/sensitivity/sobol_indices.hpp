@@ -7,7 +7,7 @@
 ///   f        an output at a point, minus its mean over all A and B
 ///   V        its variance over all A and B, divisor 2N
 ///   S_i      first-order index: the share of V that x_i causes alone
-///   S_Ti     total index: the share that remains when all but x_i are known: S_i plus x_i's interactions
+///   S_Ti     total index: the share of V that remains when all but x_i are known: S_i plus the interactions of x_i
 ///
 ///   S_i  = mean of f_B (f_ABi − f_A) / V                                                      (1)
 ///   S_Ti = mean of (f_A − f_ABi)² / 2V                                                        (2)
@@ -17,8 +17,8 @@
 /// without effect. Bounds: percentile bootstrap over independent rows; for dependent rows the jackknife over the replicates
 /// of the design (jackknife.hpp).
 ///
-/// An output with a missing value has no indices. Dropping the affected rows is no remedy: 2 % missing points of 26 per row
-/// take 41 % of the rows, and the inputs of the rest are not independent, so the variance has no shares.
+/// An output with a missing value has no indices. Dropping the affected rows is no remedy: with 26 points per row, 2 %
+/// missing points affect 41 % of the rows. In the other rows the inputs are not independent, so the variance has no shares.
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"
@@ -56,7 +56,7 @@ struct SobolIndex {
 
 struct SobolEffect {
   SobolIndex first, total;
-  bool inert = true; ///< f_ABi equals f_A bit for bit (or both are missing) in all rows
+  bool inert = true; ///< in all rows f_ABi equals f_A bit for bit, or both are missing
 };
 
 struct SobolIndices {

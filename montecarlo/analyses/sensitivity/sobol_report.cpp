@@ -14,7 +14,7 @@
 namespace wingspread {
 namespace {
 
-/// The definition of the bounds for the design of the rows.
+/// Says in words how the bounds were computed, which depends on whether the rows are independent.
 std::string bounds_definition(const SobolBounds& how) {
   if (how.replicates == 1) return std::string(one_replicate);
   if (how.replicates > 1)

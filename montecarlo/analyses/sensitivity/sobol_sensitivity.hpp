@@ -12,7 +12,7 @@ namespace wingspread {
 /// Sobol' indices of all outputs of a design.
 struct SobolSensitivity {
   long rows = 0;  ///< N
-  long runs = 0;  ///< number of runs made, of N (d + 2)
+  long runs = 0;  ///< number of runs made so far
   long total = 0; ///< N (d + 2)
   std::string design;
   SobolBounds bounds;
@@ -22,7 +22,7 @@ struct SobolSensitivity {
     SobolIndices indices;
   };
   std::vector<Output> outputs;
-  /// Dispersions without any effect: every output of every row is the same without them, bit for bit.
+  /// Dispersions without any effect: changing them alone changes no bit of any output, in any row.
   [[nodiscard]] std::vector<std::string> idle() const;
 };
 

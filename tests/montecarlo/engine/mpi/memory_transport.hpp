@@ -1,4 +1,4 @@
-/// A transport between the threads of a test, each of which plays a rank.
+/// A transport between the threads of a test; each thread stands for a rank.
 #pragma once
 
 #include "montecarlo/analyses/rare/limit_state.hpp"
@@ -14,7 +14,7 @@
 
 namespace wingspread::test {
 
-/// Where messages lie until they are taken, by rank.
+/// Sent messages that no rank has received yet, by rank.
 struct Mailboxes {
   explicit Mailboxes(int ranks) : waiting(static_cast<std::size_t>(ranks)) {}
   std::mutex mutex;
@@ -45,7 +45,7 @@ private:
   int rank_;
 };
 
-/// A job: the test is rank 0, and there is a thread for each of the others.
+/// An MPI job: the test is rank 0, and each other rank is a thread.
 class Job {
 public:
   /// @param stop_others once true, as if a signal had come to the others

@@ -1,4 +1,4 @@
-/// For the tests of the page's data: sets of runs that were never made, and some that were.
+/// For the tests of the page's data: sets of invented rows, and sets of real runs.
 #pragma once
 
 #include "montecarlo/report/data/page_source.hpp"
@@ -14,7 +14,7 @@ inline Column column_of(std::string name, const std::vector<double>& values) {
   return {std::move(name), Spilled<double>(values)};
 }
 
-/// A set of these rows of a campaign, as read_page_source works it out of a folder.
+/// A set with the given rows of a campaign, as read_page_source would read it from a folder.
 inline std::unique_ptr<PageSource> source_of(const Campaign& campaign, Results results) {
   auto source = std::make_unique<PageSource>();
   source->label = "set";
@@ -28,7 +28,7 @@ inline std::unique_ptr<PageSource> source_of(const Campaign& campaign, Results r
   return source;
 }
 
-/// A campaign's runs, made.
+/// Makes a campaign's runs, and returns the set of them.
 inline std::unique_ptr<PageSource> made(const Json& json) {
   const Campaign campaign = campaign_of(json);
   return source_of(campaign, rows_of(RunPlan(campaign), {0, campaign.sampling.runs}));
