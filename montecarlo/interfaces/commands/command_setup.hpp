@@ -16,7 +16,7 @@ namespace wingspread {
 /// @param run         carries the command out: int(const Options&), the exit status
 template <class Options, class AddOptions, class Run>
 void add_command(CLI::App& app, Action& action, const char* name, const char* description,
-                 const AddOptions& add_options, const Run& run) {
+                 AddOptions add_options, Run run) {
   const auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(name, description);
   add_options(command, *options);
