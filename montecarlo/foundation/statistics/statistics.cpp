@@ -94,8 +94,8 @@ std::vector<double> sorted_present(std::span<const double> values) {
 void sort_values(std::span<double> values) {
   boost::sort::pdqsort_branchless(values.begin(), values.end());
   // −0 and 0 are equal to the comparison: put −0 first, so that the sign of a minimum does not depend on the rows' order.
-  std::ranges::partition(std::ranges::equal_range(values, 0.0),
-                         [](double zero) { return std::signbit(zero); });
+  const auto [first, last] = std::equal_range(values.begin(), values.end(), 0.0);
+  std::partition(first, last, [](double zero) { return std::signbit(zero); });
 }
 
 long quantile_rank(long n, double p) {
