@@ -7,8 +7,8 @@
 
 namespace wingspread {
 
-/// A text that identifies these runs: the campaign's hash, the range, and a hash of the outputs kept and of the draws of
-/// the first and last run. The draws are included because a study may place runs at points of its own.
+/// A text that identifies these runs: the campaign's hash, the range, and a hash of the outputs kept and of the draws
+/// of the first and last run. The draws are included because a study may place runs at points of its own.
 [[nodiscard]] std::string analysis_id(const RunPlan& plan, RunRange range);
 
 } // namespace wingspread

@@ -2,8 +2,8 @@
 /// interrupted study can continue.
 ///
 /// A study asks for runs in a sequence of analyses, and each analysis depends on the rows before. The study is
-/// deterministic: if it receives the recorded rows again, in the same order, it asks for the same analyses. A checkpoint
-/// takes 40 to 150 bytes per run and is read in constant memory.
+/// deterministic: if it receives the recorded rows again, in the same order, it asks for the same analyses. A
+/// checkpoint takes 40 to 150 bytes per run and is read in constant memory.
 ///
 ///   record 1     JSON: which study the checkpoint belongs to
 ///   'L' · text   an analysis begins (analysis_id.hpp)
@@ -77,7 +77,7 @@ private:
   Json about_;
   std::optional<RecordReader> in_; ///< while unused records are left
   std::optional<RecordWriter> out_;
-  std::optional<RecordsEnd> end_; ///< end of the valid records, where to append; set once all are read
+  std::optional<RecordsEnd> end_; ///< of the valid records, where to append; set once all are read
   Clock::time_point synced_ = Clock::now();
   long analyses_ = 0, rows_ = 0, read_ = 0;
   bool damaged_ = false;

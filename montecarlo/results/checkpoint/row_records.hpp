@@ -3,8 +3,8 @@
 ///   'R' · first run i64 · count u32 · sum of the draws u64, then for each row
 ///   status u8 · peaks_final i8 (−1: no such column) · outputs f64… · size u32, latch_order · size u32, reason
 ///
-/// Draws are not stored: they are a pure function of plan and run, and are computed again on reading. The checksum shows
-/// whether they have the same bits, i.e. whether the rows belong to this plan and were made on the same kind of machine.
+/// Draws are not stored: they are a pure function of plan and run, and are computed again on reading. Their checksum
+/// shows whether the rows belong to this plan, and were made where draws have the same bits.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
