@@ -22,8 +22,8 @@ double sum_of_row(const Eigen::MatrixXd& A, int i, const ModalBounds::ModeVector
   return sum;
 }
 
-/// A⁻¹ by Gauss and Jordan's elimination with pivots; not finite where A is singular. For the few
-/// hinges of a wing a library's LU costs six times as much (callgrind, three hinges).
+/// A⁻¹ by Gauss and Jordan's elimination with pivots; not finite where A is singular. Like `product`
+/// without a library's blocks.
 Eigen::MatrixXd inverse_of(Eigen::MatrixXd A) {
   const auto n = static_cast<int>(A.rows());
   ModalBounds::ModeVector column(n);

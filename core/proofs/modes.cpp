@@ -126,7 +126,7 @@ std::optional<Complex> Modes::converge_from(const RestModel& model, Complex valu
 }
 
 void Modes::improve(const RestModel& model, Complex& value) {
-  // Loops over a number of hinges that the compiler knows take half the instructions (callgrind).
+  // Three hinges take 45 % fewer instructions where the compiler knows their number (callgrind).
   using std::integral_constant;
   switch (model.size()) {
   case 1:
@@ -191,12 +191,18 @@ void Modes::keep_one(int column, double value) {
   values_[column] = value;
 }
 
-/// Whether all eigenvalues differ: then none has been found twice, and all have been found.
+/// Whether all eigenvalues differ, from each other and from 0: then none has been found twice, and
+/// all have been found. A hinge that nothing holds has the eigenvalue 0.
 bool Modes::are_apart() const {
-  constexpr double apart = 1e-4; // heuristic: closer ones are left to QR, which costs time alone
-  for (std::size_t j = 0; j < values_.size(); ++j)
+  // heuristics: closer ones are left to QR, which costs time alone
+  constexpr double apart = 1e-4, from_zero = 1e-12;
+  double largest = 0;
+  for (const Complex& value : values_) largest = std::max(largest, size_of(value));
+  for (std::size_t j = 0; j < values_.size(); ++j) {
+    if (!(size_of(values_[j]) > from_zero * largest)) return false;
     for (std::size_t k = 0; k < j; ++k)
       if (!(size_of(values_[j] - values_[k]) > apart * size_of(values_[j]))) return false;
+  }
   return true;
 }
 

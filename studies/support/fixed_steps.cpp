@@ -36,8 +36,8 @@ template <class Formula> Step formula_step() {
   };
 }
 
-/// Extrapolates results of n_0 < n_1 < … substeps to none, by Aitken and Neville, in powers of
-/// hᵖ. The last result takes the place of all.
+/// Extrapolates results with n_0 < n_1 < … substeps to the limit of infinitely many, by Aitken and Neville, in powers of
+/// hᵖ. The result is the last element.
 void extrapolate(std::vector<State<double>>& results, const std::vector<int>& n, int p) {
   for (int k = 1; k < std::ssize(results); ++k)
     for (int j = static_cast<int>(std::ssize(results)) - 1; j >= k; --j) {
@@ -47,7 +47,7 @@ void extrapolate(std::vector<State<double>>& results, const std::vector<int>& n,
     }
 }
 
-/// Of bulirsch_stoer: the modified midpoint rule with 2, 4, … substeps, extrapolated in h².
+/// A step of bulirsch_stoer: the modified midpoint rule with 2, 4, … substeps, extrapolated in h².
 Step midpoint_step(int rows) {
   odeint::modified_midpoint<State<double>, double, State<double>, double, StateAlgebra> rule;
   return [rule, rows](AnySystem& system, State<double>& x, double h) mutable {
@@ -65,7 +65,7 @@ Step midpoint_step(int rows) {
   };
 }
 
-/// Of seulex: the linearly implicit Euler rule with 2, 3, … substeps, extrapolated in h.
+/// A step of seulex: the linearly implicit Euler rule with 2, 3, … substeps, extrapolated in h.
 Step implicit_euler_step(int rows) {
   const auto implicit = std::make_shared<LinearlyImplicit<double>>();
   return [implicit, rows](AnySystem& system, State<double>& x, double h) {
@@ -91,7 +91,7 @@ Step implicit_euler_step(int rows) {
   };
 }
 
-/// Of adams_bashforth_moulton at one order, once it has climbed there.
+/// A step of adams_bashforth_moulton at a constant order, after the first steps that raise the order to it.
 template <int Order> Step adams_step() {
   using Stepper = odeint::adaptive_adams_bashforth_moulton<Order, State<double>, double,
                                                            State<double>, double, StateAlgebra>;
@@ -104,8 +104,8 @@ template <int Order> Step adams_step() {
 
 // ---- growth
 
-/// |R(z)| of a one-step method: one step of h = 1 of a panel whose latch has the eigenvalues z and
-/// z̄. The step's matrix has R(z) and its conjugate, so that their product is its determinant.
+/// |R(z)| of a one-step method, from a step of h = 1 of a panel whose latch has the eigenvalues z and z̄. The step is a
+/// matrix with the eigenvalues R(z) and its conjugate, so its determinant is |R(z)|².
 double one_step_growth(const std::function<Step()>& start, std::complex<double> z) {
   Scene scene;
   scene.bodies = {{"panel", 1, 1}};
@@ -133,8 +133,9 @@ std::vector<double> adams_coefficients(int count) {
   return gamma;
 }
 
-/// Predict with order k, evaluate, correct with the next difference, evaluate. With f = λ y, and
-/// ∇ʲ f over y_n … y_{n−k+1}, a linear map of these; its spectral radius.
+/// The growth of a step that predicts with order k, evaluates, corrects with the next difference and evaluates again. For
+/// f = λ y with differences ∇ʲ f over y_n … y_{n−k+1}, the step is a linear map of these values. The growth is the map's
+/// spectral radius.
 double adams_growth(int k, std::complex<double> z) {
   const std::vector<double> gamma = adams_coefficients(k + 1);
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(k), last = Eigen::VectorXd::Zero(k);
@@ -161,16 +162,16 @@ FixedStepMethod one_step(const std::string& name, int order, double evaluations,
           [start](std::complex<double> z) { return one_step_growth(start, z); }};
 }
 
-/// @param order of the prediction; the correction is of one more
+/// @param order order of the prediction; that of the correction is one higher
 FixedStepMethod adams(int order, const std::function<Step()>& start) {
   return {"adams_bashforth_moulton", order, 2, start,
           [order](std::complex<double> z) { return adams_growth(order, z); }};
 }
 
-/// Evaluations of the modified midpoint rule's rows:
-/// n and one for its last smoothing, the first shared.
+/// Evaluations of the modified midpoint rule in a step. A row with n substeps takes n + 1, the last for the smoothing. All
+/// rows share the first evaluation.
 double midpoint_evaluations(int rows) { return rows * (rows + 1) + 1; }
-/// n − 1 a row, the first shared.
+/// Evaluations of the implicit Euler rule in a step: one that all rows share, and n − 1 for a row with n substeps.
 double implicit_evaluations(int rows) { return 1 + rows * (rows + 1) / 2.0; }
 
 } // namespace

@@ -16,17 +16,16 @@ using Step = std::function<void(LinearWing::AnySystem& system, State<double>& x,
 /// One formula with a constant step.
 struct FixedStepMethod {
   std::string name;            ///< from methods()
-  int order;                   ///< as methods() counts it: of Adams' the prediction's
+  int order;                   ///< as in methods(); for Adams' the order of the prediction
   double evaluations;          ///< a step
-  std::function<Step()> start; ///< a new sequence of steps; forgets what a multistep method keeps
-  /// Growth in one step of a mode λ, z = hλ.
+  std::function<Step()> start; ///< starts a new sequence of steps, without earlier values
+  /// The factor by which one step of h multiplies a mode with eigenvalue λ, z = hλ.
   std::function<double(std::complex<double> z)> growth;
 };
 
-/// Every method of methods() but `auto`; those that choose their order at several. Formulas are the
-/// product's own, so is odeint's where the product has it. For a one-step method `growth` is |R(z)|
-/// by a real step of a panel with one latch; for Adams' it is the largest root of the formula's
-/// characteristic polynomial.
+/// Methods of methods() with constant steps, without `auto`; a method that chooses its order is here once for each of
+/// several orders. The formulas are those of core/ and of odeint. For a one-step method `growth` is |R(z)|, measured by a
+/// step of a panel with one latch. For Adams' it is the largest root of the formula's characteristic polynomial.
 [[nodiscard]] std::vector<FixedStepMethod> fixed_step_methods();
 
 } // namespace wingspread::study

@@ -1,14 +1,14 @@
-/// Times one acceleration evaluation a lane; the definition is compiled for each instruction set.
+/// The time of one acceleration evaluation per lane. The definition is compiled for each instruction set.
 #pragma once
 
 namespace wingspread::study {
 
-/// ns a lane of one evaluation of the recursion for a chain of 3 or 10 bodies with linear hinge
-/// moments, data in cache; the least over rounds of about a tenth of a second in all.
+/// Times of one evaluation of the recursion, ns per lane, for a chain of 3 or 10 bodies with linear hinge moments and data
+/// in cache. Each is the least over many rounds, which take about a tenth of a second together.
 struct KernelTimes {
   double independent; ///< evaluations
-  double dependent;   ///< each needs the last, as the stages of a step do
-  double two_in_turn; ///< those of two packs in turn, each of which needs its own last
+  double dependent;   ///< each evaluation needs the previous one, as stages of a step do
+  double two_in_turn; ///< dependent evaluations of two packs, made alternately
 };
 
 [[nodiscard]] KernelTimes avx2_evaluation(int bodies);

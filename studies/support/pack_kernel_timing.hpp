@@ -19,7 +19,7 @@ template <class P, int N> struct PackKernel {
   PackKernel() {
     wing.bodies.resize(N + 1);
     for (int i = 1; i <= N; ++i) {
-      const double v = 1 + 0.1 * i; // any numbers of the size of a panel's
+      const double v = 1 + 0.1 * i; // arbitrary numbers of a panel's magnitude
       wing.bodies[i] = {P(10 * v),         P(3 * v), {P(5 * v), P(0.1)}, {P(v), P(0.02)},
                         {P(0.5), P(0.01)}, P(0.5),   P(-1 / (3 * v))};
       laws[i] = {P(0.1), P(v), P(0.3), P(0.2)};
@@ -55,7 +55,7 @@ template <class P, int N> struct PackKernel {
   }
 };
 
-/// Time of one evaluation, `packs` packs made in turn.
+/// The time of one evaluation per lane, ns, with `packs` packs evaluated alternately.
 template <class P, int N, int packs, bool dependent> [[nodiscard]] double time_of_packs() {
   using Clock = std::chrono::steady_clock;
   std::array<PackKernel<P, N>, packs> kernels;

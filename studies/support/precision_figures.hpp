@@ -1,4 +1,4 @@
-/// The figures by which the work-precision study judges a run, and the differences of two runs in them.
+/// The quantities that the work-precision study compares, and the differences of two runs in them.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,13 @@
 
 namespace wingspread::study {
 
-/// The figures of one run. Vectors over hinges stand in Scene order;
-/// NaN where a hinge did not latch.
+/// The quantities of one run. Vectors over hinges are in Scene order; NaN where a hinge did not latch.
 struct Figures {
   std::vector<int> order;     ///< hinges as they latched
   std::vector<double> time;   ///< of latching, s
-  std::vector<double> rate;   ///< the hinge's own as it latches, rad/s
-  std::vector<double> moment; ///< peak, N·m; empty when not asked for
-  std::vector<double> force;  ///< peak, N; empty when not asked for
+  std::vector<double> rate;   ///< of the hinge when it latches, rad/s
+  std::vector<double> moment; ///< peak, N·m; empty if not requested
+  std::vector<double> force;  ///< peak, N; empty if not requested
 };
 
 /// @param outcome core's Outcome, or an oracle's ReferenceOutcome
@@ -44,7 +43,7 @@ struct Errors {
     largest = std::max(largest, error);
     ++count;
   }
-  /// NaN when there is none.
+  /// The root mean square of the errors; NaN if there are none.
   [[nodiscard]] double rms() const { return std::sqrt(squares / static_cast<double>(count)); }
 };
 

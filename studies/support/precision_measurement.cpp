@@ -5,7 +5,7 @@
 namespace wingspread::study {
 namespace {
 
-/// Whether the run met what the reference met, in the same order.
+/// Whether the run has the reference's latches, in the same order, and an expected status.
 bool agrees(const Outcome& outcome, const Figures& got, const Figures& expected, int latches,
             Extent extent) {
   if (extent == Extent::first_latch)
@@ -35,15 +35,15 @@ void score(Measurement& sum, const Scene& scene, const Outcome& outcome, const F
   sum.steps += static_cast<double>(outcome.work.steps);
 }
 
-/// Seconds of processor time that f takes: other programs on a busy machine weigh little in it.
+/// The processor time of f, s. Other programs on a busy machine change it less than wall time.
 template <class Function> double time_of(const Function& f) {
   const std::clock_t start = std::clock();
   f();
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// The best of three passes over all scenes, or of `patience` seconds of them, whichever is more;
-/// of fewer when they take forty times as long.
+/// The least time of a pass over all scenes, s. Passes are repeated until there are three and they have taken `patience`
+/// seconds, but end early once they have taken 40 times as long.
 double best_pass(const Run& run, std::span<const Scene> scenes, const Integration& how,
                  const Goal& goal, double patience) {
   double best = std::numeric_limits<double>::infinity(), total = 0;
@@ -77,7 +77,7 @@ Measurement measure(const Run& run, std::span<const Scene> scenes,
       score(sum, scenes[k], run(scenes[k], how, goal), references[k], extent);
   });
   sum.evaluations /= static_cast<double>(sum.scored), sum.steps /= static_cast<double>(sum.scored);
-  const bool long_enough = scoring > 40 * patience; // the rest of it is lost in the runs
+  const bool long_enough = scoring > 40 * patience; // then scoring itself hardly counts
   sum.microseconds = sum.scored == 0 ? std::numeric_limits<double>::quiet_NaN()
                      : long_enough   ? 1e6 * scoring / count
                                      : 1e6 * best_pass(run, scenes, how, goal, patience) / count;

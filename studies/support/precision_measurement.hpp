@@ -23,19 +23,18 @@ enum class Extent {
 
 struct Measurement {
   long scenes = 0;
-  long scored = 0;     ///< what errors, evaluations and steps are of
-  long mismatches = 0; ///< another latch order or number, or another status, than the reference
-  long failures = 0;   ///< runs that did not come to an end
+  long scored = 0;     ///< runs that errors, evaluations and steps include
+  long mismatches = 0; ///< runs whose latches or status differ from the reference
+  long failures = 0;   ///< runs that failed or were invalid
   std::string reason;  ///< of one of the failures
   FigureErrors errors;
   double evaluations = 0, steps = 0; ///< mean of a scored run
-  /// Processor time of a run, mean of all scenes, in the best of several passes; NaN when no scene
-  /// is scored.
+  /// Mean processor time of a run in the fastest of several passes over all scenes; NaN if no run is scored.
   double microseconds = 0;
 };
 
-/// @param references of the scenes, one by one
-/// @param patience   how long passes are timed at least, s
+/// @param references one for each scene, in the same order
+/// @param patience   least time of all passes together, s
 [[nodiscard]] Measurement measure(const Run& run, std::span<const Scene> scenes,
                                   std::span<const Figures> references, const Integration& how,
                                   Extent extent, double patience);

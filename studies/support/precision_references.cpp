@@ -28,7 +28,7 @@ std::string latch_name(const std::optional<double>& smoothing) {
   return smoothing ? fmt::format("{:g}", *smoothing) : "event";
 }
 
-/// Tells apart references of other scenes or settings, not of another oracle.
+/// A hash of the scene's parameters and the settings. It does not change when the oracle's code does.
 std::string key_of(const Scene& scene, const ReferenceSettings& how) {
   return campaign_hash({{"scene", write_scene(scene)},
                         {"latch", latch_name(how.smoothing)},
@@ -160,7 +160,7 @@ const ReferenceRow* ReferenceStore::primary_of(const ReferenceRow& row) const {
   const auto same = [&](const ReferenceRow& other) {
     return other.scene == row.scene && other.settings.smoothing == row.settings.smoothing;
   };
-  const auto found = std::ranges::find_if(rows_, same); // `row`, if no other
+  const auto found = std::ranges::find_if(rows_, same); // finds at least `row`
   return &*found == &row ? nullptr : &*found;
 }
 

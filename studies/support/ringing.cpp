@@ -18,7 +18,7 @@ public:
   void engage(int hinge) {
     wing_.engage(hinge);
     engaged_[hinge] = true;
-    last_look_ = -1; // other modes from now on
+    last_look_ = -1; // the modes have changed: compute them again
   }
 
   void go_on(const Sample& from, const Sample& to) {
@@ -39,7 +39,7 @@ public:
 
 private:
   static constexpr double excitation = 1;  ///< rad/s, about the rate at which hinges latch
-  static constexpr double interval = 1e-3; ///< s in which modes change little
+  static constexpr double interval = 1e-3; ///< s; modes change little within it
 
   void count_turns(const Sample& from, const Sample& to) {
     for (std::size_t i = 0; i < turns_.size(); ++i)
@@ -51,18 +51,18 @@ private:
     if (std::ranges::none_of(engaged_, [](bool e) { return e; })) return;
     modes_ = wing_.eigenvalues(wing_.state(at.angles, at.rates));
     if (last_look_ < 0) sizes_.assign(modes_.size(), excitation);
-    sizes_.resize(modes_.size(), 0); // a pair that became two real ones, or one again
+    sizes_.resize(modes_.size(), 0); // a pair may have become two real modes, or the reverse
     last_look_ = at.t;
     for (const Eigenvalue& mode : modes_)
       ringing_.fastest = std::max(ringing_.fastest, mode.imag());
   }
 
-  /// Of the whole, rad/s.
+  /// The tolerance of the rates: absolute plus relative to the largest mode, rad/s.
   [[nodiscard]] double tolerance() const {
     return modes_.empty() ? 0 : atol_ + rtol_ * *std::ranges::max_element(sizes_);
   }
 
-  /// The largest angular frequency of the modes that are larger than this, rad/s.
+  /// The largest angular frequency of the modes whose size exceeds `size`, rad/s.
   [[nodiscard]] double fastest_above(double size) const {
     double fastest = 0;
     for (std::size_t k = 0; k < modes_.size(); ++k)

@@ -1,4 +1,4 @@
-/// Counts the oscillations of a wing after its latches, which every method has to follow cycle by cycle.
+/// Counts the oscillations of a wing after it latches. Every method has to follow them cycle by cycle.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -8,15 +8,15 @@ namespace wingspread::study {
 /// The ringing of one run.
 struct Ringing {
   double fastest = 0; ///< largest angular frequency that oscillates, rad/s; 0: all overdamped
-  /// ∫ ω/2π dt, ω that of the fastest mode which is still above the tolerance. Modes are those of
-  /// the engaged latches at the configurations that the run passes through. Each engagement sets
-  /// all of them to 1 rad/s; each decays at its own rate, down to atol + rtol·(the largest).
+  /// ∫ ω/2π dt, with ω of the fastest mode that is still above the tolerance. The modes are those of the engaged latches
+  /// at each configuration of the run. Each engagement sets the sizes of all modes to 1 rad/s; then each mode decays at
+  /// its own rate. The tolerance is atol + rtol·(the largest mode).
   double cycles = 0;
-  /// ∫ ω/2π dt of the fastest mode that oscillates, above the tolerance or not: what an explicit
-  /// method has to step over all the same, for its stability.
+  /// ∫ ω/2π dt of the fastest oscillating mode, above the tolerance or not: it limits the steps of an explicit method,
+  /// which must stay stable.
   double periods = 0;
-  /// Half the times that the rates of engaged hinges changed sign, of the hinge where they did so
-  /// most: seen, not computed; but a fast mode hides under a slower one that is larger.
+  /// Half the number of sign changes of an engaged hinge's rate, for the hinge with the most. This is observed, not
+  /// computed from modes. A large slow mode can hide a small fast one.
   double seen = 0;
 };
 
@@ -29,7 +29,7 @@ struct PureTone {
 };
 [[nodiscard]] PureTone pure_tone();
 
-/// From a run of the scene as `how` says, to its t_end. Fixed base, no friction.
+/// The ringing of a run of the scene with the settings `how`, to its t_end. @pre fixed base, no friction
 [[nodiscard]] Ringing ringing_of(const Scene& scene, const Integration& how);
 
 } // namespace wingspread::study

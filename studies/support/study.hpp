@@ -1,5 +1,4 @@
-/// Shared by the drivers: command line, tables, the seed wing.
-/// Run from the repository's root.
+/// Parts that the drivers share: command line, tables, the seed wing. Run the drivers from the repository's root.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -15,7 +14,7 @@ namespace wingspread::study {
 /// The options of the command line.
 struct StudyOptions {
   bool quick = false;
-  std::filesystem::path folder; ///< exists
+  std::filesystem::path folder; ///< for results; it exists
 };
 
 /// The main() of a driver: `--quick`, and `--out DIR`, results/NAME by default (…_quick with
@@ -31,7 +30,7 @@ public:
 
   explicit Table(std::initializer_list<std::string> columns);
 
-  /// @pre as many as there are columns
+  /// Adds a row. @pre one cell per column
   void add(std::initializer_list<Cell> cells);
 
   /// @throws SpecError if the file cannot be written
@@ -53,6 +52,6 @@ private:
 /// A folded stack of n equal panels, without latches.
 [[nodiscard]] Scene stack(int n);
 
-inline constexpr double seed_t_end = 12; ///< s: more than five after the last latch
+inline constexpr double seed_t_end = 12; ///< s; more than 5 s after the last latch
 
 } // namespace wingspread::study

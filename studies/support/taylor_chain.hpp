@@ -8,8 +8,9 @@
 ///     D_jk = −b_jk cos Δ + a_jk sin Δ,  D_kj = −D_jk      (3)
 ///     a_jk = Σ_i m_i d_ij · d_ik,  b_jk = Σ_i m_i d_ij × (d_ik turned by 90°)
 ///
-/// d_ij: body j's part of the way to the centre of mass of i, in j's frame; J_j adds to a_jj. Every product of series is a
-/// convolution, (uv)_k = Σ u_l v_(k−l); s = sin Δ and c = cos Δ follow from s' = Δ' c, c' = −Δ' s.
+/// The vector from the root to the centre of mass of body i is a sum of vectors fixed in bodies; d_ij is the one fixed in
+/// body j, in j's frame. J_j adds to a_jj. Every product of series is a convolution, (uv)_k = Σ u_l v_(k−l); s = sin Δ and
+/// c = cos Δ follow from s' = Δ' c, c' = −Δ' s.
 ///
 /// Cost of order K for N bodies: N (N − 1)/2 · 6 + N/2 convolutions of K²/2 multiply-adds each.
 #pragma once
@@ -24,7 +25,7 @@ namespace wingspread::study {
 
 template <class T, int N> class TaylorChain {
 public:
-  static constexpr int most = 32; ///< orders
+  static constexpr int most = 32; ///< highest order
   using Series = std::array<T, most + 2>;
 
   explicit TaylorChain(const Wing<T>& wing) {
@@ -41,8 +42,8 @@ public:
       }
   }
 
-  /// The angles' coefficients up to t^(order + 1), those of the rates up to t^order, from a state
-  /// (φ, φ̇). @param laws 1 … N
+  /// Computes the coefficients of the angles up to t^(order + 1), and of the rates up to t^order, from a state (φ, φ̇).
+  /// @param laws those of hinges 1 … N
   void expand(const State<T>& x, const std::vector<LinearLaw<T>>& laws, int order) {
     T sum(0), rate(0);
     for (int j = 0; j < N; ++j) {
@@ -96,7 +97,7 @@ private:
     return k % 2 == 0 ? fused(u[k / 2], u[k / 2], sum) : sum;
   }
 
-  /// sin, cos, C and D of all pairs, coefficient k.
+  /// Computes coefficient k of sin, cos, C and D of all pairs.
   void turn(int k) {
     using std::sin, std::cos;
     for (int j = 0; j < N; ++j)
@@ -152,7 +153,7 @@ private:
     return -fused(law.stiffness, angle, law.damping * rate);
   }
 
-  /// Of C at the start, by elimination.
+  /// Inverts C at the start of the step, by elimination.
   void invert() {
     std::array<std::array<T, N>, N> m;
     for (int j = 0; j < N; ++j)

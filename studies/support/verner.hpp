@@ -1,7 +1,7 @@
 /// Verner's "most efficient" explicit Runge-Kutta pairs of orders 9(8) and 8(7), for comparison.
 /// Coefficients: J. H. Verner, Numerically optimal Runge-Kutta pairs with interpolants, Numer.
-/// Algorithms 53 (2010), rounded to double; those of order 9(8) keep the order conditions to 2e-15,
-/// those of 8(7), whose largest is 123, to 1e-14 (higher_orders measures both).
+/// Algorithms 53 (2010), rounded to double. The pair 9(8) meets its order conditions to 2e-15, the pair 8(7), whose
+/// largest coefficient is 123, to 1e-14 (the driver higher_orders measures both).
 #pragma once
 
 #include "core/methods/method.hpp"
@@ -148,7 +148,7 @@ struct Verner87 {
                              0.36016794372897754};
 };
 
-/// A pair as a formula of core/methods. The derivative at the end is an evaluation of its own.
+/// A pair as a formula of core/methods. The derivative at the end of a step takes one more evaluation.
 template <class T, class Pair> class EmbeddedPair {
 public:
   static constexpr int order = Pair::order, error_order = Pair::error_order;

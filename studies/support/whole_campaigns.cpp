@@ -16,7 +16,7 @@ namespace {
 
 struct Rate {
   const char* campaign;
-  long runs; ///< that are timed
+  long runs; ///< number of timed runs
 };
 constexpr Rate rates[] = {
     {"seed", 2000}, {"yoke_wing", 400}, {"two_wing_free", 200}, {"prescribed_base", 400}};
@@ -60,7 +60,7 @@ nlohmann::ordered_json campaign_rates(const StudyOptions& options) {
   nlohmann::ordered_json rows;
   for (const auto& [name, runs] : rates) {
     Campaign campaign = read_campaign_file(fmt::format("studies/campaigns/{}.json", name));
-    campaign.cases.clear(); // the nominal wing of those that have cases
+    campaign.cases.clear(); // of a campaign with cases only the nominal wing
     for (const What& what : {every_output, first_latch}) {
       const long count = std::max(16L, options.quick ? runs / 20 : runs);
       const Made alone = make_campaign(campaign, InstructionSet::scalar, what, count);

@@ -1,5 +1,5 @@
-/// Whole runs of whole campaigns, for the throughput study: with friction, tables, loops and moving bases, and of
-/// chains of more and more panels.
+/// Timed runs for the throughput study: of campaigns with friction, tables, loops and moving bases, and of chains with an
+/// increasing number of panels.
 #pragma once
 
 #include "studies/support/study.hpp"
@@ -8,12 +8,12 @@
 
 namespace wingspread::study {
 
-/// Runs of several campaigns with all outputs, and to their first latch: alone and in packs. Prints a table, and writes
-/// campaigns.csv. @return the same rows
+/// Times runs of several campaigns, with all outputs and to the first latch, each alone and in packs. Prints a table and
+/// writes campaigns.csv. @return the rows of the table
 [[nodiscard]] nlohmann::ordered_json campaign_rates(const StudyOptions& options);
 
-/// The first n panels of the long chain with friction, all outputs: evaluations, time, how long they move.
-/// Prints a table, and writes panels.csv. @return the same rows
+/// Measures evaluations, time and duration of motion of the first n panels of the long chain with friction, with all
+/// outputs. Prints a table and writes panels.csv. @return the rows of the table
 [[nodiscard]] nlohmann::ordered_json panel_rates(const StudyOptions& options);
 
 } // namespace wingspread::study

@@ -9,16 +9,17 @@
 
 namespace wingspread::study {
 
-/// Processor time of this thread, and time on the wall, s.
+/// Processor time of this thread, s.
 [[nodiscard]] double thread_seconds();
+/// Wall time, s.
 [[nodiscard]] double wall_seconds();
 
-/// Units of a wing: springs ±5 %, masses and inertias ±2 %.
+/// Dispersed copies (units) of a wing: springs ±5 %, masses and inertias ±2 %.
 class Units {
 public:
   explicit Units(Scene drawing) : drawing_(std::move(drawing)) {}
 
-  /// Sets the numbers of unit k. @pre scene is the drawing but for them
+  /// Sets springs, masses and inertias of unit k. @pre all else in the scene equals the drawing
   void set(Scene& scene, long k) const;
   [[nodiscard]] const Scene& drawing() const { return drawing_; }
 
@@ -57,17 +58,17 @@ inline const What whole_run{
 [[nodiscard]] Integration within(double rtol, const What& what);
 
 struct Made {
-  double us = 0; ///< of processor time a run, one thread
+  double us = 0; ///< processor time of a run, µs, on one thread
   double steps = 0, evaluations = 0;
   Occupancy lanes;
   std::vector<Outcome> outcomes;
 };
 
-/// Sets the scene to that of run k. @pre it is the drawing, or as this left it
+/// Sets the scene to that of run k. @pre the scene is the drawing, or the result of an earlier call
 using SetScene = std::function<void(Scene&, long)>;
 
-/// Makes the runs 0 … count − 1, several times; the least time counts. Outcomes are kept of the last time
-/// alone: a campaign, and the peer, drop each once it is read.
+/// Makes the runs 0 … count − 1 several times and keeps the least time. Only the last repetition keeps the outcomes,
+/// because a campaign, and the program it is compared with, drop each outcome once it is read.
 [[nodiscard]] Made make(const Scene& drawing, const SetScene& set_scene, InstructionSet set,
                         const Integration& how, const Goal& goal, long count, int times = 3);
 [[nodiscard]] Made make(const Units& units, InstructionSet set, const Integration& how,

@@ -18,13 +18,13 @@ namespace wingspread {
 namespace {
 
 constexpr double tighter = 1e-3; ///< tolerance of a reference, as a share of the campaign's
-constexpr double tightest_explicit =
-    1e-13; ///< below, round-off dominates the error estimate of a step
-constexpr double tightest_implicit = 1e-12; ///< below, seulex takes ten times the steps
-constexpr double loosest = 1e-10;
+/// At a smaller rtol round-off dominates the error estimate of a step.
+constexpr double tightest_explicit = 1e-13;
+constexpr double tightest_implicit = 1e-12; ///< at a smaller rtol seulex takes ten times the steps
+constexpr double loosest = 1e-10;           ///< largest rtol of a reference
 constexpr long times_the_steps = 100, least_steps = 20'000;
 
-/// Rounds to three decimal digits: 1e-11 in place of a product of 1.0000000000000001e-11.
+/// Rounds to three decimal digits, so that 1e-8 · 1e-3 is reported as 1e-11 and not as 1.0000000000000001e-11.
 double in_three_digits(double x) {
   std::array<char, 32> text{};
   char* const first = text.data();
@@ -42,8 +42,8 @@ Integration with_tolerance(Integration integration, std::string method, double r
   return integration;
 }
 
-/// Whether two runs have the same status, latch order and outputs that happened: only then do their numbers differ by
-/// an error.
+/// Whether two rows have the same status and latch order, and the same outputs happened. Only then is the difference of
+/// their numbers an integration error.
 bool agree(const ResultRow& a, const ResultRow& b) {
   const auto happened_alike = [](double x, double y) { return std::isnan(x) == std::isnan(y); };
   return a.status == b.status && a.latch_order == b.latch_order &&
@@ -60,16 +60,17 @@ OutputAccuracy error_of(const std::string& name, std::size_t column,
   if (errors.empty()) return found;
   found.runs = std::ssize(errors);
   found.largest = *std::ranges::max_element(errors);
-  Sum squares; // of errors over the largest: those of 1e-160 too
+  Sum squares; // of error/largest, because the square of an error of 1e-170 underflows to 0
   for (const double error : errors)
     if (found.largest > 0) squares.add(error / found.largest * (error / found.largest));
   found.rms = found.largest * std::sqrt(squares.value() / static_cast<double>(found.runs));
   return found;
 }
 
-/// Step limit of a reference: 100 times the steps of three of the runs, at least 20,000. Heuristic: dopri5 at a
-/// tolerance 1000 times tighter takes about 4 times the steps of a non-stiff run, and far more than 100 times those
-/// of a stiff one. A smaller factor would reject usable references, a larger one wastes time on stiff runs.
+/// Step limit of a reference: 100 times the most steps that the first, the middle or the last run takes with the
+/// campaign's method, at least 20,000. Heuristic: at a tolerance 1000 times tighter, dopri5 takes about 4 times the
+/// steps of a non-stiff run, and far more than 100 times those of a stiff one. A smaller factor would reject usable
+/// references, a larger one wastes time on stiff runs.
 long steps_allowed(const Campaign& campaign, std::span<const long> runs) {
   const RunPlan plan(campaign);
   Runner runner(plan);

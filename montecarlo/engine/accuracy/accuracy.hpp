@@ -16,34 +16,37 @@ namespace wingspread {
 /// The error of one output, over the repeated runs that are not in doubt.
 struct OutputAccuracy {
   std::string output;
-  long runs = 0;      ///< in which the output happened
+  long runs = 0;      ///< repeated runs in which the output happened
   double largest = 0; ///< largest error, in the output's unit; NaN without runs
-  double rms =
-      0; ///< the same; of runs that were chosen for being delicate, so above the campaign's own
+  /// RMS error, in the output's unit; NaN without runs. An overestimate for the whole campaign, because delicate runs
+  /// are chosen first.
+  double rms = 0;
 };
 
 struct Accuracy {
-  long runs = 0; ///< runs repeated
+  long runs = 0; ///< repeated runs, those in doubt included
   std::string method;
-  double rtol = 0; ///< the campaign's
+  double rtol = 0; ///< of the campaign, as is `method`
   std::string reference_method;
   double reference_rtol = 0;
-  /// Runs whose status or latch order differs in the reference: undecided at this tolerance, so without an error.
+  /// Runs whose status, latch order or set of outputs differs in the reference. The campaign's tolerance does not
+  /// decide them, so they have no error.
   std::vector<long> in_doubt;
   long unreached = 0; ///< runs that the reference could not finish; not among `runs`
   std::vector<OutputAccuracy> outputs; ///< in the columns' order
   double seconds = 0;                  ///< time taken; not part of the results
 };
 
-/// The reference integrations, the preferred one first: another method at a tolerance 1000 times tighter, within
-/// 1e-13 and 1e-10. dopri5 takes such short steps there that it misses nothing, and its coefficients differ from
-/// those of dop853, which `auto` uses. seulex is for latches too stiff for dopri5.
+/// The reference integrations, the preferred one first. Their rtol is 1000 times tighter, kept between 1e-13 (1e-12
+/// for an implicit method) and 1e-10. First comes dopri5, whose coefficients differ from those of dop853, which `auto`
+/// uses; then seulex, for latches too stiff for dopri5. A campaign that itself uses dopri5 or seulex is compared with
+/// dop853 or `auto` in its place.
 [[nodiscard]] std::vector<Integration> references_of(const Integration& integration);
 
 /// Compares rows with their reference.
-/// @param names  of both
+/// @param names  column names of both
 /// @param rows, reference the same runs in the same order; failed reference runs are `unreached`
-/// @return without methods and tolerances
+/// @return the accuracy; methods, tolerances and seconds are not set
 [[nodiscard]] Accuracy compare_rows(const ResultNames& names, std::span<const ResultRow> rows,
                                     std::span<const ResultRow> reference);
 
@@ -54,23 +57,21 @@ struct Accuracy {
                                                 const Integration& integration,
                                                 std::span<const long> runs, const ThreadPool& pool);
 
-/// Compares rows with the first usable reference. A reference is unusable if the first run fails within 100 times the
-/// steps of the campaign's own runs.
+/// Compares rows with the first usable reference. A reference is unusable if it cannot finish the first of the runs
+/// within 100 times the steps of the campaign's method (at least 20,000 steps).
 /// @param rows of the campaign, at its own integration; at least one, in the order of runs
 /// @return `runs` is 0 if no reference is usable
 [[nodiscard]] Accuracy compare_with_reference(const Campaign& campaign,
                                               std::span<const ResultRow> rows,
                                               const ThreadPool& pool);
 
-/// How many of N runs are repeated: a tenth, at least one, at most what the campaign asks for.
+/// How many runs are repeated: a tenth of `runs`, rounded up, and at most what the campaign asks for.
 [[nodiscard]] std::size_t count_repeated(const Campaign& campaign, std::size_t runs);
 
-/// How accurate these results are. Nothing where the campaign wants none, or no run could be made again.
-/// Cost: some five to ten times that of the runs' own. @pre the results are the campaign's own
+/// The accuracy of these results. Nothing if the campaign wants none, or no run could be repeated. Cost: a repeated run
+/// takes five to ten times as long as the run itself.
+/// @pre the results were computed with the campaign's own integration
 [[nodiscard]] std::optional<Accuracy>
-/// The accuracy of these results. Nothing if the campaign wants none, or no run could be repeated. Cost: five to ten
-/// times that of the repeated runs.
-/// @pre the results are the campaign's own
 measure_accuracy(const Campaign& campaign, const Results& results, const ThreadPool& pool);
 
 } // namespace wingspread

@@ -13,7 +13,7 @@ namespace {
 using Rows = std::vector<std::size_t>;
 using Quantity = OutputColumn::Quantity;
 
-/// Keeps the rows of the `most` least keys; ties go to the first row.
+/// Keeps the `most` rows with the smallest keys; ties go to the first row.
 class Least {
 public:
   explicit Least(std::size_t most) : most_(most) {}
@@ -29,7 +29,7 @@ public:
     heap_.pop_back();
   }
 
-  /// The least key first.
+  /// The row with the smallest key first.
   [[nodiscard]] Rows rows() && {
     std::ranges::sort_heap(heap_);
     Rows rows;
@@ -39,7 +39,7 @@ public:
 
 private:
   std::size_t most_;
-  std::vector<std::pair<double, std::size_t>> heap_; ///< largest in front
+  std::vector<std::pair<double, std::size_t>> heap_; ///< largest key in front
 };
 
 /// The first element of each list, then the second of each, and so on.
@@ -53,7 +53,7 @@ Rows interleaved(const std::vector<Rows>& lists) {
   return all;
 }
 
-/// The rows that may be chosen, and the lists they are chosen from.
+/// The rows that may be chosen, and the six lists of chosen_runs.hpp, each with its preferred row first.
 class Candidates {
 public:
   Candidates(const Campaign& campaign, const Results& results, std::size_t count)
@@ -81,15 +81,15 @@ private:
     }
   }
 
-  /// The rows of the least keys. @param key of a row, NaN where it does not count
+  /// The `count_` rows with the smallest keys. @param key returns a row's key; a row with NaN is ignored
   template <class Key> [[nodiscard]] Rows least(const Key& key) const {
     Least least(count_);
     for_each_row([&](std::size_t row) { least.offer(key(row), row); });
     return std::move(least).rows();
   }
 
-  /// The first rows of each kind, kind by kind in turn.
-  /// @param kind of a row, below `kinds`
+  /// The first row of each kind, then the second of each, and so on.
+  /// @param kind returns a row's kind, 0 ≤ kind < kinds
   template <class Kind>
   [[nodiscard]] Rows first_of_each(std::size_t kinds, const Kind& kind) const {
     std::vector<Rows> lists(kinds);
@@ -111,10 +111,10 @@ private:
     const std::size_t kinds = results_.latch_order.texts().size();
     std::vector<std::pair<long, std::uint32_t>> counts(kinds);
     for (std::uint32_t code = 0; code < kinds; ++code) counts[code].second = code;
-    for_each_row(
-        [&](std::size_t row) { --counts[codes[row]].first; }); // the most frequent is least
+    // Counts are negative, so that the most frequent order comes first.
+    for_each_row([&](std::size_t row) { --counts[codes[row]].first; });
     std::ranges::sort(counts);
-    std::vector<std::size_t> place(kinds, count_); // all others: behind the listed ones
+    std::vector<std::size_t> place(kinds, count_); // orders not listed share the last kind
     const std::size_t listed = std::min(kinds, count_);
     for (std::size_t i = 0; i < listed; ++i) place[counts[i].second] = i;
     return first_of_each(listed + 1,
@@ -140,7 +140,7 @@ private:
     return interleaved(lists);
   }
 
-  /// The columns of a quantity, in their order.
+  /// The result columns of a quantity.
   [[nodiscard]] std::vector<const Column*> columns_of(Quantity quantity) const {
     std::vector<const Column*> found;
     for (std::size_t i = 0; i < columns_.size(); ++i)

@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-/// Chooses `count` runs, from each list in turn the next one not chosen yet:
+/// Chooses `count` runs. Takes from each list in turn its next run that is not chosen yet:
 ///
 ///   1 by status: the first that deployed, stalled, timed out; then the second of each; …
 ///   2 by latch order, the most frequent first: the first of each; then the second; …
@@ -18,8 +18,8 @@ namespace wingspread {
 ///   5 most extreme: largest (x − mean)/std of all peaks; without peaks, largest magnitude over all outputs
 ///   6 evenly spaced
 ///
-/// Ties go to the first run. Failed and invalid runs are not chosen. Cost O(N) per column; memory: the chosen rows of
-/// each list, and one bit per run.
+/// Ties go to the first run. Failed and invalid runs are not chosen. Cost O(N) per column; memory: up to `count` rows
+/// for each list and kind, and one bit per run.
 /// @param results with the campaign's columns
 /// @return rows of the results, increasing; fewer than `count` if there are no more
 [[nodiscard]] std::vector<std::size_t> chosen_rows(const Campaign& campaign, const Results& results,

@@ -20,7 +20,7 @@ namespace wingspread {
 
 enum class MessageKind : unsigned char { open, chunk, stop, close, leave, report, closed };
 
-/// Reads the kind of a message. To be read first.
+/// Reads the kind of a message, which is its first value.
 [[nodiscard]] inline MessageKind kind_of(Deserializer& message) {
   return message.take<MessageKind>();
 }
@@ -30,8 +30,8 @@ enum class MessageKind : unsigned char { open, chunk, stop, close, leave, report
 
 /// Everything another rank needs to rebuild a plan and make its runs.
 struct PlanDescription {
-  std::string campaign;    ///< resolved JSON, less what runs do not depend on
-  std::string recipe;      ///< of its measure; empty: the campaign's outputs
+  std::string campaign;    ///< resolved JSON, without the parts that no run depends on
+  std::string recipe;      ///< of the plan's measure; empty: the campaign's outputs
   bool own_points = false; ///< points come with every chunk
   bool wants_csv = false;
   int threads = 0; ///< 0: as many as the rank has
@@ -41,7 +41,7 @@ struct PlanDescription {
 [[nodiscard]] std::string open_message(const PlanDescription& description);
 [[nodiscard]] PlanDescription read_description(Deserializer& message);
 
-/// @param plan its points are added if it has its own
+/// @param plan if the plan has its own points, those of the chunk are added
 [[nodiscard]] std::string chunk_message(const Chunk& chunk, const RunPlan& plan);
 [[nodiscard]] Chunk read_chunk(Deserializer& message);
 /// The points after a chunk, run by run. @param dispersions of the campaign

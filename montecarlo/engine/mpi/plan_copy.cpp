@@ -9,8 +9,8 @@
 namespace wingspread {
 namespace {
 
-/// The parts of a campaign that runs depend on. Stamped like stored results, so that no outputs are added when it is
-/// read.
+/// The parts of a campaign that runs depend on, as JSON. The stamp marks the JSON as complete, so that the reader adds
+/// no outputs.
 std::string text_of(const Campaign& campaign) {
   Json json = campaign.resolved;
   for (const char* key :

@@ -30,7 +30,7 @@ public:
   /// The thread pool asked for, with instructions that this processor has.
   [[nodiscard]] ThreadPool pool() const;
 
-  /// Stores the points of a chunk, which follow it in the message. On any thread.
+  /// Reads the points that follow a chunk in its message, if the plan has its own, and stores them. On any thread.
   void expect(const Chunk& chunk, Deserializer& message);
   /// Drops the points of a finished chunk. On any thread.
   void forget(const Chunk& chunk);

@@ -63,7 +63,7 @@ private:
   struct Other {
     long wanted = 0;      ///< chunks the rank waits for
     long held = 0;        ///< runs sent to the rank and not reported
-    bool is_open = false; ///< it has not sent `closed`
+    bool is_open = false; ///< the rank was sent a plan and has not sent `closed`
     bool told_close = false, told_stop = false;
   };
   [[nodiscard]] Other& other(int rank) { return others_[static_cast<std::size_t>(rank)]; }
@@ -146,7 +146,7 @@ private:
 long RankEvaluator::make(const RunPlan& plan, RunRange range, const BatchSink& sink) {
   const int team = thread_count(pool_.threads);
   const auto description = describe(plan, pool_, sink.wants_csv);
-  // As many ranks as there can be chunks for, and this one.
+  // Other ranks: only as many as get at least one run for each of their threads.
   const long ranks = description ? std::min<long>(transport_->size() - 1, range.size() / team) : 0;
   RangeQueue queue(range, static_cast<int>((ranks + 1) * team), sink, stop_);
   Dispatch dispatch(*transport_, plan, range, queue);

@@ -9,7 +9,8 @@
 namespace wingspread {
 
 /// Rank 0's evaluator. Sends chunks to the ranks that ask for them, makes others with its own threads, and puts all
-/// in order. Only rank 0 calls the sink. A plan that cannot be described is made on rank 0 alone.
+/// in order. Only rank 0 calls the sink. The runs of a plan that cannot be described (its measure has no recipe) are
+/// made on rank 0 alone.
 class RankEvaluator final : public Evaluator {
 public:
   /// @param stop once true, no further run begins on any rank
@@ -17,7 +18,7 @@ public:
                 const std::atomic<bool>& stop)
       : transport_(std::move(transport)), pool_(pool), stop_(stop) {}
 
-  /// @throws also MachineError for an error on another rank
+  /// @throws as Evaluator::make(); MachineError for an error on another rank
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
 
   [[nodiscard]] const Occupancy& occupancy() const override { return occupancy_; }

@@ -1,4 +1,4 @@
-/// Values as bytes and back. Numbers are copied bit by bit, because all ranks run on machines of one kind.
+/// Values as bytes and back. Numbers are copied bit by bit: all ranks must run on machines of one kind.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -38,7 +38,7 @@ private:
   std::string bytes_;
 };
 
-/// Reads values back in the same order. @pre each value read was written there
+/// Reads values back. @pre the reads have the types and the order of the writes
 class Deserializer {
 public:
   /// @pre the bytes outlive this object
@@ -53,7 +53,7 @@ public:
   }
   [[nodiscard]] std::string take_text() { return std::string(take_bytes(take<std::size_t>())); }
   [[nodiscard]] std::vector<double> take_numbers();
-  /// @param first run of the first row
+  /// @param first run number of the first row
   [[nodiscard]] Batch take_batch(long first);
   [[nodiscard]] bool is_empty() const { return bytes_.empty(); }
 

@@ -22,12 +22,13 @@ using std::chrono::microseconds;
 /// time from the threads.
 constexpr microseconds while_busy{8000}, while_idle{50};
 
-/// Chunks in store per thread, at first and at most. Heuristic: enough that no thread waits for a message; the store
-/// doubles up to the maximum if one did. Too few starve fast runs, too many make the ranks end at different times.
+/// Chunks in store per thread, at first and at most. Heuristic: enough that no thread waits for a message; whenever a
+/// thread had to wait, the store doubles, up to the maximum. Too few leave threads idle when runs are fast, too many
+/// make the ranks end at different times.
 constexpr long first_store = 4, most_store = 64;
 
-/// Waits for a message, polling less often the longer none came. So answers come fast while messages follow each
-/// other, and an idle rank leaves the processor to rank 0's statistics.
+/// Waits for a message; polls less often the longer none came. Messages in quick succession are answered fast, and an
+/// idle rank leaves the processor to rank 0's statistics.
 Message next_message(Transport& transport) {
   for (microseconds wait = while_idle;; wait = std::min(2 * wait, while_busy)) {
     if (auto message = transport.receive()) return std::move(*message);
@@ -46,7 +47,7 @@ public:
     const Chunk chunk = store_.front();
     store_.pop_front();
     has_claimed_ = true;
-    changed_.notify_all(); // more is wanted
+    changed_.notify_all(); // the store has room: the next report asks for more chunks
     return chunk;
   }
   [[nodiscard]] bool wait_for_more() override {
@@ -94,7 +95,7 @@ public:
     const std::lock_guard lock(mutex_);
     return std::exchange(finished_, {});
   }
-  /// Waits up to the pause for a change.
+  /// Waits for a change, for while_idle if a thread is idle, else for while_busy at most.
   void pause() {
     std::unique_lock lock(mutex_);
     if (!finished_.empty()) return;
@@ -128,7 +129,7 @@ public:
     }
     worker.join();
     report();
-    while (!closing_) { // it ended by itself: a signal, an exception
+    while (!closing_) { // the work ended before `close` came: a signal or an exception
       const Message message = next_message(transport_);
       handle(Deserializer(message.bytes));
     }
@@ -210,7 +211,7 @@ void refuse(Transport& transport, const std::string& why) {
 } // namespace
 
 void serve(Transport& transport, const MeasureMaker& make_measure, const std::atomic<bool>& stop) {
-  std::optional<PlanCopy> copy; // of the last plan, which often comes again
+  std::optional<PlanCopy> copy; // of the last plan: several ranges often share one plan
   while (true) {
     const Message message = next_message(transport);
     Deserializer bytes(message.bytes);

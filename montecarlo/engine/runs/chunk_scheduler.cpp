@@ -13,11 +13,11 @@ namespace {
 /// interruption loses at most a few ms of work per thread. Smaller chunks cost lock traffic, larger ones lost work.
 constexpr long most_in_chunk = 32;
 
-/// Most chunks begun beyond the last one delivered. Heuristic: 1024 chunks are some 30,000 rows, tens of MB; with
-/// many threads eight per thread. A smaller number lets one long run stall the other threads.
+/// Most chunks begun beyond the last one delivered. Heuristic: 1024 chunks are some 30,000 rows, tens of MB; above 128
+/// threads, eight chunks per thread. With a smaller number one long run stalls the other threads.
 long most_ahead(int threads) { return std::max(1024L, 8L * threads); }
 
-/// One thread's chunks: the one that supplies runs, and those that wait for their last runs.
+/// One thread's chunks: the one from which runs are issued, and those whose last runs are still under way.
 class OpenChunks {
 public:
   OpenChunks(ChunkQueue& queue, bool wants_csv) : queue_(queue), wants_csv_(wants_csv) {}
@@ -48,7 +48,7 @@ public:
     hand_over(std::move(finished.mapped()), true);
   }
 
-  /// Delivers what was begun of each chunk. @pre all begun runs have ended
+  /// Delivers the issued runs of each unfinished chunk. @pre all issued runs have ended
   void close() {
     for (auto& [number, chunk] : chunks_) {
       chunk.batch.rows.resize(static_cast<std::size_t>(chunk.issued));
@@ -112,7 +112,7 @@ std::optional<Chunk> RangeQueue::claim() {
   return claimed;
 }
 
-// Sleeps while one long run keeps all further chunks from being begun.
+// Sleeps while the next chunk is too far ahead of the oldest unfinished one (InOrder::may_begin).
 bool RangeQueue::wait_for_more() {
   long chunk = 0;
   {

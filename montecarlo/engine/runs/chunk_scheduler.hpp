@@ -1,4 +1,5 @@
-/// A scheduler for runs: threads claim chunks of runs, wherever the chunks come from and go to.
+/// A scheduler for runs: threads claim chunks of runs from a queue and return them finished. RangeQueue serves the
+/// threads of this process; under MPI every other rank has a queue that messages fill and empty.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -9,9 +10,9 @@
 
 namespace wingspread {
 
-/// Consecutive runs made by one thread, numbered within a range.
+/// Consecutive runs made by one thread.
 struct Chunk {
-  long number = 0;
+  long number = 0; ///< 0, 1, … within a range of runs
   RunRange runs{};
 };
 
@@ -31,12 +32,12 @@ public:
   [[nodiscard]] virtual bool stopped() const = 0;
   /// Returns a finished chunk. @param complete false if a stop cut the chunk short
   virtual void finish(const Chunk& chunk, Batch&& batch, bool complete) = 0;
-  /// Called after an exception left a thread: no further run may begin.
+  /// From now on no further run may begin. Called when an exception has left a thread, or another rank has stopped.
   virtual void break_off() = 0;
 };
 
-/// Makes the queue's chunks until no more will come. A thread fills its lanes from one chunk after the other without
-/// a pause.
+/// Makes the queue's chunks until no more will come. Each thread integrates several runs at once, one per SIMD lane. A
+/// free lane takes the next run, of the same chunk or of the next one.
 /// @return how full the lanes were
 /// @throws what a run throws (out of memory), and what the queue throws
 Occupancy make_chunks(const RunPlan& plan, const ThreadPool& pool, bool wants_csv,
@@ -46,7 +47,7 @@ Occupancy make_chunks(const RunPlan& plan, const ThreadPool& pool, bool wants_cs
 /// end together (guided self-scheduling, Polychronopoulos & Kuck, IEEE Trans. Comput. 36 (1987) 1425).
 class RangeQueue final : public ChunkQueue {
 public:
-  /// @param threads that claim chunks, on all machines together
+  /// @param threads number of threads that claim chunks, on all machines together
   /// @param stop    once true, no further run begins
   RangeQueue(RunRange range, int threads, const BatchSink& sink, const std::atomic<bool>& stop);
 
@@ -70,7 +71,7 @@ private:
   InOrder in_order_;
   std::atomic<bool> broken_ = false;
   mutable std::mutex claiming_;
-  Chunk next_; ///< next number, and the runs left; guarded by claiming_
+  Chunk next_; ///< number of the next chunk, and the runs not claimed yet; guarded by claiming_
 };
 
 } // namespace wingspread

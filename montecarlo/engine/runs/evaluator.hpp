@@ -1,4 +1,4 @@
-/// The evaluator makes all runs of a plan. `run`, `margin`, `sensitivity` and `rare` use no other way.
+/// The interface through which `run`, `margin`, `sensitivity` and `rare` make the runs of a plan.
 #pragma once
 
 #include "montecarlo/engine/runs/runner.hpp"
@@ -20,10 +20,10 @@ struct RunRange {
 /// Consecutive finished runs.
 struct Batch {
   std::vector<ResultRow> rows;
-  std::string csv; ///< their lines of runs.csv, if the sink wants them
+  std::string csv; ///< the rows as lines of runs.csv, if the sink wants them
 };
 
-/// Receives batches, one at a time and in the order of their runs, on any thread of the pool.
+/// Receives batches, one at a time and in the order of their runs, on any thread.
 struct BatchSink {
   std::function<void(const Batch&)> take;
   bool wants_csv = false; ///< let the threads that make the runs format the lines
@@ -39,7 +39,7 @@ public:
 
   /// Makes the runs of a range and delivers them to the sink without a gap.
   /// @return runs delivered; fewer than the range only after a stop
-  /// @throws what the sink throws, and what a run throws (out of memory); all batches before that were delivered
+  /// @throws what the sink throws, and what a run throws (out of memory). Batches delivered before have no gap.
   virtual long make(const RunPlan& plan, RunRange range, const BatchSink& sink) = 0;
 
   /// How full the lanes were in all runs made so far.
@@ -55,8 +55,8 @@ struct ThreadPool {
   InstructionSet set = instruction_sets().back(); ///< decides how many runs a thread makes at once
 };
 
-/// Makes runs on the threads of this process. Threads claim chunks from a shared counter, so none waits for another;
-/// finished chunks are put in order before delivery.
+/// Makes runs on the threads of this process. Threads claim chunks from a RangeQueue, which delivers finished chunks in
+/// order. A thread waits only while the next chunk is too far ahead of the oldest unfinished one.
 class ThreadEvaluator final : public Evaluator {
 public:
   /// @param stop once true, no further run begins; finished runs before the first missing one are still delivered

@@ -51,7 +51,7 @@ private:
   };
 
   void hand_on(const Finished& finished) {
-    cut_ = true; // stays so if the sink throws
+    cut_ = true; // if the sink throws, later batches are not delivered
     if (!finished.batch.rows.empty()) sink_.take(finished.batch);
     done_ += std::ssize(finished.batch.rows);
     cut_ = !finished.complete;
@@ -61,7 +61,7 @@ private:
   const long most_ahead_;
   mutable std::mutex mutex_;
   std::condition_variable moved_;
-  std::map<long, Finished> waiting_; ///< by chunk
+  std::map<long, Finished> waiting_; ///< by chunk number
   long next_ = 0, done_ = 0;
   bool cut_ = false;
 };

@@ -2,7 +2,7 @@
 ///
 /// Columns of runs.csv in the order written: `run` (counted from 0; the number that `replay --run` takes), `status`,
 /// the draws by name, the outputs by name, `peaks_final` if peaks are among them, `latch_order`, and `reason` (why a
-/// run did not deploy; else empty). They may be read in any order.
+/// run did not deploy; else empty). The readers accept the columns in any order.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -30,13 +30,13 @@ struct ResultNames {
   bool operator==(const ResultNames&) const = default;
 };
 
-/// Whether no peak of a run could be exceeded after its end. `no`: t_end cut the peaks. `unknown`: the run failed or
-/// was invalid.
+/// Whether it is proven that a run's peaks are not exceeded after its end. `no`: t_end came before a proof. `unknown`:
+/// the run failed or was invalid.
 enum class PeaksFinal : signed char { unknown, no, yes };
 /// "true", "false", or "" for unknown.
 [[nodiscard]] std::string_view to_string(PeaksFinal final);
 
-/// One run. A number that is not finite did not happen: an empty cell in the file.
+/// One run. An output that did not happen is not finite, and an empty cell in the file.
 struct ResultRow {
   long run = 0; ///< counted from 0
   Status status = Status::failed;
@@ -53,7 +53,8 @@ struct Column {
   Spilled<double> values;
 };
 
-/// The table by columns, all of equal length. Long columns lie in temporary files: call release() after reading them.
+/// The results table, stored by columns of equal length. Long columns lie in temporary files: call release() after
+/// reading them.
 struct Results {
   Spilled<long> runs; ///< counted from 0, increasing
   Spilled<Status> status;
@@ -83,13 +84,13 @@ struct Results {
 void append_header(std::string& buffer, const ResultNames& names);
 
 /// Appends one line of runs.csv with its line feed.
-/// @pre texts have no line breaks: so a crash can cut only the last line
+/// @pre the row's texts have no line breaks, so that a crash can cut only the last line
 void append_row(std::string& buffer, const ResultRow& row);
 
 /// How to read a last line without a line break.
 enum class UnterminatedRow {
   read, ///< an ordinary row (other tools may leave the line break out)
-  drop  ///< left by a crash: leave it out, to be computed again
+  drop  ///< ignore it: a crash cut it, and the run is computed again
 };
 
 struct ResultsFile {

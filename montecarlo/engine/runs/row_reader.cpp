@@ -68,8 +68,8 @@ bool RowReader::next() {
   return true;
 }
 
-/// Reads the next record; false at the end, or at a record to drop. Rows are written line by line, so a crash cuts
-/// only the last line. A quote open from an earlier line is a fault, because the lines after it are rows.
+/// Reads the next record; false at the end, or at a record to drop. A crash cuts only the last line. So a quote that
+/// stays open over several lines is a fault of the file: it would swallow complete rows.
 bool RowReader::next_wanted() {
   if (!csv_.next()) return false;
   unterminated_ = !csv_.terminated();

@@ -1,4 +1,4 @@
-/// Reads runs.csv row by row, in the memory of one row.
+/// Reads runs.csv row by row, and keeps one row in memory.
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
@@ -25,7 +25,7 @@ public:
 
   /// Length of the file up to the last complete line read; 0: no header.
   [[nodiscard]] std::size_t complete_bytes() const { return complete_bytes_; }
-  /// Whether bytes follow that line at the end of the file.
+  /// Whether bytes without a line break follow the last complete line.
   [[nodiscard]] bool unterminated() const { return unterminated_; }
 
   /// An error about the current row, for the caller to throw.
@@ -35,7 +35,7 @@ public:
   }
 
 private:
-  /// Where each column of the table stands in the file's rows.
+  /// Index of each column of the table in the file's rows.
   struct Places {
     std::size_t run, status, latch_order;
     std::optional<std::size_t> reason, peaks_final;

@@ -41,7 +41,7 @@ RunPlan::RunPlan(const Campaign& campaign, UnitPoints points, Measure measure)
 
 void RunPlan::draw(long k, std::span<double> draws) const {
   const std::size_t count = draws.size();
-  if (!points_ && copula_.is_independent()) { // most campaigns: nothing is set aside
+  if (!points_ && copula_.is_independent()) { // most campaigns: needs no memory allocation
     for (std::size_t i = 0; i < count; ++i)
       draws[i] = distributions_[i].quantile(design_.uniform(static_cast<std::uint64_t>(k), i));
     return;

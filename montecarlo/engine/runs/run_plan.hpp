@@ -1,4 +1,4 @@
-/// What all runs of a campaign share: how to draw them, what to compute, and which outputs to keep.
+/// The plan that all runs of a campaign share: how to draw them, what to compute, and which outputs to keep.
 ///
 ///   run k → point of the unit cube → dependence → quantiles → draws (→ scene: campaign.hpp)
 #pragma once
@@ -18,21 +18,22 @@
 namespace wingspread {
 
 /// A rule that places runs in the unit cube, in place of the campaign's design. Pure.
-/// @param u output, one per dispersion in order, each as both of its tails > 0
+/// @param u output, one coordinate per dispersion in order, each given by both tail probabilities, > 0
 using UnitPoints = std::function<void(long run, std::span<Tails> u)>;
 
 /// A single number computed from a run, in place of the campaign's outputs.
 struct Measure {
   std::string name;
   Goal goal; ///< what a run has to compute for it
-  /// Of the scene that was run; pure. NaN and infinity are kept.
+  /// Computes the number from the scene that was run and its outcome; pure. NaN and infinity are kept.
   std::function<double(const Scene&, const Outcome&)> of;
-  std::string recipe{}; ///< from which another process rebuilds the measure; empty: impossible
+  /// Text from which a MeasureMaker rebuilds the measure in another process; empty: the measure cannot be rebuilt.
+  std::string recipe{};
 };
 
 /// Rebuilds a measure from its recipe in another process.
 /// @pre the campaign outlives the measure
-/// @throws what building it throws
+/// @throws what the measure's constructor throws
 using MeasureMaker = std::function<Measure(const Campaign& campaign, const std::string& recipe)>;
 
 /// Immutable, so all threads share one plan.
@@ -40,7 +41,7 @@ class RunPlan {
 public:
   /// @pre the campaign outlives the plan
   explicit RunPlan(const Campaign& campaign);
-  /// The campaign's runs at points of another rule than its design.
+  /// The campaign's runs at these points instead of those of its design.
   RunPlan(const Campaign& campaign, UnitPoints points);
   /// As above, with the measure as the only output column.
   RunPlan(const Campaign& campaign, UnitPoints points, Measure measure);

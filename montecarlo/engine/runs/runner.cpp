@@ -72,7 +72,7 @@ ResultRow Runner::row_of(long k, std::vector<double>&& draws, Outcome& outcome) 
   row.run = k;
   row.outputs = outputs_of(draws, outcome);
   row.draws = std::move(draws);
-  // A draw that overflowed is in the reason of its invalid run; the table has room for numbers.
+  // A draw that overflowed becomes an empty cell; the reason of its invalid run names the value.
   std::ranges::transform(row.draws, row.draws.begin(), finite_or_none);
   row.status = outcome.status;
   row.reason = outcome.reason;

@@ -1,5 +1,5 @@
-/// Makes one run of a campaign and its row of results. The evaluator and `replay` both use the runner, so they cannot
-/// differ.
+/// Makes one run of a campaign and its row of results. The evaluator and `replay` both use the runner, so that their
+/// rows cannot differ.
 ///
 ///   run k → draws → scene → core's Deployment → Outcome → ResultRow
 #pragma once
@@ -21,14 +21,15 @@ public:
   /// Run k's row. Unphysical draws give a row of status `invalid`.
   [[nodiscard]] ResultRow run(long k);
 
-  /// Run k in full, with its row. Observing a run and auditing its energy change no bit of the row.
+  /// A run's outcome and row. Observing a run and auditing its energy change no bit of the row.
   struct Replay {
     Outcome outcome;
     ResultRow row;
   };
   [[nodiscard]] Replay replay(long k, const Observer& observer);
 
-  /// Makes the runs that `next` names until it returns nothing, several at once. Each row has the bits of run()'s.
+  /// Makes the runs that `next` returns until `next` returns nothing, several at once. Each row equals that of run(),
+  /// bit for bit.
   /// @param done receives rows in the order in which runs end
   Occupancy run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
                     const std::function<void(ResultRow&&)>& done);
@@ -43,7 +44,7 @@ private:
 
   const RunPlan* plan_;
   Deployment deployment_;
-  Scene scene_; ///< the campaign's, with some run's draws applied
+  Scene scene_; ///< the campaign's scene, with the draws of the latest run applied
 };
 
 } // namespace wingspread

@@ -1,4 +1,4 @@
-/// Static margins over a campaign's draws: hands the scene of each draw to the study in static_margins.
+/// Static margins over a campaign's draws: passes the scene of each run to the study in static_margins.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
@@ -6,8 +6,8 @@
 
 namespace wingspread {
 
-/// By the campaign's factors, at its quantiles. Cost: as in static_margin_study.hpp.
-/// @param nominal the wing without dispersion: the campaign's scene, or the same with other springs
+/// Uses the campaign's torque factors and quantiles. Cost: as in static_margin_study.hpp.
+/// @param nominal the wing without dispersion: the campaign's scene, or that scene with other springs
 [[nodiscard]] StaticMarginStudy study_static_margins(const Campaign& campaign,
                                                      const Scene& nominal);
 

@@ -1,5 +1,5 @@
-/// Comma-separated values after RFC 4180: records end in LF or CRLF; a cell that holds a comma, a
-/// quote or a line break stands in double quotes, with its own quotes doubled.
+/// Comma-separated values after RFC 4180: records end in LF or CRLF. A cell with a comma, a quote or a line break is
+/// enclosed in double quotes, and quotes within the cell are doubled.
 #pragma once
 
 #include "montecarlo/foundation/formats/spec_error.hpp"
@@ -17,18 +17,18 @@ namespace wingspread {
 /// Appends `text` as one cell, quoted only if it has to be.
 void append_csv_cell(std::string& buffer, std::string_view text);
 
-/// Appends `value` with 17 significant digits (C's "%.17g", in any locale), which read back to the
-/// same double; appends nothing, an empty cell, when it is not finite.
+/// Appends `value` with 17 significant digits (C's "%.17g", in any locale), which read back to the same double. A value
+/// that is not finite gives an empty cell.
 void append_csv_cell(std::string& buffer, double value);
 template <std::integral Integer> void append_csv_cell(std::string& buffer, Integer value) {
   buffer += std::to_string(value);
 }
-/// Appends an empty cell without a value.
+/// Appends the value's cell; an empty cell if there is no value.
 template <class T> void append_csv_cell(std::string& buffer, const std::optional<T>& value) {
   if (value) append_csv_cell(buffer, *value);
 }
 
-/// Appends each value as ",cell": all cells of a record but the first.
+/// Appends each value as ",cell", i.e. all cells of a record after the first.
 template <class... Cells> void append_csv_cells(std::string& buffer, const Cells&... cells) {
   ((buffer += ',', append_csv_cell(buffer, cells)), ...);
 }
@@ -53,8 +53,8 @@ public:
   /// is never closed, or a carriage return that no line feed follows.
   [[nodiscard]] const std::vector<std::string>& cells();
 
-  /// Whether a line break ended the current record. Without one, the last record may be cut off; RFC 4180 allows a
-  /// complete one too, so the caller decides.
+  /// Whether a line break ended the current record. A last record without a line break may be cut off or complete (RFC
+  /// 4180 allows both), so the caller decides.
   [[nodiscard]] bool terminated() const { return terminated_; }
 
   /// Whether the current record spans several lines, by a line break in a quoted cell.

@@ -11,7 +11,7 @@
 
 namespace wingspread {
 
-/// The end of the name under which a file is written before it gets its own.
+/// Suffix of a file's name while the file is being written; finish() removes the suffix.
 inline constexpr std::string_view part_suffix = ".part";
 
 /// Replaces a file atomically: writes PATH.part, syncs it to the device and renames it. Readers, and a crash, find the
@@ -28,7 +28,7 @@ public:
   void write(std::string_view text) { part_.write(text); }
   /// The path before finish(), for a library that opens files itself.
   [[nodiscard]] const std::filesystem::path& part() const { return part_.path(); }
-  /// Moves the file to its path. @pre called once, as the last
+  /// Moves the file to its path. Call once, as the last function.
   void finish();
 
 private:
@@ -42,7 +42,7 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 /// Removes the part of an unfinished WholeFile. For a signal handler that ends the program.
 void drop_part() noexcept;
 
-/// Removes the parts that a killed program left in the folder.
+/// Removes files with part_suffix, which a killed program left in the folder.
 void remove_parts(const std::filesystem::path& folder);
 
 /// Makes the folder and its parents. @throws as refuse_path

@@ -31,7 +31,7 @@ private:
   std::vector<char> block_;
 };
 
-/// The same as a stream; throws MachineError if the device fails.
+/// An input stream on a regular file. Reading throws MachineError if the device fails.
 class InputFile : public std::istream {
 public:
   explicit InputFile(const std::filesystem::path& path);

@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-/// The deepest nesting that is read; campaigns have eight levels. Bounds the recursion of all that walk through a
+/// The deepest nesting that is read; campaigns have eight levels. Limits the recursion of functions that walk through a
 /// document.
 inline constexpr std::size_t most_json_levels = 64;
 

@@ -24,7 +24,7 @@
 
 namespace wingspread {
 
-/// The longest list in a document (bodies, dispersions, requirements); some checks cost the square of their number.
+/// The longest list in a document (bodies, dispersions, requirements). The cost of some checks grows as its square.
 inline constexpr std::size_t most_elements = 1000;
 
 /// A JSON value in a message: `-1`, `string "abc"`, `an array of 3`, `an object`.
@@ -36,7 +36,8 @@ inline constexpr std::size_t most_elements = 1000;
 /// `"a", "b" or "c"`.
 [[nodiscard]] std::string quoted_list(std::span<const std::string_view> words);
 
-/// A record of what a reader asked of a document; schemas are made from these (model/schema).
+/// A question that a reader asked of a document: a key, a type or a condition. Schemas are made from these questions
+/// (model/schema).
 struct Question {
   enum class What {
     object,
@@ -73,7 +74,7 @@ public:
 
   /// @pre value() is an object that holds the key
   [[nodiscard]] JsonCursor member(std::string_view key) const;
-  /// @pre value() is an array longer than that
+  /// @pre value() is an array with more than `index` elements
   [[nodiscard]] JsonCursor element(std::size_t index) const;
   /// The elements. Empty if the value is no array; empty, with a problem, if there are more than `most`.
   [[nodiscard]] std::vector<JsonCursor> elements(std::size_t most = most_elements) const;

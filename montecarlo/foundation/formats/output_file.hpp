@@ -16,16 +16,16 @@ public:
   /// All functions throw as refuse_path (machine_error.hpp).
   /// @param called name for the messages; default: the path
   OutputFile(std::filesystem::path path, From from, std::filesystem::path called = {});
-  /// Closes the file and ignores errors: after close(), or while another error is on its way.
+  /// Closes the file unless close() did, and ignores errors, because an exception may be under way.
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;
 
-  /// Writes all of the text, over interruptions by signals and partial writes.
+  /// Writes all of the text, even if signals interrupt the write.
   void write(std::string_view text);
   /// Returns when all data are on the device.
   void sync();
-  /// Closes the file; some file systems report only now that there was no space. @pre called once, as the last
+  /// Closes the file; some file systems report a full disk only here. Call once, as the last function.
   void close();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

@@ -15,7 +15,7 @@ inline constexpr int table_width = 100;
 /// The text cut to `width` characters; "…" is the last one if it was cut.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
 
-/// The text padded with blanks to the width. A text of the width or more keeps its line; the padding starts a new one.
+/// The text padded with blanks to the width. A text that is not shorter is followed by a line feed and `width` blanks.
 [[nodiscard]] std::string in_column(std::string_view text, std::size_t width);
 /// The text at the end of a column, after at least one blank.
 [[nodiscard]] std::string right_aligned(std::string_view text, std::size_t width);

@@ -27,7 +27,7 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// Identifies the machine's current boot; empty if the system does not tell.
+/// Identifies the machine's current boot; empty if unknown.
 std::string boot_name() {
   std::ifstream in("/proc/sys/kernel/random/boot_id");
   std::string name;
@@ -45,7 +45,7 @@ std::string name_in(int file) {
   return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : "";
 }
 
-/// Whether the process named in the file lives.
+/// Whether the named process is alive: on this machine, since its last boot. @param name as own_name()
 bool is_alive(const std::string& name) {
   pid_t process = 0;
   constexpr std::size_t number_at = std::string_view("process ").size();
@@ -85,7 +85,7 @@ bool is_read_only(const std::filesystem::path& folder, const std::filesystem::pa
   return !may_write(folder) || !may_write(path);
 }
 
-/// Locks it. @return 0, or the error
+/// Locks the file without waiting for another holder. @return 0, or the error
 int lock(int file) {
   for (;;) {
     if (flock(file, LOCK_EX | LOCK_NB) == 0) return 0;
@@ -93,7 +93,7 @@ int lock(int file) {
   }
 }
 
-/// Whether the path still leads to the open file, and not to another or to none.
+/// Whether the path still names the open file; false if the file was removed or replaced.
 bool is_at(int file, const std::filesystem::path& path) {
   struct stat open_file {
   }, named{};
@@ -101,7 +101,7 @@ bool is_at(int file, const std::filesystem::path& path) {
          open_file.st_dev == named.st_dev && open_file.st_ino == named.st_ino;
 }
 
-/// The locked file; nothing if its last holder has removed it meanwhile.
+/// Locks and returns the file; nothing if its last holder removed it between opening and locking.
 std::optional<int> take(const std::filesystem::path& folder, const std::filesystem::path& path) {
   const int file = open_lock(path);
   const std::string holder = name_in(file);
@@ -128,7 +128,7 @@ void refuse_writer(const std::filesystem::path& folder, const std::filesystem::p
   if (held) refuse_second(folder, holder);
 }
 
-/// Writes the holder into the file. @return 0, or the error
+/// Writes this process's name into the file. @return 0, or the error
 int write_name(int file) {
   const std::string name = own_name();
   if (ftruncate(file, 0) != 0) return errno;

@@ -9,16 +9,17 @@ namespace wingspread {
 inline constexpr const char* lock_file = ".lock";
 
 /// Holds a folder for this process. The lock is the system's (flock), which ends with the process. On a file system
-/// without flock, the name in the file counts as long as that process lives on this machine since its last boot.
+/// without flock, the folder is locked while the process named in the file is alive: on this machine, and since its
+/// last boot. There a process on another machine is not noticed.
 class FolderLock {
 public:
   enum class For {
     writing,
-    reading ///< if this process cannot write to the folder, read it without a lock unless another process holds it
+    reading ///< locks where this process can write; elsewhere takes no lock, but refuses a folder that is locked
   };
 
   /// Creates the folder if needed, and removes temporary files that a killed program left.
-  /// @throws MachineError that names the process holding the folder; as refuse_path does
+  /// @throws MachineError that names the holder if another process holds the folder; as refuse_path (machine_error.hpp)
   explicit FolderLock(std::filesystem::path folder, For purpose = For::writing);
   /// Releases the lock, and removes the folder if this object created it and it is empty.
   ~FolderLock();

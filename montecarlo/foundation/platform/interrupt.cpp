@@ -39,7 +39,7 @@ namespace {
 void arm(int signal, struct sigaction* before) {
   struct sigaction raising {};
   raising.sa_handler = wingspread_raise;
-  raising.sa_flags = SA_RESTART; // writes go on
+  raising.sa_flags = SA_RESTART; // interrupted writes continue
   sigemptyset(&raising.sa_mask);
   sigaction(signal, &raising, before);
 }

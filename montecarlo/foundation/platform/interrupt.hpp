@@ -12,7 +12,8 @@ struct Stopped {};
 /// The exit status of a program ended by a signal.
 inline constexpr int interrupted_status = 130;
 
-/// While one exists, the first SIGINT or SIGTERM sets a flag, and the second ends the program. At most one at a time.
+/// While an Interrupt exists, the first SIGINT or SIGTERM sets a flag, and the second ends the program.
+/// @pre no other Interrupt exists
 class Interrupt {
 public:
   Interrupt();
@@ -23,10 +24,10 @@ public:
   /// True after the first signal.
   [[nodiscard]] const std::atomic<bool>& flag() const;
 
-  /// Whether the signal was SIGTERM: a scheduler kills the program some seconds later.
+  /// Whether the signal was SIGTERM: a batch scheduler sends it and kills the program some seconds later.
   [[nodiscard]] bool is_urgent() const;
 
-  /// From now on a signal prints `words` to standard error and ends the program: only repeatable work is left.
+  /// From now on a signal prints `words` to standard error and ends the program. For work that can simply be repeated.
   /// @param words outlive this object
   void end_at_once(const char* words);
 

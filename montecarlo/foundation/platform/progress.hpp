@@ -12,10 +12,10 @@ struct Tally {
   long done = 0, total = 0;
   long before = 0;  ///< runs of `done` that an earlier session made
   long invalid = 0; ///< runs with an unphysical draw
-  long failed = 0;  ///< runs whose integration could not go on
+  long failed = 0;  ///< runs whose integration failed
   long stalled = 0, timed_out = 0;
   long look = 0, looks = 0; ///< interim analysis under way, and how many there will be
-  bool at_most = false;     ///< `looks` and `total` are upper bounds, which fall
+  bool at_most = false;     ///< `looks` and `total` are upper bounds, which may shrink
 };
 
 /// Progress of a study whose interim analyses depend on earlier results.
@@ -28,8 +28,8 @@ struct StudyProgress {
 /// @param before runs that an earlier session made
 [[nodiscard]] Tally tally_of(const StudyProgress& progress, long before);
 
-/// One line: a bar, done of total, runs per second, time left, and counts of runs that did not deploy. No time left
-/// if the total is an upper bound.
+/// One line: a bar, done of total, runs per second, time left, and counts of runs that did not deploy. The time left
+/// is omitted if the total is an upper bound.
 /// @param seconds since this session began
 [[nodiscard]] std::string progress_line(const Tally& tally, double seconds);
 
@@ -41,8 +41,8 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Rewrites the line at most ten times a second, and once all runs are done. The bar never runs backwards: a
-  /// smaller share than before is not shown.
+  /// Rewrites the line at most ten times a second, and always when all runs are done. Does nothing if the share done is
+  /// smaller than one shown before, so that the bar never runs backwards.
   void show(const Tally& tally);
 
   /// Ends the line, so that other text can be printed; the next line is shown below that text.

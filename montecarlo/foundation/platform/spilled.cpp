@@ -25,7 +25,8 @@ MachineError no_temporary_file(int error) {
                        "room for temporary data (TMPDIR names another folder)"});
 }
 
-/// A table of hundreds of columns takes more files than a process has unless it asks for them.
+/// Raises the limit of open files to its maximum: a table may have hundreds of columns, each with a file or two.
+/// @return whether the limit was raised
 bool ask_for_files() {
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur == files.rlim_max) return false;
@@ -57,7 +58,8 @@ void TemporaryFile::swap(TemporaryFile& other) noexcept {
 
 void TemporaryFile::grow(std::size_t bytes) {
   if (file_ < 0) file_ = open_unnamed();
-  int error = EINTR; // on a full disk it is this call that says so, not a signal when writing
+  // Allocates disk blocks now: a full disk is an error here, and not a SIGBUS at a later write.
+  int error = EINTR;
   while (error == EINTR)
     error = posix_fallocate(file_, static_cast<off_t>(size_), static_cast<off_t>(bytes - size_));
   if (error != 0) throw no_temporary_file(error);

@@ -2,7 +2,7 @@
 ///
 /// A short column is ordinary memory. A longer one is an unnamed temporary file, mapped into memory, in the folder
 /// that TMPDIR names, else in /var/tmp. The file has no name, so nothing is left however the program ends. Resident
-/// memory is returned to the system as a column grows and by release(); pages come back when they are touched.
+/// memory is returned to the system as a column grows and by release(); a later access reads the file again.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace wingspread {
 
-/// A longer column goes to a file. Also the resident part of a growing column. Heuristic: 256 KiB times some hundred
-/// columns is tens of MB; a smaller value means more system calls, a larger one more memory.
+/// Largest column kept in ordinary memory; also the part of a growing file that stays resident. Heuristic: 256 KiB
+/// times some hundred columns is tens of MB; a smaller value means more system calls, a larger one more memory.
 inline constexpr std::size_t spill_bytes = std::size_t{1} << 18;
 
 /// An unnamed temporary file, mapped as a whole.
@@ -47,7 +47,7 @@ private:
   std::size_t size_ = 0;
 };
 
-/// A vector of plain values that spills into a file. Pointers and spans are valid until it grows.
+/// A vector of plain values that spills into a file. Pointers and spans are valid until the vector grows.
 template <class T> class Spilled {
   static_assert(std::is_trivially_copyable_v<T>);
 
@@ -93,7 +93,7 @@ public:
 
   /// @throws MachineError if the disk has no room
   void push_back(const T& value) {
-    const T copy = value; // it may be one of these
+    const T copy = value; // `value` may refer to an element, which make_room() moves
     if (size_ == room_) make_room();
     data_[size_++] = copy;
   }

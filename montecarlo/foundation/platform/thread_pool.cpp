@@ -6,10 +6,10 @@
 #include <mutex>
 #include <omp.h>
 
-// GCC's OpenMP runtime synchronises with futexes, which the thread sanitizer does not see: it would report the start and
-// the end of the threads as races. release() and acquire() tell it of both. One store escapes them: the compiler passes
-// the address of the shared data after release(), just before the start. So start_and_join, which touches nothing else
-// of the shared data, is not instrumented; everything it calls is.
+// GCC's OpenMP runtime synchronises with futexes, which the thread sanitizer does not see. It would report races at the
+// start and at the end of the threads, so release() and acquire() announce both to the sanitizer. One store comes too
+// late for release(): the compiler stores the address of the shared data just before the threads start. So
+// start_and_join, which touches nothing else of the shared data, is not instrumented; everything it calls is.
 #ifdef __SANITIZE_THREAD__
 extern "C" {
 void __tsan_acquire(void* address);

@@ -12,8 +12,8 @@ namespace wingspread {
 /// The most threads a user can ask for.
 inline constexpr int most_threads = 1024;
 
-/// With fewer operations one thread is faster than several. An operation is a term of a compensated sum, or as much:
-/// some 6 ns. If other programs use the processors, all threads wait for the last one, spinning. Measured with
+/// With fewer operations one thread is faster than several. An operation is one term of a compensated sum, or equal
+/// work: some 6 ns. If other programs use the processors, all threads spin until the last one has ended. Measured with
 /// `studies/drivers/team_costs.cpp` on two processors shared with other programs: 2¹⁶ operations took 0.51 ms on one
 /// thread and 6.8 ms on two, 2²² 28 ms and 29 ms, 2²⁴ 206 ms and 85 ms.
 inline constexpr double operations_worth_threads = 1 << 22;

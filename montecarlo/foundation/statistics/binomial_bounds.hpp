@@ -12,8 +12,8 @@
 
 namespace wingspread {
 
-/// Clopper–Pearson interval of a proportion of which `hits` of `n` independent trials were seen:
-/// P(Bin(n, lower) ≥ hits) = P(Bin(n, upper) ≤ hits) = α/2. Never covers less than `confidence`.
+/// Clopper–Pearson interval of a proportion, from `hits` in `n` independent trials:
+/// P(Bin(n, lower) ≥ hits) = P(Bin(n, upper) ≤ hits) = α/2. Covers the proportion with at least `confidence`.
 /// [0, 1] for n = 0. Source: C. J. Clopper, E. S. Pearson, Biometrika 26 (1934) 404–413.
 /// @pre 0 ≤ hits ≤ n, 0 < confidence < 1
 [[nodiscard]] Interval clopper_pearson(long hits, long n, double confidence);
@@ -33,7 +33,7 @@ struct RankBounds {
   std::optional<long> lower, upper;
 };
 
-/// X_(lower) ≤ ξ_p ≤ X_(upper) with the confidence asked for at least, whatever the distribution:
+/// The ranks with X_(lower) ≤ ξ_p ≤ X_(upper) with at least the given confidence, whatever the distribution:
 /// lower is the largest l with P(Bin(n, p) ≤ l − 1) ≤ α/2, upper the smallest u with
 /// P(Bin(n, p) ≥ u) ≤ α/2. Independent draws only. Cost O(log n) binomial probabilities.
 /// Source: H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed. (2003), §7.1.

@@ -32,10 +32,9 @@ struct Histogram {
 /// @param iqr    X_(⌈3n/4⌉) − X_(⌈n/4⌉)
 [[nodiscard]] int count_bins(const Bins& bins, long n, double spread, double iqr);
 
-/// Histogram of sorted values, smallest first, over [min, max] in bins of equal width: count_bins() of them.
-/// A range too narrow for that many distinct edges takes as many as it has room for.
-/// Equal values v lie in the middle of [v − w, v + w], w = |v|/2, or 1/2 where v = 0.
-/// A value on an inner edge counts above it, by comparison with the edge as it is reported.
+/// Histogram of sorted values, smallest first, over [min, max] in count_bins() bins of equal width. A range too narrow
+/// for that many distinct edges has fewer bins. If all values equal v, the range is [v − w, v + w] with w = |v|/2, or
+/// 1/2 for v = 0. A value that equals an inner edge counts in the bin above that edge.
 /// Cost O(bins · log n).
 [[nodiscard]] Histogram histogram(std::span<const double> sorted, const Bins& bins);
 

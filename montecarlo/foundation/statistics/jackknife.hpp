@@ -1,5 +1,5 @@
-/// Bounds of any number that can be computed from all runs and again without a part of them (coefficients, indices).
-/// No formula of its variance is needed.
+/// Bounds of any statistic (a coefficient, an index) that can be computed from all runs and again without a part of the
+/// runs. No formula of the statistic's variance is needed.
 ///
 ///   symbol  meaning
 ///   G       groups of runs, independent and about equally large: replicates of a design, or parts of the draws
@@ -22,13 +22,12 @@ namespace wingspread {
 /// quantile at 95 %, and the number is computed 16 times. Fewer groups widen the bounds, more take time.
 inline constexpr int jackknife_groups = 16;
 
-/// No bounds for G < 2, if any θ_g is NaN, or if all θ_g are equal, which tells nothing of the error.
+/// The bounds of θ. None for G < 2, if any θ_g is NaN, or if all θ_g are equal, which says nothing about the error.
 /// @param without_each θ_g
 [[nodiscard]] Bounds jackknife_bounds(double value, std::span<const double> without_each,
                                       double confidence);
 
-/// Bounds of a correlation, on the scale of Fisher's z = artanh, where its error is nearly normal: they lie within
-/// (−1, 1).
+/// Bounds of a correlation, within (−1, 1): computed for Fisher's z = artanh(θ), whose error is nearly normal.
 [[nodiscard]] Bounds jackknife_correlation_bounds(double coefficient,
                                                   std::span<const double> without_each,
                                                   double confidence);

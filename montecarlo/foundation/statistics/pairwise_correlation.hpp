@@ -1,8 +1,8 @@
 /// Correlations of columns with columns, each over the rows in which both have a value: Pearson's of the values and
 /// of their ranks.
 ///
-/// All columns are read together, a stretch of rows at a time, so that little of them is in memory (spilled.hpp).
-/// Each sum takes rows in order: it has the same bits for one pair alone, and for any number of threads.
+/// All columns are read together, a block of rows at a time, so that little is in memory (spilled.hpp). Each sum adds
+/// rows in order, so that it has the same bits for one pair alone and for any number of threads.
 #pragma once
 
 #include "montecarlo/foundation/statistics/ranked_column.hpp"

@@ -1,5 +1,5 @@
-/// Rank correlations of an output with several columns: each column by itself, with its bounds, and
-/// given all others.
+/// Rank correlations of an output with several columns: of each column alone, with bounds, and of each column given all
+/// others (partial correlations).
 ///
 ///   symbol  meaning
 ///   n       rows
@@ -11,12 +11,12 @@
 ///   r_j = b_j / √(b_j² + (1 − c·b) (C⁻¹)_jj)                                                 (1)
 ///   z = artanh ρ,  s² = (1 + ρ²/2)/(n − 3)                                                   (2)
 ///
-/// (1) is the partial rank correlation coefficient (PRCC): what is left of x_j and y once every
-/// other column's linear part in ranks is taken out of both. (1) is the textbook's −P_jy/√(P_jj
-/// P_yy), P the inverse of all correlations, written so that it holds where y follows x without
-/// rest. (2) is of independent rows, and of ρ alone: of partial coefficients it covers 87 to 97 % in
-/// place of 95, and with 1/(n − k − 2) in place of its variance down to 79 %, so that the jackknife
-/// (jackknife.hpp) bounds those. Sources: R. L. Iman, W. J. Conover, Technometrics 21 (1979) 499–509;
+/// (1) is the partial rank correlation coefficient (PRCC): the correlation of x_j and y after the linear part of every
+/// other column, in ranks, is subtracted from both. (1) equals the textbook's −P_jy/√(P_jj P_yy), with P the inverse of
+/// the matrix of all correlations, but also holds if the columns x determine y completely. (2) holds for independent
+/// rows and for ρ only. Applied to partial coefficients, nominal 95 % bounds by (2) cover 87 to 97 %, and with the
+/// variance 1/(n − k − 2) down to 79 %; so partial coefficients are bounded by the jackknife (jackknife.hpp).
+/// Sources: R. L. Iman, W. J. Conover, Technometrics 21 (1979) 499–509;
 /// (2), Fisher's z with ranks' variance: D. G. Bonett, T. A. Wright, Psychometrika 65 (2000) 23–28.
 #pragma once
 

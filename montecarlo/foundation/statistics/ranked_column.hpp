@@ -22,7 +22,7 @@ public:
   [[nodiscard]] bool complete() const { return complete_; }
   /// Mid-ranks of all values. @pre complete()
   [[nodiscard]] std::vector<double> ranks() const;
-  /// Mid-ranks of the values with `keep`, among themselves and in their order. Cost O(n).
+  /// Mid-ranks of the kept values among each other, in the order of the values. Cost O(n).
   /// @pre no kept value is missing
   [[nodiscard]] std::vector<double> ranks_where(const std::vector<bool>& keep) const;
 
@@ -32,11 +32,9 @@ private:
   bool complete_ = true;
 };
 
-/// The columns ranked, several at once. @param threads as of thread_count (thread_pool.hpp)
-/// @pre the columns outlive what comes back
-[[nodiscard]] std::vector<RankedColumn>
 /// Ranks the columns, several at once. @param threads as of thread_count (thread_pool.hpp)
 /// @pre the columns outlive the result
+[[nodiscard]] std::vector<RankedColumn>
 rank_columns(std::span<const Spilled<double>* const> columns, int threads = 1);
 
 } // namespace wingspread

@@ -1,6 +1,6 @@
-/// Confidence bounds from replicates of a design: scrambled Sobol' points and Latin hypercubes, where
-/// draws depend on each other within a replicate and the replicates are independent. Student's t on
-/// the replicates, right for many runs per replicate, assuming no distribution of the values.
+/// Confidence bounds from replicates of a design: scrambled Sobol' points and Latin hypercubes, where draws depend on
+/// each other within a replicate and the replicates are independent. The bounds use Student's t over the replicates.
+/// They are accurate for many runs per replicate, and assume no distribution of the values.
 ///
 /// Symbols: R replicates; α = 1 − confidence; every interval leaves α/2 on either side.
 #pragma once
@@ -17,28 +17,28 @@ struct ReplicateValue {
   int replicate; ///< in [0, R)
 };
 
-/// Bounds of a quantile from replicates: the values at which the pooled distribution function F is
-/// p ∓ t s, where s is the standard error of F at the quantile itself, from the replicates' own
-/// functions, as that of a ratio where they differ in size, and t Student's quantile for R − 1
-/// degrees of freedom. (The mean of the replicates' quantiles would be biased. An s of each bound's
-/// own place was ruled out: it is smallest where the replicates agree by chance, and the search
-/// finds that place; bounds from two replicates missed in 10 to 20 % of all cases in place of 2.5.)
-/// No bound where p ∓ t s is not within F, and none for R < 2 or where all replicates agree.
+/// Bounds of a quantile from replicates: the values at which the pooled distribution function F is p ∓ t s. Here t is
+/// Student's quantile for R − 1 degrees of freedom, and s the standard error of F at the quantile, computed from the
+/// replicates' distribution functions (as the error of a ratio if replicates differ in size).
+/// Ruled out: the mean of the replicates' quantiles, which is biased; and an s computed at each bound, because the
+/// search then finds places where the replicates agree by chance. Bounds from two replicates so computed missed in 10
+/// to 20 % of all cases instead of 2.5 %.
+/// No bound if F does not reach p ∓ t s; none for R < 2 or if all replicates agree.
 /// Cost O(n). Source: R. S. Woodruff, J. Amer. Statist. Assoc. 47 (1952) 635–646.
 /// @param sorted smallest value first.
 [[nodiscard]] Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted,
                                                int replicates, double p, double confidence);
 
-/// Standard error of the mean of all values, from the replicates' own means: √s² with
-/// s² = R/(R − 1) · Σ_r (Σ_{i in r} (x_i − x̄))² / n², which is right for replicates that differ in
-/// size too (a ratio estimator). NaN for R < 2 and without values. Cost O(n).
+/// Standard error s of the mean of all values, from the replicates' own means:
+/// s² = R/(R − 1) · Σ_r (Σ_{i in r} (x_i − x̄))² / n², a ratio estimator, which also holds for replicates that differ
+/// in size. NaN for R < 2 and without values. Cost O(n).
 [[nodiscard]] double replicate_mean_error(std::span<const ReplicateValue> values, int replicates,
                                           double mean);
 
-/// A proportion's interval from replicates: that of Clopper and Pearson for as many independent
-/// draws as would have the standard error seen, fewer by (t_{n−1}/t_{R−1})² for its uncertainty. So
-/// it holds for few hits too, where F ± t s would be too narrow above.
-/// No bounds for R < 2, nor where all replicates agree: that says nothing about the error.
+/// A proportion's interval from replicates: the Clopper–Pearson interval for the effective number of independent draws.
+/// This number is the one that gives the observed standard error, reduced by the factor (t_{n−1}/t_{R−1})² because that
+/// error is itself uncertain. So the interval also holds for few hits, where the upper end of share ± t s is too low.
+/// No bounds for R < 2, or if all replicates agree, which says nothing about the error.
 /// Source: E. L. Korn, B. I. Graubard, Survey Methodology 24 (1998) 193–201.
 /// @param hits, sizes per replicate.
 [[nodiscard]] Bounds replicate_proportion_bounds(std::span<const long> hits,

@@ -43,9 +43,9 @@ struct Moments {
   double kurtosis;
 };
 
-/// Moments of finite values. Two passes about the first value, scaled by the largest deviation: with a mean of 1e9 a
-/// standard deviation of 1 loses only the digits that the values have lost. Cost O(n). Source: D. N. Joanes, C. A.
-/// Gill, The Statistician 47 (1998) 183–189.
+/// Moments of finite values, in two passes about the first value, scaled by the largest deviation. So a standard
+/// deviation of 1 about a mean of 1e9 has all the digits that the values themselves have. Cost O(n). Source: D. N.
+/// Joanes, C. A. Gill, The Statistician 47 (1998) 183–189.
 [[nodiscard]] Moments moments(std::span<const double> values);
 
 /// Sets skewness and kurtosis from central moments m_2 > 0, m_3, m_4 in any one unit. @pre the count is set
@@ -57,17 +57,17 @@ void set_shape(double m2, double m3, double m4, Moments& moments);
 /// The values that are not NaN, smallest first. Cost O(n log n).
 [[nodiscard]] std::vector<double> sorted_present(std::span<const double> values);
 
-/// Sorts in place, smallest first, −0 before 0. Cost O(n log n): 25 ms for 10⁶ normal values, where std::sort takes 100 to
-/// 130 ms, 5 s of a campaign of 10⁶ runs with 50 columns. @pre no NaN
+/// Sorts in place, smallest first, −0 before 0. Cost O(n log n): 25 ms for 10⁶ normal values. std::sort takes 100 to
+/// 130 ms, or 5 s more for a campaign of 10⁶ runs with 50 columns. @pre no NaN
 void sort_values(std::span<double> values);
 
-/// Cost of sorting n values and of using each once, in the operations of team.hpp.
+/// Cost of sorting the values and of using each once, in operations (operations_worth_threads in thread_pool.hpp).
 [[nodiscard]] constexpr double sorting_operations(std::size_t items) {
   return 16 * static_cast<double>(items);
 }
 
-/// The rank of the sample quantile: ⌈np⌉, at least 1. If only round-off separates np from a whole number, that number
-/// counts (100 · 0.07 is 7).
+/// The rank of the sample quantile: ⌈np⌉, at least 1. If only round-off separates np from a whole number, the rank is
+/// that number (100 · 0.07 is 7).
 /// @pre n > 0, 0 ≤ p ≤ 1
 [[nodiscard]] long quantile_rank(long n, double p);
 
@@ -87,7 +87,8 @@ struct Standard {
   [[nodiscard]] double of(double value) const { return ((value - shift) - rest) / scale; }
 };
 
-/// Nothing for fewer than two values and for a constant sample. Cost O(n). @pre finite
+/// The standardisation of a sample; nothing for fewer than two values or a constant sample. Cost O(n).
+/// @pre the values are finite
 [[nodiscard]] std::optional<Standard> standard_of(std::span<const double> values);
 
 /// Σ z_x z_y. Cost O(n). @pre equally long

@@ -1,4 +1,4 @@
-/// Quantiles of two-sided intervals in standard errors: (1 − confidence)/2 of the law lies above.
+/// Half-widths of two-sided intervals, in standard errors: the quantile above which (1 − confidence)/2 of the law lies.
 #pragma once
 
 namespace wingspread {

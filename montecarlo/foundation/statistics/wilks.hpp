@@ -6,8 +6,8 @@
 ///
 ///   (1)  P(Bin(n, 1 − p) ≤ k) ≤ 1 − c
 ///
-/// The order r of a tolerance limit is k + 1: that the r-th largest of n is at least the p quantile with confidence c
-/// is the same statement. Two-sided limits of order r leave out r − 1 on either side and have k = 2r − 1. Sources: S.
+/// The order r of a tolerance limit is k + 1: (1) also states that the r-th largest of n values is at least the p
+/// quantile with confidence c. Two-sided limits of order r leave out r − 1 on either side; k = 2r − 1. Sources: S.
 /// S. Wilks, Ann. Math. Statist. 12 (1941) 91–96; H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed. (2003),
 /// §7.2.
 #pragma once
@@ -22,7 +22,7 @@ namespace wingspread {
 /// The side of the values on which a limit lies.
 enum class Side { upper, lower, both };
 
-/// Largest n considered: beyond, the binomial law loses its digits.
+/// Largest n considered: for larger n the binomial law is computed with too few correct digits.
 inline constexpr long most_runs_sized = 1'000'000'000'000;
 
 /// The largest k of (1); nothing if n runs are too few even for k = 0. Cost O(log n) binomial probabilities.
@@ -46,9 +46,9 @@ inline constexpr long most_runs_sized = 1'000'000'000'000;
 /// The order r of the tolerance limits of n values; 0 if n is too small for any.
 [[nodiscard]] long tolerance_order(long n, Side side, double p, double c);
 
-/// The tolerance limits of n values: the narrowest that (1) allows, so that a share p of all possible draws lies
-/// within them with confidence c. Two-sided ones leave out the same number on either side. No limit if n is too
-/// small, or if it falls on an infinite value.
+/// The tolerance limits of n values: the narrowest that (1) allows, so that a share p of all possible draws lies within
+/// them with confidence c. Two-sided limits leave out the same number of values on either side. No limit if n is too
+/// small, or if the limit falls on an infinite value.
 /// @param sorted smallest first, independent draws; ±∞ for values worse than any number
 [[nodiscard]] Bounds tolerance_limits(std::span<const double> sorted, Side side, double p,
                                       double c);

@@ -1,4 +1,4 @@
-/// Identifies the runs that a study asks for at once.
+/// Identifies an analysis: the runs that a study asks for at once.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -7,8 +7,8 @@
 
 namespace wingspread {
 
-/// A text unique to these runs: the hash of the campaign, the outputs kept, the range, and the draws of its first and
-/// last run (a study may place runs at points of its own).
+/// A text that identifies these runs: the campaign's hash, the range, and a hash of the outputs kept and of the draws
+/// of the first and last run. The draws are included because a study may place runs at points of its own.
 [[nodiscard]] std::string analysis_id(const RunPlan& plan, RunRange range);
 
 } // namespace wingspread

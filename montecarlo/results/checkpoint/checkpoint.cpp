@@ -14,7 +14,7 @@ namespace {
 
 constexpr char analysis_mark = 'L';
 
-/// The first record: which study it is.
+/// Reads the first record: the identity of the study.
 Json read_about(RecordReader& in, const std::filesystem::path& file) {
   if (!in.next())
     throw SpecError({{file.string(), "", "a checkpoint whose first record is damaged",

@@ -1,8 +1,9 @@
-/// The checkpoint of a study (`margin`, `rare`): every row it was given, so that an interrupted study can continue.
+/// The checkpoint of a study (`margin`, `rare`): a file with every row that the study has received, so that an
+/// interrupted study can continue.
 ///
-/// A study asks for runs analysis by analysis, and its next question depends on the rows so far. It is deterministic:
-/// given the same rows in the same order, it continues where it was. A checkpoint takes 40 to 150 bytes per run and
-/// is read in constant memory.
+/// A study asks for runs in a sequence of analyses, and each analysis depends on the rows before. The study is
+/// deterministic: if it receives the recorded rows again, in the same order, it asks for the same analyses. A
+/// checkpoint takes 40 to 150 bytes per run and is read in constant memory.
 ///
 ///   record 1     JSON: which study the checkpoint belongs to
 ///   'L' · text   an analysis begins (analysis_id.hpp)
@@ -21,33 +22,35 @@
 
 namespace wingspread {
 
-/// @param there identity that a file records; an array stands for its length
-/// @throws SpecError with each of our values that differs
+/// Compares the identity of a study with the one recorded in a file.
+/// @param there the recorded identity; an array in it is compared by its length
+/// @throws SpecError with each value of `ours` that differs
 void refuse_other_study(const std::filesystem::path& file, const Json& there, const Json& ours);
 
-/// The study a checkpoint belongs to. @throws SpecError if its first record is damaged
+/// The identity of the study that a checkpoint belongs to. @throws SpecError if the first record is damaged
 [[nodiscard]] Json about_of_log(const std::filesystem::path& file);
 
 /// Reads the recorded analyses of a study, and then appends new ones.
 class Checkpoint {
 public:
   /// Opens the file if it exists; else the first analysis creates it.
-  /// @param about which study it is: an object; equal to the recorded one
-  /// @throws SpecError if it belongs to another study, with each value that differs, or is no checkpoint
+  /// @param about identity of the study, a JSON object; a recorded identity must be equal
+  /// @throws SpecError if the file belongs to another study, with each value that differs, or is no checkpoint
   Checkpoint(std::filesystem::path file, Json about);
 
   /// Begins the next analysis, and delivers its recorded rows.
   /// @param stop once true, no more rows are delivered
-  /// @return rows delivered
-  /// @throws SpecError if the checkpoint continues with another analysis, or its draws differ on this machine
+  /// @return number of rows delivered
+  /// @throws SpecError if the checkpoint continues with another analysis, or this machine computes other draws or
+  ///   another last row
   long enter(const RunPlan& plan, RunRange range, const BatchSink& sink,
              const std::atomic<bool>& stop);
 
   /// Whether the next recorded analysis is this one.
   [[nodiscard]] bool has_next(const RunPlan& plan, RunRange range) const;
 
-  /// Appends rows of the analysis. Writes to the device every five seconds.
-  /// @pre all its recorded rows were delivered
+  /// Appends rows of the current analysis. Writes to the device every five seconds.
+  /// @pre enter() has delivered all recorded rows of the analysis
   /// @throws as refuse_path (machine_error.hpp) if the file cannot be written
   void add(const Batch& batch);
 
@@ -55,10 +58,11 @@ public:
   void sync();
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  /// Rows read so far; rows in the file.
+  /// Rows read from the file so far.
   [[nodiscard]] long read() const { return read_; }
+  /// Rows read or added so far.
   [[nodiscard]] long rows() const { return rows_; }
-  /// Whether records after those read were damaged and cut off.
+  /// Whether damaged records followed the valid ones. They are ignored and overwritten.
   [[nodiscard]] bool was_damaged() const { return damaged_; }
 
 private:
@@ -73,7 +77,7 @@ private:
   Json about_;
   std::optional<RecordReader> in_; ///< while unused records are left
   std::optional<RecordWriter> out_;
-  std::optional<RecordsEnd> end_; ///< of the records read: where to append
+  std::optional<RecordsEnd> end_; ///< of the valid records, where to append; set once all are read
   Clock::time_point synced_ = Clock::now();
   long analyses_ = 0, rows_ = 0, read_ = 0;
   bool damaged_ = false;

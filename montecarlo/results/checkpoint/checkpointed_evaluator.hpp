@@ -8,11 +8,11 @@
 
 namespace wingspread {
 
-/// Delivers the same batches however many rows the checkpoint has.
+/// Delivers the same rows however many of them the checkpoint has.
 class CheckpointedEvaluator final : public Evaluator {
 public:
   /// @param inner makes the runs that the checkpoint does not have
-  /// @param stop  once true, no more is read
+  /// @param stop  once true, no more rows are read from the checkpoint
   /// @pre all arguments outlive this object
   CheckpointedEvaluator(Evaluator& inner, Checkpoint& log, const std::atomic<bool>& stop)
       : inner_(inner), log_(log), stop_(stop) {}

@@ -3,8 +3,8 @@
 ///   magic                                   a line of text
 ///   size u32 · sum u64 · size bytes         a record; repeated
 ///
-/// The sum is FNV-1a over size and bytes, starting from the sum of the record before. A change of any byte shows in
-/// its own record, and a lost, doubled or moved record in the next. Nothing is read from the first invalid record on.
+/// The sum is FNV-1a over size and bytes, starting from the sum of the record before. So a changed byte invalidates its
+/// record, and a lost, doubled or moved record the next one. Reading ends at the first invalid record.
 #pragma once
 
 #include "montecarlo/foundation/formats/input_file.hpp"
@@ -18,8 +18,8 @@
 
 namespace wingspread {
 
-/// Longest record. Heuristic: records have some 64 KiB; a larger size is read as damage, so that no allocation
-/// follows a random number.
+/// Longest record. Heuristic: records have some 64 KiB. A larger size counts as damage, so that damaged bytes do not
+/// cause a huge allocation.
 inline constexpr std::size_t most_record_bytes = std::size_t{64} << 20;
 
 /// Where to append to a file of records.
@@ -37,12 +37,12 @@ enum class RecordsTail {
 
 class RecordReader {
 public:
-  /// @throws SpecError if it is no file of records; as InputFile does
+  /// @throws SpecError if the file does not begin with `magic`; as InputFile does
   explicit RecordReader(const std::filesystem::path& path);
 
   /// Reads the next record; false if no valid one is left.
   [[nodiscard]] bool next();
-  /// The record read last; next() overwrites it.
+  /// The record read last; next() overwrites the record.
   [[nodiscard]] const std::string& record() const { return record_; }
 
   /// The end of the record read last.

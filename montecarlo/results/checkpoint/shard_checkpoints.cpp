@@ -36,7 +36,7 @@ Json about_shard(Json about, const Shard& shard) {
   return about;
 }
 
-/// All shards in order. @throws unless each is there once and finished
+/// All shards in the order of their runs. @throws unless each shard is there once and finished
 std::vector<Part> parts_of(const std::vector<std::filesystem::path>& folders, long runs,
                            const ShardMaker& maker) {
   std::vector<Part> parts;

@@ -1,4 +1,4 @@
-/// Analyses whose runs were made before in shards, on other machines.
+/// Takes the runs of analyses from the checkpoints of shards, made on other machines.
 #pragma once
 
 #include "montecarlo/results/checkpoint/checkpoint.hpp"
@@ -12,22 +12,25 @@
 
 namespace wingspread {
 
-/// Written last in a study's shard. A shard holds its part of those analyses that do not depend on other results.
+/// The file written last into a finished shard of a study. A shard holds its part of each analysis that does not depend
+/// on results of other analyses.
 inline constexpr const char* shard_file = "shard.json";
 
-/// Delivers the analyses that all shards have, each shard's part in turn; `inner` makes the others.
+/// Delivers an analysis from the shards, one shard's part after the other, if all shards have it next in their
+/// checkpoints. `inner` makes the runs of all other analyses.
 class ShardCheckpoints final : public Evaluator {
 public:
-  /// @param folders the shards', in any order; none: `inner` makes everything
-  /// @param about   which study it is (checkpoint.hpp); a shard has the same with the shard in its stamp
-  /// @param runs    of an analysis
-  /// @param inner   makes what the shards do not have
+  /// @param folders of the shards, in any order; none: `inner` makes everything
+  /// @param about   identity of the study (checkpoint.hpp); a shard's identity also has the shard in its stamp
+  /// @param runs    number of runs of an analysis
+  /// @param maker   command for missing shards, for the error message
+  /// @param inner   makes the analyses that the shards do not have
   /// @throws MissingRuns (parts.hpp) if shards are missing or unfinished, SpecError if they are no shards of this
   ///   study
   ShardCheckpoints(const std::vector<std::filesystem::path>& folders, const Json& about, long runs,
                    const ShardMaker& maker, Evaluator& inner, const std::atomic<bool>& stop);
 
-  /// @throws what `inner` throws, and SpecError if a shard's draws differ on this machine
+  /// @throws what `inner` and Checkpoint::enter() throw; SpecError if a shard lacks rows
   long make(const RunPlan& plan, RunRange range, const BatchSink& sink) override;
   [[nodiscard]] const Occupancy& occupancy() const override { return inner_.occupancy(); }
   /// Rows that the shards supplied.

@@ -12,14 +12,14 @@ namespace wingspread {
 /// The checkpoint of an unfinished study.
 inline constexpr const char* checkpoint_file = "looks.log";
 
-/// Locked by this process. Holds the study's checkpoint from its first analysis to its last file.
+/// The folder, locked by this process. It holds a checkpoint until the study has written its last file.
 class StudyFolder {
 public:
-  /// Opens or creates the folder. To resume, the folder is new or empty, has the checkpoint of the same study, or is
-  /// finished. Otherwise it is new or empty.
-  /// @param about which study it is (checkpoint.hpp); recorded in the last file too
-  /// @param last  the file that the study writes last: JSON
-  /// @throws SpecError otherwise; MachineError if another process holds it, or it cannot be written
+  /// Opens or creates the folder. Without `resume` the folder must be new or empty. With `resume` it may also have the
+  /// checkpoint of the same study, or be finished.
+  /// @param about identity of the study (checkpoint.hpp); also recorded in the last file
+  /// @param last  name of the JSON file that the study writes last
+  /// @throws SpecError for another folder; MachineError if another process holds the folder, or it cannot be written
   StudyFolder(std::filesystem::path folder, const Json& about, const char* last, bool resume);
 
   /// Whether the last file exists and the checkpoint does not.
@@ -27,8 +27,8 @@ public:
   /// @pre the study is not finished
   [[nodiscard]] Checkpoint& log() { return *log_; }
 
-  /// Removes the checkpoint. Once, after the last file was written. So a folder is the same whether the study was
-  /// interrupted or not.
+  /// Removes the checkpoint, so that the folder is the same whether the study was interrupted or not. Call once, after
+  /// the last file was written.
   void finish();
 
 private:

@@ -1,4 +1,4 @@
-/// Name, unit and description of each column of runs.csv, for files that hold them.
+/// Name, unit and description of each column of runs.csv, for file formats that store them.
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"

@@ -72,7 +72,8 @@ CasesFolder::CasesFolder(std::filesystem::path folder, const Campaign& campaign,
   if (!resume)
     refuse_used_folder(stored_.folder, expected);
   else if (!is_new_folder(stored_.folder))
-    (void)read_stored_campaign(stored_.folder); // before anything is made in what is no such folder
+    // Throws for a folder without a campaign, before a lock file is made in it.
+    (void)read_stored_campaign(stored_.folder);
   lock_.emplace(stored_.folder);
   if (!resume) refuse_used_folder(stored_.folder, expected);
   const std::filesystem::path file = stored_.folder / campaign_file;

@@ -1,7 +1,7 @@
 /// The results folder of a campaign with cases, with a results folder per case.
 ///
 ///   campaign.json    the campaign in full with its cases, and its stamp
-///   NAME/            the results folder of a case, i.e. of campaign_of_case
+///   NAME/            the results folder of the case NAME (its campaign: campaign_of_case)
 ///   cases.json       all cases side by side
 ///
 /// A case's folder can be read, replayed and analysed like any results folder.
@@ -24,8 +24,8 @@ inline constexpr const char* cases_file = "cases.json";
 [[nodiscard]] bool is_cases_folder(const std::filesystem::path& folder);
 
 /// The folder itself for a campaign without cases, else that of the case.
-/// @param name empty: no case named
-/// @throws SpecError if a case must be named and is not, or does not exist
+/// @param name of the case; empty: none
+/// @throws SpecError if the campaign has cases and the name is empty, or if no case has the name
 [[nodiscard]] std::filesystem::path folder_of_case(const std::filesystem::path& folder,
                                                    const std::string& name);
 

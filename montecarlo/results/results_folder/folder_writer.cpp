@@ -38,7 +38,7 @@ struct Difference {
   const Json *found, *expected;
 };
 
-/// The deepest values that differ; arrays of different lengths differ as a whole.
+/// Finds the innermost values that differ; arrays of different lengths differ as a whole.
 void find_differences(const Json& found, const Json& expected, const std::string& pointer,
                       std::vector<Difference>& all) {
   if (found.is_object() && expected.is_object()) {
@@ -61,9 +61,9 @@ void find_differences(const Json& found, const Json& expected, const std::string
 
 std::string describe_side(const Json* value) { return value ? describe_value(*value) : "nothing"; }
 
-/// How a campaign differs from the stored one: the first values that differ, or the hashes if the same values have
-/// another order.
-/// @param told pointer of a problem already reported
+/// Adds problems if the campaign differs from the stored one: the first values that differ, or the hashes if only the
+/// order of keys differs.
+/// @param told pointer of a value that is already reported
 void refuse_differences(const StoredCampaign& there, const Campaign& ours, std::string_view told,
                         std::vector<Problem>& problems) {
   constexpr std::size_t most_told = 5;
@@ -91,7 +91,7 @@ std::vector<std::int64_t> looks_before(const Sampling& there, std::int64_t rows)
   return looks;
 }
 
-/// A shard cannot do interim analyses, which need all runs up to them.
+/// Refuses a shard of a campaign with a stopping rule: an interim analysis needs all runs up to that point.
 void refuse_stopping_shard(const Campaign& campaign, const std::optional<Shard>& shard) {
   if (shard && !campaign.until.empty())
     throw SpecError({{"", "", describe(shard) + " of a campaign that may stop early",
@@ -123,7 +123,7 @@ void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, co
   if (fixed)
     problems.push_back({(there.folder / campaign_file).string(), "/sampling/runs",
                         std::to_string(found), fmt::format("{}: {}", runs, *fixed)});
-  Campaign same = ours; // but for the number of runs, which may grow
+  Campaign same = ours; // compared with the same number of runs, because that number may grow
   if (!fixed) override_sampling(same, found, std::nullopt);
   refuse_differences(there, same, fixed ? "/sampling/runs" : "", problems);
   compare("shard", describe(there.stamp.shard), describe(stamp.shard));
@@ -151,7 +151,8 @@ FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
   if (!resume)
     refuse_used_folder(stored_.folder, expected);
   else if (!is_new_folder(stored_.folder))
-    (void)read_stored_campaign(stored_.folder); // before anything is made in what is no such folder
+    // Throws for a folder without a campaign, before a lock file is made in it.
+    (void)read_stored_campaign(stored_.folder);
   lock_.emplace(stored_.folder);
   const bool fresh = is_new_folder(stored_.folder);
   if (!resume) refuse_used_folder(stored_.folder, expected);

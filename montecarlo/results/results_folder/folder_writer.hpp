@@ -11,24 +11,24 @@ namespace wingspread {
 /// any moment can be resumed.
 class FolderWriter {
 public:
-  static constexpr bool wants_csv = true; ///< in the batches it receives
+  static constexpr bool wants_csv = true; ///< batches must have their lines of runs.csv
 
   /// Opens the folder, or creates it with its campaign.json, and locks it.
   ///
-  /// To resume, the folder is new, or has the same campaign, seed, shard and version; a torn end of runs.csv is
-  /// removed. Otherwise it is new or empty. A campaign with a stopping rule has no shards, because an interim
-  /// analysis needs all runs up to it.
+  /// Without `resume` the folder must be new or empty. With `resume` it may also have the same campaign, seed, shard
+  /// and version; a torn last line of runs.csv is removed. A campaign with a stopping rule has no shards, because an
+  /// interim analysis needs all runs up to that point.
   ///
-  /// A campaign may be resumed with more runs, unless its draws or interim analyses depend on their number. Its
-  /// results were seen, so this is one more interim analysis, recorded in campaign.json (Sampling::extended_from).
-  /// The folder then equals that of running this campaign at once.
-  /// @throws SpecError otherwise, with nothing written; MachineError if another process holds it, or it cannot be
-  ///   written
+  /// A campaign may be resumed with more runs, unless its draws or interim analyses depend on their number. The
+  /// earlier results have been seen, so they count as one more interim analysis, which campaign.json records
+  /// (Sampling::extended_from). The folder then equals that of running the extended campaign at once.
+  /// @throws SpecError for any other folder, with nothing written; MachineError if another process holds the folder,
+  ///   or it cannot be written
   FolderWriter(std::filesystem::path folder, const RunPlan& plan, const std::optional<Shard>& shard,
                bool resume);
 
   /// The next runs to make: all that are left or, with a stopping rule, those up to the next interim analysis. Empty
-  /// if complete. Cost at an interim analysis: that of its statistics.
+  /// if complete. At an interim analysis this call computes the statistics of its goals.
   [[nodiscard]] RunRange remaining() const;
   [[nodiscard]] const StoredCampaign& stored() const { return stored_; }
   /// @throws MachineError if memory and temporary files had no room for the rows
@@ -53,9 +53,9 @@ private:
 /// Whether the folder does not exist, or holds only what a crash left before the first file.
 [[nodiscard]] bool is_new_folder(const std::filesystem::path& folder);
 
-/// Refuses to mix rows of two campaigns, seeds, shards or versions. The number of runs may grow where that is
-/// allowed.
-/// @param ours with the interim analyses recorded there, as far as it has them
+/// Refuses to mix rows of two campaigns, seeds, shards or versions. The number of runs may grow unless the draws or
+/// interim analyses depend on it.
+/// @param ours the campaign to continue, with the interim analyses that `there` records
 /// @throws SpecError with each difference
 void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, const Stamp& stamp);
 

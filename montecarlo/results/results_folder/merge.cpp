@@ -87,7 +87,7 @@ ShardMaker maker_of(const std::vector<std::filesystem::path>& folders) {
   return maker;
 }
 
-/// Labels the merge as a preview if runs are missing.
+/// Labels the merge as a preview if runs are missing; adds a fault if there is no run at all.
 void preview(Merging& merging, PartFaults& faults) {
   const long of = merging.whole.campaign.sampling.runs;
   long there = 0;
@@ -170,7 +170,7 @@ std::vector<CaseSummary> merge_cases(const std::vector<std::filesystem::path>& f
   refuse_strangers(tops, campaign_file);
   StoredCampaign whole = read_stored_campaign(folders.front());
   PartFaults faults;
-  std::vector<Merging> mergings; // all are looked at before anything is written
+  std::vector<Merging> mergings; // all cases are checked before anything is written
   Preview all;
   for (const CaseSpec& spec : cases_in(folders)) {
     mergings.push_back(look_at(folders, spec.name, out / spec.name, kind, faults));

@@ -90,14 +90,15 @@ std::string command_for(const ShardMaker& maker, const Part& sibling, const Shar
   return command(maker, out, shard, std::filesystem::exists(out));
 }
 
-/// Adds the commands of the shards that lie within the missing runs, for the numbers of shards in use.
+/// Adds a command for each shard that lies within the missing runs. Considers the numbers of shards that the existing
+/// folders use.
 void add_commands(const std::vector<Part>& parts, const std::vector<RunRange>& nobodys, long runs,
                   const ShardMaker& maker, PartFaults& faults) {
-  std::map<long, const Part*, std::greater<>> siblings; // by their number of shards
+  std::map<long, const Part*, std::greater<>> siblings; // a folder for each number of shards in use
   for (const Part& part : parts)
     if (part.stamp.shard) siblings.try_emplace(part.stamp.shard->of, &part);
   for (const RunRange& missing : nobodys) {
-    long next = missing.first; // of which no command is known yet
+    long next = missing.first; // first run that no command makes yet
     for (const auto& [of, sibling] : siblings)
       for (Shard shard{1, of}; shard.index <= of && next < missing.last; ++shard.index) {
         const RunRange own = shard_runs(runs, shard);

@@ -1,4 +1,5 @@
-/// Folders with parts of the same runs: which runs they have, which are missing, and the commands that make those.
+/// Folders that each have a part of a campaign's runs: which runs are there, which are missing, and the commands that
+/// make the missing ones.
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -11,14 +12,14 @@
 
 namespace wingspread {
 
-/// A folder and its runs: one range, unless it is broken or unfinished.
+/// A folder and its runs.
 struct Part {
   std::filesystem::path folder;
-  std::filesystem::path
-      out; ///< argument of --out that makes it: the folder, or the one with all cases
+  /// Argument of --out that makes the folder: the folder itself, or the folder that holds the folders of all cases.
+  std::filesystem::path out;
   Stamp stamp;
-  RunRange own; ///< runs that it should have
-  std::vector<RunRange> present{};
+  RunRange own;                    ///< runs that the folder should have
+  std::vector<RunRange> present{}; ///< runs that it has: several ranges if some are missing
 
   /// @pre runs increase
   void add(long run);
@@ -62,15 +63,17 @@ struct ShardMaker {
 /// Quotes a word for a shell.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
-/// @param file of each folder that has its stamp
-/// @throws SpecError with each folder of another campaign, seed or version than the first one, and each preview
+/// Refuses folders that do not belong together.
+/// @param file name of the file in each folder that has the stamp
+/// @throws SpecError with each folder of another campaign, seed or version than the first folder, and each preview
 void refuse_strangers(const std::vector<Part>& parts, const char* file);
 
 /// Adds a problem for each folder that repeats runs of an earlier one.
 void find_doubles(const std::vector<Part>& parts, PartFaults& faults);
 
-/// Adds a problem for each folder that lacks runs of its own, and one for runs that no folder should have had.
-/// @param runs of the whole
+/// Adds a problem for each folder that lacks some of its own runs, and one problem for the runs that belong to none of
+/// the folders. Adds the commands that make these runs.
+/// @param runs number of runs of the whole campaign
 void find_missing(const std::vector<Part>& parts, long runs, const ShardMaker& maker,
                   PartFaults& faults);
 

@@ -21,10 +21,10 @@ bool same(double a, double b) {
 
 std::string shown(double value) { return std::isnan(value) ? "nothing" : csv_cell(value); }
 
-/// The position in runs.csv from which to read to reach a run soon: the start of a row, by bisection, since runs
-/// increase. The end of the header if bisection fails.
+/// The start of a row at or shortly before the run, found by bisection, because run numbers increase. The end of the
+/// header if bisection fails.
 std::size_t place_before(InputFile& in, long run, std::size_t header_bytes) {
-  constexpr std::size_t near = 1 << 16; // bytes that may as well be read
+  constexpr std::size_t near = 1 << 16; // so few bytes are read faster than bisected
   std::size_t first = header_bytes, last = in.size();
   std::string line;
   while (last - first > near) {
@@ -93,7 +93,7 @@ std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run)
     RowReader reader(in, path.string(), names, UnterminatedRow::drop);
     in.seek(place_before(in, run, reader.complete_bytes()));
     return find_row(reader, run);
-  } catch (const SpecError&) { // its place in the file is not known then
+  } catch (const SpecError&) { // reads again from the beginning, so that the error names the line
     InputFile in(path);
     RowReader reader(in, path.string(), names, UnterminatedRow::drop);
     return find_row(reader, run);

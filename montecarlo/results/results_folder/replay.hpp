@@ -11,14 +11,14 @@ struct Replayed {
   Outcome outcome;
   ResultRow row;
   ResultNames names;
-  std::string
-      file; ///< whose rows it is compared with: runs.csv or, of a folder without rows, broken_runs.csv
-  bool recorded = false; ///< whether that file has the run
+  /// The file of recorded rows: runs.csv or, in a folder made with --no-rows, broken_runs.csv.
+  std::string file;
+  bool recorded = false; ///< whether the file has the run
   /// A line for each column whose recorded value differs from this run in any bit.
   std::vector<std::string> differences;
 };
 
-/// Run k's row of rows_file(), if it is there. Cost: logarithmic in the file's length, in time and memory.
+/// The run's row in rows_file(), if the file has it. Cost: time logarithmic in the file's length.
 /// @throws SpecError if a row read on the way is broken
 [[nodiscard]] std::optional<ResultRow> find_stored_row(const StoredCampaign& stored, long run);
 
@@ -38,14 +38,13 @@ private:
   std::optional<ResultRow> recorded_;
 };
 
-/// A line for each column in which two rows of one table differ, by as much as a bit.
-[[nodiscard]] std::vector<std::string>
 /// A line for each column in which two rows differ in any bit.
+[[nodiscard]] std::vector<std::string>
 differences(const ResultNames& names, const ResultRow& recorded, const ResultRow& computed);
 
-/// Repeats a recorded row before more are appended. On another machine, with another math library or after a change
-/// of the program it may differ, and so may the next rows.
-/// @param file of the row
+/// Computes a recorded row again before more rows are appended, and refuses to continue if it differs. It may differ
+/// on another machine, with another math library or after a change of the program; the next rows then might too.
+/// @param file that has the row
 /// @throws SpecError with each column that differs in any bit
 void refuse_other_row(const RunPlan& plan, const ResultRow& recorded,
                       const std::filesystem::path& file);

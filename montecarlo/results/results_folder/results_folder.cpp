@@ -67,7 +67,8 @@ void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, lo
   }
 }
 
-/// Rows of another tool may lack columns that this program always records, unless their campaign asks for them.
+/// Drops outputs that this program always records, if a file of another tool lacks them and its campaign does not ask
+/// for them.
 void match_recorded(const Json& document, const std::filesystem::path& runs, Campaign& campaign) {
   std::string header;
   if (std::filesystem::exists(runs)) {

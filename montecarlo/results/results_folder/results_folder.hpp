@@ -3,7 +3,7 @@
 ///   campaign.json    the campaign in full, and its stamp
 ///   runs.csv         one row per run (results.hpp); the only file that grows
 ///   summary.json, histograms.json, histograms.csv      computed from runs.csv
-///   timing.json      depends on machine and day; no other file does
+///   timing.json      times and the machine: the only file that differs between repetitions
 #pragma once
 
 #include "montecarlo/engine/runs/evaluator.hpp"
@@ -26,8 +26,8 @@ inline constexpr const char* timing_file = "timing.json";
 inline constexpr const char* summary_file = "summary.json";
 inline constexpr const char* histograms_json_file = "histograms.json";
 inline constexpr const char* histograms_csv_file = "histograms.csv";
-/// Of a campaign run with --no-rows, in place of runs.csv: its streaming statistics, and the rows of the runs that
-/// did not deploy or break a requirement.
+/// The files in place of runs.csv if the campaign was run with --no-rows: its streaming statistics, and the rows of
+/// the runs that did not deploy or break a requirement.
 inline constexpr const char* statistics_file = "statistics.bin";
 inline constexpr const char* broken_runs_file = "broken_runs.csv";
 
@@ -43,7 +43,8 @@ struct StoredCampaign {
   [[nodiscard]] RunRange runs() const { return shard_runs(campaign.sampling.runs, stamp.shard); }
 };
 
-/// Whether these are all runs: the folder's, or those up to the interim analysis at which the campaign stops.
+/// Whether no run is missing: the results have all of the folder's runs, or those up to the interim analysis at which
+/// the campaign stops.
 /// @pre the results are the folder's first runs
 [[nodiscard]] bool is_complete(const StoredCampaign& stored, const Results& results);
 
@@ -56,7 +57,7 @@ struct StoredCampaign {
 
 /// Whether the folder was made with --no-rows.
 [[nodiscard]] bool is_streaming_folder(const std::filesystem::path& folder);
-/// The folder's file of rows: of all runs or, with --no-rows, of those that broke something.
+/// The folder's file of rows: runs.csv or, for a folder made with --no-rows, broken_runs.csv.
 [[nodiscard]] std::string rows_file(const std::filesystem::path& folder);
 /// @throws SpecError for a folder made with --no-rows
 void refuse_rowless(const std::filesystem::path& folder);
@@ -72,14 +73,13 @@ struct RowsRead {
 RowsRead for_each_stored_row(const StoredCampaign& stored,
                              const std::function<void(const ResultRow&)>& take);
 
-/// Reads runs.csv without a torn last line; empty if the file does not exist. From another tool's file nothing is
-/// left out: its last line may lack a line break, and all its runs must be there, because lost runs would flatter the
-/// rest.
-/// @throws SpecError if it is broken, or has a run that is not the folder's
+/// Reads runs.csv without a torn last line; empty if the file does not exist. A file of another tool is read to its
+/// end, with or without a last line break, and must have all runs: statistics without the lost runs would be too good.
+/// @throws SpecError if the file is broken, or has a run that is not the folder's
 [[nodiscard]] ResultsFile read_stored_results(const StoredCampaign& stored);
 
-/// The statistics of the rows, with confidence shared among the interim analyses of the campaign, and its verdicts,
-/// goals and warnings.
+/// The statistics, verdicts, stopping goals and warnings of the rows. The interim analyses of the campaign share the
+/// risk of each bound.
 /// @param threads as of thread_count (thread_pool.hpp)
 [[nodiscard]] Summary stored_summary(const StoredCampaign& stored, const Results& results,
                                      const StatisticsSpec& spec, int threads = 0);
@@ -91,8 +91,8 @@ void add_nominal(const Campaign& campaign, Summary& summary);
 void write_summary_files(const StoredCampaign& stored, const Summary& summary);
 
 /// Computes the statistics of the rows and writes their three files. Results that lack runs of the folder are
-/// labelled "partial" in summary.json's stamp. Measures the accuracy if these are all of the campaign's runs (no
-/// shard) and this program made them.
+/// labelled "partial" in summary.json's stamp. Measures the accuracy if all of the campaign's runs are there (no shard)
+/// and this program made them.
 /// @param threads as of thread_count (thread_pool.hpp)
 /// @throws SpecError if the files cannot be written
 Summary write_statistics(const StoredCampaign& stored, const Results& results,

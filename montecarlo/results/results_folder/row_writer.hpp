@@ -11,12 +11,12 @@
 
 namespace wingspread {
 
-/// The rows of a folder while it runs. Whatever a signal or a crash leaves of the file can be continued.
+/// The rows of a folder while its runs are made. After a signal or a crash the file can be continued.
 class RowWriter {
 public:
   RowWriter(std::filesystem::path file, const ResultNames& names);
 
-  /// Takes the rows read from the file, and cuts off what follows its last complete row.
+  /// Takes the rows read from the file, and cuts off bytes after its last complete row.
   /// @throws SpecError unless runs follow each other from `first` without a gap
   void go_on_behind(ResultsFile&& read, long first);
 
@@ -24,11 +24,11 @@ public:
   /// @throws as refuse_path (machine_error.hpp) if it cannot be written, here and below
   void open(const ResultNames& names);
 
-  /// Appends the next rows to the file and to memory. If memory and its temporary files are full, only to the file
-  /// from then on. Writes to the device every ten seconds.
+  /// Appends the next rows to the file, and keeps them for results(). If memory and temporary files are full, drops all
+  /// kept rows and only writes the file from then on. Writes to the device every ten seconds.
   void add(const Batch& batch);
 
-  /// Writes all rows to the device and closes the file. Once, last.
+  /// Writes all rows to the device and closes the file. Call once, after the last add().
   void finish();
 
   /// Rows in the file.

@@ -22,7 +22,7 @@ inline constexpr long most_shards = 1'000'000;
 /// @pre 1 ≤ index ≤ of ≤ most_shards
 [[nodiscard]] RunRange shard_runs(long runs, const std::optional<Shard>& shard);
 
-/// Marks results in which runs are missing anywhere: provisional.
+/// Marks the result of `merge --preview` that lacks runs: it has `runs` of the `of` runs.
 struct Preview {
   long runs = 0, of = 0;
   bool operator==(const Preview&) const = default;

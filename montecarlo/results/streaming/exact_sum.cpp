@@ -8,7 +8,7 @@ namespace wingspread {
 
 void ExactSum::settle(Digits& digits) {
   for (std::size_t i = 0; i + 1 < digits.size(); ++i) {
-    digits[i + 1] += digits[i] >> 32; // rounds down, so that what stays is not negative
+    digits[i + 1] += digits[i] >> 32; // rounds down, so that the remaining digit is not negative
     digits[i] &= static_cast<std::int64_t>(low_digit);
   }
 }
@@ -45,7 +45,7 @@ double ExactSum::value() const {
     for (std::int64_t& digit : digits) digit = -digit;
     settle(digits);
   }
-  Sum sum; // of whole digits, the largest first: what the first three leave is below a double's last bit
+  Sum sum; // of whole digits, the largest first: digits after the first three are below a double's last bit
   for (std::size_t i = digits.size(); i-- > 0;)
     if (digits[i] != 0)
       sum.add(std::ldexp(static_cast<double>(digits[i]), 32 * static_cast<int>(i) - 1075));

@@ -9,8 +9,8 @@
 
 namespace wingspread {
 
-/// All bits of a sum from 2^-1074 up: a number of 67 digits to the base 2^32, each in 64 bits, so that carries can be
-/// postponed. A term costs two additions. Source: R. M. Neal, Fast exact summation using small and large
+/// All bits of a sum down to 2^-1074: a number of 67 digits to the base 2^32. Each digit has 64 bits, so that carries
+/// can be postponed. A term costs two additions. Source: R. M. Neal, Fast exact summation using small and large
 /// superaccumulators, arXiv:1505.05571 (2015).
 class ExactSum {
 public:
@@ -32,8 +32,7 @@ private:
   static constexpr std::uint64_t fraction_bits = (std::uint64_t{1} << 52) - 1;
   static constexpr std::uint64_t low_digit = 0xffffffff;
   /// Terms until carries are due: a digit grows by at most 2^52 per term, so 2^11 = 2048 terms fit in 63 bits.
-  static constexpr int most_waiting =
-      2000; // terms until carries are due: a digit grows by at most 2^52 a term
+  static constexpr int most_waiting = 2000;
   using Digits = std::array<std::int64_t, 67>;
 
   void put(std::uint64_t bits) {

@@ -15,8 +15,8 @@ struct RunValue {
   bool operator==(const RunValue&) const = default;
 };
 
-/// Keeps the `most` smallest (or largest) values; ties go to the lowest run. Independent of the order in which values
-/// come.
+/// Keeps the `most` smallest (or largest) values; ties go to the lowest run. The result does not depend on the order in
+/// which values are added.
 class Extremes {
 public:
   enum class End { lowest, highest };
@@ -25,7 +25,6 @@ public:
   /// @param value not NaN; may be infinite
   void add(double value, long run) {
     const RunValue mine{sign_ * value, run};
-    /// Whether `a` is more extreme; values have their sign turned so that lower is more extreme.
     if (heap_.size() == most_ && !is_before(mine, heap_.front())) return;
     put(mine);
   }
@@ -41,7 +40,7 @@ public:
   void read(StateReader& from);
 
 private:
-  /// Nearer the end, by values that are turned so that it is the lower one.
+  /// Whether `a` is more extreme. Values are multiplied by sign_, so that the lower one is more extreme.
   static bool is_before(const RunValue& a, const RunValue& b) {
     return a.value != b.value ? a.value < b.value : a.run < b.run;
   }

@@ -1,4 +1,5 @@
-/// The values of one quantity over many runs: its order statistics, as far as they are known without the values.
+/// Streaming order statistics of one quantity: the values themselves are not stored, but counted in bins, and the most
+/// extreme ones are kept.
 #pragma once
 
 #include "montecarlo/results/streaming/extremes.hpp"
@@ -6,14 +7,14 @@
 
 namespace wingspread {
 
-/// How many of the largest and of the smallest values are kept, with their runs. An upper tolerance limit at p =
-/// 0.9973 takes fewer up to 10⁶ runs, at p = 0.99999 up to 4·10⁸.
+/// How many of the largest and of the smallest values are kept, with their runs. Enough for an upper tolerance limit at
+/// p = 0.9973 up to 10⁶ runs, and at p = 0.99999 up to 4·10⁸ runs.
 inline constexpr std::size_t kept_extremes = 4096;
 
 /// An order statistic: exact if it is among the kept extremes, else interpolated in its bin.
 struct OrderStatistic {
-  double value;        ///< in a bin by its rank, as if the bin's values were evenly spread
-  double lower, upper; ///< it lies within; both equal value if exact
+  double value;        ///< exact, or interpolated by rank as if values were even in the bin
+  double lower, upper; ///< the order statistic lies within; both equal `value` if exact
   long rank_error = 0; ///< the rank of value is at most this far off
 };
 

@@ -14,7 +14,7 @@ struct Sums {
 
 double pearson_of(const Sums& s) {
   const double of_x = s.xx - s.x * s.x / s.n, of_y = s.yy - s.y * s.y / s.n;
-  // A constant column leaves only rounding: its z is 0, unless the pilot saw another value.
+  // For a constant column only rounding errors are left (z is 0, unless the pilot had other values).
   constexpr double nothing = 64 * std::numeric_limits<double>::epsilon();
   if (s.n < 2 || !(of_x > nothing * s.xx) || !(of_y > nothing * s.yy)) return undefined;
   return std::clamp((s.xy - s.x * s.y / s.n) / std::sqrt(of_x * of_y), -1.0, 1.0);
@@ -30,7 +30,7 @@ Scale scale_of(std::span<const double> values) {
   std::ranges::sort(finite);
   const double spread = moments(finite).std;
   Scale scale;
-  scale.shift = quantile(finite, 0.5); // one of them: z of a constant column is 0
+  scale.shift = quantile(finite, 0.5); // one of the values, so that z of a constant column is 0
   const bool usable = spread > 0 && std::isfinite(spread);
   scale.per_unit = std::ldexp(1.0, -std::clamp(usable ? std::ilogb(spread) : 0, -1000, 1000));
   return scale;

@@ -1,7 +1,8 @@
 /// Exact sums of powers and products of columns. The moments and Pearson correlations from them do not depend on the
 /// order of the runs.
 ///
-///   z = (x − s) 2^−e   with shift s and scale 2^e near those of the values: a mean far from 0 costs no digits
+///   z = (x − s) 2^−e   with shift s near the values' median and scale 2^e near their standard deviation, so that a
+///                      mean far from 0 costs no digits
 #pragma once
 
 #include "montecarlo/foundation/statistics/pairwise_correlation.hpp"
@@ -48,7 +49,8 @@ struct PowerSums {
 
 /// Pearson correlations of columns x with columns y, each pair over the runs in which both have a value.
 ///
-/// Stores sums over all runs of x, and for each pair those over the runs in which y is missing, which are few.
+/// Stores the sums of each column over all runs, and for each pair the sums over the runs in which only one of the two
+/// has a value. These runs are few, so a pair costs little time.
 class CoMoments {
 public:
   CoMoments() = default;
@@ -69,7 +71,7 @@ private:
   };
   struct Pair {
     ExactSum products;
-    Column x, y; ///< of x where y is missing; of y where x is
+    Column x, y; ///< sums of x over the runs without y; of y over the runs without x
   };
 
   std::vector<Column> x_, y_;

@@ -1,4 +1,4 @@
-/// A state as bytes in a file: plain numbers one after the other, little-endian, with a checksum at the end.
+/// Serializes statistics: numbers and texts one after the other, little-endian, with a checksum at the end.
 #pragma once
 
 #include "montecarlo/foundation/formats/spec_error.hpp"

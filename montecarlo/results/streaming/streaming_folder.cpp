@@ -98,7 +98,8 @@ StreamingFolder::StreamingFolder(std::filesystem::path folder, const RunPlan& pl
   if (!resume)
     refuse_used_folder(stored_.folder, expected);
   else if (!is_new_folder(stored_.folder))
-    (void)read_stored_campaign(stored_.folder); // before anything is made in what is no such folder
+    // Throws for a folder without a campaign, before a lock file is made in it.
+    (void)read_stored_campaign(stored_.folder);
   lock_.emplace(stored_.folder);
   if (!resume) refuse_used_folder(stored_.folder, expected);
   if (is_new_folder(stored_.folder)) return;
@@ -123,7 +124,7 @@ bool StreamingFolder::begin(Evaluator& evaluator) {
     return true;
   }
   Results pilot(plan_->names());
-  Batch own; // the pilot's runs that this shard has to make anyway
+  Batch own; // the pilot's runs that belong to this shard
   const RunRange range{0, std::min<long>(grid_pilot_runs, plan_->campaign().sampling.runs)};
   const RunRange runs = stored_.runs();
   const auto keep = [&](const Batch& batch) {
@@ -176,7 +177,7 @@ void StreamingFolder::add(const Batch& batch) {
 }
 
 void StreamingFolder::save() {
-  broken_->sync(); // before what says how long it is
+  broken_->sync(); // first, because statistics.bin records the length of this file
   write_file(stored_.folder / statistics_file,
              streaming_statistics_text(stored_, *statistics_, broken_bytes_));
   saved_ = Clock::now();

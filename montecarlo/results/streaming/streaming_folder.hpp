@@ -6,7 +6,7 @@
 ///   extremes.csv        largest and smallest values of every output, with their runs
 ///   summary.json, histograms.json, histograms.csv, timing.json
 ///
-/// Its size does not grow with the number of runs, except for broken ones.
+/// The folder's size does not grow with the number of runs, except for the rows in broken_runs.csv.
 #pragma once
 
 #include "montecarlo/results/results_folder/folder_writer.hpp"
@@ -26,10 +26,10 @@ inline constexpr const char* extremes_file = "extremes.csv";
 /// counts.
 inline constexpr long grid_pilot_runs = 4096;
 
-/// The statistics in such a folder, as far as they go.
+/// The statistics in such a folder, of the runs made so far.
 struct StoredStatistics {
   StreamingStatistics statistics;
-  std::uint64_t broken_bytes = 0; ///< how long broken_runs.csv was
+  std::uint64_t broken_bytes = 0; ///< length of broken_runs.csv when the statistics were saved
 };
 /// @pre the campaign outlives the result
 /// @throws SpecError if the file is missing, damaged, or another campaign's
@@ -48,8 +48,8 @@ Summary write_streaming_statistics(const StoredCampaign& stored,
 /// @throws SpecError for features that need rows: dependent draws, stopping goals, cases, extensions
 void refuse_without_rows(const Campaign& campaign);
 
-/// The folder while its runs are made. Statistics go to the device every half minute, so that it can be resumed after
-/// any end.
+/// The folder while its runs are made. Statistics are saved every half minute, so that the folder can be resumed after
+/// a crash.
 class StreamingFolder {
 public:
   static constexpr bool wants_csv = false;

@@ -1,8 +1,8 @@
-/// Streaming statistics: all that is kept of a campaign's runs with --no-rows. Counts, exact sums and extremes.
+/// Streaming statistics: with --no-rows, all that is kept of a campaign's runs. They consist of counts, exact sums, and
+/// extreme values with ties decided by run number.
 ///
-/// They do not depend on the order of the runs or on how runs are split among objects that are added together: every
-/// member is a whole number, an exact sum, or chosen by value and run. So the same runs give the same bytes on any
-/// number of threads, after interruptions, and from shards.
+/// So they do not depend on the order of the runs, or on how runs are split among objects that are added together. The
+/// same runs give the same bytes on any number of threads, after interruptions, and from shards.
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
@@ -19,14 +19,15 @@
 
 namespace wingspread {
 
-/// Further kinds of latch orders, in order of appearance, are counted together. Heuristic: 100,000 texts take some 10
-/// MB; with more kinds, merging shards is refused, because the rest cannot be split.
+/// Most kinds of latch orders counted separately; kinds that appear later are counted together. Heuristic: 100,000
+/// texts take some 10 MB. With more kinds, merging shards is refused, because the common count cannot be split.
 inline constexpr std::size_t most_order_kinds = 100'000;
 /// No correlations for more pairs of draws and outputs than this. A pair takes 5 exact sums of 552 bytes: 40,000
 /// pairs are 110 MB.
 inline constexpr std::size_t most_streaming_pairs = 40'000;
 
-/// An output used by a requirement or a tolerance limit, over all runs. Runs worse than any number are counted apart.
+/// An output used by a requirement or a tolerance limit. Its population covers all runs: runs that rank as worse than
+/// any number (verdict.hpp) are counted separately.
 struct RequiredOutput {
   std::string output;
   bool absolute = false;
@@ -42,7 +43,7 @@ struct RequiredOutput {
 /// The runs that break a requirement.
 struct RequirementCounts {
   long failures = 0, cut = 0; ///< `cut`: deployed runs among them whose peak t_end cut
-  Extremes worst;             ///< worst values; infinite if worse than any number
+  Extremes worst;             ///< the worst runs; a value worse than any number is infinite
 };
 
 struct RequiredPopulation {
@@ -52,7 +53,7 @@ struct RequiredPopulation {
 
 class StreamingStatistics {
 public:
-  /// Empty. @param pilot the campaign's first runs, which decide where bins lie
+  /// Statistics of no runs. @param pilot the campaign's first runs, which only decide where bins lie
   StreamingStatistics(const Campaign& campaign, const ResultNames& names, const Results& pilot);
   /// Reads what write() wrote. @throws SpecError if it is damaged or of another campaign
   StreamingStatistics(const Campaign& campaign, const ResultNames& names, StateReader& from);
@@ -105,17 +106,17 @@ private:
   std::vector<Output> outputs_;
   std::vector<bool> is_overtravel_;
   std::vector<RequiredOutput> required_;
-  std::vector<bool> is_peak_; ///< of each of them
+  std::vector<bool> is_peak_; ///< of each required output
   std::vector<RequiredPopulation> populations_;
   std::vector<RequirementCounts> requirement_counts_;
-  std::vector<std::size_t>
-      population_of_; ///< each requirement's; none of "deployed": as many as there are
+  /// For each requirement, the index of its population; "deployed" has none, and the index is populations_.size().
+  std::vector<std::size_t> population_of_;
   std::vector<Scale> draw_scales_;
   std::optional<CoMoments> correlations_;
   std::map<std::string, long> orders_;
   long other_orders_ = 0;
   ReasonCounts reasons_;
-  std::vector<double> draw_z_, output_z_, seen_; ///< of one run; the last: required outputs
+  std::vector<double> draw_z_, output_z_, seen_; ///< work space; seen_: required outputs
 };
 
 } // namespace wingspread

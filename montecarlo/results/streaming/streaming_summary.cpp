@@ -36,7 +36,7 @@ std::vector<QuantileEstimate> quantiles_of(const RankedPopulation& values,
   return estimates;
 }
 
-/// The edge nearest to the wanted one below which the number of values is known, and that number.
+/// The bin edge nearest to `wanted`, and the number of values below that edge.
 std::pair<double, long> edge_near(const std::vector<Bin>& bins, double wanted) {
   const auto next =
       std::ranges::partition_point(bins, [&](const Bin& bin) { return bin.upper <= wanted; });
@@ -47,7 +47,8 @@ std::pair<double, long> edge_near(const std::vector<Bin>& bins, double wanted) {
              : std::pair(next->upper, next->below + next->count);
 }
 
-/// Bins of nearly equal width: edges are moved to where counts are exact.
+/// A histogram with bins of nearly equal width: each edge is moved to the nearest edge of the stored bins, so that
+/// counts are exact.
 Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
   if (values.count() == 0) return {};
   const long n = values.count();
@@ -83,14 +84,14 @@ OutputSummary output_summary(const std::string& name, const StreamingStatistics:
   return summary;
 }
 
-/// A required output's values over all runs, with runs worse than any number at the bad end.
+/// A required output's values over all runs. Runs worse than any number rank at the end that breaks the requirement.
 class RankedRequired {
 public:
   explicit RankedRequired(const RequiredPopulation& population)
       : values_(population.values), worse_(population.worse) {}
 
   [[nodiscard]] const RankedPopulation& numbers() const { return values_; }
-  /// The value of that rank from above, 1 for the largest; nothing if it is worse than any number.
+  /// The value at a rank counted from above, 1 for the largest; nothing if a run worse than any number has that rank.
   /// @param below whether runs worse than any number rank at the lower end
   [[nodiscard]] std::optional<OrderStatistic> from_above(long rank, bool below) const {
     const long place = below ? rank : rank - worse_;
@@ -133,7 +134,7 @@ Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSp
 void add_values(const RankedRequired& values, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
   const bool is_min = requirement.min.has_value();
-  const auto from_worst = [&](long place) { // the worst has place 0
+  const auto from_worst = [&](long place) { // place 0 is the worst run
     return is_min ? values.from_below(place + 1, true) : values.from_above(place + 1, false);
   };
   if (verdict.runs > 0)

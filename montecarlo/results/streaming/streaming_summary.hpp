@@ -8,9 +8,9 @@
 
 namespace wingspread {
 
-/// The same summary as stored_summary (results_folder.hpp) makes of rows. Counts, moments, extremes and verdicts
-/// agree but for rounding. A quantile that is not among the extremes carries its error. Its bounds, and tolerance
-/// limits, are taken at the outer edges of their bins: they hold with no less confidence and are slightly wider.
+/// The summary that stored_summary (results_folder.hpp) would compute from rows. Counts, extremes and decisions are
+/// equal; moments agree up to rounding. A quantile that is not among the extremes has an error estimate. Its bounds,
+/// and tolerance limits, lie at the outer edges of bins: they hold with no less confidence and are slightly wider.
 /// Spearman's correlation and the accuracy are left out.
 [[nodiscard]] Summary streaming_summary(const StoredCampaign& stored,
                                         const StreamingStatistics& statistics,

@@ -9,9 +9,9 @@
 namespace wingspread {
 namespace {
 
-constexpr int linear_bits = 17; // |j| < 2^17 has bins of its own
-constexpr int most_bits = 16;   // of the first octave beyond
-constexpr int least_bits = 6;   // of the last ones
+constexpr int linear_bits = 17; // for |j| < 2^17 each j has its own bin
+constexpr int most_bits = 16;   // the first octave beyond has 2^16 bins
+constexpr int least_bits = 6;   // the last octaves have 2^6 bins each
 constexpr int most_octaves = 1024 - linear_bits;
 constexpr int least_exponent = -1000, most_exponent = 900;
 
@@ -49,7 +49,8 @@ double least_of(std::int64_t bin) {
                     linear_bits + octave - bits_of(octave));
 }
 
-/// An interval of the values, and the standard deviation of a normal law with the same share in an equally short one.
+/// An interval of values: its middle, and the standard deviation of the normal law whose shortest interval with the
+/// same share of values has the same length.
 struct Dense {
   double middle, deviation;
 };
@@ -57,7 +58,7 @@ struct Dense {
 /// The shortest interval with a fifth of the values; with a larger share if a fifth of them are equal.
 Dense densest(std::span<const double> sorted) {
   struct Share {
-    double part, deviations; // the length of a normal law's shortest stretch with that part of it
+    double part, deviations; // deviations: length of a normal law's shortest interval with `part`
   };
   constexpr Share shares[] = {{0.2, 0.5067}, {0.5, 1.349}, {0.8, 2.563}, {1, 7}};
   for (const auto& [part, deviations] : shares) {
@@ -97,7 +98,7 @@ ValueCounts::ValueCounts(const Grid& grid)
     : grid_(grid), per_width_(std::ldexp(1.0, -grid.exponent)),
       pages_(static_cast<std::size_t>(2 * one_side) / page_size + 1) {}
 
-/// Index from 0; negative j lie as far below the middle as −1 − j lies above it.
+/// The bin's index, ≥ 0. Bins are mirrored: j < 0 lies as far below the middle as −1 − j lies above.
 std::int64_t ValueCounts::index_of(double value) const {
   constexpr double largest = std::numeric_limits<double>::max();
   const double j = std::clamp(std::floor(value * per_width_) - grid_.origin, -largest, largest);

@@ -7,10 +7,10 @@
 ///   j       floor(x/w) − o, a whole number, exact in doubles
 ///
 /// Bins are one j wide for |j| < 2^17, i.e. 16 such deviations either way. Beyond, each octave [2^(17+i), 2^(18+i))
-/// of j is cut into 2^max(16−i, 6) bins: coarser, but no value is lost. Edges are exact: a value is compared with the
-/// edges of its bin. So ranks at edges are known, an order statistic lies between the edges of its bin, and each
-/// number carries its uncertainty. (Ruled out: sketches that promise a rank error, e.g. Greenwald–Khanna or t-digest.
-/// They depend on the order of the values, and t-digest promises no error.)
+/// of j is cut into 2^max(16−i, 6) bins: coarser, but no value is lost. Scaling by a power of two is exact, so each
+/// value is counted in the bin that contains it. So ranks at edges are known, an order statistic lies between the edges
+/// of its bin, and its uncertainty is known. Ruled out: Greenwald–Khanna and t-digest sketches, because they depend on
+/// the order of the values, and t-digest guarantees no error.
 #pragma once
 
 #include "montecarlo/results/streaming/state_file.hpp"
@@ -65,7 +65,7 @@ private:
   Grid grid_;
   double per_width_; ///< 1/w
   std::vector<std::unique_ptr<Page>> pages_;
-  std::int64_t zeros_ = 0; ///< counted apart: what does not happen is often a 0
+  std::int64_t zeros_ = 0; ///< counted apart: e.g. overtravel is often exactly 0
 };
 
 } // namespace wingspread

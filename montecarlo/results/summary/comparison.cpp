@@ -30,7 +30,7 @@ auto standing(const Verdict& verdict) {
                     verdict.share);
 }
 
-/// Every verdict of every case had its chance of a false pass.
+/// Counts all verdicts of all cases, because each of them might have been a false pass.
 double joint_confidence_of(const std::vector<CaseSummary>& cases) {
   std::vector<double> confidences;
   for (const CaseSummary& each : cases)

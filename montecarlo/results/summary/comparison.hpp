@@ -18,9 +18,9 @@ struct CaseSummary {
   bool partial = false; ///< runs are missing
 };
 
-/// The case in which a requirement does worst: failed before undecided before passed, then by the least margin, then
-/// by the least share of runs that meet it. Ties go to the first case.
-/// @param requirement its index, the same in all summaries
+/// The case with the worst verdict on a requirement: failed before undecided before passed, then by the least margin,
+/// then by the least share of runs that meet it. Ties go to the first case.
+/// @param requirement index of the requirement, the same in all summaries
 /// @pre at least one case
 [[nodiscard]] std::size_t worst_case(const std::vector<CaseSummary>& cases,
                                      std::size_t requirement);

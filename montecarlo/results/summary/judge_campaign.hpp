@@ -1,5 +1,5 @@
 /// Verdicts on all requirements of a campaign. A required static margin is no output of a run: it is computed from the
-/// row's draws (static_margins). A run that did not deploy breaks it, like every requirement (verdict.hpp).
+/// row's draws (static_margins). A run that did not deploy breaks every requirement, also on static margins.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-/// One column for each required static margin, named as the requirement's output; the values are least_margin's.
+/// One column for each required static margin, named as the requirement's output, with the values of least_margin().
 /// Cost: one scene and its margins for each row. @pre the results have the campaign's draws
 [[nodiscard]] std::vector<Column> static_margin_columns(const Campaign& campaign,
                                                         const Results& results);

@@ -9,7 +9,7 @@ namespace wingspread {
 namespace {
 
 void take(Overtravel& so_far, double value) {
-  if (!(value > most_overtravel)) return; // nor where it is not known
+  if (!(value > most_overtravel)) return; // also if the value is NaN (unknown)
   ++so_far.runs;
   so_far.largest = std::max(so_far.largest, value);
 }

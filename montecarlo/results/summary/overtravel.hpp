@@ -16,8 +16,8 @@ inline constexpr double most_overtravel = 0.017453292519943295; // 1 deg, rad
 
 struct Overtravel {
   std::string hinge;
-  long runs = 0;      ///< in which it turns further than that
-  double largest = 0; ///< of all runs, rad
+  long runs = 0;      ///< runs in which the hinge turns further than most_overtravel
+  double largest = 0; ///< largest overtravel of all runs, rad
 };
 
 /// The hinges without a stop that exceed most_overtravel in any run, in the scene's order. Cost O(N) per hinge.

@@ -16,7 +16,7 @@ struct Replication {
   std::vector<int> of_row; ///< per row of the results, in [0, replicates)
 };
 
-/// The replicates of a campaign's rows. Only those with rows count: a shard can have fewer.
+/// The replicates of a campaign's rows. Replicates without rows do not count: a shard may lack some.
 [[nodiscard]] Replication replication_of(const Sampling& sampling, const Results& results);
 
 /// Why there are no bounds for a single replicate.

@@ -1,4 +1,4 @@
-/// How far the goals of a stopping rule are reached (campaign/stopping_rule.hpp).
+/// Evaluates the goals of a stopping rule (campaign/stopping_rule.hpp).
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"

@@ -51,7 +51,7 @@ void count_latch_orders(const DictionaryColumn& column, Summary& summary) {
   const TextColumn& orders = column.texts();
   std::vector<long> counts(orders.size(), 0);
   for (const std::uint32_t code : column.codes()) ++counts[code];
-  std::vector<std::uint32_t> codes; // of the orders, less that of no latch at all
+  std::vector<std::uint32_t> codes; // of the orders, without that of runs in which no hinge latched
   for (std::uint32_t code = 0; code < orders.size(); ++code)
     if (orders[code].empty())
       summary.without_latch = counts[code];

@@ -46,8 +46,8 @@ struct LatchOrderCount {
 
 /// The error of a quantile from streaming statistics.
 struct QuantileError {
-  long rank;           ///< the rank of value is at most this far from the quantile's
-  double lower, upper; ///< the quantile is within these
+  long rank;           ///< largest error of the estimate's rank
+  double lower, upper; ///< the quantile lies within
 };
 
 struct QuantileEstimate {
@@ -70,8 +70,8 @@ struct OutputSummary {
   std::vector<QuantileEstimate> quantiles;
   Histogram histogram;
   std::vector<ToleranceLimitEstimate> tolerance_limits{}; ///< over all runs (verdict.hpp)
-  std::optional<double>
-      nominal{}; ///< of the nominal run; NaN where it did not happen, nothing where there is none
+  /// Value in the nominal run: NaN if the output did not happen there, nothing if there was no nominal run.
+  std::optional<double> nominal{};
 };
 
 /// The run without dispersions.
@@ -83,8 +83,7 @@ struct NominalRun {
 /// 1 for a run that deployed, 0 for one that stalled or timed out, NaN for the others, whose outcome is unknown.
 [[nodiscard]] Column deployed_column(const Results& results);
 
-/// Correlation of a draw with an output or with `deployed` (deployed_column(); then Pearson's is the point-biserial
-/// correlation).
+/// Correlation of a draw with an output or with deployed_column() (Pearson's is then the point-biserial correlation).
 struct DrawCorrelation {
   std::string draw, output;
   Correlation value;
@@ -116,7 +115,7 @@ struct Summary {
   bool stopped = false;                  ///< all goals were met before all runs were made
   long looks = 1; ///< interim analyses, the last one included: they share the α of each bound
   bool without_rows = false;     ///< computed from streaming statistics
-  std::vector<long> looked_at{}; ///< numbers of runs before each extension: interim analyses too
+  std::vector<long> looked_at{}; ///< numbers of runs before each extension
 };
 
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes per run and thread; as many

@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view replicates_agree =
     "no bounds: all replicates agree, which says nothing about the error";
 
-/// How bounds hold at several interim analyses at once.
+/// A note on how the confidence is shared among interim analyses; empty if there is only one.
 std::string at_looks(const Summary& summary) {
   if (summary.looks == 1) return "";
   if (!summary.looked_at.empty())
@@ -269,7 +269,7 @@ Json until_json(const Summary& summary) {
 
 /// An extended campaign: the numbers of runs at earlier interim analyses, and their effect on bounds.
 Json extended_json(const Summary& summary) {
-  double harmonic = 0; // look k takes α/k
+  double harmonic = 0; // interim analysis k uses α/k
   for (long look = 1; look <= summary.looks; ++look) harmonic += 1.0 / static_cast<double>(look);
   return {
       {"looked_at", summary.looked_at}, {"looks", summary.looks}, {"risk_of_all_looks", harmonic}};

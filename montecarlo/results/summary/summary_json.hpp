@@ -10,17 +10,17 @@
 
 namespace wingspread {
 
-/// Reasons listed, the most frequent ones. `reasons_omitted` counts the runs with others, `latch_order_omitted` those
-/// with latch orders that the summary does not list.
+/// Most reasons listed, the most frequent ones. `reasons_omitted` counts the runs with other reasons,
+/// `latch_order_omitted` the runs with latch orders that the summary does not list.
 inline constexpr std::size_t most_reasons = 100;
-/// Runs listed that break a requirement, the worst ones; `broken_omitted` counts the others.
+/// Most runs listed per requirement that break it, the worst ones; `broken_omitted` counts the others.
 inline constexpr std::size_t most_broken = 1000;
 
 /// summary.json.
 /// @param about campaign and program: the value of "wingspread"
 [[nodiscard]] Json summary_json(const Summary& summary, const Json& about);
 
-/// The value of its key `accuracy`; null if not measured.
+/// The value of summary.json's key `accuracy`; null if not measured.
 [[nodiscard]] Json accuracy_json(const Summary& summary);
 
 /// histograms.json: per output its unit, count, missing, edges, counts and density.

@@ -99,7 +99,7 @@ std::string label(const OutputName& name) {
   return name.quantity == "rate_at" ? "rate at " + name.other : spaced(name.quantity);
 }
 
-/// Four digits in place of five if those would leave no blank before the column.
+/// Five digits, or four if five would leave no blank between columns.
 std::string in_number_column(double value) {
   const std::string text = in_digits(value);
   const bool fits = count_characters(text) < number_width;

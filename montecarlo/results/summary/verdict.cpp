@@ -19,7 +19,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Treated as infinite: the static margin of a hinge without resistance.
+/// Values of this magnitude or more are treated as infinite: least_margin() returns it if nothing resists.
 constexpr double no_number = std::numeric_limits<double>::max();
 
 /// How bad a run is: sign_of · value, so that larger is worse; for "deployed" 0 if it deployed.
@@ -41,7 +41,7 @@ const Column* column_of(const Results& results, std::span<const Column> besides,
 /// How to read an output's values before comparing them.
 struct Reading {
   bool absolute = false;
-  bool is_peak = false; ///< a peak cut by t_end does not count
+  bool is_peak = false; ///< if so, a value cut by t_end is read as infinite
 };
 
 Reading reading_of(const Column* column, bool absolute) {
@@ -65,7 +65,7 @@ Spilled<long> breaking(const Requirement& requirement, const Results& results, c
                        long& cut) {
   const double sign = sign_of(requirement), limit = limit_of(requirement);
   const Reading how = reading_of(column, requirement.absolute);
-  Spilled<long> broken; // first those that are worse than any number, as they come: by their number
+  Spilled<long> broken; // begins with the runs that are worse than any number, by run number
   std::vector<Badness> beyond;
   for (std::size_t row = 0; row < results.size(); ++row) {
     const double value = value_or_infinite(results, row, column ? column->values[row] : 0, how);
@@ -93,7 +93,7 @@ Decision decision_of(const Verdict& verdict) {
 /// Sets the values of the output.
 void add_values(const RankedOutput& output, Verdict& verdict) {
   const Requirement& requirement = verdict.requirement;
-  const auto value_at = [&](long place) -> std::optional<double> { // the worst has place 0
+  const auto value_at = [&](long place) -> std::optional<double> { // place 0 is the worst run
     const auto index = static_cast<std::size_t>(place);
     const auto values = requirement.min ? output.worst_below() : output.worst_above();
     const double value = values[requirement.min ? index : values.size() - 1 - index];
@@ -110,8 +110,8 @@ void add_values(const RankedOutput& output, Verdict& verdict) {
     verdict.beyond_zero = beyond_zero(numbers.front(), numbers.back(), requirement);
 }
 
-/// @param ranks      of the output; null for "deployed"
-/// @param confidence to show it at, if there were only one analysis
+/// @param ranks      sorted values of the output; null for "deployed"
+/// @param confidence at which the requirement would be judged in a single analysis
 Verdict judge_one(const Requirement& requirement, const Results& results, const Column* column,
                   const RankedOutput* ranks, double confidence, long looks) {
   Verdict verdict;

@@ -1,10 +1,10 @@
 /// Verdicts: do the runs show what a requirement asks? Every verdict, from rows and from streaming statistics, is
 /// decided in decide().
 ///
-/// A run breaks a requirement if it did not deploy, if the output did not happen, or if its value is beyond the
-/// limit. So a run that stalled, timed out, failed or was invalid ranks above every number of a `max` and below every
-/// number of a `min`: leaving it out would flatter the result. A peak cut by t_end breaks it too, because it might
-/// have risen.
+/// A run breaks a requirement if it did not deploy, if the output did not happen, or if its value is beyond the limit.
+/// A run that stalled, timed out, failed or was invalid is "worse than any number": for a `max` it ranks above every
+/// value, for a `min` below. Leaving such runs out would make the result look better than it is. A run whose peak was
+/// cut by t_end breaks a requirement on that peak too, because the peak might have risen.
 ///
 /// Symbols as in wilks.hpp: n runs, k of them break the requirement P ≥ p at confidence c.
 #pragma once
@@ -32,25 +32,25 @@ struct Verdict {
   Requirement requirement;
   Decision decision = Decision::undecided;
   long runs = 0;               ///< n
-  double confidence_alone = 0; ///< c, or more if a group shares it
-  double confidence =
-      0; ///< what has to be shown at: the same, or more when there were several looks
+  double confidence_alone = 0; ///< for one analysis: c, or more if a group shares c
+  /// The confidence used for the decision: confidence_alone, or more if several interim analyses share the risk.
+  double confidence = 0;
   std::optional<long> allowed;    ///< most runs that may break it; nothing if n runs are too few
   Spilled<long> broken;           ///< runs that break it, the worst first
   long not_listed = 0;            ///< runs that break it and are not in `broken`: with --no-rows
-  std::optional<long> least_runs; ///< that could show it, if none broke it
+  std::optional<long> least_runs; ///< fewest runs that could show it, if none broke it
   bool disproved = false;         ///< P < p is shown at the same confidence
   long cut = 0;                   ///< deployed runs among those that break it, whose peak t_end cut
   /// Least and largest value, if the limit lies on the other side of zero from all values.
   std::optional<std::array<double, 2>> beyond_zero{};
-  double share = 0;            ///< of the runs that meet it; NaN without runs
+  double share = 0;            ///< share of the runs that meet it; NaN without runs
   double guaranteed_share = 0; ///< one-sided Clopper–Pearson bound of P
-  /// Of the output, with runs that break it as worse than any number. Nothing if such a run is at that rank, and for
+  /// Values of the output at a rank over all runs. Nothing if a run worse than any number is at that rank, and for
   /// "deployed".
   std::optional<double> observed;   ///< the p quantile, counted from the side opposite to the limit
   std::optional<double> guaranteed; ///< one-sided tolerance limit of order allowed + 1
-  /// From the guaranteed value to the limit, in the output's unit; for "deployed" from p to the guaranteed share. At
-  /// least 0 if and only if it passes.
+  /// Distance from the guaranteed value to the limit, in the output's unit; for "deployed" the guaranteed share less p.
+  /// At least 0 if and only if the requirement passes.
   std::optional<double> margin;
 
   /// Number of runs that break it.
@@ -62,7 +62,7 @@ struct Verdict {
 [[nodiscard]] double limit_of(const Requirement& requirement);
 
 /// Decides a verdict: sets everything except the values of the output.
-/// @param confidence to show it at, if there were only one analysis
+/// @param confidence at which the requirement would be judged in a single analysis
 /// @param looks      number of interim analyses that share the risk
 /// @pre requirement, runs, broken, not_listed and cut are set
 void decide(double confidence, long looks, Verdict& verdict);
@@ -111,8 +111,8 @@ private:
 /// Whether the requirement is passed or disproved.
 [[nodiscard]] bool is_decided(const Verdict& verdict);
 
-/// Confidence with which all passed requirements hold together, at least. Every requirement had its chance of a false
-/// pass, including those that failed.
+/// A lower bound of the confidence with which all passed requirements hold together. Failed requirements count too,
+/// because each requirement might have passed falsely.
 [[nodiscard]] double joint_confidence(std::span<const Verdict> verdicts);
 
 /// A group of requirements, and whether they hold together.
@@ -125,7 +125,7 @@ struct GroupVerdict {
 /// In order of first mention.
 [[nodiscard]] std::vector<GroupVerdict> judge_groups(std::span<const Verdict> verdicts);
 
-/// Why the verdict came out so: "25 of 10000 runs break it, and 19 may".
+/// The reason for the verdict: "25 of 10000 runs break it, and 19 may".
 [[nodiscard]] std::string evidence(const Verdict& verdict);
 
 /// "wingspread replay DIR --run 17".

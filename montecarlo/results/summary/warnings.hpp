@@ -11,7 +11,8 @@ namespace wingspread {
 /// Numbers of runs whose peaks are proven, cut by t_end, or unknown.
 [[nodiscard]] PeaksCount count_peaks_final(const Results& results);
 
-/// Overtravel, peaks cut by t_end, and limits on the other side of zero from every value: a line each, in this order.
+/// Warnings of overtravel, of peaks cut by t_end, and of limits on the other side of zero from every value. In this
+/// order, each on one line.
 [[nodiscard]] std::vector<std::string> warnings(const Summary& summary);
 
 } // namespace wingspread
