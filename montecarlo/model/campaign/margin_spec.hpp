@@ -17,7 +17,7 @@
 
 namespace wingspread {
 
-/// Scales all parameters together, or one hinge's at a time.
+/// Whether the study scales all parameters together (joint), or those of one hinge at a time (each).
 enum class MarginMode { joint, each };
 inline constexpr std::array<std::string_view, 2> margin_mode_names{"joint", "each"};
 
