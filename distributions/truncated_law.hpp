@@ -1,5 +1,5 @@
 /// A continuous law truncated to an interval. A draw inverts the distribution function, so that one u gives one value,
-/// as every design needs. Rejection was ruled out: it uses an unknown number of u.
+/// as every design needs. Rejection was ruled out because a draw would take an unknown number of u.
 ///
 ///   symbol  meaning
 ///   F, Q    the law's own tails, P(X ≤ x) and P(X > x)
