@@ -29,7 +29,7 @@ inline constexpr const char* display_help = "Standard output is a table of resul
 int report_failed(long failed, long runs, std::string_view consequence = "");
 
 /// Prints which runs are missing and, one per line, the commands that make them.
-/// @param alternative text for another way to make them, printed after "made by"; may be empty
+/// @param alternative text about another way to make them, printed before the commands; may be empty
 /// @return the exit status
 int print_missing(const MissingRuns& missing, std::string_view alternative);
 
@@ -42,8 +42,8 @@ void show_table(const StoredCampaign& stored, const Summary& summary, const Disp
 /// Prints a warning when the folder is a preview.
 void warn_of_preview(const StoredCampaign& stored);
 
-/// Prints which runs failed and which requirements are not met. A single shard is not judged. A preview (unfinished
-/// folder) meets no requirement.
+/// Prints which runs failed and which requirements are not met. A single shard is not judged. A preview (results in
+/// which runs are missing) meets no requirement.
 /// @return the exit status; failed runs take precedence over requirements
 int judge_results(const StoredCampaign& stored, const Summary& summary);
 
