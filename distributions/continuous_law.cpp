@@ -65,9 +65,9 @@ Tails tails_of(const Beta& law, double x) {
           bm::ibeta(law.beta, law.alpha, to_upper, MathPolicy())};
 }
 
-// Boost's triangular law takes F from 1 − F beyond the mode, however small F is. Here each tail is
-// found from its own end of the triangle: `near` and `far` are the distances of that end and of the
-// other one from the mode.
+// Boost's triangular law computes one tail as 1 minus the other beyond the mode, which loses digits of a small tail.
+// Here each tail is computed from its own end of the triangle: `near` and `far` are the distances of that end and of
+// the other end from the mode. Equation (1) is in the distance s from the tail's own end.
 //   tail·(near + far) = s²/near within near, else near + t(2 far − t)/far with t = s − near  (1)
 double triangular_tail(double near, double far, double s) {
   const double t = s - near;
@@ -99,8 +99,8 @@ struct Distances {
   double far;
 };
 
-// Boost's root finder gives up on tiny distances for some half-integer exponents (a = ½, b = 2: a
-// factor of 100 off), where two terms of the series are all that is needed:
+// Boost's root finder is inaccurate for tiny distances with some half-integer exponents (a = ½, b = 2: wrong by a
+// factor of 100). For these distances two terms of the series are enough:
 //   tail = x^a/(a B(a, b))·(1 − a(b − 1)/(a + 1) x + …), so x = f + (b − 1)/(a + 1) f² + …  (2)
 // with f the solution of the first term. Where f underflows, Boost's result is used.
 Distances beta_distances(double a, double b, double tail) {

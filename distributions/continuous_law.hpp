@@ -1,7 +1,7 @@
 /// The continuous laws' distribution functions and their inverses, by Boost.Math.
 ///
-/// A point of a law is given by both tails: a tail close to 1 has lost the digits of the other. All functions require a
-/// law without faults, throw nothing and are thread-safe; overflow gives infinity.
+/// A point of a law is given by both tails, because a tail close to 1 does not have the digits of the other tail. All
+/// functions require a law without faults, throw nothing and are thread-safe; overflow gives infinity.
 #pragma once
 
 #include "distributions/distribution.hpp"

@@ -1,4 +1,4 @@
-/// Dispersions that vary together: a Gaussian copula with the rank correlations asked for.
+/// Couples dispersions: a Gaussian copula with given rank correlations.
 ///
 ///   symbol  meaning
 ///   u, u'   a run's coordinates in (0, 1) as the design gives them, and coupled
@@ -39,8 +39,8 @@ struct RankCorrelation {
 [[nodiscard]] Eigen::MatrixXd normal_correlations(std::size_t count,
                                                   std::span<const RankCorrelation> correlations);
 
-/// L, lower triangular; nothing if the matrix is not positive definite by more than rounding. Not Eigen's: the order of
-/// a library's sums depends on how it was compiled, and draws must not.
+/// L, lower triangular; nothing if the matrix is not positive definite by more than rounding. Eigen's factorization was
+/// ruled out: the order of its sums depends on compiler options, and draws must not.
 [[nodiscard]] std::optional<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix);
 
 /// The correlation matrix nearest to a symmetric one with a unit diagonal, by Frobenius' norm,
@@ -52,10 +52,9 @@ struct RankCorrelation {
 /// Couples a run's coordinates. Immutable, so one object serves all threads.
 class GaussianCopula {
 public:
-  /// @param order of elimination: a permutation of the dispersions. Each follows those before it,
-  /// so
-  ///   what is first in its group is what the design gave, and so is what no correlation names.
-  /// @pre their matrix is positive definite
+  /// @param order of elimination, a permutation of the dispersions. A coupled coordinate depends on the dispersions
+  ///   before it. So the first of a correlated group, and a dispersion without correlations, keep the design's u.
+  /// @pre the matrix of the correlations is positive definite
   GaussianCopula(std::vector<std::size_t> order, std::span<const RankCorrelation> correlations);
 
   /// Whether no correlation was given.
@@ -63,7 +62,7 @@ public:
 
   /// (2), with both tails of each u and u', so that no digits are lost near 1.
   /// @param u       each with both tails > 0
-  /// @param coupled as long, and apart. Cost: some 50 ns for each u and each of its correlations
+  /// @param coupled output, as long as `u`, not overlapping. Cost: some 50 ns for each u and each correlation
   void couple(std::span<const Tails> u, std::span<Tails> coupled) const;
 
 private:

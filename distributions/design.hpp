@@ -1,4 +1,4 @@
-/// How a campaign's runs fill the unit cube: turns (seed, run, name) into u in (0, 1).
+/// Designs place a campaign's runs in the unit cube: (seed, run, name) gives u in (0, 1).
 ///
 ///   u = design(run, name)  →  dependence between dispersions  →  quantile(u) = the value
 ///
@@ -43,7 +43,7 @@ struct Design {
   return run % design.replicates;
 }
 
-/// The indices of the names, sorted by bytes. For results that must not depend on the order of a campaign's list.
+/// The indices of the names in the order of their bytes. So results do not depend on the order of a campaign's list.
 [[nodiscard]] std::vector<std::size_t> order_by_name(const std::vector<std::string>& names);
 
 /// A design for a campaign's dispersions. Immutable, so one object serves all threads.

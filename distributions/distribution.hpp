@@ -154,7 +154,7 @@ concept Continuous = requires(const L& law) {
   ContinuousLaw(law);
 };
 
-/// The law given that its value lies in [lower, upper]. For continuous laws only.
+/// Conditions a continuous law on values in [lower, upper].
 struct Truncation {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity(); ///< > lower

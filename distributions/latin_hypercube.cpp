@@ -24,7 +24,7 @@ std::uint64_t root_up(std::uint64_t n) {
   return root;
 }
 
-/// The network's halves, and one pass through it.
+/// The Feistel network: the sizes of its halves, and one pass through it.
 struct Network {
   std::uint64_t a, b;
 

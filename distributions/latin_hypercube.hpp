@@ -1,12 +1,12 @@
 /// A Latin hypercube's coordinates, each computed alone.
 ///
-/// M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239–245: of n points, each
-/// coordinate falls once into each of n equal strata; which point into which is a random
-/// permutation for each coordinate, and its place within the stratum is random.
+/// M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239–245: each of n equal strata of a coordinate
+/// has exactly one of the n points. A random permutation assigns points to strata, independently for each coordinate;
+/// the place within the stratum is random.
 ///
-/// The permutation of n strata has to be evaluated at a single point: a Feistel network over ℤ_a × ℤ_b with a·b ≥ n,
-/// repeated until the result is below n (J. Black, P. Rogaway, "Ciphers with arbitrary finite domains", CT-RSA 2002),
-/// then rotated by a random shift.
+/// The permutation can be evaluated for one point alone. It is a Feistel network over ℤ_a × ℤ_b with a·b ≥ n, repeated
+/// until the result is below n (J. Black, P. Rogaway, "Ciphers with arbitrary finite domains", CT-RSA 2002), then
+/// rotated by a random shift.
 ///
 ///   symbol  meaning
 ///   i, n    the point, how many there are

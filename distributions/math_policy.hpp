@@ -1,8 +1,8 @@
 /// The policy for all laws and special functions of Boost.Math.
 ///
-/// It evaluates in double. The default, long double, has 80 bits on one processor and 128 on another: the last bits of
-/// a draw or bound would depend on the machine, at several times the cost. Errors give NaN or infinity instead of
-/// exceptions, which must not cross threads.
+/// The policy evaluates in double. Boost's default, long double, costs several times as much and has 80 bits on one
+/// processor and 128 on another, so that the last bits of a draw or bound would depend on the machine. Errors give NaN
+/// or infinity instead of exceptions, which must not leave a thread.
 #pragma once
 
 #include <boost/math/policies/policy.hpp>

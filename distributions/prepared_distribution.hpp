@@ -11,7 +11,7 @@ namespace wingspread {
 /// The distribution function of any distribution and its inverse. Immutable, so one object serves all threads; nothing
 /// allocates or throws after construction.
 ///
-/// The complements are for the upper tail, where 1 − u has lost digits.
+/// The complements are for the upper tail, where u = 1 − q would lose the digits of q.
 class PreparedDistribution {
 public:
   /// Requires faults(distribution) to be empty. Cost O(n log n) for n values, else some 100 ns.

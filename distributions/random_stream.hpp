@@ -41,9 +41,9 @@ using PhiloxBlock = std::array<std::uint64_t, 4>;
 /// Philox4x64-10's bijection of the counter under the key. Cost: 20 wide multiplications.
 [[nodiscard]] PhiloxBlock philox(const PhiloxKey& key, const PhiloxBlock& counter);
 
-/// The uniform number of 64 random bits: an odd multiple of 2⁻⁵³, so that u and 1 − u are both
-/// exact and neither is ever 0 or 1. One bit of the 53 is spent on that: (k + ½)·2⁻⁵³ with 53-bit k
-/// would round to 1 at the top. Extremes: 2⁻⁵³ = 1.1e-16 and 1 − 2⁻⁵³ (±8.2 σ of a normal law).
+/// Turns 64 random bits into a uniform number: an odd multiple of 2⁻⁵³, so that u and 1 − u are both exact and neither
+/// is ever 0 or 1. This leaves 52 random bits; with 53 bits k, (k + ½)·2⁻⁵³ would round to 1 for the largest k.
+/// Extremes: 2⁻⁵³ = 1.1e-16 and 1 − 2⁻⁵³ (±8.2 σ of a normal law).
 [[nodiscard]] constexpr double open_uniform(std::uint64_t bits) {
   return static_cast<double>((bits >> 11) | 1u) * 0x1p-53;
 }
@@ -69,7 +69,7 @@ struct ReplicateStream {
 class RandomStream {
 public:
   using result_type = std::uint64_t;
-  static constexpr bool has_fixed_range = false; ///< Boost.Random asks; it is for 32-bit ranges
+  static constexpr bool has_fixed_range = false; ///< required by Boost.Random
 
   RandomStream(std::uint64_t seed, std::uint64_t run, StreamName name)
       : key_{seed, 0}, counter_{0, run, name.hash, 0} {}

@@ -13,8 +13,8 @@ static_assert(boost::random::default_sobol_table::max_dimension == most_sobol_di
 
 } // namespace
 
-// The engine's point n is (1) over the digits of n's Gray code n ⊕ ⌊n/2⌋, which for n = 2ʲ⁺¹ − 1 is
-// 2ʲ: that point is v_j. As the engine leaves out point 0, seed(n − 1) takes it to point n.
+// Boost's engine uses Gray-code order: its point n is (1) with the digits of n ⊕ ⌊n/2⌋ in place of k. For n = 2ʲ⁺¹ − 1
+// this Gray code is 2ʲ, so that the point is v_j. The engine leaves out point 0, so seed(n − 1) moves it to point n.
 std::vector<SobolDimension> sobol_dimensions(std::size_t count) {
   assert(count <= most_sobol_dimensions);
   std::vector<SobolDimension> dimensions(count);

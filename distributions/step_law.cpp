@@ -18,7 +18,7 @@ std::vector<std::size_t> ascending(const Discrete& law) {
   return order;
 }
 
-// How many values lie at or below x.
+/// The number of values ≤ x.
 std::ptrdiff_t count_to(const StepLaw& law, double x) {
   return std::distance(law.values.begin(), std::ranges::upper_bound(law.values, x));
 }

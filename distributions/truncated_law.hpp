@@ -1,5 +1,5 @@
-/// A continuous law truncated to an interval. It inverts the distribution function: one u gives one value, as every
-/// design needs (rejection would use an unknown number of them).
+/// A continuous law truncated to an interval. A draw inverts the distribution function, so that one u gives one value,
+/// as every design needs. Rejection was ruled out because a draw would take an unknown number of u.
 ///
 ///   symbol  meaning
 ///   F, Q    the law's own tails, P(X ≤ x) and P(X > x)
@@ -24,8 +24,8 @@ struct TruncatedLaw {
 
 /// The point with probability u below it, always within [a, b]:
 /// F(x) = F(a) + m·u (1) or Q(x) = Q(b) + m·(1 − u) (2), whichever tail is smaller and so more exact. In an interval of
-/// 10⁻ⁿ standard deviations about 16 − n digits of its width are resolved; far out, tails below 1e-308 (a normal law's
-/// beyond 37.5 σ) lose digits as numbers do there.
+/// 10⁻ⁿ standard deviations about 16 − n digits of the width are resolved. Tails below 1e-308 (a normal law's beyond
+/// 37.5 σ) are subnormal numbers with fewer digits.
 [[nodiscard]] double quantile(const TruncatedLaw& law, double u);
 
 /// The point with probability q above it.

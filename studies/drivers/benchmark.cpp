@@ -43,7 +43,7 @@ template <class Function> double time_of(Function f) {
   return best;
 }
 
-/// A yardstick for the other times: dependent additions, one a cycle on most processors.
+/// Dependent additions per ns, to compare the other times with: one per cycle on most processors.
 double cycles_per_ns() {
   unsigned long x = 1;
   const double block = time_of([&] {
@@ -54,7 +54,7 @@ double cycles_per_ns() {
 }
 
 struct EvaluationTime {
-  double dependent, independent; // ns: each needing the last, and not
+  double dependent, independent; // ns; dependent: each evaluation needs the previous one
 };
 
 template <class Topology> EvaluationTime recursion(const Wing<double>& wing) {

@@ -26,7 +26,7 @@ constexpr std::array quantiles{0.01, 0.5, 0.99};
 constexpr std::array<const char*, 5> statistic_names{"mean", "std", "q01", "q50", "q99"};
 using Statistics = std::array<double, 5>;
 
-constexpr long fewest = 64; // runs of a replicate
+constexpr long fewest = 64; // least number of runs of a replicate
 
 struct Options {
   std::string campaign = "studies/campaigns/seed.json";
@@ -76,7 +76,7 @@ Statistics statistics_of(std::span<const double> values) {
   return statistics;
 }
 
-/// A replicate's first n values: run k is number k/R of replicate k mod R.
+/// A replicate's first n values. With R replicates, run k is value number k/R (rounded down) of replicate k mod R.
 std::vector<double> of_replicate(const std::vector<double>& column, long replicates, long replicate,
                                  long n) {
   std::vector<double> values;
@@ -89,7 +89,7 @@ std::vector<double> of_replicate(const std::vector<double>& column, long replica
 struct Error {
   double rms;      ///< about the reference
   double spread;   ///< standard deviation over the replicates
-  double off_mean; ///< the replicates' mean less the reference: bias, and the reference's error
+  double off_mean; ///< the replicates' mean minus the reference: bias, plus the reference's error
 };
 
 Error error_of(std::span<const double> found, double reference) {
@@ -113,7 +113,7 @@ public:
   Study(Campaign campaign, const Options& options)
       : campaign_(std::move(campaign)), replicates_(options.replicates), most_(options.most) {
     campaign_.outputs = {OutputFamily::latch_rate};
-    campaign_.integration.rtol = 1e-6; // an error far below those of any sample
+    campaign_.integration.rtol = 1e-6; // integration error far below the sampling errors
     campaign_.integration.atol = 1e-8;
     const Sampling all{DesignKind::sobol, options.reference, campaign_.sampling.seed + 1, 1};
     const LatchRates rates = make(campaign_, all);
@@ -124,7 +124,7 @@ public:
   [[nodiscard]] std::vector<Point> measure() const {
     std::vector<Point> points;
     for (const DesignKind design : designs) {
-      const bool nested = design != DesignKind::latin_hypercube; // longer ones begin with shorter
+      const bool nested = design != DesignKind::latin_hypercube; // longer ones extend shorter
       LatchRates rates;
       if (nested) rates = make(campaign_, sampling(design, most_));
       for (long n = fewest; n <= most_; n *= 2) {

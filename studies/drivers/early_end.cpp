@@ -1,5 +1,5 @@
-// Measures the work that an early end of runs saves, and checks that no result is lost. Every run of several campaigns is
-// made as a campaign makes it, and again to its t_end. No bit of a latch, a peak or an overtravel may differ.
+// Measures the work that runs save by ending early, and checks that they lose no result. Makes every run of several
+// campaigns twice: as a campaign does, and to its t_end. No bit of a latch, a peak or an overtravel may differ.
 //
 //   build/release/studies/early_end                 some ten thousand runs of each campaign; minutes
 //   build/release/studies/early_end --quick         a hundred of each
@@ -23,8 +23,8 @@ using namespace wingspread;
 
 namespace {
 
-/// A campaign, its number of runs, and their t_end, s. Some campaigns' own t_end is far later: the wing would be at
-/// rest for most of the time.
+/// A campaign, its number of runs, and their t_end. Some campaigns have a far later t_end, before which the wing is at rest
+/// most of the time.
 struct Case {
   const char* campaign;
   long runs;
@@ -42,8 +42,8 @@ constexpr Case cases[] = {{"seed", 40000, 30, 11},
 
 struct Found {
   long runs = 0, deployed = 0, early = 0, lost = 0;
-  double evaluations = 0, of_whole = 0; ///< of all runs
-  double tail = 0; ///< from the last latch to the end of those that ended early, s
+  double evaluations = 0, of_whole = 0; ///< of all runs: as they end, and to t_end
+  double tail = 0; ///< sum over runs that ended early of the time from last latch to end, s
 
   void add(const Found& other) {
     runs += other.runs, deployed += other.deployed, early += other.early, lost += other.lost;

@@ -1,10 +1,10 @@
-// Should work go into more runs, or into a tighter tolerance? The error of a campaign's mean has two parts,
+// Measures whether work should go into more runs or into a tighter tolerance. The error of a campaign's mean has two parts,
 //
 //     sampling      σ / √N                         by N runs, σ the output's standard deviation
 //     integration   | mean of e |                  by a tolerance, e the error of a run; | mean of e | ≤ RMS of e
 //
-// and N runs at a tolerance cost N times a run's evaluations. Measured for three campaigns: σ; the spread of block
-// means against σ/√N; e against a reference at rtol 1e-12 by another method; evaluations and time.
+// and N runs at a tolerance cost N times a run's evaluations. Measures four things for three campaigns: σ; the spread of
+// block means against σ/√N; e against a reference at rtol 1e-12 by another method; evaluations and time.
 //
 //   build/release/studies/error_budget                 20,000 runs of each campaign for σ, 200 for errors; minutes
 //   build/release/studies/error_budget --quick         400 and 16
@@ -70,7 +70,7 @@ std::vector<double> values_of(const std::vector<ResultRow>& rows, std::size_t ou
   return values;
 }
 
-/// Adds the spread of the means of blocks of N runs about the mean of all, beside σ/√N.
+/// Adds rows with the spread of the means of blocks of N runs about the mean of all runs, and with σ/√N.
 void add_sampling(const std::string& name, const std::string& output,
                   const std::vector<double>& values, Tables& tables) {
   const Moments all = moments(values);

@@ -1,6 +1,6 @@
-// Would a formula of higher order than dop853's 8, or a Taylor series, make tight runs cheaper?
-// The seed wing without friction, from latch to latch, by dop853, Verner's pairs 9(8) and 8(7), the
-// method taylor and Taylor series of the chain by pairs, alone and in packs of four: work at equal error.
+// Measures whether a formula of higher order than dop853's 8, or a Taylor series, makes tight runs cheaper: work at
+// equal error. The seed wing without friction is integrated from latch to latch, alone and in packs of four, by dop853,
+// Verner's pairs 9(8) and 8(7), the method taylor, and the chain's Taylor series of taylor_chain.hpp.
 //
 //   build/release/studies/higher_orders [--quick]        # seconds; a table and higher_orders.csv
 
@@ -30,10 +30,10 @@ template <class T> using Verner87Formula = EmbeddedPair<T, Verner87>;
 /// The motion between two events.
 struct Stretch {
   double from, to;
-  int engages = 0; ///< the hinge whose latch engages at its start, of the wing; 0: none
+  int engages = 0; ///< the wing's hinge (1 … n) that latches at its start; 0: none
 };
 
-/// From release to where a run for peak moments may end.
+/// The stretches from release to the time at which a run for peak moments may end.
 std::vector<Stretch> stretches_of(const Scene& scene) {
   Integration how;
   how.method = "dop853", how.rtol = 1e-13, how.atol = 1e-15, how.t_end = seed_t_end;
@@ -54,7 +54,7 @@ double first_lane(double x) { return x; }
 double first_lane(long double x) { return static_cast<double>(x); }
 template <int W> double first_lane(const Pack<W>& x) { return x.v[0]; }
 
-/// A scene's wing in any number: one wing, or the same in every lane.
+/// A scene's wing in any number type; in a pack every lane has the same wing.
 template <class T> Wing<T> wing_of(const Scene& scene) {
   Wing<T> wing = make_wing<T>(scene, outward_order(scene));
   if constexpr (is_one_number<T>) {
@@ -66,7 +66,7 @@ template <class T> Wing<T> wing_of(const Scene& scene) {
   return wing;
 }
 
-/// A wing that is integrated from stretch to stretch.
+/// A wing and its state, integrated stretch by stretch.
 template <class T> struct Wanderer {
   static constexpr int bodies = 3;
   using AnySystem = System<T, Chain<bodies>, BaseMotion::fixed>;
@@ -92,7 +92,7 @@ template <class T> struct Wanderer {
 /// Cost and end state of a motion from release to a stretch's end.
 struct Walk {
   std::vector<long> evaluations, steps;    ///< up to the end of each stretch
-  std::vector<std::vector<double>> states; ///< there
+  std::vector<std::vector<double>> states; ///< at the end of each stretch
 
   template <class T> void arrive(const State<T>& x, long evaluations_so_far, long steps_so_far) {
     std::vector<double> state;
@@ -102,7 +102,7 @@ struct Walk {
   }
 };
 
-constexpr double first_try = 2e-3; ///< s, of every stretch, whatever the method
+constexpr double first_try = 2e-3; ///< s, first trial step of every stretch, for all methods
 
 /// Integrates by a formula with the step control of core/methods.
 template <class T, template <class> class Formula>
@@ -110,13 +110,13 @@ Walk walk(Wanderer<T>& wing, const std::vector<Stretch>& way, double rtol, int /
   Formula<T> formula;
   Walk made;
   long steps = 0;
-  const T now(0); // the equations know no time
+  const T now(0); // the equations do not depend on time
   State<T> dxdt(wing.x.size()), x1(wing.x.size()), dxdt1(wing.x.size()), error(wing.x.size());
   wing.start();
   for (const Stretch& stretch : way) {
     wing.enter(stretch);
     StepMemory<double> memory;
-    long double t = stretch.from; // what sums of steps lose in double would count as error
+    long double t = stretch.from; // in double the sum's rounding would count as error
     double h = first_try;
     wing.system(wing.x, dxdt, now);
     while (t < stretch.to) {
@@ -143,7 +143,7 @@ Walk walk(Wanderer<T>& wing, const std::vector<Stretch>& way, double rtol, int /
   return made;
 }
 
-/// Integrates by Taylor series of one order; steps by the last two coefficients [Jorba & Zou 2005].
+/// Integrates by Taylor series of one order. The last two coefficients decide the step [Jorba & Zou 2005].
 template <class T>
 Walk walk_by_series(Wanderer<T>& wing, const std::vector<Stretch>& way, double rtol, int order) {
   constexpr int n = Wanderer<T>::bodies;
@@ -192,8 +192,8 @@ double error_of(const Walk& got, const Walk& reference, std::size_t count) {
 /// The parts of the motion that are columns of the table.
 struct Extent {
   const char* name;
-  std::size_t stretches; ///< from release
-  std::size_t judged;    ///< those of which the ends are compared
+  std::size_t stretches; ///< number of stretches from release
+  std::size_t judged;    ///< number of stretches whose ends are compared
 };
 
 struct Point {
@@ -215,7 +215,7 @@ template <class Call> double least_time(int rounds, Call&& call) {
 /// One method at all tolerances.
 struct Method {
   std::string name;
-  int order; ///< of a series
+  int order; ///< of a Taylor series; unused by others
   Walk (*alone)(Wanderer<double>&, const std::vector<Stretch>&, double, int);
   Walk (*in_lanes)(Wanderer<Pack<4>>&, const std::vector<Stretch>&, double, int);
 };
@@ -234,7 +234,7 @@ std::vector<Method> all_methods() {
 
 using Curve = std::vector<Point>;
 
-/// Work at a given error, interpolated between a curve's points; NaN outside them.
+/// Work at a given error, interpolated between a curve's points; NaN outside their range.
 double at_error(const Curve& curve, double error, double Point::*figure) {
   double best = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 1; k < curve.size(); ++k) {

@@ -5,8 +5,8 @@
 //   build/release/studies/latch_model --quick            three widths
 //   /usr/bin/python3 studies/plots/plot_accuracy.py results/latch_model
 //
-// The seed wing to t = 12 s. The event latch is an oracle's (a dense formulation in 64-bit
-// precision); the smoothed one is the product's, and the oracle's in double by CVODE checks it.
+// Runs the seed wing to t = 12 s. The reference with the event latch comes from an oracle (a dense formulation in 64-bit
+// precision). The runs with the smoothed latch come from core/; the oracle in double by CVODE checks them.
 
 #include "studies/support/precision_measurement.hpp"
 #include "studies/support/precision_references.hpp"

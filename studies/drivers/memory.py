@@ -89,7 +89,7 @@ def repeat_rows(source, folder, runs):
     """Writes a results folder of `runs` rows: the rows of `source` repeated under new numbers."""
     folder.mkdir()
     campaign = json.loads((source / "campaign.json").read_text())
-    del campaign["wingspread"]  # nobody's stamp: its runs are not its draws'
+    del campaign["wingspread"]  # no stamp, because the repeated rows are not those of the campaign's draws
     campaign["sampling"]["runs"] = runs
     (folder / "campaign.json").write_text(json.dumps(campaign))
     header, *rows = (source / "runs.csv").read_text().splitlines(keepends=True)
@@ -133,7 +133,7 @@ def measure_margin(program, folder, runs):
     campaign["margin"] = {"scale": ["hinges.*.spring.torque_stowed"], "range": [0.99, 1.01], "points": 2}
     file.write_text(json.dumps(campaign))
     measured = measure(program, "margin", file, "--runs", runs, "--out", folder / "margin")
-    (folder / "margin" / "margin.csv").rename(folder / "margin" / "runs.csv")  # what the table shows the size of
+    (folder / "margin" / "margin.csv").rename(folder / "margin" / "runs.csv")  # the table shows the size of runs.csv
     return measured
 
 

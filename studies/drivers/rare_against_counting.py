@@ -19,8 +19,8 @@ import subprocess
 import sys
 
 CAMPAIGN = pathlib.Path("studies/campaigns/seed.json")
-# Fixed beforehand, by the quantiles of 40,000 runs with another seed. The root's latch time has two modes: in one run
-# of 500 the wing's outer panels swing back before the root latches, and no smooth way leads there.
+# Limits fixed beforehand, from the quantiles of 40,000 runs with another seed. The root's latch time has two modes: in
+# one run of 500 the wing's outer panels swing back before the root latches, and no smooth path leads to that mode.
 EVENTS = [("root.latch_time", 5.3), ("mid.latch_rate", 2.7), ("root.latch_time", 7.3)]
 
 

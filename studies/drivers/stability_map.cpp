@@ -19,7 +19,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double shortest = 1.5e-3, longest = 0.5; ///< s: steps that are tried
-constexpr double scan = 1.05;                      ///< from one tried step to the next
+constexpr double scan = 1.05;                      ///< ratio of a tried step to the previous one
 
 /// The largest step below which all steps are stable, to five digits; NaN if even the longest is stable.
 /// @param stable(h)
@@ -37,7 +37,7 @@ template <class Stable> double largest_step(const Stable& stable) {
 
 /// A step limit and the mode that sets it.
 struct Limit {
-  double h = none; ///< s; NaN: none up to the longest
+  double h = none; ///< s; NaN: no limit up to the longest step
   Eigenvalue mode{none, none};
 };
 
@@ -57,7 +57,7 @@ Limit theoretical_limit(const FixedStepMethod& method, const std::vector<Eigenva
 struct Motion {
   State<double> x;
   double duration;   ///< s
-  long fewest_steps; ///< taken, however long that is
+  long fewest_steps; ///< steps to take at least, even beyond the duration
 };
 
 /// Kinetic energy and the energy of latches and springs above rest, J. Exact motions never increase it.

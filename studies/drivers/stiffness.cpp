@@ -245,7 +245,7 @@ FigureErrors change(const Figures& from, const Figures& to) {
   return errors;
 }
 
-/// How far ringing changes the later latches: with the ringing damped away, and with another stiffness.
+/// Measures how much ringing changes the later latches: against wings with damped ringing, and with another stiffness.
 void measure_worth(const std::vector<Point>& corner, const Plan& plan,
                    const std::filesystem::path& file) {
   Table table{"k [N·m/rad]", "d [N·m·s/rad]", "k scaled by", "d scaled by",

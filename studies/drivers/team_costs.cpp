@@ -18,7 +18,7 @@ using namespace wingspread;
 
 namespace {
 
-constexpr std::size_t tasks = 8; // as many as a campaign has dispersions, say
+constexpr std::size_t tasks = 8; // a typical number of a campaign's dispersions
 
 /// Busy threads on all processors during the lifetime of this object.
 class Others {

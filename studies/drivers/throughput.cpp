@@ -1,5 +1,6 @@
-// Measures deployments a second: packs of runs against one run at a time, against a program that an engineer writes with
-// Boost.Odeint, and against tolerance, lanes, threads and bodies. All times are of one process. Compare ratios.
+// Measures deployments per second. Compares packs of runs with one run at a time, and with a program as an engineer writes
+// it with Boost.Odeint (the peer). Varies tolerance, lanes, threads and bodies. All times are of one process. Compare
+// ratios.
 //
 //   build/release/studies/throughput            a table, and results/throughput/*.csv, .json
 //   build/release/studies/throughput --quick    a tenth of the runs
@@ -50,7 +51,7 @@ long differing(const std::vector<Outcome>& a, const std::vector<Outcome>& b) {
   return count;
 }
 
-// ---- accuracy: against runs at rtol 1e-13, which the accuracy study holds against its oracles
+// ---- accuracy: against runs at rtol 1e-13, which the accuracy study compares with its oracles
 
 double relative(double value, double exact) { return std::abs(value - exact) / std::abs(exact); }
 
@@ -66,7 +67,7 @@ double error_of(const Outcome& out, const Outcome& exact) {
   return worst;
 }
 
-/// Peaks of the peer are not judged: it samples them, and no tolerance improves that.
+/// The largest error of the peer's latches. Its peaks are left out: the peer samples them, and no tolerance improves them.
 double error_of(const PlainOutcome& out, const Outcome& exact) {
   double worst = 0;
   for (const LatchEvent& latch : exact.latches)
@@ -195,7 +196,7 @@ private:
         });
         const auto plain = [&](double at, long k) {
           seed_.set(unit, k);
-          return plain_odeint(unit, at, seed_t_end, first); // it knows no earlier end
+          return plain_odeint(unit, at, seed_t_end, first); // the peer never ends early
         };
         const double their_rtol = loosest(level, [&](double at) {
           double worst = 0;
@@ -247,7 +248,7 @@ private:
     table.write(options_.folder / "tolerance.csv");
   }
 
-  /// A folded stack of n equal panels, its first seconds.
+  /// Times the first seconds of a folded stack of n equal panels.
   void against_bodies() {
     fmt::print("\nagainst bodies: ns an evaluation a run, whole steps\n");
     Table table({"bodies", "set", "ns an evaluation", "ns an evaluation and body"});

@@ -1,5 +1,5 @@
 // Measures cost and error of every method, and of SUNDIALS CVODE on the same right-hand side, at every tolerance.
-// References share nothing with core/.
+// The references use no code of core/.
 //
 //   build/release/studies/work_precision                 64 scenes of each case; the references
 //                                                        take long once
@@ -29,7 +29,7 @@ namespace {
 /// Dispersed wings of one kind.
 struct Case {
   const char* name;
-  const char* campaign;                 ///< whose runs they are, in studies/campaigns
+  const char* campaign;                 ///< the campaign of these runs, in studies/campaigns
   std::optional<double> smoothing = {}; ///< ε of the smoothed latch, rad
   bool exact_friction = false;
 };
@@ -37,10 +37,10 @@ const std::vector<Case> all_cases{
     {"event", "work_precision.json"},
     {"smoothed", "work_precision.json", 1e-3},
     {"rubbing", "work_precision_rubbing.json"},       // harness and regularized friction
-    {"near_stall", "work_precision_near_stall.json"}, // the same, of which little drive is left
+    {"near_stall", "work_precision_near_stall.json"}, // the same, with little torque to spare
     {"sticking", "work_precision_sticking.json", {}, true}};
 constexpr std::array extents{Extent::first_latch, Extent::whole}; // A, B
-constexpr long max_steps = 100'000; // more than any useful point of the chart takes
+constexpr long max_steps = 100'000; // more than any useful point of the chart needs
 
 const char* name_of(Extent extent) { return extent == Extent::first_latch ? "A" : "B"; }
 
@@ -60,8 +60,8 @@ struct Plan {
   std::vector<double> steps;      ///< s; for methods with a fixed step
   ReferenceSettings primary, cvode;
   ReferenceSettings second; ///< of another precision than the primary
-  int second_scenes = 0;    ///< how many scenes have one
-  double patience = 0.05;   ///< how long a point is timed at least, s
+  int second_scenes = 0;    ///< number of scenes with a second reference
+  double patience = 0.05;   ///< least time for which a point is timed, s
 };
 
 Plan plan_of(const Options& options, const Case& of, double t_end) {
@@ -176,7 +176,7 @@ struct Series {
   std::string name;
   bool fixed_step = false;
   Run run;
-  bool smooth_only = false; ///< it knows no contacts
+  bool smooth_only = false; ///< cannot integrate contacts
 };
 
 Series series_of(const MethodInfo& method) {
@@ -218,7 +218,7 @@ std::vector<Series> all_series(const std::vector<std::string>& wanted) {
 struct Point {
   std::string method, of; ///< the case
   Extent extent;
-  double tolerance, step; ///< the one that varies; NaN the other
+  double tolerance, step; ///< one of them varies, the other is NaN
   Measurement measured;
 };
 
@@ -244,7 +244,7 @@ Integration integration_of(const Study& study, bool fixed_step, double knob) {
   Integration how;
   how.t_end = study.plan.primary.t_end, how.max_steps = max_steps;
   how.rtol = knob, how.atol = 1e-2 * knob;
-  if (fixed_step) how.step = knob, how.rtol = how.atol = 1e6; // so that it refuses no step
+  if (fixed_step) how.step = knob, how.rtol = how.atol = 1e6; // so that no step is refused
   return how;
 }
 
@@ -263,7 +263,7 @@ std::vector<Point> measure_curve(const Series& series, const Study& study, Exten
   return curve;
 }
 
-/// A figure of the table, a dash when there is none.
+/// An error for the table; a dash for NaN.
 std::string shown(double error) { return std::isnan(error) ? "–" : fmt::format("{:.1e}", error); }
 
 void print(const Point& point) {
@@ -276,13 +276,13 @@ void print(const Point& point) {
              m.evaluations, m.microseconds, m.mismatches, m.failures);
 }
 
-/// Three points of a curve: all of a quick study; else those of 1e-4, 1e-7 and 1e-10.
+/// Prints three points of a curve: all of a quick study; else the second, fifth and eighth.
 void print_some(const std::vector<Point>& curve) {
   const bool all = curve.size() <= 3;
   for (const std::size_t k : all ? std::array{0, 1, 2} : std::array{1, 4, 7}) print(curve[k]);
 }
 
-/// Lines of an earlier study's file, of cases and methods that are not measured now.
+/// The lines of an earlier study's file for cases and methods that this study does not measure.
 std::string lines_of_others(const std::filesystem::path& file, const std::vector<Series>& series,
                             const Case& of) {
   std::ifstream in(file, std::ios::binary);
@@ -317,12 +317,12 @@ void measure_all(const std::vector<Series>& all, const Study& study,
       print_some(curve);
       for (const Point& point : curve) text += csv_line(point);
     }
-    write_file(file, text); // what is done is kept
+    write_file(file, text); // an interrupted study keeps it
     std::fflush(stdout);
   }
 }
 
-/// @return whether its references are sound
+/// Measures one case. @return whether its references agree with each other
 bool study_case(const Options& options, const Case& of, const std::vector<Series>& series) {
   const Campaign campaign = read_campaign_file(std::string("studies/campaigns/") + of.campaign);
   const long all = options.quick ? 4 : campaign.sampling.runs;

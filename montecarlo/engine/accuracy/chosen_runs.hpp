@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-/// Chooses `count` runs. Takes from each list in turn its next run that is not chosen yet:
+/// Chooses `count` runs from six lists. Takes one run from each list in turn, the list's next one not chosen yet:
 ///
 ///   1 by status: the first that deployed, stalled, timed out; then the second of each; …
 ///   2 by latch order, the most frequent first: the first of each; then the second; …

@@ -16,7 +16,7 @@ struct Chunk {
   RunRange runs{};
 };
 
-/// Where threads claim chunks and return them finished. Called on any thread.
+/// A queue from which threads claim chunks, and to which they return finished ones. Any thread may call any function.
 class ChunkQueue {
 public:
   ChunkQueue() = default;

@@ -29,7 +29,7 @@ struct BatchSink {
   bool wants_csv = false; ///< let the threads that make the runs format the lines
 };
 
-/// Makes runs. The batches do not depend on the number of threads or processes.
+/// Makes runs. The rows and their order do not depend on the number of threads or processes.
 class Evaluator {
 public:
   Evaluator() = default;

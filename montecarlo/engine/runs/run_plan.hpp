@@ -51,7 +51,7 @@ public:
   /// The campaign's output columns; empty if a measure replaces them.
   [[nodiscard]] const std::vector<OutputColumn>& columns() const { return columns_; }
   [[nodiscard]] const std::optional<Measure>& measure() const { return measure_; }
-  /// What a run has to compute.
+  /// The goal of every run: which results `core` computes.
   [[nodiscard]] const Goal& goal() const { return goal_; }
 
   /// The draws of run k. Pure.

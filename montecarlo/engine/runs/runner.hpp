@@ -28,8 +28,8 @@ public:
   };
   [[nodiscard]] Replay replay(long k, const Observer& observer);
 
-  /// Makes the runs that `next` returns until `next` returns nothing, several at once. Each row equals that of run(),
-  /// bit for bit.
+  /// Makes several runs at once: takes run numbers from `next` until `next` returns nothing. Each row has the same bits
+  /// as the row of run().
   /// @param done receives rows in the order in which runs end
   Occupancy run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
                     const std::function<void(ResultRow&&)>& done);

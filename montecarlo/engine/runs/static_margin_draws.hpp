@@ -1,4 +1,4 @@
-/// Static margins over a campaign's draws: passes the scene of each run to the study in static_margins.
+/// Static margins over a campaign's draws: passes the scene of each run to study_static_margins().
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"

@@ -73,7 +73,7 @@ bool CsvReader::next() {
   read_physical_line();
   if (line_ == 1 && physical_.starts_with("\xEF\xBB\xBF")) physical_.erase(0, 3);
   record_ = physical_;
-  // A line break belongs to a cell when an odd number of quotes stands before it.
+  // A line break is inside a cell if the number of quotes before the break is odd.
   auto quotes = std::ranges::count(record_, '"');
   while (quotes % 2 != 0 && terminated_) {
     read_physical_line();

@@ -61,7 +61,7 @@ InputBuffer::int_type InputBuffer::underflow() {
 
 InputFile::InputFile(const std::filesystem::path& path) : std::istream(nullptr), buffer_(path) {
   rdbuf(&buffer_);
-  exceptions(std::ios::badbit); // what the buffer throws is thrown on
+  exceptions(std::ios::badbit); // lets exceptions of the buffer reach the caller
 }
 
 void InputFile::seek(std::size_t byte) {

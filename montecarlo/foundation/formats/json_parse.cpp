@@ -67,7 +67,7 @@ public:
 private:
   struct Container {
     Json* value;
-    std::string key; ///< of an object: that of its last member
+    std::string key; ///< key of an object's last member
   };
 
   /// Adds a value at the parser's position. Returns true: continue parsing.

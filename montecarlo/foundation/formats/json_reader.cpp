@@ -53,7 +53,7 @@ bool read_each(const JsonCursor& at, std::vector<double>& out, const Expected& e
   return all;
 }
 
-/// The expectation for a nan or infinity (from an option: JSON has none).
+/// The expectation in a message about a NaN or infinity (these come from options only; JSON has none).
 std::string finite(std::string_view expected) {
   constexpr std::string_view number = "a number";
   return expected.starts_with(number)

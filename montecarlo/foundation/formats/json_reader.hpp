@@ -96,7 +96,7 @@ public:
   bool read(std::string& out, std::string_view expected) const;
   bool read(std::vector<double>& out, std::string_view expected) const;
 
-  /// The same for quantities: SI numbers, or strings with a unit (quantity.hpp).
+  /// Reads quantities in the same way: SI numbers, or strings with a unit (quantity.hpp).
   bool read(double& out, const Dimension& dimension) const;
   bool read(Eigen::Vector2d& out, const Dimension& dimension) const;
   bool read(std::vector<double>& out, const Dimension& dimension) const;
@@ -150,7 +150,7 @@ public:
     const auto at = find(key);
     return at ? read(*at, out, expected, holds) : true;
   }
-  /// The same for quantities: SI numbers, or strings with a unit.
+  /// Reads a quantity in the same way: an SI number, or a string with a unit.
   template <class T> bool required(std::string_view key, T& out, const Dimension& dimension) {
     const auto at = require(key, expected(out, dimension));
     return at ? at->read(out, dimension) : !is_object();
@@ -159,7 +159,7 @@ public:
     const auto at = find(key);
     return at ? at->read(out, dimension) : true;
   }
-  /// The same with a condition; the dimension has it in words.
+  /// Reads a quantity with a condition; the dimension has the condition in words.
   bool required(std::string_view key, double& out, const Dimension& dimension,
                 Holds<double> holds) {
     const auto at = require(key, expected_number(dimension));
@@ -170,7 +170,7 @@ public:
     const auto at = find(key);
     return at ? read(*at, out, dimension, holds) : true;
   }
-  /// The same for words in the order of the enumeration's values.
+  /// Reads an enumeration. @param words the words of its values, in their order
   template <class Enum>
   bool required_choice(std::string_view key, Enum& out, std::span<const std::string_view> words) {
     const auto at = require(key, quoted_list(words));

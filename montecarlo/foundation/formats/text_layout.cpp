@@ -9,7 +9,7 @@
 namespace wingspread {
 namespace {
 
-/// Whether the byte begins a character, rather than goes on with one.
+/// Whether the byte is the first byte of a character.
 bool starts_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
 
 } // namespace

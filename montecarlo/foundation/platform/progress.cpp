@@ -85,7 +85,8 @@ void Progress::show(const Tally& tally) {
   share_ = share_of(tally);
   last_ = now;
   shown_ = true;
-  fmt::print(stream_, "\r{}\x1b[K", progress_line(tally, seconds())); // \x1b[K: clear what is left
+  // "\x1b[K" clears the rest of the line, which may show the end of a longer one.
+  fmt::print(stream_, "\r{}\x1b[K", progress_line(tally, seconds()));
   std::fflush(stream_);
 }
 

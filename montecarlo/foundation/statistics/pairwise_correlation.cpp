@@ -30,17 +30,17 @@ Presence both(const Presence& a, const Presence& b) {
   return result;
 }
 
-/// Indices of the columns, by the rows in which they have a value.
+/// Groups columns that have values in the same rows: their indices, by these rows.
 std::map<Presence, std::vector<std::size_t>> by_presence(std::span<const RankedColumn> columns) {
   std::map<Presence, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < columns.size(); ++i) groups[presence_of(columns[i])].push_back(i);
   return groups;
 }
 
-/// A column restricted to the rows in which others have values too.
+/// A column restricted to the rows in which all columns of a group have values.
 class KeptColumn {
 public:
-  /// @param keep the rows in which all of them have values; empty: all rows
+  /// @param keep the rows to keep; empty: all rows
   KeptColumn(const RankedColumn& column, const Presence& keep) {
     if (keep.empty()) {
       column_ = &column;
@@ -102,7 +102,7 @@ std::vector<KeptColumn> keep_columns(std::span<const RankedColumn> columns,
                                      int threads) {
   std::vector<std::optional<KeptColumn>> kept(which.size());
   const std::size_t bytes = 32 * columns.front().values().size(); // 20 of vectors, 12 mapped
-  constexpr double operations = 8; // of a row: two standards, and what is kept
+  constexpr double operations = 8; // per row: two standardisations, and copying the kept values
   const double all =
       operations * static_cast<double>(which.size() * columns.front().values().size());
   for_each_task(threads_within_memory(threads_worth(threads, all), bytes), which.size(),

@@ -89,7 +89,7 @@ std::vector<double> PartialCorrelations::given(std::span<const double> plain) co
       b[i] += (*inverse_)(index(i), index(j)) * plain[varying_[j]];
     explained += b[i] * plain[varying_[i]];
   }
-  // Less than rounding is no rest: what it would leave of the other coefficients is noise.
+  // A rest below the rounding error is noise, and would make the other coefficients noise: it is raised to that error.
   const double rounding = 64 * static_cast<double>(k + 1) * std::numeric_limits<double>::epsilon();
   const double rest = std::max(1 - explained, rounding);
   for (std::size_t i = 0; i < k; ++i) {

@@ -51,8 +51,8 @@ std::vector<double> RankedColumn::ranks() const {
 }
 
 std::vector<double> RankedColumn::ranks_where(const std::vector<bool>& keep) const {
-  // First how many of each rank are kept, then the doubled rank that these have. Different ranks
-  // are 1 apart at least, so that their whole parts differ too.
+  // of_rank first counts the kept values of each rank, and then gets their new doubled rank. Different mid-ranks are at
+  // least 1 apart, so that their whole parts differ too.
   std::vector<std::uint32_t> of_rank(doubled_ranks_.size() + 1, 0);
   for (std::size_t row = 0; row < keep.size(); ++row)
     if (keep[row]) ++of_rank[doubled_ranks_[row] / 2];

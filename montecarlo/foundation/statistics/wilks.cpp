@@ -26,7 +26,7 @@ bool shows(long n, double p, double c, long k) {
   return is_at_most_risk(cdf(Binomial(static_cast<double>(n), 1 - p), static_cast<double>(k)), c);
 }
 
-/// Bisection: the least number in (first, last] that holds, or `last` if none does.
+/// Bisection: the least number in (first, last] for which holds() is true, or `last` if there is none.
 /// @pre holds() is false up to some number and true beyond
 template <class Holds> long least(long first, long last, const Holds& holds) {
   while (last - first > 1) {
@@ -36,7 +36,8 @@ template <class Holds> long least(long first, long last, const Holds& holds) {
   return last;
 }
 
-/// The least number of runs that holds. Doubles before it bisects, because small numbers are cheaper to test.
+/// The least number of runs for which holds() is true. Doubles the number before bisecting, because small numbers are
+/// cheaper to test.
 template <class Holds> std::optional<long> least_runs(long more_than, const Holds& holds) {
   long last = more_than + 1;
   while (last < most_runs_sized && !holds(last)) last = std::min(2 * last, most_runs_sized);

@@ -1,4 +1,4 @@
-/// What n independent runs of any distribution can guarantee: how many may break a requirement, how many runs are
+/// Guarantees from n independent runs, for any distribution: how many runs may break a requirement, how many runs are
 /// needed, and tolerance limits.
 ///
 /// Symbols: n runs; p the probability to be shown (the content of a tolerance interval); c the confidence; k runs

@@ -49,8 +49,8 @@ int print_error(std::string_view message, int code = exit_code::bad_input) {
   return code;
 }
 
-/// Opens missing standard files. Without that a file of results could get the number of standard output and be printed
-/// into. The placeholder can be neither read nor written.
+/// Opens missing standard files with a placeholder that can be neither read nor written. Without it a results file could
+/// get the descriptor of standard output, and printed text would end up in it.
 void open_standard_files() {
   while (true) {
     const int file = open("/dev/null", O_PATH | O_CLOEXEC);
@@ -67,7 +67,7 @@ int flush_output(int code) {
                      exit_code::machine_refused);
 }
 
-/// "wingspread run": the command that --help is asked of.
+/// The full name of a command, e.g. "wingspread run".
 std::string name_of_command(const CLI::App& app) {
   std::string named = app.get_name();
   for (const CLI::App* command : app.get_subcommands()) named += ' ' + command->get_name();
@@ -81,7 +81,7 @@ int run_action(const Action& action) {
     return action();
   } catch (const MachineError& error) {
     return print_error(error.what(), exit_code::machine_refused);
-  } catch (const std::system_error& error) { // of standard output, of threads
+  } catch (const std::system_error& error) { // from standard output or threads
     return print_error(error.what(), exit_code::machine_refused);
   } catch (const std::bad_alloc&) {
     return print_error("found no memory left, expected more memory", exit_code::machine_refused);
@@ -121,8 +121,8 @@ ParsedArguments parse_arguments(int argc, const char* const* argv,
 
 int command_line(int argc, const char* const* argv) {
   open_standard_files();
-  // With ulimit -f, which some clusters set, a file that is too long raises this signal, which ends the program without a
-  // message. Ignored, it is an error like a full disk.
+  // Some clusters limit the size of files (ulimit -f). A file that is too long then raises this signal, which ends the
+  // program without a message. If the signal is ignored, the write fails as on a full disk.
   (void)std::signal(SIGXFSZ, SIG_IGN);
   const ParsedArguments parsed = parse_arguments(argc, argv);
   return flush_output(parsed.action ? run_action(parsed.action) : parsed.code);

@@ -17,7 +17,7 @@ struct Command {
 /// All commands, in the order of --help.
 [[nodiscard]] std::span<const Command> all_commands();
 
-/// The parsed arguments: an action, or the exit status when the answer is printed already.
+/// The parsed arguments: an action, or the exit status if nothing is left to do.
 struct ParsedArguments {
   Action action; ///< empty when nothing is left to do
   int code = exit_code::done;
@@ -27,7 +27,7 @@ struct ParsedArguments {
 [[nodiscard]] ParsedArguments parse_arguments(int argc, const char* const* argv,
                                               std::span<const Command> commands = all_commands());
 
-/// Runs the action and prints the exceptions that leave it as errors. @return the exit status
+/// Runs the action and prints its exceptions as errors. @return the exit status
 [[nodiscard]] int run_action(const Action& action);
 
 /// Parses the arguments, runs the command and returns the exit status. Results go to standard output; errors go to

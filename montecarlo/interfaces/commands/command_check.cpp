@@ -29,7 +29,7 @@ std::variant<Scene, Campaign> read_changed(const CheckOptions& options) {
   return read;
 }
 
-/// Describes the scene or the campaign, and where its bodies are.
+/// Describes the scene or the campaign, and the positions of its bodies.
 std::string text_of(const Scene& scene) { return describe(scene) + describe_placement(scene); }
 std::string text_of(const Campaign& campaign) {
   return describe(campaign) + describe_placement(campaign.scene);

@@ -38,7 +38,7 @@ void write_recommended(const Campaign& campaign, const MarginResult& result,
                json_text(scaled(campaign, search->scaled, *search->recommended).resolved));
 }
 
-/// Prints warnings, and the searches that found no confirmed scale. @return the exit status
+/// Prints warnings, and names the searches without a confirmed scale. @return the exit status
 int print_verdict(const Campaign& campaign, const MarginResult& result) {
   const Base& base = campaign.scene.base;
   if (base.motion == BaseMotion::prescribed)
@@ -67,18 +67,18 @@ std::string write_files(const Campaign& campaign, const MarginResult& result,
   write_file(out / margin_csv_file, margin_csv(campaign, result));
   write_file(out / motorization_csv_file, static_margins_csv(report.static_margins));
   write_recommended(campaign, result, out);
-  write_file(out / margin_json_file, json); // the last: with it the folder is complete
+  write_file(out / margin_json_file, json); // last, because it marks the folder as complete
   return json;
 }
 
-/// Judges a study that an earlier session finished. @return the exit status
+/// Returns the exit status of a study that an earlier session finished.
 int judge_finished_margin(const Json& study) {
   const int code = report_failed(study.value("runs_failed", 0L), study.value("runs", 0L),
                                  ", and count against every requirement");
   return code != exit_code::done || study.value("met", false) ? code : exit_code::not_met;
 }
 
-/// Keeps what an interrupted study has: finished scales in margin.csv, all runs in the checkpoint.
+/// Saves an interrupted study: its finished scales in margin.csv, all its runs in the checkpoint.
 int keep_unfinished(const Campaign& campaign, const MarginResult& result, Checkpoint& log,
                     const std::filesystem::path& out) {
   write_file(out / margin_csv_file, margin_csv(campaign, result));
@@ -102,7 +102,7 @@ ShardMaker maker_of(const MarginOptions& options) {
   return maker;
 }
 
-/// Makes a shard of the runs at the first scales, which depend on no result. @return the exit status
+/// Makes a shard of the runs at the first scales (no result decides these scales). @return the exit status
 int make_margin_shard(const Campaign& campaign, const MarginOptions& options, const Shard& shard) {
   if (!options.from.empty())
     throw SpecError({{"", "--from", "--from together with --shard", "only one of them"}});

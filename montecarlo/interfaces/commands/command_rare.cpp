@@ -71,7 +71,7 @@ void warn_if_doubtful(const RareResult& result) {
                        "more --samples\n");
 }
 
-/// Identifies the study: a folder with other values is refused.
+/// The values that identify the study. A folder with other values is refused.
 Json about_study(const RareOptions& options, const Campaign& campaign) {
   return {{stamp_key, stamp_json(stamp_of(campaign, {}))},
           {"event", describe(options.event)},

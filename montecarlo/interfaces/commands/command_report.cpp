@@ -35,8 +35,8 @@ int report(const ReportOptions& options) {
   refuse_overwriting(options.out, options.folders);
   std::deque<FolderLock> locks;
   for (const std::filesystem::path& folder : options.folders) {
-    if (!is_study_folder(folder)) (void)read_any_campaign(folder); // before the lock makes a file
-    const bool written = options.out.empty() && locks.empty();     // the page goes to the first
+    if (!is_study_folder(folder)) (void)read_any_campaign(folder); // before the lock creates a file
+    const bool written = options.out.empty() && locks.empty();     // the page goes into the first
     locks.emplace_back(folder, written ? FolderLock::For::writing : FolderLock::For::reading);
     if (!is_study_folder(folder)) warn_of_preview(read_any_campaign(folder));
   }

@@ -85,13 +85,13 @@ int merge(const MergeOptions& options) {
   }
 }
 
-/// --bins as JSON: a number, or the text, which read_statistics checks.
+/// The value of --bins as JSON: a number, or else the text. read_statistics checks it.
 Json bins_json(const std::string& text) {
   const auto number = parse_number<std::int64_t>(text);
   return number ? Json(*number) : Json(text);
 }
 
-/// Makes a folder's statistics again and writes them to the folder `to`.
+/// Computes a folder's statistics again and writes them to the folder `to`.
 Summary summarize_again(const StoredCampaign& stored, const AnalyzeOptions& options,
                         const std::filesystem::path& to) {
   StatisticsSpec spec = stored.campaign.statistics;

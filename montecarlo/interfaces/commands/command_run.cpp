@@ -23,7 +23,7 @@ struct RunOptions {
   Display display;
 };
 
-/// Replaces the campaign's goals for stopping early; without any, the campaign keeps its own.
+/// Replaces the campaign's stopping goals by those of --until. Without --until the campaign keeps its own.
 void override_until(Campaign& campaign, const std::vector<std::string>& until) {
   if (until.empty()) return;
   Json goals = Json::array();

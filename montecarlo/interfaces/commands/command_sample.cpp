@@ -20,7 +20,7 @@ struct SampleOptions {
   SamplingOptions sampling;
 };
 
-/// Writes CSV with the columns `run` and one for each dispersion, in blocks, to the sink.
+/// Writes CSV to the sink, in blocks: a column `run`, and one for each dispersion.
 void write_draws(const RunPlan& plan, const std::function<void(std::string_view)>& sink) {
   constexpr std::size_t block_bytes = 1 << 16;
   std::string block = "run";

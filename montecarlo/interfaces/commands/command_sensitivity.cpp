@@ -32,7 +32,7 @@ struct SensitivityOptions {
   bool resume = false, json = false;
 };
 
-/// Refuses the options that make runs, because the runs of a folder are made.
+/// Refuses the options for making runs, because a results folder already has its runs.
 void refuse_run_options(const SensitivityOptions& options) {
   std::vector<Problem> problems;
   const auto refuse = [&](bool given, const char* option) {

@@ -32,7 +32,7 @@ struct ReplayOptions {
   bool json = false;
 };
 
-/// Calls `run` with an observer that writes the trajectory; without a path, with no observer.
+/// Calls `run` with an observer that writes the trajectory; without a path, with an empty observer.
 template <class Run>
 auto write_trajectory(const std::filesystem::path& path, const Scene& scene, const Run& run) {
   if (path.empty()) return run(Observer{});

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of results folders that are not JSON: those are refused anyway.
+/// Files of results folders without the JSON files, which are refused anyway.
 constexpr std::array<std::string_view, 10> own_files{runs_file,
                                                      histograms_csv_file,
                                                      statistics_file,

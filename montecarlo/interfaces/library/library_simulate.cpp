@@ -31,7 +31,7 @@ Outcome plain_outcome(const Scene& scene, const wingspread::Outcome& outcome) {
   for (const Hinge& hinge : scene.hinges) plain.hinges.push_back(hinge.name);
   plain.t_end = outcome.t_end;
   plain.latches = latches_of(scene, outcome);
-  if (outcome.status != Status::failed) { // a larger one may have been to come
+  if (outcome.status != Status::failed) { // else a larger peak might have followed
     plain.peak_moment = peaks_of(outcome.peak_moment);
     plain.peak_force = peaks_of(outcome.peak_force);
   }

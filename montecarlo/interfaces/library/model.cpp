@@ -58,7 +58,7 @@ std::vector<OutputColumn> find_outputs(const std::vector<std::string>& wanted, c
   return columns;
 }
 
-/// The output families that a run must compute for these columns; all others cost nothing.
+/// The output families that these columns need. Runs do not compute other families.
 Outputs families_of(const std::vector<OutputColumn>& columns) {
   using Quantity = OutputColumn::Quantity;
   Outputs families;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view smoothed_prefix = "smoothed:";
 
-/// The ε of "smoothed:EPS"; nothing when it is not that.
+/// The ε of "smoothed:EPS"; nothing for any other text.
 std::optional<double> parse_smoothed(std::string_view text) {
   if (!text.starts_with(smoothed_prefix)) return std::nullopt;
   text.remove_prefix(smoothed_prefix.size());

@@ -23,11 +23,12 @@ struct Task {
   Integration integration;
 };
 
-/// Settings that are not given are the campaign's, or for a scene the defaults of a campaign.
+/// The task for an input and settings. Settings that are not given come from the campaign, or for a scene from the
+/// defaults of a campaign.
 /// @throws SpecError that names the options of `wingspread simulate`
 [[nodiscard]] Task task_of(std::variant<Scene, Campaign> input, const api::Settings& settings);
 
-/// An error text unless the argument is "event" or "smoothed:EPS"; then empty.
+/// Returns an error text, or an empty text if the argument is "event" or "smoothed:EPS".
 [[nodiscard]] std::string refuse_latch(const std::string& text);
 
 /// @throws SpecError unless the interval of a trajectory, s, is a number > 0

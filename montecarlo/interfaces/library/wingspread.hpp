@@ -8,9 +8,9 @@
 ///     for (double moment : runs.numbers("root.peak_moment")) …
 ///
 /// All numbers are in SI units and radians. The same seed gives the same bits as the program, with any number of threads.
-/// Errors: wingspread::SpecError for wrong input, wingspread::MachineError for what the machine refuses, both with the
-/// text that the program prints. A run that fails is a row of the table, not an error. Every function may be called from
-/// any thread, and from several threads at once; each call has a thread pool of its own.
+/// Errors: wingspread::SpecError for wrong input, wingspread::MachineError if the machine lacks memory, disk space or a
+/// permission. Both have the text that the program prints. A run that fails is a row of the table, not an error. Every
+/// function may be called from any thread, and from several threads at once; each call has a thread pool of its own.
 #pragma once
 
 #include "montecarlo/foundation/formats/machine_error.hpp"
@@ -29,7 +29,7 @@
 
 namespace wingspread::api {
 
-/// A scene or a campaign in JSON. The function that uses it reads it, and throws if it is wrong.
+/// A scene or a campaign in JSON. The function that takes an Input reads the JSON, and throws if it is wrong.
 struct Input {
   std::filesystem::path file; ///< empty: use the text
   std::string text;
@@ -125,7 +125,7 @@ public:
   /// Why the wing did not deploy in this run; empty if it did. @pre row < size()
   [[nodiscard]] std::string reason(std::size_t row) const;
 
-  /// Whether all runs of the campaign are there; false after a stop, or for a folder that is not finished.
+  /// Whether the table has all runs of the campaign; false after a stop, or for a folder that is not finished.
   [[nodiscard]] bool is_complete() const;
   /// The campaign with all defaults, as JSON.
   [[nodiscard]] const std::string& campaign() const;
@@ -169,7 +169,7 @@ public:
   /// @param x n rows of parameters, row by row, SI
   /// @param y n rows of outputs, which are set; NaN for a missing value, or if the parameters are unphysical
   /// @pre x.size() == n · parameters() and y.size() == n · outputs().size()
-  /// @return false when `stop` ended it before the last row
+  /// @return false if `stop` ended the call before the last row
   bool evaluate(std::span<const double> x, std::span<double> y, int threads = 0,
                 const std::atomic<bool>* stop = nullptr) const;
 

@@ -1,5 +1,5 @@
-# Debian packages: the program, the library, the Python module. `cpack --preset portable` makes those that run on any
-# processor; what they depend on is read off the files.
+# Debian packages: the program, the library, the Python module. `cpack --preset portable` makes packages that run on any
+# x86-64 processor. CPack derives their dependencies from the files.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME wingspread)
 set(CPACK_PACKAGE_CONTACT ${WINGSPREAD_MAINTAINER})

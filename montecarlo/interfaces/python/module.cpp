@@ -1,5 +1,5 @@
-// The native half of the Python module: exposes the C++ library (library/wingspread.hpp). Users call
-// wingspread/__init__.py, which calls this.
+// The native half of the Python module: exposes the C++ library (library/wingspread.hpp). Users call the functions of
+// wingspread/__init__.py, which call these.
 #include "montecarlo/interfaces/library/wingspread.hpp"
 
 #include <pybind11/numpy.h>
@@ -16,7 +16,7 @@ namespace py = pybind11;
 namespace wingspread::api {
 namespace {
 
-/// Up to this many rows evaluate does not check for Ctrl-C: they take a fraction of a second.
+/// For up to this many rows `evaluate` does not check for Ctrl-C, because they take a fraction of a second.
 constexpr py::ssize_t few_rows = 256;
 
 /// Runs `work` in a thread of its own, without the GIL, while this thread checks for Ctrl-C.
@@ -103,7 +103,7 @@ py::array evaluate_it(const Model& model, const Numbers& x, int threads) {
 }
 
 void add_errors(py::module_& module) {
-  static py::handle spec_error, machine_error; // the interpreter's, for as long as it lives
+  static py::handle spec_error, machine_error; // the interpreter owns them until it ends
   spec_error = py::exception<SpecError>(module, "SpecError", PyExc_ValueError).release();
   machine_error = py::exception<MachineError>(module, "MachineError", PyExc_OSError).release();
   py::register_exception_translator([](std::exception_ptr thrown) {
@@ -118,7 +118,7 @@ void add_errors(py::module_& module) {
       PyErr_SetObject(spec_error.ptr(), raised.ptr());
     } catch (const MachineError& error) {
       PyErr_SetString(machine_error.ptr(), error.what());
-    } catch (const std::system_error& error) { // of threads
+    } catch (const std::system_error& error) { // from threads
       PyErr_SetString(machine_error.ptr(), error.what());
     }
   });

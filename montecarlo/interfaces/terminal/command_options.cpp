@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_warnings =
     30; // heuristic: one screen; with more, the first ones scroll away
 
-/// Unlike CLI11, which reads -1 as 2^64 − 1.
+/// Refuses all texts but integers from 0 to 2^64 − 1; CLI11 would read -1 as 2^64 − 1.
 std::string refuse_seed(const std::string& text) {
   if (parse_number<std::uint64_t>(text)) return "";
   return fmt::format("found {}, expected an integer from 0 to 2^64 - 1", text);

@@ -1,4 +1,4 @@
-/// Prints results: a table on a terminal, otherwise the paths of the files written.
+/// Prints results: a table on a terminal, otherwise the paths of the written files.
 #pragma once
 
 #include "montecarlo/results/results_folder/cases_folder.hpp"
@@ -29,7 +29,7 @@ inline constexpr const char* display_help = "Standard output is a table of resul
 int report_failed(long failed, long runs, std::string_view consequence = "");
 
 /// Prints which runs are missing and, one per line, the commands that make them.
-/// @param alternative another way, behind "made by"; may be empty
+/// @param alternative text about another way to make them, printed before the commands; may be empty
 /// @return the exit status
 int print_missing(const MissingRuns& missing, std::string_view alternative);
 
@@ -42,9 +42,9 @@ void show_table(const StoredCampaign& stored, const Summary& summary, const Disp
 /// Prints a warning when the folder is a preview.
 void warn_of_preview(const StoredCampaign& stored);
 
-/// Prints which runs failed and which requirements are not met. A shard alone is not judged; a preview meets no
-/// requirement.
-/// @return the exit status: failed runs come before requirements
+/// Prints which runs failed and which requirements are not met. A single shard is not judged. A preview (results in
+/// which runs are missing) meets no requirement.
+/// @return the exit status; failed runs take precedence over requirements
 int judge_results(const StoredCampaign& stored, const Summary& summary);
 
 /// Prints the comparison of a campaign's cases, or the paths of their files.
@@ -52,7 +52,7 @@ int judge_results(const StoredCampaign& stored, const Summary& summary);
 void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
                 const Display& display);
 
-/// Prints the result of a study that is finished already: the file's text, or its path.
+/// Prints the result of a finished study: the file's text if `whole`, else its path.
 /// @return the file's content
 [[nodiscard]] Json show_finished(const std::filesystem::path& file, bool whole);
 

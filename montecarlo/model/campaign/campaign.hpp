@@ -26,7 +26,7 @@ struct Campaign {
   Scene scene; ///< nominal
   std::vector<Dispersion> dispersions;
   std::vector<CaseSpec> cases; ///< empty: the nominal wing only
-  std::string of_case;         ///< the case that this campaign was made of; empty: none
+  std::string of_case;         ///< the case whose campaign this is; empty: none
   std::vector<RankCorrelation>
       wanted_correlations; ///< between dispersions; their matrix is positive definite
   Sampling sampling;
@@ -42,15 +42,16 @@ struct Campaign {
   Json resolved;
 };
 
-/// The number of interim analyses, the final one included: all bounds and verdicts divide their risk by it. With goals
-/// to stop at: the checkpoints; for an extended campaign: the earlier numbers of runs and the present one; else 1.
+/// The number of interim analyses, the final one included; all bounds and verdicts divide their risk by this number.
+/// With a stopping rule it is the number of checkpoints, in an extended campaign the number of extensions plus one,
+/// else 1.
 [[nodiscard]] long count_looks(const Campaign& campaign);
 
 /// 16 hexadecimal digits that identify a campaign: a hash of `resolved` without its stamp. The same on all platforms.
 [[nodiscard]] std::string campaign_hash(const Json& resolved);
 
-/// The wing without dispersion: the scene, with each draw of a `through` at its median (a temperature has no nominal
-/// value otherwise).
+/// The scene without dispersion. A draw that acts `through` tables is at its median, because the scene has no nominal
+/// value for it (a temperature, say).
 [[nodiscard]] Scene nominal_scene(const Campaign& campaign);
 
 /// Sets all dispersed parameters of a scene to their nominal values and applies a run's draws. Allocates nothing.

@@ -51,8 +51,8 @@ void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
 /// One campaign for each case, in their order; the campaign itself if it has no cases.
 [[nodiscard]] std::vector<Campaign> campaigns_of(const Campaign& campaign);
 
-/// Records the numbers of runs of earlier interim analyses, also in `resolved`. @pre ascending, below the number of
-/// runs
+/// Records the numbers of runs of earlier interim analyses, also in `resolved`.
+/// @pre the numbers ascend and are below the campaign's number of runs
 void note_extension(Campaign& campaign, std::vector<std::int64_t> extended_from);
 
 /// Replaces the goals to stop at, also in `resolved`; notes problems.

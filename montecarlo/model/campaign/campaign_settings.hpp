@@ -18,7 +18,7 @@
 
 namespace wingspread {
 
-/// Statistics rank runs in 32 bits. (That many rows are a terabyte of runs.csv.)
+/// Most runs of a campaign, because statistics store ranks in 32 bits. (So many rows are about a terabyte of runs.csv.)
 inline constexpr std::int64_t most_runs = (std::int64_t{1} << 31) - 1;
 
 struct Sampling {
@@ -55,7 +55,7 @@ struct StatisticsSpec {
   double confidence = 0.95;                       ///< of every two-sided bound, in (0, 1)
   Bins bins = AutoBins{};
   std::vector<ToleranceLimitSpec> tolerance_limits{};
-  std::int64_t accuracy_runs = 24; ///< runs repeated to estimate their errors, at most; 0: none
+  std::int64_t accuracy_runs = 24; ///< most runs repeated to measure the integration error
 };
 
 void read_sampling(const JsonCursor& at, Sampling& sampling);

@@ -32,13 +32,13 @@ struct CaseDistribution {
 };
 
 struct CaseSpec {
-  std::string name; ///< also of the results folder: letters, digits, '_' and '-'
+  std::string name; ///< also names the results folder: letters, digits, '_' and '-'
   std::vector<CaseChange> changes;
   std::vector<CaseDistribution> distributions;
   Json resolved; ///< the JSON in SI, with values instead of file names
 };
 
-/// Whether the name can be a case's, and so a folder's.
+/// Whether the name is valid for a case and its folder.
 [[nodiscard]] bool is_case_name(const std::string& name);
 
 /// Reads the list of cases. Notes problems: repeated names, unknown paths and dispersions, a parameter changed twice in

@@ -29,7 +29,7 @@ struct Driven {
   Curve table; ///< monotone, constant beyond its ends
 };
 
-/// One draw for each run.
+/// A random variable, drawn once per run, and the parameters that it changes.
 struct Dispersion {
   std::string name; ///< names the draw's column and its random stream
   Distribution distribution;

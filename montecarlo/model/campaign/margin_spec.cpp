@@ -13,7 +13,8 @@ namespace {
 constexpr std::array<std::string_view, 2> case_names{"nominal", "one_spring_out"};
 constexpr const char* expected_range = "an array of two numbers, 0 < lower < upper";
 constexpr const char* expected_widest = "an array of two numbers > 0 that enclose \"range\"";
-/// Default of `widest`: the range widened by three octaves on either side. Heuristic: edges beyond are not found.
+/// Default of `widest`: the range widened by three octaves on either side. Heuristic: the study does not find the edges
+/// of a window that lie beyond.
 constexpr double widening = 8;
 
 bool is_point_count(const std::int64_t& number) {

@@ -17,7 +17,7 @@
 
 namespace wingspread {
 
-/// Scales all parameters together, or one hinge's at a time.
+/// Whether the study scales all parameters together (joint), or those of one hinge at a time (each).
 enum class MarginMode { joint, each };
 inline constexpr std::array<std::string_view, 2> margin_mode_names{"joint", "each"};
 
@@ -29,8 +29,8 @@ struct MarginSpec {
   MarginMode mode = MarginMode::joint;
   std::int64_t points = 13;     ///< scales of the first grid, both ends included, ≥ 2
   double edge_tolerance = 0.01; ///< relative width to which an edge is located, in (0, 1)
-  bool nominal = true;          ///< with all springs
-  bool one_spring_out = false;  ///< with one spring lost, for each hinge in turn
+  bool nominal = true;          ///< study the wing with all springs
+  bool one_spring_out = false;  ///< study wings with one spring lost, one wing for each hinge
 };
 
 /// Reads the key `margin` and notes problems.

@@ -79,7 +79,7 @@ struct OutputColumn {
 /// other hinges' latching. A hinge has no rate_at its own latching: that is its latch_rate.
 [[nodiscard]] std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs);
 
-/// What a run has to compute for the families. Without peaks it ends at the last latch; with base_motion at t_end.
+/// The goal of a run that has these outputs. Without peaks a run ends at the last latch, with base_motion at t_end.
 [[nodiscard]] Goal goal_of(const Outputs& outputs);
 
 /// The number; NaN if it is not finite.

@@ -21,7 +21,7 @@ using Matrix = Eigen::MatrixXd;
 /// coupled dispersions; with eigenvalues above twice that, the rounded matrix is positive definite.
 constexpr double unit = 1e-4, half_unit = unit / 2;
 
-/// Required of the smallest eigenvalue: far above its rounding error, far below the accuracy of any correlation.
+/// Least eigenvalue of an accepted matrix: far above rounding errors, far below the accuracy of any correlation.
 constexpr double least_eigenvalue = 1e-9;
 
 constexpr std::string_view expected_pair = "an array of two dispersions' names";

@@ -1,5 +1,5 @@
-/// Input checks: warns of values that are valid but probably not meant, before a scene or campaign is run. Every rule
-/// is silent on the shipped scenes and campaigns; tests/montecarlo/model/input_checks has its mistakes.
+/// Input checks: warns of values that are valid but probably not meant, before a scene or campaign is run. No rule
+/// warns of the shipped scenes and campaigns; tests/montecarlo/model/input_checks has mistakes that rules must find.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
@@ -10,7 +10,8 @@
 
 namespace wingspread {
 
-/// The place of the scene that a file is, holds under "/scene", or names.
+/// The place of the scene, for warnings. The file itself may be a scene, contain a scene under "/scene", or name the
+/// scene's file.
 /// @param file empty for an input without a file
 /// @pre the file was read without a problem
 [[nodiscard]] ScenePlace scene_place(const std::filesystem::path& file);

@@ -14,7 +14,7 @@ namespace {
 // Heuristic: arms that cross for less than 0.05 rad of a hinge's travel are missed.
 constexpr double longest_step = 0.05;                 // rad, of a hinge between two comparisons
 constexpr double overtravel = std::numbers::pi / 180; // rad: a stop's gap is of this order
-// Limits of the check's cost; a run cut short is checked up to there.
+// Limits of the check's cost; a deployment that exceeds them is checked only up to that point.
 constexpr long most_steps = 50'000, most_evaluations = 2'000'000, most_pairs = 50'000'000;
 
 /// Compares the bodies along a run, until two of them overlap.

@@ -14,7 +14,7 @@
 namespace wingspread {
 namespace {
 
-// Heuristics. Too tight, they warn of good campaigns and are no longer read; too wide, they miss a wrong unit.
+// Heuristics. Tighter limits warn of good campaigns, and users then ignore warnings; wider limits miss wrong units.
 constexpr double tail = 0.025; // on either side of the central 95 %
 constexpr double widest_angle =
     0.1;                   // rad: between a hinge's tolerance and a degree taken for a radian
@@ -31,7 +31,7 @@ struct Spread {
 
   PreparedDistribution law;
   double lower, median, upper; ///< of the central 95 %
-  double mean;                 ///< of a truncated law its median
+  double mean;                 ///< for a truncated law the median instead
   [[nodiscard]] double half_width() const { return (upper - lower) / 2; }
   [[nodiscard]] double furthest() const { return std::max(std::abs(lower), std::abs(upper)); }
 };

@@ -10,7 +10,7 @@ namespace wingspread {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-// Heuristics; most_ratio is derived in the header. Wings beyond these limits get a warning that is wrong.
+// Heuristics; most_ratio is derived in the header. A real wing beyond these limits gets a false warning.
 constexpr double most_length = 50; // m
 constexpr double most_ratio = 20;  // of a radius of gyration and a distance, either way
 constexpr double most_play = 0.1;  // a stop's gap or a latch's backlash over the travel

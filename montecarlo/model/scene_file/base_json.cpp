@@ -121,7 +121,8 @@ Json write_table(const Base& base) {
   return json;
 }
 
-/// Without a table as ever, so that such a scene keeps its hash.
+/// Writes the prescribed motion. The JSON of a base without a table must not change, so that such scenes keep their
+/// hash.
 void write_prescribed(const Base& base, Json& json) {
   const BaseTable* table = base.table.get();
   if (!table || !table->gives_acceleration())

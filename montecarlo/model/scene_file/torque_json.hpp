@@ -1,5 +1,5 @@
-/// Reads and writes torques of springs and harnesses: two numbers, a table, or a torque test both ways. Also what all
-/// tables share.
+/// Reads and writes torques of springs and harnesses: two numbers, a table, or a torque test in both directions. Also
+/// has the functions that readers of all tables share.
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -43,7 +43,7 @@ bool check_ascending(const JsonCursor& at, const std::vector<double>& column,
 /// The sense of a hinge's angle from stowed to latched.
 enum class Way { unknown, up, down };
 
-/// Only a spring may have a torque test both ways.
+/// Reads a spring's torque. Only a spring may have a torque test in both directions (`measured`).
 /// @param way required sense of a table's angles; `unknown` if the hinge's angles could not be read
 void read_spring(const JsonCursor& at, Way way, HingeTorque& spring);
 void read_harness(const JsonCursor& at, Way way, HingeTorque& harness);

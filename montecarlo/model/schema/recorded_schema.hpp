@@ -1,9 +1,9 @@
 /// Builds a JSON Schema from the questions that readers ask of specimen documents.
 ///
-/// A reader asks a document for keys and states what it expects of each value (JsonObject, JsonCursor). Asked of
-/// specimens with every key, these questions are the schema. A new key of a reader is in the schema at once; if no
-/// specimen has the key, that is a gap, and a test fails. Objects at one place with different keys (dampers by their
-/// law) become alternatives.
+/// A reader asks a document for keys and states what it expects of each value (JsonObject, JsonCursor). The schema
+/// consists of the questions that readers ask of specimens, which together have every key. So a new key of a reader is
+/// in the schema at once; if no specimen has the key, that is a gap, and a test fails. Objects at one place with
+/// different keys (dampers by their law) become alternatives.
 ///
 /// The schema accepts all that the readers accept, and refuses unknown keys and wrong types. Conditions between values
 /// are left to the readers.

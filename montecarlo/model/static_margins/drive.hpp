@@ -8,7 +8,7 @@
 /// | G_k    | gear: dy_k/dy of the leading hinge                               |       |
 ///
 /// At rest, a small turn of the leading hinge does the work of the single torque Σ_k G_k τ_k on that hinge, whatever
-/// the loop's stiffness (principle of virtual work). The drive's terms are therefore the sums of |G_k| times each hinge's
+/// the loop's stiffness (principle of virtual work). So the drive's terms are the sums of |G_k| times each hinge's
 /// terms (hinge_terms.hpp); a hinge without a spring is driven by the others' surplus. A hinge past its latched angle
 /// counts with its torques at that angle. Loops have no friction. Their damping vanishes at rest, and a stated rate
 /// applies to the hinges' dampers only.
@@ -22,7 +22,7 @@
 
 namespace wingspread {
 
-/// Depends on the scene's structure only, so one serves all draws.
+/// The hinges of a drive. They depend on the scene's structure only, so that one object serves all draws.
 struct HingeDrive {
   struct Link {
     std::size_t from; ///< index into `hinges` of the neighbour

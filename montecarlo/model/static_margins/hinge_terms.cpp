@@ -119,8 +119,8 @@ std::vector<double> places_of_least(const Hinge& hinge) {
 }
 
 std::vector<double> parts_between(std::vector<double> knots) {
-  // Heuristic: a cubic's minimum between the ends of eight parts is little below them. Fewer parts would miss a
-  // margin's dip inside a steep piece.
+  // Heuristic: with eight parts, a cubic's minimum is only little below its least value at the ends of the parts. Fewer
+  // parts would miss a margin's minimum inside a steep piece.
   constexpr int parts = 8;
   knots.insert(knots.end(), {0, 1});
   std::ranges::sort(knots);

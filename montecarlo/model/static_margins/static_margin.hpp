@@ -16,8 +16,8 @@
 
 namespace wingspread {
 
-/// The standards, in the editions from which the factors are. ECSS-E-ST-33-01C has a later revision (Rev.2 of
-/// 1 March 2019).
+/// The editions of the standards from which the factors are taken. ECSS-E-ST-33-01C has a later revision (Rev.2 of 1
+/// March 2019).
 inline constexpr std::string_view ecss_standard = "ECSS-E-ST-33-01C (6 March 2009)";
 inline constexpr std::string_view nasa_standard = "NASA-STD-5017B (6 December 2022)";
 inline constexpr std::string_view gevs_standard = "GSFC-STD-7000A (22 April 2013)";
@@ -38,7 +38,7 @@ inline constexpr std::string_view aiaa_standard = "AIAA S-114-2005";
 enum class MarginKind { ecss, nasa, nasa_one_spring_out, gevs, aiaa };
 inline constexpr std::array<std::string_view, 5> margin_kind_names{
     "ecss", "nasa", "nasa_one_spring_out", "gevs", "aiaa"};
-/// The same for people.
+/// The names in tables and messages, by MarginKind.
 inline constexpr std::array<std::string_view, 5> margin_kind_texts{
     "ECSS", "NASA", "NASA, one spring out", "GEVS", "AIAA"};
 /// By MarginKind.

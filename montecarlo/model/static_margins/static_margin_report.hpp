@@ -1,4 +1,4 @@
-/// Static margins for people and files: JSON, CSV, text for a terminal, and curves for the report's page.
+/// Writes static margins: JSON, CSV, text for a terminal, and curves for the report's page.
 #pragma once
 
 #include "montecarlo/model/static_margins/static_margin_study.hpp"

@@ -37,12 +37,12 @@ constexpr std::array ecss_keys{Key<EcssFactors>{"inertia", &EcssFactors::inertia
                                Key<EcssFactors>{"motorization", &EcssFactors::motorization},
                                Key<EcssFactors>{"acceleration", &EcssFactors::acceleration},
                                Key<EcssFactors>{"available", &EcssFactors::available}};
-// The factor of the acceleration has no part in a static margin.
+// Without `acceleration`, because that factor does not enter static margins.
 constexpr std::array nasa_keys{Key<NasaFactors>{"fixed", &NasaFactors::fixed},
                                Key<NasaFactors>{"variable", &NasaFactors::variable}};
 constexpr std::array phase_keys{Key<PhaseFactors>{"known", &PhaseFactors::known},
                                 Key<PhaseFactors>{"variable", &PhaseFactors::variable}};
-// Spring, friction, harness and damper are the scene's.
+// Without spring, friction, harness and damper, which the scene gives.
 constexpr std::array torque_keys{Key<TorqueTerms>{"inertia", &TorqueTerms::inertia},
                                  Key<TorqueTerms>{"motor", &TorqueTerms::motor},
                                  Key<TorqueTerms>{"hysteresis", &TorqueTerms::hysteresis},

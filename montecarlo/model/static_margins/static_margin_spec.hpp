@@ -35,7 +35,7 @@ struct StaticMarginSpec {
   NasaBasis nasa_basis = NasaBasis::analysis;
   MarginPhase gevs_phase = MarginPhase::critical_design;
   MarginPhase aiaa_phase = MarginPhase::critical_design;
-  EcssFactors ecss; ///< by basis or phase, unless given one by one
+  EcssFactors ecss; ///< here and below: defaults by basis or phase; each can be given
   NasaFactors nasa;
   PhaseFactors gevs, aiaa;
   std::vector<TorqueTerms> torques; ///< terms that a scene cannot hold, N·m; one for each hinge

@@ -9,7 +9,8 @@ namespace wingspread {
 namespace {
 
 constexpr std::size_t kinds = margin_kind_names.size();
-/// Margins held at a time; more places of the travel need another visit of the draws.
+/// Most bytes of margins held at once. If the margins at all places of the travel need more, the draws are visited
+/// several times.
 constexpr std::size_t most_bytes = std::size_t{1} << 28;
 
 /// Collects the margins of all draws at one place.

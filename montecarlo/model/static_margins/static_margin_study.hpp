@@ -13,7 +13,7 @@
 
 namespace wingspread {
 
-/// A campaign's draws as scenes. The caller makes them, so that this room needs neither campaigns nor runs.
+/// A campaign's draws as scenes. The caller provides them, so that this folder does not depend on campaigns or runs.
 struct DrawnScenes {
   using Use = std::function<void(long run, const Scene& scene)>;
   long runs = 0; ///< of the campaign, ≥ 1
@@ -58,9 +58,9 @@ struct StaticMarginStudy {
   long invalid = 0;                 ///< unphysical draws; they have no margins
 };
 
-/// Computes the margins of all hinges with a spring or a latch. No time integration.
-/// Cost: visits the draws twice for each drive; more often if margins at all places took more than 256 MiB.
-/// Memory: these margins, or 40 bytes a draw.
+/// Computes the margins of all hinges with a spring or a latch, without time integration.
+/// Cost: visits the draws twice for each drive; more often if the margins of all places would take more than 256 MiB.
+/// Memory: the margins held at once, or 40 bytes per draw.
 /// @param nominal       the wing without dispersion
 /// @param probabilities of the quantiles
 [[nodiscard]] StaticMarginStudy study_static_margins(const Scene& nominal,

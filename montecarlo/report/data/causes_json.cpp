@@ -127,7 +127,7 @@ Json correlations_json(const PageSource& source, const PageDetail& detail) {
             {"spearman", Json::array()},
             {"pearson", Json::array()}};
   for (std::size_t o = 0; o < outputs; ++o) json["outputs"].push_back(results.outputs[o].name);
-  const std::size_t row = results.outputs.size() + 1; // one more for `deployed`
+  const std::size_t row = results.outputs.size() + 1; // + 1: `deployed`
   for (std::size_t d = 0; d < draws; ++d) {
     json["draws"].push_back(results.draws[d].name);
     Json spearman = Json::array(), pearson = Json::array();

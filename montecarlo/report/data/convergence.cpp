@@ -11,7 +11,7 @@
 namespace wingspread {
 namespace {
 
-/// Puts what is behind `sorted` in its place. @param sorted how many at the beginning are sorted
+/// Sorts values of which the first `sorted` are in order already.
 template <class Value, class Number>
 void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number) {
   const auto less = [&](const Value& a, const Value& b) { return number(a) < number(b); };
@@ -20,7 +20,7 @@ void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number)
   std::inplace_merge(values.begin(), middle, values.end(), less);
 }
 
-/// The first runs of a column, more and more of them.
+/// Keeps the first runs of a column sorted while their number grows.
 class Growing {
 public:
   Growing(const Column& column, const Replication& replication, SettledColumn& settled)
@@ -70,7 +70,7 @@ private:
   const Replication& replication_;
   SettledColumn& settled_;
   std::size_t rows_ = 0;
-  int replicates_ = 0; ///< of which there are rows so far
+  int replicates_ = 0; ///< number of replicates with rows so far
 };
 
 } // namespace

@@ -12,13 +12,13 @@
 namespace wingspread {
 
 struct ConvergencePoint {
-  long runs = 0; ///< the number of first runs, those without a value included
+  long runs = 0; ///< number of first runs, also those without a value
   double mean, quantile;
   Bounds mean_bounds, quantile_bounds;
 };
 
 struct Convergence {
-  double p = 0; ///< of the quantile
+  double p = 0; ///< level of the quantile
   std::vector<ConvergencePoint> points;
 };
 
@@ -26,7 +26,7 @@ struct Convergence {
 struct SettledColumn {
   std::vector<double> sorted;
   std::vector<ReplicateValue>
-      replicated; ///< the same with their replicates; empty without replicates
+      replicated; ///< the same values with their replicates; empty without replicates
   Convergence convergence;
 };
 
@@ -34,8 +34,8 @@ struct SettledColumn {
 [[nodiscard]] std::vector<long> convergence_runs(long all, std::size_t most, long first = 10);
 
 /// Sorts a column and computes its convergence. Cost: one sort and four passes.
-/// @param p          of the quantile, in (0, 1)
-/// @param confidence of all bounds, two-sided
+/// @param p          level of the quantile, in (0, 1)
+/// @param confidence two-sided confidence of every bound
 [[nodiscard]] SettledColumn settle_column(const Column& column, double p, double confidence,
                                           const Replication& replication, std::size_t most);
 

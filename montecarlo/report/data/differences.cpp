@@ -21,7 +21,7 @@ Difference with_width(double value, double error, double degrees, double confide
   return {value, {{value - width}, {value + width}}, runs};
 }
 
-/// The bounds of b − a from the bounds of a and b.
+/// The difference b − a, with bounds from the bounds of a and b.
 Difference of_shares(double value, const Interval& a, const Interval& b, long runs) {
   return {value, {b.lower - a.upper, b.upper - a.lower}, runs};
 }

@@ -8,7 +8,7 @@
 namespace wingspread {
 namespace {
 
-/// Half the width of the band of n values.
+/// Half the width of the band for n values.
 double band_width(double n, double confidence) {
   return std::sqrt(std::log(2 / (1 - confidence)) / (2 * n));
 }

@@ -1,4 +1,4 @@
-/// An empirical distribution function at some of its steps, with its confidence band.
+/// An empirical distribution function at some of its steps (knots), with its confidence band.
 ///
 /// Independent draws: the band of Dvoretzky, Kiefer and Wolfowitz with Massart's constant, F ± √(ln(2/α)/(2n)). It holds for
 /// the whole curve at once, for any distribution and any n.
@@ -27,8 +27,8 @@ struct CurveKnot {
 /// @pre n ≥ 1, most ≥ 5
 [[nodiscard]] std::vector<long> curve_ranks(long n, std::size_t most);
 
-/// @param sorted smallest first
-/// @param replicated the same with their replicates; empty for independent draws
+/// @param sorted the values, smallest first
+/// @param replicated the same values with their replicates; empty for independent draws
 /// @return at most `most` knots; none without values
 [[nodiscard]] std::vector<CurveKnot> distribution_curve(std::span<const double> sorted,
                                                         std::span<const ReplicateValue> replicated,

@@ -58,12 +58,12 @@ double end_of(const std::vector<Track>& tracks) {
   return deployed > 0 ? deployed : any;
 }
 
-/// The state of a run at ascending times; after its end it rests.
+/// The state of a run at ascending times. After its end the run keeps its angles, with zero rates.
 class Follower {
 public:
   Follower(const Track& track, const MotionLayout& layout) : track_(track), layout_(layout) {}
 
-  /// @param t not below the t of the call before
+  /// @param t at least the t of the previous call
   [[nodiscard]] MotionSample at(double t) {
     const std::vector<MotionSample>& samples = track_.samples;
     while (next_ < samples.size() && samples[next_].t <= t) ++next_;

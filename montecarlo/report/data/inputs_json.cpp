@@ -13,7 +13,7 @@
 namespace wingspread {
 namespace {
 
-/// "hinges.root.spring.torque_stowed" without its kind: "root spring torque stowed".
+/// The label of a path: "hinges.root.spring.torque_stowed" gives "root spring torque stowed".
 std::string label_of(std::string path) {
   for (const char* kind : {"hinges.", "bodies.", "synchronisations."})
     if (path.starts_with(kind)) path.erase(0, std::string_view(kind).size());

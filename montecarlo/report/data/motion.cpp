@@ -18,7 +18,7 @@ std::array<double, 3> way(const MotionSample& from, const MotionSample& to,
   return ways;
 }
 
-/// The progress of a run at each sample, from 0 to 1: the mean of its three measures, each relative to its total.
+/// The progress of a run at each sample, from 0 to 1: the mean of the three measures, each divided by its total.
 std::vector<double> progress_of(std::span<const MotionSample> samples, const MotionLayout& layout) {
   std::vector<std::array<double, 3>> ways;
   std::array<double, 3> whole{0, 0, 0};
@@ -47,7 +47,8 @@ Observer MotionRecorder::observer() {
 void MotionRecorder::record_sample(const Sample& sample) {
   const bool again = !samples_.empty() && samples_.back().t == sample.t;
   if (again) samples_.back().pinned = true;
-  // In a thinned run the last sample always stays; the next sample replaces it unless it is due to be kept.
+  // The newest sample is always stored, so that the run's end is there. If only every n-th sample is kept, the next one
+  // replaces it, unless it is an n-th or a pinned one.
   if (!again && ++seen_ % stride_ != 0 && samples_.size() > 1 && !samples_.back().pinned)
     samples_.pop_back();
   MotionSample kept{sample.t, {}, again};

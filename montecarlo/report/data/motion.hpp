@@ -54,8 +54,8 @@ private:
 /// Pins the samples at these times (engagements) and unpins all others (a hinge that sticks has two sides too).
 void pin_only(std::span<MotionSample> samples, std::span<const double> times);
 
-/// At most `most` samples and the pinned ones, evenly spaced in a measure of progress: a third of it is time, a third the
-/// path length of all angles, a third that of all moments.
+/// At most `most` samples and the pinned ones, evenly spaced in progress. Progress is made up in equal parts of time, the
+/// path length of all angles, and the path length of all moments.
 [[nodiscard]] std::vector<MotionSample> resample(std::span<const MotionSample> samples,
                                                  const MotionLayout& layout, std::size_t most);
 

@@ -45,7 +45,7 @@ const Column* column_named(const Results& results, std::string_view name) {
   return found == results.outputs.end() ? nullptr : &*found;
 }
 
-/// The first row whose value has the largest measure; none without values.
+/// The row whose value has the largest `measure`, the first of equals; none without values.
 std::optional<std::size_t> largest(const Column& column,
                                    const std::function<double(double)>& measure) {
   std::optional<std::size_t> best;
@@ -71,7 +71,7 @@ void add_median(const PageSource& source, Choice& choice) {
                  static_cast<std::size_t>(row));
 }
 
-/// Adds the run that breaks a requirement worst, or else comes nearest to its limit.
+/// Adds the run that breaks a requirement worst; if none breaks it, the run nearest to its limit.
 void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choice) {
   const Requirement& requirement = verdict.requirement;
   const std::string label = "worst: " + name_of(requirement);

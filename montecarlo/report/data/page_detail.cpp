@@ -13,7 +13,7 @@ constexpr double most_output_numbers = 140'000, most_motion_numbers = 130'000,
                  most_effect_numbers = 20'000, most_correlations = 30'000;
 constexpr std::size_t most_parameters = 4500;
 
-/// The share of a part that fits: at most 1.
+/// The share of the wanted numbers for which there is room: at most 1.
 double share_of(double room, double wanted) { return std::min(1.0, room / wanted); }
 
 std::size_t scaled(std::size_t full, double share, std::size_t least) {
@@ -57,8 +57,8 @@ void share_envelopes(double hinges, PageDetail& detail) {
   detail.latch_times = scaled(detail.latch_times, share, 20);
 }
 
-/// The number of runs replayed for the envelopes: a run's cost grows with the square of its hinges. Heuristic: 8000 keeps
-/// the replay within seconds; a larger value makes the report slower than the campaign.
+/// Sets the number of runs replayed for the envelopes. The cost of a run grows with the square of its number of hinges.
+/// Heuristic: 8000 keeps the replay within seconds; a larger value makes the report slower than the campaign.
 void share_envelope_runs(const PageExtent& extent, PageDetail& detail) {
   constexpr std::size_t hinges_squared = 8000, fewest = 24;
   const std::size_t each = extent.sets * std::max<std::size_t>(extent.hinges * extent.hinges, 1);

@@ -19,7 +19,7 @@ struct PageSource {
   Results results;
   Replication replication;
   Summary summary;
-  double confidence = 0; ///< of each bound, shared among the interim analyses
+  double confidence = 0; ///< of each bound, raised so that it holds over all interim analyses
   std::unique_ptr<OrderSplit> orders;
 
   /// Whether its runs can be replayed.

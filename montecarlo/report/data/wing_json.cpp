@@ -32,13 +32,14 @@ std::vector<Point> marks_of(const Scene& scene, int body) {
   return marks;
 }
 
-/// The mark with the largest distance from the first.
+/// The mark that is furthest from the first mark.
 Point furthest(const std::vector<Point>& marks) {
   return *std::ranges::max_element(
       marks, {}, [&](const Point& mark) { return (mark - marks.front()).norm(); });
 }
 
-/// Snaps a direction to the frame's nearest axis if they nearly agree: hinges lie off a panel's middle on either side.
+/// Snaps a direction to the nearest axis of the frame if they nearly agree, because the line between two hinges is often
+/// slightly oblique to the panel.
 Point straightened(Point way) {
   constexpr double slant = 0.2;
   if (std::abs(way.y()) < slant * std::abs(way.x())) way.y() = 0;

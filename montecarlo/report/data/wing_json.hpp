@@ -28,7 +28,7 @@ struct BodyOutline {
 /// The longer side of the deployed wing's bounding box, base included, m.
 [[nodiscard]] double wing_span(const Scene& scene);
 
-/// @param scene of the nominal wing
+/// @param scene the scene of the nominal wing
 [[nodiscard]] Json wing_json(const Scene& scene);
 
 } // namespace wingspread

@@ -1,4 +1,5 @@
-// The page's one global: its data, the reader's choices, and the makers of elements and tables.
+// Defines window.wingspread, the page's one global: its data, the reader's choices, and functions that make elements and
+// tables.
 (function () {
   "use strict";
   const W = (window.wingspread = {});
@@ -27,8 +28,8 @@
     return outputs.find((output) => output.name === W.chosen.output) || null;
   };
 
-  // Makes an element: W.h("td.number", { title: "moment" }, "1.2"). Classes stand behind the tag; the attributes may be left
-  // out; attributes and children that are null or false are skipped.
+  // Makes an element: W.h("td.number", { title: "moment" }, "1.2"). Classes follow the tag. The attributes may be left out.
+  // Attributes and children that are null or false are skipped.
   const present = (value) => value !== null && value !== undefined && value !== false;
   const isAttributes = (value) => value && Object.getPrototypeOf(value) === Object.prototype;
   W.h = function (name, ...rest) {
@@ -80,7 +81,7 @@
     widths.observe(box);
     return box;
   };
-  // Only a table larger than its box takes the focus, so that keys can scroll it.
+  // Only a table larger than its box can have the focus: keys then scroll it.
   const widths = new ResizeObserver((entries) =>
     entries.forEach(function ({ target: box }) {
       if (box.scrollWidth > box.clientWidth + 1 || box.scrollHeight > box.clientHeight + 1)

@@ -51,7 +51,7 @@
   F.counted = (value, one, many = one + "s") => `${F.count(value)} ${value === 1 ? one : many}`;
   F.runs = (value) => F.counted(value, "run");
 
-  // Decimals of a share in per cent: two significant digits of the distance to 0 or 1.
+  // Decimals of a share in per cent, so that its distance to 0 or 1 has two significant digits.
   const shareDecimals = (value) =>
     value <= 0 || value >= 1 ? 0 : Math.max(1, 1 - Math.floor(Math.log10(Math.min(value, 1 - value) * 100)));
   F.share = function (value, decimals) {
@@ -80,7 +80,7 @@
     const degrees = W.chosen.angles === "deg" && F.angular(unit);
     return { factor: degrees ? F.DEGREES : 1, unit: degrees ? unit.replace("rad", "deg") : F.unit(unit) };
   };
-  // A value of an output in the displayed unit, with two digits of its spread; value and spread in SI.
+  // A value of an output in the displayed unit, as precise as two digits of its spread. Value and spread are in SI units.
   F.value = function (value, unit, spread) {
     const { factor } = F.shown(unit);
     if (!W.isNumber(value)) return F.none;

@@ -4,7 +4,7 @@
   const W = window.wingspread;
   const h = W.h;
   const figures = new Set();
-  const PRINTED = 660; // px: what an A4 page holds between its margins
+  const PRINTED = 660; // px, width of an A4 page between its margins
 
   // options: title, description (text or function), note, draw(svg, width) → height, table() → { columns, rows }, printed (px), wide
   W.figure = function (options) {
@@ -48,8 +48,8 @@
     return h("button.small", { "aria-label": label, title: label, onclick }, text);
   }
 
-  // On wide screens the page's letters grow (style.css: 14.3 px at 1280 px). Pictures are drawn for the narrower width and
-  // shown enlarged, so that their letters grow alike.
+  // On wide screens the page's letters are larger (style.css: 14.3 px at 1280 px). Pictures are drawn for a narrower width
+  // and shown enlarged, so that their letters grow by the same factor.
   const growth = () =>
     printing ? 1 : Math.max(1, parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.3);
 
@@ -132,7 +132,7 @@
     );
   }
 
-  // The picture as a file of its own: computed styles are written into it, in the light theme, on white.
+  // The picture as a separate file: on white, in the light theme, with the computed styles written into it.
   const KEPT = (
     "fill fill-opacity stroke stroke-width stroke-opacity stroke-dasharray stroke-linejoin stroke-linecap opacity " +
     "font-family font-size font-weight font-style text-anchor dominant-baseline paint-order visibility display"

@@ -16,7 +16,7 @@
     return element;
   };
   M.upright = (parent, name, x, box) => M.put(parent, name, { x1: x, x2: x, y1: box.top, y2: box.bottom });
-  // A label at the left of a row, shortened to its room.
+  // A label at the left of a row, shortened to the available width.
   M.rowLabel = (svg, text, left, y) =>
     M.put(svg, "text", {
       x: left - 8,
@@ -26,7 +26,7 @@
       text: M.shorten(text, left - 8),
       title: text,
     });
-  // Room for the labels of rows: at most this share of the picture's width.
+  // The width for the labels of rows is at most this share of the picture's width.
   M.labelRoom = (width, share, texts) =>
     Math.min(width * share, Math.max(...texts.map((text) => M.textWidth(text))) + 12);
   // A confidence interval: a horizontal line between two short ticks.
@@ -41,7 +41,7 @@
     return box;
   };
 
-  // Okabe and Ito's colours, which colour-blind readers can tell apart. Each number has its own hatching and dash as well.
+  // Okabe and Ito's colours, which colour-blind readers can tell apart. Each colour has a hatching and a dash of its own.
   M.colour = (at) => (at < 0 ? "var(--none)" : `var(--c${at % 7})`);
   M.dash = (at) => ["", "7 3", "2 3", "9 3 2 3", "12 4", "4 4", "1 2"][((at % 7) + 7) % 7];
   const HATCH = [null, "M0,6 L6,0", "M0,3 H6", "M3,0 V6", "M0,0 L6,6", "M0,6 L6,0 M0,0 L6,6", "M1,1 h1 M4,4 h1"];
@@ -170,7 +170,7 @@
         });
     }
   };
-  // Pixels that the numbers of the y axis need.
+  // The width of the y axis's numbers, px.
   M.leftFor = function (y, format, count) {
     const texts = (y.ticks ? y.ticks(count || 6) : y.domain()).map(format || W.format.tick);
     return Math.ceil(Math.max(18, ...texts.map((text) => M.textWidth(text, 11.5)))) + 12;

@@ -17,8 +17,8 @@
     );
   };
 
-  // Every requirement of every set, the worst first: by verdict, then by margin as a share of the limit (of a share: by the
-  // runs that break it beyond those allowed).
+  // Every requirement of every set, the worst first: by verdict, then by margin relative to the limit. A requirement on a
+  // share has no such margin; its share of broken runs beyond the allowed one takes its place.
   function judged() {
     const all = W.sets.flatMap((set, at) => (set.requirements || []).map((requirement) => ({ set, at, requirement })));
     const strain = ({ requirement: one, set }) =>

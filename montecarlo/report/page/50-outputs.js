@@ -242,7 +242,7 @@
     );
   }
 
-  // The output chosen before, if this set has it; else that of the worst requirement; else the first peak moment.
+  // The output chosen before, if this set has it; else the output of the worst requirement; else the first peak moment.
   W.defaultOutput = function () {
     const outputs = W.outputsOf(W.set());
     if (outputs.some((output) => output.name === W.chosen.output)) return W.chosen.output;

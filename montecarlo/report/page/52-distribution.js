@@ -18,9 +18,9 @@
   const shownLimit = (limit, factor) => Number((limit.value * factor).toPrecision(6));
   const limitText = (limit, factor) => `${limit.upper ? "≤" : "≥"} ${F.given(shownLimit(limit, factor))}`;
 
-  // What both pictures show: the chosen output in the displayed unit, and the overlaid cases.
-  // `reach` are the ends of the x axis: all values, the nominal run, and those limits within one range of the values' ends
-  // (a limit further away would squeeze the picture); `beyond` are the other limits.
+  // The data of both pictures: the chosen output in the displayed unit, and the overlaid cases.
+  // `reach` has the values that the x axis must contain: the ends of the histogram, and the nominal run and those limits
+  // that lie within one range of it. A limit further away would squeeze the picture; `beyond` has these limits.
   function viewOf(set, output) {
     const edges = output.histogram.edges,
       [low, high] = d3.extent(edges),
@@ -260,7 +260,7 @@
       const curve = one.output.curve,
         values = scaled(curve.x, view),
         colour = several ? M.colour(one.at) : null;
-      // A step per run where every run is in the curve; straight lines where knots stand for many runs.
+      // The curve has a step per run if it contains every run. If its knots stand for many runs, straight lines join them.
       const form = one.output.count > curve.x.length ? d3.curveLinear : d3.curveStepAfter;
       const flat = (level, ends) => (paper ? [] : ends.map((value) => [value, level]));
       M.put(svg, "path.curve-band", {

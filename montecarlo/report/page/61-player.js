@@ -20,7 +20,7 @@
     last = now;
     const end = player.motion.t[player.motion.t.length - 1];
     if (calm()) {
-      // reduced motion: two stills a second, each a twentieth of the run further
+      // for readers who prefer reduced motion: two stills a second, each a twentieth of the run after the previous one
       sinceStep += passed;
       if (sinceStep > 0.5) {
         sinceStep = 0;
@@ -38,7 +38,7 @@
     listeners.forEach((listener) => listener());
   }
 
-  // The time at which a motion opens: on the way, because a stowed wing shows nothing. Heuristic; any time in the run works.
+  // The time that a motion first shows: during deployment, because a stowed wing shows little. Heuristic; any time works.
   function opening(motion) {
     const [first, last] = d3.extent(motion.latches || [], (latch) => latch.time);
     return first === undefined ? 0.4 * motion.t[motion.t.length - 1] : Math.max(0.8 * first, 0.35 * last);
@@ -59,7 +59,7 @@
     event.preventDefault();
   }
 
-  // Loads another run: stops, and forgets the listeners of the run before.
+  // Loads another run: stops, and removes the listeners of the previous run.
   function load(motion) {
     player.playing = false;
     listeners.length = 0;

@@ -53,7 +53,8 @@
     return element;
   }
 
-  // A quantity of every hinge over time. Up to seven hinges have colours; of more, the six with the largest peaks.
+  // A quantity of every hinge over time. Up to seven hinges have a colour each; if there are more, only the six with the
+  // largest peaks have one.
   function history(wing, motion) {
     let x, box, cursor;
     const clip = W.newId("clip");
@@ -142,7 +143,7 @@
     return element;
   }
 
-  // The displayed time: the whole run, or the latches with room around them.
+  // The displayed interval of time: the whole run, or the latches with a margin on both sides.
   function spanOf(motion) {
     const whole = d3.extent(motion.t),
       latches = d3.extent(motion.latches || [], (latch) => latch.time);

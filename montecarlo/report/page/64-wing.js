@@ -3,7 +3,7 @@
   "use strict";
   const W = window.wingspread;
   const { h, format: F, marks: M, pose: P } = W;
-  const EACH = 6; // hinges in one picture: 12 panels fit on a printed page
+  const EACH = 6; // hinges per picture, so that a printed page has room for 12 panels
 
   // Pairs of levels around the median, the outermost (lightest) first.
   function bands(levels) {

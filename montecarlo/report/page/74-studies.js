@@ -33,7 +33,7 @@
         );
         const box = { left: 48, right: width - 14, top: top + 18, bottom: top + 270 },
           x = M.linear([...scales, low, high], [box.left, box.right]);
-        // A scale of nines, -log10(1 - share), because requirements lie between 90 and 100 %.
+        // A scale of nines, -log10(1 - share), because requirements usually lie between 90 and 100 %.
         const nines = d3.scaleLinear([0, 3.6], [box.bottom, box.top]),
           y = (share) => nines(Math.min(3.6, -Math.log10(Math.max(1e-9, 1 - share))));
         const SHARES = [0, 0.5, 0.9, 0.99, 0.999, 1],

@@ -31,7 +31,7 @@
           ],
           width,
         );
-        // The first quarter of the points may have very wide bounds: the others set the scale.
+        // The first quarter of the points may have very wide bounds, so only the others set the scale.
         const later = rows.slice(Math.floor(rows.length / 4)),
           y = M.linear([...later.flatMap((row) => row.slice(1)), ...rows.map((row) => row[1])], [0, 1], 0.06);
         const box = M.boxFor(y, width, top, 220, 14);

@@ -5,7 +5,7 @@
 
 namespace wingspread {
 
-/// Entries by name; a hinge's outputs as "HINGE.peak_moment".
+/// The entries by name; outputs of hinges have names like "HINGE.peak_moment".
 [[nodiscard]] Json glossary_json();
 
 } // namespace wingspread

@@ -26,7 +26,7 @@ std::string name_of_folder(const std::filesystem::path& folder) {
   return name.empty() || name == "." || name == ".." ? folder.string() : name.string();
 }
 
-/// Adds the sets of one folder. @param several whether the page has other folders: then labels of cases name the folder
+/// Adds the sets of one folder. @param several whether the page has several folders; then labels of cases name the folder
 void read_folder(const std::filesystem::path& folder, bool several, int threads,
                  PageSources& sources) {
   const std::string name = name_of_folder(folder);
@@ -45,7 +45,7 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
                                             &whole.campaign, threads));
 }
 
-/// Labels sets of equal names by their paths.
+/// Replaces equal labels by the paths of their sets.
 void label_by_path(PageSources& sources) {
   std::vector<std::string> labels;
   for (const auto& source : sources.runs) labels.push_back(source->label);
@@ -63,7 +63,7 @@ PageExtent extent_of(const PageSources& sources) {
   return extent;
 }
 
-/// Compares each set with the first and with the one before it.
+/// Compares each set with the first set and with the previous one.
 void add_comparisons(const PageSources& sources, Json& comparisons) {
   const auto add = [&](std::size_t i, std::size_t j) {
     comparisons.push_back(comparison_json(*sources.runs[i], *sources.runs[j], {i, j}));

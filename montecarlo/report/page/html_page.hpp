@@ -12,12 +12,12 @@ namespace wingspread {
 
 struct PageSources {
   std::vector<std::unique_ptr<PageSource>> runs; ///< sets of runs
-  std::vector<Json> studies; ///< sets without runs (study_set.hpp), behind these
+  std::vector<Json> studies; ///< sets without runs (study_set.hpp), after `runs`
 };
 
 /// Reads results folders (one set each, or one per case) and folders of `margin`, `sensitivity CAMPAIGN` and `rare`.
 /// @param threads as of thread_count (thread_pool.hpp)
-/// @throws SpecError for any other or a broken folder, and for more than 12 sets
+/// @throws SpecError for any other folder, for a broken one, and for more than 12 sets
 [[nodiscard]] PageSources read_page_sources(std::span<const std::filesystem::path> folders,
                                             int threads);
 

@@ -1,5 +1,5 @@
-# Writes the two halves of the report's page as C++: what comes before its block of data and what comes behind it, with
-# the style and the scripts in their places and d3 with its licence before them (page/DATA.md says how it is put together).
+# Writes the report's page as C++ text in two halves, before and behind its block of data. The halves contain the style and
+# the scripts, and d3 with its licence before the scripts (page/DATA.md describes the assembly).
 #
 #   cmake -DPAGE=DIR -DD3=FILE -DD3_LICENCE=FILE -DOUT=FILE -P page_files.cmake
 cmake_minimum_required(VERSION 3.25)

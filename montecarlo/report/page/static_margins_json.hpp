@@ -6,8 +6,8 @@
 
 namespace wingspread {
 
-/// By the standard that the campaign's first requirement on a static margin names, else by NASA's: of the nominal wing at
-/// each place of the travel, and the campaign's lowest quantile over its first draws. Null where nothing drives.
+/// Static margins of the nominal wing along the travel, and their lowest quantile of the campaign over its first draws.
+/// The first requirement on a static margin decides the standard; without one it is NASA's. Null if no hinge is driven.
 [[nodiscard]] Json static_margins_json(const Campaign& campaign);
 
 } // namespace wingspread

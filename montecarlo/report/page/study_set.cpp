@@ -71,10 +71,10 @@ struct RequirementScales {
   std::vector<long> runs, broken;
   std::vector<std::string> verdicts;
 };
-/// By search, then by requirement in the order of the file.
+/// The rows of margin.csv by search, then by requirement in the order of the file.
 using MarginTable = std::vector<std::pair<std::string, std::vector<RequirementScales>>>;
 
-/// The first element with `same`, or a new one at the end.
+/// The first element for which `same` is true; if none, a new one at the end.
 template <class List, class Same, class Make>
 auto& found_or_made(List& list, Same same, Make make) {
   const auto found = std::ranges::find_if(list, same);
@@ -138,7 +138,7 @@ Json requirement_json(const RequirementScales& row, double confidence) {
   return json;
 }
 
-/// @param search of margin.json
+/// @param search one search of margin.json
 Json margin_block(const Json& search, const std::vector<RequirementScales>& rows,
                   double confidence) {
   const auto edge = [&](const char* side) -> Json {

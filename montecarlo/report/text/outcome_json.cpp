@@ -52,7 +52,7 @@ Json overtravel_json(const Scene& scene, const Outcome& outcome) {
   return by_hinge(scene, outcome.overtravel);
 }
 
-/// Null without peaks.
+/// Whether the peaks are final; null without peaks.
 Json peaks_final_json(const Outcome& outcome) {
   const bool none = outcome.peak_moment.empty() && outcome.peak_force.empty();
   return none || outcome.status == Status::failed ? Json(nullptr) : Json(outcome.peaks_final);

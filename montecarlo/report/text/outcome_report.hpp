@@ -8,7 +8,7 @@
 
 namespace wingspread {
 
-/// Whether t_end came before the peaks were proven final.
+/// Whether the run reached t_end before its peaks were proven final.
 [[nodiscard]] bool has_cut_peaks(const Outcome& outcome);
 inline constexpr const char* cut_peaks_warning =
     "t_end cut the peaks: it is not proven that none would be exceeded after it";

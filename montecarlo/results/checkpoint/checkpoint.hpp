@@ -62,7 +62,7 @@ public:
   [[nodiscard]] long read() const { return read_; }
   /// Rows read or added so far.
   [[nodiscard]] long rows() const { return rows_; }
-  /// Whether damaged records followed the valid ones. They are ignored and overwritten.
+  /// Whether damaged records followed the valid ones. They are ignored, and cut off before new records are appended.
   [[nodiscard]] bool was_damaged() const { return damaged_; }
 
 private:

@@ -22,7 +22,7 @@ namespace wingspread {
 /// cause a huge allocation.
 inline constexpr std::size_t most_record_bytes = std::size_t{64} << 20;
 
-/// Where to append to a file of records.
+/// The end of the valid records, where new records are appended.
 struct RecordsEnd {
   std::size_t bytes = 0; ///< length up to the last valid record
   std::uint64_t sum = 0; ///< of that record

@@ -25,8 +25,8 @@ struct ExportColumn {
 /// The meaning of an output: "when root reaches its latched angle for the first time".
 [[nodiscard]] std::string describe_output(const std::string& name);
 
-/// The unit of a draw: that of all parameters it sets or adds to. Empty if they have different ones, if the draw is a
-/// factor, or if it acts through a table.
+/// The unit of a draw: the common unit of all parameters that the draw sets or adds to. Empty if the parameters have
+/// different units, if the draw is a factor, or if the draw acts through a table.
 [[nodiscard]] std::string draw_unit(const Dispersion& dispersion);
 
 } // namespace wingspread

@@ -280,7 +280,7 @@ H5::Group make_group(H5::H5File& file, const std::string& name) {
   return group;
 }
 
-/// Writes the folder's rows, or those of its cases.
+/// Writes the rows of the folder, or of each of its cases.
 void write_tables(const StoredCampaign& stored, H5::H5File& file) {
   if (!is_cases_folder(stored.folder)) return write_table(file, stored);
   add_stamp(file, stored);

@@ -1,6 +1,6 @@
-# Writes build_stamp.hpp: from which commit the program is built, as at the time of the build and not of the
-# configuration. `+gCOMMIT`, with `.dirty` behind it where files differ from the commit; nothing where there is no
-# repository (an archive of the sources). Left alone while it stays the same, so that nothing is built again.
+# Writes build_stamp.hpp, which names the commit that the program is built from. Runs at each build, not only when CMake
+# configures. The stamp is `+gCOMMIT`, followed by `.dirty` if files differ from the commit; it is empty outside a
+# repository (an archive of the sources). An unchanged file is not written again, so that nothing is rebuilt.
 #
 #   cmake -DSOURCE=DIR -DOUT=FILE -P build_stamp.cmake
 cmake_minimum_required(VERSION 3.25)

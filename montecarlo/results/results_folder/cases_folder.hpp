@@ -23,7 +23,7 @@ inline constexpr const char* cases_file = "cases.json";
 /// Whether the folder belongs to a campaign with cases.
 [[nodiscard]] bool is_cases_folder(const std::filesystem::path& folder);
 
-/// The folder itself for a campaign without cases, else that of the case.
+/// The results folder of a case; the folder itself for a campaign without cases.
 /// @param name of the case; empty: none
 /// @throws SpecError if the campaign has cases and the name is empty, or if no case has the name
 [[nodiscard]] std::filesystem::path folder_of_case(const std::filesystem::path& folder,
@@ -33,7 +33,7 @@ inline constexpr const char* cases_file = "cases.json";
 /// @throws SpecError with each unknown name
 [[nodiscard]] std::vector<CaseSpec> chosen_cases(const Campaign& campaign,
                                                  std::span<const std::string> names);
-/// The campaign itself if it has no cases, else that of the case.
+/// The campaign of the case with this name; the campaign itself if it has no cases.
 /// @throws SpecError as folder_of_case
 [[nodiscard]] Campaign chosen_case(const Campaign& campaign, const std::string& name);
 

@@ -1,4 +1,4 @@
-/// The results folder: its files, its identity, and how it is read.
+/// The results folder: its files, its identity, and functions that read it.
 ///
 ///   campaign.json    the campaign in full, and its stamp
 ///   runs.csv         one row per run (results.hpp); the only file that grows

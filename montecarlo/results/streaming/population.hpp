@@ -7,8 +7,8 @@
 
 namespace wingspread {
 
-/// How many of the largest and of the smallest values are kept, with their runs. Enough for an upper tolerance limit at
-/// p = 0.9973 up to 10⁶ runs, and at p = 0.99999 up to 4·10⁸ runs.
+/// Number of largest values, and of smallest values, that are kept with their runs. Enough for an upper tolerance limit
+/// at p = 0.9973 up to 10⁶ runs, and at p = 0.99999 up to 4·10⁸ runs.
 inline constexpr std::size_t kept_extremes = 4096;
 
 /// An order statistic: exact if it is among the kept extremes, else interpolated in its bin.

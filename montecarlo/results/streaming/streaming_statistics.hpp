@@ -22,8 +22,8 @@ namespace wingspread {
 /// Most kinds of latch orders counted separately; kinds that appear later are counted together. Heuristic: 100,000
 /// texts take some 10 MB. With more kinds, merging shards is refused, because the common count cannot be split.
 inline constexpr std::size_t most_order_kinds = 100'000;
-/// No correlations for more pairs of draws and outputs than this. A pair takes 5 exact sums of 552 bytes: 40,000
-/// pairs are 110 MB.
+/// Most pairs of draws and outputs; with more pairs no correlations are computed. A pair takes 5 exact sums of 552
+/// bytes: 40,000 pairs are 110 MB.
 inline constexpr std::size_t most_streaming_pairs = 40'000;
 
 /// An output used by a requirement or a tolerance limit. Its population covers all runs: runs that rank as worse than
@@ -55,7 +55,7 @@ class StreamingStatistics {
 public:
   /// Statistics of no runs. @param pilot the campaign's first runs, which only decide where bins lie
   StreamingStatistics(const Campaign& campaign, const ResultNames& names, const Results& pilot);
-  /// Reads what write() wrote. @throws SpecError if it is damaged or of another campaign
+  /// Reads statistics written by write(). @throws SpecError if they are damaged or of another campaign
   StreamingStatistics(const Campaign& campaign, const ResultNames& names, StateReader& from);
 
   /// @param margins the run's required static margins, in the order of static_margin_columns

@@ -14,7 +14,7 @@ namespace wingspread {
 [[nodiscard]] std::vector<Column> static_margin_columns(const Campaign& campaign,
                                                         const Results& results);
 
-/// Judges all requirements. @param looks as in judge_all
+/// Judges all requirements. @param looks number of interim analyses, as in judge()
 [[nodiscard]] std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& results,
                                                   long looks = 1);
 

@@ -26,7 +26,7 @@ void widen(ReasonPattern& pattern, const ReasonPattern& other);
 /// "bodies.panel_1.mass is …, expected > 0"
 [[nodiscard]] std::string to_string(const ReasonPattern& pattern);
 
-/// How many runs of one status gave a reason; "…" in place of numbers in which the runs differ.
+/// The number of runs with one status and one reason; in the reason "…" replaces numbers in which the runs differ.
 struct ReasonCount {
   Status status;
   std::string reason;

@@ -1,8 +1,8 @@
 /// The statistics of a campaign as plain data, from which the files (summary_json.hpp) and the terminal's table
 /// (table.hpp) are written.
 ///
-/// Nothing is dropped silently: each output is summarised over the runs in which it happened, with the number of runs
-/// in which it did not. The same results give the same summary, bit for bit.
+/// Each output is summarised over the runs in which it happened, and the number of other runs is reported. The same
+/// results give the same summary, bit for bit.
 #pragma once
 
 #include "montecarlo/engine/accuracy/accuracy.hpp"

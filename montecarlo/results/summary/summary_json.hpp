@@ -13,7 +13,7 @@ namespace wingspread {
 /// Most reasons listed, the most frequent ones. `reasons_omitted` counts the runs with other reasons,
 /// `latch_order_omitted` the runs with latch orders that the summary does not list.
 inline constexpr std::size_t most_reasons = 100;
-/// Most runs listed per requirement that break it, the worst ones; `broken_omitted` counts the others.
+/// For each requirement, most runs listed that break it, the worst ones; `broken_omitted` counts the others.
 inline constexpr std::size_t most_broken = 1000;
 
 /// summary.json.

@@ -22,7 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Values of this magnitude or more are treated as infinite: least_margin() returns it if nothing resists.
 constexpr double no_number = std::numeric_limits<double>::max();
 
-/// How bad a run is: sign_of · value, so that larger is worse; for "deployed" 0 if it deployed.
+/// A run and how bad its value is: sign_of · value, so that larger is worse.
 struct Badness {
   long run;
   double value;

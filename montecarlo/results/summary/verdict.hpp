@@ -98,7 +98,8 @@ private:
   std::size_t worse_ = 0;      ///< runs worse than any number
 };
 
-/// @param looks interim analyses at which the campaign could have stopped (stopping_rule.hpp)
+/// Judges one requirement.
+/// @param looks number of interim analyses at which the campaign could have stopped (stopping_rule.hpp)
 /// @pre draws of runs are independent; the results have the output
 [[nodiscard]] Verdict judge(const Requirement& requirement, const Results& results, long looks = 1);
 

@@ -1,4 +1,4 @@
-/// Any motion of a wing over a step, and what follows from positions alone.
+/// Random motions of a wing over a step, and their forces and moments, computed from positions alone.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -18,7 +18,7 @@ namespace wingspread::oracle {
 
 using Point = std::complex<long double>;
 
-/// Any motion of a wing over a step, by the quintics through random jets at its ends.
+/// A random motion of a wing over a step: quintics through random angles, rates and accelerations at its ends.
 template <BaseMotion M> struct AnyMotion {
   AnyMotion(const Scene& drawn, std::uint64_t seed, double h, double swing)
       : scene(drawn), wing(make_wing<double>(scene, outward_order(scene))),
@@ -39,7 +39,7 @@ template <BaseMotion M> struct AnyMotion {
     }
   }
 
-  /// Of the base's angle, or of body i's relative one, or of the base's place.
+  /// Coordinate k of the layout at s: base position, base angle or relative angle of a body.
   [[nodiscard]] long double coordinate(int k, long double s) const {
     const Quintic<double> p = step.coordinate(k, system.layout().freedoms());
     Quintic<long double> q;
@@ -48,7 +48,7 @@ template <BaseMotion M> struct AnyMotion {
   }
 
   struct Place {
-    std::vector<Point> hinge, center; ///< 0 … n; of mass
+    std::vector<Point> hinge, center; ///< of bodies 0 … n; center: of mass
     std::vector<long double> angle;
   };
   [[nodiscard]] Place place(long double s) const {
@@ -59,7 +59,7 @@ template <BaseMotion M> struct AnyMotion {
     if (M == BaseMotion::free)
       hinge[0] = {coordinate(0, s), coordinate(1, s)}, angle[0] = coordinate(2, s);
     if (M == BaseMotion::prescribed && base.table) {
-      const DrivenPiece<double>& piece = system.work().driven; // beyond its knots too
+      const DrivenPiece<double>& piece = system.work().driven; // also used beyond its knots
       const long double u = t - piece.from;
       const auto twice = [&](const std::array<double, 4>& c) {
         return u * u * (c[0] / 2.0L + u * (c[1] / 6.0L + u * (c[2] / 12.0L + u * c[3] / 20.0L)));
@@ -98,14 +98,14 @@ template <BaseMotion M> struct AnyMotion {
     return result;
   }
 
-  /// |moment| of hinge i on all that is outward of it, at s, by differences of positions.
+  /// |moment| of hinge i on the bodies outward of it, at s, by differences of positions.
   [[nodiscard]] std::vector<double> loads(double s) const {
     std::vector<double> result = moments(s);
     for (double& moment : result) moment = std::abs(moment);
     return result;
   }
 
-  /// With its sign, less what gravity and the air do of it.
+  /// The same moments with their signs: the bodies' inertia, minus the loads of gravity and air on them.
   [[nodiscard]] std::vector<double> moments(double s) const {
     const long double d = 1e-4L, wide = d * step.h;
     const Place before = place(s - d), at = place(s), after = place(s + d);
@@ -138,7 +138,7 @@ template <BaseMotion M> struct AnyMotion {
   Step<double> step;
 
 private:
-  /// On body j, by the oracle's law.
+  /// The load of the air on body j, by the oracle's law.
   [[nodiscard]] Load<double> of_air(int j, const Place& before, const Place& at, const Place& after,
                                     long double apart) const {
     const Body& body = scene.bodies[scene.hinges[wing.hinge_of[j]].child];
@@ -156,9 +156,9 @@ private:
   }
 };
 
-/// Largest part of the rise that `values` take inside [from, to] of the step above their ends.
-/// @param values values(s): 1 … n
-/// @param rise rise(i): the most that they may, over the whole step
+/// The largest rise of `values` inside [from, to] above their values at its ends, as a share of the bound.
+/// @param values values(s): of hinges 1 … n
+/// @param rise rise(i): the bound of the rise over the whole step; it scales with the square of the interval
 template <class Values, class Rise>
 double part_taken(int hinges, double from, double to, const Values& values, const Rise& rise) {
   const auto first = values(from), last = values(to);
@@ -172,16 +172,16 @@ double part_taken(int hinges, double from, double to, const Values& values, cons
   return most;
 }
 
-/// Of random wings in motion.
+/// Seeds of random wings and motions.
 struct MotionSeeds {
   int steps, scenes, motions;
 };
 
-/// Checks on random wings in motion that what a hinge bears rises no more inside a step than a
-/// bound says, 4/3 of it kept apart.
-/// @param values values(motion, s): of hinges 1 … n there
-/// @param bound bound(motion) → what has rise(i), the most that they may over the whole step
-/// @return the largest part of it that is taken
+/// Checks on random wings in motion that a hinge's load rises inside a step by at most 3/4 of a bound: the bound has a
+/// factor of 4/3 in reserve.
+/// @param values values(motion, s): the loads of hinges 1 … n at s
+/// @param bound bound(motion) → an object with rise(i), the bound of the rise over the whole step
+/// @return the largest share of the bound that any load takes
 template <BaseMotion M, class Values, class Bound>
 double most_taken_by_random_wings(const MotionSeeds& seeds, const Values& values,
                                   const Bound& bound) {
@@ -200,7 +200,7 @@ double most_taken_by_random_wings(const MotionSeeds& seeds, const Values& values
     };
     CAPTURE(k);
     const double whole = taken(0, 1);
-    CHECK(whole < 0.75 + 1e-6); // without the 4/3
+    CHECK(whole < 0.75 + 1e-6); // 1/(4/3)
     CHECK(taken(0, 0.5) < 0.75 + 1e-6);
     CHECK(taken(0.75, 1) < 0.75 + 1e-6);
     most = std::max(most, whole);

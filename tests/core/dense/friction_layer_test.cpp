@@ -1,5 +1,5 @@
-// Steps through the layer in which regularized friction changes its sign: one by one, and whole
-// runs of rubbing wings against CVODE on the dense formulation.
+// Steps through the layer of rates in which regularized friction changes its sign: single steps, and whole runs of wings
+// with friction against CVODE on the dense formulation.
 #include "core/dense/friction_layer.hpp"
 #include "core/deployment.hpp"
 #include "tests/core/packs/same_bits.hpp"
@@ -17,8 +17,8 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// A three-panel wing with harness, friction of every hinge in a layer of 1e-3 rad/s, and latches
-/// that are damped more or less.
+/// A three-panel wing with harness, friction regularized over 1e-3 rad/s at every hinge, and latches with the given
+/// damping.
 Scene rubbing_wing(int unit, double least_damping = 0.7) {
   Draws draws(5000 + unit);
   Scene scene = seed_scene();

@@ -9,7 +9,7 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// What the seed wing's latches and its state at 7 s are off.
+/// The errors of the seed wing's latches and of its state at 7 s.
 double deployment_error(const Integration& how) {
   Goal goal{.peak_moment = false, .peak_force = false, .audit = false, .to_t_end = true};
   const Outcome out = Deployment().run(seed_scene(), how, goal);

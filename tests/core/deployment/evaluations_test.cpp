@@ -1,5 +1,5 @@
-// What runs cost in evaluations of the right-hand side, where speed is promised. They are exact: on
-// every machine the same, but for a change of method or step control, which is to be deliberate.
+// The numbers of evaluations of the right-hand side that runs take, where speed is promised. The numbers are exact and the
+// same on every machine. They change only with the methods or the step control: change them only on purpose.
 #include "core/deployment.hpp"
 #include "tests/support/whole_runs.hpp"
 

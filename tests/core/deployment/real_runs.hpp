@@ -1,4 +1,4 @@
-/// Runs of scenes with real hinges, alone and in packs, and what their tests share.
+/// Runs of scenes with real hinges, alone and in packs, and helpers of their tests.
 #pragma once
 
 #include "tests/core/packs/same_bits.hpp"
@@ -10,7 +10,7 @@
 
 namespace wingspread::oracle {
 
-/// A run by `auto` with all outputs, which has the same bits in the lanes of every pack.
+/// Runs a scene by `auto` with all outputs, and CHECKs that the lanes of every pack give the same bits.
 inline Outcome run_everywhere(const Scene& scene, double rtol, double t_end,
                               bool to_t_end = false) {
   Goal goal;
@@ -29,7 +29,7 @@ inline Outcome run_everywhere(const Scene& scene, double rtol, double t_end,
   return out;
 }
 
-/// The one latch, of a hinge that turns in either sense.
+/// Checks time and rate of a run's only latch; the rate may have either sign.
 inline void check_arrival(const Outcome& out, const Arrival& exact, double tolerance) {
   REQUIRE(out.latches.size() == 1);
   CAPTURE(out.latches[0].time, exact.time, out.latches[0].rates[0], exact.rate);
@@ -37,14 +37,14 @@ inline void check_arrival(const Outcome& out, const Arrival& exact, double toler
   CHECK(relative(std::abs(out.latches[0].rates[0]), std::abs(exact.rate)) < tolerance);
 }
 
-/// A panel thrown at `rate` over 1 rad to a latch that only tells.
+/// A panel with initial rate `rate`, 1 rad before a latch that exerts no moment: the latch only records the arrival.
 inline Scene thrown_panel(double rate = 1) {
   Scene scene = free_panel(0, rate);
   scene.hinges[0].latch = Latch{};
   return scene;
 }
 
-/// In extended precision, with the jumps of real hinges.
+/// A reference run in extended precision, with tolerances for the jumps of real hinges (reference_run.hpp).
 inline ReferenceOutcome real_reference(const Scene& scene, double t_end) {
   ReferenceOptions options;
   options.t_end = t_end;
@@ -52,7 +52,7 @@ inline ReferenceOutcome real_reference(const Scene& scene, double t_end) {
   return high_precision_run<long double>(scene, options);
 }
 
-/// The scene in a mirror: every angle the other way round.
+/// The mirror image of the scene: every angle changes its sign.
 inline Scene other_sense(Scene scene) {
   for (Hinge& hinge : scene.hinges) {
     hinge.parent_point.y() *= -1, hinge.child_point.y() *= -1;

@@ -1,4 +1,4 @@
-// What a hinge that sticks bears between the ends of steps, and releases that no sample shows.
+// The load of a sticking hinge between the ends of steps, and releases that no sample shows.
 #include "core/deployment.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
 #include "tests/support/whole_runs.hpp"
@@ -80,8 +80,8 @@ TEST_CASE("a release that the load passes by 8e-6 is not missed at any tolerance
   }
 }
 
-// Between the ends of a long step the dense output is too low at a crest: by φ h⁶/46080. What the method's own step
-// to the crest finds above the limit lets the hinge go, and at the instant at which it passes it.
+// Inside a long step the dense output is too low at a crest, by φ h⁶/46080. If the method's own step to the crest finds a
+// load above the limit, the hinge is released at the instant at which the load passes the limit.
 TEST_CASE(
     "a load that the dense output has below the limit, and the method's step above, releases") {
   int judged = 0;

@@ -1,4 +1,4 @@
-// What exact friction holds, and when it lets go.
+// Loads that exact friction holds, and the times at which it releases a hinge.
 #include "core/deployment.hpp"
 #include "tests/core/events/regularized_limit.hpp"
 
@@ -19,7 +19,7 @@ Scene released(Scene scene, double t) {
   return scene;
 }
 
-/// Runs the panel, which is to stick until `release` and then to follow its kinetic friction.
+/// Checks that the panel sticks until `release`, and then moves against its kinetic friction.
 void check_release(const Scene& scene, double release, double t_end) {
   const Scene after = released(scene, release);
   const ReferenceOutcome exact = regularized_run(after, 1e-7, t_end - release);

@@ -25,7 +25,7 @@ Scene swinging_panel(double latched, double torque, double viscous) {
 
 TEST_CASE("a latch at the turning point engages if the energy suffices, and not else") {
   // φ = −cos t comes to rest at 1; the latch stands a gap g before that or beyond it.
-  int tell = 0; // by how many runs
+  int tell = 0; // runs accurate enough to judge
   for (const double gap : {1e-3, 1e-6, 1e-9}) {
     const double rtol = std::max(1e-12, 1e-4 * gap);
     for (const double sign : {1., -1.}) {
@@ -52,8 +52,8 @@ TEST_CASE("a latch at the turning point engages if the energy suffices, and not 
 }
 
 TEST_CASE("a grazing latch leaves its neighbour alone") {
-  // A swings between -1 and 1 under a spring that is linear in the angle; its latch stands just
-  // about at the turning point. B, beside it on the same fixed base, knows nothing of it.
+  // A swings between -1 and 1 under a spring that is linear in the angle; its latched angle is very near the turning point.
+  // B is on the same fixed base, independent of A.
   Scene scene = oracle::latching_panel();
   scene.bodies.push_back(scene.bodies[0]);
   scene.bodies[1].name = "other";

@@ -14,11 +14,11 @@ namespace wingspread::oracle {
 inline ReferenceOutcome regularized_run(const Scene& scene, double width, double t_end) {
   ReferenceOptions options;
   options.t_end = t_end, options.stiff = true;
-  options.rtol = 1e-10, options.atol = 1e-12; // of a rate: far below the width
+  options.rtol = 1e-10, options.atol = 1e-12; // rad/s, far below the width
   return cvode_run(regularized(scene, width), options);
 }
 
-/// Latches by time; those within 1e-9 of each other by hinge.
+/// Latches by time; latches whose times agree to 1e-9 by hinge.
 template <class AnyOutcome> auto in_order(const AnyOutcome& out) {
   auto latches = out.latches;
   auto instant = latches.begin(); // where the present one begins
@@ -32,7 +32,7 @@ template <class AnyOutcome> auto in_order(const AnyOutcome& out) {
   return latches;
 }
 
-/// What is compared of a run: times and rates of its latches, angles and rates at its end.
+/// The compared quantities of a run: times and rates of its latches, angles and rates at its end.
 template <class AnyOutcome> std::vector<double> figures(const AnyOutcome& out, std::size_t hinges) {
   std::vector<double> result;
   for (const auto& latch : in_order(out))
@@ -48,16 +48,16 @@ template <class AnyOutcome> std::vector<int> latch_order(const AnyOutcome& out) 
   return result;
 }
 
-/// The runs of regularized friction at three widths, ten times narrower each.
+/// Runs with regularized friction at three widths, each a tenth of the previous one.
 struct Limit {
   explicit Limit(const Scene& scene, double t_end)
       : hinges(scene.hinges.size()), runs{regularized_run(scene, 1e-5, t_end),
                                           regularized_run(scene, 1e-6, t_end),
                                           regularized_run(scene, 1e-7, t_end)} {}
 
-  /// Checks that the runs converge to `out`, as O(ω_s) or, where a hinge only just moves,
-  /// O(ω_s log ω_s): what is left at each width is less than 0.4 of what was left before, down to
-  /// what both integrators' own errors (1e-10 and 1e-9 a step) add up to.
+  /// Checks that the runs converge to `out`, as O(ω_s) or, where a hinge barely moves, O(ω_s log ω_s). Each width must
+  /// reduce the difference to less than 0.4 of that at the width before, plus the sum of both integrators' own errors
+  /// (1e-10 and 1e-9 a step).
   void check(const Outcome& out) const {
     constexpr double floor = 1e-6;
     int compared = 0; // widths

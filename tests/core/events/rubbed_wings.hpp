@@ -5,7 +5,7 @@
 
 namespace wingspread::oracle {
 
-/// The scene with its exact friction smoothed over `width`.
+/// The scene with its exact friction regularized over `width`, rad/s.
 inline Scene regularized(Scene scene, double width) {
   for (Hinge& hinge : scene.hinges) {
     if (hinge.friction.model != FrictionModel::exact) continue;
@@ -15,8 +15,8 @@ inline Scene regularized(Scene scene, double width) {
   return scene;
 }
 
-/// Whether a hinge that sticks has stayed: to round-off, which is all that a method that adds up
-/// weighted copies of a constant can promise.
+/// Whether a sticking hinge has kept its angle, up to round-off: a method adds up weighted copies of the constant angle,
+/// and their sum is not exact.
 inline bool stayed(double angle, double at) { return std::abs(angle - at) < 1e-13 * std::abs(at); }
 
 /// The seed scene with exact friction on root, mid and tip.
@@ -26,8 +26,8 @@ inline Scene rubbed_seed(double root, double mid, double tip) {
   return scene;
 }
 
-/// Three panels that are nearly in line. The outer hinges lack the torque to move, and the root's
-/// acceleration does not tear them loose; its latch does.
+/// Three panels that are nearly in line. The outer hinges lack the torque to move. The root's acceleration does not release
+/// them; the shock of the root's latch does.
 inline Scene held_until_the_root_latches() {
   Scene scene = rubbed_seed(0.3, 4, 1.5);
   const HingeTorque springs[] = {{5, 5}, {0.2, 0.2}, {0.1, 0.1}};
@@ -36,7 +36,7 @@ inline Scene held_until_the_root_latches() {
   return scene;
 }
 
-/// The root's motion there as long as the outer hinges hold: a rigid body's.
+/// The root's motion in this scene while the outer hinges stick: that of one rigid body.
 inline ConstantDrive held_root(const Scene& scene) {
   const DenseWing<double> wing(regularized(scene, 1));
   WingState<double> state = wing.initial_state();

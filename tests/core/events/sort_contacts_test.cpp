@@ -1,4 +1,4 @@
-// Long chains at rest with exact friction: what sticks is held, and what slides is driven.
+// Long chains at rest with exact friction: sticking hinges are held, sliding hinges are driven.
 #include "core/events/contact.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
 #include "tests/support/closed_forms.hpp"
@@ -51,8 +51,8 @@ TEST_CASE("the contacts of a long chain at rest are those that friction allows")
   CHECK(stick > 300);
 }
 
-// At the instant at which a load reaches τ_s = τ_c the hinge has no acceleration yet. Held again, it would not be
-// asked for a second time.
+// At the instant at which a load reaches τ_s = τ_c, the hinge has no acceleration yet. If it were held again, its release
+// would not be considered a second time.
 TEST_CASE("a hinge that is due to be let go is let go though nothing moves it yet") {
   for (const double sense : {1.0, -1.0}) {
     Scene scene = latching_panel();

@@ -1,7 +1,7 @@
 /// Wings whose hinges are locked or carry an inertia, by a dense constrained solve.
 ///
-/// The reference knows the wing without either: hinge accelerations, hinge forces and the base's
-/// acceleration answer the moments m across the hinges linearly,
+/// The reference uses the wing without locks and added inertias. Its hinge accelerations, hinge forces and base
+/// acceleration are linear in the moments m across the hinges,
 ///
 ///     q̈ = A m + a0,    f = F m + f0                                                           (1)
 ///
@@ -10,7 +10,7 @@
 ///
 ///     m_i + E_i q̈_i = τ_i,        q̈_i = 0                                                     (2)
 ///
-/// are n equations for m: what crosses each hinge, friction that holds it included.
+/// are n equations for m: the total moment across each hinge, with the friction that holds it.
 #pragma once
 
 #include "core/mechanics/system.hpp"
@@ -24,7 +24,7 @@
 
 namespace wingspread::oracle {
 
-/// What is asked of each hinge, in Scene order.
+/// Which hinges are locked, and the added inertias and moments of the others, in Scene order.
 struct Constraints {
   std::vector<double> added; ///< E, kg·m²
   std::vector<double> tau;   ///< N·m
@@ -146,11 +146,10 @@ private:
 
 // ---- the two against each other
 
-/// Largest deviation of a kind, relative to the largest of that kind; to 1e-3 of the usual where
-/// all of it is next to nothing.
+/// The largest deviation of a kind of quantity, relative to the largest value of that kind or to 1e-3, whichever is larger.
 template <class Got, class Expected> double deviation(const Got& got, const Expected& expected) {
   const auto reference = expected.template cast<double>().eval();
-  REQUIRE(got.allFinite()); // a NaN would pass over
+  REQUIRE(got.allFinite()); // maxCoeff may ignore a NaN
   return (got - reference).cwiseAbs().maxCoeff() / std::max(reference.cwiseAbs().maxCoeff(), 1e-3);
 }
 

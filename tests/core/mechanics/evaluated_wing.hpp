@@ -1,4 +1,4 @@
-/// One evaluation of the right-hand side in any state, and how far it is from the dense solve's.
+/// One evaluation of the right-hand side in any state, and its difference from the dense solve.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -94,7 +94,7 @@ template <class T> Evaluated<T> evaluate(const Scene& scene, const WingState<dou
 struct Deviation {
   double worst = 0, scale = 0;
   template <class A, class B> void note(const A& got, const B& expected) {
-    REQUIRE(std::isfinite(static_cast<double>(got))); // std::max would pass over a NaN
+    REQUIRE(std::isfinite(static_cast<double>(got))); // std::max would ignore a NaN
     const B difference = B(got) - expected;
     worst = std::max(worst, std::abs(static_cast<double>(difference)));
     scale = std::max(scale, std::abs(static_cast<double>(expected)));
@@ -102,8 +102,8 @@ struct Deviation {
   [[nodiscard]] double relative() const { return scale > 0 ? worst / scale : worst; }
 };
 
-/// Of accelerations, each relative to the largest of its kind: the hinges' and the base's spin, the
-/// base's.
+/// The largest relative deviation of accelerations. Angular ones (hinges and base) are relative to the largest angular
+/// one; linear ones of the base to the largest of all.
 template <class T, class Reference>
 double acceleration_deviation(const Evaluated<T>& got, const WingResponse<Reference>& expected) {
   Deviation turning, base;

@@ -1,4 +1,4 @@
-// What every method makes of a number that is none.
+// How every method treats an acceleration that is not finite.
 #include "core/methods/steppers.hpp"
 #include "tests/support/stepping.hpp"
 
@@ -45,7 +45,7 @@ template <class Stepper> struct UnderWay {
     REQUIRE(accepted == 12);
   }
 
-  /// One try. @return whether it was accepted
+  /// Makes one trial step. @return whether it was accepted
   bool go_on(Stepper& with, double& step) {
     const Verdict verdict = at.attempt(with, wing.system, step);
     if (verdict.accepted())

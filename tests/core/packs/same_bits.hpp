@@ -1,4 +1,4 @@
-/// Whether runs through lanes are the runs alone, bit for bit.
+/// Compares runs in lanes with the same runs alone, bit for bit.
 #pragma once
 
 #include "core/deployment.hpp"
@@ -14,11 +14,11 @@
 
 namespace wingspread::oracle {
 
-/// What is asked of runs here: every peak, or latches alone.
+/// The goals of these runs: every peak, or latches only.
 inline const Goal every_peak{.audit = false};
 inline const Goal latches_alone{.peak_moment = false, .peak_force = false, .audit = false};
 
-/// All of an outcome, in a form in which equal means equal bits.
+/// The compared parts of an outcome as bytes: two strings are equal if and only if all bits are.
 inline std::string bits_of(const Outcome& outcome) {
   std::string all = std::string(to_string(outcome.status)) + outcome.reason;
   const auto add = [&](double x) {
@@ -44,7 +44,7 @@ inline std::string bits_of(const Outcome& outcome) {
   return all;
 }
 
-/// The outcomes by name, through the lanes.
+/// Runs the scenes in lanes. Returns the bits of each outcome by the scene's index.
 inline std::map<long, std::string> in_lanes(InstructionSet set, const std::vector<Scene>& scenes,
                                             const Integration& how, const Goal& goal) {
   std::map<long, std::string> outcomes;
@@ -63,7 +63,7 @@ inline std::map<long, std::string> in_lanes(InstructionSet set, const std::vecto
   return outcomes;
 }
 
-/// Every run through the lanes of every instruction set is the run alone.
+/// Checks that every run in the lanes of every instruction set equals the run alone.
 inline void require_equal_bits(const std::vector<Scene>& scenes, const Integration& how,
                                const Goal& goal) {
   std::map<long, std::string> alone;

@@ -1,5 +1,5 @@
-// Hinges that nearly come to rest under exact friction, or have just set out: a run in a lane sees
-// every turn that the run alone sees, and is not asked for the others.
+// Hinges that nearly come to rest under exact friction, or have just begun to move. A run in a lane must find every
+// turning point that the run alone finds, without a search in every step.
 #include "core/events/contact.hpp"
 #include "tests/core/events/rubbed_wings.hpp"
 #include "tests/core/packs/same_bits.hpp"

@@ -12,7 +12,7 @@
 
 namespace wingspread::oracle {
 
-/// A wing with all latches engaged that it has, and its model about rest.
+/// A wing with all its latches engaged, and its linear model about rest.
 template <BaseMotion M> struct Latched {
   explicit Latched(const Scene& scene)
       : wing(with_numbers(scene)), system(wing, std::nullopt, work), at(system.layout()) {
@@ -28,7 +28,7 @@ template <BaseMotion M> struct Latched {
     has_model = tune(&still[at.rate(1)]);
   }
 
-  /// @param rates for which dampers are made linear @return whether all modes decay
+  /// @param rates rates about which dampers are linearized @return whether all modes decay
   bool tune(const double* rates) {
     modes.reset();
     if (make_rest_model(wing, work, &still[at.angle(1)], rates, model))
@@ -42,7 +42,7 @@ template <BaseMotion M> struct Latched {
     return x;
   }
 
-  /// The bounds from a state on; none where there are none.
+  /// The bounds from a state on; empty if none exist.
   [[nodiscard]] std::optional<HingeBounds>
   bound(const State<double>& x, double t, const std::optional<double>& energy, double spin) const {
     return modes->bound(modes->start(&x[at.angle(1)], &x[at.rate(1)], t), energy, spin);

@@ -1,4 +1,4 @@
-// The bounds by the modes of a latched wing: motions are sought that break them.
+// The bounds by the modes of a latched wing: the tests search for motions that break them.
 #include "tests/core/proofs/latched_wing.hpp"
 #include "tests/support/dry_friction.hpp"
 #include "tests/support/real_scenes.hpp"

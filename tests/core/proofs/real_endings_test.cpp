@@ -1,4 +1,4 @@
-// Runs with real hinges end early only where nothing is lost by it.
+// Runs with real hinges end early only if they lose no result.
 #include "tests/core/deployment/real_runs.hpp"
 
 #include <algorithm>

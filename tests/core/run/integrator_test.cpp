@@ -1,4 +1,4 @@
-// Steps that make sure of a peak: what a run does where its method refuses one.
+// Extra steps to a peak inside a step: how a run proceeds if its method refuses one.
 #include "core/run/integrator.hpp"
 #include "tests/support/whole_runs.hpp"
 
@@ -19,7 +19,7 @@ struct Refused {
   int probes = 0; ///< steps that were to make sure of a peak
 };
 
-/// The seed wing, of which all steps inside others are refused, and leave what is no number.
+/// Runs the seed wing, but refuses every step inside another one and leaves NaN in its result.
 Refused run_refusing_probes(const Integration& how) {
   const Scene scene = seed_scene();
   const Goal goal{.audit = false};

@@ -33,7 +33,7 @@ struct Arriving {
     return {0.00571 - 1.14 * h + 0.5 * a * h * h, -1.14 + a * h};
   }
 
-  /// Makes the cut step too long by this share. @return by how much, s
+  /// Makes the cut step too long by this share. @return the excess, s
   double overshoot(double share = 0.5e-7) {
     const double late = share * run.step.h;
     run.step.h += late;

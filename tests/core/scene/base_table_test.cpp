@@ -15,7 +15,7 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// What the base of a random table has done by t, by quadrature of the oracle's curves.
+/// The base's motion up to t under a random table, by quadrature of the oracle's curves.
 struct Expected {
   explicit Expected(const Base& base) : base_(base), knots_(base.table->columns().time) {
     if (base.table->gives_rate())
