@@ -36,7 +36,7 @@ template <class T, class Mask>
 /// accurate (its error grows as the cube of the distance). Heuristic: larger loses overtravel, smaller adds steps.
 template <class T>
 [[nodiscard]] std::optional<T> turning_point(const Layout& at, const Step<T>& step, int i) {
-  constexpr double beside_an_end = 1e-3; // the interpolant's error grows with the third power of it
+  constexpr double beside_an_end = 1e-3; // fraction of the step
   Quintic<T> rate = derivative(step.coordinate(at.angle(i), at.freedoms()), step.h);
   if (step.x[at.rate(i)] > T(0))
     for (T& c : rate) c = -c;

@@ -102,7 +102,7 @@ public:
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
 
 private:
-  /// Reuses the storage of the last outcome where nobody has taken it.
+  /// Reuses the storage of the last outcome unless a caller has moved it out.
   template <class Items> static void keep_storage(Items& last, Items& next) {
     if (next.capacity() == 0) next = std::move(last);
     next.clear();
