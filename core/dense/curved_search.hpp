@@ -31,7 +31,7 @@ template <class T> struct Inside {
   bool smooth;
 };
 
-/// Coefficients of that excess, for any part of the step.
+/// Coefficients of the largest excess over the larger end, for any part of the step.
 template <class T> struct Bulge {
   T bend;   ///< times the part's square
   T lean{}; ///< times the part

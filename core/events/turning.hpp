@@ -11,8 +11,9 @@
 
 namespace wingspread {
 
-/// Whether hinge i turns back inside the step near its stowed angle (on the way away from the latch), or, with a
-/// latch that waits, near its latched angle. Near: within the step's own way of the angle, or beyond it.
+/// Whether hinge i turns back inside the step near its stowed angle (on the way away from the latch), or, with
+/// a latch that has not engaged (`waits`), near its latched angle. Near: at most the
+/// hinge's travel in the step short of that angle, or beyond it.
 template <class T, class Mask>
 [[nodiscard]] auto turns_where_it_counts(const Wing<T>& wing, const Layout& at, const Step<T>& step,
                                          int i, const Mask& waits) {

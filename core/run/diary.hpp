@@ -49,7 +49,7 @@ public:
       largest_drift_ = std::max(largest_drift_, std::abs(energy() - initial_energy_));
   }
 
-  /// Shows the observer the state where the run stands; with a sample interval, only at the start.
+  /// Shows the observer the run's present state; with a sample interval, only at the start.
   void notify() {
     if (!observer_ || (on_grid() && samples_ > 0)) return;
     observer_(sample_at(run_.system, run_.step.x, run_.step.t));

@@ -37,7 +37,7 @@ struct End {
   bool peaks_final = false; ///< proven: no peak that was asked for would be exceeded
 };
 
-/// Decides whether a run ends where it stands.
+/// Decides whether a run ends at its present state.
 template <class T, class AnySystem> class Ending {
 public:
   Ending(Underway<T, AnySystem>& run, const Events<T, AnySystem>& events,

@@ -1,4 +1,4 @@
-/// A function by a table: monotone cubic or linear between knots, constant or straight beyond the ends.
+/// A function given by a table: monotone cubic or linear between knots, constant or straight beyond the ends.
 ///
 /// | symbol  | meaning                                                                       |
 /// |---------|-------------------------------------------------------------------------------|
