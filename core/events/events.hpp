@@ -114,7 +114,7 @@ public:
     const bool engaged = latches_.engage_those_there(latching, step, latches);
     const bool rested = rest_those_there(system_, resting, step);
     if (due &&
-        due->event == Event::edge) // exactly at the edge: settle_edges decides the side
+        due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
       step.x[system_.layout().angle(due->hinge)] =
           edge_angle(system_.wing(), due->hinge, due->edge);
     return (due && due->event != Event::graze) || engaged || rested;
