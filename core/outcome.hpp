@@ -14,7 +14,7 @@ namespace wingspread {
 struct Integration {
   std::string method = "auto"; ///< a name from `methods()`
   /// Tolerances of a step, for every component of the state, both > 0: relative, and absolute (rad,
-  /// rad/s, m, m/s). Divided by 32 up to the first latch, for errors made there shift all that follows.
+  /// rad/s, m, m/s). Divided by 32 up to the first latch: errors made there shift everything later.
   double rtol = 1e-8, atol = 1e-10;
   std::optional<double> smoothing; ///< ε of the smoothed latch, rad; none: event latch
   double t_end = 60;               ///< s, > 0
@@ -22,7 +22,7 @@ struct Integration {
   double step = 1e-4;              ///< s, > 0; only for methods with a fixed step
 };
 
-/// What a run must find out. It computes nothing else, and ends as soon as the answers are known.
+/// The results asked of a run. The run ends as soon as these are final, unless to_t_end.
 struct Goal {
   bool peak_moment = true;
   bool peak_force = true;

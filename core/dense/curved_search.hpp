@@ -31,7 +31,7 @@ template <class T> struct Inside {
   bool smooth;
 };
 
-/// Coefficients of that excess, for any part of the step.
+/// Coefficients of the largest excess over the larger end, for any part of the step.
 template <class T> struct Bulge {
   T bend;   ///< times the part's square
   T lean{}; ///< times the part
@@ -48,9 +48,8 @@ template <class T> struct Bulge {
   }
 };
 
-/// How many samples the searches of a run may make. A load that stays as it is takes some 1e5 times the rate of turn
-/// in each second of motion. One whose bulge is many orders above what it does would have them make as many: they give
-/// up, and what they were asked is not known.
+/// Limits the samples of a run's searches. A constant load needs about 1e5·abs(ω) samples per second of motion. If the
+/// curvature bound is far too pessimistic, a search would need many more: it gives up, and the answer is unknown.
 class SampleBudget {
 public:
   /// Restores the full budget at the start of a run.

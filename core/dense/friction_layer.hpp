@@ -26,8 +26,8 @@ namespace wingspread {
 /// Largest change of a rate in a step, times d. Heuristic: above it the error estimate misses the layer, below it
 /// steps through the layer multiply.
 inline constexpr double longest_leap = 3;
-/// What a step is planned to leave of a rate that goes towards the layer, and how far it may go inside,
-/// times ω_s: by measurement, so that few tries are refused.
+/// kept_inward: share of a rate that remains after a planned step towards the layer. reach_inside: largest change of
+/// the rate near or inside the layer, times ω_s. Both are chosen by measurement, so that few trial steps are rejected.
 inline constexpr double kept_inward = 0.35, reach_inside = 1.2;
 
 template <class T> struct LayerLimits {

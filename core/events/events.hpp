@@ -70,7 +70,7 @@ public:
     return first;
   }
 
-  /// Whether the search of the last step was given up, so that releases in it are unknown.
+  /// Whether the last step's search ran out of samples. If so, it may have missed a release.
   [[nodiscard]] bool in_vain() const { return holding_.in_vain(); }
 
   /// A function of the state that reaches 0 from below at the event.

@@ -58,7 +58,7 @@ public:
     return first;
   }
 
-  /// Whether the search of the last step was given up, so that releases in it are unknown.
+  /// Whether the last step's search ran out of samples. If so, it may have missed a release.
   [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
   /// Excess of the friction that holds hinge i over its limit at the last evaluation, which was at x, N·m.

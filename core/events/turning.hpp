@@ -11,8 +11,9 @@
 
 namespace wingspread {
 
-/// Whether hinge i turns back inside the step near its stowed angle (on the way away from the latch), or, with a
-/// latch that waits, near its latched angle. Near: within the step's own way of the angle, or beyond it.
+/// Whether hinge i turns back inside the step near its stowed angle (on the way away from the latch), or, with
+/// a latch that has not engaged (`waits`), near its latched angle. Near: at most the
+/// hinge's travel in the step short of that angle, or beyond it.
 template <class T, class Mask>
 [[nodiscard]] auto turns_where_it_counts(const Wing<T>& wing, const Layout& at, const Step<T>& step,
                                          int i, const Mask& waits) {
@@ -36,7 +37,7 @@ template <class T, class Mask>
 /// accurate (its error grows as the cube of the distance). Heuristic: larger loses overtravel, smaller adds steps.
 template <class T>
 [[nodiscard]] std::optional<T> turning_point(const Layout& at, const Step<T>& step, int i) {
-  constexpr double beside_an_end = 1e-3; // the interpolant's error grows with the third power of it
+  constexpr double beside_an_end = 1e-3; // fraction of the step
   Quintic<T> rate = derivative(step.coordinate(at.angle(i), at.freedoms()), step.h);
   if (step.x[at.rate(i)] > T(0))
     for (T& c : rate) c = -c;

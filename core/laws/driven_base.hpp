@@ -40,12 +40,12 @@ template <class T> [[nodiscard]] std::array<T, 4> shifted(const std::array<T, 4>
 template <class T> [[nodiscard]] T cubic_at(const std::array<T, 4>& c, const T& u) {
   return fused(u, fused(u, fused(u, c[3], c[2]), c[1]), c[0]);
 }
-/// ∫ of it from 0 to u.
+/// ∫ of the cubic from 0 to u.
 template <class T> [[nodiscard]] T cubic_integral(const std::array<T, 4>& c, const T& u) {
   const T high = fused(u, T(0.25) * c[3], c[2] / T(3));
   return u * fused(u, fused(u, high, T(0.5) * c[1]), c[0]);
 }
-/// ∫ of that from 0 to u.
+/// Double integral of the cubic: ∫ of cubic_integral from 0 to u.
 template <class T> [[nodiscard]] T cubic_double_integral(const std::array<T, 4>& c, const T& u) {
   const T high = fused(u, c[3] / T(20), c[2] / T(12));
   return u * u * fused(u, fused(u, high, c[1] / T(6)), T(0.5) * c[0]);

@@ -48,7 +48,7 @@ template <class T>
           select(rate.low < T(0), hinge.regularized_friction, T(0))};
 }
 
-/// A range of dM/dt of (1), by (2). Inlined because GCC 12 warns falsely of its AVX-512 header in it (bug 105593).
+/// A range of dM/dt of (1), by (2). Inlined: else GCC 12 falsely warns about its AVX-512 header here (GCC bug 105593).
 template <class T>
 [[nodiscard, gnu::always_inline]] inline ValueRange<T>
 regularized_friction_change(const HingeTerms<T>& hinge, const ValueRange<T>& rate,

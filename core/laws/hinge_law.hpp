@@ -1,4 +1,4 @@
-/// What every law of a hinge's moment offers: the contract between one law's file and all that ask it.
+/// The interface of a law of a hinge's moment: the functions that every law defines and that all callers use.
 ///
 /// | symbol | meaning                     | unit       |
 /// |--------|-----------------------------|------------|

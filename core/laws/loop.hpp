@@ -89,7 +89,7 @@ template <class T> [[nodiscard]] T loop_energy(const LoopTerms<T>& loop, const T
   return (T(0.5) * size * size - T(0.25) * slack * slack) / loop.stiffness;
 }
 
-/// Whether the loop acts on hinge i.
+/// Whether hinge i is one of the loop's two hinges.
 template <class T> [[nodiscard]] bool joins(const LoopTerms<T>& loop, int i) {
   return loop.first == i || loop.second == i;
 }

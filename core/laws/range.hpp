@@ -1,4 +1,4 @@
-/// Intervals of numbers, in which the laws state what they do over an interval of motion.
+/// Intervals of numbers. The laws state their bounds over an interval of motion as such ranges.
 #pragma once
 
 #include "core/number/scalar.hpp"

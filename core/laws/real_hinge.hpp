@@ -20,7 +20,7 @@ namespace wingspread {
 
 /// What events change in a real hinge.
 template <class T> struct HingeMode {
-  T in_contact;  ///< 1 while the stop is, else 0
+  T in_contact;  ///< 1 while the stop is in contact, else 0
   T damper_acts; ///< 1 or 0
   T sliding;     ///< σ of exact friction: −1, 0, 1
 };
@@ -114,7 +114,7 @@ template <class T> [[nodiscard]] T curves_moment(const RealHingeTerms<T>& hinge,
   return m;
 }
 
-/// A range of their stiffness −∂M/∂φ over all angles, N·m/rad.
+/// A range of the stiffness −∂M/∂φ of the springs and harnesses by tables, over all angles, N·m/rad.
 template <class T> [[nodiscard]] ValueRange<T> stiffness_of_curves(const RealHingeTerms<T>& hinge) {
   ValueRange<T> range{T(0), T(0)};
   for (const CurveTorqueTerms<T>* torque : {&hinge.spring, &hinge.harness})

@@ -1,4 +1,4 @@
-/// What a run changes beside its state: laws, latches, contacts and scratch space.
+/// The data of a run beside its state vector: laws, latches, contacts and scratch space.
 #pragma once
 
 #include "core/laws/linear_law.hpp"

@@ -1,4 +1,4 @@
-/// Counts the steps in a row that stability holds back, and no longer accuracy.
+/// Counts consecutive steps whose size is limited by stability and not by accuracy.
 #pragma once
 
 #include "core/number/scalar.hpp"

@@ -1,4 +1,4 @@
-/// `auto`: chooses the method, again and again while the run goes on.
+/// `auto`: chooses the method, and reconsiders the choice during the run.
 ///
 /// A phase begins with an explicit method, because the shock of a latch needs short steps anyway.
 /// Later, when fast modes have died out, stability may hold the steps back, and no longer accuracy.

@@ -32,7 +32,7 @@ struct StateAlgebra {
   template <class... Args> static void for_each14(Args&&... args) { operation_last(args...); }
   template <class... Args> static void for_each15(Args&&... args) { operation_last(args...); }
 
-  /// Largest |x|; NaN if any x is NaN. odeint's own would ignore it.
+  /// Largest |x|; NaN if any x is NaN. odeint's own norm_inf would ignore NaN.
   template <class S> [[nodiscard]] static typename S::value_type norm_inf(const S& x) {
     using std::abs;
     typename S::value_type largest(0), poison(0);

@@ -1,4 +1,4 @@
-/// The table of all methods, and what else the core must know about each.
+/// The table of all methods, and the properties of each that the run loop and the engines use.
 #pragma once
 
 #include "core/dense/roughness.hpp"

@@ -1,4 +1,4 @@
-/// How quickly a wing moves: limits steps where the error does not, and tells `auto` what may pay.
+/// Time scales of a wing's motion: they limit steps that the error estimate cannot, and inform the choice of `auto`.
 #pragma once
 
 #include "core/dense/step.hpp"

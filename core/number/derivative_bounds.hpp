@@ -63,8 +63,9 @@ template <class T>
 /// h²/6: by how much a motion's second derivative may leave its chord over h, per unit of the largest fourth
 /// derivative of the motion's quintic.
 ///
-/// A function leaves its chord by at most h²/8 of its largest second derivative [Taylor]. The bound of that
-/// comes from a quintic, which flattens a swing. A sine's second derivative leaves its chord by 1.003, 1.03,
+/// A function leaves its chord by at most h²/8 of its largest second derivative [Taylor]. Here the bound of the
+/// motion's fourth derivative comes from a quintic, whose fourth derivative is below that of a swing.
+/// A sine's second derivative leaves its chord by 1.003, 1.03,
 /// 1.11 and 1.32 times h²/8 of the quintic's fourth derivative where the step spans 1/4, 1/2, 0.8 and 1 of its
 /// period. The factor 4/3 covers one period. A faster swing breaks it: 2.2 times at 1.27 periods. The step
 /// control excludes such a swing unless its amplitude is within the tolerance.

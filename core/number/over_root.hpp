@@ -1,5 +1,5 @@
-/// n/√x by multiplications, which the processor overlaps. A root and a division would wait for each
-/// other, for one unit of the processor makes both.
+/// n/√x by multiplications, which the processor overlaps. A root and a division share
+/// one unit of the processor, so they run one after the other.
 #pragma once
 
 #include "core/number/pack.hpp"

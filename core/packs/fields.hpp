@@ -19,7 +19,7 @@ namespace wingspread {
 
 namespace detail {
 
-/// Converts to every type; only counted with, never evaluated.
+/// Converts to every type. Used only to count fields at compile time; never evaluated.
 struct AnyField {
   template <class T> operator T() const; // NOLINT: implicit, as a field's initializer
 };

@@ -18,7 +18,7 @@ struct Occupancy {
   long tries = 0;  ///< made by engines, all lanes counted
   long busy = 0;   ///< made by engines in lanes with a run
   long scalar = 0; ///< made outside engines
-  long looks = 0;  ///< made by engines, after which a lane needed its run
+  long looks = 0;  ///< trial steps by engines after which a lane needed its run
   Occupancy& operator+=(const Occupancy& other);
 };
 

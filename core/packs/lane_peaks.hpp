@@ -1,4 +1,4 @@
-/// The largest moments and forces of the runs in the lanes.
+/// Peaks of moments and forces of the runs in the lanes.
 ///
 /// A moment that only rises or only falls over a step is largest at one of the step's ends, and so is
 /// a force whose samples rise steeply to an end. The lanes raise such peaks themselves, by the run's

@@ -2,7 +2,7 @@
 ///
 /// With fused multiply-adds a run has the same bits alone and in a lane, on every processor; without
 /// them the last bits may differ. A program built for any x86-64 therefore holds both versions, and
-/// uses fma_runs() if the processor allows.
+/// uses fma_runs() if the processor has these instructions.
 #pragma once
 
 #include "core/methods/steppers.hpp"

@@ -1,4 +1,4 @@
-/// The maximum of a smooth function of which samples are known.
+/// Finds the maximum of a smooth function from known samples.
 #pragma once
 
 #include "core/dense/curved_search.hpp"

@@ -5,7 +5,7 @@
 /// 3. Otherwise nine samples and parabolas find the maximum inside the step (raise_by_interpolant), and a step of
 ///    the method that ends there confirms it (confirm_moment).
 ///
-/// Every range and change comes from core/laws: no law is derived here.
+/// All ranges and changes come from core/laws.
 #pragma once
 
 #include "core/dense/step.hpp"

@@ -17,8 +17,8 @@ template <class T> struct PeakOf {
   }
 };
 
-/// Share of the known peak that the largest of nine samples over a step must reach, or else no maximum is sought
-/// between samples.
+/// The maximum between samples is sought only if the largest of nine samples over a step reaches this share of the
+/// known peak.
 ///
 /// Heuristic. A swing of x rad over the step is sampled within x/16 of its crest, where it has cos(x/16) of its
 /// height: 0.95 suffices up to x = 5.08, 0.8 of a period. Roughness (core/dense) keeps a swing that dominates its

@@ -49,7 +49,7 @@ public:
       largest_drift_ = std::max(largest_drift_, std::abs(energy() - initial_energy_));
   }
 
-  /// Shows the observer the state where the run stands; with a sample interval, only at the start.
+  /// Shows the observer the run's present state; with a sample interval, only at the start.
   void notify() {
     if (!observer_ || (on_grid() && samples_ > 0)) return;
     observer_(sample_at(run_.system, run_.step.x, run_.step.t));
@@ -102,7 +102,7 @@ public:
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
 
 private:
-  /// Reuses the storage of the last outcome where nobody has taken it.
+  /// Reuses the storage of the last outcome unless a caller has moved it out.
   template <class Items> static void keep_storage(Items& last, Items& next) {
     if (next.capacity() == 0) next = std::move(last);
     next.clear();

@@ -3,7 +3,7 @@
 /// | a run ends                                   | proof                                     | in                 |
 /// |----------------------------------------------|-------------------------------------------|--------------------|
 /// | at t_end                                     | none                                      |                    |
-/// | at its first or last latch, without peaks    | none: nobody asks for what follows        |                    |
+/// | at its first or last latch, without peaks    | none: no later output is asked for        |                    |
 /// | early: all hinges are stuck                  | no hinge moves any more                   | stall.hpp          |
 /// | early: no open hinge will latch …            | the energy left cannot pay for the way    | stall.hpp          |
 /// |   … and no peak can rise                     | the energy left bounds every peak         | energy_bounds.hpp  |
@@ -37,7 +37,7 @@ struct End {
   bool peaks_final = false; ///< proven: no peak that was asked for would be exceeded
 };
 
-/// Decides whether a run ends where it stands.
+/// Decides whether a run ends at its present state.
 template <class T, class AnySystem> class Ending {
 public:
   Ending(Underway<T, AnySystem>& run, const Events<T, AnySystem>& events,
@@ -69,8 +69,8 @@ public:
     return peaks_are_proven_;
   }
 
-  /// Whether the latch just engaged ends the run, and no peak at t⁺ is asked for: nobody needs the
-  /// new right-hand side.
+  /// Whether the latch just engaged ends the run and no peak is asked for. If so, the new right-hand side need not
+  /// be evaluated.
   [[nodiscard]] bool ends_at_latch() const {
     if (wants_peaks() || !diary_.any_latch()) return false;
     return run_.goal.first_latch_only || (!latches_left() && !run_.goal.to_t_end);
@@ -148,7 +148,7 @@ private:
   FinalPeaks<T, AnySystem> final_peaks_;
   std::optional<std::string> stall_; ///< why no open hinge will latch; none: not proven
   bool latches_were_left_ = true;    ///< at the step counted last
-  bool peaks_are_proven_ = false;    ///< final, from where the run stands on
+  bool peaks_are_proven_ = false;    ///< no peak can rise after the present time
 };
 
 } // namespace wingspread

@@ -2,7 +2,7 @@
 ///
 /// | where is …                           | file                                                        |
 /// |--------------------------------------|-------------------------------------------------------------|
-/// | the loop                             | `run` and `go` below: a step is asked for, made and judged  |
+/// | the loop                             | `run` and `go` below: request a step, make it, judge it     |
 /// | the next step's size and method      | stepping.hpp                                                |
 /// | a step that ends at an event         | landing.hpp                                                 |
 /// | the instant at which a latch engages | `finish_step` below: apply_events; events/latches.hpp       |

@@ -13,8 +13,8 @@ namespace wingspread {
 
 /// Replaces a step that holds an event by a step of the method that ends there: the state at the event
 /// then has the method's accuracy, not the interpolant's. Newton's method, with real steps, corrects
-/// the instant. Where a hinge only grazes its latched angle, Newton's steps lead nowhere: the instant
-/// by the interpolant stands.
+/// the instant. Where a hinge only grazes its latched angle, Newton's method fails: the
+/// interpolant's instant is kept.
 template <class T, class AnySystem> class Landing {
 public:
   Landing(Underway<T, AnySystem>& run, Events<T, AnySystem>& events) : run_(run), events_(events) {}
@@ -73,7 +73,7 @@ private:
   /// Looks again for a release, in a step that ends where the moment that holds a hinge is largest.
   /// @return whether the moment passes its limit on the way; the step is then cut to end there
   [[nodiscard]] bool cut_at_release() {
-    if (++corrections_ > 3) return false; // heuristic: the interpolant's word then stands
+    if (++corrections_ > 3) return false; // heuristic: the interpolant's instant is then kept
     const std::optional<Due<T>> seen = events_.first(run_.step, run_.x, run_.dxdt);
     if (!seen) return false;
     due_ = seen;

@@ -81,7 +81,7 @@ public:
 
   /// Whether the method has made steps inside the one accepted.
   [[nodiscard]] bool made_sure() const { return made_sure_; }
-  /// Whether the search for the largest moment on a stuck hinge was given up in this step.
+  /// Whether the search for a stuck hinge's largest moment ran out of samples in this step.
   [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
 private:

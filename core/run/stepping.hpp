@@ -219,8 +219,8 @@ public:
 
   // ---- steps made elsewhere
 
-  /// Tries that the run need not know, if no event, peak or proof is due, and how many of them may be
-  /// accepted.
+  /// The most trial steps that a lane may make before it returns control, if no event, peak or proof is due;
+  /// steps_to_look: the most of them that it may accept.
   [[nodiscard]] long tries_left() const { return run_.how.max_steps - tried_ - 1; }
   [[nodiscard]] long steps_to_look() const { return choice_.steps_to_radius(); }
   [[nodiscard]] StepHistory<double> history() {
@@ -252,8 +252,8 @@ private:
     const T longest = time_to_a_radian(run_.at, step, rest);
     h_ = steppers_.with(method(), [&](auto& stepper) {
       using Stepper = std::decay_t<decltype(stepper)>;
-      if (Stepper::fixed_step) return T(2 * run_.how.step); // it takes two at a time
-      if (method() == Method::taylor) return longest;       // it fits it
+      if (Stepper::fixed_step) return T(2 * run_.how.step); // two steps per attempt
+      if (method() == Method::taylor) return longest;       // the method shortens it
       return first_step(run_.system, step.x, step.dxdt, step.t, Stepper::order, tolerance().rtol,
                         tolerance().atol, longest, run_.x, run_.dxdt);
     });
@@ -268,7 +268,7 @@ private:
   }
 
   void limit_by_layers(Verdict& verdict) const {
-    if (method() == Method::runge_kutta4) return; // its step is what it is
+    if (method() == Method::runge_kutta4) return; // the step is fixed
     const Tolerance limit = tolerance();
     const LayerLimits<T> layers =
         layer_limits(run_.system.wing(), run_.at, run_.step, T(limit.rtol), T(limit.atol));

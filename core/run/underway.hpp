@@ -27,7 +27,7 @@ template <class T, class AnySystem> struct Underway {
   const Integration& how;
   const Goal& goal;
   Step<T> step;
-  State<T> x, dxdt; ///< scratch: some state inside the step
+  State<T> x, dxdt; ///< scratch: a state inside the step
 };
 
 } // namespace wingspread

@@ -8,7 +8,7 @@
 ///
 /// Each column is a curve [curve.hpp] between its knots, and constant beyond its ends. A table gives
 /// α, or Ω, whose slope then is α, or neither. Velocity, rate and angle are the exact integrals of
-/// the curves from t = 0 on: a piece of the table keeps the values that they have where it begins.
+/// the curves from t = 0 on. Each piece of the table stores their values at its start.
 #pragma once
 
 #include "core/scene/curve.hpp"

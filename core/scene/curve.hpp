@@ -1,4 +1,4 @@
-/// A function by a table: monotone cubic or linear between knots, constant or straight beyond the ends.
+/// A function given by a table: monotone cubic or linear between knots, constant or straight beyond the ends.
 ///
 /// | symbol  | meaning                                                                       |
 /// |---------|-------------------------------------------------------------------------------|
@@ -63,7 +63,7 @@ public:
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
   /// Knots, and inflections between knots.
   [[nodiscard]] const std::vector<Turn>& turns() const { return turns_; }
-  /// None with more than eight pieces.
+  /// The pieces by columns; none if there are more than eight.
   [[nodiscard]] const std::optional<Columns>& columns() const { return columns_; }
   /// Largest and least dy/dx anywhere.
   [[nodiscard]] double steepest_rise() const { return steepest_rise_; }

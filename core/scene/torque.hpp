@@ -5,7 +5,7 @@
 
 namespace wingspread {
 
-/// The function at x. Cost O(log n) for n knots.
+/// Value of the curve at x. Cost O(log n) for n knots.
 [[nodiscard]] double value_at(const Curve& curve, double x);
 
 /// A spring's or a harness's torque, N·m: scale · law + offset.
