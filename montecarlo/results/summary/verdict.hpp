@@ -23,7 +23,7 @@ namespace wingspread {
 
 enum class Decision {
   pass,     ///< shown
-  fail,     ///< not shown, though n runs could have shown it
+  fail,     ///< not shown, though n runs could have shown it; or disproved, by however few runs
   undecided ///< n runs are too few to show it, and do not disprove it
 };
 [[nodiscard]] std::string_view to_string(Decision decision);
