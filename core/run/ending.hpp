@@ -3,7 +3,8 @@
 /// | a run ends                                   | proof                                     | in                 |
 /// |----------------------------------------------|-------------------------------------------|--------------------|
 /// | at t_end                                     | none                                      |                    |
-/// | at its first or last latch, without peaks    | none: no later output is asked for        |                    |
+/// | at its first latch, if only that is wanted   | none: no later output is asked for        |                    |
+/// | at its last latch, without peaks             | none: no later output is asked for        |                    |
 /// | early: all hinges are stuck                  | no hinge moves any more                   | stall.hpp          |
 /// | early: no open hinge will latch …            | the energy left cannot pay for the way    | stall.hpp          |
 /// |   … and no peak can rise                     | the energy left bounds every peak         | energy_bounds.hpp  |
