@@ -28,7 +28,7 @@ namespace wingspread {
 /// smooth between them.
 template <class T> struct Inside {
   T most;
-  bool smooth;
+  Truth<T> smooth;
 };
 
 /// Coefficients of the largest excess over the larger end, for any part of the step.
@@ -38,7 +38,7 @@ template <class T> struct Bulge {
   T jump{}; ///< on every part
 
   [[nodiscard]] T over(const T& part) const { return fused(part, fused(part, bend, lean), jump); }
-  [[nodiscard]] bool is_smooth() const { return lean == T(0) && jump == T(0); }
+  [[nodiscard]] Truth<T> is_smooth() const { return lean == T(0) && jump == T(0); }
   [[nodiscard]] Inside<T> operator()(const T& a, const T& b) const {
     return {over(T(b - a)), is_smooth()};
   }
@@ -95,7 +95,15 @@ template <class T, class Bulges>
 [[nodiscard]] T rise_inside(const Stretch<T>& at, const Bulges& bulge) {
   using std::abs;
   const Inside<T> inside = bulge(at.a.s, at.b.s);
-  return inside.smooth && abs(at.b.value - at.a.value) > T(8) * inside.most ? T(0) : inside.most;
+  const Truth<T> monotone = inside.smooth && abs(at.b.value - at.a.value) > T(8) * inside.most;
+  return select(monotone, T(0), inside.most);
+}
+
+/// Whether the function may exceed `floor` and both ends by more than `close` inside the stretch.
+template <class T>
+[[nodiscard]] Truth<T> may_crest(const Stretch<T>& at, const T& inside, const T& floor,
+                                 const T& close) {
+  return larger(at.a.value, at.b.value) + inside > floor && !(inside <= close);
 }
 
 template <class T, class Function>
@@ -139,6 +147,15 @@ template <class T, class Function, class Bulges>
   return std::nullopt;
 }
 
+/// Whether `largest_of` would take samples inside the step; for a pack: in which lanes.
+template <class T>
+[[nodiscard]] Truth<T> wants_samples(const T& first, const T& last, const Bulge<T>& rise,
+                                     const T& floor, const T& close) {
+  const detail::Stretch<T> whole{{T(0), first}, {T(1), last}};
+  return detail::may_crest(whole, detail::rise_inside(whole, rise),
+                           larger(larger(first, last), floor), close);
+}
+
 /// The maximum of f, to `close`, if it exceeds `floor`; else any sample.
 /// @param budget once spent, the answer is only the largest sample so far
 template <class T, class Function>
@@ -150,9 +167,7 @@ template <class T, class Function>
   open.push({{T(0), first}, {T(1), last}});
   while (const auto at = open.pop()) {
     const T inside = detail::rise_inside(*at, rise);
-    if (!(larger(at->a.value, at->b.value) + inside > larger(best.value, floor)) ||
-        inside <= close || open.full())
-      continue;
+    if (!detail::may_crest(*at, inside, larger(best.value, floor), close) || open.full()) continue;
     if (!budget.spend()) break;
     const T s = T(0.5) * (at->a.s + at->b.s);
     const Sampled<T> middle{s, f(s)};

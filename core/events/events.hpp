@@ -41,10 +41,11 @@ public:
   /// Whether hinge i can still latch.
   [[nodiscard]] bool may_latch(int i) const { return latches_.may_engage(i); }
 
-  /// Starts a step. @pre the last evaluation was at x, the step's start
-  void begin_step(const State<T>& x) {
-    if (system_.work().stuck > 0) holding_.begin_step(system_, x);
-  }
+  /// Starts a step in which hinges stick. @pre the last evaluation was at x, the step's start
+  void begin_step(const State<T>& x) { holding_.begin_step(system_, x); }
+
+  /// Of stuck hinges, at the step's start: Holding::before.
+  [[nodiscard]] std::vector<T>& excess_before() { return holding_.before(); }
 
   /// The earliest event in the step. The interpolant decides whether an event happens. Overwrites x and dxdt.
   [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x, State<T>& dxdt) {

@@ -63,7 +63,7 @@ public:
                          mass * center * own.turned_with(mass_center));
       if (wing.plates.empty()) return;
       own.speed = fused(arm, parent.rate, parent.speed);
-      if (wing.plates[i].strength > T(0)) add_air(wing.plates[i], own);
+      if (any(wing.plates[i].strength > T(0))) add_air(wing.plates[i], own);
     });
     tree.inward([&](int i) {
       const Bounds& own = bodies_[i];
@@ -78,6 +78,11 @@ public:
 
   /// Largest excess of |L_i| over the loads at the step's ends, N·m. Between s = a and b: times (b − a)².
   [[nodiscard]] T rise(int i) const { return weight_ * bodies_[i].moment; }
+
+  /// Largest excess over the whole step of the friction that holds hinge i.
+  [[nodiscard]] T most_friction(int i) const {
+    return loops_.empty() ? rise(i) : T(rise(i) + loops_[i].over(T(1)));
+  }
 
   /// Largest excess of the friction that holds hinge i, between s = a and b. Where a loop may go slack or pass a
   /// knot in the step, its bound is that of the interval a … b.
@@ -161,7 +166,7 @@ private:
     const Layout& at = system.layout();
     loops_.assign(at.bodies + 1, Bulge<T>{T(0)}), held_.clear();
     for (const LoopTerms<T>& loop : loops) {
-      if (!system.sticks(loop.first) && !system.sticks(loop.second)) continue;
+      if (!any(system.is_locked(loop.first) || system.is_locked(loop.second))) continue;
       held_.push_back({&loop, step.coordinate(at.angle(loop.first), at.freedoms()),
                        step.coordinate(at.angle(loop.second), at.freedoms())});
       const LoopBulges<T> bulges =

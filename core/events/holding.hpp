@@ -23,6 +23,14 @@ template <class T> struct Release {
   T slope; ///< rate of the excess over the limit, N·m/s; 0 for a graze
 };
 
+/// Whether the friction that holds hinge i may pass its limit in a step; for a pack: in which lanes.
+/// @param bound of the step @param before, after excess over the limit at the step's ends, N·m
+template <class T>
+[[nodiscard]] Truth<T> may_slip(const HeldLoadBound<T>& bound, int i, const T& before,
+                                const T& after) {
+  return larger(before, after) + bound.most_friction(i) > T(0);
+}
+
 /// Finds releases of stuck hinges over a step.
 template <class T> class Holding {
 public:
@@ -35,6 +43,9 @@ public:
     for (int i = 1; i <= system.layout().bodies; ++i)
       before_[i] = system.sticks(i) ? excess(system, x, i) : T(0);
   }
+
+  /// Excess of every stuck hinge at the start of the step, 1 … n, N·m; for the lane of an engine to write to.
+  [[nodiscard]] std::vector<T>& before() { return before_; }
 
   /// The earliest release in the step, searched on the dense output where the load's curvature does not exclude it.
   /// @pre the last evaluation was at the step's end, as it is again afterwards. Overwrites x and dxdt.
@@ -85,7 +96,7 @@ private:
   }
 
   [[nodiscard]] bool may_exceed(int i) const {
-    return larger(before_[i], after_[i]) + bound_.friction(i, T(0), T(1)).most > T(0);
+    return may_slip(bound_, i, before_[i], after_[i]);
   }
 
   template <class Function>

@@ -20,13 +20,13 @@ template <class T>
                                         const Quintic<T>& b, const T& h) {
   const LoopTorqueBounds<T> tau = loop_torque_bounds(loop, a, b, h);
   const T bend = chord_excess(h), lean = T(0.5) * h;
-  if (!tau.smooth)
-    return {
-        {T(0), lean * fused(tau.gear, tau.first, tau.gear_first * tau.torque), tau.gear * tau.drop},
-        {T(0), lean * tau.first, tau.drop}};
   const T of_first = fused(tau.gear, tau.second,
                            fused(T(2) * tau.gear_first, tau.first, tau.gear_second * tau.torque));
-  return {{bend * of_first, T(0), T(0)}, {bend * tau.second, T(0), T(0)}};
+  const T lean_of_first = lean * fused(tau.gear, tau.first, tau.gear_first * tau.torque);
+  const auto smooth = [&](const T& value) { return select(tau.smooth, value, T(0)); };
+  const auto kinked = [&](const T& value) { return select(tau.smooth, T(0), value); };
+  return {{smooth(bend * of_first), kinked(lean_of_first), kinked(tau.gear * tau.drop)},
+          {smooth(bend * tau.second), kinked(lean * tau.first), kinked(tau.drop)}};
 }
 
 } // namespace wingspread

@@ -33,6 +33,13 @@ template <class T> [[nodiscard]] std::size_t piece_number(const Curve& curve, co
   return k;
 }
 
+/// Whether one piece holds the whole range.
+template <class T> [[nodiscard]] Truth<T> is_one_piece(const Curve& curve, const ValueRange<T>& x) {
+  Truth<T> one = T(0) <= T(0);
+  for (const double knot : curve.knots()) one = one && !(x.low < T(knot) && x.high >= T(knot));
+  return one;
+}
+
 [[nodiscard]] inline double knot_of(const Curve& curve, std::size_t piece) {
   return curve.knots()[piece > 0 ? piece - 1 : 0];
 }

@@ -172,7 +172,7 @@ template <class T>
 /// Bounds of the first three derivatives of g over a range of travel.
 template <class T> struct GearBounds {
   T first, second, third;
-  bool smooth; ///< g is one polynomial there; else `third` is 0 and bounds nothing
+  Truth<T> smooth; ///< g is one polynomial there; else `third` is 0 and bounds nothing
 };
 
 /// The largest |dg/dx_a|.
@@ -186,15 +186,15 @@ template <class T> [[nodiscard]] T largest_gear(const LoopTerms<T>& loop) {
 template <class T>
 [[nodiscard]] GearBounds<T> gear_bounds(const LoopTerms<T>& loop, const ValueRange<T>& travel) {
   using std::abs;
-  if (!loop.table) return {abs(loop.ratio), T(0), T(0), true};
-  const std::size_t k = detail::piece_number(*loop.table, travel.low);
-  if (k != detail::piece_number(*loop.table, travel.high))
-    return {largest_gear(loop), T(loop.table->sharpest_bend()), T(0), false};
+  if (!loop.table) return {abs(loop.ratio), T(0), T(0), T(0) <= T(0)};
+  const Truth<T> smooth = detail::is_one_piece(*loop.table, travel);
   const PieceAt<T> piece = piece_at(*loop.table, travel.low);
   const T way = travel.high - travel.low;
   const T bend = abs(fused(T(6) * piece.c[3], piece.u, T(2) * piece.c[2]));
   const T third = abs(T(6) * piece.c[3]), second = fused(third, way, bend);
-  return {fused(second, way, T(abs(slope(piece)))), second, third, true};
+  return {select(smooth, fused(second, way, T(abs(slope(piece)))), largest_gear(loop)),
+          select(smooth, second, T(loop.table->sharpest_bend())), select(smooth, third, T(0)),
+          smooth};
 }
 
 /// Bounds of τ, of the gear dg/dx_a, and of their derivatives by time.
@@ -202,7 +202,7 @@ template <class T> struct LoopTorqueBounds {
   T torque, first, second;         ///< N·m, N·m/s, N·m/s²; `second` only where smooth
   T gear, gear_first, gear_second; ///< 1, 1/s, 1/s²; `gear_second` only where smooth
   T drop;                          ///< jump of τ where a strand goes slack, N·m
-  bool smooth;                     ///< no strand goes slack and no knot of the table is passed
+  Truth<T> smooth;                 ///< no strand goes slack and no knot of the table is passed
 };
 
 /// (4) and (5) over a step.
@@ -222,14 +222,14 @@ template <class T>
                x.first * fused(T(3) * g.second, x.second, g.third * x.first * x.first);
   const T start = abs(loop_state(loop, a[0], T(0), b[0], T(0)).elastic);
   const T most = start + loop.stiffness * e1 * h; // K |e|
-  const bool may_slacken = most > loop.slack_beyond && start - (most - start) < loop.slack_beyond;
+  const Truth<T> may_slacken = most > loop.slack_beyond && start - (most - start) < loop.slack_beyond;
   return {most + loop.damping * e1,
           loop.stiffness * e1 + loop.damping * e2,
           loop.stiffness * e2 + loop.damping * e3,
           g.first,
           g.second * x.first,
           fused(g.second, x.second, g.third * x.first * x.first),
-          may_slacken ? T(0.5) * loop.damping * e1 : T(0),
+          select(may_slacken, T(T(0.5) * loop.damping * e1), T(0)),
           g.smooth && !may_slacken};
 }
 

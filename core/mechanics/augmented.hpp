@@ -57,7 +57,7 @@ template <class T> struct AugmentedFrame {
 /// A hinge in the augmented recursion.
 template <class T> struct HingeConstraint {
   T added_inertia = T(0); ///< E, kg·m²
-  bool locked = false;
+  Truth<T> locked = T(0) < T(0);
 };
 
 /// Storage of the recursion: all bodies of a wing.
@@ -87,10 +87,10 @@ void factorize(const Wing<T>& wing, const Topology& tree, const Frames& frames, 
     own.h = own.h + Kq + child.H;
     own.I = own.I + dot(q, Kq) + T(2) * dot(q, child.H) + child.N;
   });
-  own.inverse = hinge.locked ? T(0) : T(1) / (own.I + hinge.added_inertia);
+  own.inverse = select(hinge.locked, T(0), T(T(1) / (own.I + hinge.added_inertia)));
   own.e = scaled(own.inverse, own.h);
   own.g = own.I * own.inverse;
-  const T rest = hinge.locked ? T(1) : hinge.added_inertia * own.inverse; // 1 − g
+  const T rest = select(hinge.locked, T(1), T(hinge.added_inertia * own.inverse)); // 1 − g
   own.K = {fused(-own.h.x, own.e.x, A.xx), fused(-own.h.x, own.e.y, A.xy),
            fused(-own.h.y, own.e.y, A.yy)};
   own.H = scaled(rest, own.h);

@@ -41,6 +41,7 @@ public:
     work_.engaged.assign(layout_.bodies + 1, false);
     work_.contact.assign(layout_.bodies + 1, Contact::none);
     work_.holding.assign(layout_.bodies + 1, T(0));
+    if constexpr (!is_one_number<T>) work_.locks.assign(layout_.bodies + 1, T(0));
     work_.stuck = 0, work_.evaluations = 0;
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
     if constexpr (is_one_number<T>)
@@ -113,6 +114,21 @@ public:
     update_law(i);
   }
   [[nodiscard]] bool sticks(int i) const { return work_.contact[i] == Contact::stuck; }
+  /// The same; for a pack: the lanes in which it does.
+  [[nodiscard]] Truth<T> is_locked(int i) const {
+    if constexpr (is_one_number<T>)
+      return sticks(i);
+    else
+      return work_.locks[i] > T(0);
+  }
+  /// Whether any hinge sticks; for a pack: in which lanes.
+  [[nodiscard]] Truth<T> is_any_locked() const {
+    if constexpr (is_one_number<T>) return work_.stuck > 0;
+    Truth<T> some = T(0) < T(0);
+    if constexpr (!is_one_number<T>)
+      for (int i = 1; i <= layout_.bodies; ++i) some = some || is_locked(i);
+    return some;
+  }
   /// Whether hinge i has an event latch that has engaged.
   [[nodiscard]] bool latch_acts(int i) const {
     return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
@@ -225,32 +241,49 @@ private:
     return side_of_backlash(wing_.real[i], work_.above[i]);
   }
 
-  /// dx/dt with hinges locked by friction. @param held whether to leave the moments that hold them
+  /// dx/dt with hinges locked by friction. In a pack, the lanes in which no hinge sticks have the bits of
+  /// recursion.hpp, as alone. @param held whether to leave the moments that hold stuck hinges, and forces
   template <bool held>
   [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
     Augmented<T>& parts = work_.held;
-    place_base<M>(wing_, layout_, work_.driven, parts.frames[0], x, t);
-    place_bodies<M>(wing_, topology(), parts.frames, x);
-    wing_.plates.empty() ? apply_moments<false>(parts.frames, x, t)
-                         : apply_moments<true>(parts.frames, x, t);
+    const bool air = !wing_.plates.empty();
+    if constexpr (is_one_number<T>)
+      place_and_load(parts.frames, x, t);
+    else if (!work_.some_slide)
+      place_and_load(parts.frames, x, t);
+    else
+      air ? evaluate<held, true>(parts.frames, x, dxdt, t)
+          : evaluate<held, false>(parts.frames, x, dxdt, t);
     factorize_all<M>(wing_, topology(), parts, [&](int i) {
-      return HingeConstraint<T>{T(0), sticks(i)};
+      return HingeConstraint<T>{T(0), is_locked(i)};
     });
     load_all<true, M>(
         topology(), parts, [&](int i) { return parts.frames[i].moment; },
-        wing_.plates.empty() ? Vec2<T>{T(0), T(0)} : work_.air_forces[0]);
-    if constexpr (M == BaseMotion::free) copy_base(parts.bodies[0], dxdt);
+        air ? work_.air_forces[0] : Vec2<T>{T(0), T(0)});
+    const Truth<T> these = is_any_locked();
+    if constexpr (M == BaseMotion::free) copy_base(parts.bodies[0], dxdt, these);
     topology().outward([&](int i) {
-      dxdt[layout_.rate(i)] = accelerate_augmented<true>(topology(), parts.frames, parts.bodies, i);
+      T& own = dxdt[layout_.rate(i)];
+      own = select(these, accelerate_augmented<true>(topology(), parts.frames, parts.bodies, i), own);
       if constexpr (!held) return;
       const T& parents = parts.bodies[topology().parent_of(i)].angular_acceleration;
       work_.holding[i] = axis_moment(parts.bodies[i], parents);
-      if (!wing_.plates.empty()) work_.holding[i] = work_.holding[i] - work_.air_moments[i];
-      if (wants_forces_) work_.forces[i] = augmented_force(parts.bodies[i], parents);
+      if (air) work_.holding[i] = work_.holding[i] - work_.air_moments[i];
+      if (!wants_forces_) return;
+      Vec2<T> force = augmented_force(parts.bodies[i], parents);
+      if (air) force = force - work_.air_forces[i];
+      work_.forces[i] = {select(these, force.x, work_.forces[i].x),
+                         select(these, force.y, work_.forces[i].y)};
     });
-    if (held && wants_forces_) take_air_from_forces();
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
+  }
+
+  /// Places the bodies and sums the hinges' moments, in the frames.
+  template <class Frames> void place_and_load(Frames& frames, const State<T>& x, const T& t) {
+    place_base<M>(wing_, layout_, work_.driven, frames[0], x, t);
+    place_bodies<M>(wing_, topology(), frames, x);
+    wing_.plates.empty() ? apply_moments<false>(frames, x, t) : apply_moments<true>(frames, x, t);
   }
 
   template <bool air, class Frames>
@@ -374,12 +407,14 @@ private:
   }
 
   /// Copies the accelerations of a free base from its frame in either recursion.
+  /// @param these for a pack: lanes to copy
   template <class Frame>
-  [[gnu::always_inline]] void copy_base(const Frame& base, State<T>& dxdt) const {
+  [[gnu::always_inline]] void copy_base(const Frame& base, State<T>& dxdt,
+                                        const Truth<T>& these = T(0) <= T(0)) const {
     const int v = layout_.freedoms();
-    dxdt[v] = base.acceleration.x + wing_.base.gravity.x;
-    dxdt[v + 1] = base.acceleration.y + wing_.base.gravity.y;
-    dxdt[v + 2] = base.angular_acceleration;
+    dxdt[v] = select(these, T(base.acceleration.x + wing_.base.gravity.x), dxdt[v]);
+    dxdt[v + 1] = select(these, T(base.acceleration.y + wing_.base.gravity.y), dxdt[v + 1]);
+    dxdt[v + 2] = select(these, base.angular_acceleration, dxdt[v + 2]);
   }
 
   [[gnu::noinline]] void advance_latches(const State<T>& x, State<T>& dxdt) const {

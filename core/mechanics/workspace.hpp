@@ -41,8 +41,10 @@ template <class T> struct Workspace {
   std::vector<Vec2<T>> velocities; ///< 0 … n: of the hinges' points, m/s
   std::vector<char> engaged;       ///< 1 … n: has passed its latched angle
   std::vector<Contact> contact;    ///< 1 … n: state of the exact friction
+  std::vector<T> locks;   ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, else 0
   std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation that held a hinge
-  int stuck = 0;          ///< number of stuck hinges
+  int stuck = 0;          ///< number of stuck hinges, of all lanes together
+  bool some_slide = true; ///< of packs: in some lane no hinge sticks
   Augmented<T> held;      ///< of the evaluation while hinges stick
   long evaluations = 0;
 };

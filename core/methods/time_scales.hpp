@@ -61,7 +61,7 @@ template <class T>
     acceleration = cubic_bounds(shifted(piece.turning, T(t - piece.from)), longest).value;
   }
   const T spin = larger(rate, T(sqrt(T(turn) * acceleration)));
-  return spin > T(0) ? smaller(longest, T(T(turn) / spin)) : longest;
+  return select(spin > T(0), smaller(longest, T(T(turn) / spin)), longest);
 }
 
 /// Largest angle whose sine is known well enough, rad: a double near 1e8 rounds by up to 7e-9 rad.

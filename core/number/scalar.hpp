@@ -54,9 +54,11 @@ template <class T> [[nodiscard, gnu::always_inline]] inline T smaller(const T& a
   return select(b < a, b, a);
 }
 
+/// The type of a comparison: bool for a number, for a pack a mask.
+template <class T> using Truth = decltype(std::declval<T>() < T(0));
+
 /// Whether T is a single number and no pack.
-template <class T>
-inline constexpr bool is_one_number = std::is_same_v<decltype(std::declval<T>() < T(0)), bool>;
+template <class T> inline constexpr bool is_one_number = std::is_same_v<Truth<T>, bool>;
 
 template <class T>
 inline constexpr double epsilon_of = static_cast<double>(std::numeric_limits<T>::epsilon());

@@ -70,10 +70,12 @@ public:
 
   /// Raises the peaks of the accepted lanes to the step's ends, for `accept` to keep.
   /// @return lanes in which a peak may lie inside the step
-  [[nodiscard]] Mask search_step(AnySystem& system, const Step<P>& step, const Mask& accepted) {
-    rises_ = samples_made_ = false;
+  /// @param held_before moments on stuck hinges at the step's start; those at its end are the system's last
+  [[nodiscard]] Mask search_step(AnySystem& system, const Step<P>& step, const Mask& accepted,
+                                 const std::vector<P>& held_before) {
+    rises_ = samples_made_ = held_is_bounded_ = false;
     Mask asks{};
-    if (shape_.moments) asks = search_moments(system, step, accepted);
+    if (shape_.moments) asks = search_moments(system, step, accepted, held_before);
     if (shape_.forces && system.wing().plates.empty())
       asks = asks || search_forces(system, step, accepted && !asks);
     return asks;
@@ -104,11 +106,17 @@ private:
   }
 
   [[nodiscard]] Mask search_moments(const AnySystem& system, const Step<P>& step,
-                                    const Mask& accepted) {
+                                    const Mask& accepted, const std::vector<P>& held_before) {
     Mask asks{};
     for (int i = 1; i < static_cast<int>(moments_.size()); ++i) {
+      Mask slides = accepted;
+      if (system.work().stuck > 0) {
+        const Mask locked = system.is_locked(i);
+        asks = asks || search_held_moment(system, step, i, accepted && locked, held_before[i]);
+        slides = accepted && !locked;
+      }
       const MomentOverStep<P, AnySystem> moment(system, step, i);
-      const Mask rises = accepted && !(moment.most() <= moments_[i].value);
+      const Mask rises = slides && !(moment.most() <= moments_[i].value);
       if (!any(rises)) continue;
       const Mask keeps = moment.keeps_direction();
       asks = asks || (rises && !keeps);
@@ -119,6 +127,24 @@ private:
       assign_where(rises && keeps, raised_moments_[i], peak);
     }
     return asks;
+  }
+
+  /// As raise_held_moment.
+  [[nodiscard]] Mask search_held_moment(const AnySystem& system, const Step<P>& step, int i,
+                                        const Mask& these, const P& held_before) {
+    if (!any(these)) return Mask{};
+    const Mask may = these && held_moment_may_rise(moments_[i], system, step, i);
+    if (!any(may)) return Mask{};
+    if (!held_is_bounded_) held_.over_step(system, step);
+    held_is_bounded_ = true;
+    const HeldMoments<P> ends{abs(held_before), abs(system.work().holding[i])};
+    begin_to_raise();
+    PeakOf<P> peak = moments_[i];
+    peak.raise(ends.first, step.t);
+    peak.raise(ends.last, step.t + step.h);
+    assign_where(may, raised_moments_[i], peak);
+    return may && wants_samples(ends.first, ends.last, Bulge<P>{held_.rise(i)}, moments_[i].value,
+                                negligible(moments_[i]));
   }
 
   /// As ForcePeaks::over_step.
@@ -158,6 +184,8 @@ private:
   std::vector<PeakOf<P>> moments_, forces_;               ///< 1 … n: up to the step's start
   std::vector<PeakOf<P>> raised_moments_, raised_forces_; ///< up to its end, if rises_
   bool rises_ = false, samples_made_ = false;             ///< in any lane, over this step
+  HeldLoadBound<P> held_;
+  bool held_is_bounded_ = false; ///< over this step
   std::vector<P> before_;                                 ///< forces at the step's start
   std::vector<Vec2<P>> at_end_;                           ///< and at its end
   std::vector<Lever<P>> levers_;

@@ -38,10 +38,13 @@ public:
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
       x->assign(at_.size(), none);
-    for (std::vector<P>* v : {&waits_, &overtravel_, &slides_}) v->assign(at_.bodies + 1, none);
+    for (std::vector<P>* v : {&waits_, &overtravel_, &slides_, &held_before_, &held_at_end_,
+                              &held_by_method_, &excess_before_, &excess_at_end_})
+      v->assign(at_.bodies + 1, none);
     for (std::vector<P>& ways : ways_) ways.assign(wing_.real.size(), none);
     rtol_ = atol_ = dense_tolerance_ = P(1.0);
     step_.t = step_.h = scaled_error_ = judged_ = factor_ = busy_ = t_end_ = none;
+    held_evaluations_ = none;
     first_round_ = last_round_ = last_step_ = evaluations_before_ = none;
     history_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
@@ -68,8 +71,12 @@ public:
     if (wing_.base.table) set_lane(lane, work_.driven, task.work.driven);
     for (int i = 1; i <= at_.bodies; ++i) {
       overtravel_[i].v[lane] = task.overtravel[i];
-      slides_[i].v[lane] = static_cast<double>(task.work.contact[i]);
+      const Contact contact = task.work.contact[i];
+      slides_[i].v[lane] = contact == Contact::stuck ? 0 : static_cast<double>(contact);
       waits_[i].v[lane] = task.work.engaged[i] ? 0 : 1;
+      work_.locks[i].v[lane] = contact == Contact::stuck ? 1 : 0;
+      held_before_[i].v[lane] = task.held_before ? task.held_before[i] : 0;
+      excess_before_[i].v[lane] = task.excess_before ? task.excess_before[i] : 0;
     }
     peaks_.load(lane, task);
     if constexpr (M == BaseMotion::free) free_.load(lane, task);
@@ -82,9 +89,14 @@ public:
     evaluations_before_.v[lane] =
         static_cast<double>(task.evaluations) - now * Formula::evaluations;
     busy_.v[lane] = 1;
+    set_stuck(lane, task.work.stuck);
   }
 
-  void set_idle(int lane) override { busy_.v[lane] = step_.h.v[lane] = 0; }
+  void set_idle(int lane) override {
+    busy_.v[lane] = step_.h.v[lane] = 0;
+    for (P& locks : work_.locks) locks.v[lane] = 0;
+    set_stuck(lane, 0);
+  }
 
   void unload(int lane, LaneResult& result) const override {
     result.trial_steps = round_ - 1 - static_cast<long>(first_round_.v[lane]);
@@ -96,7 +108,9 @@ public:
     }
     get_lane(lane, step_.x1, result.x1), get_lane(lane, step_.dxdt1, result.dxdt1);
     peaks_.unload(lane, result, moved);
-    result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
+    if (stuck_[lane] > 0) unload_held(lane, result, moved);
+    result.evaluations = (result.trial_steps + 1) * Formula::evaluations +
+                         peaks_.evaluations(lane) + static_cast<long>(held_evaluations_.v[lane]);
     if constexpr (M == BaseMotion::free) {
       free_.unload(lane, result, shape_.forces);
       result.evaluations += static_cast<long>(free_.evaluations().v[lane]);
@@ -157,6 +171,24 @@ private:
     return wing_;
   }
 
+  /// Sets how many hinges stick in a lane.
+  void set_stuck(int lane, int hinges) {
+    stuck_[lane] = hinges;
+    held_evaluations_.v[lane] = 0;
+    work_.stuck = 0, work_.some_slide = false;
+    for (int l = 0; l < W; ++l) {
+      work_.stuck += stuck_[l];
+      work_.some_slide = work_.some_slide || (stuck_[l] == 0 && busy_.v[l] > 0);
+    }
+  }
+
+  void unload_held(int lane, LaneResult& result, bool moved) const {
+    get_lane(lane, M == BaseMotion::free ? held_by_method_ : held_at_end_, result.held_at_end);
+    if (!moved) return;
+    get_lane(lane, held_before_, result.held_before);
+    get_lane(lane, excess_before_, result.excess_before);
+  }
+
   /// Copies the modes of the run's real hinges, and on which side of its edges each hinge is.
   void set_modes(int lane, const Workspace<double>& work) {
     set_lane(lane, work_.modes, work.modes);
@@ -189,7 +221,16 @@ private:
     }
     const P refused = select(scaled_error_ <= P(1.0), P(2.0), scaled_error_);
     judged_ = select(accepted, scaled_error_, refused), factor_ = factor;
-    return {accepted, step_.h * factor};
+    return {accepted, limit_by_base(accepted, step_.h * factor)};
+  }
+
+  /// As Stepping::wanted_step, for the next trial step.
+  [[nodiscard]] P limit_by_base(const Mask& accepted, const P& next) const {
+    if constexpr (M != BaseMotion::prescribed) return next;
+    if (work_.stuck == 0) return next;
+    const P from = select(accepted, P(step_.t + step_.h), step_.t);
+    const P most = time_of_base(wing_.base, work_.driven, from, P(t_end_ - from));
+    return select(system_.is_any_locked(), smaller(next, most), next);
   }
 
   /// @return the lanes that need their runs: see lane_protocol.hpp
@@ -205,10 +246,35 @@ private:
     const Mask accepted_enough = history_.steps >= last_step_;
     Mask asks = busy && (tried_enough || near_limit);
     asks = asks || (accepted && (accepted_enough || may_leave || may_hold_event()));
-    if constexpr (M == BaseMotion::free) free_.restore_momenta(system_, step_);
+    if (work_.stuck > 0) asks = asks || (accepted && may_release());
+    if constexpr (M == BaseMotion::free) restore_momenta();
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
-    return asks || peaks_.search_step(system_, step_, accepted && !asks);
+    return asks || peaks_.search_step(system_, step_, accepted && !asks, held_before_);
+  }
+
+  void restore_momenta() {
+    if (work_.stuck > 0) held_by_method_ = held_at_end_;
+    free_.restore_momenta(system_, step_);
+    if (work_.stuck > 0) keep_held_at_end();
+  }
+
+  /// Keeps the moments on stuck hinges at the step's end. @pre the system's last evaluation was there
+  void keep_held_at_end() {
+    held_at_end_ = work_.holding;
+    for (int i = 1; i <= at_.bodies; ++i)
+      if (any(system_.is_locked(i))) excess_at_end_[i] = Holding<P>::excess(system_, step_.x1, i);
+  }
+
+  /// @return lanes in which the friction of a stuck hinge may pass its limit: as Holding::comes_near
+  [[nodiscard]] Mask may_release() {
+    held_.over_step(system_, step_);
+    keep_held_at_end();
+    Mask found{};
+    for (int i = 1; i <= at_.bodies; ++i)
+      found = found || (system_.is_locked(i) &&
+                        may_slip(held_, i, excess_before_[i], excess_at_end_[i]));
+    return found;
   }
 
   /// Moves the accepted ones of these lanes to the step's end, and plans the next trial step of all.
@@ -223,9 +289,21 @@ private:
       overtravel_[i] = select(accepted, larger(overtravel_[i], beyond), overtravel_[i]);
     }
     evaluations_before_ = evaluations_before_ + peaks_.accept(accepted);
+    if (work_.stuck > 0) accept_held(accepted);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
     update_history(accepted, these);
     step_.h = select(these, judgement.next, step_.h);
+  }
+
+  /// Counts the evaluation that a run alone makes at the end of a step with stuck hinges.
+  void accept_held(const Mask& these) {
+    for (int i = 1; i <= at_.bodies; ++i) {
+      held_before_[i] = select(these, held_at_end_[i], held_before_[i]);
+      excess_before_[i] = select(these, excess_at_end_[i], excess_before_[i]);
+    }
+    const P made = select(these && system_.is_any_locked(), P(1.0), P(0.0));
+    held_evaluations_ = held_evaluations_ + made;
+    evaluations_before_ = evaluations_before_ + made;
   }
 
   /// Counts the step as the run alone would.
@@ -253,7 +331,7 @@ private:
     for (int i = 1; i <= at_.bodies; ++i) {
       const HingeTerms<P>& hinge = wing_.hinges[i];
       if (hinge.has_latch) found = found || (waits_[i] > P(0.0) && may_engage(i));
-      if (!wing_.real.empty()) found = found || may_pass_edge(i);
+      if (!wing_.real.empty()) found = found || (!system_.is_locked(i) && may_pass_edge(i));
       if (wing_.can_stick) found = found || (slides(i) && may_come_to_rest(i));
     }
     return found;
@@ -337,6 +415,13 @@ private:
   std::vector<P> waits_;             ///< 1: the latch has not engaged, else 0
   std::vector<P> overtravel_;
   std::vector<P> slides_; ///< sense in which a hinge slides against exact friction; 0: it does not
+  // of stuck hinges, N·m: moments, and the excess of friction over its limit
+  std::vector<P> held_before_, excess_before_; ///< at the step's start
+  std::vector<P> held_at_end_, excess_at_end_;
+  std::vector<P> held_by_method_; ///< at the end, before momenta are restored
+  HeldLoadBound<P> held_;
+  std::array<int, W> stuck_{}; ///< hinges that stick in each lane
+  P held_evaluations_;         ///< made at the ends of steps with stuck hinges since `load`
   std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1: edge above the angle; −1: below
   std::vector<Lever<double>> levers_of_wing_;       ///< scratch
   LanePeaks<P, AnySystem> peaks_;

@@ -220,23 +220,38 @@ template <class T, class AnySystem>
          ++doubt.corrections < 4;
 }
 
-/// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. Each value takes an evaluation,
-/// so a step is dismissed first by the laws' ranges plus the static limit, then searched by the load's curvature.
+/// |moment| of a stuck hinge at a step's ends, N·m.
+template <class T> struct HeldMoments { T first, last; };
+
+/// Whether a stuck hinge's |moment| may exceed its peak in a step, by the laws' ranges and the static limit.
+template <class T, class AnySystem>
+[[nodiscard]] Truth<T> held_moment_may_rise(const PeakOf<T>& peak, const AnySystem& system,
+                                            const Step<T>& step, int i) {
+  const T most = MomentOverStep<T, AnySystem>(system, step, i).most();
+  return most + system.static_limit(step.x, i) > peak.value;
+}
+
+/// Difference below which two moments of a stuck hinge count as one, N·m.
+template <class T> [[nodiscard]] T negligible(const PeakOf<T>& peak) {
+  return T(1e-10) * peak.value;
+}
+
+/// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation,
+/// so a step is dismissed first by held_moment_may_rise, then searched by the load's curvature.
 /// @param load load(s): |moment| by an evaluation on the dense output
 /// @param budget of samples; once spent, the maximum inside the step is unknown
 /// @return where a step of the method must confirm a larger value
 template <class T, class AnySystem, class Load>
 [[nodiscard]] std::optional<T>
 raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
-                  HeldLoadBound<T>& bound, SampleBudget& budget, Load&& load) {
-  const T most = MomentOverStep<T, AnySystem>(system, step, i).most();
-  if (!(most + system.static_limit(step.x, i) > peak.value)) return std::nullopt;
+                  const HeldMoments<T>& ends, HeldLoadBound<T>& bound, SampleBudget& budget,
+                  Load&& load) {
+  if (!held_moment_may_rise(peak, system, step, i)) return std::nullopt;
   bound.over_step(system, step);
-  const T first = load(T(0)), last = load(T(1));
-  const Sampled<T> found = largest_of(load, first, last, Bulge<T>{bound.rise(i)}, peak.value,
-                                      T(1e-10) * peak.value, budget);
-  peak.raise(first, step.t);
-  peak.raise(last, step.t + step.h);
+  const Sampled<T> found = largest_of(load, ends.first, ends.last, Bulge<T>{bound.rise(i)},
+                                      peak.value, negligible(peak), budget);
+  peak.raise(ends.first, step.t);
+  peak.raise(ends.last, step.t + step.h);
   if (!(found.value > peak.value)) return std::nullopt;
   return found.s;
 }

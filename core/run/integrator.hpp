@@ -72,12 +72,13 @@ public:
 
   /// Whether a lane of an engine for this method can go on from here.
   [[nodiscard]] bool fits_lane(Method method) const {
-    return stepping_.method() == method && run_.system.work().stuck == 0;
+    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies;
   }
 
   /// @pre fits_lane(the engine's method)
   [[nodiscard]] LaneTask lane_task() {
     const Goal& goal = run_.goal;
+    const bool holds = run_.system.work().stuck > 0;
     return {.step = run_.step,
             .h = asked_.h,
             .work = run_.system.work(),
@@ -87,6 +88,8 @@ public:
             .forces = goal.peak_force ? peaks_.forces().data() : nullptr,
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
             .overtravel = peaks_.overtravel().data(),
+            .held_before = holds ? run_.held_before.data() : nullptr,
+            .excess_before = holds ? events_.excess_before().data() : nullptr,
             .conserved = kept_,
             .base = peaks_.base(),
             .t_end = static_cast<double>(stepping_.end_of_stretch()),
@@ -102,6 +105,8 @@ public:
             peaks_.moments(),    peaks_.forces(),
             peaks_.overtravel(), *asked_.x1,
             *asked_.dxdt1,       run_.system.made_elsewhere().forces,
+            run_.held_before,    events_.excess_before(),
+            run_.system.made_elsewhere().holding,
             peaks_.base()};
   }
 
@@ -188,6 +193,13 @@ private:
     evaluate_anew(let_go);
     if (settle_edges(run_.system, run_.step.x, run_.step.dxdt)) evaluate_anew(0);
     peaks_.include_start();
+    begin_step();
+  }
+
+  /// Keeps what holds stuck hinges at the start of the next step. @pre the last evaluation was there
+  void begin_step() {
+    if (run_.system.work().stuck == 0) return;
+    run_.held_before = run_.system.work().holding;
     events_.begin_step(run_.step.x);
   }
 
@@ -248,7 +260,7 @@ private:
     diary_.watch_energy();
     if (run_.system.work().stuck > 0) {
       run_.system(step.x, run_.dxdt, step.t);
-      events_.begin_step(step.x);
+      begin_step();
     }
     diary_.notify();
     const bool at_knot = run_.system.enter_piece(step.t);

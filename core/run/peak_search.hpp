@@ -57,6 +57,7 @@ public:
   /// @return the first doubt: the fraction of the step to which the method must make a step
   [[nodiscard]] std::optional<T> first_doubt() {
     made_sure_ = false;
+    if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
     samples_.refill(static_cast<double>(run_.step.h));
     hinge_ = 0;
     doubt_.reset(), held_at_.reset();
@@ -103,11 +104,13 @@ private:
   [[nodiscard]] std::optional<T> doubtful_moment() {
     PeakOf<T>& peak = moments_[hinge_];
     if (run_.system.sticks(hinge_)) {
-      held_at_ = raise_held_moment(peak, run_.system, run_.step, hinge_, held_, samples_,
-                                   [this](const T& s) {
-                                     using std::abs;
-                                     return T(abs(run_.system.moment(run_.evaluate_at(s), hinge_)));
-                                   });
+      using std::abs;
+      const HeldMoments<T> ends{abs(run_.held_before[hinge_]), abs(held_at_end_[hinge_])};
+      const auto load = [this](const T& s) {
+        return T(abs(run_.system.moment(run_.evaluate_at(s), hinge_)));
+      };
+      held_at_ =
+          raise_held_moment(peak, run_.system, run_.step, hinge_, ends, held_, samples_, load);
       return held_at_;
     }
     doubt_ = raise_moment(peak, run_.system, run_.step, hinge_);
@@ -130,6 +133,7 @@ private:
   int hinge_ = 0;                          ///< the hinge searched for moment peaks
   std::optional<DoubtfulMoment<T>> doubt_; ///< of its moment; none while forces are in doubt
   HeldLoadBound<T> held_;
+  std::vector<T> held_at_end_; ///< 1 … n: moments on stuck hinges at the step's end
   SampleBudget samples_;
   std::optional<T> held_at_; ///< where the moment of a stuck hinge is in doubt
   bool made_sure_ = false;

@@ -5,6 +5,8 @@
 #include "core/mechanics/system.hpp"
 #include "core/outcome.hpp"
 
+#include <vector>
+
 namespace wingspread {
 
 /// A run stands at the start of `step`; x1 and dxdt1 of `step` are the end of the step made last.
@@ -27,7 +29,8 @@ template <class T, class AnySystem> struct Underway {
   const Integration& how;
   const Goal& goal;
   Step<T> step;
-  State<T> x, dxdt; ///< scratch: a state inside the step
+  std::vector<T> held_before; ///< 1 … n: moments on stuck hinges at the step's start, N·m
+  State<T> x, dxdt;           ///< scratch: a state inside the step
 };
 
 } // namespace wingspread
