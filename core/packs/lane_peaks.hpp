@@ -137,13 +137,13 @@ private:
     if (!any(may)) return Mask{};
     if (!held_is_bounded_) held_.over_step(system, step);
     held_is_bounded_ = true;
-    const HeldMoments<P> ends{abs(held_before), abs(system.work().holding[i])};
+    const P first = abs(held_before), last = abs(system.work().holding[i]);
     begin_to_raise();
     PeakOf<P> peak = moments_[i];
-    peak.raise(ends.first, step.t);
-    peak.raise(ends.last, step.t + step.h);
+    peak.raise(first, step.t);
+    peak.raise(last, step.t + step.h);
     assign_where(may, raised_moments_[i], peak);
-    return may && wants_samples(ends.first, ends.last, Bulge<P>{held_.rise(i)}, moments_[i].value,
+    return may && wants_samples(first, last, Bulge<P>{held_.rise(i)}, moments_[i].value,
                                 negligible(moments_[i]));
   }
 

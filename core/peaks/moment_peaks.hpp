@@ -9,6 +9,7 @@
 #pragma once
 
 #include "core/dense/step.hpp"
+#include "core/dense/step_interpolant.hpp"
 #include "core/events/held_load.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/peaks/maximum.hpp"
@@ -220,7 +221,7 @@ template <class T, class AnySystem>
          ++doubt.corrections < 4;
 }
 
-/// |moment| of a stuck hinge at a step's ends, N·m.
+/// Moment of a stuck hinge at a step's ends, N·m.
 template <class T> struct HeldMoments { T first, last; };
 
 /// Whether a stuck hinge's |moment| may exceed its peak in a step, by the laws' ranges and the static limit.
@@ -237,8 +238,9 @@ template <class T> [[nodiscard]] T negligible(const PeakOf<T>& peak) {
 }
 
 /// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation,
-/// so a step is dismissed first by held_moment_may_rise, then searched by the load's curvature.
-/// @param load load(s): |moment| by an evaluation on the dense output
+/// so a step is dismissed first by held_moment_may_rise, then by the load's curvature. The maximum inside is that of a
+/// polynomial through samples, or is searched by the load's curvature where few samples do not resolve the load.
+/// @param load load(s): the moment by an evaluation on the dense output
 /// @param budget of samples; once spent, the maximum inside the step is unknown
 /// @return where a step of the method must confirm a larger value
 template <class T, class AnySystem, class Load>
@@ -246,12 +248,21 @@ template <class T, class AnySystem, class Load>
 raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
                   const HeldMoments<T>& ends, HeldLoadBound<T>& bound, SampleBudget& budget,
                   Load&& load) {
+  using std::abs;
   if (!held_moment_may_rise(peak, system, step, i)) return std::nullopt;
   bound.over_step(system, step);
-  const Sampled<T> found = largest_of(load, ends.first, ends.last, Bulge<T>{bound.rise(i)},
-                                      peak.value, negligible(peak), budget);
-  peak.raise(ends.first, step.t);
-  peak.raise(ends.last, step.t + step.h);
+  const Bulge<T> rise{bound.rise(i)};
+  const T first = abs(ends.first), last = abs(ends.last);
+  Sampled<T> found{T(0), T(0)};
+  if (wants_samples(first, last, rise, peak.value, negligible(peak))) {
+    StepInterpolant<T> interpolant;
+    const auto size = [&](const T& s) { return T(abs(load(s))); };
+    found = interpolant.resolve(load, ends.first, ends.last)
+                ? interpolant.largest_magnitude()
+                : largest_of(size, first, last, rise, peak.value, negligible(peak), budget);
+  }
+  peak.raise(first, step.t);
+  peak.raise(last, step.t + step.h);
   if (!(found.value > peak.value)) return std::nullopt;
   return found.s;
 }

@@ -104,10 +104,9 @@ private:
   [[nodiscard]] std::optional<T> doubtful_moment() {
     PeakOf<T>& peak = moments_[hinge_];
     if (run_.system.sticks(hinge_)) {
-      using std::abs;
-      const HeldMoments<T> ends{abs(run_.held_before[hinge_]), abs(held_at_end_[hinge_])};
+      const HeldMoments<T> ends{run_.held_before[hinge_], held_at_end_[hinge_]};
       const auto load = [this](const T& s) {
-        return T(abs(run_.system.moment(run_.evaluate_at(s), hinge_)));
+        return run_.system.moment(run_.evaluate_at(s), hinge_);
       };
       held_at_ =
           raise_held_moment(peak, run_.system, run_.step, hinge_, ends, held_, samples_, load);
