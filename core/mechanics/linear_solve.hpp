@@ -16,6 +16,7 @@
 /// Each loop costs one more solve per factorization. The caller owns the storage.
 #pragma once
 
+#include "core/mechanics/augmented.hpp"
 #include "core/mechanics/system.hpp"
 
 #include <Eigen/LU>
@@ -148,7 +149,7 @@ private:
 
   template <class Topology, BaseMotion M, class Moment>
   void solve_without_loops(const System<T, Topology, M>& system, Moment&& tau, T* qdd) {
-    load_all<false, M>(system.topology(), parts_, tau);
+    load_all<M>(system.topology(), parts_, tau);
     if constexpr (M == BaseMotion::free) {
       const AugmentedFrame<T>& base = parts_.bodies[0];
       qdd[0] = base.acceleration.x, qdd[1] = base.acceleration.y;
@@ -156,7 +157,7 @@ private:
     }
     system.topology().outward([&](int i) {
       qdd[base_freedoms<M> + i - 1] =
-          accelerate_augmented<false>(system.topology(), parts_.frames, parts_.bodies, i);
+          accelerate_augmented(system.topology(), parts_.frames, parts_.bodies, i);
     });
   }
 

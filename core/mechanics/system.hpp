@@ -1,11 +1,12 @@
 /// The right-hand side of a wing's equations of motion: dx/dt for x = (q, q̇, S) of layout.hpp.
 /// Places the bodies (kinematics.hpp), sums the hinges' moments (core/laws), and runs the recursion: recursion.hpp,
-/// (3)-(7); with stuck hinges augmented.hpp, (8)-(12).
+/// (3)-(7); with stuck hinges locked.hpp, (8)-(10).
 #pragma once
 
 #include "core/mechanics/air_loads.hpp"
 #include "core/mechanics/edges.hpp"
 #include "core/mechanics/kinematics.hpp"
+#include "core/mechanics/locked.hpp"
 #include "core/mechanics/workspace.hpp"
 
 #include <array>
@@ -27,7 +28,7 @@ public:
     work_.forces.assign(n + 1, {T(0), T(0)});
     work_.laws.resize(n + 1);
     work_.nonlinear.resize(n + 1);
-    work_.held.resize(n);
+    work_.crossings.resize(n + 1);
     work_.modes.assign(wing_.real.size(), {T(0), T(0), T(0)});
     work_.above.assign(wing_.real.size(), {});
     work_.air_moments.assign(wing_.plates.size(), T(0));
@@ -121,14 +122,6 @@ public:
     else
       return work_.locks[i] > T(0);
   }
-  /// Whether any hinge sticks; for a pack: in which lanes.
-  [[nodiscard]] Truth<T> is_any_locked() const {
-    if constexpr (is_one_number<T>) return work_.stuck > 0;
-    Truth<T> some = T(0) < T(0);
-    if constexpr (!is_one_number<T>)
-      for (int i = 1; i <= layout_.bodies; ++i) some = some || is_locked(i);
-    return some;
-  }
   /// Whether hinge i has an event latch that has engaged.
   [[nodiscard]] bool latch_acts(int i) const {
     return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
@@ -206,7 +199,7 @@ private:
   [[gnu::always_inline]] void evaluate(const State<T>& x, State<T>& dxdt, const T& t) {
     ++work_.evaluations;
     if (work_.stuck > 0) {
-      evaluate_stuck<forces>(x, dxdt, t);
+      evaluate_with_locks<forces>(x, dxdt, t);
     } else if (!wing_.plates.empty()) {
       evaluate_in_air(x, dxdt, t);
     } else if constexpr (is_static<Topology>) {
@@ -215,6 +208,13 @@ private:
     } else {
       evaluate<forces, false>(work_.frames, x, dxdt, t);
     }
+  }
+
+  /// Not inlined: see evaluate_in_air. Leaves the moments that hold locked hinges if `held`.
+  template <bool held>
+  [[gnu::noinline]] void evaluate_with_locks(const State<T>& x, State<T>& dxdt, const T& t) {
+    wing_.plates.empty() ? evaluate<held, false, true>(work_.frames, x, dxdt, t)
+                         : evaluate<held, true, true>(work_.frames, x, dxdt, t);
   }
 
   /// Not inlined: taking the frames' address would move them out of registers in the other evaluations.
@@ -239,51 +239,6 @@ private:
   [[nodiscard]] std::optional<T> backlash_side(int i) const {
     if (wing_.real.empty() || !latch_acts(i)) return T(0);
     return side_of_backlash(wing_.real[i], work_.above[i]);
-  }
-
-  /// dx/dt with hinges locked by friction. In a pack, the lanes in which no hinge sticks have the bits of
-  /// recursion.hpp, as alone. @param held whether to leave the moments that hold stuck hinges, and forces
-  template <bool held>
-  [[gnu::noinline]] void evaluate_stuck(const State<T>& x, State<T>& dxdt, const T& t) {
-    Augmented<T>& parts = work_.held;
-    const bool air = !wing_.plates.empty();
-    if constexpr (is_one_number<T>)
-      place_and_load(parts.frames, x, t);
-    else if (!work_.some_slide)
-      place_and_load(parts.frames, x, t);
-    else
-      air ? evaluate<held, true>(parts.frames, x, dxdt, t)
-          : evaluate<held, false>(parts.frames, x, dxdt, t);
-    factorize_all<M>(wing_, topology(), parts, [&](int i) {
-      return HingeConstraint<T>{T(0), is_locked(i)};
-    });
-    load_all<true, M>(
-        topology(), parts, [&](int i) { return parts.frames[i].moment; },
-        air ? work_.air_forces[0] : Vec2<T>{T(0), T(0)});
-    const Truth<T> these = is_any_locked();
-    if constexpr (M == BaseMotion::free) copy_base(parts.bodies[0], dxdt, these);
-    topology().outward([&](int i) {
-      T& own = dxdt[layout_.rate(i)];
-      own = select(these, accelerate_augmented<true>(topology(), parts.frames, parts.bodies, i), own);
-      if constexpr (!held) return;
-      const T& parents = parts.bodies[topology().parent_of(i)].angular_acceleration;
-      work_.holding[i] = axis_moment(parts.bodies[i], parents);
-      if (air) work_.holding[i] = work_.holding[i] - work_.air_moments[i];
-      if (!wants_forces_) return;
-      Vec2<T> force = augmented_force(parts.bodies[i], parents);
-      if (air) force = force - work_.air_forces[i];
-      work_.forces[i] = {select(these, force.x, work_.forces[i].x),
-                         select(these, force.y, work_.forces[i].y)};
-    });
-    copy_rates(x, dxdt);
-    if (layout_.smoothed) advance_latches(x, dxdt);
-  }
-
-  /// Places the bodies and sums the hinges' moments, in the frames.
-  template <class Frames> void place_and_load(Frames& frames, const State<T>& x, const T& t) {
-    place_base<M>(wing_, layout_, work_.driven, frames[0], x, t);
-    place_bodies<M>(wing_, topology(), frames, x);
-    wing_.plates.empty() ? apply_moments<false>(frames, x, t) : apply_moments<true>(frames, x, t);
   }
 
   template <bool air, class Frames>
@@ -367,26 +322,48 @@ private:
     });
   }
 
-  template <bool forces, bool air, class Frames>
+  template <bool forces, bool air, bool locks = false, class Frames>
   [[gnu::always_inline]] void evaluate(Frames& frames, const State<T>& x, State<T>& dxdt,
                                        const T& t) {
     place_base<M>(wing_, layout_, work_.driven, frames[0], x, t);
     place_bodies<M>(wing_, topology(), frames, x);
     apply_moments<air>(frames, x, t);
-    topology().inward([&](int i)
-                          __attribute__((always_inline)) { gather(wing_, topology(), frames, i); });
-    accelerate_base<air>(frames, dxdt);
+    topology().inward([&](int i) __attribute__((always_inline)) {
+      if constexpr (locks)
+        gather_with_locks(wing_, topology(), frames, work_.crossings, i, is_locked(i));
+      else
+        gather(wing_, topology(), frames, i);
+    });
+    accelerate_base<air, locks>(frames, dxdt);
     T* const accelerations = dxdt.data() + first_coordinate + freedoms();
     topology().outward([&](int i) __attribute__((always_inline)) {
-      accelerations[i - 1] = accelerate<M>(topology(), frames, i);
+      if constexpr (locks)
+        accelerations[i - 1] = accelerate_with_locks<M, T>(topology(), frames, i, is_locked(i));
+      else
+        accelerations[i - 1] = accelerate<M>(topology(), frames, i);
     });
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
+    if constexpr (forces && locks) find_held_moments<air>();
     if (forces && wants_forces_)
       topology().outward([&](int i) __attribute__((always_inline)) {
-        work_.forces[i] = hinge_force(frames[i]);
+        if constexpr (locks)
+          work_.forces[i] =
+              hinge_force(frames[i], work_.crossings[i],
+                          frames[topology().parent_of(i)].angular_acceleration);
+        else
+          work_.forces[i] = hinge_force(frames[i]);
       });
     if (air && forces && wants_forces_) take_air_from_forces();
+  }
+
+  /// The moments that hold locked hinges. @pre evaluated with locks, in the workspace's frames
+  template <bool air> void find_held_moments() {
+    for (int i = 1; i <= layout_.bodies; ++i) {
+      const T& parents = work_.frames[topology().parent_of(i)].angular_acceleration;
+      const T moment = axis_moment(work_.frames[i], work_.crossings[i], parents);
+      work_.holding[i] = air ? T(moment - work_.air_moments[i]) : moment;
+    }
   }
 
   /// Subtracts the air's forces from the forces of the motion (air_loads.hpp).
@@ -395,26 +372,21 @@ private:
       work_.forces[i] = work_.forces[i] - work_.air_forces[i];
   }
 
-  template <bool air, class Frames>
-  [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) const {
+  template <bool air, bool locks, class Frames>
+  [[gnu::always_inline]] void accelerate_base(Frames& frames, State<T>& dxdt) {
     if constexpr (M == BaseMotion::free) {
       BodyFrame<T>& base = frames[0];
-      gather(wing_, topology(), frames, 0);
+      if constexpr (locks)
+        gather_with_locks(wing_, topology(), frames, work_.crossings, 0, T(0) < T(0));
+      else
+        gather(wing_, topology(), frames, 0);
       if constexpr (air) base.bias = base.bias - work_.air_forces[0];
       accelerate_free_base(base);
-      copy_base(base, dxdt);
+      const int v = layout_.freedoms();
+      dxdt[v] = base.acceleration.x + wing_.base.gravity.x;
+      dxdt[v + 1] = base.acceleration.y + wing_.base.gravity.y;
+      dxdt[v + 2] = base.angular_acceleration;
     }
-  }
-
-  /// Copies the accelerations of a free base from its frame in either recursion.
-  /// @param these for a pack: lanes to copy
-  template <class Frame>
-  [[gnu::always_inline]] void copy_base(const Frame& base, State<T>& dxdt,
-                                        const Truth<T>& these = T(0) <= T(0)) const {
-    const int v = layout_.freedoms();
-    dxdt[v] = select(these, T(base.acceleration.x + wing_.base.gravity.x), dxdt[v]);
-    dxdt[v + 1] = select(these, T(base.acceleration.y + wing_.base.gravity.y), dxdt[v + 1]);
-    dxdt[v + 2] = select(these, base.angular_acceleration, dxdt[v + 2]);
   }
 
   [[gnu::noinline]] void advance_latches(const State<T>& x, State<T>& dxdt) const {

@@ -3,7 +3,7 @@
 
 #include "core/laws/linear_law.hpp"
 #include "core/laws/smoothed_latch.hpp"
-#include "core/mechanics/augmented.hpp"
+#include "core/mechanics/locked.hpp"
 
 #include <array>
 #include <vector>
@@ -44,8 +44,7 @@ template <class T> struct Workspace {
   std::vector<T> locks;   ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, else 0
   std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation that held a hinge
   int stuck = 0;          ///< number of stuck hinges, of all lanes together
-  bool some_slide = true; ///< of packs: in some lane no hinge sticks
-  Augmented<T> held;      ///< of the evaluation while hinges stick
+  std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges stick
   long evaluations = 0;
 };
 

@@ -44,7 +44,7 @@ public:
     for (std::vector<P>& ways : ways_) ways.assign(wing_.real.size(), none);
     rtol_ = atol_ = dense_tolerance_ = P(1.0);
     step_.t = step_.h = scaled_error_ = judged_ = factor_ = busy_ = t_end_ = none;
-    held_evaluations_ = none;
+    holds_ = held_evaluations_ = none;
     first_round_ = last_round_ = last_step_ = evaluations_before_ = none;
     history_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
@@ -175,11 +175,9 @@ private:
   void set_stuck(int lane, int hinges) {
     stuck_[lane] = hinges;
     held_evaluations_.v[lane] = 0;
-    work_.stuck = 0, work_.some_slide = false;
-    for (int l = 0; l < W; ++l) {
-      work_.stuck += stuck_[l];
-      work_.some_slide = work_.some_slide || (stuck_[l] == 0 && busy_.v[l] > 0);
-    }
+    holds_.v[lane] = hinges > 0 ? 1 : 0;
+    work_.stuck = 0;
+    for (const int stuck : stuck_) work_.stuck += stuck;
   }
 
   void unload_held(int lane, LaneResult& result, bool moved) const {
@@ -230,7 +228,7 @@ private:
     if (work_.stuck == 0) return next;
     const P from = select(accepted, P(step_.t + step_.h), step_.t);
     const P most = time_of_base(wing_.base, work_.driven, from, P(t_end_ - from));
-    return select(system_.is_any_locked(), smaller(next, most), next);
+    return select(holds_ > P(0.0), smaller(next, most), next);
   }
 
   /// @return the lanes that need their runs: see lane_protocol.hpp
@@ -301,7 +299,7 @@ private:
       held_before_[i] = select(these, held_at_end_[i], held_before_[i]);
       excess_before_[i] = select(these, excess_at_end_[i], excess_before_[i]);
     }
-    const P made = select(these && system_.is_any_locked(), P(1.0), P(0.0));
+    const P made = select(these, holds_, P(0.0));
     held_evaluations_ = held_evaluations_ + made;
     evaluations_before_ = evaluations_before_ + made;
   }
@@ -421,6 +419,7 @@ private:
   std::vector<P> held_by_method_; ///< at the end, before momenta are restored
   HeldLoadBound<P> held_;
   std::array<int, W> stuck_{}; ///< hinges that stick in each lane
+  P holds_;                    ///< 1 where hinges stick in the lane, else 0
   P held_evaluations_;         ///< made at the ends of steps with stuck hinges since `load`
   std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1: edge above the angle; −1: below
   std::vector<Lever<double>> levers_of_wing_;       ///< scratch
