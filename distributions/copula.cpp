@@ -40,9 +40,10 @@ double spearman_correlation(double normal_r) {
 Matrix normal_correlations(std::size_t count, std::span<const RankCorrelation> correlations) {
   const auto size = static_cast<Eigen::Index>(count);
   Matrix matrix = Matrix::Identity(size, size);
-  for (const auto& [first, second, spearman] : correlations) {
-    const auto i = static_cast<Eigen::Index>(first), j = static_cast<Eigen::Index>(second);
-    matrix(i, j) = matrix(j, i) = normal_correlation(spearman);
+  for (const RankCorrelation& pair : correlations) {
+    const auto i = static_cast<Eigen::Index>(pair.first),
+               j = static_cast<Eigen::Index>(pair.second);
+    matrix(i, j) = matrix(j, i) = normal_correlation(pair.spearman);
   }
   return matrix;
 }

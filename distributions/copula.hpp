@@ -28,7 +28,8 @@ namespace wingspread {
 /// ρ of two dispersions, by their indices. Pairs that are not named are independent.
 struct RankCorrelation {
   std::size_t first = 0, second = 0;
-  double spearman = 0; ///< ρ, > −1 and < 1
+  double spearman = 0;                ///< ρ, > −1 and < 1
+  std::optional<double> covariance{}; ///< of two normal laws, if ρ was given by it
 };
 
 [[nodiscard]] double normal_correlation(double spearman);   ///< (1)

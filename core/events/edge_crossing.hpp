@@ -1,5 +1,5 @@
 /// Where real hinges pass the angles at which their laws change: a stop's contact, a damper's window, either side of
-/// a latch's backlash.
+/// a latch's backlash, the latched angle of a latch with dissipation.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -15,7 +15,7 @@ template <class AnySystem, class Visit> void for_each_edge(const AnySystem& syst
   for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
     for (int e = 0; e < edges_of_hinge; ++e) {
       const Edge edge = static_cast<Edge>(e);
-      if (has_edge(wing, i, edge, system.latch_acts(i))) visit(i, edge);
+      if (has_edge(wing, i, edge, system.work().engaged[i] != 0)) visit(i, edge);
     }
 }
 

@@ -65,12 +65,14 @@ public:
   /// Engages, at the start of a step, hinge `due` (0: none) and every latch that engages simultaneously.
   /// @param latches to which the engagements are appended
   /// @return whether any latch engaged
-  bool engage_those_there(int due, const Step<T>& step, std::vector<LatchEvent>& latches) {
+  bool engage_those_there(int due, Step<T>& step, std::vector<LatchEvent>& latches) {
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
       if (!may_engage(i)) continue;
       if (i != due && !engages_at(step.t, gap(step.x, i), gap_rate(step.x, i))) continue;
       system_.engage(i);
+      if (system_.has_edge_at_latch(i)) // exactly there, where settle_edges decides its side
+        step.x[at_.angle(i)] = system_.wing().hinges[i].latched;
       --left_;
       latches.push_back(latch_event(system_.wing(), at_, step.x, step.t, i));
       any = true;

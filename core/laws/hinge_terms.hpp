@@ -24,6 +24,7 @@ template <class T> struct HingeTerms {
   bool has_latch;
   T stiffness; ///< k of the engaged latch, N·m/rad
   T damping;   ///< d of the engaged latch, N·m·s/rad
+  T dissipation; ///< k c of the engaged latch, N·m·s/rad²; with an event latch a law of real_hinge.hpp
 
   /// Whether the friction is exact, so that the hinge can stick.
   [[nodiscard]] bool can_stick() const { return static_friction + more_exact > T(0); }
@@ -68,6 +69,7 @@ template <class T> void set_hinge(HingeTerms<T>& terms, const Hinge& hinge) {
   terms.has_latch = hinge.latch.has_value();
   terms.stiffness = T(hinge.latch ? hinge.latch->stiffness : 0);
   terms.damping = T(hinge.latch ? hinge.latch->damping : 0);
+  terms.dissipation = terms.stiffness * T(hinge.latch ? hinge.latch->dissipation.value_or(0) : 0);
 }
 
 } // namespace detail

@@ -1,10 +1,11 @@
 /// The list of laws that a hinge may have beyond linear_law.hpp, regularized friction and smoothed latch.
 ///
-///     M = w_s S(φ) + w_h H(φ) − σ f F(φ) + [damper acts] damper(φ̇) + [in contact] stop(φ, φ̇)      (1)
+///     M = w_s S(φ) + w_h H(φ) − σ f F(φ) + [damper acts] damper(φ̇) + [in contact] stop(φ, φ̇)
+///         + [latch bears] dissipation(φ, φ̇)                                                     (1)
 ///
-/// with spring and harness by tables (curve_torque.hpp), measured friction (friction.hpp), a damper (damper.hpp)
-/// and a stop (stop.hpp). Whether the damper acts and the stop is in contact are modes of the run, which change
-/// at events: inside a step every law is smooth.
+/// with spring and harness by tables (curve_torque.hpp), measured friction (friction.hpp), a damper (damper.hpp), a
+/// stop (stop.hpp) and a latch's dissipation (latch_dissipation.hpp). Whether the damper acts, the stop is in contact
+/// and the latch bears are modes of the run, which change at events: inside a step every law is smooth.
 ///
 /// To add a law: README.md.
 #pragma once
@@ -13,6 +14,7 @@
 #include "core/laws/damper.hpp"
 #include "core/laws/friction.hpp"
 #include "core/laws/hinge_law.hpp"
+#include "core/laws/latch_dissipation.hpp"
 #include "core/laws/stop.hpp"
 #include "core/scene/scene.hpp"
 
@@ -23,6 +25,7 @@ template <class T> struct HingeMode {
   T in_contact;  ///< 1 while the stop is in contact, else 0
   T damper_acts; ///< 1 or 0
   T sliding;     ///< σ of exact friction: −1, 0, 1
+  T bears;       ///< side on which the engaged latch bears: −1, 1; 0: on none
 };
 
 template <class T> struct RealHingeTerms {
@@ -33,6 +36,10 @@ template <class T> struct RealHingeTerms {
   T window_low, window_high; ///< angles between which the damper acts, rad
   StopTerms<T> stop;
   T half_backlash; ///< β/2 of the latch, rad
+  LatchDissipationTerms<T> dissipation;
+
+  /// Whether the latch's law changes at the latched angle, or at the ends of its backlash.
+  [[nodiscard]] bool has_latch_edge() const { return has_backlash || dissipation.present; }
 };
 
 /// Calls visit(law) for each law that the hinge has, in the order of (1). A new law is a line here.
@@ -44,12 +51,13 @@ void for_each_law(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, Visi
   if (hinge.friction.level) offer(MeasuredFriction<T>{hinge.friction, mode.sliding});
   if (hinge.has_damper) offer(HingeDamper<T>{hinge.damper, mode.damper_acts});
   if (hinge.stop.present) offer(HingeStop<T>{hinge.stop, mode.in_contact});
+  if (hinge.dissipation.present) offer(LatchDissipation<T>{hinge.dissipation, mode.bears});
 }
 
 /// Whether a hinge has any of the laws, or a latch with backlash.
 [[nodiscard]] inline bool is_real(const Hinge& hinge) {
   return hinge.spring.table || hinge.harness.table || hinge.damper || hinge.stop ||
-         (hinge.latch && hinge.latch->backlash > 0);
+         (hinge.latch && (hinge.latch->backlash > 0 || hinge.latch->dissipation));
 }
 
 /// (1), N·m.
@@ -101,7 +109,7 @@ template <class T>
 [[nodiscard]] T real_potential(const RealHingeTerms<T>& hinge, const T& latched, const T& angle,
                                const T& in_contact) {
   T P(0);
-  const HingeMode<T> mode{in_contact, T(0), T(0)};
+  const HingeMode<T> mode{in_contact, T(0), T(0), T(0)};
   for_each_law(hinge, mode, [&](const auto& law) { law.add_potential(P, latched, angle); });
   return P;
 }
@@ -168,6 +176,7 @@ template <class T>
                   fused(-sense, T(hinge.stop->gap), T(hinge.stowed))};
   terms.has_backlash = hinge.latch && hinge.latch->backlash > 0;
   if (hinge.latch) terms.half_backlash = T(0.5) * T(hinge.latch->backlash);
+  terms.dissipation = dissipation_terms<T>(hinge);
   return terms;
 }
 

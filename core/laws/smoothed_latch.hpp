@@ -6,8 +6,9 @@
 /// | h(u)   | smooth step, 0 … 1: u²(3 − 2u) over u ∈ [0, 1]     |      |
 /// | S      | the latch's own state, Ṡ = f = h(s y/ε)            | s    |
 /// | ε      | width: of f in rad, of the weight in S in s        |      |
+/// | k, d, c | the latch's stiffness, and its damping or dissipation | N·m/rad, N·m·s/rad, s/rad |
 ///
-///     M = −h(S/ε) (k y + d φ̇)        [Yudintsev]        (1)
+///     M = −h(S/ε) (k y + d φ̇ + k c |y| φ̇)        [Yudintsev; c: latch_dissipation.hpp]        (1)
 #pragma once
 
 #include "core/laws/hinge_terms.hpp"
@@ -28,23 +29,34 @@ template <class T>
   return smooth_step(hinge.sense * (angle - hinge.latched) / epsilon);
 }
 
+/// d + k c |y|: the damping at full weight, N·m·s/rad.
+template <class T>
+[[nodiscard, gnu::always_inline]] inline T smoothed_latch_damping(const HingeTerms<T>& hinge,
+                                                                  const T& angle) {
+  using std::abs;
+  return fused(hinge.dissipation, T(abs(angle - hinge.latched)), hinge.damping);
+}
+
 /// (1) in state S, N·m.
 template <class T>
 [[nodiscard, gnu::always_inline]] inline T smoothed_latch_moment(const HingeTerms<T>& hinge,
                                                                  const T& angle, const T& rate,
                                                                  const T& S, const T& epsilon) {
-  const T full = -fused(hinge.damping, rate, hinge.stiffness * (angle - hinge.latched));
+  const T full =
+      -fused(smoothed_latch_damping(hinge, angle), rate, hinge.stiffness * (angle - hinge.latched));
   return smooth_step(S / epsilon) * full;
 }
 
-/// k y + d φ̇ over a step, as a polynomial of time: its hull bounds |M|, for h ≤ 1.
+/// A bound of |(1)| over a step, by h ≤ 1 and the hull of k y + d φ̇ as a polynomial of time, N·m.
 template <class T>
-[[nodiscard]] Quintic<T> full_latch_load(const HingeTerms<T>& hinge, const Quintic<T>& angle,
-                                         const Quintic<T>& rate) {
-  Quintic<T> load;
-  for (int k = 0; k < 6; ++k)
-    load[k] = fused(hinge.stiffness, angle[k] - hinge.latched, hinge.damping * rate[k]);
-  return load;
+[[nodiscard]] T most_of_smoothed_latch(const HingeTerms<T>& hinge, const Quintic<T>& angle,
+                                       const Quintic<T>& rate) {
+  Quintic<T> load, y;
+  for (int k = 0; k < 6; ++k) {
+    y[k] = angle[k] - hinge.latched;
+    load[k] = fused(hinge.stiffness, y[k], hinge.damping * rate[k]);
+  }
+  return fused(hinge.dissipation * bound(y), bound(rate), bound(load));
 }
 
 /// ½ k y², the energy that the latch stores at full weight, J.

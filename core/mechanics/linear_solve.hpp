@@ -43,7 +43,7 @@ template <class T, class Topology, BaseMotion M>
     r.damping = r.damping + regularized_friction_damping(hinge, x[at.rate(i)]);
   if (at.smoothed && hinge.has_latch) {
     const T weight = smooth_step(x[at.latch(i)] / system.epsilon());
-    r.damping = fused(weight, hinge.damping, r.damping);
+    r.damping = fused(weight, smoothed_latch_damping(hinge, x[at.angle(i)]), r.damping);
     r.stiffness = fused(weight, hinge.stiffness, r.stiffness);
   }
   if (!system.wing().real.empty()) {

@@ -29,7 +29,7 @@ public:
     work_.laws.resize(n + 1);
     work_.nonlinear.resize(n + 1);
     work_.crossings.resize(n + 1);
-    work_.modes.assign(wing_.real.size(), {T(0), T(0), T(0)});
+    work_.modes.assign(wing_.real.size(), {T(0), T(0), T(0), T(0)});
     work_.above.assign(wing_.real.size(), {});
     work_.air_moments.assign(wing_.plates.size(), T(0));
     work_.air_forces.assign(wing_.plates.size(), {T(0), T(0)});
@@ -106,6 +106,11 @@ public:
       work_.above[i][static_cast<int>(Edge::backlash_high)] = false;
     }
     update_law(i);
+  }
+
+  /// Whether the law of hinge i's latch changes where it engages.
+  [[nodiscard]] bool has_edge_at_latch(int i) const {
+    return !wing_.real.empty() && wing_.real[i].has_latch_edge() && !wing_.real[i].has_backlash;
   }
 
   /// Sets the state of the exact friction of hinge i.
@@ -232,7 +237,8 @@ private:
                        : contact == Contact::backward ? wing_.hinges[i].kinetic_friction
                                                       : T(0);
     if constexpr (is_one_number<T>)
-      if (!wing_.real.empty()) work_.modes[i] = mode_of(wing_, i, work_.above[i], contact);
+      if (!wing_.real.empty())
+        work_.modes[i] = mode_of(wing_, i, work_.above[i], contact, latch_acts(i));
     work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction, backlash_side(i));
   }
 

@@ -18,8 +18,8 @@ enum class Edge : signed char {
   stop,       ///< contact begins
   window_low, ///< of the damper
   window_high,
-  backlash_low, ///< of an engaged latch
-  backlash_high
+  backlash_low, ///< of an engaged latch with backlash
+  backlash_high ///< or, without backlash, the latched angle of a latch with dissipation
 };
 inline constexpr int edges_of_hinge = 5;
 

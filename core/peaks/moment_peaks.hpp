@@ -28,16 +28,14 @@ public:
         latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
         smoothed_(system.layout().smoothed && hinge_.has_latch), angle_(angle_of(i)),
         rate_(derivative(angle_, step.h)),
-        linear_(linear_moment(system.work().laws[i], angle_, rate_)) {
-    if (smoothed_) latch_ = full_latch_load(hinge_, angle_, rate_);
-  }
+        linear_(linear_moment(system.work().laws[i], angle_, rate_)) {}
 
   /// Upper bound of |moment| in the step, by the laws' ranges.
   [[nodiscard]] T most() const {
     ValueRange<T> range = hull(linear_) + regularized_friction_range(hinge_, hull(rate_));
     if (system_.wing().is_real()) range = range + range_of_real();
     const T linear = larger(range.high, T(-range.low));
-    return smoothed_ ? linear + bound(latch_) : linear;
+    return smoothed_ ? linear + most_of_smoothed_latch(hinge_, angle_, rate_) : linear;
   }
 
   /// A range of the real hinge's laws and the loops, N·m.
@@ -84,7 +82,9 @@ public:
     T m = value(linear_, s);
     if (any(hinge_.regularized_friction > T(0)))
       m = m + regularized_friction_moment(hinge_, value(rate_, s));
-    if (smoothed_) m = m - smooth_step(step_.cubic(latch_state_, s) / epsilon_) * value(latch_, s);
+    if (smoothed_)
+      m = m + smoothed_latch_moment(hinge_, value(angle_, s), value(rate_, s),
+                                    step_.cubic(latch_state_, s), epsilon_);
     if (!system_.wing().is_real()) return m;
     if (!system_.wing().real.empty())
       m = m + real_moment(system_.wing().real[i_], system_.work().modes[i_], value(angle_, s),
@@ -114,7 +114,7 @@ private:
   int latch_state_;
   T epsilon_;
   bool smoothed_;
-  Quintic<T> angle_, rate_, linear_, latch_;
+  Quintic<T> angle_, rate_, linear_;
 };
 
 /// Raises `peak` to the largest |moment| that the dense output has over the step: samples the step, and refines

@@ -80,7 +80,7 @@ private:
       moment(i) = sqrt(T(2) * energy * fused(damping * damping, sigma, remaining.stiffness(i))) +
                   wing.hinges[i].most_friction() + remaining.steady(i);
     }
-    if (wing.is_real()) add_real(wing, energy);
+    if (wing.is_real()) add_real(system, remaining, energy);
     for (int i = 1; i < moment.size(); ++i) {
       const int p = system.topology().parent_of(i);
       net_(i) = net_(i) + moment(i);
@@ -88,13 +88,20 @@ private:
     }
   }
 
-  /// Adds what dampers and loops may exert at the largest rates. The energy of a loop bounds its
-  /// torque, with a slack strand too: (K e)² ≤ 2 K E.
-  void add_real(const Wing<T>& wing, const T& energy) {
-    using std::sqrt;
-    for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
-      if (wing.real[i].has_damper)
-        moment(i) = moment(i) + most_of_damper(wing.real[i].damper, T(rate_(i)));
+  /// Adds what dampers and loops may exert at the largest rates, and dissipating latches at the largest deflection too.
+  /// The energy of a loop bounds its torque, with a slack strand too: (K e)² ≤ 2 K E.
+  template <class AnySystem>
+  void add_real(const AnySystem& system, const RemainingEnergy<T>& remaining, const T& energy) {
+    using std::abs, std::sqrt;
+    const Wing<T>& wing = system.wing();
+    for (int i = 1; i < static_cast<int>(wing.real.size()); ++i) {
+      const RealHingeTerms<T>& real = wing.real[i];
+      if (real.has_damper) moment(i) = moment(i) + most_of_damper(real.damper, T(rate_(i)));
+      if (!real.dissipation.present) continue;
+      const T at_rest = remaining.rest()[system.layout().angle(i)] - real.dissipation.latched;
+      const T deflection = T(abs(at_rest)) + remaining.furthest(i, energy);
+      moment(i) = moment(i) + real.dissipation.strength * deflection * rate_(i);
+    }
     for (const LoopTerms<T>& loop : wing.loops) {
       const T gear = largest_gear(loop);
       const T torque = sqrt(T(2) * loop.stiffness * energy) +

@@ -63,6 +63,7 @@ public:
     weigh();
     find_rest();
     take_damping(rates);
+    take_dissipation();
     take_loops();
     find_masses();
     find_levers();
@@ -202,6 +203,17 @@ private:
       if (left.damper->law == DamperLaw::power)
         left.tuned_for = std::max(std::abs(rates[i - 1]), left.damper->rate);
       own += left.taken;
+    }
+  }
+
+  /// A latch that damps by k c |e| has k c |e*| of it at rest. Off rest | |e* + u| − |e*| | ≤ |u|, on either side of e = 0:
+  /// f is at most k c |u| |v|.
+  void take_dissipation() {
+    for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i) {
+      const LatchDissipationTerms<double>& latch = wing_.real[i].dissipation;
+      if (!latch.present) continue;
+      m_.damping(i - 1, i - 1) += latch.strength * std::abs(m_.angles(i - 1) - latch.latched);
+      m_.remainders[i - 1].dissipation = latch.strength;
     }
   }
 
@@ -380,7 +392,7 @@ HingeVector RestModel::bound_remainders(const HingeVector& u, const HingeVector&
   HingeVector f(size());
   for (int i = 0; i < size(); ++i) {
     const Remainder& left = remainders[i];
-    f(i) = left.steady + left.bend * u(i);
+    f(i) = left.steady + (left.bend + left.dissipation * v(i)) * u(i);
     if (left.damper) f(i) += beyond_linear(*left.damper, left.taken, v(i));
   }
   for (const Loop& loop : loops) {

@@ -57,10 +57,11 @@ struct RestModel {
     double cosine, sine;     ///< |c|, |s|
   };
 
-  /// |f| ≤ steady + bend |u| + what the damper exerts beyond its part of C.
+  /// |f| ≤ steady + (bend + dissipation |v|) |u| + what the damper exerts beyond its part of C.
   struct Remainder {
-    double steady = 0; ///< N·m
-    double bend = 0;   ///< N·m/rad
+    double steady = 0;      ///< N·m
+    double bend = 0;        ///< N·m/rad
+    double dissipation = 0; ///< k c of a latch, N·m·s/rad²
     std::optional<DamperTerms<double>> damper;
     double taken = 0;     ///< its part of C, N·m·s/rad
     double tuned_for = 0; ///< the rate at which `taken` is exact, rad/s; 0: at any

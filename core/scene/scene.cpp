@@ -103,6 +103,10 @@ void inspect(const Latch& latch, const Owner& owner, Inspector& check) {
   check.require(latch.stiffness >= 0, latch.stiffness, owner, "latch.stiffness", ">= 0");
   check.require(latch.damping >= 0, latch.damping, owner, "latch.damping", ">= 0");
   check.require(latch.backlash >= 0, latch.backlash, owner, "latch.backlash", ">= 0");
+  if (!latch.dissipation) return;
+  check.require(*latch.dissipation >= 0, *latch.dissipation, owner, "latch.dissipation", ">= 0");
+  check.require(latch.damping == 0, latch.damping, owner, "latch.damping",
+                "0 beside latch.dissipation");
 }
 
 void inspect(const Hinge& hinge, Inspector& check) {

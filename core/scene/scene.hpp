@@ -110,6 +110,8 @@ struct Latch {
   double stiffness = 0; ///< k, N·m/rad, ≥ 0
   double damping = 0;   ///< d, N·m·s/rad, ≥ 0
   double backlash = 0;  ///< β, rad, ≥ 0: no moment within ±β/2 of the latched angle
+  /// c, s/rad, ≥ 0, in place of `damping`: damps by k c |deflection|, so that the moment has no jump at engagement.
+  std::optional<double> dissipation{};
 };
 
 inline constexpr int base_index = -1; ///< `Hinge::parent` of a hinge on the base

@@ -12,7 +12,6 @@ measure() by its times and angles.
 
 import argparse
 import sys
-import warnings
 
 import numpy as np
 from scipy import integrate, optimize, stats
@@ -66,14 +65,13 @@ def campaign(torques, covariance, runs, correlated=True):
     flight = {**RIG, "hinges": [{**RIG["hinges"][0], "latch": {"stiffness": 1e4, "damping": 100}}]}
     sigma = np.sqrt(np.diag(covariance))
     pearson = covariance[0, 1] / (sigma[0] * sigma[1])
-    spearman = 6 / np.pi * np.arcsin(pearson / 2)  # of a bivariate normal distribution
     made = {"scene": flight,
             "dispersions": [{"name": name, "apply": "set", "to": [path],
                              "distribution": {"type": "normal", "mean": mean, "std": std}}
                             for name, path, mean, std in zip(("stowed", "latched"), PATHS, torques, sigma)],
             "sampling": {"runs": runs, "seed": 1}, "outputs": ["latch_time", "latch_rate"]}
     if correlated:
-        made["correlations"] = [{"between": ["stowed", "latched"], "spearman": spearman}]
+        made["correlations"] = [{"between": ["stowed", "latched"], "covariance": covariance[0, 1]}]
     return made, pearson
 
 
@@ -101,7 +99,6 @@ The film knows the torque at the start to {relative[0]:.1f} % and that at the en
 first, and so spends most of the film there. Their errors are correlated by {pearson:.2f}, for a spring that is stronger
 at first and weaker later comes as far in the same time.""")
 
-    warnings.simplefilter("ignore", wingspread.Notice)  # that a correlation is for what is measured together: it is
     runs = wingspread.run(made)
     alone = wingspread.run(campaign(torques, covariance, options.runs, correlated=False)[0])
     print(f"\nIn flight, {runs.size} runs: by the fit's covariance and, wrongly, by its standard deviations alone")

@@ -241,7 +241,10 @@ template <class Scalar>
 [[nodiscard]] Scalar latch_moment(const Latch& latch, const Scalar& y, const Scalar& rate) {
   using std::abs;
   if (latch.backlash > 0 && abs(y) <= Scalar(latch.backlash) / 2) return Scalar(0);
-  return -Scalar(latch.stiffness) * latch_strain(latch, y) - Scalar(latch.damping) * rate;
+  const Scalar strain = latch_strain(latch, y), elastic = -Scalar(latch.stiffness) * strain;
+  if (!latch.dissipation) return elastic - Scalar(latch.damping) * rate;
+  const Scalar beyond = strain < 0 ? Scalar(-rate) : rate; // Hunt & Crossley's factor, both ways
+  return elastic * (1 + Scalar(*latch.dissipation) * beyond);
 }
 template <class Scalar> [[nodiscard]] Scalar latch_energy(const Latch& latch, const Scalar& y) {
   const Scalar strain = latch_strain(latch, y);

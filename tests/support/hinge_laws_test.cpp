@@ -99,6 +99,10 @@ TEST_CASE("the oracle's dampers, stop, latch and loop by hand") {
   CHECK(latch_moment(latch, 0.15, 1.0) == Approx(-7));
   CHECK(latch_moment(latch, -0.15, 1.0) == Approx(3));
   CHECK(latch_energy(latch, -0.15) == Approx(0.125));
+  const Latch soft{100, 0, 0.2, 3};
+  CHECK(latch_moment(soft, 0.05, 1.0) == 0);
+  CHECK(latch_moment(soft, 0.15, 1.0) == Approx(-20));
+  CHECK(latch_moment(soft, -0.15, 1.0) == Approx(-10)); // ½ k's 5 back, 15 against the rate
 
   Synchronisation cable;
   cable.ratio = 2, cable.stiffness = 10, cable.damping = 1, cable.preload = 1;
@@ -149,7 +153,7 @@ TEST_CASE("conservative features keep the energy of the dense wing, and dissipat
     Scene keeping = taking;
     for (Hinge& hinge : keeping.hinges) {
       if (hinge.stop) hinge.stop->dissipation = 0;
-      if (hinge.latch) hinge.latch->damping = 0;
+      if (hinge.latch) hinge.latch->damping = 0, hinge.latch->dissipation.reset();
     }
     for (Synchronisation& loop : keeping.synchronisations) loop.damping = 0;
     const WingState<Quad> state = random_state(seed, keeping).cast<Quad>();

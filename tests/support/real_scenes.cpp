@@ -158,9 +158,12 @@ void draw_loops(Scene& scene, const RealFeatures& features, Draws& draws) {
 } // namespace
 
 Scene with_real_hinges(Scene scene, std::uint64_t seed, const RealFeatures& features) {
-  Draws draws(seed);
+  Draws draws(seed), of_latches(seed + 9000);
   scene.name += "_with_real_hinges_" + std::to_string(seed);
   for (Hinge& hinge : scene.hinges) draw_hinge(hinge, features, draws);
+  for (Hinge& hinge : scene.hinges)
+    if (hinge.latch && features.dissipation && of_latches.chance(0.5))
+      hinge.latch->damping = 0, hinge.latch->dissipation = of_latches.log_uniform(0.1, 5);
   if (features.loops) draw_loops(scene, features, draws);
   if (features.gravity && draws.chance(0.5)) scene.environment.gravity = draws.vector(10);
   if (!features.air || !draws.chance(0.5)) return scene;

@@ -17,6 +17,7 @@ struct RealFeatures {
   bool dampers = true, windows = true;
   bool stops = true, backlash = true, loops = true, preloads = true;
   bool gravity = true, air = true;
+  bool dissipation = true; ///< of latches, in place of their damping
   /// Stiffnesses of stops and loops, N·m/rad, log-uniform. Latches have their own.
   double softest = 1e1, stiffest = 1e4;
 };

@@ -61,6 +61,40 @@ read_pair(const JsonCursor& at, const std::vector<Dispersion>* dispersions) {
   return std::nullopt;
 }
 
+/// The coefficient of two normal laws with this covariance; nothing, with a problem, if there is none.
+std::optional<double> spearman_of(const JsonCursor& at, double covariance, const Dispersion& first,
+                                  const Dispersion& second) {
+  const auto std_of = [](const Dispersion& dispersion) {
+    const Normal* law = std::get_if<Normal>(&dispersion.distribution.law);
+    return law && !dispersion.distribution.truncate ? law->std : 0.0;
+  };
+  const double largest = std_of(first) * std_of(second);
+  if (largest == 0)
+    at.refuse("\"spearman\": a covariance is that of two normal laws without truncation");
+  else if (!(std::abs(covariance) < largest))
+    at.refuse(
+        fmt::format("a magnitude below {:.6g}, the product of both standard deviations", largest));
+  else
+    return spearman_correlation(covariance / largest);
+  return std::nullopt;
+}
+
+/// Reads a covariance, and a coefficient beside it if there is one. @return whether there was no problem
+bool read_covariance(const JsonCursor& at, JsonObject& object,
+                     const std::vector<Dispersion>* dispersions, RankCorrelation& correlation) {
+  double covariance = 0, given = 0;
+  const auto coefficient = object.find("spearman");
+  if (!at.read(covariance, "a number, the covariance of both draws") || !dispersions) return false;
+  const auto found = spearman_of(at, covariance, (*dispersions)[correlation.first],
+                                 (*dispersions)[correlation.second]);
+  if (!found) return false;
+  if (coefficient && coefficient->read(given, "a number, > -1 and < 1") &&
+      std::abs(given - *found) > 0.01) // a rounded coefficient
+    return coefficient->refuse(fmt::format("{:.4f}, by the covariance, or none beside it", *found));
+  correlation.spearman = *found, correlation.covariance = covariance;
+  return true;
+}
+
 /// Reads one correlation; nothing if it noted a problem.
 std::optional<RankCorrelation> read_correlation(const JsonCursor& at,
                                                 const std::vector<Dispersion>* dispersions) {
@@ -69,12 +103,14 @@ std::optional<RankCorrelation> read_correlation(const JsonCursor& at,
   std::optional<std::pair<std::size_t, std::size_t>> pair;
   if (const auto between = object.require("between", expected_pair))
     pair = read_pair(*between, dispersions);
+  if (pair) std::tie(correlation.first, correlation.second) = *pair;
+  const auto covariance = object.find("covariance");
   const bool sound =
-      object.required("spearman", correlation.spearman, "a number, > -1 and < 1", is_inside);
+      covariance
+          ? read_covariance(*covariance, object, pair ? dispersions : nullptr, correlation)
+          : object.required("spearman", correlation.spearman, "a number, > -1 and < 1", is_inside);
   object.refuse_others();
-  if (!pair || !sound) return std::nullopt;
-  std::tie(correlation.first, correlation.second) = *pair;
-  return correlation;
+  return pair && sound ? std::optional(correlation) : std::nullopt;
 }
 
 double rounded(double coefficient) { return std::round(coefficient / unit) * unit; }
@@ -134,9 +170,10 @@ std::vector<RankCorrelation> read_wanted_correlations(const JsonCursor& at,
 Json write_wanted_correlations(const std::vector<RankCorrelation>& correlations,
                                const std::vector<Dispersion>& dispersions) {
   Json json = Json::array();
-  for (const auto& [first, second, spearman] : correlations)
-    json.push_back(
-        {{"between", {dispersions[first].name, dispersions[second].name}}, {"spearman", spearman}});
+  for (const auto& [first, second, spearman, covariance] : correlations) {
+    json.push_back({{"between", {dispersions[first].name, dispersions[second].name}}});
+    json.back()[covariance ? "covariance" : "spearman"] = covariance.value_or(spearman);
+  }
   return json;
 }
 

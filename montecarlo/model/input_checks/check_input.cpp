@@ -3,6 +3,7 @@
 #include "montecarlo/foundation/formats/json_parse.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/clearance_check.hpp"
+#include "montecarlo/model/input_checks/damper_check.hpp"
 #include "montecarlo/model/input_checks/dispersion_checks.hpp"
 #include "montecarlo/model/input_checks/shape_checks.hpp"
 #include "montecarlo/model/input_checks/size_checks.hpp"
@@ -20,7 +21,9 @@ Outcome check_scene(const Scene& scene, const Integration& integration, InputWar
   check_sizes(scene, warnings);
   check_torques(scene, warnings);
   check_shape(scene, warnings);
-  return check_clearance(scene, integration, warnings);
+  Outcome nominal = check_clearance(scene, integration, warnings);
+  check_dampers(scene, integration, nominal, warnings);
+  return nominal;
 }
 
 /// Warns of the first torque problem of each case that the nominal wing does not have.

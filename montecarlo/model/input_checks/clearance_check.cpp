@@ -76,16 +76,21 @@ private:
 
 } // namespace
 
-Outcome check_clearance(const Scene& scene, const Integration& integration,
-                        InputWarnings& warnings) {
+Outcome deployment_alone(const Scene& scene, const Integration& integration,
+                         const Observer& observer) {
   Integration how = integration;
   const long bodies = std::max<long>(1, std::ssize(scene.bodies));
   how.max_steps = std::min({how.max_steps, most_steps, most_evaluations / bodies});
   Goal goal;
   goal.peak_moment = goal.peak_force = goal.audit = false;
+  return Deployment().run(scene, how, goal, observer);
+}
+
+Outcome check_clearance(const Scene& scene, const Integration& integration,
+                        InputWarnings& warnings) {
   ClearanceWatch watch(scene);
   Outcome outcome =
-      Deployment().run(scene, how, goal, [&](const Sample& sample) { watch.add_sample(sample); });
+      deployment_alone(scene, integration, [&](const Sample& sample) { watch.add_sample(sample); });
   watch.warn(warnings);
   return outcome;
 }

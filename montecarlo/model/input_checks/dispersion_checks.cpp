@@ -20,6 +20,9 @@ constexpr double widest_angle =
     0.1;                   // rad: between a hinge's tolerance and a degree taken for a radian
 constexpr double far = 30; // of a value set and the nominal value; inches for metres: 39
 constexpr double least_probability = 1e-9;
+constexpr double most_beyond = 0.05;     // share of the draws beyond the ends of a table
+constexpr double most_mean_added = 0.25; // of the nominal value
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
 constexpr double one_cause = 0.8, several_causes = 0.5; // Spearman's coefficients
 
 /// The numbers of a law that the rules compare.
@@ -95,7 +98,8 @@ private:
   [[nodiscard]] bool large_add() const {
     const double size = size_of(scene_, parameter_, target_);
     if (apply_ != Apply::add || size == 0 || target_.is_angle()) return false;
-    if (std::abs(spread_.mean) <= 0.5 * size && spread_.furthest() <= size) return false;
+    if (std::abs(spread_.mean) <= most_mean_added * size && spread_.furthest() <= size)
+      return false;
     return warn(fmt::format("{} on average, up to {}, added to {}, {}", target_.text(spread_.mean),
                             target_.text(spread_.furthest()), target_.path,
                             target_.text(target_.nominal)),
@@ -106,10 +110,22 @@ private:
     const double size = std::abs(target_.nominal);
     if (apply_ != Apply::set || size == 0 || target_.is_angle()) return false;
     const double ratio = spread_.median / target_.nominal;
-    if (ratio > 1 / far && ratio < far) return false;
+    if (ratio > 1 / far && ratio < far) return sets_factor();
     return warn(fmt::format("a median of {} for {}, nominally {}", target_.text(spread_.median),
                             target_.path, target_.text(target_.nominal)),
                 fmt::format("a median of 1/{0} to {0} times the nominal value", far));
+  }
+
+  /// Warns of draws about 1 that replace a nominal factor other than 1, or a nominal value far from all draws.
+  [[nodiscard]] bool sets_factor() const {
+    const bool is_factor = target_.path.ends_with(".scale");
+    const double from_1 = std::abs(spread_.median - 1);
+    const double from_nominal = std::abs(spread_.median - target_.nominal);
+    const bool about_1 = from_1 < 0.02 && from_nominal > 3 * spread_.half_width();
+    if (is_factor ? from_1 >= from_nominal : !about_1) return false;
+    return warn(fmt::format("a median of {:.4g} that replaces {}, nominally {}", spread_.median,
+                            target_.path, target_.text(target_.nominal)),
+                "draws about the nominal value (\"scale\" multiplies it by draws about 1)");
   }
 
   [[nodiscard]] bool wide_angle() const {
@@ -172,17 +188,34 @@ std::string place_of(const Json& resolved, const std::string& name) {
   return "/dispersions";
 }
 
-/// Warns of tables with half of the draws beyond one end: they all get the value at that end.
+/// Warns of tables with many draws beyond their ends: these all get the value at an end.
+/// @param place of the tables, and of the law
 void check_through(const Dispersion& dispersion, const Spread& spread, const std::string& place,
-                   InputWarnings& warnings) {
+                   const std::string& law, InputWarnings& warnings) {
   for (std::size_t k = 0; k < dispersion.through.size(); ++k) {
     const std::vector<double>& at = dispersion.through[k].table.knots();
-    if (spread.median >= at.front() && spread.median <= at.back()) continue;
-    warnings.add(fmt::format("{}/through/{}/table/at", place, k),
-                 fmt::format("a table from {:.4g} to {:.4g} for draws with the median {:.4g}",
-                             at.front(), at.back(), spread.median),
-                 "a table that covers the draws (it is constant beyond its ends)");
+    const double below = spread.law.cdf(std::nextafter(at.front(), -HUGE_VAL));
+    const double beyond = below + spread.law.cdf_complement(at.back());
+    if (beyond <= most_beyond) continue;
+    warnings.add(
+        law.empty() ? fmt::format("{}/through/{}/table/at", place, k) : law,
+        fmt::format(
+            "{:.3g} % of the draws beyond {}'s table from {:.4g} to {:.4g}, with the median {:.4g}",
+            100 * beyond, dispersion.name, at.front(), at.back(), spread.median),
+        fmt::format("a table that covers the draws: it is constant beyond its ends, and at most "
+                    "{:g} % of the "
+                    "draws get the value at an end",
+                    100 * most_beyond));
   }
+}
+
+/// Checks the tables of the laws that a case gives to dispersions.
+void check_case(const Campaign& campaign, std::size_t k, InputWarnings& warnings) {
+  for (const auto& [name, distribution] : campaign.cases[k].distributions)
+    for (const Dispersion& dispersion : campaign.dispersions)
+      if (dispersion.name == name || dispersion.name.starts_with(name + "."))
+        check_through(dispersion, Spread(distribution), "",
+                      fmt::format("/cases/{}/distributions{}", k, pointer_token(name)), warnings);
 }
 
 bool are_named(const std::vector<RankCorrelation>& all, std::size_t a, std::size_t b) {
@@ -193,7 +226,9 @@ bool are_named(const std::vector<RankCorrelation>& all, std::size_t a, std::size
 
 /// Three dispersions that are correlated pairwise; nothing if there are none.
 std::optional<std::array<std::size_t, 3>> common_cause(std::vector<RankCorrelation> all) {
-  std::erase_if(all, [](const auto& each) { return std::abs(each.spearman) < several_causes; });
+  std::erase_if(all, [](const auto& each) {
+    return each.covariance || std::abs(each.spearman) < several_causes;
+  });
   for (const RankCorrelation& pair : all)
     for (const RankCorrelation& other : all)
       if (other.first == pair.first && other.second != pair.second &&
@@ -216,6 +251,19 @@ std::optional<double> nominal_of(const Campaign& campaign, const std::string& ou
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
+/// Whether a limit on an angle or a rate differs from the nominal value by about 57.3, either way. A limit leaves a margin:
+/// up to a factor of 3 on either side. A limit of less than half a degree, or one meant in degrees, is none of these.
+bool looks_converted(double limit, double nominal, const std::string& unit) {
+  constexpr double margin = 3;
+  if (!unit.starts_with("rad") || nominal == 0) return false;
+  const double ratio = std::abs(limit / nominal);
+  const auto is_about = [](double factor, double of) {
+    return factor > of / margin && factor < of * margin;
+  };
+  return (is_about(ratio, degrees_per_radian) && std::abs(limit) >= 0.5) ||
+         is_about(1 / ratio, degrees_per_radian);
+}
+
 void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& nominal,
                        InputWarnings& warnings) {
   const Requirement& own = campaign.requirements[k];
@@ -234,6 +282,12 @@ void check_requirement(const Campaign& campaign, std::size_t k, const Outcome& n
                  fmt::format("a limit of {} {}; the nominal {} is {:.4g} {}", limit, unit,
                              own.output, *value, unit),
                  "a limit on the same side of zero; \"abs\": true limits the magnitude");
+  else if (value && looks_converted(limit, *value, unit))
+    warnings.add(at + key,
+                 fmt::format("a limit of {} {}; the nominal {} is {:.4g} {}", limit, unit,
+                             own.output, *value, unit),
+                 "a limit in SI, near the nominal value (write degrees as \"5 deg\" or \"5 "
+                 "deg/s\": a factor of 57.3)");
   else if (rises)
     warnings.add(at,
                  fmt::format("a limit on {} with a base that turns faster and faster", own.output),
@@ -250,15 +304,16 @@ void check_dispersions(const Campaign& campaign, InputWarnings& warnings) {
     for (const SceneParameter& target : dispersion.targets)
       if (TargetCheck(campaign.scene, target, dispersion.apply, spread, place, warnings).warns())
         break;
-    check_through(dispersion, spread, place, warnings);
+    check_through(dispersion, spread, place, "", warnings);
   }
+  for (std::size_t k = 0; k < campaign.cases.size(); ++k) check_case(campaign, k, warnings);
 }
 
 void check_correlations(const Campaign& campaign, InputWarnings& warnings) {
   const auto& all = campaign.wanted_correlations;
   const auto name = [&](std::size_t which) { return campaign.dispersions[which].name; };
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (std::abs(all[k].spearman) >= one_cause)
+    if (!all[k].covariance && std::abs(all[k].spearman) >= one_cause)
       warnings.add(
           fmt::format("/correlations/{}", k),
           fmt::format("{} of {} and {}", all[k].spearman, name(all[k].first), name(all[k].second)),

@@ -9,21 +9,24 @@ namespace wingspread {
 /// Warns of each dispersion by the first rule that it breaks (an `each` at its first match):
 ///
 /// - scale: the mean is outside 0.5 to 2;
-/// - add: the mean exceeds half the nominal value, or the central 95 % of the draws exceed it (for a coordinate: the
+/// - add: the mean exceeds a quarter of the nominal value, or the central 95 % of the draws exceed it (for a coordinate: the
 ///   length of its vector). A factor meant for "scale" breaks this rule;
-/// - set: the median is more than 30 times the nominal value or less than 1/30 (inches for metres: 39);
+/// - set: the median is more than 30 times the nominal value or less than 1/30 (inches for metres: 39); draws about 1
+///   replace a nominal factor other than 1, or a nominal value that is far from them ("scale" is meant);
 /// - an angle's central 95 % are wider than ±0.1 rad, or an angle is set beyond a turn (degrees for radians);
 /// - with a probability of 1e-9 or more, a draw (the others nominal) changes a spring's sign or makes a physical size
 ///   negative;
-/// - through: half of the draws lie beyond one end of the table.
+/// - through: more than 5 % of the draws lie beyond the ends of the table, in the campaign or in a case.
 void check_dispersions(const Campaign& campaign, InputWarnings& warnings);
 
 /// Warns of correlations of 0.8 and more, and of three dispersions correlated pairwise by 0.5 and more: they probably
-/// have one cause, which `through` draws once.
+/// have one cause, which `through` draws once. Not of those that come with a covariance: what is fitted together is
+/// correlated as the fit left it.
 void check_correlations(const Campaign& campaign, InputWarnings& warnings);
 
 /// Warns of requirements that no run or every run meets: a limit on the other side of zero than the nominal value, a
-/// negative limit of a magnitude, and a limit on a peak while the base's rate grows (no peak is then proven final).
+/// negative limit of a magnitude, a limit on an angle or a rate that is in degrees or has been converted twice (by about
+/// 57.3 from the nominal value), and a limit on a peak while the base's rate grows (no peak is then proven final).
 /// @param nominal the nominal deployment
 void check_requirements(const Campaign& campaign, const Outcome& nominal, InputWarnings& warnings);
 

@@ -171,7 +171,34 @@ std::optional<std::pair<int, int>> Arms::first_crossing(std::span<const Placemen
   return std::nullopt;
 }
 
+namespace {
+
+double travel_of(const Hinge& hinge) { return std::abs(hinge.latched - hinge.stowed); }
+
+/// Checks that a loop lets both of its hinges reach their latches.
+void check_loop(const Scene& scene, std::size_t k, InputWarnings& warnings) {
+  constexpr double most_out_of_step = 0.01; // of the travel. Heuristic: far above rounded ratios
+  const Synchronisation& loop = scene.synchronisations[k];
+  const Hinge &first = scene.hinges[loop.first], &second = scene.hinges[loop.second];
+  if (!first.latch || !second.latch) return;
+  const double given =
+      loop.table ? loop.table->value_at(travel_of(first)) : loop.ratio * travel_of(first);
+  const double needed = travel_of(second);
+  if (std::abs(given - needed) <= most_out_of_step * needed) return;
+  warnings.add(fmt::format("/synchronisations/{}/ratio", k),
+               fmt::format("{:.4g} rad of {} where {} latches, after {:.4g} rad", given,
+                           second.name, first.name, travel_of(first)),
+               fmt::format("{:.4g} rad, where {} latches: else the cable holds one of them back{}",
+                           needed, second.name,
+                           loop.table
+                               ? ""
+                               : fmt::format(" (a ratio of {:.6g})", needed / travel_of(first))));
+}
+
+} // namespace
+
 void check_shape(const Scene& scene, InputWarnings& warnings) {
+  for (std::size_t k = 0; k < scene.synchronisations.size(); ++k) check_loop(scene, k, warnings);
   check_stowed(scene, Arms(scene), warnings);
   for (std::size_t h = 0; h < scene.hinges.size(); ++h) {
     const Hinge& hinge = scene.hinges[h];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace wingspread {
 namespace {
@@ -14,6 +15,7 @@ constexpr double turn = 2 * std::numbers::pi;
 constexpr double most_length = 50; // m
 constexpr double most_ratio = 20;  // of a radius of gyration and a distance, either way
 constexpr double most_play = 0.1;  // a stop's gap or a latch's backlash over the travel
+constexpr double most_base = 1000; // of a free base's mass and that of its bodies, either way
 constexpr const char* usual_angle =
     "an angle within a turn, ±6.28 rad (write degrees as \"90 deg\")";
 
@@ -97,6 +99,57 @@ void check_child(const Scene& scene, std::size_t h, InputWarnings& warnings) {
                              1 / most_ratio, most_ratio));
 }
 
+/// The square of the radius of gyration about the centre of mass of a thin body along a line: L²/12 + |middle|², m².
+double gyration_of_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  return (to - from).squaredNorm() / 12 + (0.5 * (from + to)).squaredNorm();
+}
+
+/// The longest line that is known of the hinge's child: its plate, or from its hinge to one that it carries; nothing if
+/// it has neither.
+std::optional<double> gyration_of_child(const Scene& scene, const Hinge& hinge) {
+  if (const auto& plate = scene.bodies[hinge.child].plate)
+    return gyration_of_line(plate->from, plate->to);
+  std::optional<double> largest;
+  for (const Hinge& next : scene.hinges)
+    if (next.parent == hinge.child)
+      largest =
+          std::max(largest.value_or(0), gyration_of_line(hinge.child_point, next.parent_point));
+  return largest;
+}
+
+/// Checks for an inertia about the hinge, J + m d². A uniform panel has m L²/12 about its centre of mass and four times
+/// as much about a hinge at its edge; twice as much is the middle between the two.
+void check_inertia(const Scene& scene, std::size_t h, InputWarnings& warnings) {
+  const Hinge& hinge = scene.hinges[h];
+  const Body& body = scene.bodies[hinge.child];
+  const std::optional<double> gyration = gyration_of_child(scene, hinge);
+  const double about_hinge = body.mass * hinge.child_point.squaredNorm();
+  if (!gyration || body.inertia < about_hinge || body.inertia < 2 * body.mass * *gyration) return;
+  warnings.add(
+      fmt::format("/bodies/{}/inertia", hinge.child),
+      fmt::format(
+          "{:.4g} kg·m², more than mass times the squared distance to the hinge {}, {:.4g} kg·m²",
+          body.inertia, hinge.name, about_hinge),
+      fmt::format(
+          "the inertia about the centre of mass, about {:.4g} kg·m² for a uniform body of this "
+          "length (about the hinge it is larger by mass times distance²)",
+          body.mass * *gyration));
+}
+
+/// Checks a free base's mass against that of all bodies.
+void check_base(const Scene& scene, InputWarnings& warnings) {
+  if (scene.base.motion != BaseMotion::free) return;
+  double bodies = 0;
+  for (const Body& body : scene.bodies) bodies += body.mass;
+  if (scene.base.mass <= most_base * bodies && bodies <= most_base * scene.base.mass) return;
+  warnings.add(
+      "/base/mass", fmt::format("{:.4g} kg, with bodies of {:.4g} kg", scene.base.mass, bodies),
+      fmt::format(
+          "1/{0} to {0} times the mass of the bodies (write grams as \"5000 g\", tonnes as \"2000 "
+          "kg\"; a much heavier base is as good as \"fixed\")",
+          most_base));
+}
+
 /// Checks the hinge's distance from the inner body's centre of mass. Only a free base has a mass to compare with.
 void check_parent(const Scene& scene, std::size_t h, InputWarnings& warnings) {
   const Hinge& hinge = scene.hinges[h];
@@ -131,9 +184,11 @@ void check_plate(const std::string& at, const Body& body, InputWarnings& warning
 void check_sizes(const Scene& scene, InputWarnings& warnings) {
   if (scene.base.motion != BaseMotion::fixed)
     check_angle("/base/angle", scene.base.angle, warnings);
+  check_base(scene, warnings);
   for (std::size_t h = 0; h < scene.hinges.size(); ++h) {
     check_angles(fmt::format("/hinges/{}", h), scene.hinges[h], warnings);
     check_child(scene, h, warnings);
+    check_inertia(scene, h, warnings);
     check_parent(scene, h, warnings);
   }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)

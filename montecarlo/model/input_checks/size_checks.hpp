@@ -10,6 +10,9 @@ namespace wingspread {
 /// shorter than the distance from the hinge to the centre of mass. Real bodies stay within 20: a uniform panel hinged
 /// at its end has 1/√3, a 4 m boom with its mass 10 cm from the hinge has 20. Wrong units exceed it: 1000 (mm, kg·mm²),
 /// 100 (cm), √1000 (g).
+///
+/// Warns of an inertia about the hinge where the one about the centre of mass is meant, and of a free base lighter or
+/// heavier than all its bodies together by more than a factor of 1000.
 void check_sizes(const Scene& scene, InputWarnings& warnings);
 
 } // namespace wingspread

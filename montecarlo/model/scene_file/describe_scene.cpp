@@ -73,6 +73,14 @@ std::string describe_torque(const char* name, const HingeTorque& torque) {
   return fmt::format("; {} {}{}", name, law, describe_change(torque.scale, torque.offset));
 }
 
+/// Of a spring tested both ways, which friction.scale scales.
+std::string describe_hysteresis(const Hinge& hinge) {
+  if (!hinge.spring.table || !hinge.spring.table->both_ways()) return "";
+  const double scale = hinge.friction.scale;
+  return fmt::format(", its hysteresis as friction{}",
+                     scale == 1 ? "" : fmt::format(", times {} (friction.scale)", scale));
+}
+
 /// Empty for a hinge without friction.
 std::string describe_friction(const Friction& friction) {
   const bool exact = friction.model == FrictionModel::exact;
@@ -119,8 +127,10 @@ std::string describe_latch(const std::optional<Latch>& latch) {
   if (!latch) return "; no latch";
   const std::string backlash =
       latch->backlash == 0 ? "" : fmt::format(", backlash {} rad", latch->backlash);
-  return fmt::format("; latch {} N·m/rad, {} N·m·s/rad{}", latch->stiffness, latch->damping,
-                     backlash);
+  const std::string damping = latch->dissipation
+                                  ? fmt::format("dissipation {} s/rad", *latch->dissipation)
+                                  : fmt::format("{} N·m·s/rad", latch->damping);
+  return fmt::format("; latch {} N·m/rad, {}{}", latch->stiffness, damping, backlash);
 }
 
 std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
@@ -128,7 +138,7 @@ std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
   std::string text = fmt::format("{}: {} to {}, {} to {} rad", hinge.name, parent,
                                  scene.bodies[hinge.child].name, hinge.stowed, hinge.latched);
   if (hinge.initial_rate != 0) text += fmt::format(", from {} rad/s", hinge.initial_rate);
-  return text + describe_torque("spring", hinge.spring) +
+  return text + describe_torque("spring", hinge.spring) + describe_hysteresis(hinge) +
          describe_torque("harness", hinge.harness) + describe_friction(hinge.friction) +
          describe_damper(hinge.damper) + describe_stop(hinge.stop) + describe_latch(hinge.latch);
 }

@@ -95,10 +95,18 @@ void read_stop(const JsonCursor& at, std::optional<Stop>& stop) {
 }
 
 void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
-  JsonObject object(at, "an object with the latch's stiffness and damping");
+  JsonObject object(at, "an object with the latch's stiffness, and its damping or dissipation");
   latch.emplace();
   object.required("stiffness", latch->stiffness, Dimension{"N·m/rad", "≥ 0"});
-  object.required("damping", latch->damping, Dimension{"N·m·s/rad", "≥ 0"});
+  if (const auto dissipation = object.find("dissipation")) {
+    latch->dissipation = 0;
+    dissipation->read(*latch->dissipation, Dimension{"s/rad", "≥ 0"});
+    if (const auto damping = object.find("damping"))
+      damping->refuse("no damping beside \"dissipation\": a latch has one of the two");
+  } else if (const auto damping = object.require(
+                 "damping", "a number, N·m·s/rad, ≥ 0, or \"dissipation\" in its place")) {
+    damping->read(latch->damping, Dimension{"N·m·s/rad", "≥ 0"});
+  }
   object.optional("backlash", latch->backlash, Dimension{"rad", "≥ 0"});
   object.refuse_others();
 }
@@ -149,7 +157,11 @@ Json write_damper(const Damper& damper) {
 }
 
 Json write_latch(const Latch& latch) {
-  Json json{{"stiffness", latch.stiffness}, {"damping", latch.damping}};
+  Json json{{"stiffness", latch.stiffness}};
+  if (latch.dissipation)
+    json["dissipation"] = *latch.dissipation;
+  else
+    json["damping"] = latch.damping;
   if (latch.backlash != 0) json["backlash"] = latch.backlash;
   return json;
 }

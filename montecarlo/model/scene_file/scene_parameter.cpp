@@ -56,6 +56,8 @@ bool has_stop(const Hinge& hinge) { return hinge.stop.has_value(); }
 bool has_ratio(const Synchronisation& loop) { return !loop.table; }
 bool has_preload(const Synchronisation& loop) { return loop.preload.has_value(); }
 bool has_latch(const Hinge& hinge) { return hinge.latch.has_value(); }
+bool has_dissipation(const Hinge& hinge) { return hinge.latch && hinge.latch->dissipation; }
+bool has_damping(const Hinge& hinge) { return hinge.latch && !hinge.latch->dissipation; }
 bool has_static(const Hinge& hinge) { return hinge.friction.static_level.has_value(); }
 bool is_regularized(const Hinge& hinge) {
   return hinge.friction.model == FrictionModel::regularized;
@@ -81,6 +83,8 @@ constexpr std::string_view needs_stop = "a hinge that has a stop";
 constexpr std::string_view needs_ratio = "a synchronisation whose ratio is a number";
 constexpr std::string_view needs_preload = "a synchronisation that has a preload";
 constexpr std::string_view needs_latch = "a hinge that has a latch";
+constexpr std::string_view needs_damping = "a hinge whose latch has a damping";
+constexpr std::string_view needs_dissipation = "a hinge whose latch has a dissipation";
 constexpr std::string_view needs_regularized = "a hinge with the regularized friction model";
 constexpr std::string_view needs_static = "a hinge whose friction has a static level";
 
@@ -138,7 +142,8 @@ constexpr std::array hinge_fields{
     Field<Hinge>{"stop.dissipation", "s/rad", [](auto& h) -> auto& { return h.stop->dissipation; }, has_stop, needs_stop},
     Field<Hinge>{"stop.gap", "rad", [](auto& h) -> auto& { return h.stop->gap; }, has_stop, needs_stop},
     Field<Hinge>{"latch.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.latch->stiffness; }, has_latch, needs_latch},
-    Field<Hinge>{"latch.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.latch->damping; }, has_latch, needs_latch},
+    Field<Hinge>{"latch.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.latch->damping; }, has_damping, needs_damping},
+    Field<Hinge>{"latch.dissipation", "s/rad", [](auto& h) -> auto& { return *h.latch->dissipation; }, has_dissipation, needs_dissipation},
     Field<Hinge>{"latch.backlash", "rad", [](auto& h) -> auto& { return h.latch->backlash; }, has_latch, needs_latch}};
 
 constexpr std::array synchronisation_fields{

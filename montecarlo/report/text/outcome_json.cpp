@@ -1,4 +1,5 @@
 #include "montecarlo/report/text/outcome_report.hpp"
+#include "montecarlo/results/summary/latch_jump.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
 
 #include <cmath>
@@ -58,14 +59,6 @@ Json peaks_final_json(const Outcome& outcome) {
   return none || outcome.status == Status::failed ? Json(nullptr) : Json(outcome.peaks_final);
 }
 
-Json warnings_json(const Scene& scene, const Outcome& outcome) {
-  Json json = Json::array();
-  for (const Overtravel& overtravel : overtravels(scene, outcome))
-    json.push_back(warning(overtravel));
-  if (has_cut_peaks(outcome)) json.push_back(cut_peaks_warning);
-  return json;
-}
-
 Json final_json(const Scene& scene, const Configuration& final) {
   return {{"angles", by_hinge(scene, final.angles)},
           {"rates", by_hinge(scene, final.rates)},
@@ -90,6 +83,16 @@ bool has_cut_peaks(const Outcome& outcome) {
   return ran && peaks && !outcome.peaks_final;
 }
 
+std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& outcome) {
+  std::vector<std::string> lines;
+  for (const Overtravel& overtravel : overtravels(scene, outcome))
+    lines.push_back(warning(overtravel));
+  if (const auto jumps = latch_jumps(scene, outcome); !jumps.empty())
+    lines.push_back(warning(jumps));
+  if (has_cut_peaks(outcome)) lines.emplace_back(cut_peaks_warning);
+  return lines;
+}
+
 Json outcome_json(const Scene& scene, const Outcome& outcome) {
   const bool ran = outcome.status != Status::invalid;
   const auto if_ran = [ran](const Json& json) { return ran ? json : Json(nullptr); };
@@ -103,7 +106,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
           {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
           {"peaks_final", peaks_final_json(outcome)},
           {"overtravel", overtravel_json(scene, outcome)},
-          {"warnings", warnings_json(scene, outcome)},
+          {"warnings", outcome_warnings(scene, outcome)},
           {"final", if_ran(final_json(scene, outcome.final))},
           {"energy", if_ran(energy_json(outcome.energy))},
           {"work",

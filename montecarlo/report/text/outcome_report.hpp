@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/formats/json.hpp"
 
 #include <string>
+#include <vector>
 
 namespace wingspread {
 
@@ -12,6 +13,9 @@ namespace wingspread {
 [[nodiscard]] bool has_cut_peaks(const Outcome& outcome);
 inline constexpr const char* cut_peaks_warning =
     "t_end cut the peaks: it is not proven that none would be exceeded after it";
+
+/// Warnings of one run: overtravel, latches whose damping decides the peak, cut peaks. In this order, each on one line.
+[[nodiscard]] std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& outcome);
 
 /// The run as JSON: latches in order of time; null for values that do not exist or were not requested. An invalid run has
 /// only its status and reason; a failed run has no peaks.

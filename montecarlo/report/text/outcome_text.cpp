@@ -1,6 +1,5 @@
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
-#include "montecarlo/results/summary/overtravel.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -73,11 +72,10 @@ std::string final_state(const Scene& scene, const Outcome& outcome) {
 }
 
 std::string warnings(const Scene& scene, const Outcome& outcome) {
-  const std::vector<Overtravel> found = overtravels(scene, outcome);
-  const bool cut = has_cut_peaks(outcome);
-  std::string text = found.empty() && !cut ? "" : "\nWARNING\n";
-  for (const Overtravel& overtravel : found) text += fmt::format("  {}\n", warning(overtravel));
-  return cut ? text + fmt::format("  {}\n", cut_peaks_warning) : text;
+  std::string text;
+  for (const std::string& line : outcome_warnings(scene, outcome))
+    text += fmt::format("  {}\n", line);
+  return text.empty() ? "" : "\nWARNING\n" + text;
 }
 
 std::string effort(const Scene& scene, const Outcome& outcome) {

@@ -126,6 +126,7 @@ void add_nominal(const Campaign& campaign, Summary& summary) {
   const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
                                            goal_of(campaign.outputs), Observer{});
   summary.nominal = {outcome.status, latch_order(campaign.scene, outcome), outcome.reason};
+  summary.latch_jumps = latch_jumps(nominal_scene(campaign), outcome);
   const std::vector<OutputColumn> columns = output_columns(campaign.scene, campaign.outputs);
   for (std::size_t i = 0; i < columns.size(); ++i)
     summary.outputs[i].nominal = output_of(columns[i], outcome);

@@ -12,6 +12,7 @@
 #include "montecarlo/foundation/statistics/pairwise_correlation.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/model/campaign/campaign_settings.hpp"
+#include "montecarlo/results/summary/latch_jump.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
 #include "montecarlo/results/summary/reason_pattern.hpp"
 #include "montecarlo/results/summary/replication.hpp"
@@ -110,6 +111,7 @@ struct Summary {
   std::optional<NominalRun> nominal{};   ///< its outputs are in `outputs`
   std::optional<Accuracy> accuracy{};    ///< of the integration; nothing if not measured
   std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
+  std::vector<LatchJump> latch_jumps{};  ///< of the nominal run
   std::optional<PeaksCount> peaks{};     ///< nothing if not recorded
   std::vector<GoalFound> until{};        ///< goals of the stopping rule
   bool stopped = false;                  ///< all goals were met before all runs were made

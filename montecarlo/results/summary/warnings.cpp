@@ -35,6 +35,8 @@ std::vector<std::string> warnings(const Summary& summary) {
   std::vector<std::string> lines;
   for (const Overtravel& overtravel : summary.overtravels)
     lines.push_back(warning(overtravel, summary.runs));
+  if (!summary.latch_jumps.empty())
+    lines.push_back("in the nominal run: " + warning(summary.latch_jumps));
   if (summary.peaks && summary.peaks->cut > 0)
     lines.push_back(warn_of_cut_peaks(summary.peaks->cut, summary.runs));
   for (const Verdict& verdict : summary.requirements)

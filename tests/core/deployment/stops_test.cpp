@@ -1,4 +1,4 @@
-// Stops and latches with backlash: whole runs against closed forms.
+// Stops, latches with backlash and latches with dissipation: whole runs against closed forms.
 #include "tests/core/deployment/real_runs.hpp"
 
 using namespace wingspread;
@@ -156,4 +156,72 @@ TEST_CASE("backlash that a damped latch jumps into and out of agrees with the re
   compare(out, exact, 1e-8, 1e-7);
   CHECK(std::abs(out.final.angles[0] - exact.final.angles(0)) < 1e-8);
   CHECK(std::abs(out.final.rates[0] - exact.final.rates(0)) < 1e-7);
+}
+
+TEST_CASE("a latch with dissipation takes Hunt and Crossley's share on either side of its angle") {
+  const double k = 1e3;
+  for (const double c : {0.05, 0.5, 4.})
+    for (const double backlash : {0., 0.02}) {
+      Scene scene = free_panel(0, 1);
+      scene.hinges[0].latch = Latch{k, 0, backlash, c};
+      const auto peak = [&](double speed) { // k δ (1 + c δ̇) is largest inside the swing
+        const double first = hunt_crossley_depth(panel_inertia, k, c, speed), cv = c * speed;
+        double most = k * first;
+        for (double u = cv; u > 0;
+             u -= cv / 20'000) { // ½ k δ² = I (f(c v) − f(u))/c², f = u − ln(1 + u)
+          const double height = (cv - u) - std::log1p((cv - u) / (1 + u));
+          most = std::max(most, k * std::sqrt(2 * panel_inertia * height / k) / c * (1 + u));
+        }
+        return most;
+      };
+      CAPTURE(c, backlash);
+      for (const Scene& way : {scene, other_sense(scene)}) {
+        const Outcome out = run_everywhere(way, 1e-11, 4, true);
+        REQUIRE(out.latches.size() == 1);
+        CHECK(relative(out.peak_moment[0].value, peak(1)) < 1e-7);
+        const ReferenceOutcome exact = real_reference(way, 4);
+        compare(out, exact, 1e-8, 1e-7);
+        CHECK(std::abs(out.final.angles[0] - exact.final.angles(0)) < 1e-8);
+        CHECK(std::abs(out.final.rates[0] - exact.final.rates(0)) < 1e-7);
+      }
+      // back at its angle with the rebound's rate, whatever the other side makes of it
+      const double rebound = hunt_crossley_rebound(c, 1);
+      CHECK(rebound < 1);
+      CHECK(hunt_crossley_rebound(c, rebound) < rebound);
+    }
+}
+
+TEST_CASE("every method swings in a latch with dissipation") {
+  Scene scene = free_panel(0, 1);
+  scene.hinges[0].latch = Latch{1e3, 0, 0, 0.5};
+  const ReferenceOutcome exact = real_reference(scene, 2);
+  with_every_method(scene, within(1e-9, 2, 1e-4), to_the_end, MayGiveUp::fixed_step,
+                    [&](const Outcome& out) {
+                      CHECK(std::abs(out.final.angles[0] - exact.final.angles(0)) < 1e-6);
+                      CHECK(std::abs(out.final.rates[0] - exact.final.rates(0)) < 1e-5);
+                      CHECK(relative(out.peak_moment[0].value, exact.peak_moment[0].value) < 1e-6);
+                    });
+}
+
+TEST_CASE(
+    "a smoothed latch with dissipation agrees with the reference and tends to the event latch") {
+  Scene scene = free_panel(0, 1);
+  scene.hinges[0].latch = Latch{1e3, 0, 0, 0.5};
+  const double event = run(scene, 1e-10, 2).peak_moment[0].value;
+  double before = 1;
+  for (const double epsilon : {1e-2, 1e-3, 1e-4}) {
+    Integration how = within(1e-9, 2);
+    how.smoothing = epsilon;
+    const Outcome out = Deployment().run(scene, how, to_the_end);
+    ReferenceOptions options;
+    options.t_end = 2, options.rtol = 1e-11, options.atol = 1e-13, options.max_step = 1e-2;
+    options.smoothing = epsilon;
+    const ReferenceOutcome exact = cvode_run(scene, options);
+    CAPTURE(epsilon);
+    CHECK(relative(out.peak_moment[0].value, exact.peak_moment[0].value) < 1e-5);
+    CHECK(std::abs(out.final.angles[0] - exact.final.angles(0)) < 1e-5);
+    const double deviation = relative(out.peak_moment[0].value, event);
+    CHECK(deviation < before);
+    before = deviation;
+  }
 }

@@ -119,12 +119,12 @@ TEST_CASE("with real hinges and smoothed latches, an early end misses no latch a
 
 TEST_CASE("with each feature of real hinges, an early end misses no latch and no peak") {
   const RealFeatures none{false, false, false, false, false, false,
-                          false, false, false, false, false};
-  bool RealFeatures::*const each[] = {&RealFeatures::tables,   &RealFeatures::measured,
-                                      &RealFeatures::dampers,  &RealFeatures::stops,
-                                      &RealFeatures::backlash, &RealFeatures::loops,
-                                      &RealFeatures::gravity,  &RealFeatures::air};
-  for (int feature = 0; feature < 8; ++feature)
+                          false, false, false, false, false, false};
+  bool RealFeatures::*const each[] = {
+      &RealFeatures::tables,  &RealFeatures::measured, &RealFeatures::dampers,
+      &RealFeatures::stops,   &RealFeatures::backlash, &RealFeatures::loops,
+      &RealFeatures::gravity, &RealFeatures::air,      &RealFeatures::dissipation};
+  for (int feature = 0; feature < 9; ++feature)
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       RealFeatures features = none;
       features.*each[feature] = true;

@@ -4,8 +4,10 @@
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <regex>
 
 using namespace wingspread;
@@ -48,8 +50,8 @@ std::string triple(double a, double b, double c) {
 TEST_CASE("Correlations are read by the names of the dispersions", "[correlations]") {
   const Campaign campaign = read_correlated(list({pair("mass.outer", "spring", 0.6)}));
   REQUIRE(campaign.wanted_correlations.size() == 1);
-  const auto [first, second, spearman] = campaign.wanted_correlations[0];
-  CHECK((first == 0 && second == 2 && spearman == 0.6));
+  const auto [first, second, spearman, covariance] = campaign.wanted_correlations[0];
+  CHECK((first == 0 && second == 2 && spearman == 0.6 && !covariance));
   CHECK(campaign.resolved["correlations"].dump() ==
         R"([{"between":["spring","mass.outer"],"spearman":0.6}])");
   CHECK(read_campaign(campaign.resolved.dump(), "").resolved == campaign.resolved);
@@ -85,8 +87,8 @@ TEST_CASE("Each fault of the correlations is told", "[correlations]") {
       {list({pair("spring", "mass.inner", -1.5)}),
        "/correlations/0/spearman: found -1.5, expected a number, > -1 and < 1"},
       {R"([{"between": ["spring", "mass.inner"], "spearman": 0.5, "pearson": 0.5}])",
-       "/correlations/0/pearson: found the unknown key \"pearson\", expected \"between\" or "
-       "\"spearman\" (did you mean \"spearman\"?)"}};
+       "/correlations/0/pearson: found the unknown key \"pearson\", expected \"between\", "
+       "\"covariance\" or \"spearman\" (did you mean \"spearman\"?)"}};
   for (const auto& [text, message] : cases)
     CHECK(test::facts_of(correlation_problems(text)) == test::facts_of(message));
 }
@@ -157,4 +159,34 @@ TEST_CASE("Correlations couple the draws, and leave those of the first as they w
   // Of normal variables of correlation r the medians agree in ½ + asin(r)/π.
   const double share = 0.5 + std::asin(2 * std::sin(std::acos(-1.) * 0.9 / 6)) / std::acos(-1.);
   CHECK(same_side / 1000.0 == Approx(share).margin(5 * std::sqrt(share * (1 - share) / 1000)));
+}
+
+TEST_CASE("A covariance of two normal laws gives their coefficient", "[correlations]") {
+  Json document = with_correlations("[]");
+  for (const std::size_t k : {0U, 1U})
+    document["dispersions"][k]["distribution"] = {
+        {"type", "normal"}, {"mean", 1}, {"std", k == 0 ? 0.02 : 0.05}};
+  const auto read = [&](const char* rest) {
+    document["correlations"] =
+        parse_json(fmt::format(R"([{{"between": ["spring", "mass.outer"], {}}}])", rest));
+    return read_campaign(document.dump(), "");
+  };
+  const Campaign campaign = read(R"("covariance": -0.0009)"); // r = −0.9
+  CHECK(campaign.wanted_correlations[0].spearman ==
+        Approx(6 / std::numbers::pi * std::asin(-0.45)).epsilon(1e-12));
+  CHECK(campaign.resolved["correlations"].dump() ==
+        R"([{"between":["spring","mass.outer"],"covariance":-0.0009}])");
+  CHECK(read_campaign(campaign.resolved.dump(), "").resolved == campaign.resolved);
+  CHECK(read(R"("covariance": -0.0009, "spearman": -0.89)").wanted_correlations[0].spearman ==
+        campaign.wanted_correlations[0].spearman);
+  const auto problem = [&](const char* rest) {
+    return test::message_of([&] { return read(rest); });
+  };
+  CHECK_THAT(problem(R"("covariance": -0.0009, "spearman": -0.8)"),
+             Catch::Contains("/correlations/0/spearman: found -0.8, expected -0.8915"));
+  CHECK_THAT(problem(R"("covariance": 0.0011)"),
+             Catch::Contains("/covariance: found 0.0011, expected a magnitude below 0.001"));
+  document["dispersions"][0]["distribution"] = {
+      {"type", "uniform"}, {"lower", 0.9}, {"upper", 1.1}};
+  CHECK_THAT(problem(R"("covariance": 0.0001)"), Catch::Contains("two normal laws"));
 }

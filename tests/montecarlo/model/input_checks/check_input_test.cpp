@@ -1,11 +1,14 @@
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
+#include "montecarlo/model/input_checks/clearance_check.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 #include "tests/support/source_folder.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 #include <variant>
@@ -70,6 +73,7 @@ Json changed(Json document, const Json& patch) {
 constexpr const char* flight = "scenes/three_panel_flight.json";
 constexpr const char* yoke = "scenes/yoke_wing.json";
 constexpr const char* seed = "campaigns/seed.json";
+constexpr const char* two_wings = "scenes/two_wing_free.json";
 constexpr const char* margin = "campaigns/margin.json";
 constexpr const char* driven = "campaigns/prescribed_base.json";
 
@@ -100,6 +104,17 @@ const std::vector<Mistake> mistakes{
      "radius of gyration|223.6 m"},
     {"inertia in kg·cm²", flight, R"({"/bodies/1/inertia": 5e3})", "/bodies/1/inertia",
      "22.36 m|0.5054 m"},
+    {"inertia about the hinge", flight, R"({"/bodies/1/inertia": 3.4, "/bodies/1/mass": 10})",
+     "/bodies/1/inertia", "3.4 kg·m²|hinge mid, 2.554 kg·m²"},
+    {"inertia about the hinge, by the plate", flight,
+     R"({"/bodies/2/inertia": 2.7, "/bodies/2/mass": 8,
+         "/bodies/2/plate": {"from": [-0.505, 0], "to": [0.505, 0], "width": 1, "drag_coefficient": 1}})",
+     "/bodies/2/inertia", "2.7 kg·m²|hinge tip, 2.043 kg·m²"},
+    {"a satellite in grams", two_wings, R"({"/base/mass": 8e5})", "/base/mass", "8e+05 kg|60 kg"},
+    {"a satellite in tonnes", two_wings, R"({"/base/mass": 0.05})", "/base/mass", "0.05 kg|60 kg"},
+    {"a parent's hinge far out on a light parent", flight,
+     R"({"/hinges/1/parent_point": [6, -0.02], "/bodies/1/inertia": 4, "/bodies/1/mass": 1})",
+     "/hinges/1/parent_point", "6 m from|"},
     {"mass in grams", flight, R"({"/bodies/2/mass": 10000})", "/bodies/2/inertia",
      "0.007071 m|0.5054 m"},
     // torques
@@ -139,6 +154,13 @@ const std::vector<Mistake> mistakes{
      "/hinges/2/angle/stowed", "panel_1|panel_3|stowed"},
     {"the wrong sense of rotation", flight, R"({"/hinges/2/angle/stowed": -3.141592653589793})",
      "/hinges/2/angle", "panel_3|turns through|panel_2|-3.142|0 rad"},
+    {"a ratio with which only one hinge latches", yoke, R"({"/synchronisations/0/ratio": 1.9})",
+     "/synchronisations/0/ratio", "2.985 rad of h1|root|1.571 rad"},
+    {"a loop the wrong way round", yoke, R"({"/synchronisations/0/ratio": -2})",
+     "/synchronisations/0/ratio", "-3.142 rad of h1"},
+    {"a damper in N·mm·s", flight,
+     R"({"/hinges/1/damper": {"law": "viscous", "coefficient": 120}})", "/hinges/1/damper",
+     "a deployment of more than|this damper alone"},
     // laws
     {"an increment used as a factor", seed,
      R"({"/dispersions/0/distribution": {"type": "normal", "mean": 0, "std": 0.03}})",
@@ -146,8 +168,20 @@ const std::vector<Mistake> mistakes{
     {"per cent used as a factor", seed,
      R"({"/dispersions/0/distribution": {"type": "normal", "mean": 100, "std": 3}})",
      "/dispersions/0", "a factor of 100"},
+    {"draws about 1 over a nominal factor", seed,
+     R"({"/scene/hinges/1/spring/scale": 0.8,
+         "/dispersions/3": {"name": "k", "distribution": {"type": "normal", "mean": 1.01, "std": 0.03},
+         "apply": "set", "to": ["hinges.mid.spring.scale"]}})",
+     "/dispersions/3", "a median of 1.01|replaces hinges.mid.spring.scale|nominally 0.8"},
+    {"a factor that is set", seed,
+     R"({"/dispersions/0/apply": "set", "/dispersions/0/to": ["hinges.root.spring.torque_latched"]})",
+     "/dispersions/0", "a median of 1 |hinges.root.spring.torque_latched|1.4 N·m"},
+    {"half the nominal value, added", seed,
+     R"({"/dispersions/3": {"name": "k", "distribution": {"type": "normal", "mean": 5, "std": 0.1},
+         "apply": "add", "to": ["bodies.panel_2.mass"]}})",
+     "/dispersions/3", "5 kg on average|bodies.panel_2.mass, 10 kg"},
     {"a factor used as an increment", seed, R"({"/dispersions/0/apply": "add"})", "/dispersions/0",
-     "1 N·m|1.059 N·m|added|hinges.root.spring.torque_latched|1.4 N·m"},
+     "1 N·m|1.059 N·m|added|hinges.root.spring.torque_stowed|2 N·m"},
     {"a standard deviation in per cent", seed,
      R"({"/dispersions/0/distribution": {"type": "normal", "mean": 1, "std": 3}})",
      "/dispersions/0", "probability of 0.369|sign|hinges.root.spring.torque_stowed"},
@@ -176,7 +210,21 @@ const std::vector<Mistake> mistakes{
          "distribution": {"type": "normal", "mean": 250, "std": 10},
          "through": [{"to": ["hinges.root.friction.coulomb"], "apply": "scale",
                       "table": {"at": [-100, 20, 60], "value": [3, 1, 0.8]}}]}})",
-     "/dispersions/3/through/0/table/at", "-100|60|250"},
+     "/dispersions/3/through/0/table/at", "100 % of the draws|-100|60|250"},
+    {"a table that ends inside the draws", seed,
+     R"({"/dispersions/3": {"name": "temperature",
+         "distribution": {"type": "normal", "mean": 50, "std": 10},
+         "through": [{"to": ["hinges.root.friction.coulomb"], "apply": "scale",
+                      "table": {"at": [-100, 20, 60], "value": [3, 1, 0.8]}}]}})",
+     "/dispersions/3/through/0/table/at", "15.9 % of the draws|-100|60|50"},
+    {"a case's temperature in kelvin", seed,
+     R"({"/dispersions/3": {"name": "temperature",
+         "distribution": {"type": "normal", "mean": 20, "std": 10},
+         "through": [{"to": ["hinges.root.friction.coulomb"], "apply": "scale",
+                      "table": {"at": [-100, 20, 60], "value": [3, 1, 0.8]}}]},
+         "/cases": [{"name": "hot"}, {"name": "cold",
+                    "distributions": {"temperature": {"type": "normal", "mean": 213, "std": 5}}}]})",
+     "/cases/1/distributions/temperature", "100 % of the draws|temperature|-100|60|213"},
     {"a case in which the harness holds the wing", seed,
      R"({"/cases": [{"name": "hot"},
                     {"name": "cold", "scale": {"hinges.tip.harness.torque_latched": 9}}]})",
@@ -194,6 +242,14 @@ const std::vector<Mistake> mistakes{
      R"({"/requirements/3": {"output": "tip.latch_rate", "max": 4.5, "probability": 0.99,
                              "confidence": 0.9}})",
      "/requirements/3/max", "4.5 rad/s|nominal tip.latch_rate|-"},
+    {"a limit in degrees per second", margin,
+     R"({"/requirements/3": {"output": "tip.latch_rate", "max": 90, "abs": true, "probability": 0.99,
+                             "confidence": 0.9}})",
+     "/requirements/3/max", "90 rad/s|nominal tip.latch_rate is -"},
+    {"a limit converted twice", margin,
+     R"({"/requirements/3": {"output": "tip.latch_rate", "max": 0.03, "abs": true,
+                             "probability": 0.99, "confidence": 0.9}})",
+     "/requirements/3/max", "0.03 rad/s|nominal tip.latch_rate is -"},
     {"a magnitude below zero", margin, R"({"/requirements/1/max": -300})", "/requirements/1/max",
      "-300 N·m|magnitude"},
     {"a peak that is never proven", driven,
@@ -251,4 +307,41 @@ TEST_CASE("a scene's warnings name the scene's file and pointer", "[warnings]") 
   const auto outside = folder.write("outside.json", campaign.dump());
   CHECK(check_file(outside).at(0).file == scene.string());
   CHECK(check_file(outside).at(0).pointer == "/hinges/0/angle/stowed");
+}
+
+TEST_CASE("correlations that come with a covariance are not scolded", "[warnings]") {
+  const Folder folder;
+  Json campaign = document_of(seed);
+  for (const std::size_t k : {0U, 1U, 2U})
+    campaign["dispersions"][k]["distribution"] = {{"type", "normal"}, {"mean", 1}, {"std", 0.02}};
+  const auto correlated = [&](const char* key, double value) {
+    campaign["correlations"] = Json::array();
+    for (const auto& [a, b] : {std::pair{"root_spring", "mid_spring"},
+                               {"mid_spring", "tip_spring"},
+                               {"root_spring", "tip_spring"}})
+      campaign["correlations"].push_back({{"between", {a, b}}, {key, value}});
+    return check_file(folder.write("correlated.json", campaign.dump()));
+  };
+  CHECK(correlated("spearman", 0.9).size() == 4);
+  CHECK(text_of(correlated("covariance", 0.00036)) == "");
+}
+
+TEST_CASE("the clearance check tells when bodies meet, inside a step too", "[warnings]") {
+  // a beam turns at 0.5 rad/s about the origin, from 0; the foot of a mast stands 1 rad ahead, half a metre out
+  Scene scene;
+  scene.bodies = {{"beam", 1, 0.1}, {"mast", 1, 0.1}};
+  Hinge beam, mast;
+  beam.name = "root", beam.child = 0, beam.child_point = {-1, 0};
+  beam.latched = 2, beam.initial_rate = 0.5, beam.latch = Latch{1e3, 1};
+  mast.name = "foot", mast.child = 1, mast.child_point = {-0.4, 0};
+  mast.parent_point = {0.5 * std::cos(1.), 0.5 * std::sin(1.)};
+  mast.stowed = 2.57, mast.latched = 3, mast.latch = Latch{1e3, 1};
+  scene.hinges = {beam, mast};
+  InputWarnings warnings({});
+  (void)check_clearance(scene, {}, warnings);
+  REQUIRE(warnings.list().size() == 1);
+  double time = 0;
+  const std::string& found = warnings.list()[0].found;
+  REQUIRE(std::sscanf(found.c_str(), "beam and mast pass through each other at %lf s", &time) == 1);
+  CHECK((time > 2 - 1e-3 && time < 2 + 0.11)); // compared every 0.05 rad
 }

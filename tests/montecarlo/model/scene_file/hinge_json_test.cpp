@@ -1,4 +1,6 @@
+#include "montecarlo/model/scene_file/describe_scene.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
 #include "tests/montecarlo/spec_support.hpp"
 
 #include <catch2/catch.hpp>
@@ -134,7 +136,12 @@ TEST_CASE("Each fault of what acts across a hinge is told", "[hinge_json]") {
        {"/hinges/0/stop/damping", "1",
         "/hinges/0/stop/damping: found the unknown key \"damping\", expected \"stiffness\", "
         "\"dissipation\" or \"gap\""},
-       {"/hinges/0/latch/backlash", "-1", "/hinges/0/latch/backlash: found -1, expected >= 0"}}));
+       {"/hinges/0/latch/backlash", "-1", "/hinges/0/latch/backlash: found -1, expected >= 0"},
+       {"/hinges/0/latch/dissipation", "0.5",
+        "/hinges/0/latch/damping: found 100, expected no damping beside \"dissipation\": a latch "
+        "has one of the two"},
+       {"/hinges/0/latch", R"({"stiffness": 1, "dissipation": -1})",
+        "/hinges/0/latch/dissipation: found -1, expected >= 0"}}));
   CAPTURE(change.pointer, change.value);
   CHECK(test::facts_of(spoilt_hinge(change)) == test::facts_of(change.message));
 }
@@ -151,4 +158,27 @@ TEST_CASE("What real hinges have is written in full", "[hinge_json]") {
   CHECK(written[0]["latch"].dump() == R"({"stiffness":10000.0,"damping":100.0,"backlash":0.002})");
   CHECK(written[1]["damper"].dump() ==
         R"({"law":"eddy_current","peak_torque":2.0,"peak_rate":4.0,"scale":1.0})");
+}
+
+TEST_CASE("A latch has a damping or a dissipation, as it is read, dispersed and written",
+          "[hinge_json]") {
+  Json document = test::real_scene();
+  document["hinges"][0]["latch"] =
+      parse_json(R"({"stiffness": 100, "dissipation": "0.5 s/rad", "backlash": 0.25})");
+  Scene scene = read_scene(document);
+  const Latch& latch = *scene.hinges[0].latch;
+  CHECK((latch.dissipation == 0.5 && latch.damping == 0 && latch.backlash == 0.25));
+  CHECK(write_scene(scene)["hinges"][0]["latch"].dump() ==
+        R"({"stiffness":100.0,"dissipation":0.5,"backlash":0.25})");
+  CHECK_THAT(describe(scene),
+             Catch::Contains("latch 100 N·m/rad, dissipation 0.5 s/rad, backlash"));
+  const ParameterMatches found = resolve(scene, "hinges.root.latch.dissipation");
+  REQUIRE(found.matches.size() == 1);
+  found.matches[0].parameter.in(scene) = 2;
+  CHECK(scene.hinges[0].latch->dissipation == 2);
+  CHECK(unit_of(found.matches[0].parameter) == "s/rad");
+  CHECK(resolve(scene, "hinges.root.latch.damping").expected ==
+        "a hinge whose latch has a damping");
+  scene.hinges[0].latch->damping = 1;
+  CHECK(unphysical(scene).at(0).path == "hinges.root.latch.damping");
 }

@@ -168,9 +168,12 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
        {"/hinges/0/friction", R"({"model": "exact", "coulomb": 0.5, "static": 0.25})",
         "/hinges/0/friction/static: found 0.25, expected >= friction.coulomb"},
        {"/hinges/0/latch", "true",
-        "/hinges/0/latch: found true, expected an object with the latch's stiffness and damping"},
+        "/hinges/0/latch: found true, expected an object with the latch's stiffness, and its "
+        "damping or "
+        "dissipation"},
        {"/hinges/0/latch/damping", "",
-        "/hinges/0/latch/damping: found nothing, expected a number, N·m·s/rad, ≥ 0"},
+        "/hinges/0/latch/damping: found nothing, expected a number, N·m·s/rad, ≥ 0, or "
+        "\"dissipation\" in its place"},
        {"/hinges/0/latch/stiffness", "-1", "/hinges/0/latch/stiffness: found -1, expected >= 0"}}));
   CAPTURE(change.pointer, change.value);
   CHECK(test::facts_of(spoilt_small_scene(change)) == test::facts_of(change.message));

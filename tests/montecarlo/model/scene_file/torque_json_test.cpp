@@ -113,7 +113,8 @@ TEST_CASE("Each fault of a torque is told with place, found and expected", "[tor
         "apart, or smaller torques"},
        {"/hinges/0/spring/measured", "7",
         "/hinges/0/spring/measured: found 7, expected a torque test: an object with angle, "
-        "deploying and stowing"},
+        "deploying and stowing (½ (stowing − deploying) is friction: friction.scale scales it, not "
+        "the spring's scale)"},
        {"/hinges/0/spring/measured/stowing", "",
         "/hinges/0/spring/measured/stowing: found nothing, expected an array of 2 to 1000 numbers, "
         "N·m"},

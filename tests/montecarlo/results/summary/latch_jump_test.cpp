@@ -1,0 +1,67 @@
+#include "montecarlo/model/scene_file/scene_json.hpp"
+#include "montecarlo/report/text/outcome_report.hpp"
+#include "montecarlo/results/summary/latch_jump.hpp"
+#include "montecarlo/results/summary/summary_json.hpp"
+#include "montecarlo/results/summary/warnings.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+namespace {
+
+/// Both hinges of the small wing latched, mid first, with the peaks of their moments.
+struct Latched {
+  Scene scene = read_scene(test::small_scene());
+  Outcome outcome;
+
+  Latched() {
+    scene.hinges[0].latch = Latch{1e4, 100};
+    scene.hinges[1].latch = Latch{2e3, 7};
+    outcome.status = Status::deployed, outcome.peaks_final = true;
+    outcome.latches = {{1, 2.0, {0.25, -3}}, {0, 3.0, {-2, 9}}};
+    outcome.peak_moment = {{350, 3.1}, {50, 2.5}};
+    outcome.final.angles = outcome.final.rates = {0, 0};
+  }
+};
+
+} // namespace
+
+TEST_CASE("a latch whose damping times its own rate exceeds half the peak is warned of") {
+  Latched wing;
+  const std::vector<LatchJump> found = latch_jumps(wing.scene, wing.outcome); // mid: 21 of 50
+  REQUIRE(found.size() == 1);
+  CHECK((found[0].hinge == "root" && found[0].moment == 200 && found[0].peak == 350));
+  const std::string text = "where a latch engages, its moment jumps to damping times rate, which "
+                           "decides root.peak_moment (200 of 350 N·m); a latch with "
+                           "\"dissipation\" in place of \"damping\" has no jump";
+  CHECK(warning(found) == text);
+  CHECK(outcome_warnings(wing.scene, wing.outcome) == std::vector{text});
+  CHECK(outcome_json(wing.scene, wing.outcome)["warnings"] == Json::array({text}));
+  CHECK_THAT(outcome_text(wing.scene, wing.outcome),
+             Catch::Contains("\nWARNING\n  " + text + '\n'));
+  Summary summary;
+  summary.latch_jumps = found;
+  CHECK(warnings(summary) == std::vector{"in the nominal run: " + text});
+  wing.outcome.peak_moment[0].value = 400; // half of it, not more
+  CHECK(latch_jumps(wing.scene, wing.outcome).empty());
+  wing.outcome.peak_moment[1].value = 41;
+  CHECK(latch_jumps(wing.scene, wing.outcome).at(0).hinge == "mid");
+  wing.outcome.peak_moment[0].value = 210;
+  CHECK_THAT(warning(latch_jumps(wing.scene, wing.outcome)),
+             Catch::Contains("(200 of 210 N·m), mid.peak_moment (21 of 41 N·m);"));
+}
+
+TEST_CASE("no latch is warned of without a jump, or without known peaks") {
+  Latched wing;
+  Outcome other = wing.outcome;
+  other.peak_moment.clear();
+  CHECK(latch_jumps(wing.scene, other).empty());
+  other = wing.outcome, other.status = Status::failed;
+  CHECK(latch_jumps(wing.scene, other).empty());
+  other = wing.outcome, other.latches.pop_back();
+  CHECK(latch_jumps(wing.scene, other).empty());
+  wing.scene.hinges[0].latch = Latch{1e4, 0, 0, 0.5};
+  CHECK(latch_jumps(wing.scene, wing.outcome).empty());
+}
