@@ -111,6 +111,8 @@ class MarkChecks:
         rows = output["convergence"]
         for nth, (key, low, high) in enumerate((("mean", "lower", "upper"), ("quantile", "quantile_lower", "quantile_upper"))):
             x, y = self.scale("settling", "x", math.log10, nth), self.scale("settling", "y", nth=nth)
+            ticks = self.run_script("return [...document.querySelectorAll('figure.settling')[arguments[0]].querySelectorAll('.axis.x .tick')].map(e => e.textContent)", nth)
+            self.assertEqual(ticks, [f"{m * 10**k:,}" for k in range(8) for m in (1, 2, 5) if rows["runs"][0] <= m * 10**k <= rows["runs"][-1]], about)
             top, bottom = self.run_script("""const box = document.querySelectorAll('figure.settling')[arguments[0]].querySelector('.axis.y .domain').getBBox();
                 return [box.y, box.y + box.height]""", nth)
             inside = lambda value: min(bottom, max(top, y(value * factor)))
@@ -159,6 +161,8 @@ class MarkChecks:
         for one, path, band in zip(margin["requirements"], self.paths("margin", ".trace"), self.paths("margin", ".curve-band"), strict=True):
             self.line(path, x, y, zip(margin["scales"], one["passed"]), one["text"])
             self.band(band, x, y, zip(margin["scales"], one["lower"], one["upper"]), one["text"])
+        filled = self.run_script("return [...document.querySelectorAll('figure.margin .looked')].map(e => e.style.fill !== 'var(--paper)')")
+        self.assertEqual(filled, [verdict == "passed" for one in margin["requirements"] for verdict in one["verdict"]])
         self.near(self.places("margin", ".looked", "cx", "cy"), [(x(s), y(p)) for one in margin["requirements"] for s, p in zip(margin["scales"], one["passed"])], "margin")
         low, high = margin["window"]
         self.near(self.places("margin", "rect.window", "x", "width"), [(x(low), x(high) - x(low))], "window")
@@ -323,6 +327,26 @@ class MarkChecks:
                 self.check(row[5], each["low"] * DEGREES, each["high"] * DEGREES, near=1e-4, about=row[0])
         for row, each in zip(self.table("Integration settings"), one["inputs"]["settings"], strict=True):
             self.assertEqual(row, [each["label"], str(each["value"])])
+
+    def test_small_pictures_and_places_of_the_page(self):
+        self.open(pages.made_up("plain"))
+        one_set = self.run_script("return W.set()")
+        sparks = self.run_script("return [...document.querySelectorAll('.outputs svg.spark')].map(svg => [svg.querySelector('path').getAttribute('d'), svg.querySelector('line')?.getAttribute('x1')])")
+        for (path, nominal), output in zip(sparks, one_set["outputs"], strict=True):
+            edges, counts = output["histogram"]["edges"], output["histogram"]["counts"]
+            x = lambda value: 84 * (value - edges[0]) / (edges[-1] - edges[0])
+            bars = [tuple(map(float, bar)) for bar in re.findall(r"M([-\d.]+),18v([-\d.]+)H([-\d.]+)V18", path)]
+            self.near(bars, [(x(a), -17 * count / max(counts), x(b)) for a, b, count in zip(edges, edges[1:], counts)], output["name"], 0.06)
+            inside = edges[0] <= output["nominal"] <= edges[-1]
+            self.assertEqual(nominal is not None, inside, output["name"])
+            if inside:
+                self.assertAlmostEqual(float(nominal), x(output["nominal"]), places=6)
+        named = self.run_script("return [...document.querySelectorAll('figure svg.chart')].every(svg => ['aria-labelledby', 'aria-describedby'].every(name => svg.querySelector('#' + svg.getAttribute(name))))")
+        self.assertTrue(named)
+        more = [one.get_attribute("textContent") for one in self.all("#why details summary")]
+        self.assertIn(f"{len(one_set['scatters']) - 4} more pairs", more)
+        self.run_script("document.getElementById('why').scrollIntoView()")
+        self.wait(lambda: self.run_script("return [...document.querySelectorAll('nav [aria-current=true]')].map(a => a.getAttribute('href')).join()") == "#why")
 
     def test_bullets_stand_on_the_side_of_their_limit(self):
         self.open(pages.made_up("plain"))

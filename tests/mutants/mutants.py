@@ -34,7 +34,8 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
 FOLDER = SOURCE / "build/mutants"
-COPY, BUILD, RESULTS = FOLDER / "source", FOLDER / "build", FOLDER / "results.json"
+COPY, RESULTS = FOLDER / "source", FOLDER / "results.json"
+BUILD = COPY / "build/release"  # laid out as tests/run does it, so that ccache has what has no fault
 COPIED = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "core", "distributions", "montecarlo", "tests", "studies"]
 PAGE = "montecarlo/report/page/"
 # entry points that only other programs contain, processors of other kinds, and the exact text of help

@@ -5,6 +5,9 @@ const acorn = require("acorn"),
   text = require("fs").readFileSync(process.argv[2], "utf8");
 const swaps = { "+": "-", "-": "+", "*": "/", "/": "*", "<": ">=", ">": "<=", "<=": ">", ">=": "<", "===": "!==", "!==": "===" };
 const places = [];
+// Lengths in pixels are taste: literals in functions that draw are left alone, and so is what is only written to the console.
+const draws = (above) => above.some((one) => /Function/.test(one.type) && one.params.some((each) => /^(svg|box|width)$/.test(each.name)));
+const isNumber = (node) => node.type === "Literal" && typeof node.value === "number";
 const of = (node) => text.slice(node.start, node.end);
 // `+` joins texts too; pieces of sentences are no results.
 const isText = (node) =>
@@ -14,20 +17,21 @@ walk.fullAncestor(acorn.parse(text, { ecmaVersion: "latest" }), function (node, 
   const edit = (edits, old, changed) => places.push({ function: named.join("."), edits, old, new: changed });
   const change = (changed) => edit([[node.start, node.end, changed]], of(node), changed);
   const exchange = (a, b) =>
+    (draws(above) && (isNumber(a) || isNumber(b))) ||
     edit([[a.start, a.end, of(b)], [b.start, b.end, of(a)]], text.slice(a.start, b.end), of(b) + text.slice(a.end, b.start) + of(a));
-  if (node.type === "BinaryExpression" && swaps[node.operator] && !isText(node)) {
+  if (node.type === "BinaryExpression" && swaps[node.operator] && !isText(node) && !(draws(above) && (isNumber(node.left) || isNumber(node.right)))) {
     change(`${of(node.left)} ${swaps[node.operator]} ${of(node.right)}`);
     if ("+-*/".includes(node.operator)) change(of(node.left));
   }
   if (node.type === "LogicalExpression" && node.operator !== "??") [node.left, node.right].forEach((side) => change(of(side)));
   if (node.type === "UnaryExpression" && "-!".includes(node.operator)) change(of(node.argument));
   if (node.type === "ConditionalExpression") exchange(node.consequent, node.alternate);
-  if (node.type === "Literal" && typeof node.value === "number") change(String(node.value + 1));
+  if (isNumber(node) && !draws(above)) change(String(node.value + 1));
   if (node.type === "Literal" && typeof node.value === "boolean") change(String(!node.value));
   if (node.type === "CallExpression" && node.callee.property?.name === "min") change(of(node).replace("min", "max"));
   if (node.type === "CallExpression" && node.callee.property?.name === "max") change(of(node).replace("max", "min"));
   const list = node.type === "CallExpression" ? node.arguments : node.type === "ArrayExpression" ? node.elements : [];
   for (let k = 1; k < list.length; ++k) if (list[k] && of(list[k]) !== of(list[k - 1])) exchange(list[k - 1], list[k]);
-  if (node.type === "ExpressionStatement" && node.expression.type !== "Literal") change(";");
+  if (node.type === "ExpressionStatement" && !/^("use strict"|console)/.test(of(node))) change(";");
 });
 console.log(JSON.stringify(places));
