@@ -89,6 +89,7 @@ class MarkChecks:
             self.layers(one_set, output, name)
             self.settled(output, factor, name)
             self.run_script("W.choose('scale', 'probit')")
+            pages.settle(self.driver)
             smallest, normal = 0.5 / output["count"], statistics.NormalDist().inv_cdf
             height = self.scale("distribution", "y", lambda p: normal(min(1 - smallest, max(smallest, p))))
             (path,) = self.paths("distribution", ".curve")

@@ -10,8 +10,8 @@ The faults are drawn, not listed: an operator exchanged, a sign, a bound, a term
 changed, arguments exchanged. The seed draws files by their length, and in each a place by its function's name and text (places.py
 for C++, by libclang; page_places.js for the page's scripts, by acorn); no line number and no text of the code stands here.
 
-C++: all faults are compiled into one copy of the program in build/mutants; WINGSPREAD_MUTANT switches one on. Libraries without
-a fault are compiled as tests/run does, so that ccache has them, the others at -O1. A fault that does not compile is left out. It meets the tests of its own file, room, wing, then all, until one fails; ctest's tests of the
+C++: all faults are compiled into one copy of the program in build/mutants (or MUTANTS_FOLDER); WINGSPREAD_MUTANT switches one on. Libraries without
+a fault are compiled as tests/run does, so that a ccache with base_dir has them, the others at -O1. A fault that does not compile is left out. It meets the tests of its own file, room, wing, then all, until one fails; ctest's tests of the
 schema, HDF5, Python and the recipes come last. Five times the tests' time counts as seen. Page: the copy has the fault's text, and
 meets tests/browser/report_test.py Quick. "never executed": no test ran the place. What is missing is installed first.
 """
@@ -33,8 +33,8 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
-FOLDER = SOURCE / "build/mutants"
-COPY, RESULTS = FOLDER / "source", FOLDER / "results.json"
+COPY = pathlib.Path(os.environ.get("MUTANTS_FOLDER", SOURCE / "build/mutants"))
+RESULTS = COPY / "results.json"
 BUILD = COPY / "build/release"  # laid out as tests/run does it, so that ccache has what has no fault
 COPIED = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "core", "distributions", "montecarlo", "tests", "studies"]
 PAGE = "montecarlo/report/page/"
@@ -301,7 +301,7 @@ def main():
             results[number] = done.result()
             print(f"{number:4} {faults[number]['file']} {faults[number]['function']}: {results[number]['seen'] or 'UNSEEN'}", flush=True)
     seen = {number: found["seen"] for number, found in results.items()}
-    FOLDER.mkdir(parents=True, exist_ok=True)
+    COPY.mkdir(parents=True, exist_ok=True)
     RESULTS.write_text(json.dumps({"seed": arguments.seed, "count": arguments.count, "part": arguments.part, "seen": seen}, indent=1))
     report(chosen, results)
     print(f"seed {arguments.seed}; {len(faults) - len(compiled)} of {len(faults)} faults do not compile")
