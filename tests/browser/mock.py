@@ -215,7 +215,26 @@ def block(sets, title="mock_wing"):
             "sets": sets, "comparisons": [comparison(sets, 0, k) for k in range(1, len(sets)) if sets[k]["runs"]]}
 
 
+def odd():
+    """A part of a campaign with a design, interim analyses, runs that never latch, one-sided bounds, angles among the inputs."""
+    one = make_set("mock_wing", 6, count=300, stalls=0.05)
+    one |= {"planned": 1200, "partial": True, "shard": "1/4", "looks": 3, "design": "sobol", "replicates": 4, "confidence": 0.9, "foreign": True,
+            "without_latch": 11, "order_kinds": one["order_kinds"] + 9,
+            "reasons": [{"status": "stalled", "reason": "tip sticks", "count": 9}, {"status": "stalled", "reason": "root sticks", "count": 4}]}
+    one["orders"] = one["orders"][:2] + [{"order": "others", "count": sum(each["count"] for each in one["orders"][2:])}]
+    one["accuracy"]["order_in_doubt"] = 2
+    for place, row in enumerate(one["accuracy"]["outputs"]):
+        row["largest"] *= 1 + place
+    output = next(each for each in one["outputs"] if each["name"] == "root.peak_moment")
+    output["tolerance_limits"] = [{"text": "95 % at 90 %", "lower": 101.25, "upper": 251.75}]
+    output["quantiles"][0]["upper"] = output["quantiles"][1]["lower"] = None
+    for place, each in enumerate(one["inputs"]["dispersions"]):
+        each |= {"unit": "rad", "low": -0.01 - place, "high": 0.02 + place, "nominal": 0.5 + place, "nominal_unit": "rad", "apply": "add"}
+    return block([one])
+
+
 KINDS = {
+    "odd": odd,
     "plain": lambda: block([make_set("mock_wing", 1)]),
     "cases": lambda: block([make_set("cold", 1, shift=0.4, stalls=0.03, case="cold"), make_set("ambient", 1, case="ambient"),
                             make_set("hot", 1, shift=-0.2, case="hot")]),

@@ -82,7 +82,8 @@ def parts(rng, hinges, rows, folder, all_failed):
 
 def studies(hinges):
     angles = [math.pi * k / 40 for k in range(41)]
-    static = [{"hinge": h, "angle": angles, "margin": [0.3 + 1.2 * math.sin(a) ** 2 - 0.1 * k for a in angles], "required": 0.0, "least": 0.3 - 0.1 * k,
+    static = [{"hinge": h, "angle": angles, "margin": [0.3 + 1.2 * math.sin(a) ** 2 - 0.1 * k for a in angles],
+               "margin_lower": [0.1 + math.sin(a) ** 2 - 0.1 * k for a in angles], "required": 0.0 if k else 0.2, "least": 0.3 - 0.1 * k,
                "lower": 0.1 - 0.1 * k} for k, h in enumerate(hinges[:5])]
     scales = [0.7 + 0.1 * k for k in range(14)]
     share = [1 / (1 + math.exp(-30 * (s - 0.95))) for s in scales]
@@ -93,7 +94,7 @@ def studies(hinges):
     rare = {"text": f"P({hinges[0]}.peak_moment > 300)", "probability": 2.6e-6, "lower": 1.9e-6, "upper": 3.5e-6,
             "levels": [{"threshold": 230 + 14 * k, "probability": 10.0 ** (-k)} for k in range(1, 6)] + [{"threshold": 300, "probability": 2.6e-6}],
             "likeliest": {"draws": [{"name": f"{hinges[0]}.spring", "value": 1.11, "sigma": 3.6}, {"name": f"{hinges[0]}.coulomb", "value": 0.8, "sigma": -1.9}]}}
-    return {"static_margins": {"hinges": static}, "rare": rare,
+    return {"static_margins": {"kind": "ECSS", "draws": 1000, "lower_p": 0.01, "hinges": static}, "rare": rare,
             "margin": {"scales": scales, "requirements": rows, "recommended": 1.42, "window": [1.1, 1.58]}}
 
 

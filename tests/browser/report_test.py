@@ -20,6 +20,7 @@ try:
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     import pages
+    from mark_checks import MarkChecks
     from number_checks import NumberChecks
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
@@ -64,7 +65,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(NumberChecks, Page):
+class Quick(MarkChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")

@@ -1,148 +1,165 @@
-#!/usr/bin/env python3
-"""Puts faults into the program, one at a time, and counts those that no test notices.
+#!/usr/bin/python3
+"""Puts faults into the program, one at a time, and says which of them the tests see.
 
-mutants.json lists the faults: in FILE the text FROM becomes TO (AT: a longer text, if FROM is not unique). All faults are
-compiled into one copy of the program in build/mutants; the environment variable WINGSPREAD_MUTANT switches one on. A
-fault meets the tests of its own room, of its folder, and all others, until one fails. A fault that makes the tests five
-times slower counts as noticed. Faults whose text no longer occurs in the code are named, left out, and give exit code 1.
+    tests/mutants/mutants.py                          40 faults of seed 1, from all sources
+    tests/mutants/mutants.py --seed 7 --count 60      others
+    tests/mutants/mutants.py --part montecarlo/results '.*/statistics/.*cpp' page
+    tests/mutants/mutants.py --unseen                 again those that no test saw
 
-    tests/mutants/mutants.py                 all of them: some 20 minutes on two cores, after the build
-    tests/mutants/mutants.py --only 17,30    these
-    tests/mutants/mutants.py --list          what they are
+The faults are drawn, not listed: an operator exchanged, a sign, a bound, a term, condition or statement dropped, a constant
+changed, arguments exchanged. The seed draws files by their length, and in each a place by its function's name and text (places.py
+for C++, by libclang; page_places.js for the page's scripts, by acorn); no line number and no text of the code stands here.
 
-"equivalent" explains why a fault changes no result; it does not count. "costs" marks a fault that changes only the time.
-Results are kept in build/mutants/results.json.
+C++: all faults are compiled into one copy of the program in build/mutants (or MUTANTS_FOLDER); WINGSPREAD_MUTANT switches one on. Libraries without
+a fault are compiled as tests/run does, so that a ccache with base_dir has them, the others at -O1. A fault that does not compile is left out. It meets the tests of its own file, room, wing, then all, until one fails; ctest's tests of the
+schema, HDF5, Python and the recipes come last. Five times the tests' time counts as seen. Page: the copy has the fault's text, and
+meets tests/browser/report_test.py Quick. "never executed": no test ran the place. What is missing is installed first.
 """
 import argparse
+import collections
+import concurrent.futures
+import hashlib
 import json
+import math
 import os
 import pathlib
+import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
-COPY = SOURCE / "build/mutants/source"
-BUILD = SOURCE / "build/mutants/build"
-RESULTS = pathlib.Path(os.environ.get("MUTANTS_RESULTS", SOURCE / "build/mutants/results.json"))
-PARTS = ["core", "distributions", "montecarlo", "cli"]  # test_PART
-COPIED = ["CMakeLists.txt", "LICENSE", "core", "distributions", "montecarlo", "tests", "studies"]
+SOURCE = HERE.parents[1]
+COPY = pathlib.Path(os.environ.get("MUTANTS_FOLDER", SOURCE / "build/mutants"))
+RESULTS = COPY / "results.json"
+BUILD = COPY / "build/release"  # laid out as tests/run does it, so that ccache has what has no fault
+COPIED = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "core", "distributions", "montecarlo", "tests", "studies"]
+PAGE = "montecarlo/report/page/"
+# entry points that only other programs contain, processors of other kinds, and the exact text of help
+LEFT_OUT = re.compile(r"(main|mpi_transport|module|hdf5_missing|pack_neon|pack_avx512|runs_fma|specimens)\.cpp$")
+LAST = "^(schema|hdf5|python: the module|pages|ranks: recipes)"  # ctest's names
 
 
-def fail(message):
-    sys.exit(f"mutants.py: {message}")
+def chance(*key):
+    """A number in (0, 1), drawn by the key."""
+    return (int.from_bytes(hashlib.sha256(repr(key).encode()).digest()[:7], "big") + 0.5) / 2**56
 
 
-def once(text, part, where):
-    """The offset of the part, which must occur once."""
-    count = text.count(part)
-    if count != 1:
-        fail(f"{where}: the text occurs {count} times: {part}")
-    return text.index(part)
+def tracked():
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", *COPIED], cwd=SOURCE, check=True, capture_output=True, text=True)
+    return [name for name in listed.stdout.split("\n") if name and (SOURCE / name).is_file()]
 
 
-def is_stale(mutant):
-    """Whether the mutant's text no longer occurs exactly once in its file: the code has changed."""
-    path = SOURCE / mutant["file"]
-    at = mutant.get("at", mutant["from"])
-    return not path.is_file() or path.read_text(encoding="utf-8").count(at) != 1 or at.count(mutant["from"]) != 1
+def places(name):
+    if name.endswith(".js"):
+        found = subprocess.run(["node", HERE / "page_places.js", SOURCE / name], env={**os.environ, "NODE_PATH": "/usr/share/nodejs"},
+                               check=True, capture_output=True, text=True)
+        return json.loads(found.stdout)
+    from places import cpp_places
+    return cpp_places(SOURCE, SOURCE / name, ["/usr/include/eigen3", BUILD / "montecarlo/stamp"])
 
 
-def put_in(text, number, mutant):
-    """The file's text with the fault in it."""
-    where = f"mutant {number}, {mutant['file']}"
-    old, new = mutant["from"], mutant["to"]
-    at = mutant.get("at", old)
-    begin = once(text, at, where) + once(at, old, where)
-    if mutant.get("form") == "statement":
-        changed = f"if (wingspread_mutant({number})) {{ {new} }} else {{ {old} }}"
-    else:
-        changed = f"(wingspread_mutant({number}) ? ({new}) : ({old}))"
-    return text[:begin] + changed + text[begin + len(old):]
+def draw(seed, count, parts):
+    """The faults: files by their lengths, each file's places by a hash of what they are; none overlaps another."""
+    files = [name for name in tracked() if re.match(r"(core|distributions|montecarlo)/.*\.[ch]pp$|" + PAGE + r".*\.js$", name)
+             and not LEFT_OUT.search(name) and (not parts or any(re.match(part, "page" if name.endswith(".js") else name) for part in parts))]
+    lengths = {name: (SOURCE / name).read_bytes().count(b"\n") for name in files}
+    turns = sorted((-math.log(chance(seed, name, k)) / lengths[name], name) for name in files for k in range(count))[:count]
+    wanted, drawn = collections.Counter(name for _, name in turns), []
+    for name, number in sorted(wanted.items()):
+        seen, ranked = collections.Counter(), []
+        for place in places(name):
+            key = (place["function"], place["old"], place["new"])
+            seen[key] += 1
+            ranked.append((chance(seed, name, key, seen[key]), place))
+        ranges = []
+        for _, place in sorted(ranked, key=lambda pair: pair[0]):
+            begin, end = min(edit[0] for edit in place["edits"]), max(edit[1] for edit in place["edits"])
+            if len(ranges) < number and all(end <= b or e <= begin for b, e in ranges):
+                ranges.append((begin, end))
+                drawn.append({"file": name, **place})
+    return drawn
 
 
 def write(path, content):
     """Leaves a file that is the same alone, so that it is not compiled again."""
-    if path.exists() and path.read_bytes() == content:
-        return
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(content)
+    if not path.exists() or path.read_bytes() != content:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
 
 
-def behind_guard(text):
-    """With the switch's header before all others."""
-    include = f'#include "{HERE / "mutant.hpp"}"\n'
-    guard = "#pragma once\n"
-    return text.replace(guard, guard + include, 1) if guard in text else include + text
+def switched(content, faults):
+    """A C++ file's bytes with all its faults, each behind its switch; @return also the numbers of the faults on each line."""
+    edits = sorted(((*edit, number, fault) for number, fault in faults for edit in fault["edits"]), key=lambda edit: edit[0], reverse=True)
+    for begin, end, new, number, fault in edits:
+        old, new = content[begin:end].decode(), new.replace("\n", " ")
+        form = f"if (wingspread_mutant({number})) {{}} else {{ {old} }}" if fault.get("statement") else f"(wingspread_mutant({number}) ? ({new}) : ({old}))"
+        content = content[:begin] + form.encode() + content[end:]
+    text, guard = content.decode(), "#pragma once\n"
+    include = '#include "tests/mutants/mutant.hpp"\n'
+    text = text.replace(guard, guard + include, 1) if guard in text else include + text
+    return text.encode(), {at: {int(n) for n in re.findall(r"wingspread_mutant\((\d+)\)", line)} for at, line in enumerate(text.split("\n"), 1)}
 
 
-def make_copy(mutants):
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", *COPIED], cwd=SOURCE, check=True,
-                            capture_output=True, text=True).stdout.split("\n")
-    names = [name for name in listed if (SOURCE / name).is_file()]
-    faults = {}
-    for number, mutant in enumerate(mutants, 1):
-        if not is_stale(mutant):
-            faults.setdefault(mutant["file"], []).append((number, mutant))
+def make_copy(faults):
+    names, lines = tracked(), {}
     for name in names:
         content = (SOURCE / name).read_bytes()
-        if name in faults:
-            content = behind_guard(all_in(content.decode(), faults[name])).encode()
+        own = [(number, fault) for number, fault in faults.items() if fault["file"] == name and not name.endswith(".js")]
+        if own:
+            content, lines[name] = switched(content, own)
         write(COPY / name, content)
-    for path in COPY.rglob("*_test.cpp"):  # of tests that have moved
+    for path in COPY.rglob("*.?pp"):  # of files that have moved
         if str(path.relative_to(COPY)) not in names:
             path.unlink()
+    return lines
 
 
-def all_in(text, edits):
-    """The file's text with several faults in it, none of which may lie in another."""
-    places = []
-    for number, mutant in edits:
-        put_in(text, number, mutant)  # is it there, and once?
-        at = mutant.get("at", mutant["from"])
-        begin = text.index(at) + at.index(mutant["from"])
-        places.append((begin, begin + len(mutant["from"]), number, mutant))
-    places.sort()
-    for before, after in zip(places, places[1:]):
-        if after[0] < before[1]:
-            fail(f"mutants {before[2]} and {after[2]} overlap")
-    for begin, end, number, mutant in reversed(places):
-        text = text[:begin] + put_in(mutant["from"], number, {**mutant, "at": mutant["from"]}) + text[end:]
-    return text
+def targets(faults, quick):
+    """What ninja builds for the stages of these faults."""
+    binaries = {stage[0] for fault in faults.values() for stage in stages(fault["file"], quick)} - {"page"}
+    return ["all"] if "ctest" in binaries else [f"test_{name}" for name in sorted(binaries)]
 
 
-def build(jobs):
-    options = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -w",
-               "-DWINGSPREAD_STUDIES=OFF", *os.environ.get("MUTANTS_CMAKE", "").split()]
-    subprocess.run(["cmake", "-S", COPY, "-B", BUILD, *options], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", BUILD, "--target", *[f"test_{part}" for part in PARTS], "--", f"-j{jobs}", "-k0"],
-                   check=True)
+def build(faults, jobs, quick):
+    """Compiles the copy; @return the faults that compile."""
+    changed = {"wingspread_" + fault["file"].split("/")[0] for fault in faults.values()}
+    changed |= {"wingspread_pack_avx2", "wingspread_pack_avx512"} if "wingspread_core" in changed else set()
+    options = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DWINGSPREAD_STUDIES=OFF", f"-DWINGSPREAD_CHANGED={';'.join(sorted(changed))}",
+               f"-DCMAKE_PROJECT_TOP_LEVEL_INCLUDES={HERE / 'mutants.cmake'}"]
+    if shutil.which("ccache") and "CMAKE_CXX_COMPILER_LAUNCHER" not in os.environ:
+        options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
+    while True:
+        lines = make_copy(faults)
+        subprocess.run(["cmake", "-S", COPY, "-B", BUILD, *options], check=True, stdout=subprocess.DEVNULL)
+        built = subprocess.run(["ninja", "-C", BUILD, f"-j{jobs}", "-k0", *targets(faults, quick)], capture_output=True, text=True)
+        if built.returncode == 0:
+            return faults
+        wrong = set()
+        for path, line in re.findall(r"(?m)^(\S+?):(\d+):\d+: (?:error|fatal error|  ?required)", built.stdout):
+            path = pathlib.Path(os.path.normpath(BUILD / path))
+            if path.is_relative_to(COPY):
+                wrong |= lines.get(str(path.relative_to(COPY)), {}).get(int(line), set())
+        if not wrong & faults.keys():
+            sys.exit("mutants.py: the copy does not compile:\n" + built.stdout[-4000:])
+        faults = {number: fault for number, fault in faults.items() if number not in wrong}
 
 
-def limits(seconds):
-    """What a process may take: memory, and the processor's time, which does not depend on what else the machine does."""
-    def apply():
-        resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
+def run(command, number, seconds, folder, **environment):
+    """@return (whether it passes, its output); `seconds` of processor time, which does not depend on what else the machine does"""
+    def limits():
+        if "report_test.py" not in str(command):  # Chromium reserves terabytes of addresses
+            resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
-    return apply
-
-
-def run_tests(part, number, files, seconds):
-    """@return whether they pass, the first that fails, and the processor's time that they took"""
-    command = [BUILD / f"tests/test_{part}", "-a", "-#"]
-    if files:
-        command.append(",".join(f"[#{name}]" for name in files))
-    environment = {**os.environ, "WINGSPREAD_MUTANT": str(number), "OMP_NUM_THREADS": "2"}
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "output", "w+b") as output:
-        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=output, stderr=subprocess.STDOUT,
-                                   preexec_fn=limits(seconds), start_new_session=True)
+    with tempfile.TemporaryFile() as output:
+        process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT, preexec_fn=limits, start_new_session=True,
+                                   env={**os.environ, "WINGSPREAD_MUTANT": str(number), "OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive", **environment})
         try:
-            code = process.wait(timeout=20 * seconds)
+            code = process.wait(timeout=10 * seconds)
         except subprocess.TimeoutExpired:
             code = -signal.SIGXCPU
         finally:
@@ -153,139 +170,141 @@ def run_tests(part, number, files, seconds):
             process.wait()
         output.seek(0)
         text = output.read().decode(errors="replace")
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    took = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    if code in (-signal.SIGXCPU, -signal.SIGKILL):
-        return False, "takes too long", took
-    return code == 0, failed_test(text), took
+    return code == 0, "takes too long" if code in (-signal.SIGXCPU, -signal.SIGKILL) else text
 
 
-def failed_test(output):
-    """The name above the first failure: between two lines of dashes, as Catch prints it."""
-    lines = output.split("\n")
-    for i, line in enumerate(lines):
-        if line.startswith("-----") and i + 1 < len(lines) and lines[i + 1]:
-            return lines[i + 1].strip()
-    return lines[-2].strip() if len(lines) > 1 else ""
+def what_failed(text):
+    """The first failing test's name, as Catch, unittest or ctest print it."""
+    for pattern in (r"(?m)^(?:FAIL|ERROR): (.+)", r"(?m)^-{70,}\n(.+)\n", r"(?m)^\s+\d+ - (.+) \(", r"(.+)\s*\Z"):
+        found = re.search(pattern, text)
+        if found:
+            return found[1].strip()
+    return "no output"
 
 
-def room_tests(file):
-    """The test files of the file's room, that of the file's own name first."""
-    path = pathlib.Path(file)
-    part = path.parts[0]
-    folder = SOURCE / "tests" / path.parent
-    names = sorted(test.stem for test in folder.glob("*_test.cpp"))
-    own = [name for name in names if name.startswith(path.stem)]
-    return part, own, [name for name in names if name not in own]
+def stages(name, quick):
+    """Commands that test a file of the product, the closest tests first."""
+    if name.endswith(".js"):
+        return [["page"]]
+    part, folder = name.split("/")[0], pathlib.PurePath(name).parent
+    tests = sorted(SOURCE.glob(f"tests/{folder}/*_test.cpp"))
+    own = [test.stem for test in tests if test.stem.startswith(pathlib.Path(name).stem)]
+    room = [test.stem for test in tests if test.stem not in own]
+    wing = [test.stem for test in SOURCE.glob(f"tests/{folder.parent}/**/*_test.cpp") if test not in tests] if len(folder.parts) > 2 else []
+    found = [[part, ",".join(f"[#{stem}]" for stem in some)] for some in (own, room, wing) if some]
+    others = ["cli", "ctest"] if part == "montecarlo" else ["montecarlo", "cli"]
+    return [*found, [part], *[[other] for other in others if not quick or (part == "montecarlo" and other == "cli")]]
+
+
+def meet_stage(stage, number, fault, seconds, scratch):
+    """Runs one stage's tests with one fault switched on (0: none)."""
+    if stage == ["page"]:
+        for name in tracked_page():
+            write(scratch / name, (SOURCE / name).read_bytes())
+        if fault:
+            text = (SOURCE / fault["file"]).read_text("utf-8")
+            for begin, end, new in sorted(fault["edits"], reverse=True):
+                text = text[:begin] + new + text[end:]
+            write(scratch / fault["file"], text.encode())
+        return run(["/usr/bin/python3", scratch / "tests/browser/report_test.py", "-f", "Quick"], number, seconds, scratch)
+    if stage == ["ctest"]:
+        return run(["ctest", "--test-dir", BUILD, "-R", LAST, "--stop-on-failure"], number, seconds, scratch)
+    return run([BUILD / f"tests/test_{stage[0]}", "-a", "-#", *stage[1:]], number, seconds, scratch,
+               WINGSPREAD_MUTANT_REACHED=str(scratch / "reached"))
+
+
+def tracked_page():
+    return [name for name in tracked() if name.startswith(("tests/browser/", PAGE))]
 
 
 class Clock:
-    """How long tests take without a fault: measured once each, and they must pass."""
+    """The processor's time of each stage without a fault: it must pass."""
 
     def __init__(self):
         self.known = {}
 
-    def limit(self, part, files):
-        key = (part, tuple(files))
+    def limit(self, stage):
+        key = tuple(stage)
         if key not in self.known:
-            passes, failed, took = run_tests(part, 0, files, 1800)
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            with tempfile.TemporaryDirectory() as scratch:
+                passes, text = meet_stage(stage, 0, None, 3600, pathlib.Path(scratch))
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
             if not passes:
-                fail(f"test_{part} fails without any fault: {failed}")
-            self.known[key] = took
-        return max(20, round(5 * self.known[key]))
+                sys.exit(f"mutants.py: {' '.join(stage)} fails without any fault: {what_failed(text)}")
+            self.known[key] = max(20, round(5 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)))
+        return self.known[key]
 
 
-def stages(file):
-    part, own, others = room_tests(file)
-    for files in (own, others):
-        if files:
-            yield part, files
-    yield part, []
-    for other in PARTS:
-        if other != part:
-            yield other, []
+def meet(number, fault, limits, quick):
+    """@return which test sees it, or None; and whether any test reached it"""
+    with tempfile.TemporaryDirectory() as folder:
+        scratch = pathlib.Path(folder)
+        for stage in stages(fault["file"], quick):
+            passes, text = meet_stage(stage, number, fault, limits[tuple(stage)], scratch)
+            if not passes:
+                return {"seen": f"{stage[0]}: {what_failed(text)}"}
+        return {"seen": None, "reached": fault["file"].endswith(".js") or (scratch / "reached").exists()}
 
 
-def meet(number, mutant, clock, far):
-    """@param far how far to go: the tests of its room, its folder, or all"""
-    for part, files in stages(mutant["file"]):
-        if (far == "room" and not files) or (far == "folder" and part != mutant["file"].split("/")[0]):
-            break
-        passes, failed, _ = run_tests(part, number, files, clock.limit(part, files))
-        if not passes:
-            return f"{part}: {failed}"
-    return None
+def wing_of(name):
+    parts = name.split("/")
+    return "page" if name.startswith(PAGE) and name.endswith(".js") else "/".join(parts[:2]) if parts[0] == "montecarlo" else parts[0]
 
 
-def report(mutants, results):
-    killed = survived = equivalent = 0
-    for number, mutant in enumerate(mutants, 1):
-        found = results.get(str(number))
-        if "equivalent" in mutant:
-            equivalent += 1
-        elif found is None:
+def report(faults, results):
+    tally = collections.defaultdict(lambda: [0, 0])
+    for number, fault in faults.items():
+        found = results.get(number)
+        if not found:
             continue
-        elif found["killed_by"]:
-            killed += 1
-        else:
-            survived += 1
-            print(f"{number:4} survives  {mutant['file']}: {mutant['from']}  ->  {mutant['to']}")
-    counted = killed + survived
-    if counted:
-        print(f"{killed} of {counted} are seen by a test ({100 * killed / counted:.1f} %); "
-              f"{equivalent} more are equivalent")
+        seen = found["seen"] is not None
+        for key in (wing_of(fault["file"]), "all"):
+            tally[key][0] += seen
+            tally[key][1] += 1
+        if not seen:
+            print(f"\nunseen: {number}, {fault['file']}, {fault['function']}{'' if found['reached'] else ' (never executed)'}")
+            print("\n".join(f"  - {line}" for line in fault["old"].split("\n")) + "\n" + "\n".join(f"  + {line}" for line in fault["new"].split("\n")))
+    print()
+    for key, (seen, of) in sorted(tally.items(), key=lambda row: (row[0] == "all", row[0])):
+        print(f"{key:25} {seen:4} of {of:4} seen ({100 * seen / of:.0f} %)")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", help="numbers, with commas, or part of a file's name")
-    parser.add_argument("--list", action="store_true")
-    parser.add_argument("--no-build", action="store_true", help="what is built already")
-    parser.add_argument("--build-only", action="store_true")
-    parser.add_argument("--new", action="store_true", help="those alone that are not known to be killed")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
-    parser.add_argument("--far", choices=["room", "folder", "all"], default="all", help="whose tests")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--part", nargs="+", help="sources: the beginnings of their names, as regular expressions, or page")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--quick", action="store_true", help="core meets core's tests alone, montecarlo not those of ctest")
+    parser.add_argument("--list", action="store_true", help="draw only")
+    parser.add_argument("--unseen", action="store_true", help="of the last call's faults those that no test saw")
     arguments = parser.parse_args()
-    mutants = json.loads((HERE / "mutants.json").read_text())
-    results = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
-
-    def key(mutant):
-        return [mutant["file"], mutant.get("at", ""), mutant["from"], mutant["to"]]
-
-    results = {number: found for number, found in results.items()
-               if int(number) <= len(mutants) and found["mutant"] == key(mutants[int(number) - 1])}
-    chosen = range(1, len(mutants) + 1)
-    if arguments.only:
-        words = arguments.only.split(",")
-        chosen = [n for n in chosen if str(n) in words or
-                  (not words[0].isdigit() and any(word in mutants[n - 1]["file"] for word in words))]
+    subprocess.run([SOURCE / "studies/install", "--mutants"], check=True)
+    if arguments.unseen:
+        last = json.loads(RESULTS.read_text())
+        arguments.seed, arguments.count, arguments.part = last["seed"], last["count"], last["part"]
+    faults = dict(enumerate(draw(arguments.seed, arguments.count, arguments.part), 1))
     if arguments.list:
-        for n in chosen:
-            m = mutants[n - 1]
-            print(f"{n:4} {m['file']}: {m['from']}  ->  {m['to']}")
+        for number, fault in faults.items():
+            print(f"{number:4} {fault['file']} {fault['function']}: {fault['old']}  ->  {fault['new']}")
         return
-    stale = [n for n, mutant in enumerate(mutants, 1) if is_stale(mutant)]
-    for n in stale:
-        print(f"{n:4} is stale: its text does not occur once in {mutants[n - 1]['file']}: "
-              f"{mutants[n - 1].get('at', mutants[n - 1]['from'])}", file=sys.stderr)
-    if not arguments.no_build:
-        make_copy(mutants)
-        build(arguments.jobs)
-    if arguments.build_only:
-        return
+    compiled = build(faults, arguments.jobs, arguments.quick) if any(not fault["file"].endswith(".js") for fault in faults.values()) else faults
+    chosen = {number: fault for number, fault in compiled.items() if not arguments.unseen or last["seen"].get(str(number), 0) is None}
     clock = Clock()
-    for number in chosen:
-        mutant = mutants[number - 1]
-        known = results.get(str(number))
-        if number in stale or "equivalent" in mutant or (arguments.new and known and known["killed_by"]):
-            continue
-        killed_by = meet(number, mutant, clock, arguments.far)
-        results[str(number)] = {"mutant": key(mutant), "killed_by": killed_by}
-        print(f"{number:4} {mutant['file']}: {killed_by or 'SURVIVES'}", flush=True)
-        RESULTS.write_text(json.dumps(results, indent=1))
-    report(mutants, results)
-    if stale:
-        fail(f"{len(stale)} mutants are stale and were left out: mend their texts in mutants.json")
+    limits = {tuple(stage): clock.limit(stage) for fault in chosen.values() for stage in stages(fault["file"], arguments.quick)}
+    results = {}
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        waiting = {pool.submit(meet, number, fault, limits, arguments.quick): number for number, fault in chosen.items()}
+        for done in concurrent.futures.as_completed(waiting):
+            number = waiting[done]
+            results[number] = done.result()
+            print(f"{number:4} {faults[number]['file']} {faults[number]['function']}: {results[number]['seen'] or 'UNSEEN'}", flush=True)
+    seen = {number: found["seen"] for number, found in results.items()}
+    COPY.mkdir(parents=True, exist_ok=True)
+    RESULTS.write_text(json.dumps({"seed": arguments.seed, "count": arguments.count, "part": arguments.part, "seen": seen}, indent=1))
+    report(chosen, results)
+    print(f"seed {arguments.seed}; {len(faults) - len(compiled)} of {len(faults)} faults do not compile")
 
 
 if __name__ == "__main__":
