@@ -1,7 +1,7 @@
 /// Exact Coulomb friction: which hinges stick and which slide.
 ///
 /// A sliding hinge has the constant friction −τ_c sign φ̇ until its rate reaches zero (first_rest). A stuck hinge is
-/// a locked hinge of the recursion (augmented.hpp) until the friction that holds it passes the static limit τ_s
+/// a locked hinge of the recursion (locked.hpp) until the friction that holds it passes the static limit τ_s
 /// (holding.hpp). Both are events. After each, sort_contacts decides anew which of the hinges at rest stick.
 #pragma once
 
