@@ -72,12 +72,13 @@ public:
   /// Whether the last step's search ran out of samples. If so, it may have missed a release.
   [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
-  /// Excess of the friction that holds hinge i over its limit at the last evaluation, which was at x, N·m.
+  /// Excess of the friction that holds hinge i over its limit and margin at the last evaluation, which was at x, N·m.
   template <class AnySystem>
   [[nodiscard]] static T excess(const AnySystem& system, const State<T>& x, int i) {
     using std::abs;
-    return abs(system.holding_friction(x, i)) -
-           T(1 + 2 * release_tolerance) * system.static_limit(x, i);
+    return (abs(system.holding_friction(x, i)) -
+            T(1 + 2 * release_tolerance) * system.static_limit(x, i)) -
+           system.release_margin(x, i);
   }
 
 private:

@@ -176,6 +176,16 @@ public:
            (tested ? measured_friction(wing_.real[i].friction, x[layout_.angle(i)]) : T(0));
   }
 
+  /// By how much the friction of stuck hinge i must exceed static_limit for the hinge to let go, N·m. Held with that
+  /// much too little, the hinge rests within atol of the angle to which it would creep, or would creep more slowly than
+  /// atol; or the limit is off by rtol of itself. Without this margin rounding would decide, at every step, about a
+  /// latched hinge that creeps to where its load is the limit (τ_s = τ_c).
+  [[nodiscard]] T release_margin(const State<T>& x, int i) const {
+    const Resolution<T>& least = work_.resolution;
+    const LinearLaw<T>& law = work_.laws[i];
+    return fused(least.relative, static_limit(x, i), least.absolute * (law.stiffness + law.damping));
+  }
+
   /// Velocity of the base's origin, m/s; a prescribed base starts at rest.
   [[nodiscard]] Vec2<T> base_velocity(const State<T>& x, const T& t) const {
     if constexpr (M == BaseMotion::free) return {x[layout_.freedoms()], x[layout_.freedoms() + 1]};
