@@ -36,6 +36,11 @@ template <class T>
   return engaged && real.has_latch_edge();
 }
 
+/// Whether the law of the hinge's latch changes where it engages.
+template <class T> [[nodiscard]] bool has_edge_at_latch(const Wing<T>& wing, int i) {
+  return !wing.real.empty() && wing.real[i].dissipation.present && !wing.real[i].has_backlash;
+}
+
 /// Whether the stop is in contact, by the side of its edge.
 template <class T> [[nodiscard]] bool touches_stop(const Wing<T>& wing, int i, bool above) {
   const StopTerms<T>& stop = wing.real[i].stop;

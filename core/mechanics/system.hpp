@@ -108,11 +108,6 @@ public:
     update_law(i);
   }
 
-  /// Whether the law of hinge i's latch changes where it engages.
-  [[nodiscard]] bool has_edge_at_latch(int i) const {
-    return !wing_.real.empty() && wing_.real[i].has_latch_edge() && !wing_.real[i].has_backlash;
-  }
-
   /// Sets the state of the exact friction of hinge i.
   void touch(int i, Contact contact) {
     work_.stuck += (contact == Contact::stuck) - (work_.contact[i] == Contact::stuck);

@@ -19,35 +19,6 @@ namespace {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-/// The damping that fits a damper at the rate v: moment over rate.
-[[nodiscard]] double secant(const DamperTerms<double>& damper, double v) {
-  if (damper.law != DamperLaw::power) return damper_damping(damper, 0.0);
-  const double rate = std::max(v, damper.rate);
-  return -damper_moment(damper, rate) / rate;
-}
-
-/// Largest |moment + taken·v| of a damper for rates up to `most`.
-[[nodiscard]] double beyond_linear(const DamperTerms<double>& damper, double taken, double most) {
-  const auto left = [&](double v) { return std::abs(damper_moment(damper, v) + taken * v); };
-  switch (damper.law) {
-  case DamperLaw::viscous:
-    break;
-  case DamperLaw::power: { // linear, then a power: the difference from a line has one extreme
-    double largest = left(most);
-    if (most > damper.rate) largest = std::max(largest, left(damper.rate));
-    const double p = damper.exponent, steep = damper.strength * p;
-    if (p != 1 && taken > 0 && steep > 0) {
-      const double v = std::pow(steep / taken, 1 / (1 - p));
-      if (v > damper.rate && v < most) largest = std::max(largest, left(v));
-    }
-    return largest;
-  }
-  case DamperLaw::eddy_current: // the difference is S r³/(1 + r²), which rises
-    return left(most);
-  }
-  return 0;
-}
-
 class Maker {
 public:
   Maker(const Wing<double>& wing, const Workspace<double>& work, RestModel& model)

@@ -26,6 +26,14 @@ template <BaseMotion M> struct Latched {
     remaining.prepare(system);
     still = x;
     has_model = tune(&still[at.rate(1)]);
+    if (has_model) bear(rest());
+  }
+
+  /// Lets every latch with dissipation bear on the side on which its hinge stands.
+  void bear(const State<double>& x) {
+    for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
+      if (wing.real[i].dissipation.present)
+        system.pass(i, Edge::backlash_high, x[at.angle(i)] > wing.hinges[i].latched);
   }
 
   /// @param rates rates about which dampers are linearized @return whether all modes decay
