@@ -38,8 +38,8 @@ RESULTS = COPY / "results.json"
 BUILD = COPY / "build/release"  # laid out as tests/run does it, so that ccache has what has no fault
 COPIED = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "core", "distributions", "montecarlo", "tests", "studies"]
 PAGE = "montecarlo/report/page/"
-# entry points that only other programs contain, processors of other kinds, and the exact text of help
-LEFT_OUT = re.compile(r"(main|mpi_transport|module|hdf5_missing|pack_neon|pack_avx512|runs_fma|specimens)\.cpp$")
+# entry points of other programs, and code for other processors
+LEFT_OUT = re.compile(r"(main|mpi_transport|module|hdf5_missing|pack_neon|pack_avx512|runs_fma)\.cpp$")
 LAST = "^(schema|hdf5|python: the module|pages|ranks: recipes)"  # ctest's names
 
 
@@ -191,7 +191,8 @@ def stages(name, quick):
     own = [test.stem for test in tests if test.stem.startswith(pathlib.Path(name).stem)]
     room = [test.stem for test in tests if test.stem not in own]
     wing = [test.stem for test in SOURCE.glob(f"tests/{folder.parent}/**/*_test.cpp") if test not in tests] if len(folder.parts) > 2 else []
-    found = [[part, ",".join(f"[#{stem}]" for stem in some)] for some in (own, room, wing) if some]
+    found = [["hdf5"]] if folder.name == "export" else []
+    found += [[part, ",".join(f"[#{stem}]" for stem in some)] for some in (own, room, wing) if some]
     others = ["cli", "ctest"] if part == "montecarlo" else ["montecarlo", "cli"]
     return [*found, [part], *[[other] for other in others if not quick or (part == "montecarlo" and other == "cli")]]
 
