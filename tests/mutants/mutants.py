@@ -124,11 +124,12 @@ def targets(faults, quick):
     return ["all"] if "ctest" in binaries else [f"test_{name}" for name in sorted(binaries)]
 
 
-def build(faults, jobs, quick):
+def build(faults, jobs, quick, tests_from):
     """Compiles the copy; @return the faults that compile."""
     changed = {"wingspread_" + fault["file"].split("/")[0] for fault in faults.values()}
     changed |= {"wingspread_pack_avx2", "wingspread_pack_avx512"} if "wingspread_core" in changed else set()
     options = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DWINGSPREAD_STUDIES=OFF", f"-DWINGSPREAD_CHANGED={';'.join(sorted(changed))}",
+               f"-DWINGSPREAD_TESTS_FROM={'' if any(fault['file'].endswith('.hpp') for fault in faults.values()) else tests_from or ''}",
                f"-DCMAKE_PROJECT_TOP_LEVEL_INCLUDES={HERE / 'mutants.cmake'}"]
     if shutil.which("ccache") and "CMAKE_CXX_COMPILER_LAUNCHER" not in os.environ:
         options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
@@ -278,6 +279,7 @@ def main():
     parser.add_argument("--part", nargs="+", help="sources: the beginnings of their names, as regular expressions, or page")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--quick", action="store_true", help="core meets core's tests alone, montecarlo not those of ctest")
+    parser.add_argument("--tests-from", type=os.path.abspath, help="a finished build, e.g. build/release, whose tests are linked if no header has a fault")
     parser.add_argument("--list", action="store_true", help="draw only")
     parser.add_argument("--unseen", action="store_true", help="of the last call's faults those that no test saw")
     arguments = parser.parse_args()
@@ -290,7 +292,7 @@ def main():
         for number, fault in faults.items():
             print(f"{number:4} {fault['file']} {fault['function']}: {fault['old']}  ->  {fault['new']}")
         return
-    compiled = build(faults, arguments.jobs, arguments.quick) if any(not fault["file"].endswith(".js") for fault in faults.values()) else faults
+    compiled = build(faults, arguments.jobs, arguments.quick, arguments.tests_from) if any(not fault["file"].endswith(".js") for fault in faults.values()) else faults
     chosen = {number: fault for number, fault in compiled.items() if not arguments.unseen or last["seen"].get(str(number), 0) is None}
     clock = Clock()
     limits = {tuple(stage): clock.limit(stage) for fault in chosen.values() for stage in stages(fault["file"], arguments.quick)}
