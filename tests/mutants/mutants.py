@@ -10,10 +10,11 @@ The faults are drawn, not listed: an operator exchanged, a sign, a bound, a term
 changed, arguments exchanged. The seed draws files by their length, and in each a place by its function's name and text (places.py
 for C++, by libclang; page_places.js for the page's scripts, by acorn); no line number and no text of the code stands here.
 
-C++: all faults are compiled into one copy of the program in build/mutants (or MUTANTS_FOLDER); WINGSPREAD_MUTANT switches one on. Libraries without
-a fault are compiled as tests/run does, so that a ccache with base_dir has them, the others at -O1. A fault that does not compile is left out. It meets the tests of its own file, room, wing, then all, until one fails; ctest's tests of the
-schema, HDF5, Python and the recipes come last. Five times the tests' time counts as seen. Page: the copy has the fault's text, and
-meets tests/browser/report_test.py Quick. "never executed": no test ran the place. What is missing is installed first.
+C++: all faults are compiled into one copy of the program in build/mutants (or MUTANTS_FOLDER); WINGSPREAD_MUTANT switches one on.
+Libraries with a fault are compiled at -O1, the others as tests/run does it: a ccache with base_dir may have them. A fault that
+does not compile is left out. It meets the tests of its own file, room and wing, then all, until one fails; ctest's tests of the
+schema, HDF5, Python and the recipes come last. Five times the tests' processor time counts as seen. "never executed": no test ran
+the place. Page: the copy has the fault's text, and meets tests/browser/report_test.py Quick. What is missing is installed first.
 """
 import argparse
 import collections
@@ -160,7 +161,7 @@ def run(command, number, seconds, folder, **environment):
         process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT, preexec_fn=limits, start_new_session=True,
                                    env={**os.environ, "WINGSPREAD_MUTANT": str(number), "OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive", **environment})
         try:
-            code = process.wait(timeout=10 * seconds)
+            code = process.wait(timeout=30 * seconds)
         except subprocess.TimeoutExpired:
             code = -signal.SIGXCPU
         finally:
