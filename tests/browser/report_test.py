@@ -22,6 +22,7 @@ try:
     import pages
     from mark_checks import MarkChecks
     from number_checks import NumberChecks
+    from pose_checks import PoseChecks
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
 
@@ -65,7 +66,7 @@ class Page(unittest.TestCase):
         return self.driver.find_element(By.CSS_SELECTOR, selector)
 
 
-class Quick(MarkChecks, NumberChecks, Page):
+class Quick(PoseChecks, MarkChecks, NumberChecks, Page):
     def test_first_screen_holds_every_verdict_and_count(self):
         self.open(pages.made_up("cases"))
         data = self.run_script("return W.data")

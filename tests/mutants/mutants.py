@@ -10,10 +10,11 @@ The faults are drawn, not listed: an operator exchanged, a sign, a bound, a term
 changed, arguments exchanged. The seed draws files by their length, and in each a place by its function's name and text (places.py
 for C++, by libclang; page_places.js for the page's scripts, by acorn); no line number and no text of the code stands here.
 
-C++: all faults are compiled into one copy of the program in build/mutants (or MUTANTS_FOLDER); WINGSPREAD_MUTANT switches one on. Libraries without
-a fault are compiled as tests/run does, so that a ccache with base_dir has them, the others at -O1. A fault that does not compile is left out. It meets the tests of its own file, room, wing, then all, until one fails; ctest's tests of the
-schema, HDF5, Python and the recipes come last. Five times the tests' time counts as seen. Page: the copy has the fault's text, and
-meets tests/browser/report_test.py Quick. "never executed": no test ran the place. What is missing is installed first.
+C++: all faults are compiled into one copy of the program in build/mutants (or MUTANTS_FOLDER); WINGSPREAD_MUTANT switches one on.
+Libraries with a fault are compiled at -O1, the others as tests/run does it: a ccache with base_dir may have them. A fault that
+does not compile is left out. It meets the tests of its own file, room and wing, then all, until one fails; ctest's tests of the
+schema, HDF5, Python and the recipes come last. Five times the tests' processor time counts as seen. "never executed": no test ran
+the place. Page: the copy has the fault's text, and meets tests/browser/report_test.py Quick. What is missing is installed first.
 """
 import argparse
 import collections
@@ -38,8 +39,8 @@ RESULTS = COPY / "results.json"
 BUILD = COPY / "build/release"  # laid out as tests/run does it, so that ccache has what has no fault
 COPIED = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "CHANGELOG.md", "core", "distributions", "montecarlo", "tests", "studies"]
 PAGE = "montecarlo/report/page/"
-# entry points that only other programs contain, processors of other kinds, and the exact text of help
-LEFT_OUT = re.compile(r"(main|mpi_transport|module|hdf5_missing|pack_neon|pack_avx512|runs_fma|specimens)\.cpp$")
+# entry points of other programs, and code for other processors
+LEFT_OUT = re.compile(r"(main|mpi_transport|module|hdf5_missing|pack_neon|pack_avx512|runs_fma)\.cpp$")
 LAST = "^(schema|hdf5|python: the module|pages|ranks: recipes)"  # ctest's names
 
 
@@ -124,11 +125,12 @@ def targets(faults, quick):
     return ["all"] if "ctest" in binaries else [f"test_{name}" for name in sorted(binaries)]
 
 
-def build(faults, jobs, quick):
+def build(faults, jobs, quick, tests_from):
     """Compiles the copy; @return the faults that compile."""
     changed = {"wingspread_" + fault["file"].split("/")[0] for fault in faults.values()}
     changed |= {"wingspread_pack_avx2", "wingspread_pack_avx512"} if "wingspread_core" in changed else set()
     options = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DWINGSPREAD_STUDIES=OFF", f"-DWINGSPREAD_CHANGED={';'.join(sorted(changed))}",
+               f"-DWINGSPREAD_TESTS_FROM={'' if any(fault['file'].endswith('.hpp') for fault in faults.values()) else tests_from or ''}",
                f"-DCMAKE_PROJECT_TOP_LEVEL_INCLUDES={HERE / 'mutants.cmake'}"]
     if shutil.which("ccache") and "CMAKE_CXX_COMPILER_LAUNCHER" not in os.environ:
         options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
@@ -159,7 +161,7 @@ def run(command, number, seconds, folder, **environment):
         process = subprocess.Popen(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT, preexec_fn=limits, start_new_session=True,
                                    env={**os.environ, "WINGSPREAD_MUTANT": str(number), "OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive", **environment})
         try:
-            code = process.wait(timeout=10 * seconds)
+            code = process.wait(timeout=30 * seconds)
         except subprocess.TimeoutExpired:
             code = -signal.SIGXCPU
         finally:
@@ -191,7 +193,8 @@ def stages(name, quick):
     own = [test.stem for test in tests if test.stem.startswith(pathlib.Path(name).stem)]
     room = [test.stem for test in tests if test.stem not in own]
     wing = [test.stem for test in SOURCE.glob(f"tests/{folder.parent}/**/*_test.cpp") if test not in tests] if len(folder.parts) > 2 else []
-    found = [[part, ",".join(f"[#{stem}]" for stem in some)] for some in (own, room, wing) if some]
+    found = [["hdf5"]] if folder.name == "export" else []
+    found += [[part, ",".join(f"[#{stem}]" for stem in some)] for some in (own, room, wing) if some]
     others = ["cli", "ctest"] if part == "montecarlo" else ["montecarlo", "cli"]
     return [*found, [part], *[[other] for other in others if not quick or (part == "montecarlo" and other == "cli")]]
 
@@ -277,6 +280,7 @@ def main():
     parser.add_argument("--part", nargs="+", help="sources: the beginnings of their names, as regular expressions, or page")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--quick", action="store_true", help="core meets core's tests alone, montecarlo not those of ctest")
+    parser.add_argument("--tests-from", type=os.path.abspath, help="a finished build, e.g. build/release, whose tests are linked if no header has a fault")
     parser.add_argument("--list", action="store_true", help="draw only")
     parser.add_argument("--unseen", action="store_true", help="of the last call's faults those that no test saw")
     arguments = parser.parse_args()
@@ -289,7 +293,7 @@ def main():
         for number, fault in faults.items():
             print(f"{number:4} {fault['file']} {fault['function']}: {fault['old']}  ->  {fault['new']}")
         return
-    compiled = build(faults, arguments.jobs, arguments.quick) if any(not fault["file"].endswith(".js") for fault in faults.values()) else faults
+    compiled = build(faults, arguments.jobs, arguments.quick, arguments.tests_from) if any(not fault["file"].endswith(".js") for fault in faults.values()) else faults
     chosen = {number: fault for number, fault in compiled.items() if not arguments.unseen or last["seen"].get(str(number), 0) is None}
     clock = Clock()
     limits = {tuple(stage): clock.limit(stage) for fault in chosen.values() for stage in stages(fault["file"], arguments.quick)}

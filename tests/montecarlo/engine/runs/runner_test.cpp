@@ -56,6 +56,7 @@ TEST_CASE("watching a run and auditing its energy changes no bit of its row") {
     CHECK((samples > 1) == (row.status != Status::invalid));
     // rounding alone leaves some
     CHECK((outcome.energy.drift_before_first_latch > 0) == (row.status != Status::invalid));
+    if (row.status == Status::invalid) CHECK(row.peaks_final == PeaksFinal::unknown);
     seen.insert(row.status);
   }
   CHECK(seen.contains(Status::deployed));
