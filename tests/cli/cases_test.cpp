@@ -247,6 +247,33 @@ TEST_CASE("analyze goes through all cases, and writes elsewhere where it is told
   CHECK(cases.program({"replay", late, "--run", "3", "--case", "heavy"}).code == 0);
 }
 
+TEST_CASE("cases that stop early are whole, and every command reads them", "[cases]") {
+  const Folder folder;
+  Json json = campaign_with_cases(4000);
+  json["until"] = parse_json(R"([{ "output": "deployed", "width": 0.01 }])");
+  const std::string file = folder.write("c.json", json.dump()), out = folder.path() / "r";
+  const auto program = [&](std::vector<std::string> arguments) {
+    return run_program(folder, arguments);
+  };
+  (void)program({"run", file, "--out", out});
+  const Json cases = parse_json_file(out + "/cases.json")["cases"];
+  for (const char* name : {"cold", "ambient", "heavy"}) {
+    CHECK(cases[name]["runs"] == 1000);
+    CHECK_FALSE(cases[name].contains("partial"));
+  }
+  const auto whole = all_contents(out);
+  (void)program({"run", file, "--out", out, "--resume"});
+  (void)program({"analyze", out});
+  CHECK(all_contents(out) == whole);
+  for (const char* command : {"simulate", "sample", "check", "rare", "sensitivity"})
+    CHECK_THAT(program({command, file, "--case", "cod"}).error,
+               HasFacts({"error: --case: found \"cod\"", "did you mean \"cold\"?"}));
+  CHECK_THAT(program({"replay", out, "--run", "3", "--case", "cod"}).error,
+             Catch::Contains("did you mean \"cold\"?"));
+  CHECK(program({"run", file, "--out", out + "2", "--no-rows"}).code == 2);
+  CHECK(program({"replay", out, "--run", "999", "--case", "cold"}).code == 0);
+}
+
 TEST_CASE("what --set changes is the nominal scene, and part of the campaign", "[cases]") {
   const Folder folder;
   const std::string file = folder.write("c.json", quick_campaign(4).dump());
