@@ -201,9 +201,10 @@ def comparison(sets, first, second):
             half = 1.96 * math.hypot(one["mean_error"] or 0, two["mean_error"] or 0)
             step = two["mean"] - one["mean"]
             rows.append({"output": one["name"], "difference": step, "lower": step - half, "upper": step + half,
-                         "relative": step / abs(one["mean"])})
+                         "relative": step / abs(one["mean"]), "runs": one["count"]})
     rates = [(one["status"], two["rate"] - one["rate"]) for one, two in zip(sets[first]["statuses"], sets[second]["statuses"])]
-    return {"sets": [first, second], "paired": True, "outputs": rows, "text": f"{sets[second]['label']} − {sets[first]['label']}, the same draws",
+    return {"sets": [first, second], "paired": True, "runs": sets[second]["runs"], "outputs": rows,
+            "text": f"{sets[second]['label']} − {sets[first]['label']}, run by run over the {sets[second]['runs']} runs with the same draws",
             "statuses": [{"status": s, "difference": d, "lower": d - 0.004, "upper": d + 0.004} for s, d in rates]}
 
 
@@ -212,7 +213,7 @@ def block(sets, title="mock_wing"):
         ("latch_time", "s", "when the hinge reaches its latched angle for the first time"),
         ("latch_rate", "rad/s", "its own relative rate at that instant; signed"), ("peak_moment", "N m", "largest |M| of the whole run"))}
     return {"format": 1, "version": "0.2.0+mock", "command": "wingspread report results/mock", "title": title, "glossary": glossary,
-            "sets": sets, "comparisons": [comparison(sets, 0, k) for k in range(1, len(sets)) if sets[k]["runs"]]}
+            "sets": sets, "comparisons": [comparison(sets, 0, k) for k in range(1, len(sets)) if sets[k]["runs"]], "unpaired": []}
 
 
 def odd():

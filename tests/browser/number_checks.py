@@ -249,6 +249,7 @@ class NumberChecks:
                     for (value, half), bound in zip(parsed(row[3]), (one["lower"], one["upper"]), strict=True):
                         self.assertLessEqual(abs(value - bound * factor), half, one["output"])
                     self.check(row[4], one["relative"], share=True, about=one["output"])
+                    self.check(row[5], one["runs"], about=one["output"])
         self.run_script("W.choose('set', 0)")
         for row, one in zip(self.table("Scene of cold"), data["sets"][0]["inputs"]["scene"], strict=True):
             self.check(row[1], one["value"], near=1e-6, about=one["path"])

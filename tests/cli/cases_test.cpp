@@ -1,5 +1,6 @@
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/montecarlo/margin_support.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -181,6 +182,60 @@ TEST_CASE("What is about one campaign asks for the case that is meant", "[cases]
   CHECK(draws.out != cases.program({"sample", cases.file, "--runs", "3", "--case", "cold"}).out);
 }
 
+// By hand, of a spring of 2 N·m. Cold: friction 0.2 · 1.5 · 3 and harness 0.1 · 2 N·m; ambient: 0.2 · 1.5 and 0.1 N·m.
+TEST_CASE("the nominal wing of every command is the case's, with its tables and laws", "[cases]") {
+  const Folder folder;
+  Json campaign = one_panel_margin(20);
+  Json& hinge = campaign["scene"]["hinges"][0];
+  hinge["spring"] = {{"torque_stowed", 2}, {"torque_latched", 2}};
+  hinge["friction"] = {{"model", "exact"}, {"coulomb", 0.2}, {"static", 0.2}};
+  hinge["harness"] = {{"torque_stowed", 0.1}, {"torque_latched", 0.1}};
+  campaign["dispersions"] = parse_json(R"([
+    { "name": "temperature", "distribution": { "type": "normal", "mean": 20, "std": 5 }, "through": [
+        { "to": ["hinges.*.friction.scale"], "apply": "scale",
+          "table": { "at": [-60, 20], "value": [3, 1] } },
+        { "to": ["hinges.*.harness.scale"], "apply": "scale",
+          "table": { "at": [-60, 20], "value": [2, 1] } } ] },
+    { "name": "lot", "distribution": { "type": "discrete", "values": [1, 1.5], "weights": [0.4, 0.6] },
+      "apply": "scale", "to": ["hinges.*.friction.scale"] } ])");
+  campaign["cases"] = parse_json(R"([ { "name": "ambient" },
+    { "name": "cold", "distributions": { "temperature": { "type": "normal", "mean": -60, "std": 5 } } } ])");
+  campaign["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.8, "confidence": 0.9 }])");
+  const std::string file = folder.write("c.json", campaign.dump()), out = folder.path() / "r";
+  const auto program = [&](std::vector<std::string> arguments) {
+    return run_program(folder, arguments);
+  };
+
+  const auto checked = program({"check", file});
+  CHECK_THAT(checked.out,
+             HasFacts({"static margins", "root (ambient)", "-0.333", "+0.667", "+1.500", "+0.667",
+                       "root (cold)", "-0.758", "-0.394", "-0.091", "-0.394"}));
+  const std::string cold = program({"check", file, "--case", "cold"}).out;
+  CHECK_THAT(cold, HasFacts({"root (cold)", "-0.758", "-0.394", "-0.091"}));
+  CHECK_THAT(cold, !Catch::Contains("ambient"));
+  CHECK(program({"check", file, "--case", "cod"}).code == 2);
+
+  CHECK(program({"run", file, "--out", out}).code == 0);
+  CHECK(program({"report", out}).code == 0);
+  const Json page = page_data(out + "/report.html");
+  CHECK(program({"margin", file, "--out", out + "/m"}).code != 2);
+  const Json at = parse_json_file(out + "/m/margin.json")["motorization"]["at"];
+  const std::vector<std::pair<std::string, double>> nasa{{"ambient", 2 / 1.2 - 1},
+                                                         {"cold", 2 / 3.3 - 1}};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& [name, margin] = nasa[k];
+    CHECK(page["sets"][k]["static_margins"]["hinges"][0]["least"] == Approx(margin).epsilon(1e-4));
+    CHECK(at[k]["case"] == name);
+    CHECK(at[k]["least_over_travel"][0]["nasa"]["nominal"] == Approx(margin).epsilon(1e-12));
+    const Json run = parse_json(program({"simulate", file, "--case", name, "--json"}).out);
+    const Json summary = parse_json_file(out + "/" + name + "/summary.json");
+    CHECK(summary["outputs"]["root.latch_time"]["nominal"] == run["latches"][0]["time"]);
+    CHECK(page["sets"][k]["outputs"][0]["nominal"] ==
+          Approx(run["latches"][0]["time"]).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("analyze goes through all cases, and writes elsewhere where it is told to", "[cases]") {
   const Cases cases(24);
   (void)cases.program({"run", cases.file, "--out", cases.out});
@@ -197,6 +252,37 @@ TEST_CASE("analyze goes through all cases, and writes elsewhere where it is told
   REQUIRE(side_by_side["requirements"].size() == 1);
   CHECK(side_by_side["requirements"][0]["verdict"] == "pass");
   CHECK(parse_json_file(late + "/heavy/summary.json")["requirements"][0]["max"] == 20);
+  CHECK(cases.program({"report", late}).code == 0);
+  for (const Json& set : page_data(late + "/report.html")["sets"])
+    CHECK(set["requirements"][0]["limit"] == 20);
+  CHECK(cases.program({"replay", late, "--run", "3", "--case", "heavy"}).code == 0);
+}
+
+TEST_CASE("cases that stop early are whole, and every command reads them", "[cases]") {
+  const Folder folder;
+  Json json = campaign_with_cases(4000);
+  json["until"] = parse_json(R"([{ "output": "deployed", "width": 0.01 }])");
+  const std::string file = folder.write("c.json", json.dump()), out = folder.path() / "r";
+  const auto program = [&](std::vector<std::string> arguments) {
+    return run_program(folder, arguments);
+  };
+  (void)program({"run", file, "--out", out});
+  const Json cases = parse_json_file(out + "/cases.json")["cases"];
+  for (const char* name : {"cold", "ambient", "heavy"}) {
+    CHECK(cases[name]["runs"] == 1000);
+    CHECK_FALSE(cases[name].contains("partial"));
+  }
+  const auto whole = all_contents(out);
+  (void)program({"run", file, "--out", out, "--resume"});
+  (void)program({"analyze", out});
+  CHECK(all_contents(out) == whole);
+  for (const char* command : {"simulate", "sample", "check", "rare", "sensitivity"})
+    CHECK_THAT(program({command, file, "--case", "cod"}).error,
+               HasFacts({"error: --case: found \"cod\"", "did you mean \"cold\"?"}));
+  CHECK_THAT(program({"replay", out, "--run", "3", "--case", "cod"}).error,
+             Catch::Contains("did you mean \"cold\"?"));
+  CHECK(program({"run", file, "--out", out + "2", "--no-rows"}).code == 2);
+  CHECK(program({"replay", out, "--run", "999", "--case", "cold"}).code == 0);
 }
 
 TEST_CASE("what --set changes is the nominal scene, and part of the campaign", "[cases]") {

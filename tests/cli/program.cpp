@@ -46,6 +46,13 @@ Finished run_program(const Folder& folder, const std::vector<std::string>& argum
   return Program(folder, arguments, out).finish();
 }
 
+Json page_data(const std::filesystem::path& page) {
+  const std::string text = read_text(page).value();
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t from = text.find(begin) + begin.size();
+  return parse_json(text.substr(from, text.find("</script>", from) - from));
+}
+
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);

@@ -61,6 +61,9 @@ private:
   std::vector<std::string> facts_;
 };
 
+/// The block of data of a page that `report` wrote.
+[[nodiscard]] Json page_data(const std::filesystem::path& page);
+
 /// Lines of a text.
 [[nodiscard]] std::vector<std::string> lines_of(const std::string& text);
 

@@ -15,14 +15,6 @@ using namespace wingspread::test;
 
 namespace {
 
-/// The page's block of data.
-Json data_of(const std::filesystem::path& page) {
-  const std::string text = read_text(page).value();
-  const std::string begin = "<script type=\"application/json\" id=\"data\">";
-  const std::size_t from = text.find(begin) + begin.size();
-  return parse_json(text.substr(from, text.find("</script>", from) - from));
-}
-
 struct Done {
   Folder folder{};
   std::filesystem::path path = folder.path() / "r", page = path / "report.html";
@@ -127,7 +119,7 @@ TEST_CASE("report writes one page, the same bytes on any number of threads", "[r
   CHECK(done.program({"report", done.path, "--out", elsewhere}).out == elsewhere.string() + "\n");
   CHECK(read_text(elsewhere).value() == bytes);
   CHECK(!std::filesystem::exists(done.page));
-  const Json data = data_of(elsewhere);
+  const Json data = page_data(elsewhere);
   CHECK(data["format"] == 1);
   CHECK(data["command"] == "wingspread report " + done.path.string());
   REQUIRE(data["sets"].size() == 1);
@@ -167,7 +159,7 @@ TEST_CASE("report refuses what is no results folder, with its place", "[report]"
 TEST_CASE("report shows a single run", "[report]") {
   const Done single(full_campaign(1));
   CHECK(single.program({"report", single.path}).code == 0);
-  const Json one = data_of(single.page)["sets"][0];
+  const Json one = page_data(single.page)["sets"][0];
   CHECK(one["runs"] == 1);
   CHECK(one["correlations"].is_null());
   CHECK(one["sensitivity"].is_null());
@@ -178,10 +170,10 @@ TEST_CASE("report shows a campaign without a run that deployed", "[report]") {
   json["dispersions"][1]["distribution"] = {{"type", "constant"}, {"value", -1}};
   const Done invalid(json);
   CHECK(invalid.program({"report", invalid.path}).code == 0);
-  const Json none = data_of(invalid.page)["sets"][0];
+  const Json none = page_data(invalid.page)["sets"][0];
   CHECK(none["statuses"][3]["count"] == 5);
   CHECK(none["envelopes"].is_null());
-  CHECK(none["motions"].size() == 1); // the nominal one
+  CHECK(none["motions"].empty()); // the nominal wing, at the medians, is unphysical too
   CHECK(none["outputs"][0]["count"] == 0);
 }
 
@@ -192,7 +184,7 @@ TEST_CASE("report says when runs are missing", "[report]") {
   for (std::size_t k = 0; k < 5; ++k) part += lines[k] + '\n';
   std::ofstream(done.path / runs_file, std::ios::binary) << part;
   CHECK(done.program({"report", done.path}).code == 0);
-  const Json set = data_of(done.page)["sets"][0];
+  const Json set = page_data(done.page)["sets"][0];
   CHECK(set["partial"] == true);
   CHECK(set["runs"] == 4);
   CHECK(set["planned"] == 10);
@@ -204,7 +196,7 @@ TEST_CASE("report makes no run again of another tool's rows", "[report]") {
   campaign.erase(stamp_key);
   std::ofstream(done.path / campaign_file, std::ios::binary) << campaign.dump();
   CHECK(done.program({"report", done.path}).code == 0);
-  const Json set = data_of(done.page)["sets"][0];
+  const Json set = page_data(done.page)["sets"][0];
   CHECK(set["foreign"] == true);
   CHECK(set["motions"].empty());
   CHECK(set["envelopes"].is_null());
@@ -220,15 +212,58 @@ TEST_CASE("report has a set for each case, and compares them run by run", "[repo
   const std::string file = folder.write("c.json", json.dump()), out = folder.path() / "r";
   REQUIRE(run_program(folder, {"run", file, "--out", out}).code == 0);
   REQUIRE(run_program(folder, {"report", out}).code == 0);
-  const Json data = data_of(folder.path() / "r/report.html");
+  const Json data = page_data(folder.path() / "r/report.html");
   REQUIRE(data["sets"].size() == 2);
   CHECK(data["sets"][0]["label"] == "as_it_is");
   CHECK(data["sets"][1]["case"] == "weak");
   REQUIRE(data["comparisons"].size() == 1);
   CHECK(data["comparisons"][0]["paired"] == true);
-  CHECK(data["comparisons"][0]["text"] == "weak − as_it_is, the same draws");
+  CHECK(data["comparisons"][0]["text"] ==
+        "weak − as_it_is, run by run over the 20 runs with the same draws");
   CHECK(data["comparisons"][0]["outputs"].back()["lower"].get<double>() >
         0); // the weaker, the slower
+}
+
+TEST_CASE("folders with cases are compared case by case, over the runs that both have",
+          "[report][cases]") {
+  const Folder folder;
+  Json json = quick_campaign(20);
+  json["cases"] = parse_json(R"([ { "name": "cold" }, { "name": "ambient" }, { "name": "hot" } ])");
+  const std::string first = folder.write("c.json", json.dump());
+  json["sampling"]["runs"] = 12;
+  json["cases"] = parse_json(R"([ { "name": "hot" }, { "name": "space" }, { "name": "cold" } ])");
+  const std::string second = folder.write("d.json", json.dump());
+  const std::string plain = folder.write("e.json", quick_campaign(5).dump());
+  const std::string a = folder.path() / "A", b = folder.path() / "B", c = folder.path() / "C";
+  REQUIRE(run_program(folder, {"run", first, "--out", a, "--case", "cold", "--case", "hot"}).code ==
+          0);
+  REQUIRE(run_program(folder, {"run", second, "--out", b}).code == 0);
+  REQUIRE(run_program(folder, {"run", plain, "--out", c}).code == 0);
+  const auto compared = [&](std::vector<std::string> folders) {
+    const std::string page = folder.path() / "page.html";
+    folders.insert(folders.begin(), "report");
+    folders.insert(folders.end(), {"--out", page});
+    REQUIRE(run_program(folder, folders).code == 0);
+    const Json data = page_data(page);
+    std::vector<std::string> texts;
+    for (const Json& each : data["comparisons"]) texts.push_back(each["text"]);
+    for (const Json& each : data["unpaired"]) texts.push_back(each);
+    return texts;
+  };
+  const std::string over = ", run by run over the 12 runs with the same draws",
+                    of = over + " (of 12 and 20)";
+  CHECK(compared({a, b}) ==
+        std::vector<std::string>{
+            "A · hot − A · cold, run by run over the 20 runs with the same draws",
+            "B · space − B · hot" + over, "B · cold − B · hot" + over,
+            "B · cold − B · space" + over, "B · hot − A · hot" + of, "B · cold − A · cold" + of,
+            "B · space: none of A · cold, A · hot is the case space"});
+  CHECK(compared({a + "/cold", b + "/hot"}) ==
+        std::vector<std::string>{"hot − cold" + of}); // as asked
+  CHECK(compared({c, b + "/cold"}).size() == 1);
+  const auto apart = compared({b, c});
+  REQUIRE(apart.size() == 3 + 4);
+  CHECK(apart.back() == "C: none of B · hot, B · space, B · cold is without a case");
 }
 
 TEST_CASE("a page of many runs keeps to its size", "[report]") {
@@ -251,5 +286,5 @@ TEST_CASE("a page of many runs keeps to its size", "[report]") {
   std::ofstream(many / runs_file, std::ios::binary) << csv;
   CHECK(done.program({"report", many}).code == 0);
   CHECK(std::filesystem::file_size(many / "report.html") < 4'000'000);
-  CHECK(data_of(many / "report.html")["sets"][0]["runs"] == 20'000);
+  CHECK(page_data(many / "report.html")["sets"][0]["runs"] == 20'000);
 }

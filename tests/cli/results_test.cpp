@@ -73,6 +73,66 @@ TEST_CASE("analyze leaves an untouched folder as it is, and takes other settings
   CHECK(parse_json_file(done.path / histograms_json_file)["root.latch_time"]["counts"].size() == 4);
 }
 
+TEST_CASE("report shows what analyze was asked for, in place and elsewhere") {
+  Json json = quick_campaign(30);
+  json["requirements"] =
+      parse_json(R"([{ "output": "deployed", "probability": 0.8, "confidence": 0.9 }])");
+  const DoneCampaign done(json);
+  const auto before = contents(done.path);
+  const std::string late = done.folder.write("late.json", R"([
+    { "name": "L-1", "output": "deployment_time", "max": 2, "probability": 0.8, "confidence": 0.9 },
+    { "name": "L-2", "motorization": "NASA", "probability": 0.8, "confidence": 0.9 } ])");
+  const auto shown = [&](const std::filesystem::path& folder) {
+    REQUIRE(done.program({"report", folder, "--out", done.folder.path() / "page.html"}).code == 0);
+    const Json set = page_data(done.folder.path() / "page.html")["sets"][0];
+    std::vector<std::string> facts{std::to_string(set["outputs"][0]["quantiles"].size())};
+    for (const Json& each : set["requirements"])
+      facts.push_back(each["name"].get<std::string>() + " " + each["verdict"].get<std::string>());
+    return facts;
+  };
+  const std::vector<std::string> own{"3", " passed"}, asked{"2", "L-1 failed", "L-2 passed"};
+  CHECK(shown(done.path) == own);
+  const std::filesystem::path other = done.folder.path() / "late";
+  const std::vector<std::string> options{"--requirements", late, "--quantiles", "0.1,0.9"};
+  const auto analyzed = [&](std::vector<std::string> command) {
+    command.insert(command.begin(), {"analyze", done.path});
+    return done.program(command).code;
+  };
+  CHECK(done.program({"analyze", done.path, "--requirements", late, "--quantiles", "0.1,0.9",
+                      "--out", other})
+            .code == 1);
+  CHECK(contents(done.path) == before);
+  CHECK(shown(other) == asked);
+  for (const auto& command : {std::vector<std::string>{"replay", other, "--run", "7"},
+                              {"sensitivity", other},
+                              {"merge", other, "--out", other / "m"}})
+    CHECK(done.program(command).code == 0); // it is a results folder
+  CHECK(analyzed(options) == 1);
+  CHECK(shown(done.path) == asked);
+  CHECK(analyzed({}) == 0);
+  CHECK(contents(done.path) == before);
+  CHECK(shown(done.path) == own);
+}
+
+TEST_CASE("a campaign that stopped is complete, whatever it is judged by afterwards") {
+  Json json = quick_campaign(4000);
+  json["requirements"] = parse_json(
+      R"([{ "name": "D-1", "output": "deployed", "probability": 0.9, "confidence": 0.9 }])");
+  json["until"] = parse_json(R"([{ "requirement": "D-1" }])");
+  const DoneCampaign done(json);
+  const Json before = parse_json_file(done.path / summary_file);
+  REQUIRE(before["until"]["stopped"] == true);
+  const std::string late = done.folder.write(
+      "late.json",
+      R"([{ "name": "L-1", "output": "deployment_time", "max": 2, "probability": 0.8, "confidence": 0.9 }])");
+  CHECK(done.program({"analyze", done.path, "--requirements", late, "--confidence", "0.5"}).code ==
+        1);
+  const Json after = parse_json_file(done.path / summary_file);
+  CHECK(after["until"] == before["until"]);
+  CHECK_FALSE(after["wingspread"].contains("partial"));
+  CHECK(after["requirements"][0]["name"] == "L-1");
+}
+
 TEST_CASE("analyze counts what stalled with its reason, and takes it for no failure") {
   const DoneCampaign done(quick_campaign(6));
   const StoredCampaign stored = read_stored_campaign(done.path);

@@ -10,7 +10,7 @@ namespace {
 StaticMarginStudy study_scaled(const Campaign& campaign,
                                const std::vector<SceneParameter>& parameters, double scale) {
   const Campaign other = scaled(campaign, parameters, scale);
-  StaticMarginStudy study = study_static_margins(other, scaled(campaign.scene, parameters, scale));
+  StaticMarginStudy study = study_static_margins(other);
   for (DriveMargins& drive : study.drives)
     for (Json& draw : drive.worst_draw) draw.erase(other.dispersions.back().name);
   return study;
@@ -23,7 +23,7 @@ MarginReport margin_report(const Campaign& campaign, const MarginResult& result)
       campaign, result, {campaign.motorization, campaign.scene, campaign.statistics.quantiles, {}}};
   std::vector<CaseMargins>& cases = report.static_margins.cases;
   for (const Campaign& each : result.campaigns)
-    cases.push_back({1, each.of_case, study_static_margins(each, each.scene)});
+    cases.push_back({1, each.of_case, study_static_margins(each)});
   const MarginSearch* search = recommending(campaign, result);
   if (search && *search->recommended != 1) {
     const double scale = *search->recommended;

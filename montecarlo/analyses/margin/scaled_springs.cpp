@@ -38,9 +38,4 @@ Campaign scaled(const Campaign& campaign, const std::vector<SceneParameter>& par
   return sized;
 }
 
-Scene scaled(Scene scene, const std::vector<SceneParameter>& parameters, double scale) {
-  for (const SceneParameter& parameter : parameters) parameter.in(scene) *= scale;
-  return scene;
-}
-
 } // namespace wingspread

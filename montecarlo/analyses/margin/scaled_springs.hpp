@@ -1,4 +1,4 @@
-/// A campaign or a scene with some parameters multiplied by a factor.
+/// A campaign with some parameters multiplied by a factor.
 #pragma once
 
 #include "montecarlo/model/campaign/campaign.hpp"
@@ -11,7 +11,5 @@ namespace wingspread {
 /// `margin_scale_2`, … if taken). `resolved` has it too, so that a written campaign file reproduces the runs.
 [[nodiscard]] Campaign scaled(const Campaign& campaign,
                               const std::vector<SceneParameter>& parameters, double scale);
-[[nodiscard]] Scene scaled(Scene scene, const std::vector<SceneParameter>& parameters,
-                           double scale);
 
 } // namespace wingspread

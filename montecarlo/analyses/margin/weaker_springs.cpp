@@ -16,15 +16,16 @@ constexpr std::array advised_by{MarginKind::ecss, MarginKind::nasa, MarginKind::
 /// Adds the static margins that the scale lowers in one case.
 void add_lowered(const Campaign& campaign, const std::vector<SceneParameter>& parameters,
                  double scale, std::vector<Shortfall>& all) {
-  const Scene weaker = scaled(campaign.scene, parameters, scale);
+  const Scene nominal = nominal_scene(campaign),
+              weaker = nominal_scene(scaled(campaign, parameters, scale));
   const std::string of_case = campaign.of_case.empty() ? "" : " (" + campaign.of_case + ")";
-  for (const HingeDrive& drive : drives_of(campaign.scene)) {
-    const Margins present = least_margins(campaign.scene, drive, campaign.motorization);
+  for (const HingeDrive& drive : drives_of(nominal)) {
+    const Margins present = least_margins(nominal, drive, campaign.motorization);
     const Margins then = least_margins(weaker, drive, campaign.motorization);
     for (const MarginKind kind : advised_by) {
       const auto k = static_cast<std::size_t>(kind);
       if (then[k] < present[k])
-        all.push_back({scale, name_of(drive, campaign.scene) + of_case, kind, then[k], present[k]});
+        all.push_back({scale, name_of(drive, nominal) + of_case, kind, then[k], present[k]});
     }
   }
 }

@@ -81,7 +81,8 @@ double level_of(const RareEvent& event, double g) {
 
 LimitState::LimitState(const Campaign& campaign, RareEvent event)
     : campaign_(&campaign), event_(std::move(event)) {
-  const Scene& scene = campaign.scene;
+  nominal_ = nominal_scene(campaign);
+  const Scene& scene = nominal_;
   if (!event_.output.empty()) {
     column_ = column_named(scene, event_.output);
     goal_ = goal_for(column_);
@@ -120,7 +121,7 @@ double LimitState::of_deployed(const Scene& scene, const Outcome& outcome) const
   const double time = (campaign_->integration.t_end - outcome.t_end) / time_;
   double least = std::min(outcome.energy.final / energy_, time);
   for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
-    const double nominal = release_reserve(campaign_->scene.hinges[i]);
+    const double nominal = release_reserve(nominal_.hinges[i]);
     if (can_stick_stowed(scene.hinges[i]) && nominal > 0)
       least = std::min(least, release_reserve(scene.hinges[i]) / nominal);
   }

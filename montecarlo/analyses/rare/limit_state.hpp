@@ -65,6 +65,7 @@ private:
   [[nodiscard]] double of_deployed(const Scene& scene, const Outcome& outcome) const;
 
   const Campaign* campaign_;
+  Scene nominal_;
   RareEvent event_;
   std::optional<OutputColumn> column_;
   Goal goal_;

@@ -6,7 +6,7 @@
 
 namespace wingspread {
 
-StaticMarginStudy study_static_margins(const Campaign& campaign, const Scene& nominal) {
+StaticMarginStudy study_static_margins(const Campaign& campaign) {
   const RunPlan plan(campaign);
   std::vector<double> values(campaign.dispersions.size());
   Scene scene = campaign.scene;
@@ -29,7 +29,7 @@ StaticMarginStudy study_static_margins(const Campaign& campaign, const Scene& no
       json[campaign.dispersions[i].name] = json_number(values[i]);
     return json;
   };
-  return study_static_margins(nominal, campaign.motorization,
+  return study_static_margins(nominal_scene(campaign), campaign.motorization,
                               {campaign.sampling.runs, visit, values_of},
                               campaign.statistics.quantiles);
 }

@@ -6,9 +6,7 @@
 
 namespace wingspread {
 
-/// Uses the campaign's torque factors and quantiles. Cost: as in static_margin_study.hpp.
-/// @param nominal the wing without dispersion: the campaign's scene, or that scene with other springs
-[[nodiscard]] StaticMarginStudy study_static_margins(const Campaign& campaign,
-                                                     const Scene& nominal);
+/// Uses the campaign's nominal_scene, torque factors and quantiles. Cost: as in static_margin_study.hpp.
+[[nodiscard]] StaticMarginStudy study_static_margins(const Campaign& campaign);
 
 } // namespace wingspread

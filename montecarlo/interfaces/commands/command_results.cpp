@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <optional>
 
 namespace wingspread {
@@ -91,31 +92,29 @@ Json bins_json(const std::string& text) {
   return number ? Json(*number) : Json(text);
 }
 
-/// Computes a folder's statistics again and writes them to the folder `to`.
-Summary summarize_again(const StoredCampaign& stored, const AnalyzeOptions& options,
-                        const std::filesystem::path& to) {
-  StatisticsSpec spec = stored.campaign.statistics;
+/// The campaign with the settings and requirements that the options give.
+StoredCampaign as_asked(StoredCampaign stored, const AnalyzeOptions& options) {
   Json given = Json::object();
   if (!options.quantiles.empty()) given["quantiles"] = options.quantiles;
   if (options.confidence) given["confidence"] = *options.confidence;
   if (!options.bins.empty()) given["bins"] = bins_json(options.bins);
-  override_settings(given, [&](const JsonCursor& at) { read_statistics(at, spec); });
-  StoredCampaign there = stored;
-  there.folder = to;
-  make_folder(to);
-  if (is_streaming_folder(stored.folder)) {
-    if (!options.requirements.empty()) refuse_rowless(stored.folder);
-    return write_streaming_statistics(there, read_streaming_statistics(stored).statistics, spec);
-  }
-  const Results results = read_stored_results(stored).results;
-  return write_statistics(there, results, spec);
+  override_settings(given,
+                    [&](const JsonCursor& at) { read_statistics(at, stored.campaign.statistics); });
+  if (options.requirements.empty()) return stored;
+  refuse_rowless(stored.folder);
+  judge_by(read_requirements_file(options.requirements, stored.campaign), stored);
+  return stored;
 }
 
-/// Replaces the campaign's requirements by those of --requirements, if given.
-StoredCampaign with_requirements(StoredCampaign stored, const AnalyzeOptions& options) {
-  if (!options.requirements.empty())
-    stored.campaign.requirements = read_requirements_file(options.requirements, stored.campaign);
-  return stored;
+/// Computes the statistics again and writes them to the folder `to`, which gets a copy of the campaign and its rows if it
+/// is another folder. The campaign's folder is then `to`.
+Summary summarize_again(StoredCampaign& stored, const std::filesystem::path& to) {
+  if (to != stored.folder) copy_rows(stored.folder, to);
+  stored.folder = to;
+  const StatisticsSpec& spec = stored.campaign.statistics;
+  if (is_streaming_folder(to))
+    return write_streaming_statistics(stored, read_streaming_statistics(stored).statistics, spec);
+  return write_statistics(stored, read_stored_results(stored).results, spec);
 }
 
 /// With --out the results folder is only read.
@@ -125,13 +124,17 @@ FolderLock::For lock_purpose(const AnalyzeOptions& options) {
 
 int analyze_cases(const AnalyzeOptions& options, const std::filesystem::path& to) {
   StoredCampaign whole = read_stored_campaign(options.folder);
-  std::vector<CaseSummary> cases;
+  std::deque<FolderLock> locks;
+  std::vector<StoredCampaign> asked; // all are read before anything is written
   for (const CaseSpec& spec : made_cases(whole)) {
-    const FolderLock lock(whole.folder / spec.name, lock_purpose(options));
-    const StoredCampaign stored =
-        with_requirements(read_stored_campaign(whole.folder / spec.name), options);
-    cases.push_back(case_summary(stored, summarize_again(stored, options, to / spec.name)));
+    locks.emplace_back(whole.folder / spec.name, lock_purpose(options));
+    asked.push_back(as_asked(read_stored_campaign(whole.folder / spec.name), options));
   }
+  if (to != whole.folder) copy_rows(whole.folder, to);
+  whole.folder = to;
+  std::vector<CaseSummary> cases;
+  for (StoredCampaign& stored : asked)
+    cases.push_back(case_summary(stored, summarize_again(stored, to / stored.campaign.of_case)));
   write_cases_file(whole, cases, to);
   return show_all_cases(whole, cases, options.display);
 }
@@ -145,13 +148,9 @@ int analyze(const AnalyzeOptions& options) {
   if (elsewhere) other.emplace(options.out);
   const std::filesystem::path& to = elsewhere ? options.out : options.folder;
   if (is_cases_folder(options.folder)) return analyze_cases(options, to);
-  const StoredCampaign stored = with_requirements(read_any_campaign(options.folder), options);
-  const Summary summary = summarize_again(stored, options, to);
-  if (!elsewhere || wants_table(options.display))
-    return show_results(stored, summary, options.display);
-  for (const char* file : {summary_file, histograms_json_file, histograms_csv_file})
-    fmt::print("{}\n", (to / file).string());
-  return judge_results(stored, summary);
+  StoredCampaign stored = as_asked(read_any_campaign(options.folder), options);
+  const Summary summary = summarize_again(stored, to);
+  return show_results(stored, summary, options.display);
 }
 
 void add_merge_options(CLI::App& command, MergeOptions& options) {
@@ -189,12 +188,13 @@ void add_analyze_options(CLI::App& command, AnalyzeOptions& options) {
   command.add_option("--bins", options.bins, "Bins of the histograms: a number, or auto");
   command.add_option("--requirements", options.requirements,
                      "A JSON file with an array of requirements; default: the campaign's");
-  command.add_option("--out", options.out, "Write the statistics to this folder: new or empty");
+  command.add_option("--out", options.out,
+                     "Write to this folder, new or empty, which gets a copy of the rows");
   add_display_options(command, options.display);
   command.footer(
       std::string("Writes summary.json, histograms.json and histograms.csv again, into the results "
-                  "folder or\n--out; for a campaign with cases those of each case, and "
-                  "cases.json.\n") +
+                  "folder or\n--out; for a campaign with cases those of each case, and cases.json. "
+                  "`report` shows what\nthe last `analyze` was asked for.\n") +
       display_help +
       R"(Exit code 1: a requirement is not shown to be met.
 

@@ -38,14 +38,11 @@ void apply(const Campaign& campaign, std::span<const double> draws, const Scene&
 }
 
 Scene nominal_scene(const Campaign& campaign) {
+  std::vector<double> medians;
+  for (const Dispersion& dispersion : campaign.dispersions)
+    medians.push_back(PreparedDistribution(dispersion.distribution).quantile(0.5));
   Scene scene = campaign.scene;
-  for (const Dispersion& dispersion : campaign.dispersions) {
-    if (dispersion.through.empty()) continue;
-    const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
-    for (const Driven& driven : dispersion.through)
-      for (const SceneParameter& target : driven.targets)
-        apply_to(target.in(scene), driven.apply, driven.table.value_at(median));
-  }
+  apply(campaign, medians, campaign.scene, scene);
   return scene;
 }
 

@@ -23,7 +23,8 @@ namespace wingspread {
 inline constexpr const char* stamp_key = "wingspread";
 
 struct Campaign {
-  Scene scene; ///< nominal
+  Scene
+      scene; ///< as written, before dispersion; nominal_scene() has the dispersions at their medians
   std::vector<Dispersion> dispersions;
   std::vector<CaseSpec> cases; ///< empty: the nominal wing only
   std::string of_case;         ///< the case whose campaign this is; empty: none
@@ -50,8 +51,8 @@ struct Campaign {
 /// 16 hexadecimal digits that identify a campaign: a hash of `resolved` without its stamp. The same on all platforms.
 [[nodiscard]] std::string campaign_hash(const Json& resolved);
 
-/// The scene without dispersion. A draw that acts `through` tables is at its median, because the scene has no nominal
-/// value for it (a temperature, say).
+/// The scene with every dispersion at the median of its law, tables included. All nominal values come from this scene:
+/// those of `simulate`, static margins, input checks, summary.json and the report. Correlations do not move medians.
 [[nodiscard]] Scene nominal_scene(const Campaign& campaign);
 
 /// Sets all dispersed parameters of a scene to their nominal values and applies a run's draws. Allocates nothing.

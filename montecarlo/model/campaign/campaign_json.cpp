@@ -363,6 +363,27 @@ void override_stopping(Campaign& campaign, const JsonCursor& at) {
   campaign.resolved["until"] = write_stopping_rule(campaign.until);
 }
 
+Json write_analysis(const Campaign& campaign) {
+  Json json = Json::object();
+  const auto add = [&](const char* key, Json asked) {
+    if (asked != campaign.resolved.value(key, Json::array())) json[key] = std::move(asked);
+  };
+  add("requirements", write_requirements(campaign.requirements));
+  add("statistics", write_statistics(campaign.statistics));
+  return json;
+}
+
+void read_analysis(const JsonCursor& at, Campaign& campaign) {
+  JsonObject object(at, "requirements and statistics: an object");
+  if (const auto asked = object.find("requirements"))
+    guarantee_reader(campaign).read(*asked, campaign.requirements);
+  if (const auto asked = object.find("statistics")) {
+    campaign.statistics = {};
+    read_statistics(*asked, campaign.statistics);
+  }
+  object.refuse_others();
+}
+
 std::vector<Requirement> read_requirements_file(const std::filesystem::path& path,
                                                 const Campaign& campaign) {
   const Json document = parse_json_file(path);

@@ -48,6 +48,11 @@ void override_sampling(Campaign& campaign, std::optional<std::int64_t> runs,
 /// has the same random numbers as the other cases.
 [[nodiscard]] Campaign campaign_of_case(const Campaign& campaign, const CaseSpec& spec);
 
+/// The campaign's requirements and statistics that differ from those of its `resolved`, by key; {} if none does.
+[[nodiscard]] Json write_analysis(const Campaign& campaign);
+/// Replaces the requirements and statistics by those of write_analysis, and notes problems.
+void read_analysis(const JsonCursor& at, Campaign& campaign);
+
 /// One campaign for each case, in their order; the campaign itself if it has no cases.
 [[nodiscard]] std::vector<Campaign> campaigns_of(const Campaign& campaign);
 

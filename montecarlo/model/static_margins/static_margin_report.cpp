@@ -80,9 +80,9 @@ void append_csv_point(std::string& csv, const TravelPoint& point) {
 }
 
 /// "+0.67"; "∞" where nothing resists; "–" of NaN.
-std::string margin_text(double margin) {
+std::string margin_text(double margin, int digits = 2) {
   if (std::isnan(margin)) return "–";
-  return std::isinf(margin) ? "∞" : fmt::format("{:+.2f}", margin);
+  return std::isinf(margin) ? "∞" : fmt::format("{:+.{}f}", margin, digits);
 }
 
 std::string table_lines(const CaseMargins& at) {
@@ -184,6 +184,33 @@ std::string static_margins_text(const StaticMarginReport& report) {
     text += table_lines(at);
   }
   return text;
+}
+
+std::string nominal_margins_text(const std::vector<std::pair<std::string, Scene>>& wings,
+                                 const StaticMarginSpec& spec) {
+  std::vector<std::pair<std::string, Margins>> lines;
+  std::size_t longest = 0;
+  for (const auto& [of_case, scene] : wings)
+    for (const HingeDrive& drive : drives_of(scene)) {
+      Margins margins;
+      margins.fill(undefined);
+      if (unphysical(scene).empty()) margins = least_margins(scene, drive, spec);
+      const std::string suffix = of_case.empty() ? "" : " (" + of_case + ")";
+      lines.emplace_back(name_of(drive, scene) + suffix, margins);
+      longest = std::max(longest, lines.back().first.size());
+    }
+  if (lines.empty()) return "";
+  std::string text = "static margins, least over the travel, dispersions at their medians; 0 or "
+                     "more is enough\n" +
+                     std::string(longest + 2, ' ');
+  for (const std::string_view kind : margin_kind_texts) text += fmt::format("  {:>7}", kind);
+  for (const auto& [name, margins] : lines) {
+    text += fmt::format("\n  {:<{}}", name, longest);
+    for (std::size_t kind = 0; kind < margins.size(); ++kind)
+      text += fmt::format("  {:>{}}", margin_text(margins[kind], 3),
+                          std::max<std::size_t>(7, margin_kind_texts[kind].size()));
+  }
+  return text + '\n';
 }
 
 Json static_margin_curves(const StaticMarginStudy& study, MarginKind kind,

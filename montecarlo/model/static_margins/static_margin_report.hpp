@@ -4,6 +4,7 @@
 #include "montecarlo/model/static_margins/static_margin_study.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wingspread {
@@ -31,6 +32,12 @@ struct StaticMarginReport {
 
 /// The least margins over the travel as a table: one line for each hinge and standard.
 [[nodiscard]] std::string static_margins_text(const StaticMarginReport& report);
+
+/// The least margins over the travel of nominal wings as a table: one line for each drive.
+/// @param wings names of cases, empty without cases, and scenes
+[[nodiscard]] std::string
+nominal_margins_text(const std::vector<std::pair<std::string, Scene>>& wings,
+                     const StaticMarginSpec& spec);
 
 /// `static_margins` of the page (page/DATA.md): nominal margins by one standard at each place of the travel, and the
 /// draws' quantile at the lowest probability. Null without drives.

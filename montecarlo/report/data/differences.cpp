@@ -6,9 +6,11 @@
 #include "montecarlo/report/data/page_numbers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace wingspread {
 namespace {
@@ -84,6 +86,49 @@ Difference status_difference(const Sides& sides, std::size_t status) {
   }
   return paired_share_difference(first_alone, second_alone, std::ssize(sides.rows.first),
                                  confidence);
+}
+
+/// The runs over which the differences go.
+std::string runs_text(const Sides& sides) {
+  const std::size_t first = sides.first.results.size(), second = sides.second.results.size(),
+                    both = sides.rows.first.size();
+  if (!sides.paired) return fmt::format("draws of their own: {} and {} runs", second, first);
+  const std::string of =
+      both == first && both == second ? "" : fmt::format(" (of {} and {})", second, first);
+  return fmt::format("run by run over the {} runs with the same draws{}", both, of);
+}
+
+using Sets = std::span<const std::unique_ptr<PageSource>>;
+
+/// The set with the same case in a folder; nothing if there is none.
+std::optional<std::size_t> partner_of(Sets sets, std::size_t set,
+                                      const std::vector<std::size_t>& folder) {
+  for (const std::size_t other : folder)
+    if (sets[other]->stored.campaign.of_case == sets[set]->stored.campaign.of_case) return other;
+  return std::nullopt;
+}
+
+void note_missing(Sets sets, const std::vector<std::size_t>& folder,
+                  const std::vector<std::size_t>& others, Pairs& pairs) {
+  for (const std::size_t set : folder) {
+    if (partner_of(sets, set, others)) continue;
+    const std::string& name = sets[set]->stored.campaign.of_case;
+    std::vector<std::string> labels;
+    for (const std::size_t other : others) labels.push_back(sets[other]->label);
+    pairs.missing.push_back(fmt::format("{}: none of {} is {}", sets[set]->label,
+                                        fmt::join(labels, ", "),
+                                        name.empty() ? "without a case" : "the case " + name));
+  }
+}
+
+void pair_folders(Sets sets, const std::vector<std::size_t>& first,
+                  const std::vector<std::size_t>& second, Pairs& pairs) {
+  if (first.size() == 1 && second.size() == 1)
+    return void(pairs.both.emplace_back(first.front(), second.front()));
+  for (const std::size_t set : second)
+    if (const auto partner = partner_of(sets, set, first)) pairs.both.emplace_back(*partner, set);
+  note_missing(sets, first, second, pairs);
+  note_missing(sets, second, first, pairs);
 }
 
 Json statuses_difference_json(const Sides& sides) {
@@ -180,6 +225,25 @@ bool have_same_draws(const PageSource& first, const PageSource& second) {
          std::ranges::equal(a.draws, b.draws, {}, &Column::name, &Column::name);
 }
 
+Pairs pairs_of(std::span<const std::unique_ptr<PageSource>> sets) {
+  std::vector<std::vector<std::size_t>> folders; // the sets of each folder
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    if (k == 0 || sets[k]->argument != sets[k - 1]->argument) folders.emplace_back();
+    folders.back().push_back(k);
+  }
+  Pairs pairs;
+  for (const std::vector<std::size_t>& cases : folders)
+    for (std::size_t k = 1; k < cases.size(); ++k) {
+      pairs.both.emplace_back(cases.front(), cases[k]);
+      if (k > 1) pairs.both.emplace_back(cases[k - 1], cases[k]);
+    }
+  for (std::size_t k = 1; k < folders.size(); ++k) {
+    pair_folders(sets, folders.front(), folders[k], pairs);
+    if (k > 1) pair_folders(sets, folders[k - 1], folders[k], pairs);
+  }
+  return pairs;
+}
+
 Json comparison_json(const PageSource& first, const PageSource& second,
                      std::pair<std::size_t, std::size_t> places) {
   Sides sides{first, second, have_same_draws(first, second), {}};
@@ -187,8 +251,8 @@ Json comparison_json(const PageSource& first, const PageSource& second,
   if (sides.rows.first.empty()) sides.paired = false;
   return {{"sets", {places.first, places.second}},
           {"paired", sides.paired},
-          {"text", fmt::format("{} − {}, {}", second.label, first.label,
-                               sides.paired ? "the same draws" : "draws of their own")},
+          {"runs", sides.paired ? Json(sides.rows.first.size()) : Json(nullptr)},
+          {"text", fmt::format("{} − {}, {}", second.label, first.label, runs_text(sides))},
           {"outputs", outputs_difference_json(sides)},
           {"statuses", statuses_difference_json(sides)}};
 }

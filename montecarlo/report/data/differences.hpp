@@ -11,6 +11,12 @@
 
 #include "montecarlo/report/data/page_source.hpp"
 
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace wingspread {
 
 struct Difference {
@@ -40,6 +46,15 @@ struct SameRuns {
 
 /// Whether runs of equal number have equal draws in both sets.
 [[nodiscard]] bool have_same_draws(const PageSource& first, const PageSource& second);
+
+/// The sets that the page compares, and those without a partner.
+struct Pairs {
+  std::vector<std::pair<std::size_t, std::size_t>> both; ///< indices of sets
+  std::vector<std::string> missing;                      ///< "B · hot: A has no case hot"
+};
+/// Pairs the cases of a folder with its first case and with the one before; and each folder with the first folder and
+/// with the one before: case by case of the same name. Two folders with one set each are a pair, whatever their cases.
+[[nodiscard]] Pairs pairs_of(std::span<const std::unique_ptr<PageSource>> sets);
 
 /// The second set minus the first. @param places indices of both among the page's sets
 [[nodiscard]] Json comparison_json(const PageSource& first, const PageSource& second,

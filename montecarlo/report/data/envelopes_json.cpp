@@ -116,7 +116,7 @@ Json bands_json(const Bands& bands, std::size_t first, std::size_t count, int di
   return json;
 }
 
-/// The latch times of each hinge, sorted; thinned evenly to `most`.
+/// The latch times of each hinge, sorted; thinned evenly to `most`, the first and the last among them.
 Json latch_times_json(const std::vector<Track>& tracks, std::size_t hinges, std::size_t most) {
   std::vector<std::vector<double>> times(hinges);
   for (const Track& track : tracks)
@@ -127,7 +127,8 @@ Json latch_times_json(const std::vector<Track>& tracks, std::size_t hinges, std:
     std::ranges::sort(each);
     std::vector<double> shown;
     const std::size_t count = std::min(each.size(), most);
-    for (std::size_t i = 0; i < count; ++i) shown.push_back(each[i * each.size() / count]);
+    const std::size_t steps = std::max<std::size_t>(count, 2) - 1;
+    for (std::size_t i = 0; i < count; ++i) shown.push_back(each[i * (each.size() - 1) / steps]);
     json.push_back(page_numbers(shown, 6));
   }
   return json;

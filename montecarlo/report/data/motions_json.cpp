@@ -161,7 +161,7 @@ Json nominal_json(const PageSource& source, std::size_t most) {
   const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
                                            goal_of(campaign.outputs), recorder.observer());
   Json json{{"label", "nominal"},
-            {"why", "run without dispersions"},
+            {"why", "dispersions at their medians"},
             {"run", nullptr},
             {"replay", fmt::format("wingspread simulate {}",
                                    (source.stored.folder / campaign_file).string())}};

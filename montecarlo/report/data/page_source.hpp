@@ -13,6 +13,7 @@ namespace wingspread {
 /// One set of runs: a folder, or one case of it.
 struct PageSource {
   std::string label;
+  std::size_t argument = 0; ///< which of the command's folders it is from
   StoredCampaign stored;
   /// The campaign without its case's changes; the set's own campaign without cases.
   Campaign before_case;

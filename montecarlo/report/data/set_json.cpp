@@ -127,6 +127,9 @@ Json requirement_json(const Verdict& verdict) {
 /// The summary's warnings, and one for outputs beyond the page's limit.
 std::vector<std::string> all_warnings(const PageSource& source, const PageDetail& detail) {
   std::vector<std::string> lines = warnings(source.summary);
+  if (source.stored.own_requirements)
+    lines.push_back("the requirements are those that `wingspread analyze` was given, not the "
+                    "campaign's");
   if (const std::size_t all = source.results.outputs.size(); all > detail.outputs)
     lines.push_back(fmt::format("the page shows the first {} of {} outputs; {} has all",
                                 detail.outputs, all,
@@ -157,7 +160,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["correlations"] = correlations_json(source, detail);
   json["sensitivity"] = effects_json(source, detail);
   json["scatters"] = scatters_json(source, detail, threads);
-  json["wing"] = wing_json(source.stored.campaign.scene);
+  json["wing"] = wing_json(nominal_scene(source.stored.campaign));
   json["motions"] = motions_json(source, detail, threads);
   json["envelopes"] = envelopes_json(source, detail, threads);
   json["static_margins"] = nullptr;

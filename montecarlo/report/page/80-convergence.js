@@ -126,15 +126,22 @@
       : W.figure({
           title: `Change of the means: ${W.sets[j].label} against ${W.sets[i].label}`,
           class: "forest",
-          note: `${comparison.paired ? "Paired: both sets have the same draws, so scatter between runs cancels." : "Not paired: the sets have different draws."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
+          note: `${comparison.paired ? `Paired over the ${F.count(comparison.runs)} runs of both sets with the same draws, so scatter between runs cancels. An output's difference goes over those of them that have it in both sets.` : "Not paired: the sets have different draws."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
           description: () =>
             drawn
               .slice(0, 12)
               .map((one) => `${F.nameOf(one.output)} ${F.number(100 * one.relative, 3)} %`)
               .join("; "),
           table: () => ({
-            columns: ["output", "difference", "lower", "upper", "relative"],
-            rows: comparison.outputs.map((one) => [one.output, one.difference, one.lower, one.upper, one.relative]),
+            columns: ["output", "difference", "lower", "upper", "relative", "runs"],
+            rows: comparison.outputs.map((one) => [
+              one.output,
+              one.difference,
+              one.lower,
+              one.upper,
+              one.relative,
+              one.runs,
+            ]),
           }),
           draw: function (svg, width) {
             const left = M.labelRoom(
@@ -186,6 +193,7 @@
         W.isNumber(one.difference) ? sign(one.difference, value(one.difference)) : F.none,
         W.isNumber(one.lower) ? `${value(one.lower)} … ${value(one.upper)}` : "no bounds",
         W.isNumber(one.relative) ? sign(one.relative, `${F.sized(100 * one.relative, relativeSpread(one))} %`) : F.none,
+        F.count(one.runs),
       ];
     });
     return h(
@@ -199,7 +207,7 @@
           "div",
           W.table(
             `Differences of the means: ${comparison.text}`,
-            ["Output", "Unit", number("Difference"), number("Bounds"), number("Relative")],
+            ["Output", "Unit", number("Difference"), number("Bounds"), number("Relative"), number("Runs")],
             rows,
             { class: "tall" },
           ),
@@ -235,7 +243,8 @@
             ),
             comparisons.map((one, at) => compared(one, at < 2)),
           ]
-        : h("p.nothing", "These folders have no output in common."),
+        : h("p.nothing", "No set has a partner to compare with."),
+      (W.data.unpaired || []).length ? h("p.note", `Without a partner: ${W.data.unpaired.join("; ")}.`) : null,
     );
   };
 })();

@@ -35,12 +35,13 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
     return;
   }
   if (!is_cases_folder(folder)) {
-    sources.runs.push_back(read_page_source(read_any_campaign(folder), name, nullptr, threads));
+    sources.runs.push_back(
+        read_page_source(as_analyzed(read_any_campaign(folder)), name, nullptr, threads));
     return;
   }
   const StoredCampaign whole = read_stored_campaign(folder);
   for (const CaseSpec& spec : made_cases(whole))
-    sources.runs.push_back(read_page_source(read_stored_campaign(folder / spec.name),
+    sources.runs.push_back(read_page_source(as_analyzed(read_stored_campaign(folder / spec.name)),
                                             several ? name + " · " + spec.name : spec.name,
                                             &whole.campaign, threads));
 }
@@ -63,15 +64,11 @@ PageExtent extent_of(const PageSources& sources) {
   return extent;
 }
 
-/// Compares each set with the first set and with the previous one.
-void add_comparisons(const PageSources& sources, Json& comparisons) {
-  const auto add = [&](std::size_t i, std::size_t j) {
-    comparisons.push_back(comparison_json(*sources.runs[i], *sources.runs[j], {i, j}));
-  };
-  for (std::size_t j = 1; j < sources.runs.size(); ++j) {
-    add(0, j);
-    if (j > 1) add(j - 1, j);
-  }
+Json comparisons_json(const PageSources& sources, const Pairs& pairs) {
+  Json json = Json::array();
+  for (const auto& [i, j] : pairs.both)
+    json.push_back(comparison_json(*sources.runs[i], *sources.runs[j], {i, j}));
+  return json;
 }
 
 std::string title_of(const PageSources& sources) {
@@ -83,8 +80,11 @@ std::string title_of(const PageSources& sources) {
 
 PageSources read_page_sources(std::span<const std::filesystem::path> folders, int threads) {
   PageSources sources;
-  for (const std::filesystem::path& folder : folders)
-    read_folder(folder, folders.size() > 1, threads, sources);
+  for (std::size_t argument = 0; argument < folders.size(); ++argument) {
+    const std::size_t before = sources.runs.size();
+    read_folder(folders[argument], folders.size() > 1, threads, sources);
+    for (std::size_t k = before; k < sources.runs.size(); ++k) sources.runs[k]->argument = argument;
+  }
   const std::size_t sets = sources.runs.size() + sources.studies.size();
   if (sets == 0 || sets > most_sets)
     throw SpecError({{folders.front().string(), "", fmt::format("{} sets of runs", sets),
@@ -95,19 +95,20 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
 
 Json page_json(const PageSources& sources, const std::string& command, int threads) {
   const PageDetail detail = page_detail(extent_of(sources));
+  const Pairs pairs = pairs_of(sources.runs);
   Json json{{"format", 1},
             {"version", version()},
             {"command", command},
             {"title", title_of(sources)},
             {"glossary", glossary_json()},
             {"sets", Json::array()},
-            {"comparisons", Json::array()}};
+            {"comparisons", comparisons_json(sources, pairs)},
+            {"unpaired", pairs.missing}};
   for (const auto& source : sources.runs) {
     json["sets"].push_back(set_json(*source, detail, threads));
     json["sets"].back()["static_margins"] = static_margins_json(source->stored.campaign);
   }
   for (const Json& set : sources.studies) json["sets"].push_back(set);
-  add_comparisons(sources, json["comparisons"]);
   return json;
 }
 

@@ -1,24 +1,44 @@
 #include "montecarlo/report/page/static_margins_json.hpp"
 
 #include "montecarlo/engine/runs/static_margin_draws.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/static_margins/static_margin_report.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace wingspread {
 
-Json static_margins_json(const Campaign& campaign) {
+namespace {
+
+Json curves_of(Campaign some) {
   constexpr std::int64_t most_margin_draws = 1000;
-  Campaign some = campaign;
   if (!has_replicates(some.sampling)) // the draws of a design depend on their number
     some.sampling.runs = std::min(some.sampling.runs, most_margin_draws);
-  const auto required = std::ranges::find_if(campaign.requirements, [](const Requirement& each) {
-    return each.static_margin.has_value();
-  });
+  const auto required = std::ranges::find_if(
+      some.requirements, [](const Requirement& each) { return each.static_margin.has_value(); });
   const MarginKind kind =
-      required == campaign.requirements.end() ? MarginKind::nasa : required->static_margin->kind;
-  return static_margin_curves(study_static_margins(some, campaign.scene), kind,
-                              campaign.statistics.quantiles);
+      required == some.requirements.end() ? MarginKind::nasa : required->static_margin->kind;
+  return static_margin_curves(study_static_margins(some), kind, some.statistics.quantiles);
+}
+
+} // namespace
+
+Json static_margins_json(const Campaign& campaign) {
+  Json all;
+  for (const Campaign& each : campaigns_of(campaign)) {
+    Json curves = curves_of(each);
+    if (curves.is_null()) continue;
+    if (!campaign.cases.empty())
+      for (Json& hinge : curves["hinges"])
+        hinge["hinge"] = hinge["hinge"].get<std::string>() + " (" + each.of_case + ")";
+    if (all.is_null())
+      all = std::move(curves);
+    else
+      for (Json& hinge : curves["hinges"]) all["hinges"].push_back(std::move(hinge));
+  }
+  return all;
 }
 
 } // namespace wingspread

@@ -58,7 +58,7 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
 void add_campaign(const Campaign& campaign, Json& set) {
   set["campaign"] = campaign.scene.name;
   set["confidence"] = campaign.statistics.confidence;
-  set["wing"] = wing_json(campaign.scene);
+  set["wing"] = wing_json(nominal_scene(campaign));
   set["static_margins"] = static_margins_json(campaign);
 }
 

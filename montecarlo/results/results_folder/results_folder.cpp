@@ -20,6 +20,9 @@
 namespace wingspread {
 namespace {
 
+/// The key of summary.json with what `analyze` was asked for.
+constexpr const char* analyzed_key = "analyzed";
+
 std::filesystem::path refuse_missing(const std::filesystem::path& folder) {
   std::filesystem::path path = folder / campaign_file;
   if (!std::filesystem::is_directory(folder))
@@ -39,22 +42,19 @@ Json about(const StoredCampaign& stored, const Summary& summary) {
   return json;
 }
 
-/// The goals of the stopping rule, at the campaign's own confidence, not the summary's.
-std::vector<GoalFound> goals_of(const Campaign& campaign, const Results& results,
-                                std::span<const Verdict> verdicts) {
-  return find_goals(campaign.until, results, verdicts,
-                    at_each_of(campaign.statistics.confidence, count_looks(campaign)));
-}
-
-/// Whether the rows up to an interim analysis meet every goal.
-bool goals_are_met(const Campaign& campaign, const Results& results) {
+/// The goals of the stopping rule, by the campaign's own requirements and confidence.
+std::vector<GoalFound> goals_of(const StoredCampaign& stored, const Results& results) {
   const auto decides = [](const StoppingGoal& goal) {
     return std::holds_alternative<DecisionGoal>(goal);
   };
+  Campaign own = stored.campaign;
+  if (stored.own_requirements) own.requirements = *stored.own_requirements;
   std::vector<Verdict> verdicts;
-  if (std::ranges::any_of(campaign.until, decides))
-    verdicts = judge_campaign(campaign, results, count_looks(campaign));
-  return are_met(goals_of(campaign, results, verdicts));
+  if (std::ranges::any_of(own.until, decides))
+    verdicts = judge_campaign(own, results, count_looks(own));
+  const auto& statistics = own.resolved.at("statistics"); // as before `analyze`
+  return find_goals(own.until, results, verdicts,
+                    at_each_of(statistics.at("confidence").get<double>(), count_looks(own)));
 }
 
 void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, long looks,
@@ -116,10 +116,42 @@ std::string campaign_text(const Campaign& campaign, const Stamp& stamp) {
   return json_text(json);
 }
 
+void judge_by(std::vector<Requirement> requirements, StoredCampaign& stored) {
+  if (!stored.own_requirements) stored.own_requirements = std::move(stored.campaign.requirements);
+  stored.campaign.requirements = std::move(requirements);
+}
+
+StoredCampaign as_analyzed(StoredCampaign stored) {
+  const std::filesystem::path path = stored.folder / summary_file;
+  if (!std::filesystem::exists(path)) return stored;
+  const Json summary = parse_json_file(path);
+  const auto asked = summary.find(analyzed_key);
+  if (asked == summary.end()) return stored;
+  std::vector<Problem> problems;
+  std::vector<Requirement> own = stored.campaign.requirements;
+  read_analysis(JsonCursor(summary, path.string(), problems).member(analyzed_key), stored.campaign);
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  if (asked->contains("requirements")) stored.own_requirements = std::move(own);
+  return stored;
+}
+
+void copy_rows(const std::filesystem::path& from, const std::filesystem::path& to) {
+  make_folder(to);
+  for (const char* name : {campaign_file, runs_file, statistics_file, broken_runs_file}) {
+    if (!std::filesystem::exists(from / name)) continue;
+    WholeFile whole(to / name);
+    std::error_code why;
+    std::filesystem::copy_file(from / name, whole.part(),
+                               std::filesystem::copy_options::overwrite_existing, why);
+    if (why) refuse_path(to / name, why.value(), "a file that can be written");
+    whole.finish();
+  }
+}
+
 bool is_complete(const StoredCampaign& stored, const Results& results) {
   const long done = std::ssize(results.runs), runs = stored.runs().size();
   if (done >= runs) return true;
-  return is_checkpoint(done, runs) && goals_are_met(stored.campaign, results);
+  return is_checkpoint(done, runs) && are_met(goals_of(stored, results));
 }
 
 void add_nominal(const Campaign& campaign, Summary& summary) {
@@ -203,7 +235,7 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
                            campaign.sampling.extended_from.end());
   summary.requirements = judge_campaign(campaign, results, looks);
   if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
-  summary.until = goals_of(campaign, results, summary.requirements);
+  if (!campaign.until.empty()) summary.until = goals_of(stored, results);
   if (!stored.foreign) add_nominal(campaign, summary);
   summary.overtravels = overtravels(campaign.scene, results);
   if (results.has_peaks_final) summary.peaks = count_peaks_final(results);
@@ -218,8 +250,10 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
 }
 
 void write_summary_files(const StoredCampaign& stored, const Summary& summary) {
-  write_file(stored.folder / summary_file,
-             json_text(summary_json(summary, about(stored, summary))));
+  Json json = summary_json(summary, about(stored, summary));
+  if (Json asked = write_analysis(stored.campaign); !asked.empty())
+    json[analyzed_key] = std::move(asked);
+  write_file(stored.folder / summary_file, json_text(json));
   write_file(stored.folder / histograms_json_file, json_text(histograms_json(summary)));
   write_file(stored.folder / histograms_csv_file, histograms_csv(summary));
 }

@@ -40,8 +40,22 @@ struct StoredCampaign {
   Campaign campaign;
   Stamp stamp;
   bool foreign = false; ///< without a stamp: its rows were not made by this program
+  /// The campaign's own requirements, if it is judged by others (judge_by). Its stopping rule keeps to them.
+  std::optional<std::vector<Requirement>> own_requirements{};
   [[nodiscard]] RunRange runs() const { return shard_runs(campaign.sampling.runs, stamp.shard); }
 };
+
+/// Replaces the requirements by which a campaign is judged.
+void judge_by(std::vector<Requirement> requirements, StoredCampaign& stored);
+
+/// The campaign with the requirements and statistics of the last `analyze`, which summary.json has if they are not the
+/// campaign's own ("analyzed").
+/// @throws SpecError if summary.json is broken
+[[nodiscard]] StoredCampaign as_analyzed(StoredCampaign stored);
+
+/// Copies campaign.json and the rows to another folder, which is made if it is missing.
+/// @throws MachineError if a file cannot be copied
+void copy_rows(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Whether no run is missing: the results have all of the folder's runs, or those up to the interim analysis at which
 /// the campaign stops.
@@ -87,7 +101,7 @@ RowsRead for_each_stored_row(const StoredCampaign& stored,
 /// Adds the nominal run and its outputs. Not for rows of another tool.
 void add_nominal(const Campaign& campaign, Summary& summary);
 
-/// Writes the three files of a summary.
+/// Writes the three files of a summary. summary.json names requirements and statistics that are not the campaign's own.
 void write_summary_files(const StoredCampaign& stored, const Summary& summary);
 
 /// Computes the statistics of the rows and writes their three files. Results that lack runs of the folder are

@@ -269,8 +269,7 @@ TEST_CASE("where the lower edge lies outside of the range no weaker springs are 
   CHECK((window.upper > 1 && window.upper < 1.5));
   REQUIRE(search.recommended);
   CHECK(*search.recommended >= 1);
-  const StaticMarginStudy present =
-      study_static_margins(result.campaigns[0], result.campaigns[0].scene);
+  const StaticMarginStudy present = study_static_margins(result.campaigns[0]);
   CHECK(present.drives[0].worst[0] < 0); // why: it is short of torque at rest as it is
   CHECK(present.drives[0].worst[1] < 0);
 }

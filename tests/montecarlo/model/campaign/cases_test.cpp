@@ -43,6 +43,35 @@ TEST_CASE("A case changes the nominal scene: it sets, then scales, then adds", "
         write_scene(campaign.scene));
 }
 
+TEST_CASE("Every dispersion of the nominal scene is at the median of its case's law", "[cases]") {
+  Json document = campaign_with_cases();
+  const auto disperse = [&](const char* entry) {
+    document["dispersions"].push_back(parse_json(entry));
+  };
+  disperse(
+      R"({ "name": "lot", "distribution": { "type": "discrete", "values": [1, 1.5, 2], "weights": [3, 4, 3] },
+                "apply": "scale", "to": ["hinges.root.spring.scale"] })");
+  disperse(
+      R"({ "name": "bearing", "distribution": { "type": "empirical", "values": [0.1, 0.5, 0.2] },
+                "apply": "add", "to": ["hinges.root.friction.coulomb"] })");
+  document["correlations"] =
+      parse_json(R"([{ "between": ["temperature", "bearing"], "spearman": 0.5 }])");
+  document["dispersions"][document["dispersions"].size() - 3]["through"][0]["table"] =
+      parse_json(R"({ "at": [-100, -60, 20], "value": [0.5, 0.3, 0] })");
+  document["cases"][2]["distributions"] = parse_json(
+      R"({ "lot": { "type": "constant", "value": 3 }, "temperature": { "type": "constant", "value": -100 } })");
+  std::vector<std::vector<double>> found; // spring, friction
+  for (const Campaign& its : campaigns_of(campaign_of(document))) {
+    const Hinge root = nominal_scene(its).hinges[0];
+    found.push_back(
+        {root.spring.scale, root.friction.coulomb - its.scene.hinges[0].friction.coulomb});
+  }
+  REQUIRE(found.size() == 3);
+  const std::vector<std::vector<double>> by_hand{{1.5, 0.5}, {1.5, 0.2}, {0.75 * 3, 0.7}};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 2; ++i) CHECK(found[k][i] == Approx(by_hand[k][i]).epsilon(1e-14));
+}
+
 TEST_CASE("A case is a campaign of its own, with the same draws", "[cases]") {
   const Campaign campaign = campaign_of(campaign_with_cases());
   const std::vector<Campaign> all = campaigns_of(campaign);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace wingspread;
@@ -83,6 +84,40 @@ TEST_CASE("whichever of a loop leads, the margin is the same", "[motorization]")
     CHECK(from_tip[kind] == Approx(forward[kind]).epsilon(1e-12));
 }
 
+// Principle of virtual work: the work of all springs over a small turn of the leader, by their potentials.
+TEST_CASE("a drive's torque is the work of its hinges, whichever way its loops are given",
+          "[motorization]") {
+  Scene scene = looped();
+  scene.hinges[0].stowed = 1.2, scene.hinges[1].stowed = 3, scene.hinges[2].stowed = -1.5;
+  scene.hinges[0].spring = {3, 2}, scene.hinges[1].spring = {0.9, 0.4};
+  scene.hinges[2].spring = {0.6, 0.5};
+  constexpr std::array ratios{2.5, -0.4};
+  const StaticMarginSpec spec = default_static_margins(scene);
+  const auto work = [&](int hinge, double travel) { // of a torque that is linear in the travel
+    const Hinge& own = scene.hinges[hinge];
+    const double whole = std::abs(own.stowed),
+                 change = own.spring.torque_latched - own.spring.torque_stowed;
+    return own.spring.torque_stowed * travel + 0.5 * change * travel * travel / whole;
+  };
+  for (const bool first_backward : {false, true})
+    for (const bool second_backward : {false, true}) {
+      scene.synchronisations = {
+          first_backward ? loop_of(1, 0, 1 / ratios[0]) : loop_of(0, 1, ratios[0]),
+          second_backward ? loop_of(2, 1, 1 / ratios[1]) : loop_of(1, 2, ratios[1])};
+      HingeDrive drive{{0, 1, 2}, {{0, 0, !first_backward}, {1, 1, !second_backward}}};
+      const double travel = 0.3 * 1.2, step = 1e-4;
+      const auto all =
+          [&](double
+                  own) { // the third turns backwards: it is at its stowed angle, with that torque
+            return work(0, own) + work(1, ratios[0] * own) + ratios[1] * ratios[0] * own * 0.6;
+          };
+      const TorqueTerms terms = terms_at(scene, drive, 0.3, spec);
+      CHECK(terms.available - terms.spring ==
+            Approx((all(travel + step) - all(travel - step)) / (2 * step)).epsilon(1e-9));
+      CHECK(terms.friction == Approx(0.5 + 2.5 * 0.2 + 0.1).epsilon(1e-14));
+    }
+}
+
 TEST_CASE("a loop without stiffness ties nothing", "[motorization]") {
   Scene scene = looped();
   scene.synchronisations[0].stiffness = 0;
@@ -116,6 +151,9 @@ TEST_CASE("a loop by a table has its gear from place to place, and its least is 
   const HingeDrive drive = drives_of(scene).front();
   CHECK(terms_at(scene, drive, 0.25, spec).friction == Approx(0.5 + 0.2).epsilon(1e-14));
   CHECK(terms_at(scene, drive, 0.75, spec).friction == Approx(0.5 + 3 * 0.2).epsilon(1e-14));
+  const HingeDrive turned{{1, 0}, {{0, 0, false}}}; // led by the second
+  CHECK(terms_at(scene, turned, 0.125, spec).friction == Approx(0.2 + 0.5).epsilon(1e-14));
+  CHECK(terms_at(scene, turned, 0.75, spec).friction == Approx(0.2 + 0.5 / 3).epsilon(1e-14));
   Margins at{};
   const Margins least = least_margins(scene, drive, spec, &at);
   CHECK(least[1] == Approx(3 / (3 * 1.1) - 1).epsilon(1e-13));

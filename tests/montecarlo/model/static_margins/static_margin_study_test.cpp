@@ -23,7 +23,7 @@ Campaign harnessed(int runs) {
 
 TEST_CASE("nominal margins at every angle are those of the formulas", "[motorization]") {
   const Campaign campaign = harnessed(20);
-  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  const StaticMarginStudy study = study_static_margins(campaign);
   REQUIRE(study.drives.size() == 1);
   const DriveMargins& root = study.drives.front();
   REQUIRE(root.travel.size() == 5);
@@ -42,7 +42,7 @@ TEST_CASE("nominal margins at every angle are those of the formulas", "[motoriza
 
 TEST_CASE("dispersed margins are those of the draws, with the worst of them", "[motorization]") {
   const Campaign campaign = harnessed(200);
-  const DriveMargins root = study_static_margins(campaign, campaign.scene).drives.front();
+  const DriveMargins root = study_static_margins(campaign).drives.front();
   const RunPlan plan(campaign);
   std::vector<std::pair<double, long>> margins; // NASA, half-way
   std::vector<double> draws(3);
@@ -66,7 +66,7 @@ TEST_CASE("draws that are unphysical have no margins, and are counted", "[motori
   Json json = one_panel_margin(200);
   json["dispersions"][2]["distribution"] = {{"type", "normal"}, {"mean", 1}, {"std", 1}};
   const Campaign campaign = campaign_of(json);
-  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  const StaticMarginStudy study = study_static_margins(campaign);
   CHECK(study.invalid > 10);
   CHECK(study.draws + study.invalid == 200);
 }
@@ -76,7 +76,7 @@ TEST_CASE("a hinge without spring and latch drives nothing, and has no margin", 
   json["margin"] =
       parse_json(R"({ "scale": ["hinges.root.spring.torque_stowed"], "range": [0.5, 2] })");
   const Campaign campaign = campaign_of(json);
-  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  const StaticMarginStudy study = study_static_margins(campaign);
   REQUIRE(study.drives.size() == 1);
   CHECK(study.drives[0].hinge == "root");
 }
@@ -88,7 +88,7 @@ TEST_CASE("margins at many places are each place's own", "[motorization]") {
   json["statistics"] = {{"quantiles", {0.3}}};
   json["margin"]["motorization"] = {{"points", 150}};
   const Campaign campaign = campaign_of(json);
-  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  const StaticMarginStudy study = study_static_margins(campaign);
   const DriveMargins& root = study.drives.front();
   REQUIRE(root.travel.size() == 150);
   const RunPlan plan(campaign);
@@ -125,7 +125,7 @@ TEST_CASE("a margin of nothing is enough: those below it are short", "[motorizat
   Json dispersion = json["dispersions"][2]; // the mass has no part in it
   json["dispersions"] = Json::array({dispersion});
   const Campaign campaign = campaign_of(json);
-  const StaticMarginStudy study = study_static_margins(campaign, campaign.scene);
+  const StaticMarginStudy study = study_static_margins(campaign);
   const DriveMargins& root = study.drives.front();
   CHECK(root.worst[1] == 0); // by NASA: 3/(3 · 1) − 1
   CHECK(root.worst_spread[1].least == 0);

@@ -88,7 +88,8 @@ TEST_CASE("sets are paired where their draws are the same", "[page]") {
   const Json paired = comparison_json(*first, *stronger, {0, 1});
   CHECK(paired["paired"] == true);
   CHECK(paired["sets"] == Json{0, 1});
-  CHECK(paired["text"] == "set − set, the same draws");
+  CHECK(paired["text"] ==
+        "set − set, run by run over the 20 runs with the same draws (of 20 and 30)");
   const Json& time = paired["outputs"].back();
   CHECK(time["output"] == "deployment_time");
   CHECK(time["runs"] == 20);
@@ -99,7 +100,7 @@ TEST_CASE("sets are paired where their draws are the same", "[page]") {
   json["sampling"]["seed"] = 8;
   const Json apart = comparison_json(*first, *made(json), {0, 1});
   CHECK(apart["paired"] == false);
-  CHECK(apart["text"] == "set − set, draws of their own");
+  CHECK(apart["text"] == "set − set, draws of their own: 20 and 30 runs");
   const auto width = [](const Json& entry) {
     return entry["upper"].get<double>() - entry["lower"].get<double>();
   };

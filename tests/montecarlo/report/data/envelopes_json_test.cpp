@@ -51,6 +51,9 @@ TEST_CASE("envelopes have at most so many runs, spread evenly, and a foreign set
     times.push_back(source->results.outputs[0].values[run]);
   std::ranges::sort(times);
   CHECK(json["latch_times"][0] == page_numbers(times, 6));
+  detail.latch_times = 4; // of 10, with both ends
+  CHECK(envelopes_json(*source, detail, 1)["latch_times"][0] ==
+        page_numbers(std::vector{times[0], times[3], times[6], times[9]}, 6));
   source->stored.foreign = true;
   CHECK(envelopes_json(*source, detail, 1).is_null());
 }
