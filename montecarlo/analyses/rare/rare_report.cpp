@@ -45,8 +45,10 @@ std::string repeats_text(const RareResult& result, const RareOptions& options) {
   for (std::size_t k = 0; k < result.estimates.size(); ++k) {
     const SubsetEstimate& estimate = result.estimates[k];
     text += fmt::format("  {:<6}{:>14}{:>12}{:>10}  ", k + 1,
-                        fmt::format("{}{:.3g}", estimate.reached ? "" : "≲ ", estimate.probability),
-                        percent(estimate.variation, 0), estimate.evaluations);
+                        fmt::format("{}{:.3g}", estimate.reached || estimate.stuck ? "" : "≲ ",
+                                    estimate.probability),
+                        estimate.probability > 0 ? percent(estimate.variation, 0) : "–",
+                        estimate.evaluations);
     for (const SubsetLevel& level : estimate.levels)
       text += fmt::format(" {:.4g}", level_of(options.event, level.threshold));
     text += '\n';
@@ -76,13 +78,34 @@ std::string likeliest_text(const LikeliestRun& run, const Campaign& campaign) {
 }
 
 std::string plain_text(const RareEstimate& estimate) {
-  if (!estimate.reached) return "";
+  if (!estimate.reached || estimate.plain) return "";
   if (estimate.plain_is_enough())
     return fmt::format(
-        "Plain sampling would have been enough: {:.0f} runs give the same accuracy.\n",
+        " Plain sampling would have been enough: {:.0f} runs give the same accuracy.",
         std::ceil(estimate.plain_runs));
-  return fmt::format("Plain sampling would take {:.2g} runs for the same accuracy.\n",
+  return fmt::format(" Plain sampling would take {:.2g} runs for the same accuracy.",
                      estimate.plain_runs);
+}
+
+/// The estimate and its bounds.
+std::string result_text(const RareResult& result, double confidence, const std::string& event) {
+  const RareEstimate& all = result.estimate;
+  if (!all.reached)
+    return fmt::format(
+        "P({}): not reached in {} of {} repeats. Probability of the last levels {:.3g}, {:g} % "
+        "bound "
+        "{:.3g}:\nestimated upper bound, not guaranteed\n",
+        event, std::ranges::count(result.estimates, false, &SubsetEstimate::reached),
+        result.estimates.size(), all.probability, 100 * confidence, all.interval.upper);
+  if (all.plain)
+    return fmt::format("P({}) = {:.6g}, {:g} % bounds {:.6g} … {:.6g} (Clopper–Pearson)\nThe "
+                       "first levels are a plain sample: {} of {} runs have the event. For such an "
+                       "event use `wingspread run`.\n",
+                       event, all.probability, 100 * confidence, all.interval.lower,
+                       all.interval.upper, all.hits, all.draws);
+  return fmt::format("P({}) = {:.3g}, {:g} % bounds {:.3g} … {:.3g}, variation {}\n", event,
+                     all.probability, 100 * confidence, all.interval.lower, all.interval.upper,
+                     percent(all.variation, 0));
 }
 
 } // namespace
@@ -99,6 +122,8 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
           {"event", describe(options.event)},
           {"probability", all.probability},
           {"reached", all.reached},
+          {"method", all.plain ? "plain_sampling" : "subset_simulation"},
+          {"first_levels", {{"runs", all.draws}, {"with_event", all.hits}}},
           {"confidence", options.confidence},
           {"lower", all.interval.lower},
           {"upper", all.interval.upper},
@@ -114,14 +139,16 @@ Json rare_json(const RareResult& result, const RareOptions& options, const Campa
            {{"probability",
              "mean of independent subset simulations; of those that did not reach the event, the "
              "estimated probability of the last level that they did: more than the event's, but "
-             "an estimate"},
+             "an estimate; 0 of one whose runs are all equally far from the event; by "
+             "plain_sampling: with_event of the runs of the first_levels"},
             {"bias", "by how much the probability is too large on average, in units of it: 0.4 of "
                      "a repeat's squared variation, as measured on events of known probability; "
                      "not taken off, and not in the bounds"},
             {"variation", "coefficient of variation of the mean: by the correlation along chains, "
                           "by the repeats' spread, and the larger of the two"},
             {"bounds", "probability exp(+- q variation), q normal or Student's, the wider; no "
-                       "lower one where a repeat did not reach the event"},
+                       "lower one where a repeat did not reach the event; by plain_sampling: "
+                       "Clopper-Pearson, two-sided"},
             {"plain_runs", "runs of plain sampling for the same variation"}}},
           {"samples", options.samples},
           {"repeats", repeats},
@@ -136,23 +163,11 @@ std::string rare_text(const RareResult& result, const RareOptions& options,
   std::string text =
       fmt::format("{} · subset simulation, {} repeats of {} a level · seed {}\n\n",
                   campaign.scene.name, options.repeats, options.samples, campaign.sampling.seed);
-  const std::string event = describe(options.event);
-  if (all.reached)
-    text += fmt::format("P({}) = {:.3g}, {:g} % bounds {:.3g} … {:.3g}, variation {}\n", event,
-                        all.probability, 100 * options.confidence, all.interval.lower,
-                        all.interval.upper, percent(all.variation, 0));
-  else
-    text += fmt::format(
-        "P({}): not reached in {} of {} repeats. Probability of the last levels {:.3g}, {:g} % "
-        "bound "
-        "{:.3g}:\nestimated upper bound, not guaranteed\n",
-        event, std::ranges::count(result.estimates, false, &SubsetEstimate::reached),
-        result.estimates.size(), all.probability, 100 * options.confidence, all.interval.upper);
+  text += result_text(result, options.confidence, describe(options.event));
   if (all.reached && all.bias > 0)
     text += fmt::format("Bias: such estimates are too large by about {} on average\n",
                         percent(all.bias, 1));
-  text += fmt::format("{} runs made. {}", all.evaluations, plain_text(all));
-  if (text.back() != '\n') text += '\n';
+  text += fmt::format("{} runs made.{}\n", all.evaluations, plain_text(all));
   text += repeats_text(result, options);
   if (result.likeliest) text += likeliest_text(*result.likeliest, campaign);
   return text;

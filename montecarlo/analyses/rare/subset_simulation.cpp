@@ -2,6 +2,7 @@
 
 #include "distributions/continuous_law.hpp"
 #include "distributions/random_stream.hpp"
+#include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/foundation/statistics/two_sided.hpp"
 
@@ -42,15 +43,16 @@ public:
   }
 
   SubsetEstimate run() {
-    estimate_.probability = 1;
     level_ = plain_level();
+    estimate_.first_points = options_.samples;
+    estimate_.first_hits = count_inside();
     double taken = undefined;
     while (true) {
       const long inside = count_inside();
       const double threshold = next_threshold();
       estimate_.stuck = inside < chains() && !(threshold < std::ranges::max(level_.g));
       const bool ends = inside >= chains() || estimate_.stuck ||
-                        estimate_.probability / chain_length <= options_.smallest;
+                        estimate_.last_level / chain_length <= options_.smallest;
       estimate_.reached = ends && inside > 0;
       record_level(estimate_.reached ? 0 : threshold, taken);
       if (ends) break;
@@ -125,7 +127,7 @@ private:
     const double gamma = chain_correlation(in, share);
     const double variation = std::sqrt((1 - share) / (share * n) * (1 + gamma));
     estimate_.levels.push_back({threshold, share, gamma, variation, taken});
-    estimate_.probability *= share;
+    estimate_.last_level *= share;
   }
 
   /// Indices of c points with g ≤ threshold, evenly chosen if ties leave more than c.
@@ -213,6 +215,7 @@ private:
     double square = 0;
     for (const SubsetLevel& level : estimate_.levels) square += level.variation * level.variation;
     estimate_.variation = std::sqrt(square);
+    estimate_.probability = estimate_.stuck && !estimate_.reached ? 0 : estimate_.last_level;
     for (std::size_t k = 0; k < level_.g.size(); ++k)
       if (level_.g[k] < 0) estimate_.inside.push_back(std::move(level_.points[k]));
     return std::move(estimate_);
@@ -232,6 +235,69 @@ double relative_spread(std::span<const double> values, double mean) {
   return moments(values).std / (mean * std::sqrt(static_cast<double>(values.size())));
 }
 
+bool ends_at_first(const SubsetEstimate& estimate) { return estimate.levels.size() == 1; }
+
+/// Whether the event is not rare: the first levels alone estimate it.
+bool is_plain(std::span<const SubsetEstimate> estimates) {
+  return std::ranges::all_of(estimates, ends_at_first) ||
+         std::ranges::any_of(estimates, [](const SubsetEstimate& estimate) {
+           return ends_at_first(estimate) && !estimate.stuck;
+         });
+}
+
+/// The share of the pooled first levels.
+void estimate_plainly(double confidence, RareEstimate& all) {
+  all.plain = all.reached = true;
+  all.probability = static_cast<double>(all.hits) / static_cast<double>(all.draws);
+  all.interval = clopper_pearson(all.hits, all.draws, confidence);
+  all.plain_runs = static_cast<double>(all.draws);
+  all.from_spread = undefined;
+  all.variation = all.from_chains =
+      std::sqrt((1 - all.probability) / (all.probability * all.plain_runs));
+}
+
+/// The probabilities of the repetitions: the last levels' if none reached the event.
+std::vector<double> probabilities_of(std::span<const SubsetEstimate> estimates) {
+  const bool none = std::ranges::none_of(estimates, &SubsetEstimate::reached);
+  std::vector<double> probabilities;
+  for (const SubsetEstimate& estimate : estimates)
+    probabilities.push_back(none ? estimate.last_level : estimate.probability);
+  return probabilities;
+}
+
+/// The mean of the repetitions.
+void estimate_by_levels(std::span<const SubsetEstimate> estimates, double confidence,
+                        RareEstimate& all) {
+  const std::vector<double> probabilities = probabilities_of(estimates);
+  const double count = static_cast<double>(estimates.size());
+  double square = 0, bias = 0;
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    const double variation = estimates[k].variation;
+    square += std::pow(probabilities[k] * variation, 2);
+    if (!ends_at_first(estimates[k])) bias += bias_of_square * variation * variation;
+  }
+  all.probability = moments(probabilities).mean;
+  all.bias = bias / count;
+  all.from_chains = std::sqrt(square) / (count * all.probability);
+  all.from_spread = relative_spread(probabilities, all.probability);
+  all.variation = std::fmax(all.from_chains, all.from_spread);
+  double reach = two_sided_normal(confidence) * all.from_chains;
+  if (estimates.size() > 1)
+    reach = std::max(reach, two_sided_student(std::ssize(probabilities) - 1, confidence) *
+                                all.from_spread);
+  all.interval = {all.reached ? all.probability * std::exp(-reach) : 0,
+                  std::min(1.0, all.probability * std::exp(reach))};
+  all.plain_runs = (1 - all.probability) / (all.probability * all.variation * all.variation);
+}
+
+/// The interval of an atom.
+void widen_for_atom(double confidence, RareEstimate& all) {
+  const Interval counted =
+      clopper_pearson_of_share(all.probability, std::max(1.0, all.plain_runs), confidence);
+  all.interval = {std::min(all.interval.lower, counted.lower),
+                  std::max(all.interval.upper, counted.upper)};
+}
+
 } // namespace
 
 SubsetEstimate subset_simulation(const LimitStateFunction& g, std::size_t dimensions,
@@ -247,28 +313,22 @@ long most_evaluations(const SubsetOptions& options) {
 RareEstimate combined(std::span<const SubsetEstimate> estimates, double confidence) {
   assert(!estimates.empty());
   RareEstimate all;
-  std::vector<double> probabilities;
-  const double count = static_cast<double>(estimates.size());
-  double square = 0, bias = 0;
-  all.reached = std::ranges::all_of(estimates, &SubsetEstimate::reached);
+  all.reached = std::ranges::any_of(estimates, &SubsetEstimate::reached) &&
+                std::ranges::all_of(estimates, [](const SubsetEstimate& estimate) {
+                  return estimate.reached || estimate.stuck;
+                });
   for (const SubsetEstimate& estimate : estimates) {
-    probabilities.push_back(estimate.probability);
     all.evaluations += estimate.evaluations;
-    square += std::pow(estimate.probability * estimate.variation, 2);
-    if (estimate.levels.size() > 1) bias += bias_of_square * std::pow(estimate.variation, 2);
+    all.hits += estimate.first_hits;
+    all.draws += estimate.first_points;
   }
-  all.probability = moments(probabilities).mean;
-  all.bias = bias / count;
-  all.from_chains = std::sqrt(square) / (count * all.probability);
-  all.from_spread = relative_spread(probabilities, all.probability);
-  all.variation = std::fmax(all.from_chains, all.from_spread);
-  double reach = two_sided_normal(confidence) * all.from_chains;
-  if (estimates.size() > 1)
-    reach = std::max(reach, two_sided_student(std::ssize(probabilities) - 1, confidence) *
-                                all.from_spread);
-  all.interval = {all.reached ? all.probability * std::exp(-reach) : 0,
-                  std::min(1.0, all.probability * std::exp(reach))};
-  all.plain_runs = (1 - all.probability) / (all.probability * all.variation * all.variation);
+  if (is_plain(estimates)) {
+    estimate_plainly(confidence, all);
+  } else {
+    estimate_by_levels(estimates, confidence, all);
+    if (all.reached && std::ranges::any_of(estimates, &SubsetEstimate::stuck))
+      widen_for_atom(confidence, all);
+  }
   return all;
 }
 

@@ -31,6 +31,15 @@
 /// N = 500. The bias decreases as 1/N; averaging repetitions does not reduce it. Adapting λ within a level is not the
 /// cause: with λ fixed per level the bias was +3.9 ± 1.3 %.
 ///
+/// An event that is not rare: if the event lies in the first level of a repetition (n_1 ≥ c), or no repetition has a
+/// second level, the simulation has no levels to go through. The first levels of all R repetitions are then pooled: N R
+/// independent draws, of which `hits` have the event, with Clopper–Pearson bounds. (3) has no meaning for P → 1, where
+/// δ → 0 in every repetition without a miss.
+///
+/// An atom: where g is equal at nine tenths of a level's points, no further level exists (`stuck`). The share of the
+/// level's points in the event is then the estimate, 0 included. It is unbiased, but δ is unknown for a share of 0. So
+/// the interval contains the Clopper–Pearson interval for as many runs of plain sampling as have the variation found.
+///
 /// Sources: S.-K. Au, J. L. Beck, Probabilistic Engineering Mechanics 16 (2001) 263–277: (1), (3),
 /// (4); I. Papaioannou, W. Betz, K. Zwirglmaier, D. Straub, ibid. 41 (2015) 89–103: (2), and 44 %.
 /// (3) neglects the correlation between chains with similar seeds; the spread of independent repetitions includes it.
@@ -69,13 +78,15 @@ struct SubsetLevel {
 };
 
 struct SubsetEstimate {
-  /// P. If the event was not reached: the probability of the last level. The level contains the event, so this is an
-  /// estimated upper bound, not guaranteed.
-  double probability = 0;
+  double probability = 0; ///< P by (1); 0 if the simulation was stuck with no point in the event
+  /// The probability of the last level, which contains the event: if the event was not reached, an estimated upper
+  /// bound, not guaranteed.
+  double last_level = 1;
   double variation = 0; ///< δ
   bool reached = false; ///< whether points of the last level lie in the event
   bool stuck = false;   ///< g is equal at the points of the last level, so no further level exists
   long evaluations = 0; ///< of g
+  long first_points = 0, first_hits = 0; ///< points of the first level, and those in the event
   std::vector<SubsetLevel> levels;
   std::vector<NormalPoint> inside; ///< the last level's points in the event
 };
@@ -91,26 +102,30 @@ struct SubsetEstimate {
 
 /// The combined estimate of independent repetitions.
 struct RareEstimate {
-  double probability = 0; ///< their mean
-  double variation = 0;   ///< coefficient of variation of the mean: the larger of the next two
-  double from_chains = 0; ///< by (3)
-  double from_spread = 0; ///< from the spread of the repetitions; NaN for a single repetition
-  Interval interval;      ///< of P
-  bool reached = false;   ///< whether every repetition reached the event
+  double probability = 0; ///< their mean; the last levels' if none reached the event
+  /// Whether the event is not rare: the estimate is the share of the pooled first levels, with Clopper–Pearson bounds.
+  bool plain = false;
+  long hits = 0, draws = 0; ///< points of the first levels in the event, and all of them
+  double variation = 0;     ///< coefficient of variation of the mean: the larger of the next two
+  double from_chains = 0;   ///< by (3)
+  double from_spread = 0;   ///< from the spread of the repetitions; NaN for a single repetition
+  Interval interval;        ///< of P
+  bool reached =
+      false; ///< whether every repetition reached the event or was stuck, and one reached it
   /// Relative bias of the mean (see above); 0 for plain sampling.
   double bias = 0;
   long evaluations = 0;
-  /// Number of runs of plain sampling with the same variation, (1 − P)/(P δ²).
+  /// Number of runs of plain sampling with the same variation, (1 − P)/(P δ²); `draws` for a plain estimate.
   double plain_runs = 0;
   [[nodiscard]] bool plain_is_enough() const {
-    return reached && plain_runs <= static_cast<double>(evaluations);
+    return plain || (reached && plain_runs <= static_cast<double>(evaluations));
   }
 };
 
 /// The mean of the estimates. Its interval is P exp(± q δ), the wider of two: δ by (3) with the normal quantile q, and δ
-/// from the spread with Student's. If any repetition did not reach the event, the interval starts at 0 and its upper end
-/// is estimated, not guaranteed.
-/// @pre at least one estimate
+/// from the spread with Student's. If the event was not reached, the interval starts at 0 and its upper end is estimated,
+/// not guaranteed. An event that is not rare, and an atom: see above.
+/// @pre at least one estimate; all have the same number of samples
 [[nodiscard]] RareEstimate combined(std::span<const SubsetEstimate> estimates, double confidence);
 
 } // namespace wingspread

@@ -2,6 +2,7 @@
 #include "montecarlo/analyses/rare/subset_simulation.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
+#include <boost/math/distributions/normal.hpp>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -134,6 +135,7 @@ TEST_CASE("a likely event is plain sampling, and says that it would have been en
   const RareEstimate found = combined(std::vector{once}, 0.95);
   CHECK(found.plain_is_enough());
   CHECK(found.plain_runs == Approx(1000));
+  CHECK((found.plain && found.hits == std::ssize(once.inside) && found.draws == 1000));
   CHECK(std::isnan(found.from_spread));
   CHECK(found.interval.lower < normal_tail(0.5));
   CHECK(found.interval.upper > normal_tail(0.5));
@@ -303,4 +305,82 @@ TEST_CASE("of plain sampling there is no bias, and of others it does not go away
   chains.probability = 1e-3, chains.variation = 0.2, chains.reached = true;
   chains.levels.resize(3);
   CHECK(combined(std::vector(4, chains), 0.95).bias == Approx(0.4 * 0.04).epsilon(1e-12));
+}
+
+TEST_CASE("bounds keep their confidence for events that are likely, certain, or an atom") {
+  struct Example {
+    const char* name;
+    double p;  ///< of the event
+    bool atom; ///< g tells the points outside the event not apart
+  };
+  const auto example = GENERATE(values<Example>({{"nearly certain", 0.99865, false},
+                                                 {"certain but for an atom", 0.995, true},
+                                                 {"likely", 0.5, false},
+                                                 {"in the first level of some repeats", 0.1, false},
+                                                 {"just in the second level", 0.07, false},
+                                                 {"in the second level", 0.02, false},
+                                                 {"an atom of 5 %", 0.05, true},
+                                                 {"an atom of 0.1 %", 1e-3, true}}));
+  INFO(example.name);
+  const double limit = boost::math::quantile(boost::math::normal(), example.p);
+  const LimitStateFunction g = limit_state([&](const NormalPoint& z) {
+    return example.atom ? (z[0] < limit ? -1.0 : 1.0) : z[0] - limit;
+  });
+  constexpr int seeds = 1000;
+  constexpr double confidence = 0.9;
+  int missed = 0;
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    std::vector<SubsetEstimate> estimates;
+    for (std::uint64_t k = 0; k < 5; ++k)
+      estimates.push_back(subset_simulation(g, 1, {.samples = 200, .seed = seed, .repetition = k}));
+    const RareEstimate found = combined(estimates, confidence);
+    missed += !(found.interval.lower <= example.p && example.p <= found.interval.upper);
+    sum += found.probability;
+    CHECK(std::isfinite(found.plain_runs));
+  }
+  CHECK(missed <= 100 + 3 * 10); // 10 %, and three standard errors
+  CHECK(sum / seeds == Approx(example.p).epsilon(example.atom ? 0.12 : 0.05));
+}
+
+TEST_CASE("one hit in 1,500 of an atom: the bounds of 1,500 plain draws") {
+  long call = 0;
+  const LimitStateFunction g = [&](std::span<const NormalPoint> points) {
+    std::vector<double> values(points.size(), 1.0);
+    if (call++ == 2) values[7] = -1;
+    return values;
+  };
+  std::vector<SubsetEstimate> estimates;
+  for (std::uint64_t k = 0; k < 5; ++k)
+    estimates.push_back(subset_simulation(g, 1, {.samples = 300, .repetition = k}));
+  const RareEstimate found = combined(estimates, 0.95);
+  CHECK((found.plain && found.reached));
+  CHECK(found.probability == Approx(1 / 1500.));
+  CHECK(found.interval.lower == Approx(1.688e-5).epsilon(1e-3)); // scipy.stats.beta.ppf
+  CHECK(found.interval.upper == Approx(3.709e-3).epsilon(1e-3));
+  estimates.erase(estimates.begin() + 2);
+  const RareEstimate none = combined(estimates, 0.95);
+  CHECK(none.probability == 0);
+  CHECK(none.interval.lower == 0);
+  CHECK(none.interval.upper == Approx(1 - std::pow(0.025, 1 / 1200.)));
+}
+
+TEST_CASE("an atom behind the first level is estimated without bias, and within its bounds") {
+  const double p = normal_tail(1.5) * normal_tail(2); // g stops at z_0 = 1.5; then z_1 decides
+  const LimitStateFunction g = limit_state([](const NormalPoint& z) {
+    return z[0] > 1.5 && z[1] > 2 ? -1.0 : std::max(1.0, 2.5 - z[0]);
+  });
+  constexpr int seeds = 400;
+  int missed = 0;
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    std::vector<SubsetEstimate> estimates;
+    for (std::uint64_t k = 0; k < 5; ++k)
+      estimates.push_back(subset_simulation(g, 2, {.samples = 100, .seed = seed, .repetition = k}));
+    const RareEstimate found = combined(estimates, 0.9);
+    missed += !(found.interval.lower <= p && p <= found.interval.upper);
+    sum += found.reached ? found.probability : 0;
+  }
+  CHECK(missed <= 40 + 3 * 6);
+  CHECK(sum / seeds == Approx(p).epsilon(0.15));
 }
