@@ -223,18 +223,19 @@ template <class T, class AnySystem>
 /// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. Each value takes an evaluation,
 /// so a step is dismissed first by the laws' ranges plus the static limit, then searched by the load's curvature.
 /// @param load load(s): |moment| by an evaluation on the dense output
-/// @param budget of samples; once spent, the maximum inside the step is unknown
 /// @return where a step of the method must confirm a larger value
 template <class T, class AnySystem, class Load>
-[[nodiscard]] std::optional<T>
-raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
-                  HeldLoadBound<T>& bound, SampleBudget& budget, Load&& load) {
+[[nodiscard]] std::optional<T> raise_held_moment(PeakOf<T>& peak, const AnySystem& system,
+                                                 const Step<T>& step, int i,
+                                                 HeldLoadBound<T>& bound, Load&& load) {
   const T most = MomentOverStep<T, AnySystem>(system, step, i).most();
   if (!(most + system.static_limit(step.x, i) > peak.value)) return std::nullopt;
   bound.over_step(system, step);
+  bound.narrow(system, step, i);
   const T first = load(T(0)), last = load(T(1));
-  const Sampled<T> found = largest_of(load, first, last, Bulge<T>{bound.rise(i)}, peak.value,
-                                      T(1e-10) * peak.value, budget);
+  const T close = T(1e-10) * larger(peak.value, bound.size(i)); // see Holding::close_to
+  const Sampled<T> found =
+      largest_of(load, first, last, Bulge<T>{bound.rise(i)}, peak.value, close);
   peak.raise(first, step.t);
   peak.raise(last, step.t + step.h);
   if (!(found.value > peak.value)) return std::nullopt;
