@@ -30,10 +30,7 @@ public:
   explicit Events(AnySystem& system) : system_(system), latches_(system) {}
 
   /// Starts a run.
-  void start() {
-    latches_.start();
-    holding_.start();
-  }
+  void start() { latches_.start(); }
 
   /// Latches that have not engaged.
   [[nodiscard]] int latches_left() const { return latches_.left(); }
@@ -70,9 +67,6 @@ public:
     }
     return first;
   }
-
-  /// Whether the last step's search ran out of samples. If so, it may have missed a release.
-  [[nodiscard]] bool in_vain() const { return holding_.in_vain(); }
 
   /// A function of the state that reaches 0 from below at the event.
   struct Indicator {

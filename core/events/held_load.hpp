@@ -1,29 +1,34 @@
 /// Bound on the load of a stuck hinge inside a step, above the larger of the loads at its ends.
 ///
-/// The moment on body i at hinge i, from the motion of all that is outward of it (× is the plane's
-/// cross product, e_k = (cos θ_k, sin θ_k), and |.| are constants of the wing):
+/// The load is a scalar: axes that turn with any body f show the same one. Seen from them, body k has turned by
+/// δ_k = θ_k − θ_f, and its arms accelerate by z = i θ̈_k − θ̇_k² times themselves, in complex numbers. So the
+/// moment on body i at hinge i, from the motion of all that is outward of it (× is the plane's cross product,
+/// and |.| are constants of the wing), is
 ///
-///     L_i = J_i θ̈_i + m_i g_i × r̈_i + Σ ( L_c + l_c × Y_c ) over the hinges c on body i           (1)
+///     L_i = J_i θ̈_i + m_i g_i × a_i + Σ ( L_c + l_c × Y_c ) over the hinges c on body i           (1)
+///     a_i = a + Σ l_p z_p e^{iδ_p} over the arms p from the base to the centre of body i
 ///
-/// | symbol | meaning                                                    | unit |
-/// |--------|------------------------------------------------------------|------|
-/// | g_i    | from hinge i to the body's centre of mass                  | m    |
-/// | l_c    | from hinge i to hinge c                                    | m    |
-/// | Y_c    | the force on body c at its hinge (reaction_bound.hpp)      | N    |
+/// | symbol | meaning                                                             | unit |
+/// |--------|---------------------------------------------------------------------|------|
+/// | g_i    | from hinge i to the body's centre of mass                           | m    |
+/// | l_c    | from hinge i to hinge c                                             | m    |
+/// | Y_c    | the force on body c at its hinge (reaction_bound.hpp)               | N    |
+/// | a      | acceleration that the base's origin feels; of a free base without   | m/s² |
+/// |        | air minus that of the common centre of mass relative to the base    |      |
 ///
-/// so that, with bounds of the derivatives of θ, and from them of e, r̈ and Y,
+/// A vector with bounds V, V̇, V̈ in axes that turn by δ against f's has in those of f
 ///
-///     |d²L_i/dt²| ≤ J_i |θ_i⁽⁴⁾| + m_i |g_i| (r⁽⁴⁾ + 2 |ė_i| r⁽³⁾ + |ë_i| r⁽²⁾)
-///                   + Σ ( |d²L_c/dt²| + |l_c| (Ÿ_c + 2 |ė_i| Ẏ_c + |ë_i| Y_c) )                    (2)
+///     V,    V̇ + |δ̇| V,    V̈ + 2 |δ̇| V̇ + (|δ̈| + δ̇²) V                                              (2)
 ///
-/// and L leaves its chord over an interval of h by at most chord_excess(h) of that
-/// (core/number/derivative_bounds.hpp).
+/// Seen from f = i, a load that is constant has the bound 0: a wing that turns as one body, or hangs on a body that
+/// turns steadily. Seen from inertial axes a push has the least bound. Each bound holds, so the lesser does. L leaves
+/// its chord over an interval of h by at most chord_excess(h) of it (core/number/derivative_bounds.hpp).
 ///
 /// The air adds to L by its magnitude, whichever its sign. On a plate of strength B
-/// the normal velocity v = n·ṙ has, at its points, |v| ≤ V, |v̇| ≤ r⁽²⁾ + |ė| V, … and the force
+/// the normal velocity v = n·ṙ has, at its points, |v| ≤ V, and by (2) |v̇| and |v̈|; and the force
 /// ∓B ∫ |v| v along n
 ///
-///     |F| ≤ B V²    |Ḟ| ≤ B (2 V |v̇| + |ė| V²)    |F̈| ≤ B (2 V |v̈| + 2 |v̇|² + 4 |ė| V |v̇| + |ë| V²)    (3)
+///     |F| ≤ B V²    |Ḟ| ≤ 2 B V |v̇|    |F̈| ≤ 2 B (V |v̈| + |v̇|²)                                   (3)
 ///
 /// The friction that holds a hinge balances L and the moments of the loops on it (loop_bulge.hpp).
 #pragma once
@@ -39,45 +44,56 @@ namespace wingspread {
 
 template <class T> class HeldLoadBound {
 public:
-  /// Bounds a step. Cost O(n), about an evaluation.
+  /// Bounds a step, seen from inertial axes. Cost O(n), about an evaluation.
   template <class Topology, BaseMotion M>
   void over_step(const System<T, Topology, M>& system, const Step<T>& step) {
     const auto& tree = system.topology();
-    const Wing<T>& wing = system.wing();
-    bodies_.assign(tree.bodies() + 1, Bounds{});
     const DifferenceScale<T> scale(step.h);
-    start_at_base(system, step, scale);
+    bodies_.resize(tree.bodies() + 1);
+    bodies_[0].path = path_of_base(system, step);
+    bodies_[0].angle = derivative_bounds_beyond_rounding(bodies_[0].path, scale);
     tree.outward([&](int i) {
-      const Bounds& parent = bodies_[tree.parent_of(i)];
       Bounds& own = bodies_[i];
-      const Quintic<T> angle =
-          step.coordinate(system.layout().angle(i), system.layout().freedoms());
-      for (int k = 0; k < 6; ++k) own.path[k] = parent.path[k] + angle[k];
-      own.turn(derivative_bounds_beyond_rounding(own.path, scale));
-      const T arm = length(wing.bodies[i].arm);
-      own.hinge = added(parent.hinge, arm, parent.direction);
-      const T center = length(wing.bodies[i].center), mass = wing.bodies[i].mass;
-      const Derivatives mass_center = added(own.hinge, center, own.direction);
-      own.force = added(own.force, mass, mass_center);
-      own.moment = fused(wing.bodies[i].central_inertia, own.angle_fourth,
-                         mass * center * own.turned_with(mass_center));
-      if (wing.plates.empty()) return;
-      own.speed = fused(arm, parent.rate, parent.speed);
-      if (any(wing.plates[i].strength > T(0))) add_air(wing.plates[i], own);
-    });
-    tree.inward([&](int i) {
-      const Bounds& own = bodies_[i];
-      Bounds& parent = bodies_[tree.parent_of(i)];
-      parent.force = added(parent.force, T(1), own.force);
-      parent.moment = parent.moment +
-                      fused(length(wing.bodies[i].arm), parent.turned_with(own.force), own.moment);
+      own.hinge = step.coordinate(system.layout().angle(i), system.layout().freedoms());
+      own.path = sum(bodies_[tree.parent_of(i)].path, own.hinge);
+      own.angle = derivative_bounds_beyond_rounding(own.path, scale);
     });
     h_ = step.h, weight_ = chord_excess(step.h);
+    for (Bounds& own : bodies_) own.turn(own.angle.first, own.angle.second);
+    find_moments(system, step, {T(0), T(0), T(0), T(0)});
+    loads_.resize(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) loads_[i] = bodies_[i].moment;
     add_loops(system, step);
   }
 
+  /// Narrows the bound for hinge i: seen from body i. Cost as that of over_step. @pre over_step
+  template <class Topology, BaseMotion M>
+  void narrow(const System<T, Topology, M>& system, const Step<T>& step, int i) {
+    const auto& tree = system.topology();
+    const DifferenceScale<T> scale(step.h);
+    Quintic<T>& base = bodies_[0].turned;
+    base.fill(T(0)); // the hinges from i to the base turn it back
+    for (int k = i; k != 0; k = tree.parent_of(k))
+      for (int c = 0; c < 6; ++c) base[c] = base[c] - bodies_[k].hinge[c];
+    const auto turn = [&](Bounds& own) {
+      const DerivativeBounds<T> bounds = derivative_bounds(own.turned, scale);
+      own.turn(bounds.first, bounds.second);
+    };
+    turn(bodies_[0]);
+    tree.outward([&](int k) {
+      bodies_[k].turned = sum(bodies_[tree.parent_of(k)].turned, bodies_[k].hinge);
+      if (k == i) bodies_[k].turned.fill(T(0)); // but for rounding it is
+      turn(bodies_[k]);
+    });
+    find_moments(system, step, bodies_[i].angle);
+    loads_[i].bend = smaller(loads_[i].bend, bodies_[i].moment.bend);
+  }
+
   /// Largest excess of |L_i| over the loads at the step's ends, N·m. Between s = a and b: times (b − a)².
-  [[nodiscard]] T rise(int i) const { return weight_ * bodies_[i].moment; }
+  [[nodiscard]] T rise(int i) const { return weight_ * loads_[i].bend; }
+
+  /// The sum of the magnitudes that L_i consists of, at most, N·m: rounding and errors of integration are parts of it.
+  [[nodiscard]] T size(int i) const { return loads_[i].size; }
 
   /// Largest excess over the whole step of the friction that holds hinge i.
   [[nodiscard]] T most_friction(int i) const {
@@ -102,9 +118,23 @@ public:
   }
 
 private:
-  /// Bounds of a vector's second, third and fourth derivative; for a force: of the force and its first two.
+  /// Bounds of a vector and its first two derivatives, seen from f.
   struct Derivatives {
-    T second = T(0), third = T(0), fourth = T(0);
+    T value = T(0), first = T(0), second = T(0);
+  };
+
+  /// (2)
+  struct Turn {
+    T rate = T(0), bend = T(0); ///< |δ̇|, |δ̈| + δ̇²
+
+    [[nodiscard]] Derivatives operator()(const Derivatives& v) const {
+      return {v.value, fused(rate, v.value, v.first),
+              fused(bend, v.value, fused(T(2) * rate, v.first, v.second))};
+    }
+  };
+
+  struct Moment {
+    T size = T(0), bend = T(0); ///< |L|, |d²L/dt²|
   };
 
   struct HeldLoop {
@@ -113,25 +143,25 @@ private:
   };
 
   struct Bounds {
-    Quintic<T> path{};     ///< θ
-    T rate = T(0);         ///< |ė| = |θ̇|
-    T angle_fourth = T(0); ///< |θ⁽⁴⁾|
-    Derivatives direction; ///< of e
-    Derivatives hinge;     ///< of the hinge's point
-    Derivatives force;     ///< Y
-    T moment = T(0);       ///< |d²L/dt²|
-    T speed = T(0);        ///< of the hinge's point; only where there is air
+    Quintic<T> hinge{}, path{}, turned{}; ///< relative angle, θ, δ
+    DerivativeBounds<T> angle{};          ///< of θ
+    Turn seen;                            ///< of δ
+    Derivatives along;                    ///< of z e^{iδ}
+    Derivatives acceleration;             ///< of the hinge's point, less a
+    Derivatives velocity;                 ///< of the hinge's point, only where there is air
+    Derivatives force;                    ///< Y
+    Moment moment;                        ///< of L
 
-    void turn(const DerivativeBounds<T>& angle) {
-      const T square = angle.first * angle.first;
-      rate = angle.first, angle_fourth = angle.fourth;
-      direction.second = angle.second + square;
-      direction.third = angle.third + angle.first * fused(T(3), angle.second, square);
-      direction.fourth = fourth_of_direction(angle);
+    void turn(const T& rate, const T& acceleration_) {
+      seen = {rate, fused(rate, rate, acceleration_)};
+      along = seen({fused(angle.first, angle.first, angle.second),
+                    fused(T(2) * angle.first, angle.second, angle.third),
+                    fused(T(2), fused(angle.second, angle.second, angle.first * angle.third),
+                          angle.fourth)});
     }
-    /// Bound of |d²/dt² (e × v)|. @param v bounds of v and its first two derivatives
-    [[nodiscard]] T turned_with(const Derivatives& v) const {
-      return fused(direction.second, v.second, fused(T(2) * rate, v.third, v.fourth));
+    /// Of i θ̇ e^{iδ}.
+    [[nodiscard]] Derivatives swing() const {
+      return seen({angle.first, angle.second, angle.third});
     }
   };
 
@@ -140,23 +170,78 @@ private:
     return sqrt(dot(v, v));
   }
   [[nodiscard]] static Derivatives added(const Derivatives& a, const T& by, const Derivatives& b) {
-    return {fused(by, b.second, a.second), fused(by, b.third, a.third),
-            fused(by, b.fourth, a.fourth)};
+    return {fused(by, b.value, a.value), fused(by, b.first, a.first),
+            fused(by, b.second, a.second)};
+  }
+  [[nodiscard]] static Quintic<T> sum(const Quintic<T>& a, const Quintic<T>& b) {
+    Quintic<T> c;
+    for (int k = 0; k < 6; ++k) c[k] = a[k] + b[k];
+    return c;
+  }
+
+  /// @param angle of θ_f
+  template <class Topology, BaseMotion M>
+  void find_moments(const System<T, Topology, M>& system, const Step<T>& step,
+                    const DerivativeBounds<T>& angle) {
+    const auto& tree = system.topology();
+    const Wing<T>& wing = system.wing();
+    const Turn axes{angle.first, fused(angle.first, angle.first, angle.second)};
+    const bool in_air = !wing.plates.empty();
+    Bounds& base = bodies_[0];
+    base.acceleration = base.force = {}, base.moment = {};
+    if (in_air) base.velocity = axes(velocity_of_base(system, step));
+    Derivatives all; // Σ m a_k, less a
+    T mass = wing.bodies[0].mass;
+    tree.outward([&](int i) {
+      const Bounds& parent = bodies_[tree.parent_of(i)];
+      Bounds& own = bodies_[i];
+      const T arm = length(wing.bodies[i].arm);
+      own.acceleration = added(parent.acceleration, arm, parent.along);
+      all = added(all, wing.bodies[i].mass,
+                  added(own.acceleration, length(wing.bodies[i].center), own.along));
+      mass = mass + wing.bodies[i].mass;
+      if (in_air) own.velocity = added(parent.velocity, arm, parent.swing());
+    });
+    const bool alone = M == BaseMotion::free && !in_air;
+    const Derivatives felt =
+        alone ? added({}, T(1) / mass, all) : axes(acceleration_of_base(system, step));
+    tree.outward([&](int i) {
+      Bounds& own = bodies_[i];
+      const BodyTerms<T>& body = wing.bodies[i];
+      const T center = length(body.center);
+      const Derivatives a = added(added(own.acceleration, T(1), felt), center, own.along);
+      own.force = added({}, body.mass, a);
+      own.moment = {T(0), T(0)};
+      add_moment(own, body.mass * center, a);
+      own.moment.size = fused(body.central_inertia, own.angle.second, own.moment.size);
+      own.moment.bend = fused(body.central_inertia, own.angle.fourth, own.moment.bend);
+      if (in_air && any(wing.plates[i].strength > T(0))) add_air(wing.plates[i], own);
+    });
+    tree.inward([&](int i) {
+      const Bounds& own = bodies_[i];
+      Bounds& parent = bodies_[tree.parent_of(i)];
+      parent.force = added(parent.force, T(1), own.force);
+      parent.moment.size = parent.moment.size + own.moment.size;
+      parent.moment.bend = parent.moment.bend + own.moment.bend;
+      add_moment(parent, length(wing.bodies[i].arm), own.force);
+    });
+  }
+
+  /// Adds the moment of a vector with a lever fixed to the body.
+  static void add_moment(Bounds& own, const T& lever, const Derivatives& vector) {
+    own.moment.size = fused(lever, vector.value, own.moment.size);
+    own.moment.bend = fused(lever, own.seen(vector).second, own.moment.bend);
   }
 
   /// Adds the force by (3) and its moment about the hinge, whose lever along n is constant.
   static void add_air(const PlateTerms<T>& plate, Bounds& own) {
     const T reach = larger(length(plate.from), length(plate.from + plate.along));
-    const Derivatives point = added(own.hinge, reach, own.direction);
-    const T V = fused(reach, own.rate, own.speed);
-    const T v1 = fused(own.rate, V, point.second);
-    const T v2 = fused(own.direction.second, V, fused(T(2) * own.rate, point.second, point.third));
-    const T square = V * V, change = T(2) * V * v1, bend = T(2) * fused(V, v2, v1 * v1);
-    const Derivatives force{
-        square, fused(own.rate, square, change),
-        fused(own.direction.second, square, fused(T(2) * own.rate, change, bend))};
-    own.force = added(own.force, plate.strength, force);
-    own.moment = fused(plate.strength * reach, bend, own.moment);
+    const Derivatives v = own.seen(added(own.velocity, reach, own.swing()));
+    const Derivatives force{v.value * v.value, T(2) * v.value * v.first,
+                            T(2) * fused(v.value, v.second, v.first * v.first)};
+    own.force = added(own.force, plate.strength, own.seen(force));
+    own.moment.size = fused(plate.strength * reach, force.value, own.moment.size);
+    own.moment.bend = fused(plate.strength * reach, force.second, own.moment.bend);
   }
 
   template <class Topology, BaseMotion M>
@@ -175,33 +260,63 @@ private:
     }
   }
 
+  // ---- the base, in inertial axes
+
   template <class Topology, BaseMotion M>
-  void start_at_base(const System<T, Topology, M>& system, const Step<T>& step,
-                     const DifferenceScale<T>& scale) {
-    Bounds& base = bodies_[0];
+  [[nodiscard]] static Quintic<T> path_of_base(const System<T, Topology, M>& system,
+                                               const Step<T>& step) {
+    if constexpr (M == BaseMotion::free) return step.coordinate(2, system.layout().freedoms());
+    if constexpr (M == BaseMotion::prescribed)
+      return turn_of_base(system.wing().base, system.work().driven, step.t, step.h);
+    return {};
+  }
+
+  /// Of the acceleration that its origin feels.
+  template <class Topology, BaseMotion M>
+  [[nodiscard]] static Derivatives acceleration_of_base(const System<T, Topology, M>& system,
+                                                        const Step<T>& step) {
+    const BaseTerms<T>& given = system.wing().base;
+    Derivatives felt;
     if constexpr (M == BaseMotion::free) {
-      const int n = system.layout().freedoms();
-      for (const int k : {0, 1}) {
-        const DerivativeBounds<T> b =
-            derivative_bounds_beyond_rounding(step.coordinate(k, n), scale);
-        base.hinge = added(base.hinge, T(1), {b.second, b.third, b.fourth});
-        base.speed = base.speed + b.first;
-      }
-      base.hinge.second = base.hinge.second + length(system.wing().base.gravity);
-      base.path = step.coordinate(2, n);
+      const Derivatives v = velocity_of_base(system, step);
+      felt = {v.first + length(given.gravity), v.second, T(0)};
+      for (const int k : {0, 1}) felt.second = felt.second + bounds_of(system, step, k).fourth;
     }
+    if constexpr (M == BaseMotion::prescribed) {
+      const CubicBounds<T> push = push_of_base(given, system.work().driven, step.t, step.h);
+      felt = {push.value, push.first, push.second};
+    }
+    if constexpr (M == BaseMotion::fixed) felt.value = length(given.gravity);
+    return felt;
+  }
+
+  template <class Topology, BaseMotion M>
+  [[nodiscard]] static Derivatives velocity_of_base(const System<T, Topology, M>& system,
+                                                    const Step<T>& step) {
+    Derivatives v;
+    if constexpr (M == BaseMotion::free)
+      for (const int k : {0, 1}) {
+        const DerivativeBounds<T> b = bounds_of(system, step, k);
+        v = added(v, T(1), {b.first, b.second, b.third});
+      }
     if constexpr (M == BaseMotion::prescribed) {
       const BaseTerms<T>& given = system.wing().base;
       const CubicBounds<T> push = push_of_base(given, system.work().driven, step.t, step.h);
-      base.hinge = {push.value, push.first, push.second};
-      base.speed = fused(push.value + length(given.gravity), step.h,
-                         length(system.base_velocity(step.x, step.t)));
-      base.path = turn_of_base(given, system.work().driven, step.t, step.h);
+      const T most = push.value + length(given.gravity);
+      v = {fused(most, step.h, length(system.base_velocity(step.x, step.t))), most, push.first};
     }
-    base.turn(derivative_bounds_beyond_rounding(base.path, scale));
+    return v;
+  }
+
+  template <class AnySystem>
+  [[nodiscard]] static DerivativeBounds<T> bounds_of(const AnySystem& system, const Step<T>& step,
+                                                     int k) {
+    return derivative_bounds_beyond_rounding(step.coordinate(k, system.layout().freedoms()),
+                                             DifferenceScale<T>(step.h));
   }
 
   std::vector<Bounds> bodies_;  ///< 0 … n
+  std::vector<Moment> loads_;   ///< 1 … n
   std::vector<Bulge<T>> loops_; ///< 1 … n: of the loops; empty where there are none
   std::vector<HeldLoop> held_;  ///< the loops on stuck hinges
   T h_ = T(0), weight_ = T(0);

@@ -4,6 +4,7 @@
 #include "core/dense/curved_search.hpp"
 #include "core/dense/step.hpp"
 #include "core/events/held_load.hpp"
+#include "core/events/standstill.hpp"
 #include "core/mechanics/system.hpp"
 
 #include <optional>
@@ -34,9 +35,6 @@ template <class T>
 /// Finds releases of stuck hinges over a step.
 template <class T> class Holding {
 public:
-  /// Starts a run: restores the budget of samples.
-  void start() { samples_.renew(); }
-
   /// Stores the excess of every stuck hinge. @pre the last evaluation was at x, the start of the next step
   template <class AnySystem> void begin_step(const AnySystem& system, const State<T>& x) {
     before_.resize(system.layout().bodies + 1);
@@ -47,13 +45,13 @@ public:
   /// Excess of every stuck hinge at the start of the step, 1 … n, N·m; for the lane of an engine to write to.
   [[nodiscard]] std::vector<T>& before() { return before_; }
 
-  /// The earliest release in the step, searched on the dense output where the load's curvature does not exclude it.
+  /// The earliest release in the step, searched on the dense output where neither a standstill nor the load's curvature
+  /// excludes it.
   /// @pre the last evaluation was at the step's end, as it is again afterwards. Overwrites x and dxdt.
   template <class AnySystem>
   [[nodiscard]] std::optional<Release<T>> first_release(AnySystem& system, const Step<T>& step,
                                                         State<T>& x, State<T>& dxdt) {
-    samples_.refill(static_cast<double>(step.h));
-    if (!comes_near(system, step)) return std::nullopt;
+    if (is_stuck_for_good(system, step.x) || !comes_near(system, step)) return std::nullopt;
     std::optional<Release<T>> first;
     for (int i = 1; i <= system.layout().bodies; ++i) {
       if (!system.sticks(i) || !may_exceed(i)) continue;
@@ -69,9 +67,6 @@ public:
     return first;
   }
 
-  /// Whether the last step's search ran out of samples. If so, it may have missed a release.
-  [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
-
   /// Excess of the friction that holds hinge i over its limit and margin at the last evaluation, which was at x, N·m.
   template <class AnySystem>
   [[nodiscard]] static T excess(const AnySystem& system, const State<T>& x, int i) {
@@ -82,7 +77,7 @@ public:
   }
 
 private:
-  /// Whether any stuck hinge may pass its limit in the step.
+  /// Whether any stuck hinge may pass its limit in the step, by the load as seen from inertial axes and from its body.
   template <class AnySystem>
   [[nodiscard]] bool comes_near(const AnySystem& system, const Step<T>& step) {
     bound_.over_step(system, step);
@@ -91,6 +86,7 @@ private:
     for (int i = 1; i <= system.layout().bodies; ++i) {
       if (!system.sticks(i)) continue;
       after_[i] = excess(system, step.x1, i);
+      if (may_exceed(i)) bound_.narrow(system, step, i);
       near = near || may_exceed(i);
     }
     return near;
@@ -107,7 +103,7 @@ private:
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
     const auto rise = [&](const T& a, const T& b) { return bound_.friction(i, a, b); };
     const auto s =
-        first_positive(excess_at, before_[i], after_[i], rise, T(1e-10) * limit, crest, samples_);
+        first_positive(excess_at, before_[i], after_[i], rise, close_to(i, limit), crest);
     if (s) {
       const T slope = (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * h);
       return Release<T>{i, *s, slope};
@@ -117,8 +113,12 @@ private:
     return std::nullopt;
   }
 
+  /// The load is not known better than to its errors of integration, a hundredth of which this is at the default rtol.
+  [[nodiscard]] T close_to(int i, const T& limit) const {
+    return T(1e-10) * larger(limit, bound_.size(i));
+  }
+
   HeldLoadBound<T> bound_;
-  SampleBudget samples_;
   std::vector<T> after_;
   std::vector<T> before_;
 };

@@ -137,6 +137,7 @@ private:
     if (!any(may)) return Mask{};
     if (!held_is_bounded_) held_.over_step(system, step);
     held_is_bounded_ = true;
+    held_.narrow(system, step, i);
     const P first = abs(held_before), last = abs(system.work().holding[i]);
     begin_to_raise();
     PeakOf<P> peak = moments_[i];
@@ -144,7 +145,7 @@ private:
     peak.raise(last, step.t + step.h);
     assign_where(may, raised_moments_[i], peak);
     return may && wants_samples(first, last, Bulge<P>{held_.rise(i)}, moments_[i].value,
-                                negligible(moments_[i]));
+                                negligible(moments_[i], held_, i));
   }
 
   /// As ForcePeaks::over_step.

@@ -270,9 +270,15 @@ private:
     held_.over_step(system_, step_);
     keep_held_at_end();
     Mask found{};
-    for (int i = 1; i <= at_.bodies; ++i)
-      found = found || (system_.is_locked(i) &&
-                        may_slip(held_, i, excess_before_[i], excess_at_end_[i]));
+    for (int i = 1; i <= at_.bodies; ++i) {
+      const Mask locked = system_.is_locked(i);
+      const auto slips = [&] {
+        return locked && may_slip(held_, i, excess_before_[i], excess_at_end_[i]);
+      };
+      if (!any(slips())) continue;
+      held_.narrow(system_, step_, i);
+      found = found || slips();
+    }
     return found;
   }
 

@@ -232,34 +232,35 @@ template <class T, class AnySystem>
   return most + system.static_limit(step.x, i) > peak.value;
 }
 
-/// Difference below which two moments of a stuck hinge count as one, N·m.
-template <class T> [[nodiscard]] T negligible(const PeakOf<T>& peak) {
-  return T(1e-10) * peak.value;
+/// Difference below which two moments of stuck hinge i count as one, N·m: see Holding::close_to.
+template <class T>
+[[nodiscard]] T negligible(const PeakOf<T>& peak, const HeldLoadBound<T>& bound, int i) {
+  return T(1e-10) * larger(peak.value, bound.size(i));
 }
 
 /// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation,
 /// so a step is dismissed first by held_moment_may_rise, then by the load's curvature. The maximum inside is that of a
 /// polynomial through samples, or is searched by the load's curvature where few samples do not resolve the load.
 /// @param load load(s): the moment by an evaluation on the dense output
-/// @param budget of samples; once spent, the maximum inside the step is unknown
 /// @return where a step of the method must confirm a larger value
 template <class T, class AnySystem, class Load>
-[[nodiscard]] std::optional<T>
-raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
-                  const HeldMoments<T>& ends, HeldLoadBound<T>& bound, SampleBudget& budget,
-                  Load&& load) {
+[[nodiscard]] std::optional<T> raise_held_moment(PeakOf<T>& peak, const AnySystem& system,
+                                                 const Step<T>& step, int i,
+                                                 const HeldMoments<T>& ends,
+                                                 HeldLoadBound<T>& bound, Load&& load) {
   using std::abs;
   if (!held_moment_may_rise(peak, system, step, i)) return std::nullopt;
   bound.over_step(system, step);
+  bound.narrow(system, step, i);
   const Bulge<T> rise{bound.rise(i)};
-  const T first = abs(ends.first), last = abs(ends.last);
+  const T first = abs(ends.first), last = abs(ends.last), close = negligible(peak, bound, i);
   Sampled<T> found{T(0), T(0)};
-  if (wants_samples(first, last, rise, peak.value, negligible(peak))) {
+  if (wants_samples(first, last, rise, peak.value, close)) {
     StepInterpolant<T> interpolant;
     const auto size = [&](const T& s) { return T(abs(load(s))); };
     found = interpolant.resolve(load, ends.first, ends.last)
                 ? interpolant.largest_magnitude()
-                : largest_of(size, first, last, rise, peak.value, negligible(peak), budget);
+                : largest_of(size, first, last, rise, peak.value, close);
   }
   peak.raise(first, step.t);
   peak.raise(last, step.t + step.h);

@@ -271,7 +271,6 @@ void ModalBounds::Box::widen_to(const Box& other) {
 
 /// The right sides of (4), (5) and (6) over a box.
 auto ModalBounds::map(const Box& box, const ModeVector& start, double spin) const -> Image {
-  const int n = size();
   const RestModel& m = *model_;
   Image image;
   image.way = product(way_, box.modes);
@@ -279,22 +278,9 @@ auto ModalBounds::map(const Box& box, const ModeVector& start, double spin) cons
   image.spin = product(turn_, box.modes);
   image.spin.array() += box.rigid;
   image.remainder = m.bound_remainders(image.way, rates);
-  image.turned.setZero(n + 1), image.moments.setZero(n + 1);
-  for (int k = 1; k <= n; ++k) {
-    image.turned(k) = image.way(k - 1) + image.turned(m.parents[k - 1]);
-    image.moments(k) = m.pushed(k) * image.turned(k);
-  }
-  double momentum = spin;
-  for (const RestModel::Pair& pair : m.pairs) {
-    const int k = pair.first, l = pair.second;
-    const double way = image.turned(k) + image.turned(l) - 2 * image.turned(pair.meet);
-    const double mass = way * std::fma(0.5 * pair.cosine, way, pair.sine);
-    const double turning = std::fma(pair.cosine, way, pair.sine);
-    image.moments(k) += mass * box.accelerations(l) + turning * image.spin(l) * image.spin(l);
-    image.moments(l) += mass * box.accelerations(k) + turning * image.spin(k) * image.spin(k);
-    momentum += mass * (image.spin(k) + image.spin(l));
-  }
-  image.box.rigid = m.spin + m.rigid * momentum;
+  const RestModel::Turned off = m.bound_turns(image.way, box.accelerations, image.spin);
+  image.turned = off.ways, image.moments = off.moments;
+  image.box.rigid = m.spin + m.rigid * (spin + off.momentum);
   if (m.rigid == 0) image.moments(0) = 0; // the base is not moved by it
   image.box.modes = start + swung_ + product(rounding_, box.modes) +
                     product(by_turns_, image.moments) + product(by_hinges_, image.remainder);

@@ -167,7 +167,7 @@ private:
       double& own = m_.damping(i - 1, i - 1);
       own = law(i).damping;
       if (wing_.real.empty() || !wing_.real[i].has_damper) continue;
-      if (work_.modes[i].damper_acts == 0) continue;
+      if (!damper_acts_at_rest(wing_.real[i], m_.angles(i - 1))) continue;
       RestModel::Remainder& left = m_.remainders[i - 1];
       left.damper = wing_.real[i].damper;
       left.taken = secant(*left.damper, std::abs(rates[i - 1]));
@@ -186,6 +186,11 @@ private:
       m_.damping(i - 1, i - 1) += latch.strength * std::abs(m_.angles(i - 1) - latch.latched);
       m_.remainders[i - 1].dissipation = latch.strength;
     }
+  }
+
+  /// On which side of its window the hinge is now says nothing of its rest. At an edge there is no room, and no bound.
+  [[nodiscard]] static bool damper_acts_at_rest(const RealHingeTerms<double>& real, double rest) {
+    return !real.has_window || (rest > real.window_low && rest < real.window_high);
   }
 
   void take_loops() {
@@ -314,9 +319,7 @@ private:
                   bend(real.harness.curve, real.harness.weight, phi);
       double& room = m_.room(i - 1);
       if (real.stop.present)
-        room = work_.modes[i].in_contact != 0
-                   ? 0
-                   : std::min(room, real.stop.sense * (phi - real.stop.contact_angle));
+        room = std::min(room, real.stop.sense * (phi - real.stop.contact_angle));
       if (real.has_damper && real.has_window)
         for (const double edge : {real.window_low, real.window_high})
           room = std::min(room, std::abs(phi - edge));
@@ -347,37 +350,6 @@ private:
 bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work, const double* angles,
                      const double* rates, RestModel& model) {
   return Maker(wing, work, model).make(angles, rates);
-}
-
-bool RestModel::is_tuned_for(const HingeVector& rates) const {
-  for (int i = 0; i < size(); ++i) {
-    const double tuned = remainders[i].tuned_for;
-    if (tuned == 0) continue;
-    const double rate = std::max(rates(i), remainders[i].damper->rate);
-    if (rate > 1.5 * tuned || rate < 0.3 * tuned) return false;
-  }
-  return true;
-}
-
-HingeVector RestModel::bound_remainders(const HingeVector& u, const HingeVector& v) const {
-  HingeVector f(size());
-  for (int i = 0; i < size(); ++i) {
-    const Remainder& left = remainders[i];
-    f(i) = left.steady + (left.bend + left.dissipation * v(i)) * u(i);
-    if (left.damper) f(i) += beyond_linear(*left.damper, left.taken, v(i));
-  }
-  for (const Loop& loop : loops) {
-    const double e = loop.gear * u(loop.first) + u(loop.second);
-    const double e_rate = loop.gear * v(loop.first) + v(loop.second);
-    const double elastic = loop.stiffness * e, viscous = loop.damping * e_rate;
-    double rest =
-        loop.gear_changes * (loop.stiffness * u(loop.first) + loop.damping * v(loop.first));
-    if (elastic > loop.until_slack) // one strand then carries half of it
-      rest += 0.5 * (elastic - std::max(loop.until_slack, 0.0) + viscous);
-    f(loop.first) += loop.gear * rest + loop.gear_changes * (loop.torque + elastic + viscous);
-    f(loop.second) += rest;
-  }
-  return f;
 }
 
 } // namespace wingspread

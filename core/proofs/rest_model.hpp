@@ -106,6 +106,16 @@ struct RestModel {
   [[nodiscard]] bool is_tuned_for(const HingeVector& rates) const;
   /// Bounds |f| of every hinge, for ways up to u and rates up to v, N·m.
   [[nodiscard]] HingeVector bound_remainders(const HingeVector& u, const HingeVector& v) const;
+
+  /// What turns the bodies off rest.
+  struct Turned {
+    BodyVector ways;     ///< of the bodies, rad
+    BodyVector moments;  ///< |n| by (3), N·m
+    double momentum = 0; ///< the sum in (4), N·m·s
+  };
+  /// Bounds (3) and (4), for ways of the hinges up to u, accelerations and rates of the bodies up to these.
+  [[nodiscard]] Turned bound_turns(const HingeVector& u, const BodyVector& accelerations,
+                                   const BodyVector& rates) const;
 };
 
 /// Makes the model of a wing all of whose latches have engaged. Cost O(n³).

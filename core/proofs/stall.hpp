@@ -1,4 +1,4 @@
-/// Proofs that no hinge can reach its latch any more: by energy, or because all hinges are stuck.
+/// Proof that no hinge can reach its latch any more, by energy. The other one: core/events/standstill.hpp.
 ///
 /// For hinge i to reach its latch, the kinetic energy T and what all springs can still give must
 /// pay for the friction on its way:
@@ -112,25 +112,6 @@ template <class T, class Topology, BaseMotion M>
     least = least ? smaller(*least, missing) : missing;
   }
   return least;
-}
-
-/// Whether a wing whose hinges all stick is loaded by constants: on a fixed or free base, and on one
-/// that is driven without rotation, or rotates about a point at rest at a constant rate.
-template <class T, class Topology, BaseMotion M>
-[[nodiscard]] bool loads_are_constant(const System<T, Topology, M>& system) {
-  const Wing<T>& wing = system.wing();
-  if (!wing.plates.empty() && wing.base.motion != BaseMotion::fixed) return false; // wind
-  if (wing.base.motion != BaseMotion::prescribed) return true;
-  if (!system.drive_is_steady()) return false;
-  const Drive<T> base = system.drive(system.work().driven.from); // as at any other time
-  const bool pushed = base.felt.x != T(0) || base.felt.y != T(0);
-  return base.rate == T(0) || !pushed;
-}
-
-/// Whether every hinge sticks under loads that are constant: no hinge moves any more.
-template <class T, class Topology, BaseMotion M>
-[[nodiscard]] bool is_stuck_for_good(const System<T, Topology, M>& system) {
-  return system.work().stuck >= system.layout().bodies && loads_are_constant(system);
 }
 
 } // namespace wingspread

@@ -5,18 +5,19 @@
 /// | at t_end                                     | none                                      |                    |
 /// | at its first latch, if only that is wanted   | none: no later output is asked for        |                    |
 /// | at its last latch, without peaks             | none: no later output is asked for        |                    |
-/// | early: all hinges are stuck                  | no hinge moves any more                   | stall.hpp          |
+/// | early: all hinges are stuck                  | no hinge moves any more                   | standstill.hpp     |
 /// | early: no open hinge will latch …            | the energy left cannot pay for the way    | stall.hpp          |
 /// |   … and no peak can rise                     | the energy left bounds every peak         | energy_bounds.hpp  |
 /// | early: all have latched, no peak can rise    | the modes of the wing bound every peak,   | modal_bounds.hpp   |
 /// |                                              | or the energy left does                   | energy_bounds.hpp  |
 ///
-/// The proofs stand in the room proofs/, the last two called by final_peaks.hpp.
+/// The proofs stand in the room proofs/ (standstill.hpp in events/), the last two called by final_peaks.hpp.
 /// They are functions of the state. `Ending` remembers the results, and proof_schedule.hpp says at which
 /// steps an attempt is worth its cost. Whether a run ends some steps earlier or later changes no output.
 #pragma once
 
 #include "core/events/events.hpp"
+#include "core/events/standstill.hpp"
 #include "core/proofs/final_peaks.hpp"
 #include "core/proofs/stall.hpp"
 #include "core/run/diary.hpp"
@@ -49,6 +50,7 @@ public:
   void start() {
     stall_.reset();
     final_peaks_.reset();
+    standstill_.reset();
     latches_were_left_ = true, peaks_are_proven_ = false;
     schedule_.restart(SoughtProof::stall);
   }
@@ -56,14 +58,16 @@ public:
   /// Whether the run ends after the step just counted. Attempts the proofs that are due.
   [[nodiscard]] bool ends_here() {
     const Goal& goal = run_.goal;
+    watch_standstill();
     if (!(run_.step.t < T(run_.how.t_end))) return true;
     if (goal.first_latch_only && diary_.any_latch()) return true;
-    if (goal.to_t_end) return false;
-    if (is_stuck_for_good(run_.system) && (latches_left() || diary_.any_latch())) return true;
+    if (goal.to_t_end) {
+      note_stall();
+      return false;
+    }
+    if (is_stuck() && (latches_left() || diary_.any_latch())) return true;
     if (!seeks_proof()) return diary_.any_latch();
-    if (latches_left() != latches_were_left_) schedule_.restart(sought());
-    latches_were_left_ = latches_left();
-    if (!schedule_.count_step(sought())) return false;
+    if (!is_attempt_due()) return false;
     if (latches_left() && !prove_stall()) return false;
     if (!wants_peaks()) return true;
     peaks_are_proven_ = prove_peaks_final();
@@ -87,7 +91,7 @@ public:
       end.status = Status::stalled, end.reason = *stall_;
     if (!wants_peaks()) return end;
     end.peaks_final =
-        peaks_are_proven_ || is_stuck_for_good(run_.system) ||
+        peaks_are_proven_ || is_stuck() ||
         ((latches_left() ? prove_stall() : diary_.any_latch()) && prove_peaks_final());
     return end;
   }
@@ -105,9 +109,31 @@ private:
   [[nodiscard]] bool latches_left() const { return events_.latches_left() > 0; }
   [[nodiscard]] bool wants_peaks() const { return run_.goal.peak_moment || run_.goal.peak_force; }
 
-  /// Whether a proof may end the run before its next event.
+  [[nodiscard]] bool is_stuck() const { return is_stuck_for_good(run_.system, run_.step.x); }
+
+  /// Notes when all hinges came to rest for the last time.
+  void watch_standstill() {
+    if (run_.system.work().stuck < run_.at.bodies)
+      standstill_.reset();
+    else if (!standstill_)
+      standstill_ = run_.step.t;
+  }
+
+  /// Counts a step of a search for a proof.
+  [[nodiscard]] bool is_attempt_due() {
+    if (latches_left() != latches_were_left_) schedule_.restart(sought());
+    latches_were_left_ = latches_left();
+    return schedule_.count_step(sought());
+  }
+
+  /// In a run to t_end: proves a stall at the step at which other runs do, and keeps that reason.
+  void note_stall() {
+    if (seeks_proof() && (is_stuck() || is_attempt_due())) prove_stall();
+  }
+
+  /// Whether a proof may end the run before its next event; in a run to t_end, whether it may say why the run stalls.
   [[nodiscard]] bool seeks_proof() const {
-    if (run_.goal.to_t_end) return false;
+    if (run_.goal.to_t_end) return latches_left() && !stall_;
     return latches_left() || (diary_.any_latch() && wants_peaks());
   }
   [[nodiscard]] SoughtProof sought() const {
@@ -118,15 +144,15 @@ private:
   /// Proves that no open hinge will latch, and keeps the reason. @return whether that is proven
   bool prove_stall() {
     if (stall_) return true;
-    if (is_stuck_for_good(run_.system))
-      stall_ = "every hinge sticks, and the load on them stays as it is";
+    const auto from = [](const T& t) {
+      return ", from t = " + in_words(static_cast<double>(t)) + " s on";
+    };
+    if (is_stuck())
+      stall_ = "every hinge sticks, and the load on them stays as it is" + from(*standstill_);
     else if (const auto missing = energy_missing(run_.system, run_.step.x, run_.step.t))
       stall_ = "energy: no hinge can reach its latch, the nearest to it lacks " +
-               in_words(static_cast<double>(*missing)) + " J";
-    else
-      return false;
-    *stall_ += ", from t = " + in_words(static_cast<double>(run_.step.t)) + " s on";
-    return true;
+               in_words(static_cast<double>(*missing)) + " J" + from(run_.step.t);
+    return stall_.has_value();
   }
 
   /// Proves that no peak will rise. @pre no hinge will latch any more
@@ -148,6 +174,7 @@ private:
   ProofSchedule schedule_;
   FinalPeaks<T, AnySystem> final_peaks_;
   std::optional<std::string> stall_; ///< why no open hinge will latch; none: not proven
+  std::optional<T> standstill_;      ///< since when every hinge sticks, s
   bool latches_were_left_ = true;    ///< at the step counted last
   bool peaks_are_proven_ = false;    ///< no peak can rise after the present time
 };

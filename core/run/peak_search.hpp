@@ -1,6 +1,7 @@
 /// The largest moments and forces of a run.
 #pragma once
 
+#include "core/events/standstill.hpp"
 #include "core/peaks/base_peaks.hpp"
 #include "core/peaks/force_peaks.hpp"
 #include "core/peaks/moment_peaks.hpp"
@@ -41,7 +42,6 @@ public:
     moments_.assign(run_.at.bodies + 1, {});
     overtravel_.assign(run_.at.bodies + 1, T(0));
     if (run_.goal.peak_force) forces_.start(run_.system, worth_a_step());
-    samples_.renew();
   }
 
   /// Takes the peaks at t⁺. @pre the right-hand side has changed, and was last evaluated there
@@ -58,10 +58,10 @@ public:
   [[nodiscard]] std::optional<T> first_doubt() {
     made_sure_ = false;
     if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
-    samples_.refill(static_cast<double>(run_.step.h));
     hinge_ = 0;
     doubt_.reset(), held_at_.reset();
     base_.over_step(run_.at, run_.step);
+    if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // nothing else changes
     for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
       raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
     if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
@@ -82,8 +82,6 @@ public:
 
   /// Whether the method has made steps inside the one accepted.
   [[nodiscard]] bool made_sure() const { return made_sure_; }
-  /// Whether the search for a stuck hinge's largest moment ran out of samples in this step.
-  [[nodiscard]] bool in_vain() const { return samples_.is_spent(); }
 
 private:
   /// The relative gain from which another step to the maximum of a force is worth making. Only the
@@ -108,8 +106,7 @@ private:
       const auto load = [this](const T& s) {
         return run_.system.moment(run_.evaluate_at(s), hinge_);
       };
-      held_at_ =
-          raise_held_moment(peak, run_.system, run_.step, hinge_, ends, held_, samples_, load);
+      held_at_ = raise_held_moment(peak, run_.system, run_.step, hinge_, ends, held_, load);
       return held_at_;
     }
     doubt_ = raise_moment(peak, run_.system, run_.step, hinge_);
@@ -133,7 +130,6 @@ private:
   std::optional<DoubtfulMoment<T>> doubt_; ///< of its moment; none while forces are in doubt
   HeldLoadBound<T> held_;
   std::vector<T> held_at_end_; ///< 1 … n: moments on stuck hinges at the step's end
-  SampleBudget samples_;
   std::optional<T> held_at_; ///< where the moment of a stuck hinge is in doubt
   bool made_sure_ = false;
 };

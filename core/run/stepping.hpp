@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/dense/friction_layer.hpp"
+#include "core/events/standstill.hpp"
 #include "core/events/turning.hpp"
 #include "core/methods/method_choice.hpp"
 #include "core/methods/spectral_radius.hpp"
@@ -261,7 +262,8 @@ private:
 
   /// @param rest time to end_of_stretch(), s
   [[nodiscard]] T wanted_step(const T& rest) const {
-    if (AnySystem::base_motion == BaseMotion::prescribed && run_.system.work().stuck > 0)
+    if (AnySystem::base_motion == BaseMotion::prescribed && run_.system.work().stuck > 0 &&
+        !is_stuck_for_good(run_.system, run_.step.x))
       return smaller(
           h_, time_of_base(run_.system.wing().base, run_.system.work().driven, run_.step.t, rest));
     return h_;

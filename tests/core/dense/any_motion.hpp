@@ -105,12 +105,25 @@ template <BaseMotion M> struct AnyMotion {
     return result;
   }
 
-  /// The same moments with their signs: the bodies' inertia, minus the loads of gravity and air on them.
+  /// The same moments with their signs: the bodies' inertia, minus the loads of gravity and air on them. On a free base
+  /// without air the wing falls as its common centre of mass does, whatever the coordinates of the base.
   [[nodiscard]] std::vector<double> moments(double s) const {
     const long double d = 1e-4L, wide = d * step.h;
     const Place before = place(s - d), at = place(s), after = place(s + d);
     std::vector<double> result(wing.size() + 1);
-    const Point gravity(wing.base.gravity.x, wing.base.gravity.y);
+    Point gravity(wing.base.gravity.x, wing.base.gravity.y);
+    if (M == BaseMotion::free && wing.plates.empty()) {
+      const auto fall = [&](const Place& now) {
+        long double mass = wing.bodies[0].mass;
+        Point sum = mass * now.hinge[0];
+        for (int j = 1; j <= wing.size(); ++j) {
+          sum += static_cast<long double>(wing.bodies[j].mass) * now.center[j];
+          mass += wing.bodies[j].mass;
+        }
+        return sum / mass;
+      };
+      gravity = (fall(before) - 2.0L * fall(at) + fall(after)) / (wide * wide);
+    }
     for (int i = 1; i <= wing.size(); ++i) {
       long double sum = 0;
       for (int j = i; j <= wing.size(); ++j) {

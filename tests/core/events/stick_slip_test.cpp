@@ -20,17 +20,20 @@ Scene draw_creeping_chain(std::uint64_t seed) {
   scene.base.mass = draws.log_uniform(3, 100), scene.base.inertia = 0.3 * scene.base.mass;
   scene.base.velocity = {draws.uniform(-0.3, 0.3), draws.uniform(-0.3, 0.3)};
   const int bodies = 1 + draws.below(3);
+  double length_before = 0;
   for (int k = 0; k < bodies; ++k) {
     const double length = draws.uniform(0.4, 1.2), mass = draws.log_uniform(1, 15);
-    scene.bodies.push_back({"b" + std::to_string(k), mass, mass * length * length / 12});
+    Body body;
+    body.name = "b" + std::to_string(k), body.mass = mass, body.inertia = mass * length * length / 12;
+    scene.bodies.push_back(body);
     Hinge hinge;
-    hinge.name = "h" + std::to_string(k), hinge.child = scene.bodies.back().name;
-    hinge.parent = k == 0 ? "base" : "b" + std::to_string(k - 1);
-    hinge.parent_point = k == 0 ? Point{0.2, 0.05} : Point{length / 2, 0};
+    hinge.name = "h" + std::to_string(k), hinge.child = k, hinge.parent = k - 1; // base_index: -1
+    hinge.parent_point = k == 0 ? Eigen::Vector2d(0.2, 0.05) : Eigen::Vector2d(length_before / 2, 0);
     hinge.child_point = {-length / 2, 0.01};
-    hinge.angle.stowed = (k % 2 == 0 ? 1 : -1) * std::numbers::pi / (k == 0 ? 2 : 1);
+    hinge.stowed = (k % 2 == 0 ? 1 : -1) * std::numbers::pi / (k == 0 ? 2 : 1);
+    length_before = length;
     const double torque = draws.log_uniform(0.5, 4), stiffness = draws.log_uniform(1e4, 5e5);
-    const double critical = 2 * std::sqrt(stiffness * scene.bodies.back().inertia);
+    const double critical = 2 * std::sqrt(stiffness * body.inertia);
     hinge.spring = {torque, torque};
     hinge.latch = Latch{stiffness, critical * draws.log_uniform(0.01, 30)};
     hinge.friction.model = FrictionModel::exact;
