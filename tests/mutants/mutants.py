@@ -97,7 +97,9 @@ def switched(content, faults):
     edits = sorted(((*edit, number, fault) for number, fault in faults for edit in fault["edits"]), key=lambda edit: edit[0], reverse=True)
     for begin, end, new, number, fault in edits:
         old, new = content[begin:end].decode(), new.replace("\n", " ")
-        form = f"if (wingspread_mutant({number})) {{}} else {{ {old} }}" if fault.get("statement") else f"(wingspread_mutant({number}) ? ({new}) : ({old}))"
+        form = f"(wingspread_mutant({number}) ? ({new}) : {'static_cast<bool>' if fault.get('condition') else ''}({old}))"
+        if fault.get("statement"):
+            form = f"if (wingspread_mutant({number})) {{}} else {{ {old} }}"
         content = content[:begin] + form.encode() + content[end:]
     text, guard = content.decode(), "#pragma once\n"
     include = '#include "tests/mutants/mutant.hpp"\n'

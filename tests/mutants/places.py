@@ -1,7 +1,7 @@
 """The places of a C++ file that a fault can change, found in the syntax tree by libclang (Debian's python3-clang).
 
 A place is a dictionary: "function" (its qualified name), "old" and "new" (texts), "edits" [(begin, end, new text)] in bytes, and
-"statement" where the edit drops a statement. Rules, each for what no test could or should see:
+"statement" where the edit drops a statement, "condition" where the old text may be a pointer. Rules, each for what no test could or should see:
 - only what is computed at run time: no types, template arguments, static_assert, case labels, constexpr variables, `if constexpr`
 - < and <= are exchanged for integers alone: for numbers the edge has no width. Every other comparison is turned round
 - no arithmetic on texts: words of messages are no results; no reserve(), no assertion
@@ -44,8 +44,8 @@ class Finder:
             self.found.append({"function": self.function, "edits": edits, "old": old or self.text(*edits[0][:2]),
                                "new": new or edits[0][2], **more})
 
-    def change(self, cursor, new):
-        self.add([(cursor.extent.start.offset, cursor.extent.end.offset, new)])
+    def change(self, cursor, new, **more):
+        self.add([(cursor.extent.start.offset, cursor.extent.end.offset, new)], **more)
 
     def declarations(self, cursor):
         for child in cursor.get_children():
@@ -67,12 +67,12 @@ class Finder:
         if kind == Kind.CASE_STMT or (kind == Kind.IF_STMT and re.match(r"if\s+constexpr", self.of(cursor))):
             children = children[1:]
         elif kind == Kind.IF_STMT and children and children[0].kind.is_expression():
-            self.change(children[0], f"!({self.of(children[0])})")
+            self.change(children[0], f"!({self.of(children[0])})", condition=True)
         elif kind == Kind.COMPOUND_STMT:
             self.statements(children)
         elif kind in (Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR, Kind.CALL_EXPR) and len(children) >= 2:
             self.operator(cursor, children)
-        elif kind == Kind.UNARY_OPERATOR and self.of(cursor)[0] in "-!":
+        elif kind == Kind.UNARY_OPERATOR and re.match(r"-|!(?!=)", self.of(cursor)):  # a rewritten != looks like a !
             self.change(cursor, self.of(children[0]))
         elif kind == Kind.CONDITIONAL_OPERATOR and len(children) == 3:
             self.exchange(children[1], children[2])
@@ -95,11 +95,12 @@ class Finder:
         if sign not in OPERATORS or is_text(left) or is_text(right):
             return
         l, r = self.of(left), self.of(right)
-        self.change(cursor, f"{l} {OPERATORS[sign]} {r}")
+        change = lambda new: self.add([(left.extent.start.offset, right.extent.end.offset, new)])
+        change(f"{l} {OPERATORS[sign]} {r}")
         if sign in EDGES and all(side.type.get_canonical().kind in INTEGERS for side in (left, right)):
-            self.change(cursor, f"{l} {EDGES[sign]} {r}")
+            change(f"{l} {EDGES[sign]} {r}")
         for side in DROPS.get(sign, ""):
-            self.change(cursor, l if side == "l" else r)
+            change(l if side == "l" else r)
 
     def arguments(self, given):
         for one, other in zip(given, given[1:]):
