@@ -71,7 +71,8 @@ public:
       if (!may_engage(i)) continue;
       if (i != due && !engages_at(step.t, gap(step.x, i), gap_rate(step.x, i))) continue;
       system_.engage(i);
-      if (has_edge_at_latch(system_.wing(), i)) // exactly there, where settle_edges decides its side
+      // exactly at the edge, where settle_edges decides its side
+      if (has_edge_at_latch(system_.wing(), i))
         step.x[at_.angle(i)] = system_.wing().hinges[i].latched;
       --left_;
       latches.push_back(latch_event(system_.wing(), at_, step.x, step.t, i));

@@ -106,8 +106,9 @@ bool check_between(const JsonCursor& at, const TorqueTable& table) {
 
 void read_measured(const JsonCursor& at, Way way, Interpolation interpolation,
                    HingeTorque& torque) {
-  JsonObject object(at, "a torque test: an object with angle, deploying and stowing (½ (stowing − "
-                        "deploying) is friction: friction.scale scales it, not the spring's scale)");
+  JsonObject object(at,
+                    "a torque test: an object with angle, deploying and stowing (½ (stowing − "
+                    "deploying) is friction: friction.scale scales it, not the spring's scale)");
   std::vector<double> angle, deploying, stowing;
   bool good = read_angles(object, way, angle);
   good = good && read_torques(object, "deploying", angle, deploying);
