@@ -326,6 +326,8 @@ TEST_CASE("Each fault of --set is told", "[cases]") {
                 "\nerror: --set bodies.panel_1.inertia: found string \"1 kg\"", "kg·m²",
                 "\"lb*in^2\"", "\nerror: --set bodies.panel_2.inertia: found", "a second time"}));
   CHECK(lines_of(error).size() == 4);
+  CHECK_THAT(run_program(folder, {"simulate", file, "--set", "bodies.panel_1.mass=12"}).error,
+             HasFacts({"error: --set bodies.panel_1.mass: found", "\"mass.panel_1\" sets"}));
   CHECK(run_program(folder, {"check", file, "--set", "bodies.panel_1.inertia=-1"}).error ==
         "error: --set: found bodies.panel_1.inertia of -1, expected > 0\n");
 }

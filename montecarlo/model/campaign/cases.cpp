@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
+#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <fmt/format.h>
 
@@ -15,17 +16,6 @@ namespace {
 
 constexpr const char* name_expected =
     "a string, the name of a folder: letters, digits, \"_\" and \"-\"";
-
-/// Maps each parameter that a dispersion sets (not scales or adds to) to the dispersion's name.
-std::map<SceneParameter, std::string> set_by_draws(const std::vector<Dispersion>& dispersions) {
-  std::map<SceneParameter, std::string> writers;
-  for (const Dispersion& dispersion : dispersions)
-    for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve*) {
-      for (const SceneParameter& target : targets)
-        if (how == Apply::set) writers.emplace(target, dispersion.name);
-    });
-  return writers;
-}
 
 class CaseReader {
 public:

@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/number_text.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/campaign/set_by_draws.hpp"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,24 @@ std::string option_of(std::string_view pointer) {
   return option;
 }
 
+std::string path_in(const std::string& change) {
+  return change.substr(0, std::min(change.find('='), change.size()));
+}
+
+/// Refuses changes that a dispersion would overwrite.
+void refuse_lost(const Campaign& campaign, const std::vector<std::string>& changes) {
+  const auto writers = set_by_draws(campaign.dispersions);
+  std::vector<Problem> problems;
+  for (const std::string& change : changes)
+    for (const ParameterMatch& match : resolve(campaign.scene, path_in(change)).matches)
+      if (const auto found = writers.find(match.parameter); found != writers.end())
+        problems.push_back({"", "--set " + path_in(change),
+                            fmt::format("a change of {}, which \"{}\" sets in every run",
+                                        path_of(campaign.scene, match.parameter), found->second),
+                            "a parameter that no dispersion sets"});
+  if (!problems.empty()) throw SpecError(std::move(problems));
+}
+
 } // namespace
 
 void override_settings(const Json& given, const std::function<void(const JsonCursor&)>& read) {
@@ -35,7 +54,7 @@ Scene changed_scene(Scene scene, const std::vector<std::string>& changes) {
   std::map<std::string, std::string> written; // the values as given, by path
   for (const std::string& change : changes) {
     const std::size_t equals = std::min(change.find('='), change.size());
-    const std::string path = change.substr(0, equals);
+    const std::string path = path_in(change);
     const std::string text = change.substr(std::min(equals + 1, change.size()));
     const auto number = parse_number<double>(text);
     const Json value = number ? Json(*number) : Json(text);
@@ -60,6 +79,7 @@ Scene changed_scene(Scene scene, const std::vector<std::string>& changes) {
 
 void change_scene(Campaign& campaign, const std::vector<std::string>& changes) {
   if (changes.empty()) return;
+  refuse_lost(campaign, changes);
   campaign = with_scene(campaign, changed_scene(campaign.scene, changes));
 }
 

@@ -19,7 +19,7 @@ void override_settings(const Json& given, const std::function<void(const JsonCur
 /// Applies changes "PATH=VALUE". @throws SpecError with all problems
 [[nodiscard]] Scene changed_scene(Scene scene, const std::vector<std::string>& changes);
 /// The same for a campaign's nominal scene; the campaign is validated again.
-/// @throws as above, and if a case no longer fits the scene
+/// @throws as above, if a dispersion sets a changed parameter in every run, and if a case no longer fits the scene
 void change_scene(Campaign& campaign, const std::vector<std::string>& changes);
 
 } // namespace wingspread
