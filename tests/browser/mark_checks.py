@@ -79,6 +79,8 @@ class MarkChecks:
             knots = list(zip((value * factor for value in curve["x"]), curve["p"], curve["lower"], curve["upper"]))
             (path,), (band,) = self.paths("distribution", ".curve"), self.paths("distribution", ".curve-band")
             self.near(pairs(path)[0][2:-2], [(x(v), y(p)) for v, p, _, _ in knots], name)  # flat lines lead to both ends
+            flat = [point[1] for point in (*pairs(path)[0][:2], *pairs(path)[0][-2:])]
+            self.near([flat], [(y(0), y(0), y(1), y(1))], name)
             self.band(band, x, y, [(v, low, high) for v, _, low, high in knots], name)
             ends = self.places("distribution", ".quantile-bounds", "x1", "x2", "y1")
             self.near(ends, [(x(q["lower"] * factor), x(q["upper"] * factor), y(q["p"])) for q in output["quantiles"]], name)
@@ -174,6 +176,8 @@ class MarkChecks:
         for (angles, values), path in zip(lines, self.paths("static-margins", ".trace"), strict=True):
             self.line(path, x, y, zip((angle * DEGREES for angle in angles), values), "static margin")
         self.near(self.places("static-margins", "line.limit", "y1", "y2"), [(y(v), y(v)) for v in dict.fromkeys(one["required"] for one in static["hinges"])], "required")
+        self.same_rows("static-margins", [[one["hinge"], angle * DEGREES, nominal, lower, one["required"]] for one in static["hinges"]
+                                          for angle, nominal, lower in zip(one["angle"], one["margin"], one["margin_lower"])])
         note = self.run_script("return document.querySelector('figure.static-margins > .note').textContent")
         self.assertIn(f"the {100 * static['lower_p']:g} % quantile over {static['draws']:,} draws", note)
         rows = [row[4] for row in self.table("Least static margins")]

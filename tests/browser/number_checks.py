@@ -202,6 +202,15 @@ class NumberChecks:
                 self.check(row[3], one["guaranteed_value"] if values else one["guaranteed"], share=not values, about=one["text"])
                 self.check(row[4], one["margin"] if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
                 self.assertEqual(parsed(row[6])[0][0], one["broken"], one["text"])
+                self.assertEqual(row[4].startswith("+"), (one["margin"] if values else one["guaranteed"] - one["probability"]) > 0, one["text"])
+            strain = lambda one: -one["margin"] / abs(one["limit"]) if one["limit"] and one["margin"] is not None else one["broken"] / one_set["runs"] - (1 - one["probability"])
+            ranked = [(("failed", "open", "passed").index(one["verdict"]), -strain(one)) for one in self.run_script("return W.verdicts.judged().map(row => row.requirement)")]
+            self.assertEqual(ranked, sorted(ranked))
+            badges = self.run_script("return [...document.querySelectorAll('.outputs tbody tr')].map(row => row.querySelector('th .badge')?.title)")
+            for badge, output in zip(badges, one_set["outputs"], strict=True):
+                verdicts = [one_set["requirements"][at]["verdict"] for at in output["limits"]]
+                worst = next((word for verdict, word in (("failed", "fail"), ("open", "undecided"), ("passed", "pass")) if verdict in verdicts), None)
+                self.assertEqual(badge, worst, output["name"])
 
     def test_effects_pairs_and_studies(self):
         self.open(pages.made_up("plain"))

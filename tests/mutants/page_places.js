@@ -5,8 +5,9 @@ const acorn = require("acorn"),
   text = require("fs").readFileSync(process.argv[2], "utf8");
 const swaps = { "+": "-", "-": "+", "*": "/", "/": "*", "<": ">=", ">": "<=", "<=": ">", ">=": "<", "===": "!==", "!==": "===" };
 const places = [];
-// Lengths in pixels are taste: literals in functions that draw are left alone, and so is what is only written to the console.
-const draws = (above) => above.some((one) => /Function/.test(one.type) && one.params.some((each) => /^(svg|box|width)$/.test(each.name)));
+// Lengths in pixels are taste: numbers in functions that draw are left alone, and so is what is only written to the console.
+const draws = (above) => // the first four are the file, its wrapper and its body
+  above.slice(4).some((one) => /Function/.test(one.type) && (one.params.some((each) => /^(svg|box|width)$/.test(each.name)) || of(one).includes("M.small(")));
 const isNumber = (node) => node.type === "Literal" && typeof node.value === "number";
 const of = (node) => text.slice(node.start, node.end);
 // `+` joins texts too; pieces of sentences are no results.
