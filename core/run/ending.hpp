@@ -85,6 +85,8 @@ public:
   [[nodiscard]] End describe_end() {
     End end;
     const bool is_cut_short = run_.goal.first_latch_only && diary_.any_latch();
+    // when motion ended tells more than when its end was certain
+    if (run_.goal.to_t_end && is_stuck()) stall_.reset();
     if (!latches_left())
       end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
     else if (!is_cut_short && prove_stall())
@@ -126,7 +128,7 @@ private:
     return schedule_.count_step(sought());
   }
 
-  /// In a run to t_end: proves a stall at the step at which other runs do, and keeps that reason.
+  /// In a run to t_end: proves a stall at the step at which other runs do, and keeps that reason if motion does not end.
   void note_stall() {
     if (seeks_proof() && (is_stuck() || is_attempt_due())) prove_stall();
   }

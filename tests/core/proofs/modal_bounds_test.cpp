@@ -319,8 +319,13 @@ template <BaseMotion M> double most_left_out(std::uint64_t seed, bool loops, dou
       loop.stiffness = draws.log_uniform(1e2, 1e4), loop.damping = draws.log_uniform(1, 1e2);
       const double end = std::abs(scene.hinges[0].latched - scene.hinges[0].stowed), top = end / 2,
                    to = std::abs(scene.hinges[1].latched - scene.hinges[1].stowed);
-      oracle::tabulate(loop, {0, top, 2 * end},
-                       {0, to + draws.uniform(1, 4) * end, to - draws.uniform(0, 9) * end});
+      if (k % 2 == 0)
+        oracle::tabulate(loop, {0, top, 2 * end},
+                         {0, to + draws.uniform(1, 4) * end, to - draws.uniform(0, 9) * end});
+      else // falls everywhere, and is at rest where both hinges latch
+        oracle::tabulate(
+            loop, {0, end, 2 * end},
+            {to + draws.log_uniform(0.1, 8) * end, to, to - draws.log_uniform(0.1, 8) * end});
       if (draws.chance(0.5)) loop.preload = draws.log_uniform(1, 1e3);
       scene.synchronisations.push_back(loop);
     }
