@@ -4,6 +4,7 @@
 #include "core/events/contact.hpp"
 #include "core/events/edge_crossing.hpp"
 #include "core/events/holding.hpp"
+#include "core/events/kinks.hpp"
 #include "core/events/latches.hpp"
 
 #include <optional>
@@ -12,8 +13,9 @@
 namespace wingspread {
 
 /// `rest`: a sliding hinge stops. `graze`: the load of a stuck hinge comes so near its limit that only a step of the
-/// method can decide. `edge`: a real hinge reaches an angle at which its law changes.
-enum class Event { latch, rest, release, graze, edge };
+/// method can decide. `edge`: a real hinge reaches an angle at which its law changes. `kink`: a law bends
+/// (kinks.hpp), and the equations stay as they are.
+enum class Event { latch, rest, release, graze, edge, kink };
 
 /// An event inside a step.
 template <class T> struct Due {
@@ -22,6 +24,7 @@ template <class T> struct Due {
   T s;                    ///< fraction of the step
   T slope;                ///< rate of a release's indicator, N·m/s
   Edge edge = Edge::stop; ///< of an edge
+  Kink<T> kink{};         ///< of a kink
 };
 
 /// Finds the events of one run and applies them.
@@ -45,8 +48,13 @@ public:
   [[nodiscard]] std::vector<T>& excess_before() { return holding_.before(); }
 
   /// The earliest event in the step. The interpolant decides whether an event happens. Overwrites x and dxdt.
-  [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x, State<T>& dxdt) {
+  /// @param kinks which kinks are events too; none: none is
+  [[nodiscard]] std::optional<Due<T>> first(const Step<T>& step, State<T>& x, State<T>& dxdt,
+                                            const std::optional<KinkLimit>& kinks = std::nullopt) {
     std::optional<Due<T>> first;
+    if (kinks && system_.wing().is_real())
+      if (const auto found = KinkSearch<T, AnySystem>(system_, step, *kinks).first())
+        first = Due<T>{Event::kink, 0, found->s, T(0), Edge::stop, found->kink};
     const auto offer = [&](Event event, int i, const std::optional<T>& s, const T& slope) {
       if (s && (!first || *s < first->s)) first = Due<T>{event, i, *s, slope};
     };
@@ -91,6 +99,13 @@ public:
       return {way * (step.x1[at.angle(i)] - angle), way * step.x1[at.rate(i)],
               way * step.dxdt1[at.rate(i)]};
     }
+    case Event::kink: { // just past it, so that the next step begins on the other side
+      const Jet<T> u = argument(system_, due.kink, step.x1, step.dxdt1);
+      using std::abs;
+      const T beyond = T(8 * epsilon_of<T>) * larger(T(abs(u.value)), T(abs(due.kink.at)));
+      return {due.kink.way * (u.value - due.kink.at) - beyond, due.kink.way * u.first,
+              due.kink.way * u.second};
+    }
     case Event::release:
     case Event::graze:
       break;
@@ -112,7 +127,8 @@ public:
         due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
       step.x[system_.layout().angle(due->hinge)] =
           edge_angle(system_.wing(), due->hinge, due->edge);
-    return (due && due->event != Event::graze) || engaged || rested;
+    const bool changes = due && due->event != Event::graze && due->event != Event::kink;
+    return changes || engaged || rested;
   }
 
 private:

@@ -79,6 +79,18 @@ void loop_resistances(const System<T, Topology, M>& system, const State<T>& x,
   }
 }
 
+/// Upper bound of (M⁻¹)_ii, 1/(kg·m²): 1/J_i + 1/J_p, with J the inertias of the hinge's bodies i and p about their own
+/// centres of mass, and 1/J_p = 0 for a base that does not move freely. Joints between bodies only make them less free
+/// to turn [Gauss's principle].
+template <class T, class Topology, BaseMotion M>
+[[nodiscard]] double mobility_bound(const System<T, Topology, M>& system, int i) {
+  const auto alone = [&](int body) {
+    const bool held = body == 0 && M != BaseMotion::free;
+    return held ? 0.0 : 1 / static_cast<double>(system.wing().bodies[body].central_inertia);
+  };
+  return alone(i) + alone(system.topology().parent_of(i));
+}
+
 template <class T> class LinearSolve {
 public:
   /// Factorizes M + E at (x, t) for the added inertias of the hinges, E(i). Cost O(n), about half

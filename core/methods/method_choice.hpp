@@ -54,31 +54,36 @@ inline constexpr int steps_between_radii = 128;
 inline constexpr int steps_before_leaving_series = 100;
 
 /// The implicit method is promising if the stable step is a smaller share than this of the time in
-/// which the motion changes (`quickness`). An implicit step costs as much as about ten explicit ones
-/// and cannot be much longer than that time. Larger: more vain trials, of five implicit steps each.
-/// Smaller: wings at the border stay with many short explicit steps.
-inline constexpr double promising_share = 0.02;
+/// which the motion changes (`quickness`), beyond which implicit steps cannot reach. An implicit step
+/// takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 6.5 steps of order 8, so it
+/// breaks even at a share of 0.15; half of that, for `quickness` is known to a factor of two. Larger:
+/// more vain trials. Smaller: wings at the border stay with many short explicit steps.
+inline constexpr double promising_share = 0.08;
 /// Steps until `auto` checks the promise again, doubled from check to check between these limits.
 inline constexpr int first_recheck = 10, longest_recheck = 80;
 /// Held-back steps in a row after which the implicit method is tried without a promise, for `quickness`
-/// may be wrong. Smaller: more vain trials on wings that are mildly stiff throughout.
-inline constexpr int steps_to_try_anyway = 1600;
+/// may be wrong: of a wing that creeps it is. 200 steps of order 8 are 2,400 evaluations, a vain trial
+/// costs about a third of that, and waits double. With 1,600 a wing that seulex alone integrates in 1,300
+/// evaluations took 29,000.
+inline constexpr int steps_to_try_anyway = 200;
 
-/// Implicit steps of a trial. Extrapolation needs the first two or three to find its order and step.
-/// Fewer: judged while it still searches. More: a vain trial costs more.
-inline constexpr int trial_steps = 5;
-/// Implicit steps from one verdict on the implicit method to the next; the last two are timed.
-inline constexpr int judged_steps = 3;
+/// Implicit steps that are not judged: extrapolation needs them to find its order and step.
+inline constexpr int unjudged_steps = 2;
+/// Implicit steps at whose cost a loss against the explicit method ends the implicit phase. To come back
+/// takes first_retry held-back steps, 64·12 evaluations: as much as ten implicit steps. So a bout of slow
+/// steps, as after an event, is waited out while it costs less than to leave and return. With 1.5 in place
+/// of 10 the methods alternate 110 times on the worst of 150 random wings, at 3 times the least cost.
+inline constexpr double bearable_steps = 10;
 /// Explicit steps after a vain trial before the next, doubled from trial to trial between these limits. On
 /// chains of 20 panels a longest wait of 512 led to 2,629 implicit steps a run, of 4,096 to 229
 /// (studies/SPEED.md, "Twenty panels").
 inline constexpr int first_retry = 64, longest_retry = 4096;
-/// Cost of an evaluation of the implicit method with its solves, in evaluations of an explicit one.
-/// Measured as 1.5 if both are made alone. In lanes an explicit evaluation costs a third (20 panels) to a
-/// sixth (3 panels) of one alone, and lanes have no implicit method; a run must not depend on where it is
-/// made, so 6 serves everywhere. Smaller: 1.5 cost 124 ms a run of 20 panels in place of 76. Larger: stiff
-/// latches are integrated explicitly longer.
-inline constexpr double implicit_cost = 6;
+/// Cost of an evaluation of the implicit method with its solves, in evaluations of an explicit one: 1.5 if
+/// both are made alone. In lanes an explicit evaluation costs a third (20 panels) to a sixth (3 panels) of
+/// one alone, real hinges and stuck ones gain less, and lanes have no implicit method; so there it is 1.5
+/// times about three. A run must not depend on where it is made: the geometric mean √(1.5·4.5), which is at
+/// most a factor of 1.75 off at either end.
+inline constexpr double implicit_cost = 2.6;
 
 } // namespace choice
 
@@ -100,18 +105,26 @@ public:
   [[nodiscard]] Method active() const { return active_; }
   [[nodiscard]] bool automatic() const { return automatic_; }
 
-  /// Begins a phase with the explicit method.
+  /// Begins a phase after an event. The implicit method goes on: what made the wing stiff is still there, and the
+  /// verdict soon tells if not. So does a wait after a vain trial, except at latches, which change the wing.
   /// @param most upper bound of ρ in the phase, 1/s; infinity: none, and ρ counts as 0 until measured
-  void restart(double time, long evaluations, double most) {
-    active_ = explicit_;
+  /// @param latched whether the run begins or a latch has engaged
+  void restart(double time, long evaluations, double most, bool latched) {
+    const long left = static_cast<long>(held_back_.wait_until) - steps_;
     steps_ = 0;
     held_back_.last_free = mark(time, evaluations);
     held_back_.wait_until = explicit_ == Method::taylor ? choice::steps_before_leaving_series : 0;
+    if (latched) {
+      wait_after_trial_ = choice::first_retry;
+      wait_after_check_ = choice::first_recheck;
+    } else {
+      held_back_.wait_until = std::max(held_back_.wait_until, static_cast<double>(left));
+    }
+    before_ = held_back_.last_free;
+    if (active_ != explicit_) return; // ρ is measured a few steps on
     measured_ = !std::isfinite(most);
     wants_first_ = false;
     keep_radius(measured_ ? 0 : most);
-    wait_after_trial_ = choice::first_retry;
-    wait_after_check_ = choice::first_recheck;
   }
 
   /// Whether ρ should be measured anew before the next step.
@@ -137,7 +150,9 @@ private:
     const double limit = explicit_ == Method::taylor   ? TaylorSeries<double>::stable_real
                          : explicit_ == Method::dop853 ? DormandPrince853<double>::stable_real
                                                        : DormandPrince5<double>::stable_real;
+    const double before = stable_step_;
     stable_step_ = radius > 0 ? limit / radius : 1e300;
+    if (active_ != explicit_) explicit_speed_ *= stable_step_ / before;
     held_back_.shortest = choice::held_back_share * stable_step_;
   }
 
@@ -207,18 +222,21 @@ private:
     }
     explicit_speed_ = speed(held_back_.last_free, now);
     active_ = Method::seulex;
-    tried_ = 0;
+    before_ = now;
+    tried_ = 0, loss_ = gain_ = 0;
     return true;
   }
 
   [[nodiscard]] bool leave_implicit(const Mark& now) {
-    ++tried_;
-    if (tried_ == choice::trial_steps - choice::judged_steps + 1) implicit_from_ = now;
-    if (tried_ < choice::trial_steps) return false;
-    const bool pays = speed(implicit_from_, now) / choice::implicit_cost > explicit_speed_;
-    tried_ = choice::trial_steps - choice::judged_steps;
-    if (pays) return false;
+    const double cost = choice::implicit_cost * (now.evaluations - before_.evaluations);
+    const double lost = cost - (now.time - before_.time) / explicit_speed_;
+    before_ = now;
+    if (++tried_ <= choice::unjudged_steps) return false;
+    gain_ -= lost;
+    loss_ = std::max(0.0, loss_ + lost);
+    if (loss_ < choice::bearable_steps * cost) return false;
     active_ = explicit_;
+    if (gain_ > 0) wait_after_trial_ = choice::first_retry;
     held_back_.last_free = now;
     held_back_.wait_until = now.steps + wait_after_trial_;
     wait_after_trial_ = std::min(2 * wait_after_trial_, choice::longest_retry);
@@ -232,7 +250,10 @@ private:
   double stable_step_ = 0, explicit_speed_ = 0;
   long steps_ = 0;
   HeldBackSteps<double> held_back_{}; ///< of the explicit method
-  Mark implicit_from_{};              ///< the implicit method's speed is measured from here
+  Mark before_{};                     ///< where the last implicit step began
+  double loss_ =
+      0; ///< of the implicit method against the explicit one since it last paid, evaluations
+  double gain_ = 0; ///< of the implicit method since it was last chosen, evaluations
   int tried_ = 0, wait_after_trial_ = choice::first_retry,
       wait_after_check_ = choice::first_recheck;
 };

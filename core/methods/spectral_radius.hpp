@@ -18,26 +18,19 @@ namespace wingspread {
 /// eigenvector with velocities v scaled to vᴴMv = 1,
 ///
 ///     |λ|² ≤ |λ| vᴴDv + vᴴKv ≤ |λ| Σ δ_i σ_i + Σ κ_i σ_i                                       (1)
-///     σ_i = (M⁻¹)_ii ≤ 1/J_i + 1/J_p                                                          (2)
 ///
-/// δ, κ a hinge's damping and stiffness, J the inertias of its bodies i and p about their own centres of
-/// mass, with 1/J_p = 0 for a base that does not move freely. (2): joints between bodies only make them less
-/// free to turn [Gauss's principle]. Cost O(n), no evaluation.
+/// δ, κ a hinge's damping and stiffness, σ_i = (M⁻¹)_ii ≤ mobility_bound. Cost O(n), no evaluation.
 /// @return infinity if loops, real hinges or smoothed latches have stiffnesses of their own
 template <class T, class AnySystem>
 [[nodiscard]] double spectral_radius_bound(const AnySystem& system) {
   const Wing<T>& wing = system.wing();
   if (!wing.real.empty() || !wing.loops.empty() || system.layout().smoothed)
     return std::numeric_limits<double>::infinity();
-  const auto mobility = [&](int body) {
-    const bool held = body == 0 && AnySystem::base_motion != BaseMotion::free;
-    return held ? 0.0 : 1 / static_cast<double>(wing.bodies[body].central_inertia);
-  };
   double damping = 0, stiffness = 0;
   for (int i = 1; i <= wing.size(); ++i) {
     const LinearLaw<T>& law = system.work().laws[i];
     const HingeTerms<T>& hinge = wing.hinges[i];
-    const double sigma = mobility(i) + mobility(system.topology().parent_of(i));
+    const double sigma = mobility_bound(system, i);
     T resisted = law.damping;
     if (hinge.regularized_friction > T(0))
       resisted = resisted + regularized_friction_damping(hinge, T(0)); // where it is largest

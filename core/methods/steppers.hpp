@@ -104,6 +104,12 @@ private:
          method == Method::seulex || method == Method::taylor;
 }
 
+/// Whether the error estimate expects a smooth right-hand side, and may accept a wrong step over a kink of a law
+/// (core/events/kinks.hpp). Explicit formulas whose stages fill the step notice kinks.
+[[nodiscard]] constexpr bool needs_smooth_laws(Method method) {
+  return is_implicit(method) || method == Method::fehlberg78 || method == Method::bulirsch_stoer;
+}
+
 /// Rejects a step that is too rough (> 1), and limits the factor to the next.
 inline void limit_roughness(double rough, Verdict& verdict) {
   const double factor = factor_by_roughness(rough);

@@ -228,7 +228,7 @@ private:
     if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_)))
       return ask_for_step(stepping_.plan_again());
     stepping_.choose_next_size();
-    if (landing_.cut_at_event()) return ask_to_end(Stage::landing);
+    if (landing_.cut_at_event(stepping_.kinks())) return ask_to_end(Stage::landing);
     accept();
   }
 

@@ -19,10 +19,10 @@ template <class T, class AnySystem> class Landing {
 public:
   Landing(Underway<T, AnySystem>& run, Events<T, AnySystem>& events) : run_(run), events_(events) {}
 
-  /// Cuts a step just accepted at the first event inside.
+  /// Cuts a step just accepted at the first event inside. @param kinks which kinks are events
   /// @return whether there is one: the step must then be made again, to the event
-  [[nodiscard]] bool cut_at_event() {
-    due_ = events_.first(run_.step, run_.x, run_.dxdt);
+  [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks) {
+    due_ = events_.first(run_.step, run_.x, run_.dxdt, kinks);
     if (!due_) return false;
     corrections_ = 0;
     longest_ = run_.step.h;
@@ -48,7 +48,8 @@ public:
     const T way = bent ? T(-late) : T(-late * fused(T(0.5) * late, at.bend / at.slope, T(1)));
     shift_end(way);
     step.h = smaller(T(step.h + way), longest_);
-    if (run_.goal.peak_moment || run_.goal.peak_force) // forces and accelerations at the new end
+    // forces and accelerations at the new end
+    if (run_.goal.peak_moment || run_.goal.peak_force || due_->event == Event::kink)
       run_.system(step.x1, step.dxdt1, step.t + step.h);
     return false;
   }

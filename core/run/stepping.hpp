@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/dense/friction_layer.hpp"
+#include "core/events/kinks.hpp"
 #include "core/events/standstill.hpp"
 #include "core/events/turning.hpp"
 #include "core/methods/method_choice.hpp"
@@ -18,6 +19,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace wingspread {
 
@@ -31,14 +33,18 @@ public:
   /// A run begins.
   void start() {
     tried_ = steps_ = rejected_ = 0;
+    engaged_ = -1;
     choice_ = first_choices_[has_series(run_.system.wing()) ? 1 : 0];
   }
 
   /// Begins anew after a change of the right-hand side. @param any_latch whether a latch has engaged
   void restart(bool any_latch) {
     any_latch_ = any_latch;
+    const std::vector<char>& latched = run_.system.work().engaged;
+    const auto engaged = std::count(latched.begin(), latched.end(), true);
     choice_.restart(static_cast<double>(run_.step.t), run_.system.work().evaluations,
-                    spectral_radius_bound<T>(run_.system));
+                    spectral_radius_bound<T>(run_.system),
+                    engaged != std::exchange(engaged_, engaged));
     begin_with_method();
     h_ = T(-1);
   }
@@ -62,6 +68,12 @@ public:
   /// acceleration at a step's end does not predict the next instants.
   [[nodiscard]] double rtol_of_landing() const {
     return is_implicit(method()) ? 0 : tolerance().rtol;
+  }
+
+  /// Which kinks end a step of the method, if any does.
+  [[nodiscard]] std::optional<KinkLimit> kinks() const {
+    if (!needs_smooth_laws(method())) return std::nullopt;
+    return KinkLimit{tolerance().rtol, tolerance().atol};
   }
 
   // ---- a step: planned, made, judged
@@ -306,6 +318,7 @@ private:
   T h_ = T(0);             ///< size of the next step, s; negative: not chosen yet
   bool last_ = false;      ///< the planned step ends at end_of_stretch()
   bool any_latch_ = false; ///< a latch has engaged
+  long engaged_ = -1;      ///< latches at the last restart; -1: the run has not begun
   long tried_ = 0, steps_ = 0, rejected_ = 0;
 };
 

@@ -105,10 +105,10 @@ TEST_CASE("auto keeps its first method if nothing is stiff") {
   CHECK(methods_used(run(scene, 1e-8)) == "taylor");
   CHECK(methods_used(run(scene, 1e-4)) == "dop853");
   CHECK(methods_used(run(scene, 1e-2)) == "dopri5");
-  // mildly stiff: other methods are tried at most
-  const Outcome out = run(seed_scene(), 1e-8);
+  // mildly stiff: another method only where it saves evaluations
+  const Outcome out = run(seed_scene(), 1e-8), plain = run(seed_scene(), 1e-8, "taylor");
   CHECK(out.status == Status::deployed);
-  CHECK(time_by("taylor", out) > 0.9 * out.t_end);
+  CHECK(out.work.rhs_evaluations <= plain.work.rhs_evaluations);
 }
 
 TEST_CASE("after stiff latches auto continues with seulex, and phases tell it") {
@@ -122,8 +122,8 @@ TEST_CASE("after stiff latches auto continues with seulex, and phases tell it") 
                                               : "dopri5, seulex"));
     for (const Phase& phase : out.phases) // not before the first latch
       if (phase.method == "seulex") CHECK(phase.from > out.latches[0].time);
-    for (const LatchEvent& latch : out.latches) // the explicit method integrates its shock
-      CHECK(method_at(out, latch.time) != "seulex");
+    CHECK(method_at(out, out.latches[0].time) !=
+          "seulex"); // the explicit one integrates the first shock
     CHECK(method_at(out, out.t_end) == "seulex");
     const double latched = out.t_end - out.latches[0].time;
     CHECK(time_by("seulex", out) > 0.9 * latched);
@@ -150,6 +150,25 @@ TEST_CASE(
     CHECK(static_cast<double>(chosen.work.rhs_evaluations) <
           c.at_most * static_cast<double>(plain.work.rhs_evaluations));
   }
+}
+
+TEST_CASE("auto goes on with the implicit method after events") {
+  // stiff dampers on light panels that stick and slide: each event once began the explicit method anew
+  Scene scene = seed_scene();
+  scene.bodies.pop_back(), scene.hinges.pop_back();
+  for (Body& body : scene.bodies) body.mass = 2e-3, body.inertia = 3e-4;
+  for (Hinge& hinge : scene.hinges) {
+    hinge.friction.model = FrictionModel::exact;
+    hinge.friction.coulomb = 0.05;
+    hinge.latch = Latch{2e3, 0.5};
+    Damper damper;
+    damper.law = DamperLaw::eddy_current, damper.peak_torque = 0.4, damper.peak_rate = 0.01;
+    hinge.damper = damper;
+  }
+  const Outcome chosen = run(scene, 1e-8), implicit = run(scene, 1e-8, "seulex");
+  REQUIRE(chosen.status == implicit.status);
+  REQUIRE(chosen.peak_moment.size() == implicit.peak_moment.size());
+  CHECK(chosen.work.rhs_evaluations < 2 * implicit.work.rhs_evaluations);
 }
 
 TEST_CASE("a method that is asked for by name is the only one") {

@@ -1,0 +1,236 @@
+/// Kinks: where a law bends or jumps inside its domain, and no event changes the law. A strand of a loop goes slack, a
+/// hinge passes a knot of a table, a damper's power law its regularization rate, a stop the rate at which it lets go.
+///
+/// Estimates of extrapolation, of implicit methods and of Fehlberg's formula expect a smooth right-hand side: they may
+/// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter.
+///
+/// Let the law's change across the kink be jump + turn·abs(u − b) + bend·(u − b)². A step that meets the kink at the
+/// time τ from its nearer end differs from one under the smooth law, by the impulse of that change:
+///
+///     Δφ̇ ≤ σ (jump τ + turn abs(u̇) τ²/2 + bend u̇² τ³/3),    σ ≥ (M⁻¹)_ii                           (1)
+///
+/// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter.
+#pragma once
+
+#include "core/dense/step.hpp"
+#include "core/mechanics/linear_solve.hpp"
+
+#include <optional>
+
+namespace wingspread {
+
+/// Tolerance of a step, by which kinks matter.
+struct KinkLimit {
+  double rtol, atol;
+};
+
+/// A function u of the state and its value b at a kink.
+template <class T> struct Kink {
+  enum class Of : signed char {
+    angle,  ///< of hinge `index`
+    rate,   ///< of hinge `index`
+    strands ///< K e of loop `index`
+  };
+  Of of;
+  int index;
+  T at;
+  T way; ///< in which u passes b: −1 or 1
+};
+
+/// The change of a law across a kink, as in (1), at a hinge; and the steepest u̇ of the step.
+template <class T> struct KinkChange {
+  int hinge;
+  T jump, turn, bend;
+};
+
+/// u, u̇ and ü; of a rate ü is unknown, 0. @param x, dxdt the state and its derivative
+template <class T, class AnySystem>
+[[nodiscard]] Jet<T> argument(const AnySystem& system, const Kink<T>& kink, const State<T>& x,
+                              const State<T>& dxdt) {
+  const Layout& at = system.layout();
+  if (kink.of == Kink<T>::Of::angle)
+    return {x[at.angle(kink.index)], x[at.rate(kink.index)], dxdt[at.rate(kink.index)]};
+  if (kink.of == Kink<T>::Of::rate)
+    return {x[at.rate(kink.index)], dxdt[at.rate(kink.index)], T(0)};
+  const LoopTerms<T>& loop = system.wing().loops[kink.index];
+  const LoopState<T> state = system.state_of(loop, x);
+  const T va = loop.sense_a * x[at.rate(loop.first)], vb = loop.sense_b * x[at.rate(loop.second)];
+  const T aa = loop.sense_a * dxdt[at.rate(loop.first)];
+  const T ab = loop.sense_b * dxdt[at.rate(loop.second)];
+  T bend(0);
+  if (loop.table) {
+    const PieceAt<T> piece =
+        piece_at(*loop.table, T(loop.sense_a * (x[at.angle(loop.first)] - loop.stowed_a)));
+    bend = fused(T(6) * piece.c[3], piece.u, T(2) * piece.c[2]);
+  }
+  return {state.elastic, loop.stiffness * fused(state.gear, va, -vb),
+          loop.stiffness * (fused(state.gear, aa, -ab) + bend * va * va)};
+}
+
+/// Finds the first kink that matters in a step.
+template <class T, class AnySystem> class KinkSearch {
+public:
+  KinkSearch(const AnySystem& system, const Step<T>& step, const KinkLimit& limit)
+      : system_(system), step_(step), limit_(limit) {}
+
+  struct Found {
+    Kink<T> kink;
+    T s; ///< fraction of the step
+  };
+
+  [[nodiscard]] std::optional<Found> first() {
+    const int hinges = static_cast<int>(system_.wing().real.size());
+    for (int i = 1; i < hinges; ++i)
+      if (!system_.sticks(i)) pass_hinge(i);
+    for (std::size_t l = 0; l < system_.wing().loops.size(); ++l) pass_loop(static_cast<int>(l));
+    return first_;
+  }
+
+private:
+  using Of = typename Kink<T>::Of;
+
+  void pass_hinge(int i) {
+    const RealHingeTerms<T>& real = system_.wing().real[i];
+    const Layout& at = system_.layout();
+    const Quintic<T> angle = step_.coordinate(at.angle(i), at.freedoms());
+    for (const CurveTorqueTerms<T>* torque : {&real.spring, &real.harness})
+      if (torque->curve) pass_knots(*torque->curve, torque->weight, i, angle);
+    if (real.friction.level) pass_knots(*real.friction.level, real.friction.weight, i, angle);
+    pass_rates(i, derivative(angle, step_.h));
+  }
+
+  void pass_rates(int i, const Quintic<T>& rate) {
+    using std::abs;
+    const RealHingeTerms<T>& real = system_.wing().real[i];
+    const HingeMode<T>& mode = system_.work().modes[i];
+    if (real.has_damper && real.damper.law == DamperLaw::power && mode.damper_acts > T(0)) {
+      const T turn = abs(T(1) - real.damper.exponent) * real.damper.near_zero;
+      for (const T& at : {T(-real.damper.rate), T(real.damper.rate)})
+        pass({Of::rate, i, at, T(0)}, rate, {i, T(0), turn, T(0)});
+    }
+    if (mode.in_contact > T(0) && real.stop.dissipation > T(0)) {
+      const HingeStop<T> stop{real.stop, mode.in_contact};
+      const T depth = larger(stop.depth(step_.x[system_.layout().angle(i)]),
+                             stop.depth(step_.x1[system_.layout().angle(i)]));
+      const T turn = real.stop.stiffness * real.stop.dissipation * larger(depth, T(0));
+      pass({Of::rate, i, T(real.stop.sense / real.stop.dissipation), T(0)}, rate,
+           {i, T(0), turn, T(0)});
+    }
+  }
+
+  /// Knots of a curve of hinge i's angle.
+  void pass_knots(const Curve& curve, const T& weight, int i, const Quintic<T>& angle) {
+    using std::abs;
+    for_each_knot(curve, angle, [&](const T& knot, const T& turn, const T& bend) {
+      pass({Of::angle, i, knot, T(0)}, angle, {i, T(0), abs(weight) * turn, abs(weight) * bend});
+    });
+  }
+
+  /// Calls visit(knot, jump of the slope, jump of half the second derivative) for the knots in the hull of u.
+  template <class Visit>
+  static void for_each_knot(const Curve& curve, const Quintic<T>& u, Visit&& visit) {
+    using std::abs;
+    T low = u[0], high = u[0];
+    for (const T& c : u) low = smaller(low, c), high = larger(high, c);
+    const std::vector<double>& knots = curve.knots();
+    for (std::size_t k = 0; k < knots.size(); ++k) {
+      const T knot(knots[k]);
+      if (knot < low || knot > high) continue;
+      const auto& before = curve.pieces()[k].c;
+      const auto& after = curve.pieces()[k + 1].c;
+      const double way = k > 0 ? knots[k] - knots[k - 1] : 0;
+      const double slope = before[1] + way * (2 * before[2] + way * 3 * before[3]);
+      const double half_bend = before[2] + way * 3 * before[3];
+      visit(knot, T(abs(T(after[1] - slope))), T(abs(T(after[2] - half_bend))));
+    }
+  }
+
+  void pass_loop(int l) {
+    using std::abs;
+    const LoopTerms<T>& loop = system_.wing().loops[l];
+    if (system_.sticks(loop.first) && system_.sticks(loop.second)) return;
+    const Kink<T> taut{Of::strands, l, loop.slack_beyond, T(0)};
+    const Jet<T> start = argument(system_, taut, step_.x, step_.dxdt),
+                 end = argument(system_, taut, step_.x1, step_.dxdt1);
+    const Quintic<T> elastic = hermite<T>(step_.h, start, end);
+    if (loop.table) pass_gear(loop, largest(start.value, end.value));
+    if (!(bound(elastic) > loop.slack_beyond)) return;
+    const T jump = loop.stiffness > T(0)
+                       ? T(T(0.5) * loop.damping / loop.stiffness * largest(start.first, end.first))
+                       : T(0);
+    for (const T& at : {T(-loop.slack_beyond), T(loop.slack_beyond)}) {
+      pass({Of::strands, l, at, T(0)}, elastic, {loop.second, jump, T(0.5), T(0)});
+      const T gear = largest_gear(loop);
+      pass({Of::strands, l, at, T(0)}, elastic, {loop.first, gear * jump, gear * T(0.5), T(0)});
+    }
+  }
+
+  /// Knots of a loop's table: a monotone cubic, whose slope is continuous; the moment at hinge a is that slope times τ.
+  /// @param elastic the largest |K e| at the step's ends
+  void pass_gear(const LoopTerms<T>& loop, const T& elastic) {
+    const Layout& at = system_.layout();
+    const Quintic<T> angle = step_.coordinate(at.angle(loop.first), at.freedoms());
+    Quintic<T> travel = angle;
+    for (T& c : travel) c = loop.sense_a * (c - loop.stowed_a);
+    for_each_knot(*loop.table, travel, [&](const T& knot, const T& turn, const T& bend) {
+      const T angle_there = fused(loop.sense_a, knot, loop.stowed_a);
+      const Kink<T> kink{Of::angle, loop.first, angle_there, T(0)};
+      const T gear = largest_gear(loop);
+      pass(kink, angle,
+           {loop.first, turn * elastic, fused(gear * loop.stiffness, turn, T(2) * bend * elastic),
+            gear * loop.stiffness * bend});
+      pass(kink, angle, {loop.second, T(0), loop.stiffness * turn, loop.stiffness * bend});
+    });
+  }
+
+  [[nodiscard]] static T largest(const T& a, const T& b) {
+    using std::abs;
+    return larger(T(abs(a)), T(abs(b)));
+  }
+
+  /// Offers the first passage of u over kink.at that matters.
+  void pass(Kink<T> kink, Quintic<T> u, const KinkChange<T>& change) {
+    const T speed = bound(derivative(u, step_.h));
+    for (T& c : u) c = c - kink.at;
+    Quintic<T> rest = u;
+    T from(0);
+    for (int root = 0; root < 6; ++root) { // a quintic has five
+      if (rest[0] == T(0)) rest = without_root_at_start(rest);
+      const bool falls = rest[0] > T(0);
+      if (falls)
+        for (T& c : rest) c = -c;
+      const std::optional<T> there = rest[0] < T(0) ? first_nonnegative(rest) : std::nullopt;
+      if (!there) return;
+      const T s = fused(T(1) - from, *there, from);
+      if (first_ && !(s < first_->s)) return;
+      if (!(s < T(1))) return;
+      if (matters(s, speed, change)) {
+        kink.way = falls ? T(-1) : T(1);
+        first_ = Found{kink, s};
+        return;
+      }
+      from = s;
+      rest = part_of(u, s, T(1));
+      rest[0] = T(0);
+    }
+  }
+
+  /// (1).
+  [[nodiscard]] bool matters(const T& s, const T& speed, const KinkChange<T>& change) const {
+    using std::abs;
+    const int r = system_.layout().rate(change.hinge);
+    const T tau = step_.h * smaller(s, T(T(1) - s)), way = speed * tau;
+    const T impulse =
+        tau * (change.jump + way * fused(T(0.5), change.turn, way * change.bend / T(3)));
+    const T rate = larger(T(abs(step_.x[r])), T(abs(step_.x1[r])));
+    return T(mobility_bound(system_, change.hinge)) * impulse >
+           fused(T(limit_.rtol), rate, T(limit_.atol));
+  }
+
+  const AnySystem& system_;
+  const Step<T>& step_;
+  const KinkLimit limit_;
+  std::optional<Found> first_;
+};
+
+} // namespace wingspread
