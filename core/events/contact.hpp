@@ -45,7 +45,8 @@ template <class T, class AnySystem>
   return resting;
 }
 
-/// The stuck hinges whose friction exceeds `slack` times the limit, with the sense in which they set out.
+/// The stuck hinges whose friction exceeds `slack` times the limit by more than the run resolves, with the sense in
+/// which they set out.
 /// @param let_go a hinge that is released whatever its friction; 0: none
 template <class T, class AnySystem>
 [[nodiscard]] Contacts too_weakly_held(const AnySystem& system, const State<T>& x, const T& slack,
@@ -55,8 +56,8 @@ template <class T, class AnySystem>
   for (int i = 1; i <= system.layout().bodies; ++i) {
     if (!system.sticks(i)) continue;
     const T friction = system.holding_friction(x, i);
-    if (i == let_go || abs(friction) > slack * system.static_limit(x, i))
-      moves.emplace_back(i, sliding(T(-friction)));
+    const T most = fused(slack, system.static_limit(x, i), unresolved_load(system, x, i));
+    if (i == let_go || abs(friction) > most) moves.emplace_back(i, sliding(T(-friction)));
   }
   return moves;
 }

@@ -45,6 +45,7 @@ template <class T> struct Workspace {
   int stuck = 0;          ///< number of stuck hinges
   Augmented<T> held;      ///< of the evaluation while hinges stick
   long evaluations = 0;
+  T rtol = T(0), atol = T(0); ///< of a step; 0: states that differ at all are told apart
 };
 
 } // namespace wingspread

@@ -163,6 +163,8 @@ private:
     ended_ = false;
     run_.step.t = T(0);
     system.reset();
+    system.made_elsewhere().rtol = T(run_.how.rtol),
+    system.made_elsewhere().atol = T(run_.how.atol);
     system.want_forces(run_.goal.peak_force);
     system.start(run_.step.x);
     system.find_sides(run_.step.x);
