@@ -109,7 +109,9 @@ private:
       return Release<T>{i, *s, slope};
     }
     const bool inside = crest.s > T(0.02) && crest.s < T(0.98);
-    if (inside && crest.value > T(-grazes) * limit) return Release<T>{i, crest.s, T(0)};
+    const T change = crest.value - smaller(before_[i], after_[i]);
+    if (inside && crest.value > T(-grazes) * smaller(limit, change))
+      return Release<T>{i, crest.s, T(0)};
     return std::nullopt;
   }
 

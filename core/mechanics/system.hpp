@@ -80,7 +80,7 @@ public:
   }
   [[nodiscard]] const Workspace<T>& work() const { return work_; }
   [[nodiscard]] const T& epsilon() const { return epsilon_; }
-  /// The workspace, to record the number and the last forces of evaluations made outside this object.
+  /// The workspace, for the tolerances, and for evaluations made outside this object.
   [[nodiscard]] Workspace<T>& made_elsewhere() { return work_; }
 
   /// The state at t = 0.
