@@ -1,0 +1,102 @@
+// Kinks of laws: steps of implicit methods and of extrapolation end there, for their error estimates do not see them.
+#include "core/deployment.hpp"
+#include "tests/support/closed_forms.hpp"
+#include "tests/support/random_cases.hpp"
+#include "tests/support/real_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// Every output of a run that a kink may shift: peaks, overtravel, latch times and rates.
+std::vector<double> kinked_outputs(const Outcome& out) {
+  std::vector<double> all;
+  for (const Peak& peak : out.peak_moment) all.push_back(peak.value);
+  for (const Peak& peak : out.peak_force) all.push_back(peak.value);
+  all.insert(all.end(), out.overtravel.begin(), out.overtravel.end());
+  for (const LatchEvent& latch : out.latches) {
+    all.push_back(latch.time);
+    all.push_back(latch.rates[latch.hinge]);
+  }
+  return all;
+}
+
+std::vector<double> run_outputs(const Scene& scene, const std::string& method, double rtol,
+                                double t_end) {
+  Integration how = within(rtol, t_end, 1e-2);
+  how.method = method;
+  const Goal goal{.peak_moment = true, .peak_force = true, .overtravel = true, .to_t_end = true};
+  return kinked_outputs(Deployment().run(scene, how, goal));
+}
+
+/// The largest difference of two lists, each in units of its value or, if larger, `floor`; infinite if they differ in
+/// length.
+double difference(const std::vector<double>& a, const std::vector<double>& b, double floor) {
+  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    worst = std::max(worst, std::abs(a[k] - b[k]) / std::max(std::abs(b[k]), floor));
+  return worst;
+}
+
+/// Two panels whose loop, with a table and a damping of its own, goes slack whenever they swing; with one more kink each:
+/// linear tables, a stop that lets go, a power-law damper, a damper's window, backlash.
+Scene kinked_wing(std::uint64_t seed) {
+  Draws draws(seed);
+  Scene scene = seed_scene();
+  scene.bodies.pop_back(), scene.hinges.pop_back();
+  for (Hinge& hinge : scene.hinges) {
+    hinge.friction = {};
+    hinge.latch = Latch{draws.log_uniform(1e3, 1e5), draws.uniform(1, 20)};
+  }
+  Hinge &root = scene.hinges[0], &outer = scene.hinges[1];
+  Synchronisation loop;
+  loop.name = "loop", loop.first = 0, loop.second = 1;
+  loop.stiffness = draws.log_uniform(100, 1500), loop.damping = draws.uniform(0, 0.5);
+  loop.preload = draws.uniform(0.5, 3);
+  tabulate(loop, {0, 0.8, 1.6}, {0, draws.uniform(0.2, 1.2), 3.15});
+  scene.synchronisations = {loop};
+  const double way = root.latched - root.stowed, outer_way = outer.latched - outer.stowed;
+  if (draws.chance(0.5))
+    root.spring.table = torque_table({root.stowed, root.stowed + 0.3 * way, root.latched},
+                                     {2, 0.5, 1.5}, Interpolation::linear);
+  if (draws.chance(0.5)) root.stop = Stop{draws.log_uniform(100, 1e4), 2, 0.01};
+  if (draws.chance(0.5)) outer.latch->backlash = 0.01;
+  if (draws.chance(0.5)) {
+    Damper damper;
+    damper.law = DamperLaw::power, damper.coefficient = 0.3, damper.exponent = 0.6;
+    damper.regularization_rate = 1e-2;
+    if (draws.chance(0.5))
+      damper.window = {outer.stowed + 0.2 * outer_way, outer.stowed + 0.6 * outer_way};
+    outer.damper = damper;
+  }
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("at kinks implicit methods and extrapolation keep the tolerance in every output") {
+  for (int seed = 0; seed < random_cases(60, 5); ++seed) {
+    const Scene scene = kinked_wing(static_cast<std::uint64_t>(seed));
+    const std::vector<double> exact = run_outputs(scene, "dop853", 1e-12, 4);
+    for (const double rtol : {1e-6, 1e-8}) {
+      // how strongly the wing amplifies errors of this size
+      const double usual = difference(run_outputs(scene, "dop853", rtol, 4), exact, 1e-3);
+      for (const std::string method : {"seulex", "rosenbrock_w", "bulirsch_stoer"}) {
+        if (method == "rosenbrock_w" && rtol < 1e-7) continue; // slow
+        const double error = difference(run_outputs(scene, method, rtol, 4), exact, 1e-3);
+        CAPTURE(seed, rtol, method, usual, error);
+        CHECK(error < 10 * usual + 300 * rtol);
+      }
+    }
+  }
+}
