@@ -10,6 +10,10 @@ PhiloxBlock philox(const PhiloxKey& key, const PhiloxBlock& counter) {
   return {block[0], block[1], block[2], block[3]};
 }
 
+std::uint64_t choice_rank(std::uint64_t seed, std::uint64_t run) {
+  return philox({seed, static_cast<std::uint64_t>(StreamUse::choice)}, {0, run, 0, 0})[0];
+}
+
 double uniform(std::uint64_t seed, std::uint64_t run, StreamName name) {
   return open_uniform(philox({seed, 0}, {0, run, name.hash, 0})[0]);
 }

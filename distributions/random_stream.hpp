@@ -52,7 +52,10 @@ using PhiloxBlock = std::array<std::uint64_t, 4>;
 [[nodiscard]] double uniform(std::uint64_t seed, std::uint64_t run, StreamName name);
 
 /// The purposes of random numbers other than draws.
-enum class StreamUse : std::uint64_t { scrambling = 1, permutation = 2, stratum = 3 };
+enum class StreamUse : std::uint64_t { scrambling = 1, permutation = 2, stratum = 3, choice = 4 };
+
+/// A run's rank among runs to choose from: the runs with the least ranks are a simple random sample without replacement.
+[[nodiscard]] std::uint64_t choice_rank(std::uint64_t seed, std::uint64_t run);
 
 /// The random numbers of a dispersion in one replicate of a design.
 struct ReplicateStream {

@@ -112,7 +112,7 @@ void study_tolerance(Campaign campaign, const std::string& name, double rtol,
       make_again(campaign, campaign.integration, first_runs(sizes.repeated), {.threads = 1});
   const double microseconds = 1e6 * static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC /
                               static_cast<double>(sizes.repeated);
-  const Accuracy found = compare_rows(names, rows, reference);
+  const Accuracy found = compare_rows(names, rows, reference, campaign.integration);
   const double evaluations = evaluations_of(campaign, sizes.counted);
   for (std::size_t i = 0; i < names.outputs.size(); ++i) {
     if (!(sigma[i] > 0)) continue;

@@ -1,6 +1,9 @@
 #include "tests/cli/program.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -43,7 +46,12 @@ TEST_CASE("a campaign says what its integration contributes") {
   CHECK(accuracy["method"] == "auto");
   CHECK(accuracy["rtol"] == 1e-6);
   CHECK(accuracy["reference_method"] == "dopri5");
-  CHECK(accuracy["reference_rtol"] == 1e-10);
+  CHECK(accuracy["reference_rtol"] == 1e-8);
+  CHECK(accuracy["beyond_largest"] ==
+        Json{{"runs", 0}, {"share_at_most", accuracy["beyond_largest"]["share_at_most"]}});
+  CHECK(accuracy["beyond_largest"]["share_at_most"].get<double>() ==
+        Approx(1 - std::pow(0.05, 1 / 6.)).epsilon(1e-12));
+  CHECK(accuracy["moved"]["runs"] == 0);
   CHECK(accuracy["order_in_doubt"] == 0);
   CHECK(accuracy["outputs"].size() == summary["outputs"].size());
   for (const Json& each : accuracy["outputs"]) {
@@ -51,14 +59,8 @@ TEST_CASE("a campaign says what its integration contributes") {
     CHECK(each["rms"] <= each["largest"]);
     if (each["output"] == "tip.latch_time") CHECK((each["rms"] > 1e-12 && each["largest"] < 1e-6));
   }
-  const std::size_t begin = out.find("\nACCURACY");
-  REQUIRE(begin != std::string::npos);
-  const std::vector<std::string> lines = lines_of(out.substr(begin + 1));
-  CHECK(lines[0] == "ACCURACY of the integration           unit   largest error     RMS error "
-                    "std error of mean     ratio");
-  CHECK(lines[1].starts_with("  root.latch_time                     s     "));
-  CHECK(out.find("\n  6 of 60 runs repeated by dopri5 at rtol 1e-10 (campaign: auto at 1e-06)") !=
-        std::string::npos);
+  CHECK_THAT(out, HasFacts({"\nACCURACY  integration errors ≤ ",
+                            "% of a standard error, in ≥ 60.7 % of all runs "}));
   CHECK(parse_json_file(setting.folder.path() / "r" / timing_file)["accuracy"]["runs"] == 6);
 }
 
@@ -81,6 +83,25 @@ TEST_CASE("how many runs are made again can be set, and switched off") {
   CHECK(refused.error == "error: " + wrong.campaign +
                              ": /statistics/accuracy_runs: found -1, expected an integer from 0 "
                              "(none) to 10000\n");
+}
+
+TEST_CASE("a campaign of rattling wings says in how many runs an output moves by more than 1 %") {
+  Json json = latch_campaign(20);
+  json["scene"] = parse_json_file(three_panel_file());
+  for (Json& hinge : json["scene"]["hinges"])
+    hinge["latch"] = {{"stiffness", 1e7}, {"damping", 1}, {"backlash", 0.004}};
+  json["outputs"] = {"latch_rate"};
+  json["integration"] = {{"rtol", 1e-8}, {"atol", 1e-10}, {"t_end", 12}};
+  json["statistics"]["accuracy_runs"] = 5;
+  const Setting setting(json);
+  const auto [code, out, error] = setting.run("r", {"--table"});
+  const Json accuracy = setting.summary("r")["accuracy"];
+  const long moved = accuracy["moved"]["runs"], doubt = accuracy["order_in_doubt"];
+  REQUIRE(moved > 0);
+  CHECK(accuracy["moved"]["which"].size() == static_cast<std::size_t>(moved));
+  CHECK(accuracy["moved"]["share_at_most"] > static_cast<double>(moved + doubt) / 5);
+  CHECK_THAT(out, HasFacts({"ACCURACY of the integration", "an output that moves by more than 1 %",
+                            "WARNING", fmt::format("in {} of the 5 runs", moved)}));
 }
 
 TEST_CASE("accuracy is of all runs: of no shard, no part, and no rows of another tool",

@@ -302,3 +302,30 @@ TEST_CASE("a trajectory of more rows than a disk holds is refused") {
   CHECK(done.code == 2);
   CHECK_THAT(done.error, HasFacts({"error: --dt: found 1e-12", "at least 8e-08", "8 s"}));
 }
+
+TEST_CASE("simulate --check says how many digits agree, and warns of what moves by more than 1 %") {
+  const Folder folder;
+  const Finished good =
+      run_program(folder, {"simulate", three_panel_file(), "--t-end", "12", "--check"});
+  CHECK(good.code == 0);
+  CHECK_THAT(good.out, HasFacts({"CHECK by dopri5 at rtol 1e-10", "digits", "root.latch_time",
+                                 "tip.peak_moment"}));
+  CHECK(good.out.find("moves by") == std::string::npos);
+  Json scene = parse_json_file(three_panel_file());
+  for (Json& hinge : scene["hinges"])
+    hinge["latch"] = {{"stiffness", 1e7}, {"damping", 1}, {"backlash", 0.004}};
+  const std::string rattling = folder.write("rattling.json", scene.dump());
+  const Finished moved = run_program(folder, {"simulate", rattling, "--t-end", "12", "--check"});
+  CHECK(moved.code == 0);
+  CHECK_THAT(moved.out,
+             HasFacts({"CHECK by", "WARNING", "tip.peak_moment moves by", "smaller rtol"}));
+  const Json check =
+      parse_json(run_program(folder, {"simulate", rattling, "--t-end", "12", "--check", "--json"})
+                     .out)["check"];
+  CHECK(check["reference_rtol"] == 1e-10);
+  CHECK(check["outputs"][0]["output"] == "root.latch_time");
+  CHECK(check["outputs"][0]["digits"] >= 9);
+  CHECK_FALSE(check["warnings"].empty());
+  const auto plain = run_program(folder, {"simulate", rattling, "--t-end", "12", "--json"});
+  CHECK_FALSE(parse_json(plain.out).contains("check"));
+}

@@ -165,6 +165,12 @@ class Deployments(InFolder):
         for name, values in trajectory.items():
             self.same(values, [float(row[name]) for row in rows])
 
+    def test_a_check_is_that_of_simulate(self):
+        said = json.loads(program("simulate", SCENE, "--json", "--t-end", "9", "--check").stdout)
+        outcome, _ = wingspread.simulate(SCENE, t_end=9, check=True)
+        self.assertEqual(outcome["check"], said["check"])
+        self.assertGreaterEqual(min(one["digits"] for one in outcome["check"]["outputs"]), 6)
+
     def test_a_row_of_evaluate_is_a_deployment(self):
         paths = ["hinges.*.spring.scale", "bodies.panel_1.mass"]
         x = np.array([[1, 10], [1.2, 10], [0.9, 12.5], [1, -1], [np.nan, 10]])

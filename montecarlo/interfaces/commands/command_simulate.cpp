@@ -5,6 +5,7 @@
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
+#include "montecarlo/report/text/check_report.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "montecarlo/report/text/replay_report.hpp"
 #include "montecarlo/report/text/trajectory.hpp"
@@ -21,7 +22,7 @@ namespace {
 struct SimulateOptions {
   std::filesystem::path scene, out;
   api::Settings settings;
-  bool json = false, strict = false;
+  bool json = false, strict = false, check = false;
   std::optional<double> dt;
 };
 
@@ -72,8 +73,15 @@ int simulate(const SimulateOptions& options) {
   const Outcome outcome = write_trajectory(options.out, task.scene, [&](const Observer& observer) {
     return Deployment().run(task.scene, task.integration, goal, observer);
   });
-  fmt::print("{}", options.json ? json_text(outcome_json(task.scene, outcome))
-                                : outcome_text(task.scene, outcome));
+  goal.sample_interval = 0;
+  if (options.json) {
+    Json json = outcome_json(task.scene, outcome);
+    if (options.check) json["check"] = check_json(check_of(task, goal, outcome));
+    fmt::print("{}", json_text(json));
+  } else {
+    fmt::print("{}", outcome_text(task.scene, outcome));
+    if (options.check) fmt::print("{}", check_text(check_of(task, goal, outcome)));
+  }
   return status_code(outcome);
 }
 
@@ -100,6 +108,8 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
   add_set_option(command, settings.set);
   add_case_option(command, settings.of_case);
   command.add_flag("--json", options.json, "Print the outcome as JSON");
+  command.add_flag("--check", options.check,
+                   "Repeat the run by another method at rtol/100 and say how many digits agree");
   command.add_option("--out", options.out, "Write the trajectory to this CSV file");
   add_strict_option(command, options.strict);
   command
@@ -118,8 +128,10 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
   command.footer(
       R"(Settings that are not given are the campaign's, or for a scene the defaults of a campaign.
 
+--check warns of every output that moves by more than 1 %: the tolerance does not decide its value.
+
 Example:
-  wingspread simulate three_panel.json --t-end 20
+  wingspread simulate three_panel.json --t-end 20 --check
   wingspread simulate three_panel.json --json --out trajectory.csv --dt 0.01)");
 }
 

@@ -1,6 +1,7 @@
 #include "core/deployment.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
+#include "montecarlo/report/text/check_report.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "montecarlo/report/text/trajectory.hpp"
 
@@ -48,7 +49,8 @@ Input from_text(std::string json, std::filesystem::path directory) {
   return {{}, std::move(json), std::move(directory)};
 }
 
-Outcome simulate(const Input& input, const Settings& settings, std::optional<double> interval) {
+Outcome simulate(const Input& input, const Settings& settings, std::optional<double> interval,
+                 bool check) {
   const Task task = task_of(read_input(input), settings);
   if (interval && *interval != 0) check_interval(*interval);
   Goal goal;
@@ -64,8 +66,15 @@ Outcome simulate(const Input& input, const Settings& settings, std::optional<dou
                 [&](double value) { (series++)->values.push_back(value); });
   };
   const Observer observer = interval ? Observer(keep) : Observer();
-  Outcome plain =
-      plain_outcome(task.scene, Deployment().run(task.scene, task.integration, goal, observer));
+  const wingspread::Outcome outcome =
+      Deployment().run(task.scene, task.integration, goal, observer);
+  Outcome plain = plain_outcome(task.scene, outcome);
+  goal.sample_interval = 0;
+  if (check) {
+    Json json = outcome_json(task.scene, outcome);
+    json["check"] = check_json(check_of(task, goal, outcome));
+    plain.json = json_text(json);
+  }
   plain.trajectory = std::move(trajectory);
   return plain;
 }

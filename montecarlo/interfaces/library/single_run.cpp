@@ -72,6 +72,11 @@ Task task_of(std::variant<Scene, Campaign> input, const api::Settings& settings)
   return task;
 }
 
+std::optional<RunCheck> check_of(const Task& task, const Goal& goal, const Outcome& outcome) {
+  if (outcome.status == Status::failed || outcome.status == Status::invalid) return std::nullopt;
+  return check_run(task.scene, task.integration, goal, outcome);
+}
+
 void check_interval(double interval) {
   if (!(interval > 0) || !std::isfinite(interval))
     throw SpecError({{"", "--dt", fmt::format("{}", interval), "a number, s, > 0"}});

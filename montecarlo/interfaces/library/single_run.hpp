@@ -1,7 +1,7 @@
 /// Reads an Input, and applies Settings to it.
 #pragma once
 
-#include "core/outcome.hpp"
+#include "montecarlo/engine/accuracy/run_check.hpp"
 #include "montecarlo/interfaces/library/wingspread.hpp"
 #include "montecarlo/model/campaign/campaign.hpp"
 
@@ -27,6 +27,10 @@ struct Task {
 /// defaults of a campaign.
 /// @throws SpecError that names the options of `wingspread simulate`
 [[nodiscard]] Task task_of(std::variant<Scene, Campaign> input, const api::Settings& settings);
+
+/// The check of a task's outcome; nothing if the run failed, or no reference can finish it.
+[[nodiscard]] std::optional<RunCheck> check_of(const Task& task, const Goal& goal,
+                                               const Outcome& outcome);
 
 /// Returns an error text, or an empty text if the argument is "event" or "smoothed:EPS".
 [[nodiscard]] std::string refuse_latch(const std::string& text);

@@ -82,9 +82,10 @@ struct Outcome {
 
 /// Simulates one deployment of a scene, or of a campaign's nominal scene, to its t_end.
 /// @param interval between rows of the trajectory, s; 0: a row at every step; none: no trajectory
+/// @param check repeats the run by another method at a tighter tolerance: `check` in the outcome's JSON
 /// @throws SpecError, MachineError
 [[nodiscard]] Outcome simulate(const Input& input, const Settings& settings = {},
-                               std::optional<double> interval = {});
+                               std::optional<double> interval = {}, bool check = false);
 
 /// Replacements for settings of the campaign: the options of `wingspread run`.
 struct RunOptions {

@@ -70,10 +70,10 @@ Table run_it(const Input& input, std::optional<std::int64_t> runs,
   });
 }
 
-py::tuple simulate_it(const Input& input, const Settings& settings,
-                      std::optional<double> interval) {
+py::tuple simulate_it(const Input& input, const Settings& settings, std::optional<double> interval,
+                      bool check) {
   const Outcome outcome = run_interruptibly(
-      [&](const std::atomic<bool>&) { return simulate(input, settings, interval); });
+      [&](const std::atomic<bool>&) { return simulate(input, settings, interval, check); });
   py::dict trajectory;
   for (const Series& series : outcome.trajectory)
     trajectory[py::str(series.name)] =
@@ -177,7 +177,7 @@ PYBIND11_MODULE(_native, module) {
   module.def("run", &run_it, py::arg("input"), py::arg("runs"), py::arg("seed"), py::arg("threads"),
              py::arg("of_case"), py::arg("set"), "Makes a campaign's runs");
   module.def("simulate", &simulate_it, py::arg("input"), py::arg("settings"), py::arg("interval"),
-             "Returns the outcome as JSON, and the trajectory's columns");
+             py::arg("check"), "Returns the outcome as JSON, and the trajectory's columns");
   module.def("read", &read, py::arg("folder"), py::arg("of_case"),
              "Reads the rows of a results folder");
 }

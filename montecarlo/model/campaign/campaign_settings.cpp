@@ -20,9 +20,6 @@ constexpr const char* rtol_expected = "a number, ≥ 1e-15 and < 1, for example 
 
 bool is_rtol(const double& rtol) { return rtol >= least_rtol && rtol < 1; }
 bool is_at_least_1(const std::int64_t& number) { return number >= 1; }
-bool is_accuracy_runs(const std::int64_t& number) {
-  return number >= 0 && number <= most_accuracy_runs;
-}
 
 /// Returns false if it noted a problem.
 bool read_method(const JsonCursor& at, std::string& method) {
@@ -109,6 +106,13 @@ Json write_tolerance(const std::vector<ToleranceLimitSpec>& tolerance) {
   return list;
 }
 
+void read_accuracy_runs(const JsonCursor& at, StatisticsSpec& statistics) {
+  std::int64_t runs = 0;
+  if (!at.read(runs, accuracy_runs_expected)) return;
+  if (runs < 0 || runs > most_accuracy_runs) return void(at.refuse(accuracy_runs_expected));
+  statistics.accuracy_runs = runs;
+}
+
 void read_bins(const JsonCursor& at, Bins& bins) {
   if (at.value() == "auto") return void(bins = AutoBins{});
   const std::string expected = fmt::format("\"auto\" or an integer from 1 to {}", most_bins);
@@ -169,8 +173,7 @@ void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
   if (const auto bins = object.find("bins")) read_bins(*bins, statistics.bins);
   if (const auto tolerance = object.find("tolerance"))
     read_tolerance(*tolerance, statistics.tolerance_limits);
-  object.optional("accuracy_runs", statistics.accuracy_runs, accuracy_runs_expected,
-                  is_accuracy_runs);
+  if (const auto runs = object.find("accuracy_runs")) read_accuracy_runs(*runs, statistics);
   object.refuse_others();
 }
 
@@ -200,8 +203,7 @@ Json write_statistics(const StatisticsSpec& statistics) {
             {"bins", count ? Json(*count) : Json("auto")}};
   if (!statistics.tolerance_limits.empty())
     json["tolerance"] = write_tolerance(statistics.tolerance_limits);
-  if (statistics.accuracy_runs != StatisticsSpec{}.accuracy_runs)
-    json["accuracy_runs"] = statistics.accuracy_runs;
+  if (statistics.accuracy_runs) json["accuracy_runs"] = *statistics.accuracy_runs;
   return json;
 }
 

@@ -55,7 +55,8 @@ struct StatisticsSpec {
   double confidence = 0.95;                       ///< of every two-sided bound, in (0, 1)
   Bins bins = AutoBins{};
   std::vector<ToleranceLimitSpec> tolerance_limits{};
-  std::int64_t accuracy_runs = 24; ///< most runs repeated to measure the integration error
+  /// Runs repeated to measure the integration error; nothing: as count_repeated (accuracy.hpp).
+  std::optional<std::int64_t> accuracy_runs{};
 };
 
 void read_sampling(const JsonCursor& at, Sampling& sampling);

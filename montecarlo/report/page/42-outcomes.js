@@ -182,6 +182,12 @@
         one.order_in_doubt
           ? ` In ${F.runs(one.order_in_doubt)} the status or the latch order is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
           : " No status and no latch order is in doubt.",
+        one.beyond_largest
+          ? ` The runs were drawn at random: at most ${F.share(one.beyond_largest.share_at_most)} of all runs have an error beyond the largest (at ${100 * set.confidence} %).`
+          : null,
+        one.moved && one.moved.runs
+          ? ` In ${F.runs(one.moved.runs)} an output moves by more than 1 %: at most ${F.share(one.moved.share_at_most)} of all.`
+          : null,
         one.unreached ? ` ${F.runs(one.unreached)} could not be repeated.` : null,
       ),
       h("details", h("summary", "Every output"), table),

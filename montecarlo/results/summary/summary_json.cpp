@@ -80,9 +80,12 @@ Json definitions(const Summary& summary) {
     json["peaks_final"] = "runs whose peaks are proven (true) or were cut by t_end (false): a cut "
                           "peak breaks every requirement on it";
   if (summary.accuracy)
-    json["accuracy"] = "runs chosen by their outcomes, edges and extremes, made again by the "
-                       "reference: largest and RMS difference; order_in_doubt: its status or latch "
-                       "order is another; standard_error: of the mean, by the number of runs";
+    json["accuracy"] =
+        "runs drawn at random, made again by the reference: largest and RMS difference; "
+        "order_in_doubt: its status or latch order is another; moved: an output differs by more "
+        "than 1 %; share_at_most: Clopper-Pearson's one-sided bound of the share of all runs, "
+        "where runs in doubt or unreached count as beyond; standard_error: of the mean, by the "
+        "number of runs";
   if (!judge_groups(summary.requirements).empty())
     json["groups"] = "m requirements of a group are judged at 1 - (1 - c)/m each, so that all of "
                      "them together hold at c";
@@ -290,6 +293,12 @@ std::vector<double> densities(const Histogram& histogram) {
   return result;
 }
 
+/// How many of the repeated runs have a property, and how many of all at most.
+Json share_json(const Summary& summary, std::size_t found) {
+  return {{"runs", found},
+          {"share_at_most", share_at_most(*summary.accuracy, found, summary.confidence)}};
+}
+
 } // namespace
 
 Json accuracy_json(const Summary& summary) {
@@ -307,7 +316,10 @@ Json accuracy_json(const Summary& summary) {
             {"reference_method", accuracy.reference_method},
             {"reference_rtol", accuracy.reference_rtol},
             {"order_in_doubt", std::ssize(accuracy.in_doubt)},
+            {"beyond_largest", share_json(summary, 0)},
+            {"moved", share_json(summary, accuracy.moved.size())},
             {"outputs", std::move(outputs)}};
+  if (!accuracy.moved.empty()) json["moved"]["which"] = accuracy.moved;
   if (!accuracy.in_doubt.empty()) json["in_doubt"] = accuracy.in_doubt;
   if (accuracy.unreached > 0) json["unreached"] = accuracy.unreached;
   return json;

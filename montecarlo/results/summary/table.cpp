@@ -149,13 +149,22 @@ std::string in_two_digits(double error) {
   return std::isnan(error) ? "–" : fmt::format("{:.2g}", error);
 }
 
-/// The integration error of each output, beside the standard error of its mean.
-std::string accuracy(const Summary& summary) {
-  if (!summary.accuracy) return "";
+/// The largest error of the integration over the standard error of the mean, of all outputs; NaN if unknown.
+double largest_share(const Summary& summary) {
+  double largest = undefined;
+  for (std::size_t i = 0; i < summary.accuracy->outputs.size(); ++i) {
+    const double error = summary.accuracy->outputs[i].largest;
+    if (error == 0)
+      largest = std::fmax(largest, 0);
+    else
+      largest = std::fmax(largest, error / summary.outputs[i].mean_error);
+  }
+  return largest;
+}
+
+std::string accuracy_lines(const Summary& summary) {
+  std::string text;
   const Accuracy& found = *summary.accuracy;
-  std::string text =
-      fmt::format("\n{:<38}{:<6}{:>14}{:>14}{:>18}{:>10}\n", "ACCURACY of the integration", "unit",
-                  "largest error", "RMS error", "std error of mean", "ratio");
   for (std::size_t i = 0; i < found.outputs.size(); ++i) {
     const auto& [name, runs, largest, rms] = found.outputs[i];
     const double sampling = summary.outputs[i].mean_error, share = 100 * rms / sampling;
@@ -165,15 +174,45 @@ std::string accuracy(const Summary& summary) {
         right_aligned(in_two_digits(sampling), 18),
         right_aligned(std::isfinite(share) ? fmt::format("{:.1g} %", share) : "–", 10));
   }
+  return text;
+}
+
+/// How the errors were measured, and for which share of all runs they hold.
+std::string accuracy_note(const Summary& summary) {
+  const Accuracy& found = *summary.accuracy;
+  const auto at_most = [&](std::size_t runs) {
+    return percent(share_at_most(found, runs, summary.confidence), 2);
+  };
   std::string note = fmt::format(
-      "{} of {} runs repeated by {} at rtol {:g} (campaign: {} at {:g}); ratio is RMS error to "
-      "standard error of the mean. Runs whose status or latch order differs: {}.",
+      "{} of {} runs, drawn at random, repeated by {} at rtol {:g} (campaign: {} at {:g}); ratio "
+      "is "
+      "RMS error to standard error of the mean. At most {} of all runs have an error beyond the "
+      "largest, and at most {} an output that moves by more than 1 % ({:g} % confidence). Runs "
+      "that "
+      "move so: {}. Runs whose status or latch order differs: {}.",
       found.runs, summary.runs, found.reference_method, found.reference_rtol, found.method,
-      found.rtol,
+      found.rtol, at_most(0), at_most(found.moved.size()), 100 * summary.confidence,
+      found.moved.empty() ? "none" : fmt::format("{}", fmt::join(found.moved, ", ")),
       found.in_doubt.empty() ? "none" : fmt::format("{}", fmt::join(found.in_doubt, ", ")));
   if (found.unreached > 0)
     note += fmt::format(" The reference could not finish {} more.", found.unreached);
-  return text + "  " + wrapped(note, 2) + '\n';
+  return note;
+}
+
+/// The integration error beside the standard error of the mean: a line if it is negligible, else a table.
+std::string accuracy(const Summary& summary) {
+  if (!summary.accuracy) return "";
+  const Accuracy& found = *summary.accuracy;
+  const double share = largest_share(summary);
+  if (share <= 0.01 && found.moved.empty() && found.in_doubt.empty() && found.unreached == 0)
+    return fmt::format(
+        "\nACCURACY  integration errors ≤ {:.1g} % of a standard error, in ≥ {} of all runs "
+        "({:g} % confidence)\n",
+        100 * share, percent(1 - share_at_most(found, 0, summary.confidence), 1),
+        100 * summary.confidence);
+  return fmt::format("\n{:<38}{:<6}{:>14}{:>14}{:>18}{:>10}\n", "ACCURACY of the integration",
+                     "unit", "largest error", "RMS error", "std error of mean", "ratio") +
+         accuracy_lines(summary) + "  " + wrapped(accuracy_note(summary), 2) + '\n';
 }
 
 std::string in_digits_if_any(const std::optional<double>& value) {

@@ -19,6 +19,12 @@ std::string warn_of_far_limit(const Verdict& verdict) {
                      verdict.requirement.absolute ? "" : "; \"abs\": true limits the magnitude");
 }
 
+std::string warn_of_moved_runs(const Accuracy& accuracy) {
+  return fmt::format("in {} of the {} runs repeated at a tighter tolerance an output moves by more "
+                     "than 1 %: the tolerance does not decide it; try a smaller rtol",
+                     accuracy.moved.size(), accuracy.runs);
+}
+
 } // namespace
 
 PeaksCount count_peaks_final(const Results& results) {
@@ -39,6 +45,8 @@ std::vector<std::string> warnings(const Summary& summary) {
     lines.push_back("in the nominal run: " + warning(summary.latch_jumps));
   if (summary.peaks && summary.peaks->cut > 0)
     lines.push_back(warn_of_cut_peaks(summary.peaks->cut, summary.runs));
+  if (summary.accuracy && !summary.accuracy->moved.empty())
+    lines.push_back(warn_of_moved_runs(*summary.accuracy));
   for (const Verdict& verdict : summary.requirements)
     if (verdict.beyond_zero) lines.push_back(warn_of_far_limit(verdict));
   return lines;

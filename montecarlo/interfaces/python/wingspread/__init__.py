@@ -142,15 +142,17 @@ def read(folder: str | os.PathLike[str], *, case: str = "") -> Table:
 
 def simulate(scene: Source, *, set: Changes | None = None, case: str = "", dt: float | None = None,
              method: str | None = None, latch: str | None = None, step: float | None = None,
-             rtol: float | None = None, atol: float | None = None, t_end: float | None = None) -> Simulation:
+             rtol: float | None = None, atol: float | None = None, t_end: float | None = None,
+             check: bool = False) -> Simulation:
     """Simulates one deployment of a scene, or of a campaign's nominal scene, to its t_end.
 
     set: changes of the wing. case: the case, required for a campaign with cases. dt: interval between rows of the
     trajectory, s; default: every step. method, latch, step (s), rtol, atol (rad and rad/s), t_end (s): as the options
-    of `wingspread simulate`; default: the campaign's.
+    of `wingspread simulate`; default: the campaign's. check: repeat the run by another method at a tighter tolerance;
+    outcome["check"] has the digits that agree.
     """
     settings = _native.Settings(_changes_of(set), case, method, latch, step, rtol, atol, t_end)
-    outcome, trajectory = _native.simulate(_input_of(scene), settings, 0.0 if dt is None else dt)
+    outcome, trajectory = _native.simulate(_input_of(scene), settings, 0.0 if dt is None else dt, check)
     return Simulation(json.loads(outcome), trajectory)
 
 

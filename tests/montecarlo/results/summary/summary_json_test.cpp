@@ -267,13 +267,15 @@ TEST_CASE("summary.json says what the integration contributes, where that was me
                .reference_method = "dopri5",
                .reference_rtol = 1e-11,
                .in_doubt = {},
+               .moved = {},
                .unreached = 0,
                .outputs = {{"root.latch_time", 20, 2e-9, 1e-9}, {"never", 0, none, none}}};
   const Json json = summary_json(summary, {});
   check_strict(json);
-  CHECK(keys(json["accuracy"]) == std::vector<std::string>{"runs", "method", "rtol",
-                                                           "reference_method", "reference_rtol",
-                                                           "order_in_doubt", "outputs"});
+  CHECK(keys(json["accuracy"]) ==
+        std::vector<std::string>{"runs", "method", "rtol", "reference_method", "reference_rtol",
+                                 "order_in_doubt", "beyond_largest", "moved", "outputs"});
+  CHECK(json["accuracy"]["moved"]["runs"] == 0);
   CHECK(json["accuracy"] == accuracy_json(summary));
   CHECK(json["accuracy"]["order_in_doubt"] == 0);
   const Json& output = json["accuracy"]["outputs"][0];
@@ -288,4 +290,9 @@ TEST_CASE("summary.json says what the integration contributes, where that was me
   CHECK(accuracy_json(summary)["order_in_doubt"] == 2);
   CHECK(accuracy_json(summary)["in_doubt"] == Json{3, 8});
   CHECK(accuracy_json(summary)["unreached"] == 1);
+  summary.accuracy->moved = {5};
+  const Json moved = accuracy_json(summary)["moved"];
+  CHECK(moved["runs"] == 1);
+  CHECK(moved["which"] == Json{5});
+  CHECK(moved["share_at_most"] == share_at_most(*summary.accuracy, 1, summary.confidence));
 }

@@ -221,6 +221,7 @@ TEST_CASE("the table says what the integration contributes") {
                               .reference_method = "dopri5",
                               .reference_rtol = 1e-11,
                               .in_doubt = {},
+                              .moved = {},
                               .unreached = 0,
                               .outputs = {{"root.latch_time", 9, 1.26e-9, 4e-10},
                                           {"root.rate_at.a_hinge_with_a_long_name", 0, none, none},
@@ -236,11 +237,23 @@ TEST_CASE("the table says what the integration contributes") {
   CHECK(begin[1] == "  root.latch_time" + blanks(21) + "s" + blanks(12) + "1.3e-09" + blanks(9) +
                         "4e-10" + blanks(14) + "0.02" + blanks(3) + "2e-06 %");
   CHECK(begin[3].starts_with(blanks(38) + "rad/s" + blanks(14) + "–"));
-  CHECK(begin[6].starts_with("  10 of 100 runs repeated by dopri5 at rtol 1e-11 (campaign: auto at "
-                             "1e-08)"));
-  CHECK(contains(summary_table(summary, "t", "out"), "differs: none."));
+  const std::string table = summary_table(summary, "t", "out");
+  CHECK(contains(table, "  10 of 100 runs, drawn at random, repeated by dopri5 at rtol 1e-11"));
+  CHECK((contains(table, "25.89 %") && contains(table, "differs: none.")));
   summary.accuracy->in_doubt = {17, 40};
   summary.accuracy->unreached = 3;
   CHECK(contains(summary_table(summary, "t", "out"), "differs: 17, 40."));
-  CHECK(contains(summary_table(summary, "t", "out"), " 3 more."));
+  CHECK(contains(summary_table(summary, "t", "out"), "more."));
+  // An error of at most 1 % of a standard error is a line.
+  summary.accuracy->in_doubt.clear();
+  summary.accuracy->unreached = 0;
+  summary.accuracy->outputs.resize(3);
+  CHECK(contains(summary_table(summary, "t", "out"),
+                 "\nACCURACY  integration errors ≤ 6e-06 % of a standard error, in ≥ 74.1 % of all "
+                 "runs (95 % confidence)\n"));
+  summary.accuracy->outputs[0].largest = 0.0003;
+  CHECK(contains(summary_table(summary, "t", "out"), "ACCURACY of the integration"));
+  summary.accuracy->outputs[0].largest = 0;
+  summary.accuracy->moved = {4};
+  CHECK(contains(summary_table(summary, "t", "out"), "ACCURACY of the integration"));
 }

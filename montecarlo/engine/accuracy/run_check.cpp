@@ -1,0 +1,50 @@
+#include "montecarlo/engine/accuracy/run_check.hpp"
+
+#include "montecarlo/engine/accuracy/accuracy.hpp"
+#include "montecarlo/model/campaign/outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+constexpr int most_digits = 16; // a double has 15.95
+
+/// @param least a smaller difference is none
+CheckedOutput compare(const std::string& name, double value, double reference, double least) {
+  CheckedOutput output{name, value, reference};
+  if (std::isnan(value) && std::isnan(reference)) return output;
+  output.moved = std::isnan(value) != std::isnan(reference) || moved(value, reference, least);
+  const bool both_zero = std::max(std::abs(value), std::abs(reference)) <= least;
+  output.digits = both_zero ? most_digits : agreeing_digits(value, reference);
+  return output;
+}
+
+} // namespace
+
+int agreeing_digits(double a, double b) {
+  if (a == b) return most_digits;
+  const double relative = std::abs(a - b) / std::max(std::abs(a), std::abs(b));
+  if (!(relative < 1)) return 0;
+  return std::min(most_digits, static_cast<int>(std::floor(-std::log10(relative))));
+}
+
+std::optional<RunCheck> check_run(const Scene& scene, const Integration& integration,
+                                  const Goal& goal, const Outcome& own) {
+  for (Integration reference : references_of(integration)) {
+    reference.max_steps = steps_of_reference(own.work.steps);
+    const Outcome again = Deployment().run(scene, reference, goal, Observer{});
+    if (again.status == Status::failed) continue;
+    RunCheck check{reference.method,          reference.rtol, to_string(again.status),
+                   latch_order(scene, again), false,          {}};
+    check.agrees = again.status == own.status && check.latch_order == latch_order(scene, own);
+    for (const OutputColumn& column : output_columns(scene, all_outputs()))
+      check.outputs.push_back(compare(column.name, output_of(column, own), output_of(column, again),
+                                      unresolved(column.name, integration)));
+    return check;
+  }
+  return std::nullopt;
+}
+
+} // namespace wingspread

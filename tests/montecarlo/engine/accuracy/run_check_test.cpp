@@ -1,0 +1,77 @@
+#include "montecarlo/engine/accuracy/run_check.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// The check of the three-panel wing by default settings. @param latch replaces every latch if it is not null
+std::optional<RunCheck> check_of(const Json& latch, double t_end = 12) {
+  Json scene = parse_json_file(three_panel_file());
+  for (Json& hinge : scene["hinges"])
+    if (!latch.is_null()) hinge["latch"] = latch;
+  Json json = quick_campaign(1);
+  json["scene"] = scene;
+  const Scene read = campaign_of(json).scene;
+  Integration integration;
+  integration.t_end = t_end;
+  Goal goal;
+  goal.to_t_end = true;
+  const Outcome own = Deployment().run(read, integration, goal, Observer{});
+  return check_run(read, integration, goal, own);
+}
+
+const CheckedOutput& output_of(const RunCheck& check, const std::string& name) {
+  const auto found = std::ranges::find(check.outputs, name, &CheckedOutput::name);
+  REQUIRE(found != check.outputs.end());
+  return *found;
+}
+
+} // namespace
+
+TEST_CASE("digits that agree", "[accuracy]") {
+  CHECK(agreeing_digits(1, 1) == 16);
+  CHECK(agreeing_digits(0, 0) == 16);
+  CHECK(agreeing_digits(1000, 1001) == 3);
+  CHECK(agreeing_digits(-1000, -999.5) == 3);
+  CHECK(agreeing_digits(1, 1.2) == 0);
+  CHECK(agreeing_digits(1, -1) == 0);
+  CHECK(agreeing_digits(0, 1e-300) == 0);
+}
+
+TEST_CASE("a run that its tolerance decides agrees with its check in many digits", "[accuracy]") {
+  const auto check = check_of(nullptr);
+  REQUIRE(check);
+  CHECK(check->method == "dopri5");
+  CHECK(check->rtol == 1e-10);
+  CHECK(check->agrees);
+  for (const CheckedOutput& output : check->outputs) {
+    CAPTURE(output.name, output.value, output.reference);
+    CHECK(output.digits >= 6);
+    CHECK_FALSE(output.moved);
+  }
+}
+
+TEST_CASE("a rattling wing's peaks move by more than 1 %, and its check says so", "[accuracy]") {
+  const auto check = check_of({{"stiffness", 1e7}, {"damping", 1.0}, {"backlash", 0.004}});
+  REQUIRE(check);
+  CHECK(output_of(*check, "root.latch_time").digits >=
+        9); // what comes before the rattling is known
+  const CheckedOutput& peak = output_of(*check, "tip.peak_moment");
+  CHECK(peak.moved);
+  CHECK(peak.digits <= 2);
+  CHECK(std::abs(peak.value - peak.reference) > 0.01 * peak.value);
+}
+
+TEST_CASE("outputs that happen in one of two integrations have moved, those in neither have not",
+          "[accuracy]") {
+  const auto check = check_of(nullptr, 5.95); // the root latches at 5.94 s in both
+  REQUIRE(check);
+  CHECK(std::isnan(output_of(*check, "deployment_time").reference));
+  CHECK_FALSE(output_of(*check, "deployment_time").moved);
+}
