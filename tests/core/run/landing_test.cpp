@@ -59,7 +59,7 @@ struct Arriving {
 TEST_CASE(
     "a step that ends a little late is moved back to its event: state, accelerations, forces") {
   Arriving at(Goal{});
-  REQUIRE(at.landing.cut_at_event());
+  REQUIRE(at.landing.cut_at_event({}));
   const double exact = at.run.step.h;
   CHECK(at.run.step.x1[0] < 0); // of the whole step: beyond the latch
   const double late = at.overshoot();
@@ -79,7 +79,7 @@ TEST_CASE(
 
 TEST_CASE("where nobody asks for peaks, a step is moved to its event without an evaluation") {
   Arriving at(latches_only);
-  REQUIRE(at.landing.cut_at_event());
+  REQUIRE(at.landing.cut_at_event({}));
   at.overshoot();
   const long before = at.work.evaluations;
   CHECK_FALSE(at.landing.correct_end(1e-8));
@@ -89,7 +89,7 @@ TEST_CASE("where nobody asks for peaks, a step is moved to its event without an 
 
 TEST_CASE("a step that ends much too late is made again") {
   Arriving at(Goal{});
-  REQUIRE(at.landing.cut_at_event());
+  REQUIRE(at.landing.cut_at_event({}));
   const double exact = at.run.step.h;
   at.run.step.h *= 1.001;
   at.run.step.x1 = at.state_after(at.run.step.h);
@@ -105,7 +105,7 @@ TEST_CASE("how far a step may be moved to its event depends on the tolerance, if
     for (const double share : {0.9 * most, 1.1 * most}) {
       CAPTURE(rtol, share);
       Arriving at(latches_only);
-      REQUIRE(at.landing.cut_at_event());
+      REQUIRE(at.landing.cut_at_event({}));
       at.overshoot(share);
       CHECK(at.landing.correct_end(rtol) == (share > most));
     }
@@ -125,7 +125,7 @@ TEST_CASE("a step is moved along a curved way: the state stays that of the motio
   for (const double share : {-1e-4, 1e-4, 1e-6}) {
     CAPTURE(share);
     Arriving at(latches_only);
-    REQUIRE(at.landing.cut_at_event());
+    REQUIRE(at.landing.cut_at_event({}));
     Step<double>& step = at.run.step;
     const auto first = state(-h), last = state(share * h);
     step.h = h * (1 + share);
@@ -145,7 +145,7 @@ TEST_CASE(
     "made again") {
   // past the latch by 1 nrad, at 20 µrad/s, and turning back at 1 rad/s²: the slope is lost within the way
   Arriving at(latches_only);
-  REQUIRE(at.landing.cut_at_event());
+  REQUIRE(at.landing.cut_at_event({}));
   Step<double>& step = at.run.step;
   const auto arrives = [&step](double rate) {
     step.h = 1;
