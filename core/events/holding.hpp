@@ -73,7 +73,7 @@ public:
     using std::abs;
     return (abs(system.holding_friction(x, i)) -
             T(1 + 2 * release_tolerance) * system.static_limit(x, i)) -
-           system.release_margin(x, i);
+           system.release_margin(i);
   }
 
 private:

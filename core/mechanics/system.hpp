@@ -173,12 +173,10 @@ public:
 
   /// By how much the friction of stuck hinge i must exceed static_limit for the hinge to let go, N·m. Held with that
   /// much too little, the hinge rests within atol of the angle to which it would creep, or would creep more slowly than
-  /// atol; or the limit is off by rtol of itself. Without this margin rounding would decide, at every step, about a
-  /// latched hinge that creeps to where its load is the limit (τ_s = τ_c).
-  [[nodiscard]] T release_margin(const State<T>& x, int i) const {
-    const Resolution<T>& least = work_.resolution;
-    const LinearLaw<T>& law = work_.laws[i];
-    return fused(least.relative, static_limit(x, i), least.absolute * (law.stiffness + law.damping));
+  /// atol. Without this margin rounding would decide, at every step, about a latched hinge that creeps to where its load
+  /// is the limit (τ_s = τ_c).
+  [[nodiscard]] T release_margin(int i) const {
+    return work_.least_motion * (work_.laws[i].stiffness + work_.laws[i].damping);
   }
 
   /// Velocity of the base's origin, m/s; a prescribed base starts at rest.

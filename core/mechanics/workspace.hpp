@@ -23,11 +23,6 @@ enum class Edge : signed char {
 };
 inline constexpr int edges_of_hinge = 5;
 
-/// What a run's tolerances resolve of a hinge's motion.
-template <class T> struct Resolution {
-  T relative = T(0), absolute = T(0); ///< rtol; atol, rad and rad/s
-};
-
 /// Owned by the caller, one per thread.
 template <class T> struct Workspace {
   std::vector<BodyFrame<T>> frames; ///< 0 … n
@@ -50,7 +45,7 @@ template <class T> struct Workspace {
   std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation that held a hinge
   int stuck = 0;          ///< number of stuck hinges, of all lanes together
   std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges stick
-  Resolution<T> resolution; ///< of the run; exact without a run
+  T least_motion = T(0);  ///< atol of the run, rad and rad/s: less is not resolved; 0 without a run
   long evaluations = 0;
 };
 

@@ -67,7 +67,7 @@ public:
     set_lane(lane, step_.x, task.step.x), set_lane(lane, step_.dxdt, task.step.dxdt);
     set_lane(lane, history_, task.history);
     set_lane(lane, work_.laws, task.work.laws);
-    set_lane(lane, work_.resolution, task.work.resolution);
+    work_.least_motion.v[lane] = task.work.least_motion;
     if (!wing_.real.empty()) set_modes(lane, task.work);
     if (wing_.base.table) set_lane(lane, work_.driven, task.work.driven);
     for (int i = 1; i <= at_.bodies; ++i) {

@@ -168,7 +168,7 @@ private:
     ended_ = false;
     run_.step.t = T(0);
     system.reset();
-    system.made_elsewhere().resolution = {T(run_.how.rtol), T(run_.how.atol)};
+    system.made_elsewhere().least_motion = T(run_.how.atol);
     system.want_forces(run_.goal.peak_force);
     system.start(run_.step.x);
     system.find_sides(run_.step.x);
