@@ -5,7 +5,6 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
-#include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
@@ -43,7 +42,7 @@ Json about(const StoredCampaign& stored, const Summary& summary) {
 std::vector<GoalFound> goals_of(const Campaign& campaign, const Results& results,
                                 std::span<const Verdict> verdicts) {
   return find_goals(campaign.until, results, verdicts,
-                    at_each_of(campaign.statistics.confidence, count_looks(campaign)));
+                    interim_analyses(campaign).confidence_of_bound(campaign.statistics.confidence));
 }
 
 /// Whether the rows up to an interim analysis meet every goal.
@@ -53,17 +52,16 @@ bool goals_are_met(const Campaign& campaign, const Results& results) {
   };
   std::vector<Verdict> verdicts;
   if (std::ranges::any_of(campaign.until, decides))
-    verdicts = judge_campaign(campaign, results, count_looks(campaign));
+    verdicts = judge_campaign(campaign, results, interim_analyses(campaign));
   return are_met(goals_of(campaign, results, verdicts));
 }
 
-void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, long looks,
-                          Summary& summary) {
+void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, Summary& summary) {
   for (std::size_t i = 0; i < results.outputs.size(); ++i) {
     const RankedOutput ranks(results, results.outputs[i]);
     for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
       summary.outputs[i].tolerance_limits.push_back(
-          {tolerance, output_limits(ranks, tolerance, looks)});
+          {tolerance, output_limits(ranks, tolerance, summary.interim)});
   }
 }
 
@@ -191,17 +189,15 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
 Summary stored_summary(const StoredCampaign& stored, const Results& results,
                        const StatisticsSpec& spec, int threads) {
   const Campaign& campaign = stored.campaign;
-  const long looks = count_looks(campaign);
+  const InterimAnalyses interim = interim_analyses(campaign);
   StatisticsSpec at_a_look = spec;
-  at_a_look.confidence = at_each_of(spec.confidence, looks);
+  at_a_look.confidence = interim.confidence_of_bound(spec.confidence);
   Summary summary =
       summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
   summary.confidence = spec.confidence;
-  summary.looks = looks;
-  summary.looked_at.assign(campaign.sampling.extended_from.begin(),
-                           campaign.sampling.extended_from.end());
-  summary.requirements = judge_campaign(campaign, results, looks);
-  if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
+  summary.interim = interim;
+  summary.requirements = judge_campaign(campaign, results, interim);
+  if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, summary);
   summary.until = goals_of(campaign, results, summary.requirements);
   if (!stored.foreign) add_nominal(campaign, summary);
   summary.overtravels = overtravels(campaign.scene, results);
