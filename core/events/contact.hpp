@@ -57,8 +57,7 @@ template <class T, class AnySystem>
     if (!system.sticks(i)) continue;
     const T friction = system.holding_friction(x, i);
     const T most = fused(slack, system.static_limit(x, i), system.release_margin(i));
-    if (i == let_go || abs(friction) > most)
-      moves.emplace_back(i, sliding(T(-friction)));
+    if (i == let_go || abs(friction) > most) moves.emplace_back(i, sliding(T(-friction)));
   }
   return moves;
 }

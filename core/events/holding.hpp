@@ -92,9 +92,7 @@ private:
     return near;
   }
 
-  [[nodiscard]] bool may_exceed(int i) const {
-    return may_slip(bound_, i, before_[i], after_[i]);
-  }
+  [[nodiscard]] bool may_exceed(int i) const { return may_slip(bound_, i, before_[i], after_[i]); }
 
   template <class Function>
   [[nodiscard]] std::optional<Release<T>> release_of(const Function& excess_at, int i,

@@ -357,9 +357,8 @@ private:
     if (forces && wants_forces_)
       topology().outward([&](int i) __attribute__((always_inline)) {
         if constexpr (locks)
-          work_.forces[i] =
-              hinge_force(frames[i], work_.crossings[i],
-                          frames[topology().parent_of(i)].angular_acceleration);
+          work_.forces[i] = hinge_force(frames[i], work_.crossings[i],
+                                        frames[topology().parent_of(i)].angular_acceleration);
         else
           work_.forces[i] = hinge_force(frames[i]);
       });

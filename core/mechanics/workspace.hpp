@@ -45,7 +45,7 @@ template <class T> struct Workspace {
   std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation that held a hinge
   int stuck = 0;          ///< number of stuck hinges, of all lanes together
   std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges stick
-  T least_motion = T(0);  ///< atol of the run, rad and rad/s: less is not resolved; 0 without a run
+  T least_motion = T(0); ///< atol of the run, rad and rad/s: less is not resolved; 0 without a run
   long evaluations = 0;
 };
 

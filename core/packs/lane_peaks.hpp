@@ -187,8 +187,8 @@ private:
   bool rises_ = false, samples_made_ = false;             ///< in any lane, over this step
   HeldLoadBound<P> held_;
   bool held_is_bounded_ = false; ///< over this step
-  std::vector<P> before_;                                 ///< forces at the step's start
-  std::vector<Vec2<P>> at_end_;                           ///< and at its end
+  std::vector<P> before_;        ///< forces at the step's start
+  std::vector<Vec2<P>> at_end_;  ///< and at its end
   std::vector<Lever<P>> levers_;
   ForceSamples<P> samples_;
   P sampled_;     ///< evaluations made by the search of this step

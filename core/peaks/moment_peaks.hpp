@@ -244,10 +244,9 @@ template <class T>
 /// @param load load(s): the moment by an evaluation on the dense output
 /// @return where a step of the method must confirm a larger value
 template <class T, class AnySystem, class Load>
-[[nodiscard]] std::optional<T> raise_held_moment(PeakOf<T>& peak, const AnySystem& system,
-                                                 const Step<T>& step, int i,
-                                                 const HeldMoments<T>& ends,
-                                                 HeldLoadBound<T>& bound, Load&& load) {
+[[nodiscard]] std::optional<T>
+raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
+                  const HeldMoments<T>& ends, HeldLoadBound<T>& bound, Load&& load) {
   using std::abs;
   if (!held_moment_may_rise(peak, system, step, i)) return std::nullopt;
   bound.over_step(system, step);

@@ -101,11 +101,16 @@ public:
 
   /// For the lane to fill: refers to this run's storage.
   [[nodiscard]] LaneResult empty_lane_result() {
-    return {run_.step,           peaks_.force_before(),
-            peaks_.moments(),    peaks_.forces(),
-            peaks_.overtravel(), *asked_.x1,
-            *asked_.dxdt1,       run_.system.made_elsewhere().forces,
-            run_.held_before,    events_.excess_before(),
+    return {run_.step,
+            peaks_.force_before(),
+            peaks_.moments(),
+            peaks_.forces(),
+            peaks_.overtravel(),
+            *asked_.x1,
+            *asked_.dxdt1,
+            run_.system.made_elsewhere().forces,
+            run_.held_before,
+            events_.excess_before(),
             run_.system.made_elsewhere().holding,
             peaks_.base()};
   }

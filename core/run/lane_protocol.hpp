@@ -37,17 +37,18 @@ template <class P> struct StepHistory {
 /// Run → lane: the state from which the lane makes steps, and when it must return control. Refers to
 /// storage of the run; the lane copies all of it.
 struct LaneTask {
-  const Step<double>& step;           ///< its t, x and dxdt: the state
-  double h;                           ///< the first trial step, s
-  const Workspace<double>& work;      ///< laws, contacts, and latches that have not engaged
-  Tolerance tolerance;                ///< of a step
-  double dense_tolerance;             ///< absolute, of the roughness of a step's dense output
-  const PeakOf<double>* moments;      ///< 1 … n: peaks so far; null: not asked for
-  const PeakOf<double>* forces;       ///< the same
-  const double* force_before;         ///< 1 … n: at the state, N; null: not asked for
-  const double* overtravel;           ///< 1 … n: so far, rad
-  const double* held_before;          ///< 1 … n: moments on stuck hinges at the state, N·m; null: none sticks
-  const double* excess_before;        ///< 1 … n: of their friction over its limit, N·m; null: none sticks
+  const Step<double>& step;      ///< its t, x and dxdt: the state
+  double h;                      ///< the first trial step, s
+  const Workspace<double>& work; ///< laws, contacts, and latches that have not engaged
+  Tolerance tolerance;           ///< of a step
+  double dense_tolerance;        ///< absolute, of the roughness of a step's dense output
+  const PeakOf<double>* moments; ///< 1 … n: peaks so far; null: not asked for
+  const PeakOf<double>* forces;  ///< the same
+  const double* force_before;    ///< 1 … n: at the state, N; null: not asked for
+  const double* overtravel;      ///< 1 … n: so far, rad
+  const double*
+      held_before; ///< 1 … n: moments on stuck hinges at the state, N·m; null: none sticks
+  const double* excess_before; ///< 1 … n: of their friction over its limit, N·m; null: none sticks
   const Conserved<double>& conserved; ///< of a free base
   const BaseExcursion<double>& base;  ///< of a free base, so far
   double t_end;                       ///< the lane makes no step that may reach it, s
@@ -68,10 +69,11 @@ struct LaneResult {
   State<double>&x1, &dxdt1;                 ///< end of the last trial step
   std::vector<Vec2<double>>& forces_at_end; ///< 1 … n: there, N; if asked for
   // where hinges stick
-  std::vector<double>& held_before;   ///< 1 … n: their moments at the start of the last trial step, N·m
+  std::vector<double>&
+      held_before; ///< 1 … n: their moments at the start of the last trial step, N·m
   std::vector<double>& excess_before; ///< 1 … n: of their friction over its limit there, N·m
-  std::vector<double>& held_at_end;   ///< 1 … n: their moments at the end of the last trial step, N·m
-  BaseExcursion<double>& base;              ///< of a free base, up to the start of that step
+  std::vector<double>& held_at_end; ///< 1 … n: their moments at the end of the last trial step, N·m
+  BaseExcursion<double>& base;      ///< of a free base, up to the start of that step
   // values
   long trial_steps = 0; ///< before the last one; 0: the state is the task's, and not written
   double h = 0;         ///< the last trial step, s

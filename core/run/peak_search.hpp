@@ -130,7 +130,7 @@ private:
   std::optional<DoubtfulMoment<T>> doubt_; ///< of its moment; none while forces are in doubt
   HeldLoadBound<T> held_;
   std::vector<T> held_at_end_; ///< 1 … n: moments on stuck hinges at the step's end
-  std::optional<T> held_at_; ///< where the moment of a stuck hinge is in doubt
+  std::optional<T> held_at_;   ///< where the moment of a stuck hinge is in doubt
   bool made_sure_ = false;
 };
 

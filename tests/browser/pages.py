@@ -68,7 +68,7 @@ def picture(driver, path):
 
 def settle(driver):
     """Until sizes have been seen and every visible picture is drawn: two frames and a task at least."""
-    driver.execute_async_script("""const done = arguments[0], end = performance.now() + 5000;
+    driver.execute_async_script("""const done = arguments[0], end = performance.now() + 300;
         const look = () => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(() =>
             performance.now() > end || [...document.querySelectorAll('.picture')].every(one => !one.clientWidth || one.querySelector('svg')) ? done() : look(), 30)));
         look()""")

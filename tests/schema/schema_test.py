@@ -103,7 +103,7 @@ class Schemas(unittest.TestCase):
 
     def test_what_an_editor_shows(self):
         spring = self.validators["scene"].schema["properties"]["hinges"]["items"]["properties"]["latch"]
-        self.assertEqual(spring["description"], "an object with the latch's stiffness and damping")
+        self.assertEqual(spring["description"], "an object with the latch's stiffness, and its damping or dissipation")
         self.assertIn("N·m/rad", spring["properties"]["stiffness"]["description"])
         laws = self.validators["scene"].schema["properties"]["hinges"]["items"]["properties"]["damper"]["anyOf"]
         self.assertEqual(sorted(word for law in laws for word in law["properties"]["law"]["enum"]),

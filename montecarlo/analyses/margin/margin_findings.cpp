@@ -158,6 +158,22 @@ std::string why_withheld(const MarginSearch& search) {
          (search.passed_over ? ": " + to_string(*search.passed_over) : "");
 }
 
+std::vector<std::string> margin_warnings(const MarginResult& result) {
+  std::vector<std::string> lines;
+  for (const MarginSearch& search : result.searches) {
+    if (!search.recommended) continue;
+    std::string margins;
+    for (const Shortfall& each :
+         short_margins(result.campaigns, search.scaled, *search.recommended))
+      margins += (margins.empty() ? "" : "; ") + to_string(each);
+    if (!margins.empty())
+      lines.push_back(fmt::format("at the recommended scale {} static margins are below 0: {}. "
+                                  "Require them (\"motorization\") if the standard applies",
+                                  *search.recommended, margins));
+  }
+  return lines;
+}
+
 bool is_met(const MarginResult& result) {
   return std::ranges::all_of(result.searches, is_confirmed);
 }

@@ -66,6 +66,10 @@ concessions(const Campaign& campaign, const MarginResult& result, const MarginSe
 /// The reason why no scale is recommended; empty if one is.
 [[nodiscard]] std::string why_withheld(const MarginSearch& search);
 
+/// Warnings of the recommended scales: static margins of the nominal wing below 0. No run shows them: a wing may deploy by
+/// momentum.
+[[nodiscard]] std::vector<std::string> margin_warnings(const MarginResult& result);
+
 /// Whether every search has a confirmed window. The exit code of `margin` depends on it.
 [[nodiscard]] bool is_met(const MarginResult& result);
 

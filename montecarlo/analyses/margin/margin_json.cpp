@@ -224,6 +224,7 @@ Json margin_json(const MarginReport& report, const Json& about) {
   return {{stamp_key, about},
           {"scene", report.campaign.scene.name},
           {"met", is_met(report.result)},
+          {"warnings", margin_warnings(report.result)},
           {"runs_per_scale", report.campaign.sampling.runs},
           {"runs", report.result.runs},
           {"runs_failed", report.result.failed},

@@ -13,8 +13,8 @@ namespace {
 constexpr std::array advised_by{MarginKind::ecss, MarginKind::nasa, MarginKind::gevs,
                                 MarginKind::aiaa};
 
-/// Adds the static margins that the scale lowers in one case.
-void add_lowered(const Campaign& campaign, const std::vector<SceneParameter>& parameters,
+/// Adds the static margins at the scale in one case.
+void add_margins(const Campaign& campaign, const std::vector<SceneParameter>& parameters,
                  double scale, std::vector<Shortfall>& all) {
   const Scene nominal = nominal_scene(campaign),
               weaker = nominal_scene(scaled(campaign, parameters, scale));
@@ -24,10 +24,16 @@ void add_lowered(const Campaign& campaign, const std::vector<SceneParameter>& pa
     const Margins then = least_margins(weaker, drive, campaign.motorization);
     for (const MarginKind kind : advised_by) {
       const auto k = static_cast<std::size_t>(kind);
-      if (then[k] < present[k])
-        all.push_back({scale, name_of(drive, nominal) + of_case, kind, then[k], present[k]});
+      all.push_back({scale, name_of(drive, nominal) + of_case, kind, then[k], present[k]});
     }
   }
+}
+
+std::vector<Shortfall> margins_at(std::span<const Campaign> campaigns,
+                                  const std::vector<SceneParameter>& parameters, double scale) {
+  std::vector<Shortfall> all;
+  for (const Campaign& campaign : campaigns) add_margins(campaign, parameters, scale, all);
+  return all;
 }
 
 } // namespace
@@ -35,8 +41,8 @@ void add_lowered(const Campaign& campaign, const std::vector<SceneParameter>& pa
 std::vector<Shortfall> lowered_margins(std::span<const Campaign> campaigns,
                                        const std::vector<SceneParameter>& parameters,
                                        double scale) {
-  std::vector<Shortfall> all;
-  for (const Campaign& campaign : campaigns) add_lowered(campaign, parameters, scale, all);
+  std::vector<Shortfall> all = margins_at(campaigns, parameters, scale);
+  std::erase_if(all, [](const Shortfall& each) { return !(each.margin < each.present); });
   return all;
 }
 
@@ -46,6 +52,20 @@ std::optional<Shortfall> shortfall_at(std::span<const Campaign> campaigns,
   const auto all = lowered_margins(campaigns, parameters, scale);
   const auto lowest = std::ranges::min_element(all, {}, &Shortfall::margin);
   return lowest == all.end() || lowest->margin >= 0 ? std::nullopt : std::optional(*lowest);
+}
+
+std::vector<Shortfall> short_margins(std::span<const Campaign> campaigns,
+                                     const std::vector<SceneParameter>& parameters, double scale) {
+  const std::vector<Shortfall> all = margins_at(campaigns, parameters, scale);
+  std::vector<Shortfall> lowest;
+  for (const MarginKind kind : advised_by) {
+    const Shortfall* least = nullptr;
+    for (const Shortfall& each : all)
+      if (each.kind == kind && each.margin < 0 && !(least && least->margin <= each.margin))
+        least = &each;
+    if (least) lowest.push_back(*least);
+  }
+  return lowest;
 }
 
 std::string to_string(const Shortfall& shortfall) {

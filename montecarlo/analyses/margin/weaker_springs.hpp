@@ -37,6 +37,12 @@ struct Shortfall {
                                                     const std::vector<SceneParameter>& parameters,
                                                     double scale);
 
+/// For each standard the lowest static margin below 0 of the nominal wing at a scale, over all cases and drives.
+/// @param campaigns one per case
+[[nodiscard]] std::vector<Shortfall> short_margins(std::span<const Campaign> campaigns,
+                                                   const std::vector<SceneParameter>& parameters,
+                                                   double scale);
+
 /// "ECSS margin of root −0.46, now −0.28".
 [[nodiscard]] std::string to_string(const Shortfall& shortfall);
 

@@ -3,7 +3,6 @@
 #include "montecarlo/analyses/sensitivity/effect_table.hpp"
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
-#include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/foundation/statistics/jackknife.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
@@ -22,14 +21,14 @@ std::string bounds_definition(const RankSensitivity& all) {
     return fmt::format(
         "jackknife over {} independent replicates, Fisher's z, Student's t, two-sided",
         all.replicates);
-  std::string text =
-      fmt::format("spearman: Fisher's z, variance (1 + r^2/2)/(n - 3); prcc: jackknife "
-                  "over {} parts of the runs, Fisher's z, Student's t; two-sided",
-                  jackknife_groups);
-  if (all.looks > 1)
-    text += fmt::format(", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints "
-                        "the campaign stops",
-                        at_each_of(all.confidence, all.looks), all.looks);
+  std::string text = fmt::format(
+      "spearman: Fisher's z, variance (1 + r^2/2)/(n - 3); prcc: corrected "
+      "for the bias of ranks, jackknife over {} parts of the runs, Fisher's z, Student's "
+      "t; two-sided",
+      jackknife_groups);
+  if (all.interim.count() > 1)
+    text += fmt::format(", at a confidence of {:.10g} each, to hold at all of {} analyses",
+                        all.interim.confidence_of_bound(all.confidence), all.interim.count());
   return text;
 }
 

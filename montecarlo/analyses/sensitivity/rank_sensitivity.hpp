@@ -3,6 +3,7 @@
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/foundation/statistics/interim_analyses.hpp"
 #include "montecarlo/foundation/statistics/rank_correlation.hpp"
 #include "montecarlo/results/summary/replication.hpp"
 
@@ -33,9 +34,9 @@ struct OutputRanks {
 
 struct RankSensitivity {
   long runs = 0;
-  double confidence = 0.95; ///< of all bounds, over all interim analyses
-  long looks = 1;           ///< number of interim analyses at which the campaign could stop
-  int replicates = 0;       ///< replicates behind the bounds; 0: independent draws
+  double confidence = 0.95;  ///< of all bounds, over all interim analyses
+  InterimAnalyses interim{}; ///< which share the risk of every bound
+  int replicates = 0;        ///< replicates behind the bounds; 0: independent draws
   std::vector<std::string> dispersions;
   std::vector<OutputRanks> outputs;  ///< the campaign's, then `deployed` when it varies
   std::vector<std::string> unvaried; ///< dispersions with constant draws
@@ -49,7 +50,7 @@ struct RankSensitivity {
 /// How the runs were made, as far as the bounds depend on it.
 struct RunsMade {
   Replication replication{};
-  long looks = 1; ///< number of interim analyses at which the campaign could stop
+  InterimAnalyses interim{};
 };
 
 /// The coefficients of all outputs with all dispersions. Pure.

@@ -20,13 +20,16 @@ Bounds jackknife_bounds(double value, std::span<const double> without_each, doub
   return {value - reach, value + reach};
 }
 
+Bounds from_z(const Bounds& z) {
+  if (!z.lower || !z.upper) return {};
+  return {std::tanh(*z.lower), std::tanh(*z.upper)};
+}
+
 Bounds jackknife_correlation_bounds(double coefficient, std::span<const double> without_each,
                                     double confidence) {
   std::vector<double> z;
   for (const double each : without_each) z.push_back(std::atanh(each));
-  const Bounds bounds = jackknife_bounds(std::atanh(coefficient), z, confidence);
-  if (!bounds.lower) return {};
-  return {std::tanh(*bounds.lower), std::tanh(*bounds.upper)};
+  return from_z(jackknife_bounds(std::atanh(coefficient), z, confidence));
 }
 
 } // namespace wingspread

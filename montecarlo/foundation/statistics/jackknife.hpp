@@ -27,6 +27,9 @@ inline constexpr int jackknife_groups = 16;
 [[nodiscard]] Bounds jackknife_bounds(double value, std::span<const double> without_each,
                                       double confidence);
 
+/// Bounds of a correlation from those of its Fisher's z.
+[[nodiscard]] Bounds from_z(const Bounds& z);
+
 /// Bounds of a correlation, within (−1, 1): computed for Fisher's z = artanh(θ), whose error is nearly normal.
 [[nodiscard]] Bounds jackknife_correlation_bounds(double coefficient,
                                                   std::span<const double> without_each,

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -62,7 +63,15 @@ PartialCorrelations::PartialCorrelations(const std::vector<Spilled<double>>& col
     }
   });
   for (const Spilled<double>& column : columns) column.release();
-  inverse_ = inverse_of(correlations);
+  correlations_ = std::move(correlations);
+  inverse_ = inverse_of(correlations_);
+}
+
+PartialCorrelations PartialCorrelations::with(Matrix correlations) const {
+  PartialCorrelations other = *this;
+  other.inverse_ = inverse_of(correlations);
+  other.correlations_ = std::move(correlations);
+  return other;
 }
 
 std::vector<double> PartialCorrelations::explained() const {

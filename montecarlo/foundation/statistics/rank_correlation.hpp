@@ -15,7 +15,8 @@
 /// other column, in ranks, is subtracted from both. (1) equals the textbook's −P_jy/√(P_jj P_yy), with P the inverse of
 /// the matrix of all correlations, but also holds if the columns x determine y completely. (2) holds for independent
 /// rows and for ρ only. Applied to partial coefficients, nominal 95 % bounds by (2) cover 87 to 97 %, and with the
-/// variance 1/(n − k − 2) down to 79 %; so partial coefficients are bounded by the jackknife (jackknife.hpp).
+/// variance 1/(n − k − 2) down to 79 %; so partial coefficients are bounded by the jackknife (jackknife.hpp), after a
+/// correction of their bias (rank_bias.hpp).
 /// Sources: R. L. Iman, W. J. Conover, Technometrics 21 (1979) 499–509;
 /// (2), Fisher's z with ranks' variance: D. G. Bonett, T. A. Wright, Psychometrika 65 (2000) 23–28.
 #pragma once
@@ -38,13 +39,22 @@ namespace wingspread {
 /// Partial correlations (1) of a quantity with each of k columns, given all others.
 class PartialCorrelations {
 public:
+  using Matrix = Eigen::MatrixXd;
+
   /// Cost O(n k² + k³).
   /// @param columns k of them, equally long, finite
   /// @param threads as of thread_count (thread_pool.hpp)
   explicit PartialCorrelations(const std::vector<Spilled<double>>& columns, int threads = 1);
 
+  /// The same columns with other correlations of those that vary. @pre a matrix of the size of correlations()
+  [[nodiscard]] PartialCorrelations with(Matrix correlations) const;
+
   /// How many columns vary.
   [[nodiscard]] long varying() const { return static_cast<long>(varying_.size()); }
+  /// The columns that vary.
+  [[nodiscard]] std::span<const std::size_t> which_vary() const { return varying_; }
+  /// C of the columns that vary.
+  [[nodiscard]] const Matrix& correlations() const { return correlations_; }
   /// Whether one varying column is a linear combination of others.
   [[nodiscard]] bool entangled() const { return !inverse_; }
 
@@ -60,7 +70,8 @@ private:
   std::size_t columns_;
   long rows_;
   std::vector<std::size_t> varying_;
-  std::optional<Eigen::MatrixXd> inverse_; ///< C⁻¹ of the varying columns
+  Matrix correlations_;           ///< C of the varying columns
+  std::optional<Matrix> inverse_; ///< C⁻¹
 };
 
 } // namespace wingspread

@@ -66,13 +66,6 @@ std::optional<long> runs_to_show(double p, double c, long k) {
   return least_runs(k, [&](long n) { return shows(n, p, c, k); });
 }
 
-bool is_disproved(long n, double p, double c, long k) {
-  assert(0 <= k && k <= n);
-  if (k == 0) return false;
-  const Binomial failures(static_cast<double>(n), 1 - p);
-  return is_at_most_risk(cdf(boost::math::complement(failures, static_cast<double>(k - 1))), c);
-}
-
 std::optional<long> runs_for_width(double width, double confidence, double proportion) {
   assert(width > 0 && width < 1 && proportion >= 0 && proportion <= 1);
   return least_runs(0, [&](long n) { return expected_width(n, confidence, proportion) <= width; });

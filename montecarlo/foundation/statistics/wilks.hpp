@@ -33,10 +33,6 @@ inline constexpr long most_runs_sized = 1'000'000'000'000;
 /// @pre k ≥ 0, 0 < p < 1, 0 < c < 1
 [[nodiscard]] std::optional<long> runs_to_show(double p, double c, long k);
 
-/// Whether k failures show the opposite, P < p, with confidence c: P(Bin(n, 1 − p) ≥ k) ≤ 1 − c.
-/// @pre 0 ≤ k ≤ n
-[[nodiscard]] bool is_disproved(long n, double p, double c, long k);
-
 /// The smallest n whose Clopper–Pearson interval is at most `width` wide for an observed share `proportion`; nothing
 /// if above most_runs_sized. A half is the worst case.
 /// @pre 0 < width < 1, 0 < confidence < 1, 0 ≤ proportion ≤ 1

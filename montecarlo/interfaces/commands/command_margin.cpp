@@ -45,6 +45,7 @@ int print_verdict(const Campaign& campaign, const MarginResult& result) {
     fmt::print(stderr,
                "warning: the static motorization margins leave out the loads of the moving base; "
                "give them as \"inertia\" in the margin's \"torques\"\n");
+  for (const std::string& line : margin_warnings(result)) fmt::print(stderr, "warning: {}\n", line);
   for (const MarginSearch& search : result.searches)
     if (!is_confirmed(search))
       fmt::print(
@@ -73,6 +74,8 @@ std::string write_files(const Campaign& campaign, const MarginResult& result,
 
 /// Returns the exit status of a study that an earlier session finished.
 int judge_finished_margin(const Json& study) {
+  for (const Json& line : study.value("warnings", Json::array()))
+    fmt::print(stderr, "warning: {}\n", line.get<std::string>());
   const int code = report_failed(study.value("runs_failed", 0L), study.value("runs", 0L),
                                  ", and count against every requirement");
   return code != exit_code::done || study.value("met", false) ? code : exit_code::not_met;
@@ -198,7 +201,8 @@ does, up to "widest". Without both edges there is no recommendation.
   The recommended scale maximises the margin of the worst requirement: the share of runs that may
 break it over the share that does. The report says what this costs against the present springs. The
 recommendation is confirmed by runs with a seed of their own. Weaker springs are not recommended if
-static margins of the nominal wing would become negative. If no scale works, the report names the
+static margins of the nominal wing would become negative; a warning names those that are negative
+at the recommended scale. If no scale works, the report names the
 requirements that rule it out.
   All runs are made; "until" is ignored. A run stops once its requirements are decided: if none is
 about a peak, a run that fails numerically after its last latch counts as deployed here, and as

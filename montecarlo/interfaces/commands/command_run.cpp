@@ -34,10 +34,11 @@ void override_until(Campaign& campaign, const std::vector<std::string>& until) {
 
 std::string refuse_until(const std::string& text) {
   if (parse_stopping_goal(text)) return "";
-  return fmt::format("found \"{}\", expected e.g. \"root.peak_moment@0.99 5\" (its 0.99 quantile "
-                     "known to within 5 N·m), \"root.peak_moment@0.99 2%\", \"deployed 0.01\" or "
-                     "\"requirement deployed\"",
-                     text);
+  return fmt::format(
+      "found \"{}\", expected e.g. \"root.peak_moment@0.99 5\" (its 0.99 quantile "
+      "with an interval 5 N·m wide), \"root.peak_moment@0.99 2%\", \"deployed 0.01\" or "
+      "\"requirement deployed\"",
+      text);
 }
 
 /// Reads the campaign, applies the options to it and prints its warnings.

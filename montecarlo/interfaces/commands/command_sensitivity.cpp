@@ -72,7 +72,7 @@ int analyze_ranks(const SensitivityOptions& options) {
   stamp.shard.reset();
   warn_of_preview(stored);
   const RunsMade made{replication_of(stored.campaign.sampling, results),
-                      count_looks(stored.campaign)};
+                      interim_analyses(stored.campaign)};
   show_analysis(
       rank_sensitivity(results, confidence, made), stamp_json(stamp),
       fmt::format("{} · {} runs · rank correlations", stored.campaign.scene.name, results.size()),

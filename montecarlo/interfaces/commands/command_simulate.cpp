@@ -109,7 +109,7 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
   add_case_option(command, settings.of_case);
   command.add_flag("--json", options.json, "Print the outcome as JSON");
   command.add_flag("--check", options.check,
-                   "Repeat the run by another method at rtol/100 and say how many digits agree");
+                   "Repeat by another method at rtol/100; say how many digits agree");
   command.add_option("--out", options.out, "Write the trajectory to this CSV file");
   add_strict_option(command, options.strict);
   command

@@ -73,18 +73,19 @@ Answer failures_allowed(const SizeOptions& options) {
                                   : fmt::format("more than {}", most_runs_sized))};
 }
 
-/// The number of runs that bounds a share to within --width.
+/// The number of runs for which the interval of a share is --width wide.
 Answer runs_for_share(const SizeOptions& options) {
   const double width = *options.width, proportion = options.proportion.value_or(0.5);
   const auto runs = runs_for_width(width, options.confidence, proportion);
   if (!runs) throw too_many("a width that fewer can reach");
-  return {{{"width", width},
-           {"confidence", options.confidence},
-           {"proportion", proportion},
-           {"runs", *runs}},
-          fmt::format("{} runs bound a share near {} to within {} with confidence {} "
-                      "(Clopper–Pearson, two-sided)\n",
-                      *runs, proportion, width, options.confidence)};
+  return {
+      {{"width", width},
+       {"confidence", options.confidence},
+       {"proportion", proportion},
+       {"runs", *runs}},
+      fmt::format("{} runs give a share near {} an interval {} wide, from lower to upper bound, "
+                  "with confidence {} (Clopper–Pearson, two-sided)\n",
+                  *runs, proportion, width, options.confidence)};
 }
 
 int size(const SizeOptions& options) {
@@ -144,10 +145,11 @@ void add_questions(CLI::App& command, SizeOptions& options) {
       ->excludes(order)
       ->excludes(two_sided)
       ->excludes(failures);
-  auto* width =
-      command.add_option("--width", options.width, "Width of a share's confidence interval")
-          ->check(between(0, 1, false))
-          ->excludes(probability);
+  auto* width = command
+                    .add_option("--width", options.width,
+                                "Width of a share's confidence interval, lower to upper bound")
+                    ->check(between(0, 1, false))
+                    ->excludes(probability);
   command
       .add_option("--proportion", options.proportion,
                   "The share expected; default: 0.5, which takes the most runs")

@@ -25,9 +25,9 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
       design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed);
   if (summary.replicates > 0) text += ", " + counted(summary.replicates, "replicate", "replicates");
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
-  if (!summary.looked_at.empty())
-    text += fmt::format(" · interim analysis {}, after {}", summary.looks,
-                        fmt::join(summary.looked_at, ", "));
+  if (!summary.interim.before.empty())
+    text += fmt::format(" · interim analysis {}, after {}", summary.interim.count(),
+                        fmt::join(summary.interim.before, ", "));
   if (const auto& preview = stored.stamp.preview)
     text += fmt::format(" · PREVIEW: {} of {} runs, {} missing", preview->runs, preview->of,
                         preview->of - preview->runs);
@@ -53,6 +53,12 @@ bool report_requirements(const Summary& summary, const std::string& of_case) {
     fmt::print(stderr, "not met: {}{}: {}: {}\n", of_case, to_string(verdict.requirement),
                to_string(verdict.decision), evidence(verdict));
   }
+  if (!summary.interim.before.empty() && !summary.requirements.empty())
+    fmt::print(stderr,
+               "note: analysis {} of the same draws, after {} runs: a requirement passes if the "
+               "risk of a wrong pass at any of them is at most 1 - confidence (summary.json states "
+               "it); without it, take another --seed and a number of runs fixed beforehand\n",
+               summary.interim.count(), fmt::join(summary.interim.before, ", "));
   const auto is_open = [](const Verdict& verdict) { return !is_decided(verdict); };
   if (std::ranges::any_of(summary.requirements, is_open))
     fmt::print(

@@ -10,9 +10,9 @@
 #include <iterator>
 
 namespace wingspread {
-long count_looks(const Campaign& campaign) {
-  if (campaign.until.empty()) return 1 + std::ssize(campaign.sampling.extended_from);
-  return count_looks(campaign.until, campaign.sampling.runs);
+InterimAnalyses interim_analyses(const Campaign& campaign) {
+  const auto& before = campaign.sampling.extended_from;
+  return {count_looks(campaign.until, campaign.sampling.runs), {before.begin(), before.end()}};
 }
 
 std::string campaign_hash(const Json& resolved) {

@@ -4,6 +4,7 @@
 #include "core/scene/scene.hpp"
 #include "distributions/copula.hpp"
 #include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/foundation/statistics/interim_analyses.hpp"
 #include "montecarlo/model/campaign/campaign_settings.hpp"
 #include "montecarlo/model/campaign/cases.hpp"
 #include "montecarlo/model/campaign/dispersion.hpp"
@@ -43,10 +44,9 @@ struct Campaign {
   Json resolved;
 };
 
-/// The number of interim analyses, the final one included; all bounds and verdicts divide their risk by this number.
-/// With a stopping rule it is the number of checkpoints, in an extended campaign the number of extensions plus one,
-/// else 1.
-[[nodiscard]] long count_looks(const Campaign& campaign);
+/// The interim analyses, the final one included, which share the risk of all bounds and verdicts: the checkpoints of a
+/// stopping rule, or the analyses before extensions.
+[[nodiscard]] InterimAnalyses interim_analyses(const Campaign& campaign);
 
 /// 16 hexadecimal digits that identify a campaign: a hash of `resolved` without its stamp. The same on all platforms.
 [[nodiscard]] std::string campaign_hash(const Json& resolved);

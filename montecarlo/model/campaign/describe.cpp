@@ -1,7 +1,6 @@
 #include "montecarlo/model/campaign/describe.hpp"
 
 #include "montecarlo/foundation/formats/text_layout.hpp"
-#include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/foundation/statistics/wilks.hpp"
 #include "montecarlo/model/campaign/distribution_json.hpp"
 
@@ -141,12 +140,13 @@ std::string describe_statistics(const StatisticsSpec& statistics) {
 std::string describe_requirement(const Campaign& campaign, const Requirement& requirement) {
   const long runs = campaign.sampling.runs;
   const double p = requirement.probability;
-  const double c =
-      at_each_of(confidence_alone(campaign.requirements, requirement), count_looks(campaign));
+  const PassingRule rule = passing_rule(interim_analyses(campaign), runs, p,
+                                        confidence_alone(campaign.requirements, requirement));
   const std::string text = to_string(requirement);
-  if (const auto allowed = allowed_failures(runs, p, c))
-    return fmt::format("{}: {} of {} may break it", text, *allowed, counted(runs, "run", "runs"));
-  const auto least = runs_to_show(p, c, 0);
+  if (rule.allowed)
+    return fmt::format("{}: {} of {} may break it", text, *rule.allowed,
+                       counted(runs, "run", "runs"));
+  const auto least = runs_to_show(p, rule.confidence, 0);
   return fmt::format("{}: cannot be shown with {}, it takes {}", text, counted(runs, "run", "runs"),
                      least ? std::to_string(*least) : fmt::format("more than {}", most_runs_sized));
 }

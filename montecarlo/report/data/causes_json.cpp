@@ -147,7 +147,7 @@ Json effects_json(const PageSource& source, const PageDetail& detail) {
   if (source.results.draws.empty() || source.results.size() < fewest_runs) return nullptr;
   Results first;
   const Results& runs = effect_runs(source, first);
-  const RunsMade made{source.replication, source.summary.looks};
+  const RunsMade made{source.replication, source.summary.interim};
   const RankSensitivity all =
       rank_sensitivity(runs, source.stored.campaign.statistics.confidence, made);
   Json effects = Json::array();

@@ -1,7 +1,5 @@
 #include "montecarlo/report/data/page_source.hpp"
 
-#include "montecarlo/foundation/statistics/bonferroni.hpp"
-
 #include <utility>
 
 namespace wingspread {
@@ -16,7 +14,7 @@ std::unique_ptr<PageSource> read_page_source(StoredCampaign stored, const std::s
   source->results = std::move(read_stored_results(source->stored).results);
   source->replication = replication_of(campaign.sampling, source->results);
   source->summary = stored_summary(source->stored, source->results, campaign.statistics, threads);
-  source->confidence = at_each_of(campaign.statistics.confidence, source->summary.looks);
+  source->confidence = source->summary.interim.confidence_of_bound(campaign.statistics.confidence);
   source->orders = std::make_unique<OrderSplit>(source->results, source->summary);
   return source;
 }

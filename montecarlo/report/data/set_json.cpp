@@ -49,7 +49,7 @@ Json identity_json(const PageSource& source) {
           {"shard", shard ? Json(fmt::format("{}/{}", shard->index, shard->of)) : Json(nullptr)},
           {"design", design_names[static_cast<std::size_t>(campaign.sampling.design)]},
           {"confidence", source.summary.confidence},
-          {"looks", source.summary.looks},
+          {"looks", source.summary.interim.count()},
           {"replicates", source.replication.replicates},
           {"made_by", made_by(stored)}};
 }

@@ -5,7 +5,6 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/input_file.hpp"
 #include "montecarlo/foundation/formats/json_reader.hpp"
-#include "montecarlo/foundation/statistics/bonferroni.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/summary/judge_campaign.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
@@ -42,7 +41,7 @@ Json about(const StoredCampaign& stored, const Summary& summary) {
   return json;
 }
 
-/// The goals of the stopping rule, by the campaign's own requirements and confidence.
+/// The goals of the stopping rule, by the campaign's own requirements and confidence, not the summary's.
 std::vector<GoalFound> goals_of(const StoredCampaign& stored, const Results& results) {
   const auto decides = [](const StoppingGoal& goal) {
     return std::holds_alternative<DecisionGoal>(goal);
@@ -50,20 +49,19 @@ std::vector<GoalFound> goals_of(const StoredCampaign& stored, const Results& res
   Campaign own = stored.campaign;
   if (stored.own_requirements) own.requirements = *stored.own_requirements;
   std::vector<Verdict> verdicts;
-  if (std::ranges::any_of(own.until, decides))
-    verdicts = judge_campaign(own, results, count_looks(own));
+  const InterimAnalyses interim = interim_analyses(own);
+  if (std::ranges::any_of(own.until, decides)) verdicts = judge_campaign(own, results, interim);
   const auto& statistics = own.resolved.at("statistics"); // as before `analyze`
   return find_goals(own.until, results, verdicts,
-                    at_each_of(statistics.at("confidence").get<double>(), count_looks(own)));
+                    interim.confidence_of_bound(statistics.at("confidence").get<double>()));
 }
 
-void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, long looks,
-                          Summary& summary) {
+void add_tolerance_limits(const Results& results, const StatisticsSpec& spec, Summary& summary) {
   for (std::size_t i = 0; i < results.outputs.size(); ++i) {
     const RankedOutput ranks(results, results.outputs[i]);
     for (const ToleranceLimitSpec& tolerance : spec.tolerance_limits)
       summary.outputs[i].tolerance_limits.push_back(
-          {tolerance, output_limits(ranks, tolerance, looks)});
+          {tolerance, output_limits(ranks, tolerance, summary.interim)});
   }
 }
 
@@ -224,17 +222,15 @@ ResultsFile read_stored_results(const StoredCampaign& stored) {
 Summary stored_summary(const StoredCampaign& stored, const Results& results,
                        const StatisticsSpec& spec, int threads) {
   const Campaign& campaign = stored.campaign;
-  const long looks = count_looks(campaign);
+  const InterimAnalyses interim = interim_analyses(campaign);
   StatisticsSpec at_a_look = spec;
-  at_a_look.confidence = at_each_of(spec.confidence, looks);
+  at_a_look.confidence = interim.confidence_of_bound(spec.confidence);
   Summary summary =
       summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
   summary.confidence = spec.confidence;
-  summary.looks = looks;
-  summary.looked_at.assign(campaign.sampling.extended_from.begin(),
-                           campaign.sampling.extended_from.end());
-  summary.requirements = judge_campaign(campaign, results, looks);
-  if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, looks, summary);
+  summary.interim = interim;
+  summary.requirements = judge_campaign(campaign, results, interim);
+  if (!spec.tolerance_limits.empty()) add_tolerance_limits(results, spec, summary);
   if (!campaign.until.empty()) summary.until = goals_of(stored, results);
   if (!stored.foreign) add_nominal(campaign, summary);
   summary.overtravels = overtravels(campaign.scene, results);

@@ -1,7 +1,6 @@
 #include "montecarlo/results/streaming/streaming_summary.hpp"
 
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
-#include "montecarlo/foundation/statistics/bonferroni.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -116,10 +115,8 @@ std::optional<double> number_of(const std::optional<OrderStatistic>& found,
 }
 
 /// As tolerance_limits (wilks.hpp), at the outer edges of the bins.
-Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSpec& spec,
-                 long looks) {
-  const long order =
-      tolerance_order(runs, spec.side, spec.probability, at_each_of(spec.confidence, looks));
+Bounds limits_of(const RankedRequired& values, long runs, const ToleranceLimitSpec& spec) {
+  const long order = tolerance_order(runs, spec.side, spec.probability, spec.confidence);
   if (order == 0) return {};
   Bounds limits;
   if (spec.side != Side::upper)
@@ -154,7 +151,7 @@ void add_values(const RankedRequired& values, Verdict& verdict) {
 }
 
 std::vector<Verdict> verdicts_of(const Campaign& campaign, const StreamingStatistics& statistics,
-                                 const std::vector<RankedRequired>& ranked, long looks) {
+                                 const std::vector<RankedRequired>& ranked) {
   std::vector<Verdict> verdicts;
   for (std::size_t r = 0; r < campaign.requirements.size(); ++r) {
     const Requirement& requirement = campaign.requirements[r];
@@ -165,7 +162,7 @@ std::vector<Verdict> verdicts_of(const Campaign& campaign, const StreamingStatis
     for (const RunValue& worst : counted.worst.sorted()) verdict.broken.push_back(worst.run);
     verdict.not_listed = counted.failures - std::ssize(verdict.broken);
     verdict.cut = counted.cut;
-    decide(confidence_alone(campaign.requirements, requirement), looks, verdict);
+    decide(confidence_alone(campaign.requirements, requirement), {}, verdict);
     const auto found = std::ranges::find_if(statistics.required(), [&](const RequiredOutput& each) {
       return each.output == requirement.output && each.absolute == requirement.absolute;
     });
@@ -235,13 +232,13 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
   std::vector<RankedRequired> ranked;
   for (const RequiredPopulation& population : statistics.required_values())
     ranked.emplace_back(population);
-  summary.requirements = verdicts_of(campaign, statistics, ranked, summary.looks);
+  summary.requirements = verdicts_of(campaign, statistics, ranked);
   for (std::size_t q = 0; q < ranked.size(); ++q) {
     const RequiredOutput& required = statistics.required()[q];
     if (required.absolute || required.column >= names.outputs.size()) continue;
     for (const ToleranceLimitSpec& limit : spec.tolerance_limits)
       summary.outputs[required.column].tolerance_limits.push_back(
-          {limit, limits_of(ranked[q], statistics.runs(), limit, summary.looks)});
+          {limit, limits_of(ranked[q], statistics.runs(), limit)});
   }
   add_nominal(campaign, summary);
   add_overtravels(campaign.scene, names, statistics, summary);

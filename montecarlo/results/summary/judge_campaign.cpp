@@ -45,8 +45,10 @@ std::vector<Column> static_margin_columns(const Campaign& campaign, const Result
   return columns;
 }
 
-std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& results, long looks) {
-  return judge_all(campaign.requirements, results, looks, static_margin_columns(campaign, results));
+std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& results,
+                                    const InterimAnalyses& interim) {
+  return judge_all(campaign.requirements, results, interim,
+                   static_margin_columns(campaign, results));
 }
 
 } // namespace wingspread

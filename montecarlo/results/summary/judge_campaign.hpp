@@ -14,8 +14,8 @@ namespace wingspread {
 [[nodiscard]] std::vector<Column> static_margin_columns(const Campaign& campaign,
                                                         const Results& results);
 
-/// Judges all requirements. @param looks number of interim analyses, as in judge()
+/// Judges all requirements. @param interim as in judge()
 [[nodiscard]] std::vector<Verdict> judge_campaign(const Campaign& campaign, const Results& results,
-                                                  long looks = 1);
+                                                  const InterimAnalyses& interim = {});
 
 } // namespace wingspread

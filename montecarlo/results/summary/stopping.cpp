@@ -30,6 +30,7 @@ GoalFound find(const WidthGoal& goal, const Results& results, double confidence)
   found.width = *bounds.upper - *bounds.lower;
   const double unit = goal.relative ? std::abs(quantile(sorted, *goal.quantile)) : 1;
   found.met = *found.width <= goal.width * unit;
+  if (goal.relative) found.relative = *found.width / unit;
   return found;
 }
 

@@ -16,6 +16,8 @@ struct GoalFound {
   StoppingGoal goal;
   std::optional<double> width; ///< of the interval, absolute; nothing if a bound does not exist
   bool met = false;
+  std::optional<double>
+      relative{}; ///< the width as a share of the quantile's magnitude; for a relative goal
 };
 
 /// @param verdicts   on the campaign's requirements, at their confidence for one analysis

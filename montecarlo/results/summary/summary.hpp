@@ -115,9 +115,8 @@ struct Summary {
   std::optional<PeaksCount> peaks{};     ///< nothing if not recorded
   std::vector<GoalFound> until{};        ///< goals of the stopping rule
   bool stopped = false;                  ///< all goals were met before all runs were made
-  long looks = 1; ///< interim analyses, the last one included: they share the α of each bound
-  bool without_rows = false;     ///< computed from streaming statistics
-  std::vector<long> looked_at{}; ///< numbers of runs before each extension
+  InterimAnalyses interim{};             ///< which share the risk of every bound and verdict
+  bool without_rows = false;             ///< computed from streaming statistics
 };
 
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes per run and thread; as many

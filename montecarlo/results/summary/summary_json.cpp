@@ -23,14 +23,17 @@ constexpr std::string_view replicates_agree =
 
 /// A note on how the confidence is shared among interim analyses; empty if there is only one.
 std::string at_looks(const Summary& summary) {
-  if (summary.looks == 1) return "";
-  if (!summary.looked_at.empty())
-    return fmt::format(", at a confidence of {:.10g}: of one look of {} at draws seen before",
-                       at_each_of(summary.confidence, summary.looks), summary.looks);
+  const InterimAnalyses& interim = summary.interim;
+  if (interim.count() == 1) return "";
+  const double confidence = interim.confidence_of_bound(summary.confidence);
+  if (!interim.before.empty())
+    return fmt::format(", at a confidence of {:.10g}: of analysis {} of the same draws, the bounds "
+                       "of all extensions hold together at {:.10g}",
+                       confidence, interim.count(), summary.confidence);
   return fmt::format(
       ", at a confidence of {:.10g} each, to hold at whichever of {} checkpoints the "
       "campaign stops",
-      at_each_of(summary.confidence, summary.looks), summary.looks);
+      confidence, interim.count());
 }
 
 /// The definitions of bounds, for independent draws and for replicates.
@@ -89,11 +92,12 @@ Json definitions(const Summary& summary) {
   if (!judge_groups(summary.requirements).empty())
     json["groups"] = "m requirements of a group are judged at 1 - (1 - c)/m each, so that all of "
                      "them together hold at c";
-  if (!summary.looked_at.empty())
+  if (!summary.interim.before.empty())
     json["extended"] =
-        "runs were added to draws whose results had been looked at: look k takes its "
-        "bounds and verdicts at 1 - (1 - c)/k; whoever takes the first of the looks "
-        "that suits has at most risk_of_all_looks times (1 - c)";
+        "runs were added to draws that had been analysed: a requirement passes if the risk of a "
+        "wrong pass at any of the analyses, risk_of_wrong_pass, is at most 1 - c (exact, for P = "
+        "p; each analysis after the first spends at most half of what is left); risk_if_alone: had "
+        "each been judged by itself; bounds of analysis k at 1 - (1 - c)/(k(k - 1))";
   return json;
 }
 
@@ -174,7 +178,7 @@ Json quantiles_json(const Summary& summary, const OutputSummary& output) {
 
 /// Why a tolerance limit is null.
 std::string missing_limit(const Summary& summary, const ToleranceLimitSpec& spec) {
-  const double c = at_each_of(spec.confidence, summary.looks);
+  const double c = summary.interim.confidence_of_bound(spec.confidence);
   const auto least = runs_to_show(spec.probability, c, spec.side == Side::both ? 1 : 0);
   if (least && summary.runs >= *least)
     return "no number: too many runs did not deploy or are without a value";
@@ -235,7 +239,13 @@ Json verdict_json(const Summary& summary, const Verdict& verdict) {
   if (!verdict.allowed && verdict.least_runs) json["least_runs"] = *verdict.least_runs;
   if (!verdict.requirement.group.empty()) json["confidence_alone"] = verdict.confidence_alone;
   if (verdict.cut > 0) json["failures"]["peaks_cut"] = verdict.cut;
-  if (summary.looks > 1) json["confidence_at_each_look"] = verdict.confidence;
+  if (summary.interim.count() > 1) json["confidence_at_this_analysis"] = verdict.confidence;
+  if (const auto& joint = verdict.joint) {
+    json["risk_of_wrong_pass"] = joint->risk;
+    json["risk_if_alone"] = joint->risk_alone;
+    json["failures"]["allowed_if_alone"] =
+        joint->allowed_alone ? Json(*joint->allowed_alone) : Json(nullptr);
+  }
   add_broken(json, verdict);
   return json;
 }
@@ -261,21 +271,20 @@ Json groups_json(std::span<const GroupVerdict> groups) {
 /// The goals of the stopping rule, and how far they are reached.
 Json until_json(const Summary& summary) {
   Json goals = Json::array();
-  for (const auto& [goal, width, met] : summary.until) {
-    Json json = write_stopping_rule({goal}).front();
-    if (std::holds_alternative<WidthGoal>(goal)) json["found"] = json_number(width);
-    json["met"] = met;
+  for (const GoalFound& found : summary.until) {
+    Json json = write_stopping_rule({found.goal}).front();
+    if (std::holds_alternative<WidthGoal>(found.goal)) json["found"] = json_number(found.width);
+    if (found.relative) json["found_relative"] = *found.relative;
+    json["met"] = found.met;
     goals.push_back(std::move(json));
   }
-  return {{"stopped", summary.stopped}, {"checkpoints", summary.looks}, {"widths", goals}};
+  return {
+      {"stopped", summary.stopped}, {"checkpoints", summary.interim.count()}, {"widths", goals}};
 }
 
-/// An extended campaign: the numbers of runs at earlier interim analyses, and their effect on bounds.
+/// An extended campaign: the numbers of runs at earlier analyses.
 Json extended_json(const Summary& summary) {
-  double harmonic = 0; // interim analysis k uses α/k
-  for (long look = 1; look <= summary.looks; ++look) harmonic += 1.0 / static_cast<double>(look);
-  return {
-      {"looked_at", summary.looked_at}, {"looks", summary.looks}, {"risk_of_all_looks", harmonic}};
+  return {{"analysed_at", summary.interim.before}, {"analyses", summary.interim.count()}};
 }
 
 Json correlations_json(const Summary& summary) {
@@ -347,7 +356,7 @@ Json summary_json(const Summary& summary, const Json& about) {
     json["groups"] = groups_json(groups);
   if (const auto lines = warnings(summary); !lines.empty()) json["warnings"] = lines;
   if (!summary.until.empty()) json["until"] = until_json(summary);
-  if (!summary.looked_at.empty()) json["extended"] = extended_json(summary);
+  if (!summary.interim.before.empty()) json["extended"] = extended_json(summary);
   json["definitions"] = definitions(summary);
   return json;
 }

@@ -269,7 +269,8 @@ std::string requirements(const Summary& summary, std::string_view folder) {
         verdict.allowed ? std::to_string(*verdict.allowed) : "–",
         share ? percent(verdict.share) : in_digits_if_any(verdict.observed),
         share ? percent(verdict.guaranteed_share) : in_digits_if_any(verdict.guaranteed));
-    if (verdict.decision != Decision::pass) text += "    " + wrapped(evidence(verdict), 4) + '\n';
+    if (verdict.decision != Decision::pass || verdict.joint)
+      text += "    " + wrapped(evidence(verdict), 4) + '\n';
     text += broken_runs(verdict, folder);
   }
   text += groups(summary);
@@ -289,16 +290,22 @@ std::string warning_lines(const Summary& summary) {
   return text;
 }
 
+/// The width as the goal states it: a share of the quantile, or in the output's unit.
+std::string found_text(const GoalFound& found) {
+  const WidthGoal* goal = std::get_if<WidthGoal>(&found.goal);
+  if (!goal) return found.met ? "decided" : "open";
+  if (found.relative) return percent(*found.relative);
+  const std::string unit = found.width ? parse_output_name(goal->output).unit : "";
+  return in_digits_if_any(found.width) + (unit.empty() ? "" : ' ' + unit);
+}
+
 std::string stopping(const Summary& summary) {
   if (summary.until.empty()) return "";
   std::string text =
       fmt::format("\n{:<58}{:>20}{:>20}\n", "STOPPING GOAL, interval width", "found", "reached");
-  for (const auto& [goal, width, met] : summary.until) {
-    const bool decision = std::holds_alternative<DecisionGoal>(goal);
-    const std::string found = decision ? (met ? "decided" : "open") : in_digits_if_any(width);
-    text += fmt::format("{}{:>20}{:>20}\n", in_column("  " + to_string(goal), 58), found,
-                        met ? "yes" : "no");
-  }
+  for (const GoalFound& found : summary.until)
+    text += fmt::format("{}{:>20}{:>20}\n", in_column("  " + to_string(found.goal), 58),
+                        found_text(found), found.met ? "yes" : "no");
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
@@ -113,12 +114,12 @@ void add_values(const RankedOutput& output, Verdict& verdict) {
 /// @param ranks      sorted values of the output; null for "deployed"
 /// @param confidence at which the requirement would be judged in a single analysis
 Verdict judge_one(const Requirement& requirement, const Results& results, const Column* column,
-                  const RankedOutput* ranks, double confidence, long looks) {
+                  const RankedOutput* ranks, double confidence, const InterimAnalyses& interim) {
   Verdict verdict;
   verdict.requirement = requirement;
   verdict.runs = static_cast<long>(results.size());
   verdict.broken = breaking(requirement, results, column, verdict.cut);
-  decide(confidence, looks, verdict);
+  decide(confidence, interim, verdict);
   if (ranks)
     add_values(*ranks, verdict);
   else if (verdict.allowed)
@@ -147,14 +148,18 @@ std::string_view to_string(Decision decision) {
   return "undecided";
 }
 
-void decide(double confidence, long looks, Verdict& verdict) {
+void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict) {
   verdict.confidence_alone = confidence;
-  verdict.confidence = at_each_of(confidence, looks);
-  const double p = verdict.requirement.probability, c = verdict.confidence;
+  const double p = verdict.requirement.probability;
   const long n = verdict.runs, broken = verdict.failures();
-  verdict.allowed = allowed_failures(n, p, c);
+  const PassingRule rule = passing_rule(interim, n, p, confidence);
+  const double c = rule.confidence;
+  verdict.confidence = c;
+  verdict.interim = interim;
+  verdict.joint = rule.joint;
+  verdict.allowed = rule.allowed;
   verdict.least_runs = runs_to_show(p, c, 0);
-  verdict.disproved = is_disproved(n, p, c, broken);
+  verdict.disproved = is_disproved(interim, n, p, confidence, broken);
   verdict.share = static_cast<double>(n - broken) / static_cast<double>(n);
   verdict.guaranteed_share = clopper_pearson_lower(n - broken, n, c);
   verdict.decision = decision_of(verdict);
@@ -183,12 +188,13 @@ RankedOutput::RankedOutput(const Results& results, const Column& output, bool ab
   values_.insert(values_.end(), worse_, infinity);
 }
 
-Verdict judge(const Requirement& requirement, const Results& results, long looks) {
-  return std::move(judge_all({&requirement, 1}, results, looks).front());
+Verdict judge(const Requirement& requirement, const Results& results,
+              const InterimAnalyses& interim) {
+  return std::move(judge_all({&requirement, 1}, results, interim).front());
 }
 
 std::vector<Verdict> judge_all(std::span<const Requirement> requirements, const Results& results,
-                               long looks, std::span<const Column> besides) {
+                               const InterimAnalyses& interim, std::span<const Column> besides) {
   std::vector<Verdict> verdicts(requirements.size());
   std::vector<bool> judged(requirements.size(), false);
   for (std::size_t first = 0; first < requirements.size(); ++first) {
@@ -201,7 +207,7 @@ std::vector<Verdict> judge_all(std::span<const Requirement> requirements, const 
       const Requirement& own = requirements[k];
       if (own.output != like.output || own.absolute != like.absolute) continue;
       verdicts[k] = judge_one(own, results, column, ranks ? &*ranks : nullptr,
-                              confidence_alone(requirements, own), looks);
+                              confidence_alone(requirements, own), interim);
       judged[k] = true;
     }
   }
@@ -236,6 +242,16 @@ std::vector<GroupVerdict> judge_groups(std::span<const Verdict> verdicts) {
   return groups;
 }
 
+std::string joint_risk(const Verdict& verdict) {
+  if (!verdict.joint) return "";
+  const auto& [risk, risk_alone, allowed_alone] = *verdict.joint;
+  return fmt::format(". This is analysis {} of the same draws, after {} runs: the risk of a wrong "
+                     "pass at any of them is {:.3g} %, and {:.3g} % had each been judged alone "
+                     "({} may break it then)",
+                     verdict.interim.count(), fmt::join(verdict.interim.before, ", "), 100 * risk,
+                     100 * risk_alone, allowed_alone.value_or(0));
+}
+
 std::string evidence(const Verdict& verdict) {
   const long broken = verdict.failures();
   std::string found =
@@ -246,8 +262,8 @@ std::string evidence(const Verdict& verdict) {
                          verdict.cut == 1 ? "its peaks" : "their peaks");
   if (verdict.allowed) {
     const bool open = verdict.decision == Decision::fail && !verdict.disproved;
-    return fmt::format("{}, and {} may{}", found, *verdict.allowed,
-                       open ? ": not shown, and not disproved either" : "");
+    return fmt::format("{}, and {} may{}{}", found, *verdict.allowed,
+                       open ? ": not shown, and not disproved either" : "", joint_risk(verdict));
   }
   if (verdict.disproved) return found + ": disproved";
   const std::string least = verdict.least_runs
@@ -261,9 +277,11 @@ std::string replay_command(std::string_view folder, long run) {
   return fmt::format("wingspread replay {} --run {}", folder, run);
 }
 
-Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec, long looks) {
+Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec,
+                     const InterimAnalyses& interim) {
   return tolerance_limits(spec.side == Side::lower ? output.worst_below() : output.worst_above(),
-                          spec.side, spec.probability, at_each_of(spec.confidence, looks));
+                          spec.side, spec.probability,
+                          interim.confidence_of_bound(spec.confidence));
 }
 
 } // namespace wingspread

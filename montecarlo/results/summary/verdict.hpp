@@ -10,6 +10,7 @@
 #pragma once
 
 #include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/foundation/statistics/interim_analyses.hpp"
 #include "montecarlo/foundation/statistics/wilks.hpp"
 #include "montecarlo/model/campaign/campaign_settings.hpp"
 #include "montecarlo/model/campaign/requirement.hpp"
@@ -35,6 +36,9 @@ struct Verdict {
   double confidence_alone = 0; ///< for one analysis: c, or more if a group shares c
   /// The confidence used for the decision: confidence_alone, or more if several interim analyses share the risk.
   double confidence = 0;
+  InterimAnalyses interim{}; ///< that share the risk
+  std::optional<PassingRule::Joint>
+      joint{};                    ///< after an extension: the risk of all analyses together
   std::optional<long> allowed;    ///< most runs that may break it; nothing if n runs are too few
   Spilled<long> broken;           ///< runs that break it, the worst first
   long not_listed = 0;            ///< runs that break it and are not in `broken`: with --no-rows
@@ -63,9 +67,9 @@ struct Verdict {
 
 /// Decides a verdict: sets everything except the values of the output.
 /// @param confidence at which the requirement would be judged in a single analysis
-/// @param looks      number of interim analyses that share the risk
+/// @param interim    the interim analyses that share the risk
 /// @pre requirement, runs, broken, not_listed and cut are set
-void decide(double confidence, long looks, Verdict& verdict);
+void decide(double confidence, const InterimAnalyses& interim, Verdict& verdict);
 
 /// Least and largest value, if the limit lies on the other side of zero from both.
 [[nodiscard]] std::optional<std::array<double, 2>> beyond_zero(double least, double largest,
@@ -99,14 +103,16 @@ private:
 };
 
 /// Judges one requirement.
-/// @param looks number of interim analyses at which the campaign could have stopped (stopping_rule.hpp)
+/// @param interim the interim analyses that share the risk
 /// @pre draws of runs are independent; the results have the output
-[[nodiscard]] Verdict judge(const Requirement& requirement, const Results& results, long looks = 1);
+[[nodiscard]] Verdict judge(const Requirement& requirement, const Results& results,
+                            const InterimAnalyses& interim = {});
 
 /// Verdicts on all requirements; those of a group share a confidence. Sorts every output once.
 /// @param besides columns that are not in the results: static margins
 [[nodiscard]] std::vector<Verdict> judge_all(std::span<const Requirement> requirements,
-                                             const Results& results, long looks = 1,
+                                             const Results& results,
+                                             const InterimAnalyses& interim = {},
                                              std::span<const Column> besides = {});
 
 /// Whether the requirement is passed or disproved.
@@ -136,6 +142,6 @@ struct GroupVerdict {
 /// an upper and a two-sided limit, below for a lower one.
 /// @pre as for judge
 [[nodiscard]] Bounds output_limits(const RankedOutput& output, const ToleranceLimitSpec& spec,
-                                   long looks = 1);
+                                   const InterimAnalyses& interim = {});
 
 } // namespace wingspread

@@ -27,4 +27,9 @@ TEST_CASE("what weaker springs leave of the static margins, by hand", "[margin]"
   REQUIRE(lowered.size() == 4); // ECSS, NASA, GEVS, AIAA
   CHECK(lowered[1].margin == Approx(0.18 / 0.06 - 1).epsilon(1e-12));
   CHECK(lowered_margins({&campaign, 1}, springs, 1.1).empty());
+  CHECK(short_margins({&campaign, 1}, springs, 1).empty());
+  const auto below = short_margins({&campaign, 1}, springs, 0.2); // 0.04 N·m
+  REQUIRE(below.size() == 4);
+  CHECK(below[0].margin == Approx(0.2 / 0.75 - 1).epsilon(1e-12));
+  CHECK(below[1].margin == Approx(0.04 / 0.06 - 1).epsilon(1e-12));
 }

@@ -78,7 +78,7 @@ TEST_CASE("the report says what its bounds are") {
   const auto definition = [](int replicates, long looks) {
     RankSensitivity all;
     all.replicates = replicates;
-    all.looks = looks;
+    all.interim.planned = looks;
     return sensitivity_json(all, {})["definitions"]["bounds"].get<std::string>();
   };
   CHECK_THAT(definition(0, 1),

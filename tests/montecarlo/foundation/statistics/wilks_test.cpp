@@ -71,13 +71,6 @@ TEST_CASE("sizes and allowed failures say the same, and agree with Clopper and P
       }
 }
 
-// scipy 1.10.1, stats.binom.sf: the fewest failures of probability 1 − c at most.
-TEST_CASE("what disproves a requirement") {
-  CHECK((is_disproved(10000, .99, .9, 114) && !is_disproved(10000, .99, .9, 113)));
-  CHECK((is_disproved(1000, .99865, .9, 4) && !is_disproved(1000, .99865, .9, 3)));
-  CHECK_FALSE(is_disproved(0, .5, .5, 0));
-}
-
 // scipy 1.10.1, stats.beta.ppf with hits that need not be whole, every n tried in turn.
 TEST_CASE("runs that make a share's interval narrow enough") {
   CHECK(runs_for_width(.1, .95, .5) == 402);

@@ -172,9 +172,9 @@ TEST_CASE("Requirements and widths name the campaign's outputs", "[campaign_json
         R"([{"output":"root.latch_time","max":9.0,"probability":0.99,"confidence":0.9}])");
   CHECK(campaign.resolved["until"] == document["until"]);
   CHECK(read(campaign.resolved).resolved == campaign.resolved);
-  CHECK(count_looks(campaign) == 1); // of 1000 runs
+  CHECK(interim_analyses(campaign).count() == 1); // of 1000 runs
   override_sampling(campaign, 5000, {});
-  CHECK(count_looks(campaign) == 4);
+  CHECK(interim_analyses(campaign).count() == 4);
   document["requirements"][0]["output"] = "root.peak_force";
   document["until"][0]["output"] = "root.latch_tim";
   CHECK(
@@ -357,13 +357,13 @@ TEST_CASE("An extended campaign's looks are its own, and none of another seed's"
   Json document = test::small_campaign();
   document["sampling"] = {{"runs", 4000}, {"extended_from", {1000, 2000}}};
   Campaign campaign = read(document);
-  CHECK(count_looks(campaign) == 3);
+  CHECK(interim_analyses(campaign).count() == 3);
   CHECK(read(campaign.resolved).resolved == campaign.resolved);
   override_sampling(campaign, 2000, std::nullopt);
   CHECK(campaign.resolved["sampling"]["extended_from"] == Json::array({1000}));
   override_sampling(campaign, 8000, 77);
   CHECK_FALSE(campaign.resolved["sampling"].contains("extended_from"));
-  CHECK(count_looks(campaign) == 1);
+  CHECK(interim_analyses(campaign).count() == 1);
   document["until"] = parse_json(R"([{ "output": "stalled", "width": 0.01 }])");
   CHECK_THAT(test::message_of([&] { return read(document); }),
              Catch::StartsWith("/until: found goals to stop at") && Catch::Contains("extended"));

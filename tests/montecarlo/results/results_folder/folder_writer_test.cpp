@@ -150,9 +150,8 @@ TEST_CASE("more runs are added to a campaign as one more look, and give what one
 
   (void)run_into(path, sized(20), {.resume = true});
   const Json summary = parse_json_file(path / summary_file);
-  CHECK(summary["extended"]["looked_at"] == Json::array({8, 16}));
-  CHECK(summary["extended"]["looks"] == 3);
-  CHECK(summary["extended"]["risk_of_all_looks"].get<double>() == Approx(1 + 1 / 2. + 1 / 3.));
+  CHECK(summary["extended"]["analysed_at"] == Json::array({8, 16}));
+  CHECK(summary["extended"]["analyses"] == 3);
   CHECK(summary["runs"] == 20);
 }
 
@@ -166,10 +165,16 @@ TEST_CASE("a verdict of a campaign that was extended is held to the looks that w
   };
   const auto verdict = [&] { return parse_json_file(path / summary_file)["requirements"][0]; };
   (void)run_into(path, sized(8));
-  CHECK_FALSE(verdict().contains("confidence_at_each_look"));
+  CHECK_FALSE(verdict().contains("confidence_at_this_analysis"));
   (void)run_into(path, sized(16), {.resume = true});
-  CHECK(verdict()["confidence_at_each_look"].get<double>() == Approx(0.95).epsilon(1e-12));
-  CHECK(verdict()["failures"]["allowed"] == *allowed_failures(16, 0.5, 0.95));
+  const PassingRule rule = passing_rule({1, {8}}, 16, 0.5, 0.9);
+  CHECK(verdict()["confidence_at_this_analysis"].get<double>() == rule.confidence);
+  CHECK(verdict()["failures"]["allowed"] == *rule.allowed);
+  CHECK(verdict()["failures"]["allowed_if_alone"] == *allowed_failures(16, 0.5, 0.9));
+  CHECK(verdict()["risk_of_wrong_pass"].get<double>() == rule.joint->risk);
+  CHECK_THAT(verdict()["evidence"].get<std::string>(),
+             Catch::Contains("This is analysis 2 of the same draws, after 8 runs: the risk of a "
+                             "wrong pass at any of them is "));
 }
 
 TEST_CASE("a campaign extended before it was complete was looked at where it was left") {

@@ -48,6 +48,8 @@ TEST_CASE("A width is that of the interval that the summary gives", "[stopping]"
   const auto width = static_cast<double>(*ranks.upper - *ranks.lower);
   CHECK(find("root.latch_time@0.5 1").width == width);
   CHECK(find("root.latch_time@0.5 30").met);
+  CHECK_FALSE(find("root.latch_time@0.5 30").relative);
+  CHECK(*find("root.latch_time@0.5 15%").relative == Approx(width / 199)); // the median
   CHECK((find("root.latch_time@0.5 15%").met && !find("root.latch_time@0.5 10%").met));
   CHECK_FALSE(find("root.latch_time@0.999 1000").width); // too few for its upper bound
   CHECK_FALSE(find("deployment_time@0.5 1000").met);     // never happened
@@ -233,7 +235,7 @@ TEST_CASE("a campaign stops once its requirement is decided, at its confidence s
     const long made = run_into(folder.path() / "r", campaign_of(json));
     const Json summary = parse_json_file(folder.path() / "r" / summary_file);
     const Json& found = summary["requirements"][0];
-    CHECK(found["confidence_at_each_look"].get<double>() == Approx(1 - 0.1 / 3).epsilon(1e-12));
+    CHECK(found["confidence_at_this_analysis"].get<double>() == Approx(1 - 0.1 / 3).epsilon(1e-12));
     CHECK(summary["until"]["stopped"] == (made < 4000));
     CHECK(summary["until"]["widths"][0]["met"] == (found["verdict"] == "pass" || made < 4000));
     return std::pair(made, found["verdict"].get<std::string>());

@@ -247,7 +247,7 @@ TEST_CASE("summary.json: when a campaign stops, and what that does to its bounds
   Summary summary = some_summary(300);
   CHECK_FALSE(summary_json(summary, {}).contains("until"));
   summary.until = {{WidthGoal{"root.latch_time", .5, .01, true}, .05, false}};
-  summary.looks = 5;
+  summary.interim.planned = 5;
   const Json json = summary_json(summary, {});
   CHECK(json["until"].dump() ==
         R"({"stopped":false,"checkpoints":5,"widths":[{"output":"root.latch_time",)"

@@ -135,7 +135,7 @@ TEST_CASE("deployment is judged by its share") {
 
 TEST_CASE("a campaign that may have stopped earlier has to show more") {
   const Results results = counting(10000);
-  const Verdict verdict = judge(at_most(9914, .99, .9), results, 5);
+  const Verdict verdict = judge(at_most(9914, .99, .9), results, {5});
   CHECK(verdict.confidence == Approx(.98));
   CHECK(verdict.allowed == allowed_failures(10000, .99, .98));
   CHECK(*verdict.allowed < 86);
@@ -209,11 +209,11 @@ TEST_CASE("many requirements at once are judged as each by itself, and as they a
         if (output != std::string("deployed")) (above ? each.max : each.min) = limit;
         requirements.push_back(each);
       }
-  const std::vector<Verdict> verdicts = judge_all(requirements, results, 2);
+  const std::vector<Verdict> verdicts = judge_all(requirements, results, {2});
   REQUIRE(verdicts.size() == requirements.size());
   for (std::size_t k = 0; k < verdicts.size(); ++k) {
     const Requirement& requirement = requirements[k];
-    const Verdict &verdict = verdicts[k], alone = judge(requirement, results, 2);
+    const Verdict &verdict = verdicts[k], alone = judge(requirement, results, {2});
     const bool is_share = requirement.output == "deployed";
     const auto& values = results.outputs[requirement.output == "y" ? 1 : 0].values;
     const double sign = requirement.min ? -1 : 1;
@@ -250,7 +250,7 @@ TEST_CASE("tolerance limits and verdicts of two looks are those of half the risk
   const Results results = counting(300);
   const RankedOutput ranks(results, results.outputs[0]);
   for (const Side side : {Side::upper, Side::lower, Side::both}) {
-    const Bounds at_two = output_limits(ranks, {.95, .95, side}, 2);
+    const Bounds at_two = output_limits(ranks, {.95, .95, side}, {2});
     const Bounds half = output_limits(ranks, {.95, .975, side});
     const Bounds at_one = output_limits(ranks, {.95, .95, side});
     CHECK((at_two.lower == half.lower && at_two.upper == half.upper));
@@ -258,14 +258,14 @@ TEST_CASE("tolerance limits and verdicts of two looks are those of half the risk
       CHECK((at_two.lower != at_one.lower || at_two.upper != at_one.upper));
   }
   const auto upper = [&](long looks) {
-    return *output_limits(ranks, {.95, .95, Side::upper}, looks).upper;
+    return *output_limits(ranks, {.95, .95, Side::upper}, {looks}).upper;
   };
   // Summing the binomial law of 300 runs at 5 %: P(X ≤ 8) = .0341, P(X ≤ 7) = .0160, P(X ≤ 6) = .0066
   CHECK(upper(1) == 300 - 8);
   CHECK(upper(2) == 300 - 7);
   CHECK(upper(5) == 300 - 6);
-  CHECK(judge(at_most(1000, .95, .95), results, 2).confidence == Approx(.975).epsilon(1e-15));
-  CHECK(judge(at_most(1000, .95, .95), results, 2).allowed == 7);
+  CHECK(judge(at_most(1000, .95, .95), results, {2}).confidence == Approx(.975).epsilon(1e-15));
+  CHECK(judge(at_most(1000, .95, .95), results, {2}).allowed == 7);
   CHECK(judge(at_most(1000, .95, .95), results).allowed == 8);
 }
 
@@ -305,7 +305,7 @@ TEST_CASE("requirements of a group hold together at the confidence they share") 
   CHECK((verdicts[2].confidence == .95 && *verdicts[2].allowed > *verdicts[0].allowed));
   CHECK(joint_confidence(verdicts) ==
         Approx(.9).epsilon(1e-14)); // .95 for the group, .95 for the other
-  CHECK(judge_all(pair, results, 2)[0].confidence == Approx(1 - .05 / 4).epsilon(1e-15));
+  CHECK(judge_all(pair, results, {2})[0].confidence == Approx(1 - .05 / 4).epsilon(1e-15));
   pair[1].max = 500;
   const auto groups = judge_groups(judge_all(pair, results));
   REQUIRE(groups.size() == 1);
