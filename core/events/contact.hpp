@@ -56,7 +56,7 @@ template <class T, class AnySystem>
   for (int i = 1; i <= system.layout().bodies; ++i) {
     if (!system.sticks(i)) continue;
     const T friction = system.holding_friction(x, i);
-    const T most = fused(slack, system.static_limit(x, i), system.release_margin(i));
+    const T most = fused(slack, system.static_limit(x, i), release_margin(system, i));
     if (i == let_go || abs(friction) > most) moves.emplace_back(i, sliding(T(-friction)));
   }
   return moves;

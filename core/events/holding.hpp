@@ -16,6 +16,16 @@ namespace wingspread {
 /// mirrored wings differ by rounding, far below; a larger value releases hinges that hold.
 inline constexpr double release_tolerance = 1e-9;
 
+/// By how much the friction of stuck hinge i must exceed its limit for the hinge to let go, N·m. Held with that much too
+/// little, the hinge rests within atol of the angle to which it would creep, or would creep more slowly than atol.
+/// Without this margin rounding would decide, at every step, about a latched hinge that creeps to where its load is the
+/// limit (τ_s = τ_c).
+template <class AnySystem> [[nodiscard]] auto release_margin(const AnySystem& system, int i) {
+  const auto& law = system.work().laws[i];
+  return decltype(law.stiffness +
+                  law.damping)(system.work().least_motion * (law.stiffness + law.damping));
+}
+
 /// A release of a stuck hinge inside the step; or a graze: friction that comes so near its limit and falls again
 /// that only a step of the method can decide.
 template <class T> struct Release {
@@ -73,7 +83,7 @@ public:
     using std::abs;
     return (abs(system.holding_friction(x, i)) -
             T(1 + 2 * release_tolerance) * system.static_limit(x, i)) -
-           system.release_margin(i);
+           release_margin(system, i);
   }
 
 private:

@@ -222,7 +222,8 @@ template <class T>
                x.first * fused(T(3) * g.second, x.second, g.third * x.first * x.first);
   const T start = abs(loop_state(loop, a[0], T(0), b[0], T(0)).elastic);
   const T most = start + loop.stiffness * e1 * h; // K |e|
-  const Truth<T> may_slacken = most > loop.slack_beyond && start - (most - start) < loop.slack_beyond;
+  const Truth<T> may_slacken =
+      most > loop.slack_beyond && start - (most - start) < loop.slack_beyond;
   return {most + loop.damping * e1,
           loop.stiffness * e1 + loop.damping * e2,
           loop.stiffness * e2 + loop.damping * e3,

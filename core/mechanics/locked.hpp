@@ -88,4 +88,16 @@ template <class T>
   return dot(crossing.H, own.acceleration) + fused(crossing.N, parents_acceleration, crossing.m);
 }
 
+/// The axis moments of all hinges less the air's, 1 … n, N·m. @param air 1 … n, or empty where there is none
+template <class T, class Topology, class Frames>
+void find_axis_moments(const Topology& tree, const Frames& frames,
+                       const std::vector<Crossing<T>>& crossings, const std::vector<T>& air,
+                       std::vector<T>& moments) {
+  for (int i = 1; i <= tree.bodies(); ++i) {
+    const T& parents = frames[tree.parent_of(i)].angular_acceleration;
+    moments[i] = axis_moment(frames[i], crossings[i], parents);
+    if (!air.empty()) moments[i] = moments[i] - air[i];
+  }
+}
+
 } // namespace wingspread

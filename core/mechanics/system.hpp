@@ -171,14 +171,6 @@ public:
            (tested ? measured_friction(wing_.real[i].friction, x[layout_.angle(i)]) : T(0));
   }
 
-  /// By how much the friction of stuck hinge i must exceed static_limit for the hinge to let go, N·m. Held with that
-  /// much too little, the hinge rests within atol of the angle to which it would creep, or would creep more slowly than
-  /// atol. Without this margin rounding would decide, at every step, about a latched hinge that creeps to where its load
-  /// is the limit (τ_s = τ_c).
-  [[nodiscard]] T release_margin(int i) const {
-    return work_.least_motion * (work_.laws[i].stiffness + work_.laws[i].damping);
-  }
-
   /// Velocity of the base's origin, m/s; a prescribed base starts at rest.
   [[nodiscard]] Vec2<T> base_velocity(const State<T>& x, const T& t) const {
     if constexpr (M == BaseMotion::free) return {x[layout_.freedoms()], x[layout_.freedoms() + 1]};
@@ -353,7 +345,8 @@ private:
     });
     copy_rates(x, dxdt);
     if (layout_.smoothed) advance_latches(x, dxdt);
-    if constexpr (forces && locks) find_held_moments<air>();
+    if constexpr (forces && locks)
+      find_axis_moments(topology(), frames, work_.crossings, work_.air_moments, work_.holding);
     if (forces && wants_forces_)
       topology().outward([&](int i) __attribute__((always_inline)) {
         if constexpr (locks)
@@ -363,15 +356,6 @@ private:
           work_.forces[i] = hinge_force(frames[i]);
       });
     if (air && forces && wants_forces_) take_air_from_forces();
-  }
-
-  /// The moments that hold locked hinges. @pre evaluated with locks, in the workspace's frames
-  template <bool air> void find_held_moments() {
-    for (int i = 1; i <= layout_.bodies; ++i) {
-      const T& parents = work_.frames[topology().parent_of(i)].angular_acceleration;
-      const T moment = axis_moment(work_.frames[i], work_.crossings[i], parents);
-      work_.holding[i] = air ? T(moment - work_.air_moments[i]) : moment;
-    }
   }
 
   /// Subtracts the air's forces from the forces of the motion (air_loads.hpp).

@@ -7,6 +7,7 @@
 #include "core/events/contact.hpp"
 #include "core/events/latches.hpp"
 #include "core/events/turning.hpp"
+#include "core/mechanics/structure.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/methods/dop853.hpp"
 #include "core/methods/runge_kutta.hpp"
@@ -14,9 +15,9 @@
 #include "core/methods/time_scales.hpp"
 #include "core/packs/fields.hpp"
 #include "core/packs/free_bases.hpp"
+#include "core/packs/lane_holds.hpp"
 #include "core/packs/lane_peaks.hpp"
 #include "core/packs/pack_engine.hpp"
-#include "core/packs/structure.hpp"
 #include "core/peaks/overtravel.hpp"
 
 #include <array>
@@ -38,13 +39,11 @@ public:
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
       x->assign(at_.size(), none);
-    for (std::vector<P>* v : {&waits_, &overtravel_, &slides_, &held_before_, &held_at_end_,
-                              &held_by_method_, &excess_before_, &excess_at_end_})
-      v->assign(at_.bodies + 1, none);
+    for (std::vector<P>* v : {&waits_, &overtravel_, &slides_}) v->assign(at_.bodies + 1, none);
+    holds_.resize(at_);
     for (std::vector<P>& ways : ways_) ways.assign(wing_.real.size(), none);
     rtol_ = atol_ = dense_tolerance_ = P(1.0);
     step_.t = step_.h = scaled_error_ = judged_ = factor_ = busy_ = t_end_ = none;
-    holds_ = held_evaluations_ = none;
     first_round_ = last_round_ = last_step_ = evaluations_before_ = none;
     history_ = {none, {}, {none, none, {none, none, none}}};
     system_.want_forces(shape.forces);
@@ -75,9 +74,6 @@ public:
       const Contact contact = task.work.contact[i];
       slides_[i].v[lane] = contact == Contact::stuck ? 0 : static_cast<double>(contact);
       waits_[i].v[lane] = task.work.engaged[i] ? 0 : 1;
-      work_.locks[i].v[lane] = contact == Contact::stuck ? 1 : 0;
-      held_before_[i].v[lane] = task.held_before ? task.held_before[i] : 0;
-      excess_before_[i].v[lane] = task.excess_before ? task.excess_before[i] : 0;
     }
     peaks_.load(lane, task);
     if constexpr (M == BaseMotion::free) free_.load(lane, task);
@@ -90,13 +86,12 @@ public:
     evaluations_before_.v[lane] =
         static_cast<double>(task.evaluations) - now * Formula::evaluations;
     busy_.v[lane] = 1;
-    set_stuck(lane, task.work.stuck);
+    holds_.load(lane, &task, work_);
   }
 
   void set_idle(int lane) override {
     busy_.v[lane] = step_.h.v[lane] = 0;
-    for (P& locks : work_.locks) locks.v[lane] = 0;
-    set_stuck(lane, 0);
+    holds_.load(lane, nullptr, work_);
   }
 
   void unload(int lane, LaneResult& result) const override {
@@ -109,9 +104,9 @@ public:
     }
     get_lane(lane, step_.x1, result.x1), get_lane(lane, step_.dxdt1, result.dxdt1);
     peaks_.unload(lane, result, moved);
-    if (stuck_[lane] > 0) unload_held(lane, result, moved);
+    holds_.unload(lane, result, M == BaseMotion::free, moved);
     result.evaluations = (result.trial_steps + 1) * Formula::evaluations +
-                         peaks_.evaluations(lane) + static_cast<long>(held_evaluations_.v[lane]);
+                         peaks_.evaluations(lane) + holds_.evaluations(lane);
     if constexpr (M == BaseMotion::free) {
       free_.unload(lane, result, shape_.forces);
       result.evaluations += static_cast<long>(free_.evaluations().v[lane]);
@@ -172,22 +167,6 @@ private:
     return wing_;
   }
 
-  /// Sets how many hinges stick in a lane.
-  void set_stuck(int lane, int hinges) {
-    stuck_[lane] = hinges;
-    held_evaluations_.v[lane] = 0;
-    holds_.v[lane] = hinges > 0 ? 1 : 0;
-    work_.stuck = 0;
-    for (const int stuck : stuck_) work_.stuck += stuck;
-  }
-
-  void unload_held(int lane, LaneResult& result, bool moved) const {
-    get_lane(lane, M == BaseMotion::free ? held_by_method_ : held_at_end_, result.held_at_end);
-    if (!moved) return;
-    get_lane(lane, held_before_, result.held_before);
-    get_lane(lane, excess_before_, result.excess_before);
-  }
-
   /// Copies the modes of the run's real hinges, and on which side of its edges each hinge is.
   void set_modes(int lane, const Workspace<double>& work) {
     set_lane(lane, work_.modes, work.modes);
@@ -229,7 +208,7 @@ private:
     if (work_.stuck == 0) return next;
     const P from = select(accepted, P(step_.t + step_.h), step_.t);
     const P most = time_of_base(wing_.base, work_.driven, from, P(t_end_ - from));
-    return select(holds_ > P(0.0), smaller(next, most), next);
+    return select(holds_.lanes(), smaller(next, most), next);
   }
 
   /// @return the lanes that need their runs: see lane_protocol.hpp
@@ -245,41 +224,14 @@ private:
     const Mask accepted_enough = history_.steps >= last_step_;
     Mask asks = busy && (tried_enough || near_limit);
     asks = asks || (accepted && (accepted_enough || may_leave || may_hold_event()));
-    if (work_.stuck > 0) asks = asks || (accepted && may_release());
-    if constexpr (M == BaseMotion::free) restore_momenta();
+    if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
+    if constexpr (M == BaseMotion::free) {
+      free_.restore_momenta(system_, step_);
+      if (work_.stuck > 0) holds_.keep_at_end(system_, step_);
+    }
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
-    return asks || peaks_.search_step(system_, step_, accepted && !asks, held_before_);
-  }
-
-  void restore_momenta() {
-    if (work_.stuck > 0) held_by_method_ = held_at_end_;
-    free_.restore_momenta(system_, step_);
-    if (work_.stuck > 0) keep_held_at_end();
-  }
-
-  /// Keeps the moments on stuck hinges at the step's end. @pre the system's last evaluation was there
-  void keep_held_at_end() {
-    held_at_end_ = work_.holding;
-    for (int i = 1; i <= at_.bodies; ++i)
-      if (any(system_.is_locked(i))) excess_at_end_[i] = Holding<P>::excess(system_, step_.x1, i);
-  }
-
-  /// @return lanes in which the friction of a stuck hinge may pass its limit: as Holding::comes_near
-  [[nodiscard]] Mask may_release() {
-    held_.over_step(system_, step_);
-    keep_held_at_end();
-    Mask found{};
-    for (int i = 1; i <= at_.bodies; ++i) {
-      const Mask locked = system_.is_locked(i);
-      const auto slips = [&] {
-        return locked && may_slip(held_, i, excess_before_[i], excess_at_end_[i]);
-      };
-      if (!any(slips())) continue;
-      held_.narrow(system_, step_, i);
-      found = found || slips();
-    }
-    return found;
+    return asks || peaks_.search_step(system_, step_, accepted && !asks, holds_.before());
   }
 
   /// Moves the accepted ones of these lanes to the step's end, and plans the next trial step of all.
@@ -294,21 +246,10 @@ private:
       overtravel_[i] = select(accepted, larger(overtravel_[i], beyond), overtravel_[i]);
     }
     evaluations_before_ = evaluations_before_ + peaks_.accept(accepted);
-    if (work_.stuck > 0) accept_held(accepted);
+    if (work_.stuck > 0) evaluations_before_ = evaluations_before_ + holds_.accept(accepted);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
     update_history(accepted, these);
     step_.h = select(these, judgement.next, step_.h);
-  }
-
-  /// Counts the evaluation that a run alone makes at the end of a step with stuck hinges.
-  void accept_held(const Mask& these) {
-    for (int i = 1; i <= at_.bodies; ++i) {
-      held_before_[i] = select(these, held_at_end_[i], held_before_[i]);
-      excess_before_[i] = select(these, excess_at_end_[i], excess_before_[i]);
-    }
-    const P made = select(these, holds_, P(0.0));
-    held_evaluations_ = held_evaluations_ + made;
-    evaluations_before_ = evaluations_before_ + made;
   }
 
   /// Counts the step as the run alone would.
@@ -420,14 +361,7 @@ private:
   std::vector<P> waits_;             ///< 1: the latch has not engaged, else 0
   std::vector<P> overtravel_;
   std::vector<P> slides_; ///< sense in which a hinge slides against exact friction; 0: it does not
-  // of stuck hinges, N·m: moments, and the excess of friction over its limit
-  std::vector<P> held_before_, excess_before_; ///< at the step's start
-  std::vector<P> held_at_end_, excess_at_end_;
-  std::vector<P> held_by_method_; ///< at the end, before momenta are restored
-  HeldLoadBound<P> held_;
-  std::array<int, W> stuck_{}; ///< hinges that stick in each lane
-  P holds_;                    ///< 1 where hinges stick in the lane, else 0
-  P held_evaluations_;         ///< made at the ends of steps with stuck hinges since `load`
+  LaneHolds<W> holds_;
   std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1: edge above the angle; −1: below
   std::vector<Lever<double>> levers_of_wing_;       ///< scratch
   LanePeaks<P, AnySystem> peaks_;

@@ -2,9 +2,9 @@
 /// units include it: one compiles with fused multiply-adds, the other without (runs.hpp).
 #pragma once
 
+#include "core/mechanics/structure.hpp"
 #include "core/packs/packed_runs.hpp"
 #include "core/packs/runs.hpp"
-#include "core/packs/structure.hpp"
 #include "core/run/integrator.hpp"
 
 // Code for different instruction sets passes Eigen matrices to each other. Eigen allocates with malloc up to an alignment

@@ -129,11 +129,12 @@ TEST_CASE("Cases can be made one by one, stopped, shared out and extended, to th
   CHECK(all_contents(merged) == whole);
 }
 
-TEST_CASE("A case that stopped with its goals met is whole; one that was cut is partial", "[cases]") {
+TEST_CASE("A case that stopped with its goals met is whole; one that was cut is partial",
+          "[cases]") {
   const Cases cases(1010);
   const auto made = [&] { return parse_json_file(cases.out + "/cases.json")["cases"]; };
-  (void)cases.program({"run", cases.file, "--out", cases.out, "--case", "heavy", "--case", "ambient",
-                       "--until", "deployed 0.5"});
+  (void)cases.program({"run", cases.file, "--out", cases.out, "--case", "heavy", "--case",
+                       "ambient", "--until", "deployed 0.5"});
   REQUIRE(made().size() == 2);
   for (const Json& one : made()) CHECK((one["runs"] == 1000 && !one.contains("partial")));
 }
