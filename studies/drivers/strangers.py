@@ -6,8 +6,7 @@
 Draws realistic wings: one or two, with a yoke or without, 2 to 6 panels, on fixed, free and turning bases; linear, tabulated and
 measured springs, harnesses, each damper, loops with and without slack, stops, exact and regularized friction, latches of 1e2 to
 1e5 N·m/rad, panels of 0.1 to 50 kg. Each becomes a campaign of 200 draws with all outputs, run on one thread in packs and one run at a time
-(--lanes 1). The script prints runs a second, the ratio, evaluations a run and where the time went, then the median, the worst tenth and the
-worst. The results of packs and of single runs must be the same bytes: if not, it says so and exits 1.
+(--lanes 1). The script prints runs a second, the ratio and the share that deploys, then the median, the worst tenth and the worst. The results of packs and of single runs must be the same bytes: if not, it says so and exits 1.
 """
 
 import argparse
