@@ -1,0 +1,35 @@
+#include "core/dense/step_interpolant.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace wingspread;
+
+TEST_CASE("few samples resolve a smooth function, and give its largest magnitude of either sign") {
+  for (const double top : {0.07, 0.3, 0.61, 0.98})
+    for (const double sign : {1.0, -1.0}) {
+      int samples = 0;
+      const auto f = [&](double s) { return ++samples, sign * (0.2 + std::cos(2 * (s - top))); };
+      StepInterpolant<double> p;
+      const double first = f(0), last = f(1);
+      samples = 0;
+      CAPTURE(top, sign);
+      REQUIRE(p.resolve(f, first, last));
+      CHECK(samples <= 15);
+      CHECK(p(0.456) == Approx(f(0.456)).epsilon(1e-10));
+      const Sampled<double> found = p.largest_magnitude();
+      CHECK(found.value == Approx(1.2).epsilon(1e-10));
+      CHECK(found.s == Approx(top).margin(1e-5));
+    }
+}
+
+TEST_CASE("a kink or a jump is not resolved by few samples") {
+  for (const double at : {0.21, 0.52, 0.83}) {
+    const auto kink = [&](double s) { return std::abs(s - at); };
+    const auto jump = [&](double s) { return s < at ? 1.0 : 1.3; };
+    StepInterpolant<double> p;
+    CHECK_FALSE(p.resolve(kink, kink(0), kink(1)));
+    CHECK_FALSE(p.resolve(jump, jump(0), jump(1)));
+  }
+}
