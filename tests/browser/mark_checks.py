@@ -321,6 +321,16 @@ class MarkChecks:
         self.check(rows[0][2], output["quantiles"][0]["lower"], about="above")
         self.assertIn("below", rows[1][2])
         self.check(rows[1][2], output["quantiles"][1]["upper"], about="below")
+        highest = output["quantiles"][2]
+        self.assertNotRegex(rows[2][1], NUMBER)
+        self.assertEqual(rows[2][2], highest["note"])
+        self.assertIn("99 % among runs with a value", rows[3][0])
+        self.check(rows[3][1], highest["among"]["value"], about="among")
+        self.check(rows[3][2], highest["among"]["lower"], highest["among"]["upper"], about="among")
+        factor = self.factor(output, "rad")
+        circle = self.places("distribution", "circle.quantile", "cx", "cy")[2]
+        wanted = (self.scale("distribution", "x")(highest["among"]["value"] * factor), self.scale("distribution", "y")(highest["p"]))
+        self.near([circle], [wanted], "a quantile among runs with a value lies on their curve")
         self.run_script("W.selectRun(0, 7, { 'root.peak_moment': 123.456, 'root.spring': 0.25 })")
         numbers = [value for value, _ in parsed(self.one("#selection p").text)]
         self.assertEqual(numbers[0], 7)

@@ -64,6 +64,10 @@ std::string in_digits(double value) {
   return text;
 }
 
+std::string quantile_name(double p) {
+  return p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * p);
+}
+
 std::string paragraph(std::string_view text, std::size_t indent) {
   const std::string margin(indent, ' ');
   constexpr std::size_t width = table_width;

@@ -42,4 +42,7 @@ inline constexpr int table_width = 100;
 /// "1 body", "3 bodies".
 [[nodiscard]] std::string counted(long count, std::string_view one, std::string_view many);
 
+/// "median" or "99 %".
+[[nodiscard]] std::string quantile_name(double p);
+
 } // namespace wingspread

@@ -59,12 +59,25 @@ RankBounds quantile_rank_bounds(long n, double p, double confidence) {
   return bounds;
 }
 
-Bounds quantile_bounds(std::span<const double> sorted, double p, double confidence) {
-  const RankBounds ranks = quantile_rank_bounds(static_cast<long>(sorted.size()), p, confidence);
+RankBounds quantile_rank_bounds(const PartialRanks& ranks, double p, double confidence) {
+  const RankBounds all = quantile_rank_bounds(ranks.all(), p, confidence);
+  const auto among_present = [&](std::optional<long> rank) {
+    return rank ? ranks.among_present(*rank) : std::nullopt;
+  };
+  return {among_present(all.lower), among_present(all.upper)};
+}
+
+Bounds quantile_bounds(std::span<const double> sorted, const PartialRanks& ranks, double p,
+                       double confidence) {
+  const RankBounds found = quantile_rank_bounds(ranks, p, confidence);
   Bounds bounds;
-  if (ranks.lower) bounds.lower = sorted[static_cast<std::size_t>(*ranks.lower - 1)];
-  if (ranks.upper) bounds.upper = sorted[static_cast<std::size_t>(*ranks.upper - 1)];
+  if (found.lower) bounds.lower = sorted[static_cast<std::size_t>(*found.lower - 1)];
+  if (found.upper) bounds.upper = sorted[static_cast<std::size_t>(*found.upper - 1)];
   return bounds;
+}
+
+Bounds quantile_bounds(std::span<const double> sorted, double p, double confidence) {
+  return quantile_bounds(sorted, {std::ssize(sorted)}, p, confidence);
 }
 
 } // namespace wingspread

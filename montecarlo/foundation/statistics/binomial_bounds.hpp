@@ -6,6 +6,7 @@
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <optional>
 #include <span>
@@ -40,7 +41,13 @@ struct RankBounds {
 /// @pre n ≥ 0, 0 < p < 1, 0 < confidence < 1
 [[nodiscard]] RankBounds quantile_rank_bounds(long n, double p, double confidence);
 
-/// The values at those ranks. @param sorted smallest first, independent draws.
+/// The same over a sample with missing values, as ranks among the present ones; nothing if a missing value has the rank.
+[[nodiscard]] RankBounds quantile_rank_bounds(const PartialRanks& ranks, double p,
+                                              double confidence);
+
+/// The values at those ranks. @param sorted smallest first, independent draws; the present ones
+[[nodiscard]] Bounds quantile_bounds(std::span<const double> sorted, const PartialRanks& ranks,
+                                     double p, double confidence);
 [[nodiscard]] Bounds quantile_bounds(std::span<const double> sorted, double p, double confidence);
 
 } // namespace wingspread

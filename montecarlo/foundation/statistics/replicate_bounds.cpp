@@ -44,22 +44,35 @@ std::vector<long> replicate_sizes(std::span<const ReplicateValue> values, int re
 } // namespace
 
 Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted, int replicates, double p,
-                                 double confidence) {
+                                 double confidence, const MissingOfReplicates& missing) {
   if (replicates < 2 || sorted.empty()) return {};
-  const long n = std::ssize(sorted);
-  const double value = sorted[static_cast<std::size_t>(quantile_rank(n, p) - 1)].value;
-  const auto tied = std::ranges::equal_range(sorted, value, {}, &ReplicateValue::value);
-  const std::vector<long> sizes = replicate_sizes(sorted, replicates);
-  const auto error_below = [&](auto end) {
-    return share_of(replicate_sizes({sorted.begin(), end}, replicates), sizes).error;
+  const PartialRanks ranks{
+      std::ssize(sorted), std::reduce(missing.counts.begin(), missing.counts.end()), missing.below};
+  const long n = ranks.all();
+  const auto sizes_of = [&](auto end, bool with_missing) {
+    std::vector<long> sizes = replicate_sizes({sorted.begin(), end}, replicates);
+    for (std::size_t r = 0; with_missing && r < missing.counts.size(); ++r)
+      sizes[r] += missing.counts[r];
+    return sizes;
   };
+  const std::vector<long> sizes = sizes_of(sorted.end(), true);
+  const auto error_below = [&](auto end) {
+    return share_of(sizes_of(end, missing.below), sizes).error;
+  };
+  const auto place = ranks.among_present(quantile_rank(n, p));
+  const auto edge = missing.below ? sorted.begin() : sorted.end(); // next to the missing values
+  const auto tied =
+      place ? std::ranges::equal_range(sorted, sorted[static_cast<std::size_t>(*place - 1)].value,
+                                       {}, &ReplicateValue::value)
+            : std::ranges::subrange(edge, edge);
   const double error = std::max(error_below(tied.begin()), error_below(tied.end()));
   if (!(error > 0)) return {};
   const double reach = two_sided_student(replicates - 1, confidence) * error;
   const auto at_share = [&](double share) -> std::optional<double> {
     const double rank = std::ceil(static_cast<double>(n) * share);
     if (rank < 1 || rank > static_cast<double>(n)) return std::nullopt;
-    return sorted[static_cast<std::size_t>(rank) - 1].value;
+    const auto found = ranks.among_present(static_cast<long>(rank));
+    return found ? std::optional(sorted[static_cast<std::size_t>(*found - 1)].value) : std::nullopt;
   };
   return {at_share(p - reach), at_share(p + reach)};
 }

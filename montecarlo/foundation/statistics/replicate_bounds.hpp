@@ -17,17 +17,24 @@ struct ReplicateValue {
   int replicate; ///< in [0, R)
 };
 
+/// Values that are missing from a sample: how many of each replicate, and whether they rank below every value or above.
+struct MissingOfReplicates {
+  std::span<const long> counts{}; ///< R numbers, or none if nothing is missing
+  bool below = false;
+};
+
 /// Bounds of a quantile from replicates: the values at which the pooled distribution function F is p ∓ t s. Here t is
 /// Student's quantile for R − 1 degrees of freedom, and s the standard error of F at the quantile, computed from the
 /// replicates' distribution functions (as the error of a ratio if replicates differ in size).
 /// Ruled out: the mean of the replicates' quantiles, which is biased; and an s computed at each bound, because the
 /// search then finds places where the replicates agree by chance. Bounds from two replicates so computed missed in 10
 /// to 20 % of all cases instead of 2.5 %.
-/// No bound if F does not reach p ∓ t s; none for R < 2 or if all replicates agree.
+/// No bound if F does not reach p ∓ t s, or a missing value ranks there; none for R < 2 or if all replicates agree.
 /// Cost O(n). Source: R. S. Woodruff, J. Amer. Statist. Assoc. 47 (1952) 635–646.
-/// @param sorted smallest value first.
+/// @param sorted the present values, smallest first
 [[nodiscard]] Bounds replicate_quantile_bounds(std::span<const ReplicateValue> sorted,
-                                               int replicates, double p, double confidence);
+                                               int replicates, double p, double confidence,
+                                               const MissingOfReplicates& missing = {});
 
 /// Standard error s of the mean of all values, from the replicates' own means:
 /// s² = R/(R − 1) · Σ_r (Σ_{i in r} (x_i − x̄))² / n², a ratio estimator, which also holds for replicates that differ

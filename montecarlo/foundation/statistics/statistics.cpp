@@ -107,8 +107,13 @@ long quantile_rank(long n, double p) {
 }
 
 double quantile(std::span<const double> sorted, double p) {
+  return quantile(sorted, {std::ssize(sorted)}, p);
+}
+
+double quantile(std::span<const double> sorted, const PartialRanks& ranks, double p) {
   if (sorted.empty()) return undefined;
-  return sorted[static_cast<std::size_t>(quantile_rank(static_cast<long>(sorted.size()), p) - 1)];
+  const auto rank = ranks.among_present(quantile_rank(ranks.all(), p));
+  return rank ? sorted[static_cast<std::size_t>(*rank - 1)] : undefined;
 }
 
 std::optional<Standard> standard_of(std::span<const double> values) {

@@ -78,6 +78,24 @@ void sort_values(std::span<double> values);
 /// @param sorted smallest first
 [[nodiscard]] double quantile(std::span<const double> sorted, double p);
 
+/// Ranks over a sample of which some values are missing. A missing value ranks above every value, or below.
+struct PartialRanks {
+  long present, missing = 0;
+  bool missing_below = false;
+
+  [[nodiscard]] long all() const { return present + missing; }
+  /// The rank among the present values of a rank among all, both from 1; nothing if a missing value has that rank.
+  [[nodiscard]] std::optional<long> among_present(long rank) const {
+    const long place = missing_below ? rank - missing : rank;
+    return place < 1 || place > present ? std::nullopt : std::optional(place);
+  }
+};
+
+/// The sample quantile over all values, the missing ones too. NaN if a missing value has its rank: the quantile p does
+/// not exist if fewer than a share p of the values are present (mirrored if missing values rank below). Cost O(1).
+/// @param sorted the present values, smallest first
+[[nodiscard]] double quantile(std::span<const double> sorted, const PartialRanks& ranks, double p);
+
 /// Standardises a sample: mean 0 and largest deviation 1, so that sums of powers neither overflow nor vanish.
 struct Standard {
   double shift, rest; ///< x̄ = shift + rest; shift is one of the values

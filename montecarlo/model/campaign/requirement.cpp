@@ -125,6 +125,13 @@ double confidence_alone(std::span<const Requirement> all, const Requirement& req
                     std::ranges::count(all, requirement.group, &Requirement::group));
 }
 
+bool ranks_missing_below(std::span<const Requirement> requirements, const std::string& output,
+                         double p) {
+  return p < 0.5 && std::ranges::any_of(requirements, [&](const Requirement& each) {
+           return each.output == output && each.min;
+         });
+}
+
 const std::string& name_of(const Requirement& requirement) {
   return requirement.name.empty() ? requirement.output : requirement.name;
 }

@@ -34,6 +34,11 @@ struct Requirement {
 /// The name for stopping rules: the requirement's name, or its output if it has none.
 [[nodiscard]] const std::string& name_of(const Requirement& requirement);
 
+/// Whether a run without the output ranks below every value for the quantile p, not above. It ranks at the end where it
+/// hurts: below if the output has a `min` and p is below the median; else above.
+[[nodiscard]] bool ranks_missing_below(std::span<const Requirement> requirements,
+                                       const std::string& output, double p);
+
 /// Reads an array of requirements and notes problems.
 /// @param outputs     the campaign's columns; null if scene or outputs have problems: then names are not looked up
 /// @param all_outputs the columns of all families, for the message

@@ -23,15 +23,20 @@ void merge_behind(std::vector<Value>& values, std::size_t sorted, Number number)
 /// Keeps the first runs of a column sorted while their number grows.
 class Growing {
 public:
-  Growing(const Column& column, const Replication& replication, SettledColumn& settled)
-      : column_(column), replication_(replication), settled_(settled) {}
+  Growing(const Column& column, const Replication& replication, bool missing_below,
+          SettledColumn& settled)
+      : column_(column), replication_(replication), missing_below_(missing_below),
+        settled_(settled), missing_of_(static_cast<std::size_t>(replication.replicates), 0) {}
 
   void grow_to(std::size_t rows) {
     const std::size_t before = settled_.sorted.size();
     const bool replicated = replication_.replicates > 0;
     for (; rows_ < rows; ++rows_) {
       if (replicated) replicates_ = std::max(replicates_, replication_.of_row[rows_] + 1);
-      if (std::isnan(column_.values[rows_])) continue;
+      if (std::isnan(column_.values[rows_])) {
+        if (replicated) ++missing_of_[static_cast<std::size_t>(replication_.of_row[rows_])];
+        continue;
+      }
       settled_.sorted.push_back(column_.values[rows_]);
       if (replicated)
         settled_.replicated.push_back({column_.values[rows_], replication_.of_row[rows_]});
@@ -44,7 +49,7 @@ public:
 
   [[nodiscard]] ConvergencePoint point(double p, double confidence) const {
     const Moments all = moments(settled_.sorted);
-    return {static_cast<long>(rows_), all.mean, quantile(settled_.sorted, p),
+    return {static_cast<long>(rows_), all.mean, quantile(settled_.sorted, ranks(), p),
             mean_bounds(all, confidence), quantile_bounds_at(p, confidence)};
   }
 
@@ -62,15 +67,25 @@ private:
 
   [[nodiscard]] Bounds quantile_bounds_at(double p, double confidence) const {
     return replication_.replicates > 0
-               ? replicate_quantile_bounds(settled_.replicated, replicates_, p, confidence)
-               : quantile_bounds(settled_.sorted, p, confidence);
+               ? replicate_quantile_bounds(
+                     settled_.replicated, replicates_, p, confidence,
+                     {std::span(missing_of_).first(static_cast<std::size_t>(replicates_)),
+                      missing_below_})
+               : quantile_bounds(settled_.sorted, ranks(), p, confidence);
+  }
+
+  [[nodiscard]] PartialRanks ranks() const {
+    const long present = std::ssize(settled_.sorted);
+    return {present, static_cast<long>(rows_) - present, missing_below_};
   }
 
   const Column& column_;
   const Replication& replication_;
+  bool missing_below_;
   SettledColumn& settled_;
   std::size_t rows_ = 0;
-  int replicates_ = 0; ///< number of replicates with rows so far
+  int replicates_ = 0;           ///< number of replicates with rows so far
+  std::vector<long> missing_of_; ///< per replicate, so far
 };
 
 } // namespace
@@ -88,11 +103,11 @@ std::vector<long> convergence_runs(long all, std::size_t most, long first) {
 }
 
 SettledColumn settle_column(const Column& column, double p, double confidence,
-                            const Replication& replication, std::size_t most) {
+                            const Replication& replication, std::size_t most, bool missing_below) {
   SettledColumn settled;
   settled.convergence.p = p;
   if (column.values.empty()) return settled;
-  Growing growing(column, replication, settled);
+  Growing growing(column, replication, missing_below, settled);
   for (const long runs : convergence_runs(std::ssize(column.values), most)) {
     growing.grow_to(static_cast<std::size_t>(runs));
     settled.convergence.points.push_back(growing.point(p, confidence));

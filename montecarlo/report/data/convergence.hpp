@@ -1,4 +1,5 @@
-/// Convergence of a mean and a quantile with the number of runs, in the order of the runs.
+/// Convergence of a mean and a quantile with the number of runs, in the order of the runs. The mean is over the runs with
+/// a value, the quantile over all runs.
 #pragma once
 
 #include "montecarlo/foundation/statistics/bounds.hpp"
@@ -12,8 +13,8 @@
 namespace wingspread {
 
 struct ConvergencePoint {
-  long runs = 0; ///< number of first runs, also those without a value
-  double mean, quantile;
+  long runs = 0;         ///< number of first runs, also those without a value
+  double mean, quantile; ///< NaN where there is none
   Bounds mean_bounds, quantile_bounds;
 };
 
@@ -36,7 +37,9 @@ struct SettledColumn {
 /// Sorts a column and computes its convergence. Cost: one sort and four passes.
 /// @param p          level of the quantile, in (0, 1)
 /// @param confidence two-sided confidence of every bound
+/// @param missing_below whether missing values rank below every value, not above
 [[nodiscard]] SettledColumn settle_column(const Column& column, double p, double confidence,
-                                          const Replication& replication, std::size_t most);
+                                          const Replication& replication, std::size_t most,
+                                          bool missing_below = false);
 
 } // namespace wingspread

@@ -29,9 +29,16 @@ Json moments_json(const OutputSummary& output) {
 
 Json quantiles_json(const OutputSummary& output) {
   Json json = Json::array();
-  for (const auto& [p, value, bounds, error] : output.quantiles) {
-    json.push_back({{"p", p}, {"value", page_number(value)}});
-    add_bounds(json.back(), bounds);
+  const auto add = [](Json& to, const QuantileValue& quantile) {
+    to["value"] = page_number(quantile.value);
+    add_bounds(to, quantile.bounds);
+  };
+  for (const QuantileEstimate& quantile : output.quantiles) {
+    json.push_back({{"p", quantile.p}});
+    add(json.back(), quantile.all);
+    if (quantile.among) add(json.back()["among"], *quantile.among);
+    if (std::string why = why_no_quantile(output, quantile); !why.empty())
+      json.back()["note"] = std::move(why);
   }
   return json;
 }
@@ -106,7 +113,8 @@ Json output_json(const PageSource& source, std::size_t index, const PageDetail& 
   const auto& asked = source.stored.campaign.statistics.quantiles;
   const double p = asked.empty() ? 0.99 : std::ranges::max(asked);
   const SettledColumn settled =
-      settle_column(column, p, source.confidence, source.replication, detail.checkpoints);
+      settle_column(column, p, source.confidence, source.replication, detail.checkpoints,
+                    ranks_missing_below(source.stored.campaign.requirements, column.name, p));
   const OutputName name = parse_output_name(column.name);
   Json json{
       {"name", column.name},

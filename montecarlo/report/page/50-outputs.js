@@ -131,11 +131,11 @@
   }
   function quantiles(output, set) {
     const text = inGrain(output);
-    const rows = (output.quantiles || []).map((one) => [
-      F.quantileName(one.p).toLowerCase(),
-      text(one.value),
-      bounds(one, text),
-    ]);
+    const row = (name, one) => [name, text(one.value), one.note || bounds(one, text)];
+    const rows = (output.quantiles || []).map((one) => row(F.quantileName(one.p).toLowerCase(), one));
+    for (const one of output.quantiles || [])
+      if (one.among && !W.isNumber(one.value))
+        rows.push(row(`${F.quantileName(one.p).toLowerCase()} among runs with a value`, one.among));
     for (const one of output.tolerance_limits || [])
       rows.push([
         `tolerance: ${one.text}`,
@@ -143,7 +143,7 @@
         "",
       ]);
     return W.table(
-      `Quantiles of ${F.name(output)}`,
+      `Quantiles of ${F.name(output)}`, // over all runs
       ["Quantile", number("Value", F.shown(output.unit).unit), number(`${100 * set.confidence} % bounds`)],
       rows,
       { showCaption: true },

@@ -215,7 +215,8 @@
       { factor, unit } = view,
       cases = view.cases || [{ set, at: 0, output }];
     const { band } = output.curve,
-      quantiles = (output.quantiles || []).filter((one) => W.isNumber(one.value));
+      // The curve is over the runs with a value, and so are the quantiles on it.
+      quantiles = (output.quantiles || []).map((one) => ({ ...one, ...one.among })).filter((one) => W.isNumber(one.value));
     const text = (one) => `${F.share(one.p)}: ${F.withUnit(one.value, output.unit, F.grain(output))}`;
     return W.figure({
       title: `Distribution function: ${F.name(output)}`,

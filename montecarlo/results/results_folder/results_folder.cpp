@@ -52,7 +52,7 @@ std::vector<GoalFound> goals_of(const StoredCampaign& stored, const Results& res
   const InterimAnalyses interim = interim_analyses(own);
   if (std::ranges::any_of(own.until, decides)) verdicts = judge_campaign(own, results, interim);
   const auto& statistics = own.resolved.at("statistics"); // as before `analyze`
-  return find_goals(own.until, results, verdicts,
+  return find_goals(own.until, results, own.requirements, verdicts,
                     interim.confidence_of_bound(statistics.at("confidence").get<double>()));
 }
 
@@ -225,8 +225,8 @@ Summary stored_summary(const StoredCampaign& stored, const Results& results,
   const InterimAnalyses interim = interim_analyses(campaign);
   StatisticsSpec at_a_look = spec;
   at_a_look.confidence = interim.confidence_of_bound(spec.confidence);
-  Summary summary =
-      summarize(results, at_a_look, replication_of(campaign.sampling, results), threads);
+  Summary summary = summarize(results, at_a_look, replication_of(campaign.sampling, results),
+                              threads, campaign.requirements);
   summary.confidence = spec.confidence;
   summary.interim = interim;
   summary.requirements = judge_campaign(campaign, results, interim);

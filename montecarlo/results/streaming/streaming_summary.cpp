@@ -15,24 +15,28 @@ using Bin = ValueCounts::Bin;
 /// Treated as infinite, as in verdict.cpp.
 constexpr double no_number = std::numeric_limits<double>::max();
 
-std::vector<QuantileEstimate> quantiles_of(const RankedPopulation& values,
-                                           const StatisticsSpec& spec) {
-  std::vector<QuantileEstimate> estimates;
-  const long n = values.count();
-  for (const double p : spec.quantiles) {
-    if (n == 0) {
-      estimates.push_back({p, undefined, {}});
-      continue;
-    }
-    const OrderStatistic found = values.at(quantile_rank(n, p));
-    const RankBounds ranks = quantile_rank_bounds(n, p, spec.confidence);
-    Bounds bounds;
-    if (ranks.lower) bounds.lower = values.at(*ranks.lower).lower;
-    if (ranks.upper) bounds.upper = values.at(*ranks.upper).upper;
-    estimates.push_back(
-        {p, found.value, bounds, QuantileError{found.rank_error, found.lower, found.upper}});
+QuantileValue quantile_of(const RankedPopulation& values, const PartialRanks& ranks, double p,
+                          double confidence) {
+  QuantileValue quantile;
+  if (values.count() == 0) return quantile;
+  if (const auto rank = ranks.among_present(quantile_rank(ranks.all(), p))) {
+    const OrderStatistic found = values.at(*rank);
+    quantile.value = found.value;
+    quantile.error = QuantileError{found.rank_error, found.lower, found.upper};
   }
-  return estimates;
+  const RankBounds bounds = quantile_rank_bounds(ranks, p, confidence);
+  if (bounds.lower) quantile.bounds.lower = values.at(*bounds.lower).lower;
+  if (bounds.upper) quantile.bounds.upper = values.at(*bounds.upper).upper;
+  return quantile;
+}
+
+/// Quantiles over all runs, and among those with a value.
+QuantileEstimate estimate_quantile(const RankedPopulation& values, const PartialRanks& ranks,
+                                   double p, double confidence) {
+  QuantileEstimate estimate{p, quantile_of(values, ranks, p, confidence), {}, ranks.missing_below};
+  if (ranks.missing > 0 && ranks.present > 0)
+    estimate.among = quantile_of(values, {ranks.present}, p, confidence);
+  return estimate;
 }
 
 /// The bin edge nearest to `wanted`, and the number of values below that edge.
@@ -71,14 +75,18 @@ Histogram histogram_of(const RankedPopulation& values, const Bins& bins) {
 }
 
 OutputSummary output_summary(const std::string& name, const StreamingStatistics::Output& output,
-                             long runs, const StatisticsSpec& spec) {
+                             long runs, const StatisticsSpec& spec,
+                             std::span<const Requirement> requirements) {
   OutputSummary summary{name, {}, 0, runs - output.values.count(), {}, {}};
   const RankedPopulation values(output.values);
   const bool any = values.count() > 0;
   summary.moments = output.sums.moments(output.scale, any ? values.min() : undefined,
                                         any ? values.max() : undefined);
   summary.mean_error = summary.moments.std / std::sqrt(static_cast<double>(values.count()));
-  summary.quantiles = quantiles_of(values, spec);
+  for (const double p : spec.quantiles)
+    summary.quantiles.push_back(estimate_quantile(
+        values, {values.count(), summary.missing, ranks_missing_below(requirements, name, p)}, p,
+        spec.confidence));
   summary.histogram = histogram_of(values, spec.bins);
   return summary;
 }
@@ -93,14 +101,11 @@ public:
   /// The value at a rank counted from above, 1 for the largest; nothing if a run worse than any number has that rank.
   /// @param below whether runs worse than any number rank at the lower end
   [[nodiscard]] std::optional<OrderStatistic> from_above(long rank, bool below) const {
-    const long place = below ? rank : rank - worse_;
-    return place < 1 || place > values_.count()
-               ? std::nullopt
-               : std::optional(values_.at(values_.count() + 1 - place));
+    return from_below(values_.count() + worse_ + 1 - rank, below);
   }
   [[nodiscard]] std::optional<OrderStatistic> from_below(long rank, bool below) const {
-    const long place = below ? rank - worse_ : rank;
-    return place < 1 || place > values_.count() ? std::nullopt : std::optional(values_.at(place));
+    const auto place = PartialRanks{values_.count(), worse_, below}.among_present(rank);
+    return place ? std::optional(values_.at(*place)) : std::nullopt;
   }
 
 private:
@@ -226,8 +231,8 @@ Summary streaming_summary(const StoredCampaign& stored, const StreamingStatistic
   summary.without_rows = true;
   add_counts(statistics, spec.confidence, summary);
   for (std::size_t i = 0; i < names.outputs.size(); ++i)
-    summary.outputs.push_back(
-        output_summary(names.outputs[i], statistics.outputs()[i], statistics.runs(), spec));
+    summary.outputs.push_back(output_summary(names.outputs[i], statistics.outputs()[i],
+                                             statistics.runs(), spec, campaign.requirements));
   add_correlations(names, statistics, summary);
   std::vector<RankedRequired> ranked;
   for (const RequiredPopulation& population : statistics.required_values())

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <span>
@@ -85,11 +86,7 @@ std::string outcome_lines(Cases cases) {
   return text;
 }
 
-std::string quantile_name(double p) {
-  return p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * p);
-}
-
-/// The mean, the first and the last quantile.
+/// The mean, the first and the last quantile; a quantile that does not exist also among the runs with a value.
 std::string output_lines(const OutputSummary& output, std::size_t index, Cases cases) {
   std::string text =
       fmt::format("{}{}{}\n", output.name, *parse_output_name(output.name).unit ? ", " : "",
@@ -103,9 +100,20 @@ std::string output_lines(const OutputSummary& output, std::size_t index, Cases c
   text += line("  mean", cases,
                [&](const CaseSummary& each) { return in_digits(of(each).moments.mean); });
   const std::size_t count = output.quantiles.size();
-  for (std::size_t q = 0; q < count; q += std::max<std::size_t>(count - 1, 1))
-    text += line("  " + quantile_name(output.quantiles[q].p), cases,
-                 [&](const CaseSummary& each) { return in_digits(of(each).quantiles[q].value); });
+  for (std::size_t q = 0; q < count; q += std::max<std::size_t>(count - 1, 1)) {
+    const auto quantile = [&](const CaseSummary& each) { return of(each).quantiles[q]; };
+    const auto among = [&](const CaseSummary& each) {
+      return quantile(each).among.value_or(quantile(each).all).value;
+    };
+    const std::string name = "  " + quantile_name(output.quantiles[q].p);
+    text += line(name, cases,
+                 [&](const CaseSummary& each) { return in_digits(quantile(each).all.value); });
+    if (std::ranges::any_of(cases, [&](const CaseSummary& each) {
+          return std::isnan(quantile(each).all.value) && !std::isnan(among(each));
+        }))
+      text += line(name + " among runs with a value", cases,
+                   [&](const CaseSummary& each) { return in_digits(among(each)); });
+  }
   return text;
 }
 

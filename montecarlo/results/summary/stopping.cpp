@@ -11,7 +11,8 @@
 namespace wingspread {
 namespace {
 
-GoalFound find(const WidthGoal& goal, const Results& results, double confidence) {
+GoalFound find(const WidthGoal& goal, const Results& results,
+               std::span<const Requirement> requirements, double confidence) {
   GoalFound found{goal, {}, false};
   if (results.size() == 0) return found;
   if (const auto status = status_named(goal.output)) {
@@ -25,10 +26,14 @@ GoalFound find(const WidthGoal& goal, const Results& results, double confidence)
   assert(column != results.outputs.end());
   const std::vector<double> sorted = sorted_present(column->values);
   column->values.release();
-  const Bounds bounds = quantile_bounds(sorted, *goal.quantile, confidence);
+  const long missing = std::ssize(column->values) - std::ssize(sorted);
+  const double p = *goal.quantile;
+  const PartialRanks ranks{std::ssize(sorted), missing,
+                           ranks_missing_below(requirements, goal.output, p)};
+  const Bounds bounds = quantile_bounds(sorted, ranks, p, confidence);
   if (!bounds.lower || !bounds.upper) return found;
   found.width = *bounds.upper - *bounds.lower;
-  const double unit = goal.relative ? std::abs(quantile(sorted, *goal.quantile)) : 1;
+  const double unit = goal.relative ? std::abs(quantile(sorted, ranks, p)) : 1;
   found.met = *found.width <= goal.width * unit;
   if (goal.relative) found.relative = *found.width / unit;
   return found;
@@ -48,11 +53,12 @@ GoalFound find(const DecisionGoal& goal, std::span<const Verdict> verdicts) {
 } // namespace
 
 std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& results,
+                                  std::span<const Requirement> requirements,
                                   std::span<const Verdict> verdicts, double confidence) {
   std::vector<GoalFound> found;
   for (const StoppingGoal& goal : rule)
     if (const WidthGoal* width = std::get_if<WidthGoal>(&goal))
-      found.push_back(find(*width, results, confidence));
+      found.push_back(find(*width, results, requirements, confidence));
     else
       found.push_back(find(std::get<DecisionGoal>(goal), verdicts));
   return found;

@@ -11,7 +11,7 @@
 
 namespace wingspread {
 
-/// A goal and its state. The interval of a quantile is over the runs in which the output happened.
+/// A goal and its state. A quantile and its interval are over all runs, as in the summary.
 struct GoalFound {
   StoppingGoal goal;
   std::optional<double> width; ///< of the interval, absolute; nothing if a bound does not exist
@@ -20,10 +20,12 @@ struct GoalFound {
       relative{}; ///< the width as a share of the quantile's magnitude; for a relative goal
 };
 
+/// @param requirements the campaign's: at which end missing values rank
 /// @param verdicts   on the campaign's requirements, at their confidence for one analysis
 /// @param confidence of each interval, two-sided
 /// @pre draws of runs are independent; the results have the outputs
 [[nodiscard]] std::vector<GoalFound> find_goals(const StoppingRule& rule, const Results& results,
+                                                std::span<const Requirement> requirements,
                                                 std::span<const Verdict> verdicts,
                                                 double confidence);
 

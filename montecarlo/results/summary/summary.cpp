@@ -1,9 +1,12 @@
 #include "montecarlo/results/summary/summary.hpp"
 
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
 #include "montecarlo/foundation/statistics/replicate_bounds.hpp"
 #include "montecarlo/results/summary/reason_pattern.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
@@ -67,53 +70,66 @@ void count_latch_orders(const DictionaryColumn& column, Summary& summary) {
   column.release();
 }
 
-/// The present values with their replicates, smallest first.
-std::vector<ReplicateValue> with_replicates(const Column& column, const Replication& replication) {
-  std::vector<ReplicateValue> values;
-  values.reserve(column.values.size());
-  for (std::size_t row = 0; row < column.values.size(); ++row)
-    if (!std::isnan(column.values[row]))
-      values.push_back({column.values[row], replication.of_row[row]});
-  std::ranges::stable_sort(values, {}, &ReplicateValue::value);
-  return values;
-}
+/// A column in ascending order.
+struct SortedColumn {
+  std::vector<double> present;
+  long missing = 0;
+  int replicates = 0;                       ///< 0: draws are independent
+  std::vector<ReplicateValue> replicated{}; ///< the present values with their replicates
+  std::vector<long> missing_of{};           ///< per replicate
 
-/// @param replicated the same values with their replicates, if there are any
-std::vector<QuantileEstimate> estimate_quantiles(std::span<const double> sorted,
-                                                 std::span<const ReplicateValue> replicated,
-                                                 const StatisticsSpec& spec, int replicates) {
-  std::vector<QuantileEstimate> estimates;
-  for (const double p : spec.quantiles) {
-    const Bounds bounds =
-        replicates > 0 ? replicate_quantile_bounds(replicated, replicates, p, spec.confidence)
-                       : quantile_bounds(sorted, p, spec.confidence);
-    estimates.push_back({p, quantile(sorted, p), bounds});
+  SortedColumn(const Column& column, const Replication& replication)
+      : present(sorted_present(column.values)),
+        missing(std::ssize(column.values) - std::ssize(present)),
+        replicates(replication.replicates), missing_of(static_cast<std::size_t>(replicates), 0) {
+    for (std::size_t row = 0; replicates > 0 && row < column.values.size(); ++row)
+      if (const int its = replication.of_row[row]; std::isnan(column.values[row]))
+        ++missing_of[static_cast<std::size_t>(its)];
+      else
+        replicated.push_back({column.values[row], its});
+    std::ranges::stable_sort(replicated, {}, &ReplicateValue::value);
+    column.values.release();
   }
-  return estimates;
-}
+
+  [[nodiscard]] QuantileEstimate quantile_at(double p, double confidence, bool below) const {
+    const long count = std::ssize(present);
+    QuantileEstimate estimate{
+        p, value_of(p, confidence, {count, missing, below}, {missing_of, below}), {}, below};
+    if (missing > 0 && count > 0) estimate.among = value_of(p, confidence, {count}, {});
+    return estimate;
+  }
+
+private:
+  [[nodiscard]] QuantileValue value_of(double p, double confidence, const PartialRanks& ranks,
+                                       const MissingOfReplicates& missing_ones) const {
+    return {quantile(present, ranks, p),
+            replicates > 0
+                ? replicate_quantile_bounds(replicated, replicates, p, confidence, missing_ones)
+                : quantile_bounds(present, ranks, p, confidence)};
+  }
+};
 
 OutputSummary summarize_output(const Column& column, const StatisticsSpec& spec,
-                               const Replication& replication) {
+                               const Replication& replication,
+                               std::span<const Requirement> requirements) {
   // Sorted values make even the last bits independent of the order of the rows.
-  const std::vector<double> sorted = sorted_present(column.values);
-  const Moments all = moments(sorted);
-  const int replicates = replication.replicates;
-  std::vector<ReplicateValue> replicated;
-  if (replicates > 0) replicated = with_replicates(column, replication);
-  column.values.release();
-  const double mean_error = replicates > 0 ? replicate_mean_error(replicated, replicates, all.mean)
-                                           : all.std / std::sqrt(static_cast<double>(all.count));
-  return {column.name,
-          all,
-          mean_error,
-          std::ssize(column.values) - std::ssize(sorted),
-          estimate_quantiles(sorted, replicated, spec, replicates),
-          histogram(sorted, spec.bins)};
+  const SortedColumn sorted(column, replication);
+  const Moments all = moments(sorted.present);
+  const double mean_error =
+      sorted.replicates > 0 ? replicate_mean_error(sorted.replicated, sorted.replicates, all.mean)
+                            : all.std / std::sqrt(static_cast<double>(all.count));
+  std::vector<QuantileEstimate> quantiles;
+  for (const double p : spec.quantiles)
+    quantiles.push_back(
+        sorted.quantile_at(p, spec.confidence, ranks_missing_below(requirements, column.name, p)));
+  return {column.name,    all,       mean_error,
+          sorted.missing, quantiles, histogram(sorted.present, spec.bins)};
 }
 
 /// The reasons, and each output.
 void summarize_columns(const Results& results, const StatisticsSpec& spec,
-                       const Replication& replication, int threads, Summary& summary) {
+                       const Replication& replication, int threads,
+                       std::span<const Requirement> requirements, Summary& summary) {
   const std::size_t bytes = (replication.replicates > 0 ? 56 : 16) * results.size();
   summary.outputs.resize(results.outputs.size());
   const std::size_t tasks = 1 + results.outputs.size();
@@ -123,7 +139,8 @@ void summarize_columns(const Results& results, const StatisticsSpec& spec,
     if (task == 0)
       summary.reasons = count_reasons(results);
     else
-      summary.outputs[task - 1] = summarize_output(results.outputs[task - 1], spec, replication);
+      summary.outputs[task - 1] =
+          summarize_output(results.outputs[task - 1], spec, replication, requirements);
   });
 }
 
@@ -155,6 +172,28 @@ StatusShare status_share(Status status, long count, long runs, double confidence
   return share;
 }
 
+std::string why_no_quantile(const OutputSummary& output, const QuantileEstimate& quantile) {
+  const long count = output.moments.count;
+  if (!std::isnan(quantile.all.value)) return "";
+  if (count == 0) return "no run has a value";
+  return fmt::format("{} of {} runs have a value; the others rank {} every value", count,
+                     count + output.missing, quantile.missing_below ? "below" : "above");
+}
+
+std::string why_no_bound(const Summary& summary, const OutputSummary& output) {
+  if (summary.replicates == 1) return std::string(one_replicate);
+  const std::string values = output.missing > 0
+                                 ? fmt::format("{}, {} of them without a value,",
+                                               counted(summary.runs, "run", "runs"), output.missing)
+                                 : counted(output.moments.count, "value", "values");
+  if (summary.replicates > 1)
+    return fmt::format("{} in {} replicates are too few, or agree too well, for every bound at a "
+                       "confidence of {}",
+                       values, summary.replicates, summary.confidence);
+  return fmt::format("{} are too few for every bound at a confidence of {}", values,
+                     summary.confidence);
+}
+
 Column deployed_column(const Results& results) {
   Column column{"deployed", {}};
   for (const Status status : results.status) {
@@ -166,7 +205,8 @@ Column deployed_column(const Results& results) {
 }
 
 Summary summarize(const Results& results, const StatisticsSpec& spec,
-                  const Replication& replication, int threads) {
+                  const Replication& replication, int threads,
+                  std::span<const Requirement> requirements) {
   assert(replication.replicates == 0 || replication.of_row.size() == results.size());
   Summary summary;
   summary.runs = static_cast<long>(results.size());
@@ -175,7 +215,7 @@ Summary summarize(const Results& results, const StatisticsSpec& spec,
   for (const Status status : statuses)
     summary.statuses.push_back(share_of_status(results, status, spec.confidence, replication));
   count_latch_orders(results.latch_order, summary);
-  summarize_columns(results, spec, replication, threads, summary);
+  summarize_columns(results, spec, replication, threads, requirements, summary);
   summary.correlations = correlate_draws(results, threads);
   return summary;
 }

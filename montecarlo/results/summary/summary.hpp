@@ -1,8 +1,10 @@
 /// The statistics of a campaign as plain data, from which the files (summary_json.hpp) and the terminal's table
 /// (table.hpp) are written.
 ///
-/// Each output is summarised over the runs in which it happened, and the number of other runs is reported. The same
-/// results give the same summary, bit for bit.
+/// Each output is summarised over the runs in which it happened, and the number of other runs is reported. Its
+/// quantiles are over all runs: a run without the output ranks above every value, or below (ranks_missing_below). So
+/// the quantile p does not exist if fewer than a share p of the runs have the output. The same results give the same
+/// summary, bit for bit.
 #pragma once
 
 #include "montecarlo/engine/accuracy/accuracy.hpp"
@@ -51,11 +53,19 @@ struct QuantileError {
   double lower, upper; ///< the quantile lies within
 };
 
+/// A quantile over some population; NaN if it does not exist.
+struct QuantileValue {
+  double value = undefined;
+  Bounds bounds{};
+  std::optional<QuantileError> error{}; ///< nothing if computed from rows, or without a value
+};
+
 struct QuantileEstimate {
   double p;
-  double value; ///< NaN without values
-  Bounds bounds;
-  std::optional<QuantileError> error{}; ///< nothing if computed from rows
+  QuantileValue all; ///< over all runs
+  /// Over the runs that have a value; nothing if all have one, or none.
+  std::optional<QuantileValue> among{};
+  bool missing_below = false; ///< runs without a value rank below every value, not above
 };
 
 struct ToleranceLimitEstimate {
@@ -68,7 +78,7 @@ struct OutputSummary {
   Moments moments;       ///< over the runs in which it happened; `moments.count` of them
   double mean_error = 0; ///< standard error of the mean; NaN if unknown
   long missing = 0;      ///< runs in which it did not happen
-  std::vector<QuantileEstimate> quantiles;
+  std::vector<QuantileEstimate> quantiles; ///< over all runs
   Histogram histogram;
   std::vector<ToleranceLimitEstimate> tolerance_limits{}; ///< over all runs (verdict.hpp)
   /// Value in the nominal run: NaN if the output did not happen there, nothing if there was no nominal run.
@@ -122,9 +132,18 @@ struct Summary {
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes per run and thread; as many
 /// threads as fit into 1 GiB. Columns are released after reading. Temporary files: 4 bytes per run and column, and 12
 /// where values are missing.
-/// @param threads as of thread_count (thread_pool.hpp); does not change the summary
+/// @param threads      as of thread_count (thread_pool.hpp); does not change the summary
+/// @param requirements decide at which end missing values rank
 /// @pre replication.of_row is as long as the results, unless there are no replicates
 [[nodiscard]] Summary summarize(const Results& results, const StatisticsSpec& spec,
-                                const Replication& replication = {}, int threads = 0);
+                                const Replication& replication = {}, int threads = 0,
+                                std::span<const Requirement> requirements = {});
+
+/// Why an output lacks a quantile over all runs: "976 of 1000 runs have a value; the others rank above every value".
+/// Empty if it has it.
+[[nodiscard]] std::string why_no_quantile(const OutputSummary& output,
+                                          const QuantileEstimate& quantile);
+/// Why a quantile lacks a bound, though it exists.
+[[nodiscard]] std::string why_no_bound(const Summary& summary, const OutputSummary& output);
 
 } // namespace wingspread

@@ -64,6 +64,11 @@ Json definitions(const Summary& summary) {
                            ? "over all runs, one-sided: P(Bin(n, 1 - p) <= failures) <= 1 - c; "
                              "what did not deploy or happen counts against them"
                            : "none: the draws depend on each other"}};
+  if (std::ranges::any_of(summary.outputs, [](const auto& each) { return each.missing > 0; }))
+    json["quantile_missing"] =
+        "quantiles are over all n runs: a run without a value ranks above every value, or below "
+        "for p < 0.5 where a requirement has a min; null where such a run has the rank; "
+        "among_runs_with_value: over the others alone";
   if (summary.nominal)
     json["nominal"] =
         "of the run with nothing dispersed; what drives others by tables is at its median";
@@ -146,31 +151,27 @@ void add_latch_orders(Json& json, const Summary& summary) {
   json["latch_order_missing"] = summary.without_latch;
 }
 
-/// Why a bound of a quantile is null.
-std::string missing_bound(const Summary& summary, const OutputSummary& output) {
-  if (summary.replicates == 1) return std::string(one_replicate);
-  const long count = output.moments.count;
-  const std::string values = counted(count, "value", "values");
-  if (summary.replicates > 1)
-    return fmt::format("{} in {} replicates are too few, or agree too well, for every bound at a "
-                       "confidence of {}",
-                       values, summary.replicates, summary.confidence);
-  return fmt::format("{} are too few for every bound at a confidence of {}", values,
-                     summary.confidence);
+void add_quantile(Json& json, const QuantileValue& quantile) {
+  const auto& [value, bounds, error] = quantile;
+  json.update({{"value", json_number(value)},
+               {"lower", json_number(bounds.lower)},
+               {"upper", json_number(bounds.upper)}});
+  if (!error) return;
+  json["rank_error"] = error->rank;
+  json["within"] = {error->lower, error->upper};
 }
 
 Json quantiles_json(const Summary& summary, const OutputSummary& output) {
   Json json = Json::array();
-  for (const auto& [p, value, bounds, error] : output.quantiles) {
-    Json entry{{"p", p},
-               {"value", json_number(value)},
-               {"lower", json_number(bounds.lower)},
-               {"upper", json_number(bounds.upper)}};
-    if (error) {
-      entry["rank_error"] = error->rank;
-      entry["within"] = {error->lower, error->upper};
-    }
-    if (!bounds.lower || !bounds.upper) entry["note"] = missing_bound(summary, output);
+  for (const QuantileEstimate& quantile : output.quantiles) {
+    const Bounds& bounds = quantile.all.bounds;
+    Json entry{{"p", quantile.p}};
+    add_quantile(entry, quantile.all);
+    if (std::string why = why_no_quantile(output, quantile); !why.empty())
+      entry["note"] = std::move(why);
+    else if (!bounds.lower || !bounds.upper)
+      entry["note"] = why_no_bound(summary, output);
+    if (quantile.among) add_quantile(entry["among_runs_with_value"], *quantile.among);
     json.push_back(std::move(entry));
   }
   return json;

@@ -89,9 +89,8 @@ std::vector<NumberColumn> number_columns(const Summary& summary) {
   if (summary.outputs.empty()) return columns;
   const auto& quantiles = summary.outputs.front().quantiles;
   for (std::size_t i = 0; i < quantiles.size(); ++i)
-    columns.push_back(
-        {quantiles[i].p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * quantiles[i].p),
-         [i](const OutputSummary& o) { return o.quantiles[i].value; }});
+    columns.push_back({quantile_name(quantiles[i].p),
+                       [i](const OutputSummary& o) { return o.quantiles[i].all.value; }});
   return columns;
 }
 
@@ -128,6 +127,25 @@ std::string output_block(const Summary& summary, std::span<const NumberColumn> c
   return text;
 }
 
+/// The quantiles that do not exist over all runs, with the reason, and as they are among the runs with a value.
+std::string missing_quantiles(const Summary& summary) {
+  std::string text;
+  for (const OutputSummary& output : summary.outputs) {
+    std::string why, found;
+    for (const QuantileEstimate& quantile : output.quantiles) {
+      if (!std::isnan(quantile.all.value) || !quantile.among) continue;
+      why = why_no_quantile(output, quantile);
+      found += fmt::format(" · {} {}", quantile_name(quantile.p), in_digits(quantile.among->value));
+    }
+    if (!why.empty())
+      text += fmt::format("  {}\n",
+                          wrapped(fmt::format("{}: {}. Among runs with a value, {}:{}", output.name,
+                                              why, parse_output_name(output.name).unit, found),
+                                  4));
+  }
+  return text.empty() ? "" : "\nQUANTILES that do not exist over all runs\n" + text;
+}
+
 /// Splits the columns into blocks so that lines keep within the width.
 std::string outputs(const Summary& summary) {
   if (summary.outputs.empty()) return "";
@@ -140,8 +158,10 @@ std::string outputs(const Summary& summary) {
   const auto incomplete = [](const OutputSummary& output) { return output.missing > 0; };
   if (std::ranges::any_of(summary.outputs, incomplete))
     text +=
-        fmt::format("\nEach output: over the runs in which it happened, of {}.\n", summary.runs);
-  return text;
+        fmt::format("\nMean, std: over the runs in which the output happened, of {}. Quantiles: "
+                    "over all runs.\n",
+                    summary.runs);
+  return text + missing_quantiles(summary);
 }
 
 /// An error: two digits.

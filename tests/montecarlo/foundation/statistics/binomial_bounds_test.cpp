@@ -118,6 +118,31 @@ TEST_CASE("quantile bounds cover as often as the binomial law says") {
   }
 }
 
+TEST_CASE("quantile bounds with missing values are those with infinite ones in their place") {
+  std::mt19937_64 random(92);
+  int lost = 0, kept = 0;
+  for (const bool below : {false, true})
+    for (int trial = 0; trial < 300; ++trial) {
+      const PartialRanks ranks{static_cast<long>(20 + random() % 60),
+                               static_cast<long>(random() % 30), below};
+      const std::vector<double> present = sorted_sample(static_cast<int>(ranks.present), random);
+      std::vector<double> all = present;
+      const double in_place = std::numeric_limits<double>::infinity() * (below ? -1 : 1);
+      all.insert(below ? all.begin() : all.end(), static_cast<std::size_t>(ranks.missing),
+                 in_place);
+      const double p = 0.01 + 0.98 * uniform(random);
+      const Bounds found = quantile_bounds(present, ranks, p, 0.9),
+                   wanted = quantile_bounds(all, p, 0.9);
+      for (const auto end : {&Bounds::lower, &Bounds::upper}) {
+        const auto value = wanted.*end;
+        const bool exists = value && std::isfinite(*value);
+        REQUIRE(found.*end == (exists ? value : std::nullopt));
+        if (value) ++(exists ? kept : lost);
+      }
+    }
+  CHECK((lost > 50 && kept > 300));
+}
+
 TEST_CASE("quantile bounds still cover where values are tied") {
   constexpr int trials = 5000;
   std::mt19937_64 random(43);

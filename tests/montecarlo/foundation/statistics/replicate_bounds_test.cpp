@@ -56,6 +56,38 @@ TEST_CASE("replicate quantile bounds are not there where so few values lie beyon
   CHECK((!low.lower && low.upper));
 }
 
+TEST_CASE("replicate quantile bounds with missing values: infinite ones in their place") {
+  std::mt19937_64 random(47);
+  int lost = 0, kept = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    constexpr int replicates = 4;
+    const bool below = trial % 2 == 0;
+    const double in_place = std::numeric_limits<double>::infinity() * (below ? -1 : 1);
+    std::vector<ReplicateValue> all = independent(replicates, 25, random), present;
+    std::vector<long> missing(replicates, 0);
+    const double share = 0.4 * uniform(random);
+    for (ReplicateValue& each : all)
+      if (uniform(random) < share) {
+        ++missing[static_cast<std::size_t>(each.replicate)];
+        each.value = in_place;
+      } else {
+        each.value = std::round(30 * each.value); // ties
+        present.push_back(each);
+      }
+    std::ranges::stable_sort(all, {}, &ReplicateValue::value);
+    const double p = 0.02 + 0.96 * uniform(random);
+    const Bounds wanted = replicate_quantile_bounds(all, replicates, p, 0.8),
+                 found = replicate_quantile_bounds(present, replicates, p, 0.8, {missing, below});
+    for (const auto end : {&Bounds::lower, &Bounds::upper}) {
+      const auto value = wanted.*end;
+      const bool exists = value && std::isfinite(*value);
+      REQUIRE(found.*end == (exists ? value : std::nullopt));
+      if (value) ++(exists ? kept : lost);
+    }
+  }
+  CHECK((lost > 30 && kept > 200));
+}
+
 TEST_CASE("replicate quantile bounds see what stratification gains, and still cover") {
   constexpr int trials = 2000;
   std::mt19937_64 random(45);

@@ -127,6 +127,27 @@ TEST_CASE("quantiles invert the empirical distribution function") {
   CHECK(std::isnan(quantile({}, 0.5)));
 }
 
+TEST_CASE("a quantile with missing values is that with infinite ones in their place") {
+  std::mt19937_64 random(91);
+  int existing = 0, absent = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const PartialRanks ranks{static_cast<long>(1 + random() % 30), static_cast<long>(random() % 9),
+                             random() % 2 == 0};
+    const std::vector<double> present = sorted_sample(static_cast<int>(ranks.present), random);
+    std::vector<double> all = present;
+    const double in_place =
+        std::numeric_limits<double>::infinity() * (ranks.missing_below ? -1 : 1);
+    all.insert(ranks.missing_below ? all.begin() : all.end(),
+               static_cast<std::size_t>(ranks.missing), in_place);
+    const double p = trial % 5 == 0 ? static_cast<double>(random() % 11) / 10 : uniform(random);
+    const double found = quantile(present, ranks, p), wanted = quantile(all, p);
+    REQUIRE((std::isinf(wanted) ? std::isnan(found) : found == wanted));
+    ++(std::isinf(wanted) ? absent : existing);
+  }
+  CHECK((existing > 500 && absent > 100));
+  CHECK(std::isnan(quantile({}, PartialRanks{0, 3}, 0.5)));
+}
+
 TEST_CASE("sorted_present leaves NaN out") {
   CHECK(sorted_present(std::vector{3.0, none, -1.0, none}) == std::vector{-1.0, 3.0});
 }

@@ -29,7 +29,12 @@ TEST_CASE("a convergence is of the first runs, by hand", "[page]") {
         Approx(5 + 2.306004135204166 * error).epsilon(1e-12)); // t of 8
   CHECK(points[2].mean == Approx(69.0 / 11));
   CHECK(settled.sorted == std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 13});
-  CHECK(points[2].quantile_bounds.lower == quantile_bounds(settled.sorted, 0.5, 0.95).lower);
+  const PartialRanks with_missing{11, 1};
+  CHECK(points[2].quantile_bounds.lower ==
+        quantile_bounds(settled.sorted, with_missing, 0.5, 0.95).lower);
+  CHECK(points[2].quantile == 6); // the sixth of twelve, the missing one the last
+  CHECK(settle_column(column, 0.5, 0.95, {}, 3, true).convergence.points[2].quantile == 5);
+  CHECK(std::isnan(settle_column(column, 0.95, 0.95, {}, 3).convergence.points[2].quantile));
 }
 
 TEST_CASE("a convergence ends where the summary stands, of replicates too", "[page]") {
@@ -42,12 +47,13 @@ TEST_CASE("a convergence ends where the summary stands, of replicates too", "[pa
   Results results(ResultNames{{}, {"x"}, false});
   for (int row = 0; row < 2000; ++row)
     results.append({row, Status::deployed, {}, {values[static_cast<std::size_t>(row)]}, "a", ""});
-  const OutputSummary summary = summarize(results, {.quantiles = {0.9}}, replication).outputs[0];
-  const SettledColumn settled = settle_column(column, 0.9, 0.95, replication, 20);
+  const double p = 0.8;
+  const OutputSummary summary = summarize(results, {.quantiles = {p}}, replication).outputs[0];
+  const SettledColumn settled = settle_column(column, p, 0.95, replication, 20);
   const ConvergencePoint& last = settled.convergence.points.back();
   CHECK(last.mean == summary.moments.mean);
-  CHECK(last.quantile == summary.quantiles[0].value);
-  CHECK(last.quantile_bounds.lower == summary.quantiles[0].bounds.lower);
+  CHECK(last.quantile == summary.quantiles[0].all.value);
+  CHECK(last.quantile_bounds.lower == summary.quantiles[0].all.bounds.lower);
   CHECK(*last.mean_bounds.upper - last.mean ==
         Approx(3.182446305284263 * summary.mean_error));        // t of 3
   CHECK(!settled.convergence.points.front().mean_bounds.lower); // one replicate tells nothing

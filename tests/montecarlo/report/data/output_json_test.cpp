@@ -36,11 +36,15 @@ TEST_CASE("an output's blocks agree with each other and with the summary", "[pag
       CHECK(sum == counts[bin]);
     }
     CHECK(output["curve"]["x"].size() == output["curve"]["upper"].size());
+    for (const Json& quantile : output["quantiles"]) {
+      CHECK(quantile.contains("among") == (output["missing"] > 0 && output["count"] > 0));
+      CHECK(quantile.contains("note") == quantile["value"].is_null());
+    }
     if (output["count"] > 0) {
       CHECK(output["curve"]["x"].back() == page_number(summary.moments.max));
       CHECK(output["convergence"]["mean"].back() == page_number(summary.moments.mean));
       CHECK(output["convergence"]["quantile"].back() ==
-            page_number(summary.quantiles.back().value));
+            page_number(summary.quantiles.back().all.value));
     }
     CHECK(output["limits"] == (output["name"] == "mid.peak_moment" ? Json{1} : Json::array()));
   }

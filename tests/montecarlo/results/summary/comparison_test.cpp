@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <limits>
 
 using namespace wingspread;
@@ -41,6 +42,24 @@ TEST_CASE("the worst case fails, or has the least margin", "[comparison]") {
   CHECK(worst_case({pass, decided("e", Decision::pass, 1)}, 0) == 0);
 }
 
+TEST_CASE("a quantile that no case, or one case, lacks is shown among runs with a value",
+          "[comparison]") {
+  Results results(ResultNames{{}, {"deployment_time"}});
+  for (long run = 0; run < 20; ++run)
+    results.append({run, Status::stalled, {}, {run < 2 ? std::nan("") : 7.25}, "root", ""});
+  const CaseSummary stalls{"cold", summarize(results, {})};
+  const std::string without = cases_table({case_of("hot", 0), case_of("warm", 3)}, "", "");
+  CHECK_THAT(without, !Catch::Contains("among runs with a value"));
+  const std::string with = cases_table({case_of("hot", 0), stalls}, "", "");
+  const auto line = [&](const std::string& begin) {
+    const std::size_t at = with.find('\n' + begin) + 1;
+    return with.substr(at, with.find('\n', at) - at);
+  };
+  CHECK_THAT(line("  99 %  "), Catch::EndsWith("5.0000            –"));
+  CHECK_THAT(line("  99 % among runs with a value"), Catch::EndsWith("5.0000       7.2500"));
+  CHECK_THAT(with, !Catch::Contains("  1 % among"));
+}
+
 TEST_CASE("cases.json has every requirement with its worst case, and every output by case",
           "[comparison]") {
   const Json json = cases_json({case_of("hot", 0), case_of("cold", 20)}, "about");
@@ -56,6 +75,7 @@ TEST_CASE("cases.json has every requirement with its worst case, and every outpu
   CHECK(json["outputs"]["deployment_time"]["hot"]["mean"] == 5.0);
   CHECK(json["joint_confidence"] == Approx(0.8).epsilon(1e-15));
   CHECK(json["cases"]["cold"]["status"]["deployed"]["count"] == 20);
+  CHECK_FALSE(json["cases"]["cold"].contains("partial"));
 }
 
 TEST_CASE("cases stand side by side", "[comparison]") {

@@ -39,7 +39,7 @@ TEST_CASE("A width is that of the interval that the summary gives", "[stopping]"
                     "",
                     ""});
   const auto find = [&](const char* text) {
-    return find_goals(rule_of(text), results, {}, .95).front();
+    return find_goals(rule_of(text), results, {}, {}, .95).front();
   };
   const Interval share = clopper_pearson(50, 200, .95);
   CHECK(find("stalled 0.2").width == share.upper - share.lower);
@@ -53,7 +53,8 @@ TEST_CASE("A width is that of the interval that the summary gives", "[stopping]"
   CHECK((find("root.latch_time@0.5 15%").met && !find("root.latch_time@0.5 10%").met));
   CHECK_FALSE(find("root.latch_time@0.999 1000").width); // too few for its upper bound
   CHECK_FALSE(find("deployment_time@0.5 1000").met);     // never happened
-  CHECK_FALSE(find_goals(rule_of("stalled 1"), Results(ResultNames{{}, outputs}), {}, .95)[0].met);
+  CHECK_FALSE(
+      find_goals(rule_of("stalled 1"), Results(ResultNames{{}, outputs}), {}, {}, .95)[0].met);
   CHECK_FALSE(are_met({}));
 }
 
@@ -185,7 +186,7 @@ TEST_CASE("the quantile's interval at which a campaign stops covers as often as 
                         {-std::log1p(-uniform(random))},
                         "",
                         ""});
-      if (!are_met(find_goals(rule, results, {}, confidence)) && n < 4000) continue;
+      if (!are_met(find_goals(rule, results, {}, {}, confidence)) && n < 4000) continue;
       const Bounds bounds =
           quantile_bounds(sorted_present(results.outputs[0].values), .5, confidence);
       if (*bounds.lower <= median && median <= *bounds.upper) ++covered;
@@ -213,7 +214,7 @@ TEST_CASE("a requirement is decided when it is passed or disproved, and all of t
                                       verdict("", "root.latch_time", Decision::pass, false),
                                       verdict("", "root.latch_time", Decision::undecided, false)};
   const auto met = [&](const char* text) {
-    return find_goals(rule_of(text), Results{}, verdicts, .95).front().met;
+    return find_goals(rule_of(text), Results{}, {}, verdicts, .95).front().met;
   };
   CHECK(met("requirement deployed"));
   CHECK(met("requirement T-1"));

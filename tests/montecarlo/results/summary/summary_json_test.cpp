@@ -84,17 +84,29 @@ TEST_CASE("summary.json: values, and null for what is not") {
   CHECK((output["unit"] == "s" && output["count"] == 200 && output["missing"] == 100));
   CHECK(output["mean"] == summary.outputs[0].moments.mean);
   CHECK(output["quantiles"][1]["p"] == 0.5);
-  CHECK(output["quantiles"][1]["upper"] == *summary.outputs[0].quantiles[1].bounds.upper);
+  CHECK(output["quantiles"][1]["upper"] == *summary.outputs[0].quantiles[1].all.bounds.upper);
   CHECK(json["outputs"]["never"]["mean"].is_null());
   CHECK(json["correlations"]["fixed"]["deployed"]["pearson"].is_null());
   CHECK(json["correlations"]["k"]["root.latch_time"]["count"] == 200);
+}
+
+TEST_CASE("summary.json says why the nominal run does not deploy") {
+  Summary summary = some_summary(3);
+  for (OutputSummary& output : summary.outputs) output.nominal = none;
+  summary.nominal = NominalRun{Status::deployed, "root>tip", ""};
+  CHECK(summary_json(summary, {})["nominal"] ==
+        Json{{"status", "deployed"}, {"latch_order", "root>tip"}});
+  summary.nominal = NominalRun{Status::stalled, "root", "friction"};
+  CHECK(summary_json(summary, {})["nominal"] ==
+        Json{{"status", "stalled"}, {"latch_order", "root"}, {"reason", "friction"}});
 }
 
 TEST_CASE("summary.json says why a bound is null") {
   const Json json = summary_json(some_summary(30), {});
   const Json& low = json["outputs"]["root.latch_time"]["quantiles"][0];
   CHECK(low["lower"].is_null());
-  CHECK(low["note"] == "20 values are too few for every bound at a confidence of 0.95");
+  CHECK(low["note"] ==
+        "30 runs, 10 of them without a value, are too few for every bound at a confidence of 0.95");
   CHECK_FALSE(json["outputs"]["root.latch_time"]["quantiles"][1].contains("note"));
   Results results(ResultNames{{}, {"t"}});
   for (long run = 0; run < 2; ++run) results.append({run, Status::deployed, {}, {1.5}, "", ""});
@@ -105,6 +117,24 @@ TEST_CASE("summary.json says why a bound is null") {
     CHECK(single["definitions"][bounds] == single["outputs"]["t"]["quantiles"][0]["note"]);
   CHECK(single["status"]["deployed"]["note"] == single["definitions"]["rate_bounds"]);
   CHECK(single["outputs"]["t"]["mean_error"].is_null());
+}
+
+TEST_CASE(
+    "summary.json: a quantile that does not exist is null, with the reason and its stand-in") {
+  const Summary summary = some_summary(300);
+  const Json json = summary_json(summary, {});
+  const Json& latch_time = json["outputs"]["root.latch_time"]["quantiles"];
+  const Json &median = latch_time[1], &high = latch_time[2];
+  CHECK((median["value"].is_number() && !median.contains("note")));
+  CHECK(high["value"].is_null());
+  CHECK(high["note"] == "200 of 300 runs have a value; the others rank above every value");
+  for (const Json& each : {median, high}) CHECK(each["among_runs_with_value"]["value"].is_number());
+  CHECK(median["among_runs_with_value"]["value"] < median["value"]);
+  CHECK(high["among_runs_with_value"]["value"] == summary.outputs[0].quantiles[2].among->value);
+  CHECK(json["definitions"].contains("quantile_missing"));
+  const Json& never = json["outputs"]["never"]["quantiles"][0];
+  CHECK((never["value"].is_null() && never["note"] == "no run has a value"));
+  CHECK_FALSE(never.contains("among_runs_with_value"));
 }
 
 TEST_CASE("summary.json has bounds from replicates, and says where they agree too well") {

@@ -57,11 +57,63 @@ TEST_CASE("a summary of an output is over the runs in which it happened, and say
   CHECK((latch_time.moments.count == 8 && latch_time.missing == 2));
   CHECK(latch_time.moments.mean == 10 + 140.0 / 8);
   CHECK(latch_time.mean_error == latch_time.moments.std / std::sqrt(8));
-  CHECK(latch_time.quantiles[0].value == 19); // the fourth of eight
-  CHECK(latch_time.quantiles[0].bounds.upper);
-  CHECK_FALSE(latch_time.quantiles[1].bounds.upper);
+  CHECK(latch_time.quantiles[0].all.value == 26); // the fifth of ten
+  CHECK(latch_time.quantiles[0].all.bounds.upper);
+  CHECK_FALSE(latch_time.quantiles[1].all.bounds.upper);
+  REQUIRE(latch_time.quantiles[0].among);
+  CHECK(latch_time.quantiles[0].among->value == 19); // the fourth of eight
   CHECK(latch_time.histogram.counts.size() == 4);
   CHECK(summary.outputs[1].missing == 0);
+  CHECK_FALSE(summary.outputs[1].quantiles[0].among);
+}
+
+TEST_CASE("a quantile exists up to the share of runs with a value, or mirrored for a min") {
+  Results results(ResultNames{{}, {"deployment_time", "rate"}});
+  for (long run = 0; run < 1000; ++run) { // 24 stall: 976 values, 10.001 to 10.976
+    const double value = run < 24 ? none : 10 + static_cast<double>(run - 23) / 1000;
+    results.append(
+        {run, run < 24 ? Status::stalled : Status::deployed, {}, {value, value}, "", ""});
+  }
+  const StatisticsSpec spec{{0.01, 0.024, 0.025, 0.5, 0.976, 0.977, 0.99}, 0.9, AutoBins{}};
+  Requirement least;
+  least.output = "rate";
+  least.min = 1;
+  const Summary summary = summarize(results, spec, {}, 0, std::span<const Requirement>(&least, 1));
+  const auto &late = summary.outputs[0].quantiles, &low = summary.outputs[1].quantiles;
+  for (std::size_t i = 0; i < spec.quantiles.size(); ++i) {
+    const double p = spec.quantiles[i];
+    CAPTURE(p);
+    CHECK(std::isnan(late[i].all.value) == (p > 0.976)); // more than the share that deploys
+    CHECK(std::isnan(low[i].all.value) == (p > 0.976 || p <= 0.024));
+    CHECK(why_no_quantile(summary.outputs[0], late[i]).empty() == (p <= 0.976));
+    if (p <= 0.976) CHECK(late[i].all.value == Approx(10 + p));
+    CHECK(low[i].missing_below == (p < 0.5));
+    CHECK(late[i].among->value == Approx(10 + std::ceil(p * 976) / 1000));
+    CHECK(late[i].among->value == low[i].among->value);
+  }
+  CHECK(low[2].all.value == 10.001); // 24 of 25 runs rank below
+  CHECK(low[3].all.value == late[3].all.value);
+  CHECK((late[6].all.bounds.lower == std::nullopt && late[4].all.bounds.lower > 10.9));
+  CHECK_FALSE(late[4].all.bounds.upper); // a stalled run ranks there
+  CHECK(why_no_quantile(summary.outputs[0], late[6]) ==
+        "976 of 1000 runs have a value; the others rank above every value");
+  CHECK_THAT(why_no_quantile(summary.outputs[1], low[0]), Catch::Contains("rank below"));
+}
+
+TEST_CASE("with replicates too, a quantile exists up to the share of runs with a value") {
+  std::mt19937_64 random(3);
+  Results results(ResultNames{{}, {"t"}});
+  Replication four{4, {}};
+  for (long run = 0; run < 400; ++run) {
+    results.append({run, Status::deployed, {}, {run % 20 == 7 ? none : uniform(random)}, "", ""});
+    four.of_row.push_back(static_cast<int>(run % 4 + (run % 3 == 0 && run % 4 < 3)));
+  }
+  const Summary summary = summarize(results, {{0.5, 0.95, 0.96}, 0.9, AutoBins{}}, four);
+  const auto& found = summary.outputs[0].quantiles;
+  CHECK((found[1].all.value < 1 && std::isnan(found[2].all.value)));
+  CHECK((found[0].all.bounds.upper && !found[1].all.bounds.upper));
+  CHECK((found[1].all.bounds.lower && *found[1].all.bounds.lower < found[1].all.value));
+  CHECK((found[2].among && found[2].among->value < found[1].all.value));
 }
 
 TEST_CASE("a summary counts latch orders and reasons, the most frequent first") {
@@ -121,17 +173,17 @@ TEST_CASE("without independent draws the bounds come from the replicates") {
   CHECK(*summary.statuses[0].bounds.upper == Approx(0.98749147581392793).epsilon(1e-8));
   // By hand, with t_1 = tan(0.3 π) = 1.3764: below 19, the median of the eight latch times that there are, lie 2 of
   // the first replicate's 4 and 1 of the second's 4: an error of √(2/1 · (0.5² + 0.5²))/8 = 1/8, to X_(3) and X_(6).
-  const Bounds& time = summary.outputs[0].quantiles[0].bounds;
+  const Bounds& time = summary.outputs[0].quantiles[0].among->bounds;
   CHECK((summary.outputs[0].missing == 2 && *time.lower == 14 && *time.upper == 35));
   // Of the ten moments 3 of 6 and 1 of 4 lie below the median, 0: √(2/1 · (0.6² + 0.6²))/10 = 0.12, to X_(4) and X_(7).
-  const Bounds& moment = summary.outputs[1].quantiles[0].bounds;
+  const Bounds& moment = summary.outputs[1].quantiles[0].all.bounds;
   CHECK((*moment.lower == -1 && *moment.upper == 2));
   // 5 − k is 0.5 on average; the replicates' sums of deviations are −2 and 2: √(8 · 2/1)/10
   CHECK(summary.outputs[1].mean_error == Approx(0.4));
   const Replication one{1, std::vector<int>(10, 0)};
   const Summary none_from_one = summarize(results, {}, one);
   CHECK_FALSE(none_from_one.statuses[0].bounds.lower);
-  CHECK_FALSE(none_from_one.outputs[0].quantiles[1].bounds.lower);
+  CHECK_FALSE(none_from_one.outputs[0].quantiles[1].all.bounds.lower);
   CHECK(std::isnan(none_from_one.outputs[0].mean_error));
 }
 
@@ -143,7 +195,7 @@ TEST_CASE("no runs, or none in which anything happened, still have a summary") {
   failed.append({0, Status::failed, {1}, {none}, "", "step too small"});
   const Summary summary = summarize(failed, {});
   CHECK((summary.outputs[0].moments.count == 0 && summary.outputs[0].missing == 1));
-  CHECK(std::isnan(summary.outputs[0].quantiles[0].value));
+  CHECK(std::isnan(summary.outputs[0].quantiles[0].all.value));
   CHECK(find(summary, "k", "t").value.count == 0);
 }
 

@@ -314,6 +314,29 @@ TEST_CASE("requirements of a group hold together at the confidence they share") 
   CHECK(judge_groups(verdicts)[0].decision == Decision::pass);
 }
 
+TEST_CASE("a group fails if any member fails, else is undecided if any is, in whatever order") {
+  constexpr std::array decisions{Decision::pass, Decision::fail, Decision::undecided};
+  for (int code = 0; code < 27; ++code) {
+    std::vector<Verdict> verdicts(3);
+    long passed = 0;
+    bool failed = false, open = false;
+    for (int k = 0, rest = code; k < 3; ++k, rest /= 3) {
+      Verdict& verdict = verdicts[static_cast<std::size_t>(k)];
+      verdict.requirement.group = "A", verdict.requirement.confidence = .9;
+      verdict.decision = decisions[static_cast<std::size_t>(rest % 3)];
+      passed += verdict.decision == Decision::pass;
+      failed = failed || verdict.decision == Decision::fail;
+      open = open || verdict.decision == Decision::undecided;
+    }
+    CAPTURE(code);
+    const GroupVerdict group = judge_groups(verdicts).at(0);
+    CHECK((group.members == 3 && group.passed == passed));
+    CHECK(group.decision == (failed ? Decision::fail
+                             : open ? Decision::undecided
+                                    : Decision::pass));
+  }
+}
+
 TEST_CASE("a peak that t_end cut breaks every requirement on it, whatever it had come to") {
   Results results(ResultNames{{}, {"root.peak_moment", "root.latch_time"}, true});
   for (long run = 0; run < 1000; ++run) {

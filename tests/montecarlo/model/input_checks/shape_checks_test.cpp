@@ -1,0 +1,67 @@
+#include "montecarlo/model/input_checks/shape_checks.hpp"
+#include "tests/montecarlo/sample_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// A folded chain of panels whose hinge points are roughly where they should be: about half of them overlap.
+Scene random_stack(std::mt19937_64& random) {
+  const auto between = [&](double a, double b) { return std::lerp(a, b, uniform(random)); };
+  Scene scene;
+  const int panels = 2 + static_cast<int>(random() % 3);
+  for (int k = 0; k < panels; ++k) {
+    scene.bodies.push_back({"panel", 1, 1});
+    Hinge hinge;
+    hinge.parent = k - 1, hinge.child = k;
+    const double side = k % 2 == 0 ? 1 : -1, length = between(0.4, 0.7);
+    hinge.parent_point = {k == 0 ? 0 : length, -side * between(-0.01, 0.03)};
+    hinge.child_point = {-length, -side * between(-0.01, 0.03)};
+    hinge.stowed = (k == 0 ? 0.5 : -side) * std::numbers::pi * between(0.9, 1.1);
+    hinge.name = "hinge " + std::to_string(k);
+    scene.hinges.push_back(hinge);
+  }
+  return scene;
+}
+
+/// The scene in another unit of length.
+Scene scaled(Scene scene, double factor) {
+  for (Hinge& hinge : scene.hinges) hinge.parent_point *= factor, hinge.child_point *= factor;
+  return scene;
+}
+
+std::vector<std::string> places(const Scene& scene) {
+  InputWarnings warnings({"wing.json", ""});
+  check_shape(scene, warnings);
+  std::vector<std::string> pointers;
+  for (const InputWarning& warning : warnings.list()) pointers.push_back(warning.pointer);
+  return pointers;
+}
+
+} // namespace
+
+TEST_CASE("whether bodies overlap depends neither on the unit of length nor on the base's place",
+          "[warnings]") {
+  std::mt19937_64 random(17);
+  int warned = 0, quiet = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const Scene scene = random_stack(random);
+    const std::vector<std::string> found = places(scene);
+    ++(found.empty() ? quiet : warned);
+    for (const double factor : {1e-3, 30.0, 1e3}) {
+      CAPTURE(trial, factor);
+      CHECK(places(scaled(scene, factor)) == found);
+    }
+    Scene moved = scene;
+    moved.base.motion = BaseMotion::free;
+    moved.base.position = {1e4 * uniform(random), -300};
+    moved.base.angle = 6 * uniform(random);
+    CHECK(places(moved) == found);
+  }
+  CHECK((warned > 50 && quiet > 50)); // or the wings have lost their variety
+}

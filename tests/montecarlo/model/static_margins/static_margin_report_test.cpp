@@ -1,0 +1,91 @@
+#include "montecarlo/engine/runs/static_margin_draws.hpp"
+#include "montecarlo/model/static_margins/static_margin_report.hpp"
+#include "tests/montecarlo/margin_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+StaticMarginReport report_of(int runs) {
+  Json json = one_panel_margin(runs);
+  json["statistics"] = {{"quantiles", {0.5, 0.1}}};
+  json["margin"]["motorization"] = {{"points", 3}, {"ecss", {{"friction", 2.5}}}};
+  const Campaign campaign = campaign_of(json);
+  StaticMarginReport report{
+      campaign.motorization, campaign.scene, campaign.statistics.quantiles, {}};
+  report.cases.push_back({1.25, "cold", study_static_margins(campaign)});
+  return report;
+}
+
+std::vector<std::string> keys_of(const Json& json) {
+  std::vector<std::string> keys;
+  for (const auto& item : json.items()) keys.push_back(item.key());
+  return keys;
+}
+
+} // namespace
+
+TEST_CASE("static margins as JSON: every number of the study, with the factors behind it",
+          "[motorization]") {
+  const StaticMarginReport report = report_of(40);
+  const Json json = static_margins_json(report);
+  CHECK(keys_of(json) ==
+        std::vector<std::string>{"standards", "factors", "springs_per_hinge", "at"});
+  CHECK(json["factors"]["ecss"]["friction"] == 2.5);
+  REQUIRE(json["at"].size() == 1);
+  const Json& at = json["at"][0];
+  CHECK((at["scale"] == 1.25 && at["case"] == "cold" && at["draws"] == 40 && at["invalid"] == 0));
+  const DriveMargins& drive = report.cases[0].study.drives.at(0);
+  const Json& found = at["least_over_travel"][0];
+  CHECK(found["hinge"] == drive.hinge);
+  for (std::size_t kind = 0; kind < margin_kind_names.size(); ++kind) {
+    const Json& its = found[std::string(margin_kind_names[kind])];
+    const MarginSpread& spread = drive.worst_spread[kind];
+    CAPTURE(margin_kind_names[kind]);
+    CHECK((its["nominal"] == drive.worst[kind] && its["angle"] == drive.worst_angle[kind]));
+    CHECK(its["draws"]["worst_run"] == spread.worst_run);
+    CHECK(its["draws"]["least"] == spread.least);
+    CHECK(its["draws"]["share_below_0"] == spread.share_short);
+    CHECK(its["draws"]["quantiles"][1] == Json{{"p", 0.1}, {"value", spread.quantiles[1]}});
+  }
+}
+
+TEST_CASE("static margins as CSV: a cell for each name, and a line for each place of the travel",
+          "[motorization]") {
+  const StaticMarginReport report = report_of(10);
+  std::istringstream csv(static_margins_csv(report));
+  std::vector<long> cells;
+  for (std::string line; std::getline(csv, line);)
+    cells.push_back(1 + std::ranges::count(line, ','));
+  REQUIRE(cells.size() == 1 + 3);
+  for (const long count : cells)
+    CHECK(count == 5 + 11 + 5 * (1 + 2 + 3)); // place; torques; five margins and their spreads
+}
+
+TEST_CASE("curves for the page: the nominal margins, and the draws' quantile at the lowest level",
+          "[motorization]") {
+  const StaticMarginReport report = report_of(30);
+  const StaticMarginStudy& study = report.cases[0].study;
+  const Json json = static_margin_curves(study, MarginKind::nasa, report.probabilities);
+  const auto nasa = static_cast<std::size_t>(MarginKind::nasa);
+  CHECK((json["draws"] == 30 && json["lower_p"] == 0.1));
+  const Json& curve = json["hinges"][0];
+  const DriveMargins& drive = study.drives[0];
+  for (std::size_t k = 0; k < drive.travel.size(); ++k) {
+    const TravelPoint& point = drive.travel[k];
+    CHECK(curve["angle"][k].get<double>() == Approx(point.angle).epsilon(1e-6).margin(1e-12));
+    CHECK(curve["margin"][k].get<double>() == Approx(point.margins[nasa]).epsilon(1e-4));
+    CHECK(curve["margin_lower"][k].get<double>() ==
+          Approx(point.spread[nasa].quantiles[1]).epsilon(1e-4));
+  }
+  CHECK(curve["least"].get<double>() == Approx(drive.worst[nasa]).epsilon(1e-4));
+  CHECK(curve["lower"].get<double>() ==
+        Approx(drive.worst_spread[nasa].quantiles[1]).epsilon(1e-4));
+  CHECK(static_margin_curves({}, MarginKind::nasa, {}).is_null());
+}
