@@ -150,9 +150,10 @@ void inspect(const Body& body, const Flexible& flexible, const Owner& owner, Ins
     check.require(*flexible.frequency > 0, *flexible.frequency, owner, "flexible.frequency", "> 0");
   check.require(flexible.damping_ratio >= 0, flexible.damping_ratio, owner,
                 "flexible.damping_ratio", ">= 0");
-  check.require(!(body.mass > 0) || inertia_left(body) > 0, body.inertia, owner, "inertia",
-                "more than the inertia of the flexible body's segments as points, about "
-                "mass·length²/12");
+  if (body.mass > 0 && body.inertia > 0)
+    check.require(can_be_cut(body), body.inertia, owner, "inertia",
+                  "about mass·length²/12, the inertia of a uniform panel of the plate's length, "
+                  "not below 0.65 of it");
 }
 
 void inspect(const Body& body, Inspector& check) {

@@ -7,31 +7,34 @@
 namespace wingspread {
 namespace {
 
-/// The panel of (1) to (4).
+/// The panel of (1) to (5).
 class Panel {
 public:
   explicit Panel(const Body& body)
       : joints_(body.flexible->joints), mass_(body.mass), along_(body.plate->to - body.plate->from),
         length_(along_.norm()) {
     along_ /= length_;
+    beyond_rod_ = body.inertia - mass_ * length_ * length_ / 12;
+    if (beyond_rod_ < 0 && joints_ > 1) taper();
   }
 
   [[nodiscard]] int joints() const { return joints_; }
   [[nodiscard]] double length() const { return length_; }
-  [[nodiscard]] bool is_end(int j) const { return j == 0 || j == joints_; }
-  /// The segment's share of the mass and, cut from the plate, of the length.
-  [[nodiscard]] double share(int j) const { return (is_end(j) ? 0.5 : 1.0) / joints_; }
+  /// l_j/L
+  [[nodiscard]] double share(int j) const {
+    const bool is_end = j == 0 || j == joints_;
+    return (is_end ? 0.5 : 1.0) / joints_;
+  }
   /// Shares of the length at which segment j begins and ends.
   [[nodiscard]] double begin(int j) const { return j == 0 ? 0 : (j - 0.5) / joints_; }
   [[nodiscard]] double end(int j) const { return begin(j) + share(j); }
   /// x_j
   [[nodiscard]] double center(int j) const { return (0.5 * (begin(j) + end(j)) - 0.5) * length_; }
-  [[nodiscard]] double mass(int j) const { return share(j) * mass_; }
-  [[nodiscard]] double inertia_of_points() const {
-    double sum = 0;
-    for (int j = 0; j <= joints_; ++j) sum += mass(j) * center(j) * center(j);
-    return sum;
-  }
+  [[nodiscard]] double mass(int j) const { return mass_ * share(j) * weight(j); }
+  /// J_j
+  [[nodiscard]] double inertia(int j) const { return mass(j) * rod(j) + beyond_rod_ * share(j); }
+  /// The least mass of a segment over that of (1).
+  [[nodiscard]] double least_weight() const { return weight(0); } // the ends are furthest out
 
   /// A point of the body's frame from segment j's centre.
   [[nodiscard]] Eigen::Vector2d from_segment(int j, const Eigen::Vector2d& point) const {
@@ -41,15 +44,36 @@ public:
   [[nodiscard]] Eigen::Vector2d joint(int j) const { return (end(j) - 0.5) * length_ * along_; }
   /// The segment beside a point of the body's frame.
   [[nodiscard]] int segment_at(const Eigen::Vector2d& point) const {
-    const double share = point.dot(along_) / length_ + 0.5;
-    return static_cast<int>(std::clamp(std::floor(share * joints_ + 0.5), 0.0, double(joints_)));
+    const double place = point.dot(along_) / length_ + 0.5;
+    return static_cast<int>(std::clamp(std::floor(place * joints_ + 0.5), 0.0, double(joints_)));
   }
 
 private:
+  /// ρ_j/m_j
+  [[nodiscard]] double rod(int j) const { return std::pow(share(j) * length_, 2) / 12; }
+  /// 1 + a (s − x_j²)
+  [[nodiscard]] double weight(int j) const {
+    return 1 + taper_ * (mean_square_ - center(j) * center(j));
+  }
+
+  /// (5)
+  void taper() {
+    for (int j = 0; j <= joints_; ++j) mean_square_ += share(j) * center(j) * center(j);
+    double gained = 0; // inertia/m for a = 1
+    for (int j = 0; j <= joints_; ++j) {
+      const double square = center(j) * center(j);
+      gained += share(j) * (mean_square_ - square) * (square + rod(j));
+    }
+    taper_ = beyond_rod_ / (mass_ * gained);
+    beyond_rod_ = 0;
+  }
+
   int joints_;
   double mass_;
   Eigen::Vector2d along_;
   double length_;
+  double beyond_rod_;                  ///< J − m L²/12, where (2) holds
+  double taper_ = 0, mean_square_ = 0; ///< a, s
 };
 
 /// β² of (4); β is the least root of cos β cosh β = −1.
@@ -64,7 +88,7 @@ Joint joint_of(const Body& body, const Panel& panel) {
 
 /// @param in_air whether the segment keeps its part of the plate: without air a plate is only the panel's place
 Body segment_of(const Body& body, const Panel& panel, int j, bool in_air) {
-  Body segment{body.name, panel.mass(j), inertia_left(body) * panel.share(j)};
+  Body segment{body.name, panel.mass(j), panel.inertia(j)};
   if (!in_air) return segment;
   const Plate& plate = *body.plate;
   const Eigen::Vector2d way = plate.to - plate.from;
@@ -141,9 +165,10 @@ private:
 
 } // namespace
 
-double inertia_left(const Body& body) {
-  if (!body.flexible || !body.plate) return body.inertia;
-  return body.inertia - Panel(body).inertia_of_points();
+bool can_be_cut(const Body& body) {
+  constexpr double least_weight = 0.1; // heuristic: an end of next to no mass would swing at once
+  const Panel panel(body);
+  return panel.least_weight() > least_weight && panel.inertia(0) > 0;
 }
 
 double bending_stiffness(const Body& body) {

@@ -4,16 +4,21 @@
 /// |--------|----------------------------------------------------------------------|-------------|
 /// | N      | joints, and equal elements of the panel, each with a joint in its middle |         |
 /// | L, m, J | length of the plate; the body's mass and central inertia            | m, kg, kg·m² |
-/// | x_j    | place of segment j = 0 … N along the plate, from the centre of mass  | m           |
+/// | l_j, x_j | length of segment j = 0 … N; its place along the plate, from the centre of mass | m |
+/// | ρ_j    | m_j l_j²/12, the inertia of a rod                                    | kg·m²       |
 /// | EI, ω_1, ζ | bending stiffness; first frequency if clamped at one end; its damping ratio | N·m², rad/s, 1 |
 ///
 ///     m_j = m/N, half as much at the two ends                                                   (1)
-///     J_j = (J − Σ m_j x_j²) m_j/m                                                              (2)
+///     J_j = ρ_j + (J − m L²/12) m_j/m                                                           (2)
 ///     k = N EI/L,  d = 2 ζ k/ω_1                                                                (3)
 ///     ω_1 = β² √(EI/(m L³)),  β = 1.8751…                                                       (4)
 ///
-/// Mass, centre of mass and inertia are the body's. Frequencies converge as 1/N² (joints between equal segments would
-/// converge as 1/N).
+/// Mass, centre of mass and inertia are the body's: Σ m_j x_j² + Σ ρ_j is a rod's m L²/12. A body with less inertia than
+/// a rod has more of its mass towards the middle (draws of mass and inertia make such bodies):
+///
+///     m_j = m l_j/L (1 + a (s − x_j²)),  s = Σ x_j² l_j/L,  J_j = ρ_j,  a such that the inertia is J   (5)
+///
+/// Frequencies converge as 1/N² (with joints between equal segments as 1/N).
 #pragma once
 
 #include "core/scene/scene.hpp"
@@ -22,8 +27,9 @@
 
 namespace wingspread {
 
-/// J − Σ m_j x_j² of (2), kg·m²; the body's own inertia unless it is flexible with a plate.
-[[nodiscard]] double inertia_left(const Body& body);
+/// Whether (2) or (5) gives segments with masses and inertias > 0: for less than about 0.65 m L²/12 there are none.
+/// @pre the body is flexible, has a plate, and its mass and inertia are > 0
+[[nodiscard]] bool can_be_cut(const Body& body);
 
 /// EI, N·m²: given, or by (4) from the frequency. @pre the body is flexible and has a plate
 [[nodiscard]] double bending_stiffness(const Body& body);

@@ -49,16 +49,23 @@ double stiffness_of(const Body& body, double length) {
 void cut(Segmented& made, const Scene& given, int b) {
   const Body& body = given.bodies[b];
   const Strip strip(body);
-  double points = 0;
-  for (int k = 0; k < strip.parts(); ++k)
+  // a part's own inertia as a rod's; what the body has beyond a rod goes by mass. No less than a rod
+  double points = 0, rods = 0;
+  const auto rod = [&](int k) {
+    return body.mass * std::pow(strip.share(k), 3) * std::pow(strip.length, 2) / 12;
+  };
+  for (int k = 0; k < strip.parts(); ++k) {
     points += body.mass * strip.share(k) * std::pow(strip.middle(k), 2);
+    rods += rod(k);
+  }
+  const double beyond = body.inertia - points - rods;
   int carrier = 0; // the part on the body's own hinge
   for (const Hinge& hinge : given.hinges)
     if (hinge.child == b) carrier = strip.part_at(hinge.child_point);
   std::vector<int> index;
   for (int k = 0; k < strip.parts(); ++k) {
     const Body part{body.name + std::to_string(k), body.mass * strip.share(k),
-                    (body.inertia - points) * strip.share(k)};
+                    rod(k) + beyond * strip.share(k)};
     index.push_back(k == carrier ? b : static_cast<int>(made.scene.bodies.size()));
     if (k == carrier)
       made.scene.bodies[b] = part;

@@ -120,7 +120,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a cantilever of segments has frequencies that converge as the page says") {
-  // errors of the first frequency, by an independent eigenvalue problem of the same discretisation
+  // errors of the first frequency of a uniform rod
   const std::pair<int, double> errors[] = {{4, 1.45e-2}, {8, 3.60e-3}, {16, 8.97e-4}};
   const double exact = std::pow(cantilever_roots[0], 2);
   for (const auto& [joints, error] : errors) {

@@ -92,6 +92,28 @@ TEST_CASE(
   CHECK_FALSE(have_same_tree(made.scene, scene));
 }
 
+TEST_CASE("a panel with less inertia than a rod has more mass towards the middle") {
+  for (const int joints : {1, 2, 5, 16}) {
+    for (const double share : {0.99, 0.8}) {
+      CAPTURE(joints, share);
+      Scene scene = bending_rod(joints, 1);
+      scene.bodies[0].inertia = share / 12;
+      REQUIRE(unphysical(scene).empty());
+      const SegmentedScene made = with_segments(scene);
+      double mass = 0, inertia = 0;
+      for (int j = 0; j <= joints; ++j) {
+        const Body& part = made.scene.bodies[made.segments[0][j]];
+        const double from = j == 0 ? 0 : (j - 0.5) / joints,
+                     to = j == joints ? 1 : (j + 0.5) / joints;
+        mass += part.mass, inertia += part.inertia + part.mass * std::pow((from + to - 1) / 2, 2);
+        CHECK(part.inertia > 0);
+      }
+      CHECK(mass == Approx(1).epsilon(1e-14));
+      CHECK(inertia == Approx(share / 12).epsilon(1e-13));
+    }
+  }
+}
+
 TEST_CASE("a frequency stands for the bending stiffness of the clamped panel") {
   Body panel{"panel", 6, 2};
   panel.plate = Plate{{-0.9, 0}, {0.9, 0}};
@@ -111,7 +133,9 @@ TEST_CASE("a flexible body needs a plate, a stiffness, and the inertia of its se
     const std::vector<Fault> faults = unphysical(scene);
     return faults.empty() ? "" : faults.front().path;
   };
-  scene.bodies[0].inertia = 0.08; // of m L²/12 = 0.0833, segments as points have all but 1/256
+  scene.bodies[0].inertia = 0.65 / 12; // mass towards the middle, at most so
+  CHECK(unphysical(scene).empty());
+  scene.bodies[0].inertia = 0.5 / 12;
   CHECK(path() == "bodies.rod.inertia");
   scene.bodies[0].inertia = 1.0 / 12;
   scene.bodies[0].flexible->bending_stiffness = 0;
