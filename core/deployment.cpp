@@ -3,9 +3,12 @@
 #include "core/methods/dop853.hpp"
 #include "core/methods/method_choice.hpp"
 #include "core/packs/runs.hpp"
+#include "core/proofs/natural_modes.hpp"
+#include "core/scene/segments.hpp"
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace wingspread {
@@ -97,11 +100,54 @@ const Runs& runs() {
   return out;
 }
 
+template <class Value> void keep_first(std::vector<Value>& all, std::size_t count) {
+  if (all.size() > count) all.resize(count);
+}
+
+/// The outcome of a segmented scene as that of the given one: joints go, but for the largest moment of each body.
+[[nodiscard]] Outcome without_joints(const SegmentedScene& made, Outcome&& out) {
+  const std::size_t bodies = made.joints.size(), hinges = bodies; // a tree has as many
+  if (!out.peak_moment.empty()) {
+    out.bending_moment.resize(bodies);
+    for (std::size_t b = 0; b < bodies; ++b)
+      for (const int joint : made.joints[b])
+        if (const Peak& peak = out.peak_moment[joint]; peak.value > out.bending_moment[b].value)
+          out.bending_moment[b] = peak;
+  }
+  for (LatchEvent& latch : out.latches) keep_first(latch.rates, hinges);
+  keep_first(out.peak_moment, hinges), keep_first(out.peak_force, hinges);
+  keep_first(out.overtravel, hinges);
+  keep_first(out.final.angles, hinges), keep_first(out.final.rates, hinges);
+  return std::move(out);
+}
+
+/// An observer of a segmented scene that tells another what it sees of the given one.
+[[nodiscard]] Observer without_joints(std::size_t hinges, const Observer& observer) {
+  if (!observer) return {};
+  return [hinges, &observer](Sample sample) {
+    for (std::vector<double>* all : {&sample.angles, &sample.rates, &sample.moments})
+      keep_first(*all, hinges);
+    observer(sample);
+  };
+}
+
 } // namespace
 
 Outcome Deployment::run(const Scene& scene, const Integration& integration, const Goal& goal,
                         const Observer& observer) {
   if (const std::vector<Fault> faults = unphysical(scene); !faults.empty()) return invalid(faults);
+  if (goal.mode_frequencies) {
+    Goal others = goal;
+    others.mode_frequencies = false;
+    Outcome out = run(scene, integration, others, observer);
+    out.mode_frequencies = natural_frequencies(scene);
+    return out;
+  }
+  if (has_flexible_bodies(scene)) {
+    const SegmentedScene made = with_segments(scene);
+    return without_joints(
+        made, run(made.scene, integration, goal, without_joints(scene.hinges.size(), observer)));
+  }
   std::vector<std::pair<int, int>> tree(scene.hinges.size());
   std::transform(scene.hinges.begin(), scene.hinges.end(), tree.begin(),
                  [](const Hinge& hinge) { return std::pair(hinge.parent, hinge.child); });
@@ -204,12 +250,52 @@ private:
 } // namespace
 
 Occupancy DeploymentPack::run(Scene scene, const Next& next, const Done& done) {
+  if (goal_.mode_frequencies) return run_with_modes(scene, next, done);
+  if (has_flexible_bodies(scene)) return run_segmented(scene, next, done);
   const bool in_packs = set_ != InstructionSet::scalar && !how_.smoothing && !goal_.audit &&
                         has_lanes(MethodChoice(how_, false).active());
   if (in_packs) return RunSorter(how_, goal_, set_, scene, next, done).run();
   Deployment alone;
   while (const std::optional<long> name = next(scene)) done(*name, alone.run(scene, how_, goal_));
   return {};
+}
+
+Occupancy DeploymentPack::run_with_modes(const Scene& scene, const Next& next, const Done& done) {
+  Goal others = goal_;
+  others.mode_frequencies = false;
+  std::map<long, std::vector<double>> frequencies; // of the runs in the lanes
+  const Next next_with_modes = [&](Scene& drawn) {
+    const std::optional<long> name = next(drawn);
+    if (name) frequencies[*name] = natural_frequencies(drawn);
+    return name;
+  };
+  return DeploymentPack(set_, how_, others)
+      .run(scene, next_with_modes, [&](long name, Outcome&& outcome) {
+        outcome.mode_frequencies = std::move(frequencies.extract(name).mapped());
+        done(name, std::move(outcome));
+      });
+}
+
+Occupancy DeploymentPack::run_segmented(Scene scene, const Next& next, const Done& done) {
+  const SegmentedScene first = with_segments(scene);
+  Deployment alone;
+  const Next next_segmented = [&](Scene& segmented) -> std::optional<long> {
+    while (const std::optional<long> name = next(scene)) {
+      if (unphysical(scene).empty()) {
+        SegmentedScene made = with_segments(scene);
+        if (have_same_tree(made.scene, first.scene)) {
+          segmented = std::move(made.scene);
+          return name;
+        }
+      }
+      // unphysical, or a draw has moved a hinge to another segment
+      done(*name, alone.run(scene, how_, goal_));
+    }
+    return std::nullopt;
+  };
+  return run(first.scene, next_segmented, [&](long name, Outcome&& outcome) {
+    done(name, without_joints(first, std::move(outcome)));
+  });
 }
 
 } // namespace wingspread

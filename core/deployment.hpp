@@ -69,6 +69,11 @@ public:
   Occupancy run(Scene scene, const Next& next, const Done& done);
 
 private:
+  /// The same, with the frequencies of each scene's modes.
+  Occupancy run_with_modes(const Scene& scene, const Next& next, const Done& done);
+  /// The same, of a scene with flexible bodies.
+  Occupancy run_segmented(Scene scene, const Next& next, const Done& done);
+
   InstructionSet set_;
   Integration how_;
   Goal goal_;

@@ -31,6 +31,7 @@ struct Goal {
   bool end_state = true;         ///< fill Outcome::final and Outcome::energy
   bool to_t_end = false;         ///< integrate to t_end whatever happens
   bool first_latch_only = false; ///< end at the first latch
+  bool mode_frequencies = false; ///< fill Outcome::mode_frequencies
   /// The observer is called at multiples of this time, by dense output, s; 0: after every step.
   double sample_interval = 0;
 };
@@ -91,7 +92,8 @@ struct Phase {
   long steps = 0;          ///< accepted
 };
 
-/// All results of one run. Vectors over hinges are in Scene order.
+/// All results of one run. Vectors over hinges are in Scene order. The segments and joints of flexible bodies are not
+/// in it, but for bending_moment.
 struct Outcome {
   Status status = Status::failed;
   std::string reason;              ///< why status is stalled, invalid or failed; else empty
@@ -100,6 +102,12 @@ struct Outcome {
   std::vector<LatchEvent> latches; ///< in order of time
   std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
   std::vector<Peak> peak_force;    ///< N; empty when not asked for
+  /// The largest moment in the joints of each flexible body, by Scene::bodies, N·m; empty when no moments are asked for,
+  /// or without flexible bodies. Zero for a rigid body.
+  std::vector<Peak> bending_moment;
+  /// Of the scene with all latches engaged, whatever became of the run, lowest first, Hz; empty unless asked for, and
+  /// where the scene is unphysical or has no rest.
+  std::vector<double> mode_frequencies;
   /// How far each hinge turned beyond its stowed angle up to t_end, rad, ≥ 0; empty when not asked for.
   /// Final if peaks_final, unless the run stalled.
   std::vector<double> overtravel;

@@ -10,7 +10,7 @@ namespace wingspread {
 
 template <class T> struct HingeTerms {
   T stowed, latched; ///< rad
-  T sense;           ///< s
+  T sense;           ///< s; 0 of an elastic joint, which has no travel
   T drive;           ///< s·(spring − harness) at the latched angle, N·m
   T drive_slope;     ///< the derivative of s·(spring − harness) by φ, N·m/rad
   T viscous;         ///< b, N·m·s/rad
@@ -43,9 +43,19 @@ template <class T> [[nodiscard]] T linear_part(const HingeTorque& torque, double
   return torque.table ? T(torque.offset) : T(torque.scale) * T(line) + T(torque.offset);
 }
 
+/// Sets all terms of an elastic joint: a linear law about φ_0, without a sense of deployment.
+template <class T> void set_joint(HingeTerms<T>& terms, const Hinge& hinge, const Joint& joint) {
+  terms = HingeTerms<T>{};
+  terms.stowed = terms.latched = T(hinge.stowed);
+  terms.drive_slope = T(-joint.stiffness);
+  terms.viscous = T(joint.damping);
+  terms.slip_rate = T(1);
+}
+
 /// Sets all terms but more_regularized and more_exact, which it clears.
 /// Assigned in place: copying a freshly written struct stalls store forwarding.
 template <class T> void set_hinge(HingeTerms<T>& terms, const Hinge& hinge) {
+  if (hinge.joint) return set_joint(terms, hinge, *hinge.joint);
   const T travel = T(hinge.latched) - T(hinge.stowed);
   const T sense = select(travel > T(0), T(1), T(-1));
   const T at_stowed = linear_part<T>(hinge.spring, hinge.spring.torque_stowed) -

@@ -41,7 +41,8 @@ template <class T, class Rest, class Way>
 [[nodiscard]] bool no_overtravel_can_rise(const SeenPeaks<T>& seen, const Wing<T>& wing,
                                           const Rest& rest, const Way& way) {
   for (int i = 1; seen.overtravel && i <= wing.size(); ++i)
-    if (!(beyond_stowed(wing.hinges[i], T(rest(i))) + T(way(i)) <= (*seen.overtravel)[i]))
+    if (wing.hinges[i].sense != T(0) && // an elastic joint has none
+        !(beyond_stowed(wing.hinges[i], T(rest(i))) + T(way(i)) <= (*seen.overtravel)[i]))
       return false;
   return true;
 }

@@ -3,16 +3,18 @@
 #include "core/laws/driven_base.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace wingspread {
-
 namespace {
 
 [[nodiscard]] double length(const Vec2<double>& v) { return std::sqrt(dot(v, v)); }
+
+double cross(const Vec2<double>& a, const Vec2<double>& b) { return a.x * b.y - a.y * b.x; }
 
 [[nodiscard]] Vec2<double> turned_by(double angle, const Vec2<double>& v) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -26,12 +28,7 @@ public:
 
   bool make(const double* angles, const double* rates) {
     if (!is_modelled()) return false;
-    resize();
-    for (int i = 1; i <= n_; ++i) {
-      m_.parents[i - 1] = wing_.tree.parent_of(i);
-      m_.angles(i - 1) = angles[i - 1];
-    }
-    weigh();
+    begin(angles);
     find_rest();
     take_damping(rates);
     take_dissipation();
@@ -39,10 +36,30 @@ public:
     find_masses();
     find_levers();
     take_remainders();
-    return m_.stiffness.allFinite() && m_.mass.allFinite() && m_.angles.allFinite();
+    return is_finite();
+  }
+
+  bool make_linear(const double* angles, const std::vector<char>& is_held) {
+    begin(angles);
+    if (!settle(is_held)) return false;
+    take_damping(std::vector<double>(n_, 0.0).data());
+    take_dissipation(), take_loops();
+    find_masses();
+    return is_finite();
   }
 
 private:
+  void begin(const double* angles) {
+    resize();
+    for (int i = 1; i <= n_; ++i) {
+      m_.parents[i - 1] = wing_.tree.parent_of(i);
+      m_.angles(i - 1) = angles[i - 1];
+    }
+    weigh();
+  }
+
+  bool is_finite() { return (m_.stiffness + m_.mass).allFinite() && m_.angles.allFinite(); }
+
   [[nodiscard]] bool is_modelled() const {
     const BaseTerms<double>& base = wing_.base;
     if (n_ > most_modelled_bodies || !wing_.plates.empty()) return false;
@@ -120,6 +137,32 @@ private:
     constexpr double rounding = 1e-14; // rad
     const auto least = rounding * m_.stiffness.diagonal().array();
     return (residual_.array().abs() <= least).all();
+  }
+
+  /// Newton's method with the push in K. A hinge that nothing holds stays: the least solution does not move it.
+  bool settle(const std::vector<char>& is_held) {
+    for (int pass = 0; pass < 50; ++pass) {
+      place();
+      find_stiffness();
+      add_stiffness_of_push();
+      for (int i = 0; i < n_; ++i) {
+        if (is_held[i]) m_.stiffness.row(i).setZero(), m_.stiffness.col(i).setZero();
+        if (is_held[i]) m_.stiffness(i, i) = 1, residual_(i) = 0;
+      }
+      const Eigen::VectorXd way = m_.stiffness.completeOrthogonalDecomposition().solve(residual_);
+      m_.angles += way;
+      if (!(way.lpNorm<Eigen::Infinity>() > 1e-12)) return true; // rad, or not a number
+    }
+    return false;
+  }
+
+  /// The push on body k, f at each unit of mass, has the stiffness Y_k·f against the turning of body k.
+  void add_stiffness_of_push() {
+    for (int k = 1; k <= n_; ++k) {
+      const double own = -dot(Y_[k], push_);
+      for (int i = k; own != 0 && i != 0; i = wing_.tree.parent_of(i))
+        for (int j = k; j != 0; j = wing_.tree.parent_of(j)) m_.stiffness(i - 1, j - 1) += own;
+    }
   }
 
   /// Finds K, the moments at rest, and the residual of moments and push.
@@ -239,10 +282,6 @@ private:
     m_.mass = m_.turns.transpose() * M * m_.turns;
     find_pairs(M, s);
   }
-  [[nodiscard]] static double cross(const Vec2<double>& a, const Vec2<double>& b) {
-    return a.x * b.y - a.y * b.x;
-  }
-
   void take_about_center(Eigen::MatrixXd& M, Eigen::MatrixXd& s) const {
     const double share = 1 / outward_mass_[0];
     for (int k = 0; k <= n_; ++k)
@@ -350,6 +389,12 @@ private:
 bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work, const double* angles,
                      const double* rates, RestModel& model) {
   return Maker(wing, work, model).make(angles, rates);
+}
+
+bool make_linear_model(const Wing<double>& wing, const double* angles,
+                       const std::vector<char>& is_held, RestModel& model) {
+  const Workspace<double> at_the_start;
+  return Maker(wing, at_the_start, model).make_linear(angles, is_held);
 }
 
 } // namespace wingspread

@@ -126,4 +126,12 @@ struct RestModel {
 [[nodiscard]] bool make_rest_model(const Wing<double>& wing, const Workspace<double>& work,
                                    const double* angles, const double* rates, RestModel& model);
 
+/// The angles at rest, mass, stiffness, damping and turns alone, of a wing of any size: no bounds, and no part of air,
+/// friction and backlash. The stiffness includes the push of a base that does not turn. Cost O(n³).
+/// @param angles  of the hinges, 0 … n − 1: where the search for rest begins
+/// @param is_held by hinge: stays at its angle, with a row and column of the unit matrix in K
+/// @return whether rest was found, and all is finite
+[[nodiscard]] bool make_linear_model(const Wing<double>& wing, const double* angles,
+                                     const std::vector<char>& is_held, RestModel& model);
+
 } // namespace wingspread

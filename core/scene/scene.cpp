@@ -1,5 +1,7 @@
 #include "core/scene/scene.hpp"
 
+#include "core/scene/segments.hpp"
+
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -109,16 +111,22 @@ void inspect(const Latch& latch, const Owner& owner, Inspector& check) {
                 "0 beside latch.dissipation");
 }
 
+void inspect(const Joint& joint, const Owner& owner, Inspector& check) {
+  check.require(joint.stiffness > 0, joint.stiffness, owner, "joint.stiffness", "> 0");
+  check.require(joint.damping >= 0, joint.damping, owner, "joint.damping", ">= 0");
+}
+
 void inspect(const Hinge& hinge, Inspector& check) {
   const Owner owner{"hinges", hinge.name};
   check.require(true, hinge.parent_point.x(), owner, "parent_point.0", "");
   check.require(true, hinge.parent_point.y(), owner, "parent_point.1", "");
   check.require(true, hinge.child_point.x(), owner, "child_point.0", "");
   check.require(true, hinge.child_point.y(), owner, "child_point.1", "");
-  check.require(true, hinge.stowed, owner, "angle.stowed", "");
+  check.require(true, hinge.stowed, owner, hinge.joint ? "angle" : "angle.stowed", "");
+  check.require(true, hinge.initial_rate, owner, "initial_rate", "");
+  if (hinge.joint) return inspect(*hinge.joint, owner, check);
   check.require(hinge.latched != hinge.stowed, hinge.latched, owner, "angle.latched",
                 "different from angle.stowed");
-  check.require(true, hinge.initial_rate, owner, "initial_rate", "");
   check.require(true, hinge.spring.torque_stowed, owner, "spring.torque_stowed", "");
   check.require(true, hinge.spring.torque_latched, owner, "spring.torque_latched", "");
   check.require(true, hinge.spring.scale, owner, "spring.scale", "");
@@ -133,10 +141,26 @@ void inspect(const Hinge& hinge, Inspector& check) {
   if (hinge.latch) inspect(*hinge.latch, owner, check);
 }
 
+/// @pre the body has a plate
+void inspect(const Body& body, const Flexible& flexible, const Owner& owner, Inspector& check) {
+  if (flexible.bending_stiffness)
+    check.require(*flexible.bending_stiffness > 0, *flexible.bending_stiffness, owner,
+                  "flexible.bending_stiffness", "> 0");
+  if (flexible.frequency)
+    check.require(*flexible.frequency > 0, *flexible.frequency, owner, "flexible.frequency", "> 0");
+  check.require(flexible.damping_ratio >= 0, flexible.damping_ratio, owner,
+                "flexible.damping_ratio", ">= 0");
+  if (body.mass > 0 && body.inertia > 0)
+    check.require(can_be_cut(body), body.inertia, owner, "inertia",
+                  "about mass·length²/12, the inertia of a uniform panel of the plate's length, "
+                  "not below 0.65 of it");
+}
+
 void inspect(const Body& body, Inspector& check) {
   const Owner owner{"bodies", body.name};
   check.require(body.mass > 0, body.mass, owner, "mass", "> 0");
   check.require(body.inertia > 0, body.inertia, owner, "inertia", "> 0");
+  check.require(body.plate || !body.flexible, 0, owner, "plate", "the plate of a flexible body");
   if (!body.plate) return;
   const Plate& plate = *body.plate;
   check.require(true, plate.from.x(), owner, "plate.from.0", "");
@@ -148,6 +172,7 @@ void inspect(const Body& body, Inspector& check) {
   check.require(plate.width >= 0, plate.width, owner, "plate.width", ">= 0");
   check.require(plate.drag_coefficient >= 0, plate.drag_coefficient, owner,
                 "plate.drag_coefficient", ">= 0");
+  if (body.flexible) inspect(body, *body.flexible, owner, check);
 }
 
 void inspect(const Synchronisation& loop, Inspector& check) {

@@ -24,12 +24,23 @@ struct Plate {
   double drag_coefficient = 0; ///< C, 1, ≥ 0: pressure ½ ρ C v² on the normal velocity v
 };
 
-/// A rigid body. Its frame sits in its centre of mass.
+/// A uniform panel that bends along its plate: rigid segments with elastic joints between them (segments.hpp).
+struct Flexible {
+  int joints = 1; ///< N, 1 … most_joints
+  // one of the two is given
+  std::optional<double> bending_stiffness{}; ///< EI, N·m², > 0
+  std::optional<double> frequency{}; ///< the first, of the panel clamped at one end, Hz, > 0
+  double damping_ratio = 0;          ///< ζ of that first mode, ≥ 0
+};
+inline constexpr int most_joints = 32; ///< of a flexible body
+
+/// A body, rigid unless flexible. Its frame sits in its centre of mass.
 struct Body {
   std::string name;
   double mass = 0;    ///< kg, > 0
   double inertia = 0; ///< about the centre of mass, kg·m², > 0
   std::optional<Plate> plate{};
+  std::optional<Flexible> flexible{}; ///< needs a plate, which gives its length and direction
 };
 
 /// A table of measured torque against hinge angle, one way or both.
@@ -114,6 +125,12 @@ struct Latch {
   std::optional<double> dissipation{};
 };
 
+/// An elastic joint: −k (φ − φ_0) − d φ̇ from the start.
+struct Joint {
+  double stiffness = 0; ///< k, N·m/rad, > 0
+  double damping = 0;   ///< d, N·m·s/rad, ≥ 0
+};
+
 inline constexpr int base_index = -1; ///< `Hinge::parent` of a hinge on the base
 
 /// A revolute hinge between a parent body (or the base) and its child.
@@ -132,6 +149,8 @@ struct Hinge {
   std::optional<Damper> damper{};
   std::optional<Stop> stop{}; ///< none: the hinge turns through its stowed angle
   std::optional<Latch> latch; ///< none: the hinge never latches
+  /// In place of all laws above. The hinge then starts and rests at φ_0 = `stowed` = `latched`.
+  std::optional<Joint> joint{};
 };
 
 /// A closed cable loop that ties one hinge's travel x = sense (φ − stowed) to a function g of another's. With

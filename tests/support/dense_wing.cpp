@@ -40,6 +40,7 @@ typename DenseWing<Scalar>::Link DenseWing<Scalar>::make_link(const Scene& scene
   link.damper = h.damper;
   link.stop = h.stop;
   link.latch = h.latch;
+  link.joint = h.joint;
   link.plate = body.plate;
   return link;
 }
@@ -133,6 +134,9 @@ Scalar DenseWing<Scalar>::moment(const Link& link, const WingState<Scalar>& stat
   const Scalar& angle = state.angles(link.hinge);
   const Scalar& rate = state.rates(link.hinge);
   const Scalar& engaged = state.engagement(link.hinge);
+  if (link.joint)
+    return -Scalar(link.joint->stiffness) * (angle - link.stowed) -
+           Scalar(link.joint->damping) * rate;
   Scalar sum = link.sense * (link.spring.torque(angle) - link.harness.torque(angle)) +
                friction(link, angle, rate);
   if (link.damper) sum += damper_moment(*link.damper, angle, rate);
@@ -147,6 +151,10 @@ Scalar DenseWing<Scalar>::moment(const Link& link, const WingState<Scalar>& stat
 template <class Scalar>
 Scalar DenseWing<Scalar>::potential(const Link& link, const WingState<Scalar>& state) const {
   const Scalar& angle = state.angles(link.hinge);
+  if (link.joint) {
+    const Scalar bent = angle - link.stowed;
+    return Scalar(link.joint->stiffness) * bent * bent / 2;
+  }
   Scalar sum = link.sense * (link.spring.integral(angle, link.latched) -
                              link.harness.integral(angle, link.latched));
   if (link.latch)

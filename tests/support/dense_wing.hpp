@@ -137,6 +137,7 @@ private:
     std::optional<Damper> damper;
     std::optional<Stop> stop;
     std::optional<Latch> latch;
+    std::optional<Joint> joint;
     std::optional<Plate> plate;
   };
 

@@ -11,9 +11,11 @@ struct Quantity {
   const char* unit;
 };
 
-constexpr std::array per_hinge{Quantity{"latch_time", "s"}, Quantity{"latch_rate", "rad/s"},
-                               Quantity{"peak_moment", "N·m"}, Quantity{"peak_force", "N"},
-                               Quantity{"overtravel", "rad"}};
+constexpr std::array per_hinge{
+    Quantity{"latch_time", "s"},    Quantity{"latch_rate", "rad/s"},
+    Quantity{"peak_moment", "N·m"}, Quantity{"peak_force", "N"},
+    Quantity{"overtravel", "rad"},  Quantity{"peak_bending_moment", "N·m"}, // of a body
+    Quantity{"frequency", "Hz"}};                                           // of a mode
 constexpr std::array of_base{Quantity{"base.peak_angle", "rad"},
                              Quantity{"base.peak_rate", "rad/s"}};
 constexpr std::string_view rate_at = ".rate_at.";

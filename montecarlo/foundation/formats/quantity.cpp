@@ -29,7 +29,8 @@ constexpr long double gravity = 9.80665L, pound_force = pound * gravity;
 namespace powers {
 using Exponents = std::array<double, 4>; // of m, kg, s, rad
 constexpr Exponents length{1, 0, 0, 0}, mass{0, 1, 0, 0}, duration{0, 0, 1, 0}, angle{0, 0, 0, 1},
-    rate{0, 0, -1, 1}, acceleration{1, 0, -2, 0}, force{1, 1, -2, 0}, torque{2, 1, -2, 0};
+    rate{0, 0, -1, 1}, frequency{0, 0, -1, 0}, acceleration{1, 0, -2, 0}, force{1, 1, -2, 0},
+    torque{2, 1, -2, 0};
 } // namespace powers
 
 constexpr std::array symbols{
@@ -54,6 +55,9 @@ constexpr std::array symbols{
     Symbol{"°", {pi / 180, powers::angle}},
     Symbol{"rev", {2 * pi, powers::angle}},
     Symbol{"rpm", {2 * pi / 60, powers::rate}},
+    Symbol{"Hz", {1, powers::frequency}},
+    Symbol{"mHz", {0.001L, powers::frequency}},
+    Symbol{"kHz", {1000, powers::frequency}},
     Symbol{"N", {1, powers::force}},
     Symbol{"mN", {0.001L, powers::force}},
     Symbol{"kN", {1000, powers::force}},
@@ -168,7 +172,7 @@ std::optional<Unit> parse_unit(std::string_view text, const Unit& wanted) {
 }
 
 /// Usual units by SI unit, for messages.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> usual_units{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 17> usual_units{{
     {"m", R"("m", "mm", "cm", "in" or "ft")"},
     {"kg", R"("kg", "g" or "lb")"},
     {"s", R"("s", "ms" or "min")"},
@@ -179,6 +183,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 15> usual_un
     {"m/s", R"("m/s", "mm/s", "in/s" or "ft/s")"},
     {"m/s²", R"("m/s^2", "g", "in/s^2" or "ft/s^2")"},
     {"kg·m²", R"("kg*m^2", "kg*mm^2", "lb*in^2" or "slug*ft^2")"},
+    {"Hz", R"("Hz", "mHz" or "kHz")"},
+    {"N·m²", R"("N*m^2", "N*mm^2" or "lbf*in^2")"},
     {"kg/m³", R"("kg/m^3" or "lb/ft^3")"},
     {"N", R"("N", "kN" or "lbf")"},
     {"N·m", R"("N*m", "N*mm", "in*lbf", "in*ozf" or "ft*lbf")"},

@@ -1,10 +1,13 @@
+#include "montecarlo/foundation/formats/nearest.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/describe.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
 #include "montecarlo/model/input_checks/placement.hpp"
 #include "montecarlo/model/static_margins/static_margin_report.hpp"
+#include "montecarlo/report/text/modes_report.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 
 #include <fmt/format.h>
@@ -78,7 +81,74 @@ Example:
   wingspread check campaign.json --case cold)");
 }
 
+struct ModesOptions {
+  std::filesystem::path file;
+  api::Settings settings; ///< only set and of_case
+  std::vector<std::string> latched;
+  bool json = false;
+};
+
+/// The indices of the named hinges; nothing if none is named. @throws SpecError with all unknown names
+std::optional<std::vector<int>> latched_hinges(const Scene& scene,
+                                               const std::vector<std::string>& names) {
+  if (names.empty()) return std::nullopt;
+  std::vector<Problem> problems;
+  std::vector<std::string> known;
+  std::vector<int> found;
+  for (const Hinge& hinge : scene.hinges)
+    if (hinge.latch) known.push_back(hinge.name);
+  for (const std::string& name : names) {
+    const auto hinge = std::ranges::find(scene.hinges, name, &Hinge::name);
+    if (hinge != scene.hinges.end() && hinge->latch)
+      found.push_back(static_cast<int>(hinge - scene.hinges.begin()));
+    else
+      problems.push_back({"", "--latched", fmt::format("\"{}\"", name),
+                          "hinges that have a latch" + did_you_mean(name, known)});
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  return found;
+}
+
+int modes(const ModesOptions& options) {
+  const Scene scene = task_of(read_file(options.file), options.settings).scene;
+  const std::optional<WingModes> found =
+      natural_modes(scene, latched_hinges(scene, options.latched));
+  if (!found)
+    throw SpecError({{options.file.string(), "", "a wing without rest",
+                      "latches, springs or joints that balance gravity in some position"}});
+  fmt::print("{}", options.json ? json_text(modes_json(*found)) : modes_text(*found));
+  return exit_code::done;
+}
+
+void add_modes_options(CLI::App& command, ModesOptions& options) {
+  command.add_option("file", options.file, "A scene, or a campaign for its nominal scene")
+      ->required();
+  command
+      .add_option("--latched", options.latched,
+                  "Hinges whose latches are engaged; the others are held stowed. Default: all")
+      ->delimiter(',')
+      ->type_name("HINGE,...");
+  command.add_flag("--json", options.json, "Print the modes as JSON, with flexible bodies' joints");
+  add_set_option(command, options.settings.set);
+  add_case_option(command, options.settings.of_case);
+  command.footer(
+      R"(Prints the natural frequencies, damping ratios and shapes of small swings about rest: latches,
+springs, joints, loops and gravity, no friction but the viscous one, no power-law damper, no air.
+A mode that nothing holds has frequency 0. In a campaign "outputs": ["frequency"] gives every run
+the frequencies of its draw, mode_1.frequency and so on.
+
+Example:
+  wingspread modes three_panel.json
+  wingspread modes campaign.json --latched root,mid --json)");
+}
+
 } // namespace
+
+void add_modes(CLI::App& app, Action& action) {
+  add_command<ModesOptions>(app, action, "modes",
+                            "Print the natural frequencies of the deployed wing", add_modes_options,
+                            modes);
+}
 
 void add_check(CLI::App& app, Action& action) {
   add_command<CheckOptions>(app, action, "check",

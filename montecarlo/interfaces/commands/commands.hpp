@@ -23,6 +23,7 @@ void add_size(CLI::App& app, Action& action);
 void add_simulate(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
+void add_modes(CLI::App& app, Action& action);
 void add_sample(CLI::App& app, Action& action);
 void add_sensitivity(CLI::App& app, Action& action);
 void add_rare(CLI::App& app, Action& action);

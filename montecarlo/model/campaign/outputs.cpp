@@ -3,6 +3,8 @@
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -17,6 +19,13 @@ void add_rates_at(const Scene& scene, int hinge, std::vector<OutputColumn>& colu
     if (other != hinge && scene.hinges[other].latch)
       columns.push_back({scene.hinges[hinge].name + ".rate_at." + scene.hinges[other].name,
                          Quantity::rate_at, hinge, other});
+}
+
+/// How many hinges and joints of flexible bodies move.
+int freedoms(const Scene& scene) {
+  auto count = static_cast<int>(scene.hinges.size());
+  for (const Body& body : scene.bodies) count += body.flexible ? body.flexible->joints : 0;
+  return count;
 }
 
 const LatchEvent* latch_of(int hinge, const Outcome& outcome) {
@@ -61,6 +70,12 @@ double number_of(const OutputColumn& column, const Outcome& outcome) {
     return of_base(outcome, &BasePeaks::angle);
   case Quantity::base_peak_rate:
     return of_base(outcome, &BasePeaks::rate);
+  case Quantity::bending_moment:
+    return peak_of(column.hinge, outcome.bending_moment, outcome.status);
+  case Quantity::frequency:
+    return column.hinge < std::ssize(outcome.mode_frequencies)
+               ? outcome.mode_frequencies[column.hinge]
+               : undefined;
   case Quantity::deployment_time:
     return outcome.status == Status::deployed ? outcome.latches.back().time : undefined;
   }
@@ -86,7 +101,7 @@ bool has_peaks(const Outputs& outputs) {
 
 bool is_peak(std::string_view output) {
   const std::string quantity = parse_output_name(output).quantity;
-  return quantity == "peak_moment" || quantity == "peak_force";
+  return quantity == "peak_moment" || quantity == "peak_force" || quantity == "peak_bending_moment";
 }
 
 void match_peaks_final(Outputs& outputs) {
@@ -100,6 +115,7 @@ Outputs all_outputs() {
   Outputs outputs = default_outputs();
   outputs.insert(OutputFamily::rate_at);
   outputs.insert(OutputFamily::base_motion);
+  outputs.insert(OutputFamily::frequency);
   return outputs;
 }
 
@@ -133,13 +149,21 @@ std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outp
     }
     add(OutputFamily::peak_moment, "peak_moment", Quantity::peak_moment);
     add(OutputFamily::peak_force, "peak_force", Quantity::peak_force);
+    if (hinge.joint) continue;
     add(OutputFamily::overtravel, "overtravel", Quantity::overtravel);
     if (outputs.contains(OutputFamily::rate_at)) add_rates_at(scene, i, columns);
   }
+  for (int b = 0; b < std::ssize(scene.bodies); ++b)
+    if (scene.bodies[b].flexible && outputs.contains(OutputFamily::peak_moment))
+      columns.push_back(
+          {scene.bodies[b].name + ".peak_bending_moment", Quantity::bending_moment, b, -1});
   if (outputs.contains(OutputFamily::base_motion) && scene.base.motion == BaseMotion::free) {
     columns.push_back({"base.peak_angle", Quantity::base_peak_angle, -1, -1});
     columns.push_back({"base.peak_rate", Quantity::base_peak_rate, -1, -1});
   }
+  const int modes = std::min(freedoms(scene), most_mode_outputs);
+  for (int k = 0; k < modes && outputs.contains(OutputFamily::frequency); ++k)
+    columns.push_back({fmt::format("mode_{}.frequency", k + 1), Quantity::frequency, k, -1});
   columns.push_back({"deployment_time", Quantity::deployment_time, -1, -1});
   return columns;
 }
@@ -151,6 +175,7 @@ Goal goal_of(const Outputs& outputs) {
   goal.overtravel = outputs.contains(OutputFamily::overtravel);
   goal.audit = goal.end_state = false;
   goal.to_t_end = outputs.contains(OutputFamily::base_motion);
+  goal.mode_frequencies = outputs.contains(OutputFamily::frequency);
   return goal;
 }
 

@@ -30,14 +30,16 @@ enum class OutputFamily {
   rate_at,
   overtravel,
   peaks_final,
-  base_motion ///< of a free base; not a default, because runs then go to t_end
+  base_motion, ///< of a free base; not a default, because runs then go to t_end
+  frequency    ///< of the deployed wing's modes; not a default, because each costs a decomposition
 };
-inline constexpr std::array<std::string_view, 8> output_family_names{
-    "latch_time", "latch_rate", "peak_moment", "peak_force",
-    "rate_at",    "overtravel", "peaks_final", "base_motion"};
+inline constexpr std::array<std::string_view, 9> output_family_names{
+    "latch_time", "latch_rate",  "peak_moment", "peak_force", "rate_at",
+    "overtravel", "peaks_final", "base_motion", "frequency"};
+inline constexpr int most_mode_outputs = 10; ///< mode_1.frequency … mode_10.frequency
 using Outputs = std::set<OutputFamily>;
 
-/// All families except `rate_at` (quadratic in the number of hinges) and `base_motion`.
+/// All families except `rate_at` (quadratic in the number of hinges), `base_motion` and `frequency`.
 [[nodiscard]] Outputs default_outputs();
 
 /// Whether the outputs include peaks, which t_end may cut.
@@ -68,14 +70,18 @@ struct OutputColumn {
     overtravel,
     base_peak_angle,
     base_peak_rate,
+    bending_moment,
+    frequency,
     deployment_time
   } quantity;
-  int hinge = -1; ///< index into Scene::hinges; −1 for the wing or the base
+  /// Index into Scene::hinges; of a bending moment into Scene::bodies; of a frequency the mode, from 0; else −1.
+  int hinge = -1;
   int other = -1; ///< of `rate_at`: the hinge that latches
 };
 
-/// The columns of the families for a scene: hinge by hinge in the scene's order, then a free base's, then
-/// `deployment_time`, which is always present. A hinge without a latch has no latch_time and latch_rate, but rate_at
+/// The columns of the families for a scene: hinge by hinge in the scene's order, then flexible bodies' bending moments
+/// (with the peak moments), a free base's, the modes', then `deployment_time`, which is always present. An elastic joint
+/// has peaks only. A hinge without a latch has no latch_time and latch_rate, but rate_at
 /// other hinges' latching. A hinge has no rate_at its own latching: that is its latch_rate.
 [[nodiscard]] std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs);
 

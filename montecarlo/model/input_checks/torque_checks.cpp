@@ -78,6 +78,10 @@ void check_torques(const Scene& scene, InputWarnings& warnings) {
   std::vector<bool> pushes;
   for (std::size_t h = 0; h < scene.hinges.size(); ++h) {
     const std::string at = fmt::format("/hinges/{}", h);
+    if (scene.hinges[h].joint) { // has no travel
+      pushes.push_back(false);
+      continue;
+    }
     pushes.push_back(check_spring(at, scene.hinges[h], warnings));
     check_latch(at, scene.hinges[h], warnings);
   }

@@ -133,8 +133,23 @@ std::string describe_latch(const std::optional<Latch>& latch) {
   return fmt::format("; latch {} N·m/rad, {}{}", latch->stiffness, damping, backlash);
 }
 
+std::string describe_flexible(const Body& body) {
+  if (!body.flexible) return "";
+  const Flexible& flexible = *body.flexible;
+  const std::string given = flexible.frequency
+                                ? fmt::format("{} Hz clamped", *flexible.frequency)
+                                : fmt::format("{} N·m²", *flexible.bending_stiffness);
+  return fmt::format("; bends, {}, damping ratio {}, as {} segments", given, flexible.damping_ratio,
+                     flexible.joints + 1);
+}
+
 std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
   const std::string parent = hinge.parent == base_index ? "base" : scene.bodies[hinge.parent].name;
+  if (hinge.joint)
+    return fmt::format(
+        "{}: {} to {}; elastic joint at {} rad, {} N·m/rad, {} N·m·s/rad{}", hinge.name, parent,
+        scene.bodies[hinge.child].name, hinge.stowed, hinge.joint->stiffness, hinge.joint->damping,
+        hinge.initial_rate == 0 ? "" : fmt::format(", from {} rad/s", hinge.initial_rate));
   std::string text = fmt::format("{}: {} to {}, {} to {} rad", hinge.name, parent,
                                  scene.bodies[hinge.child].name, hinge.stowed, hinge.latched);
   if (hinge.initial_rate != 0) text += fmt::format(", from {} rad/s", hinge.initial_rate);
@@ -150,7 +165,7 @@ std::string describe_body(const Body& body) {
     text += fmt::format("; plate from {} to {} m, {} m wide, drag coefficient {}",
                         describe_vector(plate->from), describe_vector(plate->to), plate->width,
                         plate->drag_coefficient);
-  return text;
+  return text + describe_flexible(body);
 }
 
 std::string describe_loop(const Scene& scene, const Synchronisation& loop) {

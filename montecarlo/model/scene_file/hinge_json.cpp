@@ -111,6 +111,26 @@ void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
   object.refuse_others();
 }
 
+/// Refuses the laws that a joint replaces.
+void refuse_laws_beside_joint(JsonObject& object) {
+  for (const char* key : {"spring", "harness", "friction", "damper", "stop", "latch"})
+    if (const auto law = object.find(key))
+      law->refuse(
+          fmt::format("no \"{}\" beside \"joint\": an elastic joint has no other law", key));
+}
+
+/// Reads an elastic joint and its angle, one number.
+void read_joint(JsonObject& object, const JsonCursor& at, Hinge& hinge) {
+  JsonObject joint(at, "an object with the joint's stiffness and damping");
+  hinge.joint.emplace();
+  joint.required("stiffness", hinge.joint->stiffness, Dimension{"N·m/rad", "> 0"});
+  joint.optional("damping", hinge.joint->damping, Dimension{"N·m·s/rad", "≥ 0"});
+  joint.refuse_others();
+  object.required("angle", hinge.stowed, Dimension{"rad"});
+  hinge.latched = hinge.stowed;
+  refuse_laws_beside_joint(object);
+}
+
 std::optional<std::string> read_end(JsonObject& object, std::string_view key,
                                     std::string_view expected) {
   std::string name;
@@ -126,6 +146,11 @@ void read_laws(JsonObject& object, Way way, Hinge& hinge) {
   if (const auto damper = object.find("damper")) read_damper(*damper, hinge.damper);
   if (const auto stop = object.find("stop")) read_stop(*stop, hinge.stop);
   if (const auto latch = object.find("latch")) read_latch(*latch, hinge.latch);
+}
+
+Json write_angle(const Hinge& hinge) {
+  if (hinge.joint) return hinge.stowed;
+  return {{"stowed", hinge.stowed}, {"latched", hinge.latched}};
 }
 
 Json write_friction(const Friction& friction) {
@@ -176,10 +201,13 @@ HingeEnds read_hinge(const JsonCursor& at, Hinge& hinge) {
   ends.child = read_end(object, "child", "a string, a body's name");
   object.required("parent_point", hinge.parent_point, Dimension{"m"});
   object.required("child_point", hinge.child_point, Dimension{"m"});
-  const auto angle = object.require("angle", "an object with the stowed and the latched angle");
-  const Way way = angle ? read_angle(*angle, hinge) : Way::unknown;
   object.optional("initial_rate", hinge.initial_rate, Dimension{"rad/s"});
-  read_laws(object, way, hinge);
+  if (const auto joint = object.find("joint")) {
+    read_joint(object, *joint, hinge);
+  } else {
+    const auto angle = object.require("angle", "an object with the stowed and the latched angle");
+    read_laws(object, angle ? read_angle(*angle, hinge) : Way::unknown, hinge);
+  }
   object.refuse_others();
   return ends;
 }
@@ -192,11 +220,15 @@ Json write_hinge(const Scene& scene, const Hinge& hinge) {
             {"child", scene.bodies[hinge.child].name},
             {"parent_point", write_vector(hinge.parent_point)},
             {"child_point", write_vector(hinge.child_point)},
-            {"angle", {{"stowed", hinge.stowed}, {"latched", hinge.latched}}},
-            {"initial_rate", hinge.initial_rate},
-            {"spring", write_torque(hinge.spring)},
-            {"harness", write_torque(hinge.harness)},
-            {"friction", write_friction(hinge.friction)}};
+            {"angle", write_angle(hinge)},
+            {"initial_rate", hinge.initial_rate}};
+  if (hinge.joint) {
+    json["joint"] = {{"stiffness", hinge.joint->stiffness}, {"damping", hinge.joint->damping}};
+    return json;
+  }
+  json["spring"] = write_torque(hinge.spring);
+  json["harness"] = write_torque(hinge.harness);
+  json["friction"] = write_friction(hinge.friction);
   if (hinge.damper) json["damper"] = write_damper(*hinge.damper);
   if (hinge.stop)
     json["stop"] = {{"stiffness", hinge.stop->stiffness},

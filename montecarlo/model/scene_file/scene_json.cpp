@@ -3,9 +3,13 @@
 #include "montecarlo/foundation/formats/printable.hpp"
 #include "montecarlo/model/scene_file/base_json.hpp"
 #include "montecarlo/model/scene_file/hinge_json.hpp"
+#include "montecarlo/model/scene_file/mirror.hpp"
 #include "montecarlo/model/scene_file/synchronisation_json.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,12 +28,38 @@ void read_plate(const JsonCursor& at, std::optional<Plate>& plate) {
   object.refuse_others();
 }
 
+/// Reads how a body bends. @param body with its plate as read
+void read_flexible(const JsonCursor& at, Body& body) {
+  JsonObject object(at, "an object with joints, damping_ratio, and bending_stiffness or frequency");
+  Flexible& flexible = body.flexible.emplace();
+  std::int64_t joints = 1;
+  if (object.required("joints", joints, fmt::format("an integer from 1 to {}", most_joints),
+                      [](const std::int64_t& n) { return n >= 1 && n <= most_joints; }))
+    flexible.joints = static_cast<int>(joints);
+  const auto frequency = object.find("frequency");
+  const auto stiffness = frequency
+                             ? object.find("bending_stiffness")
+                             : object.require("bending_stiffness",
+                                              "a number, N·m², > 0, or \"frequency\" in its place");
+  if (frequency) frequency->read(flexible.frequency.emplace(), Dimension{"Hz", "> 0"});
+  if (frequency && stiffness)
+    stiffness->refuse("no bending_stiffness beside \"frequency\": each gives the other");
+  else if (stiffness)
+    stiffness->read(flexible.bending_stiffness.emplace(), Dimension{"N·m²", "> 0"});
+  object.required("damping_ratio", flexible.damping_ratio, "a number, ≥ 0");
+  object.refuse_others();
+  if (body.plate) return;
+  at.refuse("a body with a \"plate\", which gives the flexible body's length");
+  body.flexible.reset();
+}
+
 void read_body(const JsonCursor& at, Body& body) {
   JsonObject object(at, "a body: an object");
   object.required("name", body.name, "a string, the body's name");
   object.required("mass", body.mass, Dimension{"kg", "> 0"});
   object.required("inertia", body.inertia, Dimension{"kg·m²", "> 0"});
   if (const auto plate = object.find("plate")) read_plate(*plate, body.plate);
+  if (const auto flexible = object.find("flexible")) read_flexible(*flexible, body);
   object.refuse_others();
 }
 
@@ -78,6 +108,14 @@ void refuse_unphysical(const JsonCursor& at, Scene scene) {
   }
 }
 
+Json write_flexible(const Flexible& flexible) {
+  Json json{{"joints", flexible.joints}};
+  if (flexible.bending_stiffness) json["bending_stiffness"] = *flexible.bending_stiffness;
+  if (flexible.frequency) json["frequency"] = *flexible.frequency;
+  json["damping_ratio"] = flexible.damping_ratio;
+  return json;
+}
+
 Json write_body(const Body& body) {
   Json json{{"name", body.name}, {"mass", body.mass}, {"inertia", body.inertia}};
   if (body.plate)
@@ -85,12 +123,14 @@ Json write_body(const Body& body) {
                      {"to", write_vector(body.plate->to)},
                      {"width", body.plate->width},
                      {"drag_coefficient", body.plate->drag_coefficient}};
+  if (body.flexible) json["flexible"] = write_flexible(*body.flexible);
   return json;
 }
 
 } // namespace
 
 Scene read_scene(const JsonCursor& at) {
+  const std::size_t known_problems = at.problems().size();
   Scene scene;
   JsonObject object(at, "a scene: an object");
   object.required(
@@ -103,6 +143,8 @@ Scene read_scene(const JsonCursor& at) {
   const Array loops = read_synchronisation_list(object);
   if (const auto environment = object.find("environment"))
     read_environment(*environment, scene.environment);
+  const auto mirror = object.find("mirror");
+  const MirrorNames names = mirror ? read_mirror(*mirror) : MirrorNames{};
   object.refuse_others();
   scene.bodies.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) read_body(bodies[i], scene.bodies[i]);
@@ -118,6 +160,7 @@ Scene read_scene(const JsonCursor& at) {
   check_names(at, scene);
   link_hinges(at, ends, scene);
   link_synchronisations(at, loop_ends, scene);
+  if (mirror && at.problems().size() == known_problems) add_mirrored(*mirror, names, scene);
   return scene;
 }
 

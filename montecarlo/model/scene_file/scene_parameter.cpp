@@ -44,8 +44,13 @@ bool has_rate(const Base& base) {
   return is_moving(base) && !(has_table(base) && base.table->gives_rate());
 }
 bool has_plate(const Body& body) { return body.plate.has_value(); }
-bool has_spring_line(const Hinge& hinge) { return !hinge.spring.table; }
-bool has_harness_line(const Hinge& hinge) { return !hinge.harness.table; }
+bool has_stiffness(const Body& body) { return body.flexible && body.flexible->bending_stiffness; }
+bool has_frequency(const Body& body) { return body.flexible && body.flexible->frequency; }
+bool is_flexible(const Body& body) { return body.flexible.has_value(); }
+bool has_joint(const Hinge& hinge) { return hinge.joint.has_value(); }
+bool has_laws(const Hinge& hinge) { return !hinge.joint; }
+bool has_spring_line(const Hinge& hinge) { return !hinge.joint && !hinge.spring.table; }
+bool has_harness_line(const Hinge& hinge) { return !hinge.joint && !hinge.harness.table; }
 bool has_damper(const Hinge& hinge) { return hinge.damper.has_value(); }
 bool has_law(const Hinge& hinge, DamperLaw law) { return hinge.damper && hinge.damper->law == law; }
 bool has_eddy_current(const Hinge& hinge) { return has_law(hinge, DamperLaw::eddy_current); }
@@ -60,7 +65,7 @@ bool has_dissipation(const Hinge& hinge) { return hinge.latch && hinge.latch->di
 bool has_damping(const Hinge& hinge) { return hinge.latch && !hinge.latch->dissipation; }
 bool has_static(const Hinge& hinge) { return hinge.friction.static_level.has_value(); }
 bool is_regularized(const Hinge& hinge) {
-  return hinge.friction.model == FrictionModel::regularized;
+  return !hinge.joint && hinge.friction.model == FrictionModel::regularized;
 }
 
 constexpr std::string_view needs_free = "a base whose motion is \"free\"";
@@ -70,6 +75,11 @@ constexpr std::string_view needs_table = "a base whose motion is prescribed by a
 constexpr std::string_view needs_motion = "a base that is not fixed";
 constexpr std::string_view needs_rate = "a base that is not fixed, with no table of its rate";
 constexpr std::string_view needs_plate = "a body that has a plate";
+constexpr std::string_view needs_flexible = "a body that is flexible";
+constexpr std::string_view needs_stiffness = "a flexible body with a bending_stiffness";
+constexpr std::string_view needs_frequency = "a flexible body with a frequency";
+constexpr std::string_view needs_joint = "a hinge that is an elastic joint";
+constexpr std::string_view needs_laws = "a hinge that is no elastic joint";
 constexpr std::string_view needs_spring_line =
     "a hinge whose spring has no table (scale and offset disperse one)";
 constexpr std::string_view needs_harness_line =
@@ -107,29 +117,32 @@ constexpr std::array body_fields{
     Field<Body>{"mass", "kg", [](auto& b) -> auto& { return b.mass; }},
     Field<Body>{"inertia", "kg·m²", [](auto& b) -> auto& { return b.inertia; }},
     Field<Body>{"plate.width", "m", [](auto& b) -> auto& { return b.plate->width; }, has_plate, needs_plate},
-    Field<Body>{"plate.drag_coefficient", "", [](auto& b) -> auto& { return b.plate->drag_coefficient; }, has_plate, needs_plate}};
+    Field<Body>{"plate.drag_coefficient", "", [](auto& b) -> auto& { return b.plate->drag_coefficient; }, has_plate, needs_plate},
+    Field<Body>{"flexible.bending_stiffness", "N·m²", [](auto& b) -> auto& { return *b.flexible->bending_stiffness; }, has_stiffness, needs_stiffness},
+    Field<Body>{"flexible.frequency", "Hz", [](auto& b) -> auto& { return *b.flexible->frequency; }, has_frequency, needs_frequency},
+    Field<Body>{"flexible.damping_ratio", "", [](auto& b) -> auto& { return b.flexible->damping_ratio; }, is_flexible, needs_flexible}};
 
 constexpr std::array hinge_fields{
     Field<Hinge>{"parent_point.0", "m", [](auto& h) -> auto& { return h.parent_point[0]; }},
     Field<Hinge>{"parent_point.1", "m", [](auto& h) -> auto& { return h.parent_point[1]; }},
     Field<Hinge>{"child_point.0", "m", [](auto& h) -> auto& { return h.child_point[0]; }},
     Field<Hinge>{"child_point.1", "m", [](auto& h) -> auto& { return h.child_point[1]; }},
-    Field<Hinge>{"angle.stowed", "rad", [](auto& h) -> auto& { return h.stowed; }},
-    Field<Hinge>{"angle.latched", "rad", [](auto& h) -> auto& { return h.latched; }},
+    Field<Hinge>{"angle.stowed", "rad", [](auto& h) -> auto& { return h.stowed; }, has_laws, needs_laws},
+    Field<Hinge>{"angle.latched", "rad", [](auto& h) -> auto& { return h.latched; }, has_laws, needs_laws},
     Field<Hinge>{"initial_rate", "rad/s", [](auto& h) -> auto& { return h.initial_rate; }},
     Field<Hinge>{"spring.torque_stowed", "N·m", [](auto& h) -> auto& { return h.spring.torque_stowed; }, has_spring_line, needs_spring_line},
     Field<Hinge>{"spring.torque_latched", "N·m", [](auto& h) -> auto& { return h.spring.torque_latched; }, has_spring_line, needs_spring_line},
-    Field<Hinge>{"spring.scale", "", [](auto& h) -> auto& { return h.spring.scale; }},
-    Field<Hinge>{"spring.offset", "N·m", [](auto& h) -> auto& { return h.spring.offset; }},
+    Field<Hinge>{"spring.scale", "", [](auto& h) -> auto& { return h.spring.scale; }, has_laws, needs_laws},
+    Field<Hinge>{"spring.offset", "N·m", [](auto& h) -> auto& { return h.spring.offset; }, has_laws, needs_laws},
     Field<Hinge>{"harness.torque_stowed", "N·m", [](auto& h) -> auto& { return h.harness.torque_stowed; }, has_harness_line, needs_harness_line},
     Field<Hinge>{"harness.torque_latched", "N·m", [](auto& h) -> auto& { return h.harness.torque_latched; }, has_harness_line, needs_harness_line},
-    Field<Hinge>{"harness.scale", "", [](auto& h) -> auto& { return h.harness.scale; }},
-    Field<Hinge>{"harness.offset", "N·m", [](auto& h) -> auto& { return h.harness.offset; }},
-    Field<Hinge>{"friction.coulomb", "N·m", [](auto& h) -> auto& { return h.friction.coulomb; }},
-    Field<Hinge>{"friction.viscous", "N·m·s/rad", [](auto& h) -> auto& { return h.friction.viscous; }},
+    Field<Hinge>{"harness.scale", "", [](auto& h) -> auto& { return h.harness.scale; }, has_laws, needs_laws},
+    Field<Hinge>{"harness.offset", "N·m", [](auto& h) -> auto& { return h.harness.offset; }, has_laws, needs_laws},
+    Field<Hinge>{"friction.coulomb", "N·m", [](auto& h) -> auto& { return h.friction.coulomb; }, has_laws, needs_laws},
+    Field<Hinge>{"friction.viscous", "N·m·s/rad", [](auto& h) -> auto& { return h.friction.viscous; }, has_laws, needs_laws},
     Field<Hinge>{"friction.regularization_rate", "rad/s", [](auto& h) -> auto& { return h.friction.regularization_rate; }, is_regularized, needs_regularized},
     Field<Hinge>{"friction.static", "N·m", [](auto& h) -> auto& { return *h.friction.static_level; }, has_static, needs_static},
-    Field<Hinge>{"friction.scale", "", [](auto& h) -> auto& { return h.friction.scale; }},
+    Field<Hinge>{"friction.scale", "", [](auto& h) -> auto& { return h.friction.scale; }, has_laws, needs_laws},
     Field<Hinge>{"damper.coefficient", "N·m·(s/rad)^p", [](auto& h) -> auto& { return h.damper->coefficient; }, has_coefficient, needs_coefficient},
     Field<Hinge>{"damper.exponent", "", [](auto& h) -> auto& { return h.damper->exponent; }, has_power_law, needs_power_law},
     Field<Hinge>{"damper.regularization_rate", "rad/s", [](auto& h) -> auto& { return h.damper->regularization_rate; }, has_power_law, needs_power_law},
@@ -144,7 +157,10 @@ constexpr std::array hinge_fields{
     Field<Hinge>{"latch.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.latch->stiffness; }, has_latch, needs_latch},
     Field<Hinge>{"latch.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.latch->damping; }, has_damping, needs_damping},
     Field<Hinge>{"latch.dissipation", "s/rad", [](auto& h) -> auto& { return *h.latch->dissipation; }, has_dissipation, needs_dissipation},
-    Field<Hinge>{"latch.backlash", "rad", [](auto& h) -> auto& { return h.latch->backlash; }, has_latch, needs_latch}};
+    Field<Hinge>{"latch.backlash", "rad", [](auto& h) -> auto& { return h.latch->backlash; }, has_latch, needs_latch},
+    Field<Hinge>{"angle", "rad", [](auto& h) -> auto& { return h.stowed; }, has_joint, needs_joint},
+    Field<Hinge>{"joint.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.joint->stiffness; }, has_joint, needs_joint},
+    Field<Hinge>{"joint.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.joint->damping; }, has_joint, needs_joint}};
 
 constexpr std::array synchronisation_fields{
     Field<Synchronisation>{"ratio", "", [](auto& s) -> auto& { return s.ratio; }, has_ratio, needs_ratio},

@@ -64,6 +64,8 @@ std::optional<int> hinge_index(const Scene& scene, const std::string& name) {
 int link_end(const JsonCursor& between, std::size_t end, const std::string& name,
              const Scene& scene) {
   const auto index = hinge_index(scene, name);
+  if (index && scene.hinges[*index].joint)
+    between.element(end).refuse("a hinge with a travel: an elastic joint has none");
   if (index) return *index;
   std::vector<std::string> names;
   for (const Hinge& hinge : scene.hinges) names.push_back(hinge.name);

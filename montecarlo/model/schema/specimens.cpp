@@ -7,7 +7,7 @@
 namespace wingspread {
 namespace {
 
-constexpr std::array<std::string_view, 5> scenes{
+constexpr std::array<std::string_view, 6> scenes{
     R"({
   "name": "on a fixed base", "base": { "motion": "fixed" },
   "bodies": [
@@ -68,7 +68,23 @@ constexpr std::array<std::string_view, 5> scenes{
   "base": { "motion": "prescribed", "acceleration": [0, 0], "angle": 0, "table": { "time": [0, 1], "rate": [0, 0.1] } },
   "bodies": [ { "name": "panel", "mass": 10, "inertia": 0.5 } ],
   "hinges": [ { "name": "root", "parent": "base", "child": "panel", "parent_point": [0, 0],
-                "child_point": [-0.5, 0], "angle": { "stowed": 1.5, "latched": 0 } } ] })"};
+                "child_point": [-0.5, 0], "angle": { "stowed": 1.5, "latched": 0 } } ] })",
+    R"({
+  "name": "bends, with a mirrored wing",
+  "base": { "motion": "fixed" },
+  "bodies": [
+    { "name": "R_yoke", "mass": 3, "inertia": 0.3,
+      "plate": { "from": [-0.5, 0], "to": [0.5, 0], "width": 1, "drag_coefficient": 0 },
+      "flexible": { "joints": 2, "bending_stiffness": 500, "damping_ratio": 0.01 } },
+    { "name": "R_panel", "mass": 8, "inertia": 0.8,
+      "plate": { "from": [-0.5, 0], "to": [0.5, 0], "width": 1, "drag_coefficient": 0 },
+      "flexible": { "joints": 4, "frequency": "8 Hz", "damping_ratio": 0.01 } } ],
+  "hinges": [
+    { "name": "R_root", "parent": "base", "child": "R_yoke", "parent_point": [1, 0], "child_point": [-0.5, 0],
+      "angle": 0, "initial_rate": 0, "joint": { "stiffness": 1000, "damping": 1 } },
+    { "name": "R_hinge", "parent": "R_yoke", "child": "R_panel", "parent_point": [0.5, 0], "child_point": [-0.5, 0],
+      "angle": { "stowed": 3, "latched": 0 }, "latch": { "stiffness": 10000, "damping": 100 } } ],
+  "mirror": { "of": "R_*", "as": "L_*" } })"};
 
 // A campaign without a scene gets the first scene.
 constexpr std::array<std::string_view, 4> campaigns{R"({
@@ -111,7 +127,7 @@ constexpr std::array<std::string_view, 4> campaigns{R"({
   "sampling": { "design": "random", "runs": 1000, "seed": 1, "replicates": 1 },
   "integration": { "method": "auto", "rtol": 1e-8, "atol": 1e-9, "latch": "event", "t_end": "60 s",
                    "max_steps": 100000 },
-  "outputs": ["latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at", "overtravel", "peaks_final"],
+  "outputs": ["latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at", "overtravel", "peaks_final", "frequency"],
   "statistics": { "quantiles": [0.5], "confidence": 0.95, "bins": "auto", "accuracy_runs": 24,
                   "tolerance": [ { "probability": 0.99, "confidence": 0.9, "side": "upper" } ] },
   "requirements": [

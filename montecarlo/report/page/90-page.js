@@ -3,8 +3,8 @@
   "use strict";
   const W = window.wingspread;
   const { h } = W;
-  const PARTS = [W.outcomes, W.outputs, W.wing, W.why, W.convergence, W.comparison, W.inputs, W.glossary];
-  const IDS = ["verdicts", "outputs", "wing", "why", "convergence", "comparison", "inputs", "glossary"];
+  const PARTS = [W.outcomes, W.outputs, W.wing, W.modes, W.why, W.convergence, W.comparison, W.inputs, W.glossary];
+  const IDS = ["verdicts", "outputs", "wing", "modes", "why", "convergence", "comparison", "inputs", "glossary"];
 
   // An error in one part shows a message there; the other parts are still drawn.
   function draw() {

@@ -4,6 +4,7 @@
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/set_json.hpp"
 #include "montecarlo/report/page/glossary.hpp"
+#include "montecarlo/report/page/modes_json.hpp"
 #include "montecarlo/report/page/page_files.hpp"
 #include "montecarlo/report/page/static_margins_json.hpp"
 #include "montecarlo/report/page/study_set.hpp"
@@ -107,6 +108,7 @@ Json page_json(const PageSources& sources, const std::string& command, int threa
   for (const auto& source : sources.runs) {
     json["sets"].push_back(set_json(*source, detail, threads));
     json["sets"].back()["static_margins"] = static_margins_json(source->stored.campaign);
+    json["sets"].back()["modes"] = modes_json(nominal_scene(source->stored.campaign));
   }
   for (const Json& set : sources.studies) json["sets"].push_back(set);
   return json;

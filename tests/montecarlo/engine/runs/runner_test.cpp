@@ -108,3 +108,67 @@ TEST_CASE("a run that cannot go on fails, with its reason") {
   CHECK(row.status == Status::failed);
   CHECK(row.reason.starts_with("the limit of 10 steps was reached, at t = "));
 }
+
+namespace {
+
+/// A campaign of a wing that bends, on an elastic bracket, with frequencies; some draws are unphysical.
+Json bending_campaign() {
+  Json json = quick_campaign(12);
+  Json& scene = json["scene"];
+  for (Json& body : scene["bodies"]) {
+    body["inertia"] = 1.0;
+    body["plate"] =
+        parse_json(R"({ "from": [-0.5, 0], "to": [0.5, 0], "width": 1, "drag_coefficient": 0 })");
+  }
+  scene["bodies"][1]["flexible"] =
+      parse_json(R"({ "joints": 2, "frequency": "20 Hz", "damping_ratio": 0.02 })");
+  scene["bodies"].push_back({{"name", "bracket"}, {"mass", 1}, {"inertia", 0.01}});
+  Json bracket = parse_json(R"({ "name": "bracket", "parent": "base", "child": "bracket",
+    "parent_point": [0, 0], "child_point": [-0.1, 0], "angle": 0,
+    "joint": { "stiffness": 20000, "damping": 20 } })");
+  scene["hinges"][0]["parent"] = "bracket";
+  scene["hinges"].push_back(bracket);
+  json["dispersions"][1] = parse_json(R"({ "name": "bending", "distribution":
+    { "type": "discrete", "values": [0.8, 1.2, -1], "weights": [4, 4, 1] }, "apply": "scale",
+    "to": ["bodies.*.flexible.frequency", "hinges.*.joint.stiffness"] })");
+  json["outputs"] = {"latch_time", "peak_moment", "frequency"};
+  json["requirements"] = parse_json(R"([{ "output": "mode_1.frequency", "min": "300 mHz",
+    "probability": 0.5, "confidence": 0.5 }])");
+  return json;
+}
+
+} // namespace
+
+TEST_CASE("a campaign of wings that bend has moments and frequencies, alone as in lanes") {
+  const Campaign campaign = campaign_of(bending_campaign());
+  CHECK(campaign.requirements[0].min == 0.3);
+  const RunPlan plan(campaign);
+  const std::vector<std::string>& names = plan.names().outputs;
+  const auto column = [&](const std::string& name) {
+    const auto found = std::ranges::find(names, name);
+    REQUIRE(found != names.end());
+    return static_cast<std::size_t>(found - names.begin());
+  };
+  const std::size_t bending = column("panel_2.peak_bending_moment"),
+                    mode = column("mode_1.frequency");
+  CHECK(column("bracket.peak_moment") > 0);
+  CHECK(std::ranges::find(names, "bracket.latch_time") == names.end());
+  CHECK(std::ranges::find(names, "panel_1.peak_bending_moment") == names.end());
+  CHECK(column("mode_6.frequency") == column("mode_1.frequency") + 5); // 4 hinges and 2 joints
+  CHECK(std::ranges::find(names, "mode_7.frequency") == names.end());
+  const Results rows = rows_of(plan, {0, 12});
+  std::set<double> frequencies;
+  for (long k = 0; k < 12; ++k) {
+    const ResultRow alone = Runner(plan).run(k);
+    CHECK(line(rows.row(k)) == line(alone));
+    if (alone.status == Status::invalid) {
+      CHECK(std::isnan(alone.outputs[mode]));
+      CHECK_THAT(alone.reason, Catch::Contains("bodies.panel_2.flexible.frequency is -20"));
+      continue;
+    }
+    CHECK(alone.status == Status::deployed);
+    CHECK(alone.outputs[bending] > 1);
+    frequencies.insert(alone.outputs[mode]);
+  }
+  CHECK(frequencies.size() == 2);
+}

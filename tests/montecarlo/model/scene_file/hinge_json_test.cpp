@@ -182,3 +182,55 @@ TEST_CASE("A latch has a damping or a dissipation, as it is read, dispersed and 
   scene.hinges[0].latch->damping = 1;
   CHECK(unphysical(scene).at(0).path == "hinges.root.latch.damping");
 }
+
+namespace {
+
+/// The real scene with its second hinge an elastic joint.
+Json jointed_scene() {
+  Json document = test::small_scene();
+  Json& mid = document["hinges"][1];
+  mid["angle"] = "10 deg";
+  mid["joint"] = parse_json(R"({ "stiffness": "300 N*m/rad", "damping": 0.5 })");
+  return document;
+}
+
+} // namespace
+
+TEST_CASE("An elastic joint has one angle and no other law", "[hinge_json]") {
+  const Scene scene = read_scene(jointed_scene());
+  const Hinge& mid = scene.hinges[1];
+  REQUIRE(mid.joint);
+  CHECK(mid.joint->stiffness == 300);
+  CHECK(mid.joint->damping == 0.5);
+  CHECK(mid.stowed == mid.latched);
+  CHECK(mid.stowed == Approx(0.17453292519943295));
+  const Json written = write_scene(scene);
+  CHECK(write_scene(read_scene(written)) == written);
+  CHECK(written["hinges"][1].contains("joint"));
+  CHECK_FALSE(written["hinges"][1].contains("spring"));
+  CHECK_THAT(describe(scene), Catch::Contains("mid: inner to outer; elastic joint at"));
+  CHECK(resolve(scene, "hinges.*.joint.stiffness").matches.size() == 1);
+  CHECK(resolve(scene, "hinges.mid.angle").matches.size() == 1);
+  CHECK(resolve(scene, "hinges.*.spring.scale").matches.size() == 1);
+  CHECK(resolve(scene, "hinges.root.joint.damping").expected == "a hinge that is an elastic joint");
+}
+
+TEST_CASE("What an elastic joint cannot have is refused", "[hinge_json]") {
+  const auto [pointer, value, place] = GENERATE(values<test::Spoiled>({
+      {"/hinges/1/spring", R"({ "torque_stowed": 1, "torque_latched": 1 })", "/hinges/1/spring"},
+      {"/hinges/1/latch", R"({ "stiffness": 1, "damping": 1 })", "/hinges/1/latch"},
+      {"/hinges/1/angle", R"({ "stowed": 1, "latched": 0 })", "/hinges/1/angle"},
+      {"/hinges/1/angle", "", "/hinges/1/angle"},
+      {"/hinges/1/joint/stiffness", "0", "/hinges/1/joint/stiffness"},
+      {"/hinges/1/joint/damping", "-1", "/hinges/1/joint/damping"},
+      {"/hinges/1/joint/stiffness", R"("3 N*m")", "/hinges/1/joint/stiffness"},
+      {"/synchronisations",
+       R"([{ "name": "loop", "between": ["root", "mid"], "ratio": 2, "stiffness": 300 }])",
+       "/synchronisations/0/between/1"},
+  }));
+  CAPTURE(pointer, value);
+  CHECK_THAT(test::message_of([&] {
+               return read_scene(test::spoil(jointed_scene(), {pointer, value, ""}));
+             }),
+             Catch::StartsWith(std::string(place) + ": "));
+}

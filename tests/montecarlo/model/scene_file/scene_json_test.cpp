@@ -307,3 +307,51 @@ TEST_CASE("Each fault of plates and surroundings is told", "[scene_json]") {
           return read_scene(test::spoil(test::real_scene(), change));
         })) == test::facts_of(change.message));
 }
+
+namespace {
+
+Json bending_scene() {
+  Json document = test::real_scene();
+  document["bodies"][0]["inertia"] = 0.9; // of a rod of 1 m and 10 kg: 0.83
+  document["bodies"][0]["flexible"] =
+      parse_json(R"({ "joints": 4, "bending_stiffness": "200 N*m^2", "damping_ratio": 0.01 })");
+  return document;
+}
+
+} // namespace
+
+TEST_CASE("A flexible body is read, written and described", "[scene_json]") {
+  const Scene scene = read_scene(bending_scene());
+  REQUIRE(scene.bodies[0].flexible);
+  CHECK(scene.bodies[0].flexible->joints == 4);
+  CHECK(scene.bodies[0].flexible->bending_stiffness == 200);
+  CHECK_FALSE(scene.bodies[0].flexible->frequency);
+  CHECK(scene.bodies[0].flexible->damping_ratio == 0.01);
+  const Json written = write_scene(scene);
+  CHECK(write_scene(read_scene(written)) == written);
+  Json other = bending_scene();
+  other["bodies"][0]["flexible"] =
+      parse_json(R"({ "joints": 4, "frequency": "8000 mHz", "damping_ratio": 0 })");
+  CHECK(read_scene(other).bodies[0].flexible->frequency == 8);
+  CHECK(write_scene(read_scene(other))["bodies"][0]["flexible"]["frequency"] == 8);
+}
+
+TEST_CASE("What a flexible body cannot have is refused at its place", "[scene_json]") {
+  const auto [pointer, value, place] = GENERATE(values<test::Spoiled>({
+      {"/bodies/0/flexible/joints", "0", "/bodies/0/flexible/joints"},
+      {"/bodies/0/flexible/joints", "33", "/bodies/0/flexible/joints"},
+      {"/bodies/0/flexible/joints", "2.5", "/bodies/0/flexible/joints"},
+      {"/bodies/0/flexible/frequency", "8", "/bodies/0/flexible/bending_stiffness"},
+      {"/bodies/0/flexible/bending_stiffness", "", "/bodies/0/flexible/bending_stiffness"},
+      {"/bodies/0/flexible/bending_stiffness", "-1", "/bodies/0/flexible/bending_stiffness"},
+      {"/bodies/0/flexible/damping_ratio", "-1", "/bodies/0/flexible/damping_ratio"},
+      {"/bodies/0/flexible/damping_ratio", "", "/bodies/0/flexible/damping_ratio"},
+      {"/bodies/0/plate", "", "/bodies/0/flexible"},
+      {"/bodies/0/inertia", "0.3", "/bodies/0/inertia"},
+  }));
+  CAPTURE(pointer, value);
+  CHECK_THAT(test::message_of([&] {
+               return read_scene(test::spoil(bending_scene(), {pointer, value, ""}));
+             }),
+             Catch::StartsWith(std::string(place) + ": "));
+}

@@ -1,0 +1,112 @@
+#include "core/deployment.hpp"
+#include "montecarlo/model/scene_file/mirror.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
+#include "montecarlo/model/scene_file/scene_parameter.hpp"
+#include "tests/montecarlo/spec_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace wingspread;
+
+namespace {
+
+/// The real scene as the right wing of a free spacecraft, and its mirror image.
+Json two_wings() {
+  Json scene = test::real_scene();
+  for (const char* list : {"bodies", "hinges", "synchronisations"})
+    for (Json& owner : scene[list]) owner["name"] = "R_" + owner["name"].get<std::string>();
+  for (Json& hinge : scene["hinges"]) {
+    for (const char* end : {"parent", "child"})
+      if (hinge[end] != "base") hinge[end] = "R_" + hinge[end].get<std::string>();
+  }
+  for (Json& loop : scene["synchronisations"])
+    for (Json& name : loop["between"]) name = "R_" + name.get<std::string>();
+  scene["hinges"][0]["parent_point"] = {1, 0.2};
+  scene["base"] = parse_json(R"({ "motion": "free", "mass": 100, "inertia": 30 })");
+  scene["environment"] = parse_json(R"({ "gravity": [0, 0], "air_density": 1.2 })");
+  scene["mirror"] = parse_json(R"({ "of": "R_*", "as": "L_*" })");
+  return scene;
+}
+
+std::string spoilt(const test::Spoiled& change) {
+  return test::message_of([&] { return read_scene(test::spoil(two_wings(), change)); });
+}
+
+} // namespace
+
+TEST_CASE("A mirrored wing has x and all angles of the other sign", "[mirror]") {
+  const Scene scene = read_scene(two_wings());
+  REQUIRE(scene.bodies.size() == 4);
+  REQUIRE(scene.hinges.size() == 4);
+  REQUIRE(scene.synchronisations.size() == 4);
+  const Hinge &right = scene.hinges[0], &left = scene.hinges[2];
+  CHECK(left.name == "L_root");
+  CHECK(left.parent == base_index);
+  CHECK(scene.bodies[left.child].name == "L_inner");
+  CHECK(scene.bodies[scene.hinges[3].parent].name == "L_inner");
+  CHECK(left.parent_point == Eigen::Vector2d(-1, 0.2));
+  CHECK(left.child_point == Eigen::Vector2d(0.5, 0.02));
+  CHECK(left.stowed == -1.5);
+  CHECK(left.latched == 0);
+  CHECK(left.initial_rate == 0.1);
+  CHECK(left.spring.table->angle() == std::vector<double>{-1.5, -0.8, 0});
+  CHECK(left.spring.table->stowing() == right.spring.table->stowing());
+  CHECK(left.spring.scale == right.spring.scale);
+  CHECK(left.harness.table->angle() == std::vector<double>{-1.6, -1, -0.2, 0.1});
+  CHECK(left.damper->window == std::array{-1.0, -0.25});
+  CHECK(scene.bodies[2].plate->from == Eigen::Vector2d(0.5, 0.01));
+  CHECK(scene.bodies[2].mass == scene.bodies[0].mass);
+  CHECK(scene.synchronisations[3].name == "L_cam");
+  CHECK(scene.synchronisations[3].first == 3);
+  CHECK(scene.synchronisations[3].second == 2);
+  CHECK(scene.synchronisations[3].travel == scene.synchronisations[1].travel);
+}
+
+TEST_CASE("A mirrored scene is written whole, without the key", "[mirror]") {
+  const Scene scene = read_scene(two_wings());
+  const Json written = write_scene(scene);
+  CHECK_FALSE(written.contains("mirror"));
+  CHECK(write_scene(read_scene(written)) == written);
+  CHECK(resolve(scene, "hinges.L_*.spring.scale").matches.size() == 2);
+  CHECK(resolve(scene, "hinges.L_root.damper.window.0").matches.size() == 1);
+}
+
+TEST_CASE("Symmetric wings released at once do not turn the base", "[mirror]") {
+  const Scene scene = read_scene(two_wings());
+  Integration how;
+  how.t_end = 8;
+  Goal goal;
+  goal.to_t_end = true;
+  const Outcome out = Deployment().run(scene, how, goal);
+  REQUIRE(out.status != Status::failed);
+  CHECK(out.latches.size() >= 2);
+  CHECK(out.base_peaks->angle < 1e-12);
+  CHECK(out.base_peaks->rate < 1e-12);
+  CHECK(std::abs(out.final.base_position.x()) < 1e-12);
+  for (const std::size_t h : {0U, 1U})
+    CHECK(std::abs(out.final.angles[h] + out.final.angles[h + 2]) < 1e-12);
+  Scene uneven = scene;
+  uneven.bodies[2].mass *= 1.01;
+  CHECK(Deployment().run(uneven, how, goal).base_peaks->angle > 1e-5);
+}
+
+TEST_CASE("A mirror that makes no second wing is refused", "[mirror]") {
+  const auto [pointer, value, message] = GENERATE(values<test::Spoiled>({
+      {"/mirror/of", R"("R_")",
+       R"(/mirror/of: found string "R_", expected a name with one "*", as "R_*")"},
+      {"/mirror/as", "", R"(/mirror/as: found nothing, expected a name with one "*", as "R_*")"},
+      {"/mirror/of", R"("S_*")",
+       R"(/mirror/of: found "S_*", the name of no hinge, expected a name with one "*", as "R_*")"},
+      {"/mirror/as", R"("R_*")", ""},
+      {"/hinges/1/name", R"("mid")", ""},
+      {"/synchronisations/0/name", R"("loop")", ""},
+      {"/mirror/by", R"("R_*")", ""},
+  }));
+  CAPTURE(pointer, value);
+  const std::string said = spoilt({pointer, value, message});
+  CHECK_FALSE(said.empty());
+  CHECK_THAT(said, Catch::Contains("mirror") || Catch::Contains("between"));
+  if (*message != '\0') CHECK(test::facts_of(said) == test::facts_of(message));
+}

@@ -1,0 +1,37 @@
+#include "montecarlo/report/text/modes_report.hpp"
+#include "tests/support/bending_scenes.hpp"
+#include "tests/support/random_scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+
+TEST_CASE("Modes are told lowest first, in text without the joints of flexible bodies") {
+  Scene scene = oracle::bending_rod(3, 50);
+  scene.bodies[0].flexible->damping_ratio = 0.01;
+  const std::optional<WingModes> modes = natural_modes(scene);
+  REQUIRE(modes);
+  const Json json = modes_json(*modes);
+  REQUIRE(json["modes"].size() == 4);
+  CHECK(json["modes"][0]["frequency"] == modes->modes[0].frequency);
+  CHECK(json["modes"][0]["frequency"] < json["modes"][1]["frequency"]);
+  CHECK(json["modes"][1]["damping_ratio"].get<double>() > 0);
+  CHECK(json["modes"][0]["shape"].size() == 4);
+  CHECK(json["modes"][0]["shape"].contains("root"));
+  CHECK(json["modes"][0]["shape"].contains("rod joint 3"));
+  CHECK(json["rest"]["root"] == 0);
+  const std::string text = modes_text(*modes);
+  CHECK_THAT(text, Catch::Contains("root ") && !Catch::Contains("joint"));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 5);
+}
+
+TEST_CASE("The base of a free wing is part of a mode's shape") {
+  const std::optional<WingModes> modes = natural_modes(oracle::symmetric_tree());
+  REQUIRE(modes);
+  CHECK(modes_json(*modes)["modes"][0]["shape"].contains("base"));
+  CHECK_THAT(modes_text(*modes), Catch::Contains(", base "));
+  // of a symmetric pair of modes one turns the base, and one does not
+  const auto turns = [&](std::size_t k) { return std::abs(modes->modes[k].base_angle); };
+  CHECK(std::min(turns(0), turns(1)) < 1e-9);
+  CHECK(std::max(turns(0), turns(1)) > 1e-3);
+}
