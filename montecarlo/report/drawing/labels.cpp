@@ -12,6 +12,7 @@ namespace {
 
 constexpr double width_per_size =
     0.58;                   // of a character, of the font's size; digits have 0.556 in Helvetica
+constexpr double gap = 3;   // px on both sides of a text
 constexpr double crumb = 6; // px: lines are kept free in pieces of this length
 constexpr double nearest = 12, furthest = 170, ring = 11; // px from the anchor
 constexpr int directions = 16;
@@ -30,15 +31,18 @@ void LabelPlaces::avoid(const Eigen::Vector2d& from, const Eigen::Vector2d& to) 
   }
 }
 
-Box LabelPlaces::place(const std::string& text, double size, const Eigen::Vector2d& anchor) {
-  const Eigen::Vector2d half{text_width(text, size) / 2, 0.6 * size};
+Box LabelPlaces::place(const std::string& text, double size, const Eigen::Vector2d& anchor,
+                       const Eigen::Vector2d& away) {
+  const Eigen::Vector2d half{text_width(text, size) / 2 + gap, 0.6 * size};
+  const double preferred = std::atan2(away.y(), away.x());
   const auto is_free = [](const Box& box, const std::vector<Box>& others) {
     return std::ranges::none_of(others, [&](const Box& other) { return box.overlaps(other); });
   };
   std::optional<Box> fallback;
   for (double distance = nearest; distance <= furthest; distance += ring)
     for (int k = 0; k < directions; ++k) {
-      const double angle = 2 * std::numbers::pi * k / directions;
+      const int aside = (k + 1) / 2 * (k % 2 == 0 ? 1 : -1); // 0, −1, 1, −2, 2, …
+      const double angle = preferred + 2 * std::numbers::pi * aside / directions;
       const Eigen::Vector2d towards{std::cos(angle), std::sin(angle)};
       // The text's nearest edge is at this distance, whatever the direction.
       const Eigen::Vector2d middle = anchor + towards * distance + towards.cwiseProduct(half);

@@ -29,8 +29,9 @@ public:
   void avoid(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
   /// The nearest free place of a text beside its anchor, as the text's box; beyond a distance the nearest place that
-  /// overlaps no other text. The place is then taken.
-  [[nodiscard]] Box place(const std::string& text, double size, const Eigen::Vector2d& anchor);
+  /// overlaps no other text. Of places equally near, the one in the direction `away`. The place is then taken.
+  [[nodiscard]] Box place(const std::string& text, double size, const Eigen::Vector2d& anchor,
+                          const Eigen::Vector2d& away = {1, 0});
 
 private:
   Box area_;

@@ -18,10 +18,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double width = 1200, tallest = 420, shortest = 200; // of a view, px
+constexpr double width = 1200, tallest = 420, shortest = 150; // of a view, px
 constexpr double margin = 90, top = 64, gap = 34;             // px; names stand in the margin
 constexpr double text_size = 13;                              // px
-constexpr double arc_radius = 22, arc_sweep = 1.1;            // px, rad
+constexpr double arc_radius = 22, arc_sweep = 1.1, arrow_head = 0.32; // px, rad, rad
 constexpr std::array colours{"#1b6ca8", "#b35a00", "#2e7d32", "#7b3fa0", "#a8323e", "#00737a"};
 
 std::string escaped(const std::string& text) {
@@ -165,20 +165,22 @@ const char* colour_of(int body) {
   return body == base_index ? "#777" : colours[static_cast<std::size_t>(body) % colours.size()];
 }
 
-/// An arc with an arrow about a hinge, from its child's direction in the spring's sense.
+/// A point of the arc about a hinge, from its child's direction in the spring's sense.
+Vector2d on_arc(const View& view, const Frame& frame, std::size_t h, double sweep, double radius) {
+  const double angle = view.towards_child(h) + view.spring_sense(h) * sweep;
+  return frame.place(view.points()[h]) + radius * Vector2d{std::cos(angle), -std::sin(angle)};
+}
+
+/// An arc with an arrow about a hinge.
 std::string spring_arrow(const View& view, const Frame& frame, std::size_t h) {
   const int sense = view.spring_sense(h);
   if (sense == 0) return "";
-  const Vector2d axis = frame.place(view.points()[h]);
-  const auto on_arc = [&](double sweep, double radius) -> Vector2d {
-    const double angle = view.towards_child(h) + sense * sweep;
-    return axis + radius * Vector2d{std::cos(angle), -std::sin(angle)};
+  const auto at = [&](double sweep, double radius) {
+    return on_arc(view, frame, h, sweep, radius);
   };
-  constexpr double head = 0.32; // rad of the arrow's length along the arc
-  const Vector2d from = on_arc(0.15, arc_radius), neck = on_arc(arc_sweep, arc_radius),
-                 tip = on_arc(arc_sweep + head, arc_radius),
-                 inner = on_arc(arc_sweep, arc_radius - 4),
-                 outer = on_arc(arc_sweep, arc_radius + 4);
+  const Vector2d from = at(0.15, arc_radius), neck = at(arc_sweep, arc_radius),
+                 tip = at(arc_sweep + arrow_head, arc_radius),
+                 inner = at(arc_sweep, arc_radius - 4), outer = at(arc_sweep, arc_radius + 4);
   const char* colour = view.deploys(h) ? "#0a7d4b" : "#c62828";
   return fmt::format(
       "<path class=\"spring\" d=\"M {:.1f} {:.1f} A {:.0f} {:.0f} 0 0 {} {:.1f} {:.1f}\" "
@@ -198,9 +200,9 @@ std::string scale_bar(const Frame& frame) {
               "text-anchor=\"end\" fill=\"#333\"");
 }
 
-std::string label(LabelPlaces& places, const Vector2d& anchor, const std::string& name,
-                  const char* colour, bool bold) {
-  const Box box = places.place(name, text_size, anchor);
+std::string label(LabelPlaces& places, const Vector2d& anchor, const Vector2d& middle_of_all,
+                  const std::string& name, const char* colour, bool bold) {
+  const Box box = places.place(name, text_size, anchor, anchor - middle_of_all);
   const Vector2d middle = 0.5 * (box.from + box.to);
   const Vector2d near = anchor.cwiseMax(box.from).cwiseMin(box.to);
   std::string drawn;
@@ -215,16 +217,23 @@ std::string labels(const Scene& scene, const View& view, const Frame& frame) {
   LabelPlaces places({{4, frame.above()}, {width - 4, frame.above() + frame.height()}});
   for (const Segment& segment : view.segments())
     places.avoid(frame.place(segment.from), frame.place(segment.to));
-  for (const Vector2d& point : view.points()) {
-    const Vector2d at = frame.place(point), reach{arc_radius * 0.7, 0};
-    places.avoid(at - reach, at + reach);
+  for (std::size_t h = 0; h < view.points().size(); ++h) {
+    const auto arc = [&](double sweep) { return on_arc(view, frame, h, sweep, arc_radius); };
+    if (view.spring_sense(h) != 0)
+      places.avoid(arc(0), arc(arc_sweep / 2)),
+          places.avoid(arc(arc_sweep / 2), arc(arc_sweep + arrow_head));
   }
+  Vector2d middle{0, 0}; // of the hinges: names stand outside
+  for (const Vector2d& point : view.points())
+    middle += frame.place(point) / static_cast<double>(view.points().size());
   std::string drawn;
   for (std::size_t h = 0; h < scene.hinges.size(); ++h)
-    drawn += label(places, frame.place(view.points()[h]), scene.hinges[h].name, "#222", true);
+    drawn +=
+        label(places, frame.place(view.points()[h]), middle, scene.hinges[h].name, "#222", true);
   for (int b = 0; b < std::ssize(scene.bodies); ++b)
-    drawn += label(places, frame.place(view.centre(b)), scene.bodies[b].name, colour_of(b), false);
-  return drawn + label(places, frame.place(view.base().position), "base", "#555", false);
+    drawn += label(places, frame.place(view.centre(b)), middle, scene.bodies[b].name, colour_of(b),
+                   false);
+  return drawn + label(places, frame.place(view.base().position), middle, "base", "#555", false);
 }
 
 std::string draw(const Scene& scene, const View& view, const Frame& frame) {
