@@ -19,11 +19,11 @@ WINGS = {
     "core": ["number", "scene", "outcome", "laws", "mechanics", "dense", "methods", "events", "peaks", "proofs", "run",
              "packs", "deployment"],
     "montecarlo/foundation": ["formats", "platform", "statistics"],
-    "montecarlo/model": ["scene_file", "static_margins", "campaign", "input_checks", "schema"],
+    "montecarlo/model": ["scene_file", "static_margins", "campaign", "input_checks", "schema starter"],
     "montecarlo/engine": ["runs", "mpi accuracy"],
     "montecarlo/results": ["summary", "results_folder", "checkpoint streaming export"],
     "montecarlo/analyses": ["run margin sensitivity rare"],
-    "montecarlo/report": ["data", "text page"],
+    "montecarlo/report": ["data", "text page drawing"],
     "montecarlo/interfaces": ["library", "python package terminal", "commands"],
     "montecarlo": ["main mpi_main"],
 }

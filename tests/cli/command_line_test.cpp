@@ -10,8 +10,8 @@ using namespace wingspread::test;
 TEST_CASE("every command explains itself, with an example") {
   const Folder folder;
   for (const char* command :
-       {"run", "simulate", "replay", "check", "sample", "analyze", "merge", "size", "sensitivity",
-        "rare", "margin", "report", "export", "schema", "methods", "version"}) {
+       {"new", "run", "simulate", "replay", "check", "sample", "analyze", "merge", "size",
+        "sensitivity", "rare", "margin", "report", "export", "schema", "methods", "version"}) {
     CAPTURE(command);
     const auto [code, out, error] = run_program(folder, {command, "--help"});
     CHECK(code == 0);

@@ -178,7 +178,7 @@ class Packages(unittest.TestCase):
         self.assertEqual(needed, {"libc6", "libfmt9", "libgcc-s1", "libgomp1", "libstdc++6"})
         root = self.folder / "root"
         output_of("dpkg-deb", "--extract", self.packages["wingspread"], root)
-        examples = root / "usr/share/doc/wingspread/examples"
+        examples = root / "usr/share/wingspread/examples"
         bare = {"PATH": "", "HOME": str(self.folder)}
         checked = 0
         for file in sorted(examples.rglob("*.json")):
@@ -186,6 +186,8 @@ class Packages(unittest.TestCase):
                 output_of(root / "usr/bin/wingspread", "check", file, env=bare)
                 checked += 1
         self.assertGreater(checked, 10)
+        output_of(root / "usr/bin/wingspread", "new", "--example", "yoke", "--out", self.folder / "yoke", env=bare)
+        output_of(root / "usr/bin/wingspread", "check", self.folder / "yoke/campaign.json", "--strict", env=bare)
         done = subprocess.run([root / "usr/bin/wingspread", "run", examples / "campaigns/seed.json", "--out",
                                self.folder / "out", "--runs", "40"], env=bare, capture_output=True, check=False)
         self.assertIn(done.returncode, (0, 1), done.stderr)
@@ -199,8 +201,8 @@ class Packages(unittest.TestCase):
                      "share/bash-completion/completions/wingspread", "share/zsh/vendor-completions/_wingspread",
                      "share/fish/vendor_completions.d/wingspread.fish", "share/doc/wingspread/copyright",
                      "share/wingspread/scene.schema.json", "share/wingspread/campaign.schema.json",
-                     "share/doc/wingspread/changelog.gz", "share/doc/wingspread/changelog.Debian.gz", "share/doc/wingspread/examples/scenes/three_panel.json",
-                     "share/doc/wingspread/examples/campaigns/seed.json"):
+                     "share/doc/wingspread/changelog.gz", "share/doc/wingspread/changelog.Debian.gz", "share/wingspread/examples/scenes/three_panel.json",
+                     "share/wingspread/examples/campaigns/seed.json"):
             self.assertIn("./usr/" + name, names)
         rights = output_of("dpkg-deb", "--fsys-tarfile", self.packages["wingspread"], encoding="latin-1")
         for holder in ("The wingspread authors", "Mike Bostock", "Niels Lohmann"):

@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/sensitivity/effect_table.hpp"
 
 #include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -66,6 +67,34 @@ std::string effect_block(const std::string& heading, const std::string& columns,
   if (shown < count)
     text += fmt::format("  {} others, at most {:.3f}\n", count - shown,
                         std::max(0.0, size(order[shown])));
+  return text;
+}
+
+void MovedBy::add(const std::string& output, std::size_t count,
+                  const std::function<double(std::size_t)>& size, double least,
+                  const std::function<std::string(std::size_t)>& text) {
+  constexpr std::size_t most = 5;
+  constexpr double smallest_share =
+      0.25; // heuristic: of the largest effect; smaller ones change little
+  std::vector<std::string> parts;
+  const std::vector<std::size_t> order = by_size(count, size);
+  for (const std::size_t j : order) {
+    const bool moves = size(j) >= std::max(least, smallest_share * size(order.front()));
+    if (!moves || parts.size() == most) break; // NaN ends it too
+    parts.push_back(text(j));
+  }
+  if (parts.empty())
+    unmoved_.push_back(output);
+  else
+    lines_ += in_column("  " + output, name_width + 2) +
+              wrapped(fmt::format("{}", fmt::join(parts, ", ")), name_width + 2) + '\n';
+}
+
+std::string MovedBy::table(std::string_view heading) const {
+  std::string text = in_column("OUTPUT", name_width + 2) + std::string(heading) + '\n' + lines_;
+  if (!unmoved_.empty())
+    text += "  " + wrapped(fmt::format("nothing visible moves {}", fmt::join(unmoved_, ", ")), 2) +
+            '\n';
   return text;
 }
 

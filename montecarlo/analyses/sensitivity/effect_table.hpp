@@ -37,6 +37,25 @@ inline constexpr std::size_t name_width = 30;
                                        const std::function<double(std::size_t)>& size,
                                        const std::function<std::string(std::size_t)>& line);
 
+/// The outputs of a short table, each with the few dispersions that move it.
+class MovedBy {
+public:
+  /// Adds an output.
+  /// @param size of each of `count` dispersions' effects, ≥ 0; those below `least` or a quarter of the largest, and NaN,
+  ///             are left out, and all but the five largest
+  /// @param text "spring.root −0.81"
+  void add(const std::string& output, std::size_t count,
+           const std::function<double(std::size_t)>& size, double least,
+           const std::function<std::string(std::size_t)>& text);
+
+  /// A line for each output, then one with all outputs that nothing moves. @param heading of the second column
+  [[nodiscard]] std::string table(std::string_view heading) const;
+
+private:
+  std::string lines_;
+  std::vector<std::string> unmoved_;
+};
+
 /// `"a", "b"`.
 [[nodiscard]] std::string quoted(const std::vector<std::string>& names);
 

@@ -103,6 +103,25 @@ std::string sensitivity_table(const RankSensitivity& all, std::string_view title
   return text;
 }
 
+std::string moved_by_table(const RankSensitivity& all, std::string_view title) {
+  constexpr double least = 0.2; // heuristic: less than 4 % of the ranks' variance
+  MovedBy moved;
+  for (const OutputRanks& output : all.outputs) {
+    const auto larger = [&](std::size_t j) {
+      const double spearman = output.effects[j].spearman.value,
+                   partial = output.effects[j].partial.value;
+      return std::isnan(partial) || std::abs(spearman) > std::abs(partial) ? spearman : partial;
+    };
+    moved.add(
+        output.output, all.dispersions.size(),
+        [&](std::size_t j) { return output.effects[j].seen ? std::abs(larger(j)) : std::nan(""); },
+        least,
+        [&](std::size_t j) { return fmt::format("{} {:.2f}", all.dispersions[j], larger(j)); });
+  }
+  return fmt::format("{}\n\n", title) +
+         moved.table("moved by (rank correlation, partial or Spearman's, the larger)");
+}
+
 std::vector<std::string> warnings(const RankSensitivity& all) {
   std::vector<std::string> list;
   if (!all.unvaried.empty())

@@ -19,6 +19,9 @@ namespace wingspread {
 /// One table per output, dispersions sorted by the larger of their coefficients.
 [[nodiscard]] std::string sensitivity_table(const RankSensitivity& all, std::string_view title);
 
+/// A line for each output: the dispersions that visibly move it, with the larger of their coefficients.
+[[nodiscard]] std::string moved_by_table(const RankSensitivity& all, std::string_view title);
+
 /// Warnings about the dispersions and the bounds, one per entry.
 [[nodiscard]] std::vector<std::string> warnings(const RankSensitivity& all);
 

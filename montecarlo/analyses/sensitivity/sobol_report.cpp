@@ -106,6 +106,20 @@ std::string sensitivity_table(const SobolSensitivity& all, std::string_view titl
   return text;
 }
 
+std::string moved_by_table(const SobolSensitivity& all, std::string_view title) {
+  constexpr double least = 0.02; // heuristic: of the variance
+  MovedBy moved;
+  for (const auto& [name, indices] : all.outputs) {
+    const SobolIndices& found = indices;
+    const auto total = [&](std::size_t i) { return found.effects[i].total.value; };
+    moved.add(name, all.dispersions.size(), total, least, [&](std::size_t i) {
+      return fmt::format("{} {:.0f} %", all.dispersions[i], 100 * total(i));
+    });
+  }
+  return fmt::format("{}\n\n", title) +
+         moved.table("moved by (share of the variance, interactions included)");
+}
+
 std::vector<std::string> warnings(const SobolSensitivity& all) {
   std::vector<std::string> list;
   if (const std::vector<std::string> idle = all.idle(); !idle.empty())

@@ -19,6 +19,9 @@ namespace wingspread {
 /// One table per output, dispersions sorted by their total index.
 [[nodiscard]] std::string sensitivity_table(const SobolSensitivity& all, std::string_view title);
 
+/// A line for each output: the dispersions that move it, with their shares of its variance (total indices).
+[[nodiscard]] std::string moved_by_table(const SobolSensitivity& all, std::string_view title);
+
 /// Warnings about idle dispersions and missing values, one per entry.
 [[nodiscard]] std::vector<std::string> warnings(const SobolSensitivity& all);
 

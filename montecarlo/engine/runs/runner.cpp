@@ -20,10 +20,13 @@ Runner::Runner(const RunPlan& plan) : plan_(&plan), scene_(plan.campaign().scene
 
 ResultRow Runner::run(long k) { return make(k, plan_->goal(), {}).row; }
 
-Runner::Replay Runner::replay(long k, const Observer& observer) {
+Runner::Replay Runner::replay(long k, const Observer& observer, double interval) {
   Goal goal = plan_->goal();
   goal.audit = goal.end_state = true;
-  return make(k, goal, observer);
+  goal.sample_interval = interval;
+  Replay made = make(k, goal, observer);
+  made.scene = scene_;
+  return made;
 }
 
 Occupancy Runner::run_all(InstructionSet set, const std::function<std::optional<long>()>& next,

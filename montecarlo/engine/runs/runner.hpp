@@ -21,12 +21,15 @@ public:
   /// Run k's row. Unphysical draws give a row of status `invalid`.
   [[nodiscard]] ResultRow run(long k);
 
-  /// A run's outcome and row. Observing a run and auditing its energy change no bit of the row.
+  /// A run's outcome and row, and the scene as the run's draws left it. Observing a run and auditing its energy change
+  /// no bit of the row.
   struct Replay {
     Outcome outcome;
     ResultRow row;
+    Scene scene{};
   };
-  [[nodiscard]] Replay replay(long k, const Observer& observer);
+  /// @param interval Goal::sample_interval
+  [[nodiscard]] Replay replay(long k, const Observer& observer, double interval = 0);
 
   /// Makes several runs at once: takes run numbers from `next` until `next` returns nothing. Each row has the same bits
   /// as the row of run().

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 namespace wingspread {
@@ -90,6 +91,11 @@ std::string percent(double share, int decimals) {
 
 std::string percent_range(double lower, double upper) {
   return fmt::format("{:.3f} – {:.3f} %", 100 * lower, 100 * upper);
+}
+
+std::string degrees_text(double radians) {
+  const double degrees = radians * 180 / std::numbers::pi;
+  return fmt::format("{:.4g}", degrees == 0 ? 0 : degrees); // no "-0"
 }
 
 std::string spaced(std::string_view name) {

@@ -36,6 +36,9 @@ inline constexpr int table_width = 100;
 /// "0.500 – 0.700 %" of 0.005 and 0.007.
 [[nodiscard]] std::string percent_range(double lower, double upper);
 
+/// Four digits of an angle in degrees: "90" of π/2.
+[[nodiscard]] std::string degrees_text(double radians);
+
 /// "timed out" of "timed_out".
 [[nodiscard]] std::string spaced(std::string_view name);
 

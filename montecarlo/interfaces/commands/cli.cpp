@@ -28,9 +28,10 @@ constexpr const char* description =
     "requirements.";
 
 constexpr const char* footer = R"(Example:
-  wingspread check campaign.json
-  wingspread run campaign.json --out results/first
-  wingspread replay results/first --run 17
+  wingspread new --panels 4 --yoke --out wing
+  wingspread check wing/campaign.json
+  wingspread run wing/campaign.json --out results/first
+  wingspread report results/first
 
 Exit codes: 0 done, requirements met; 1 done, a requirement is not shown to be met; 2 bad input,
 nothing was done; 3 some runs failed numerically; 4 the machine refused (no disk space, memory or
@@ -91,14 +92,23 @@ int run_action(const Action& action) {
 }
 
 std::span<const Command> all_commands() {
-  static constexpr Command all[] = {{"run", add_run},         {"simulate", add_simulate},
-                                    {"replay", add_replay},   {"check", add_check},
-                                    {"modes", add_modes},     {"sample", add_sample},
-                                    {"analyze", add_analyze}, {"merge", add_merge},
-                                    {"size", add_size},       {"sensitivity", add_sensitivity},
-                                    {"rare", add_rare},       {"margin", add_margin},
-                                    {"report", add_report},   {"export", add_export},
-                                    {"methods", add_methods}, {"schema", add_schema},
+  static constexpr Command all[] = {{"new", add_new},
+                                    {"run", add_run},
+                                    {"simulate", add_simulate},
+                                    {"replay", add_replay},
+                                    {"check", add_check},
+                                    {"modes", add_modes},
+                                    {"sample", add_sample},
+                                    {"analyze", add_analyze},
+                                    {"merge", add_merge},
+                                    {"size", add_size},
+                                    {"sensitivity", add_sensitivity},
+                                    {"rare", add_rare},
+                                    {"margin", add_margin},
+                                    {"report", add_report},
+                                    {"export", add_export},
+                                    {"methods", add_methods},
+                                    {"schema", add_schema},
                                     {"version", add_version}};
   return all;
 }

@@ -39,12 +39,8 @@ struct AnalyzeOptions {
 /// Shows and judges all cases. @return the worst exit status
 int show_all_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
                    const Display& display) {
-  int worst = exit_code::done;
-  for (const CaseSummary& each : cases)
-    worst = std::max(worst,
-                     judge_results(read_stored_campaign(whole.folder / each.name), each.summary));
   show_cases(whole, cases, display);
-  return worst;
+  return judge_cases(whole, cases);
 }
 
 /// Merges the shards of a design for Sobol' indices. @return the exit status

@@ -60,15 +60,21 @@ RunRequest request_of(const RunOptions& options) {
 
 /// Prints the results. @return the exit status
 int show_run(const CampaignResults& results, bool has_cases, const Display& display) {
-  int worst = exit_code::done;
   for (const auto& [stored, summary] : results.folders)
     if (!has_cases)
       return show_results(stored, summary, display);
     else if (display.histograms)
       show_table(stored, summary, display);
+  if (results.whole) {
+    show_cases(*results.whole, results.cases, display);
+    std::vector<CaseSummary> made; // cases of earlier sessions were judged then
+    for (const auto& [stored, summary] : results.folders)
+      made.push_back(case_summary(stored, summary));
+    return judge_cases(*results.whole, made);
+  }
+  int worst = exit_code::done; // interrupted: there is nothing to compare
   for (const auto& [stored, summary] : results.folders)
     worst = std::max(worst, judge_results(stored, summary));
-  if (results.whole) show_cases(*results.whole, results.cases, display);
   return worst;
 }
 

@@ -4,6 +4,7 @@
 #include "montecarlo/engine/mpi/evaluator_of.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
@@ -29,7 +30,7 @@ struct SensitivityOptions {
   std::string shard;
   long resamples = 1000;
   MachineOptions machine;
-  bool resume = false, json = false;
+  bool resume = false, json = false, all = false;
 };
 
 /// Refuses the options for making runs, because a results folder already has its runs.
@@ -51,13 +52,16 @@ void refuse_run_options(const SensitivityOptions& options) {
 /// Prints the analysis and, with a folder, writes sensitivity.json and sensitivity.csv.
 template <class Sensitivity>
 void show_analysis(const Sensitivity& all, const Json& about, const std::string& title,
-                   const std::filesystem::path& folder, bool json) {
+                   const std::filesystem::path& folder, const SensitivityOptions& options) {
   const std::string text = json_text(sensitivity_json(all, about));
   if (!folder.empty()) {
     write_file(folder / sensitivity_json_file, text);
     write_file(folder / sensitivity_csv_file, sensitivity_csv(all));
   }
-  fmt::print("{}", json ? text : sensitivity_table(all, title));
+  if (options.json)
+    fmt::print("{}", text);
+  else
+    fmt::print("{}", options.all ? sensitivity_table(all, title) : moved_by_table(all, title));
   for (const std::string& warning : warnings(all)) fmt::print(stderr, "warning: {}\n", warning);
 }
 
@@ -73,10 +77,10 @@ int analyze_ranks(const SensitivityOptions& options) {
   warn_of_preview(stored);
   const RunsMade made{replication_of(stored.campaign.sampling, results),
                       interim_analyses(stored.campaign)};
-  show_analysis(
-      rank_sensitivity(results, confidence, made), stamp_json(stamp),
-      fmt::format("{} · {} runs · rank correlations", stored.campaign.scene.name, results.size()),
-      options.from, options.json);
+  show_analysis(rank_sensitivity(results, confidence, made), stamp_json(stamp),
+                fmt::format("{} · {} · rank correlations", stored.campaign.scene.name,
+                            counted(static_cast<long>(results.size()), "run", "runs")),
+                options.from, options);
   return exit_code::done;
 }
 
@@ -93,7 +97,7 @@ int analyze_design(const SaltelliDesign& design, const Results& results,
                 fmt::format("{} · {} samples, {} runs · {}, seed {} · Sobol' indices",
                             design.campaign.scene.name, design.rows, results.size(), kind,
                             sampling.seed),
-                folder, options.json);
+                folder, options);
   return report_failed(std::ranges::count(results.status, Status::failed),
                        std::ssize(results.runs));
 }
@@ -222,6 +226,7 @@ void add_sensitivity_options(CLI::App& command, SensitivityOptions& options) {
                    "Make only part I of N of the design's runs, e.g. 2/5; needs --out");
   add_machine_options(command, options.machine);
   command.add_flag("--json", options.json, "Print JSON, not a table");
+  command.add_flag("--all", options.all, "Print every output's table with bounds");
   command.footer(
       R"(From a results folder: Spearman's and partial rank correlations of every output with every
 dispersion, over the runs that have the output. They show which outputs rise or fall with which
@@ -239,8 +244,9 @@ Sobol' indices.
 The runs of a design can be made in shards, each with --out and --shard; `wingspread merge` gives
 the folder that making all runs at once gives, byte for byte.
 
-Both analyses list the most important dispersion first and write sensitivity.json and
-sensitivity.csv into the folder. A warning names each dispersion that moves no output.
+Both analyses name for each output the dispersions that move it, the most important first; --all
+prints the coefficients with their bounds. They write all of them to sensitivity.json and
+sensitivity.csv in the folder. A warning names each dispersion that moves no output.
 
 Example:
   wingspread sensitivity results/first

@@ -1,10 +1,12 @@
+#include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/formats/json.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
-#include "montecarlo/interfaces/commands/output_file.hpp"
 #include "montecarlo/interfaces/library/single_run.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
+#include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/input_checks/check_input.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
 #include "montecarlo/report/text/check_report.hpp"
 #include "montecarlo/report/text/outcome_report.hpp"
 #include "montecarlo/report/text/replay_report.hpp"
@@ -27,10 +29,11 @@ struct SimulateOptions {
 };
 
 struct ReplayOptions {
-  std::filesystem::path folder, out;
+  std::filesystem::path folder, out, scene;
   std::string of_case;
   long run = 0;
   bool json = false;
+  std::optional<double> dt;
 };
 
 /// Calls `run` with an observer that writes the trajectory; without a path, with an empty observer.
@@ -50,7 +53,7 @@ int status_code(const Outcome& outcome) {
 }
 
 /// The interval between rows of the trajectory, s; 0: a row at every step.
-double interval_of(const SimulateOptions& options, double t_end) {
+template <class Options> double interval_of(const Options& options, double t_end) {
   constexpr double most_rows = 1e8; // some 10 GB of them
   if (!options.dt) return 0;
   if (options.out.empty())
@@ -61,6 +64,16 @@ double interval_of(const SimulateOptions& options, double t_end) {
                       fmt::format("at least {:g}, which gives {:g} rows up to {:g} s",
                                   t_end / most_rows, most_rows, t_end)}});
   return *options.dt;
+}
+
+/// Writes the scene as the run's draws left it. A file that has this scene already is kept.
+/// @throws SpecError for any other existing file: it may be somebody's scene
+void write_applied_scene(const std::filesystem::path& file, const Scene& scene) {
+  const std::string text = json_text(write_scene(scene));
+  if (std::filesystem::is_regular_file(file) && read_text(file) != text)
+    throw SpecError({{"", "--scene", '"' + file.string() + "\", an existing file",
+                      "a new file: this one would be lost"}});
+  write_file(file, text);
 }
 
 int simulate(const SimulateOptions& options) {
@@ -90,15 +103,26 @@ int replay(const ReplayOptions& options) {
   const StoredCampaign stored =
       read_stored_campaign(folder_of_case(options.folder, options.of_case));
   const ReplayRequest request(stored, options.run);
-  const Scene& scene = stored.campaign.scene;
-  const Replayed replayed = write_trajectory(
-      options.out, scene, [&](const Observer& observer) { return request.replay(observer); });
-  fmt::print("{}",
-             options.json ? json_text(replay_json(replayed, scene)) : replay_text(replayed, scene));
+  const Integration& integration = stored.campaign.integration;
+  const double interval = interval_of(options, integration.t_end);
+  const Replayed replayed =
+      write_trajectory(options.out, stored.campaign.scene, [&](const Observer& observer) {
+        return request.replay(observer, interval);
+      });
+  if (!options.scene.empty()) write_applied_scene(options.scene, replayed.scene);
+  fmt::print("{}", options.json ? json_text(replay_json(replayed)) : replay_text(replayed));
+  if (!options.scene.empty() && !options.json)
+    fmt::print("Its scene: {}\n  wingspread simulate {}{}\n", options.scene.string(),
+               options.scene.string(), options_of(integration));
   for (const std::string& difference : replayed.differences)
     fmt::print(stderr, "error: {}\n", difference);
   const int code = status_code(replayed.outcome);
   return replayed.differences.empty() ? code : exit_code::failed_runs;
+}
+
+void add_dt_option(CLI::App& command, std::optional<double>& dt) {
+  command.add_option("--dt", dt, "Interval between rows of the trajectory, s; default: every step")
+      ->type_name("S");
 }
 
 void add_simulate_options(CLI::App& command, SimulateOptions& options) {
@@ -112,10 +136,7 @@ void add_simulate_options(CLI::App& command, SimulateOptions& options) {
                    "Repeat by another method at rtol/100; say how many digits agree");
   command.add_option("--out", options.out, "Write the trajectory to this CSV file");
   add_strict_option(command, options.strict);
-  command
-      .add_option("--dt", options.dt,
-                  "Interval between rows of the trajectory, s; default: every step")
-      ->type_name("S");
+  add_dt_option(command, options.dt);
   command.add_option("--method", settings.method, "Integration method; see wingspread methods");
   command.add_option("--step", settings.step, "Step size of a method with a fixed step, s");
   command.add_option("--rtol", settings.rtol, "Relative tolerance of a step, at least 1e-15");
@@ -144,13 +165,23 @@ void add_replay_options(CLI::App& command, ReplayOptions& options) {
   add_case_option(command, options.of_case);
   command.add_flag("--json", options.json, "Print the outcome as JSON");
   command.add_option("--out", options.out, "Write the trajectory to this CSV file");
+  add_dt_option(command, options.dt);
+  command
+      .add_option("--scene", options.scene,
+                  "Write the scene with the run's draws to this JSON file")
+      ->type_name("FILE");
   command.footer(
       R"(The run stops where the campaign's run did and is compared with its row of runs.csv, bit for bit. If
 they differ (another machine, or a changed file), each column that differs is named and the exit
 code is 3.
 
+--scene writes the wing of this run as a scene: every mass, point, angle and torque after the case
+and the draws. `simulate` on that file latches at the same times, with the options that are printed
+where the campaign's integration is not the default.
+
 Example:
-  wingspread replay results/first --run 17 --out trajectory.csv)");
+  wingspread replay results/first --run 17 --out trajectory.csv --dt 0.01
+  wingspread replay results/first/cold --run 17 --scene run_17.json)");
 }
 
 } // namespace

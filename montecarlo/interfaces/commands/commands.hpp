@@ -16,6 +16,7 @@ namespace wingspread {
 /// Carries out the command with the parsed options. Returns the exit status.
 using Action = std::function<int()>;
 
+void add_new(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
 void add_analyze(CLI::App& app, Action& action);

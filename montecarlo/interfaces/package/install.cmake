@@ -53,4 +53,4 @@ foreach(package "program wingspread" "development libwingspread-dev" "python pyt
 endforeach()
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/studies/scenes ${PROJECT_SOURCE_DIR}/studies/campaigns
-  DESTINATION share/doc/wingspread/examples COMPONENT program FILES_MATCHING PATTERN *.json PATTERN *.csv)
+  DESTINATION share/wingspread/examples COMPONENT program FILES_MATCHING PATTERN *.json PATTERN *.csv)

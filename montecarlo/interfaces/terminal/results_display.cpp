@@ -6,6 +6,7 @@
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/progress.hpp"
 #include "montecarlo/interfaces/terminal/exit_code.hpp"
+#include "montecarlo/results/summary/compact_table.hpp"
 #include "montecarlo/results/summary/table.hpp"
 
 #include <CLI/CLI.hpp>
@@ -13,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace wingspread {
 namespace {
@@ -21,7 +23,7 @@ std::string title(const StoredCampaign& stored, const Summary& summary) {
   const Campaign& campaign = stored.campaign;
   const std::string of_case = campaign.of_case.empty() ? "" : " · " + campaign.of_case;
   std::string text = fmt::format(
-      "{}{} · {} runs · {}, seed {}", campaign.scene.name, of_case, summary.runs,
+      "{}{} · {} · {}, seed {}", campaign.scene.name, of_case, counted(summary.runs, "run", "runs"),
       design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed);
   if (summary.replicates > 0) text += ", " + counted(summary.replicates, "replicate", "replicates");
   if (stored.stamp.shard) text += " · " + describe(stored.stamp.shard);
@@ -44,15 +46,19 @@ void print_histograms(const Summary& summary) {
                                       output.histogram, table_width));
 }
 
-/// Prints the requirements that are not met. @return whether all are met
-bool report_requirements(const Summary& summary, const std::string& of_case) {
-  bool met = true;
-  for (const Verdict& verdict : summary.requirements) {
-    if (verdict.decision == Decision::pass) continue;
-    met = false;
-    fmt::print(stderr, "not met: {}{}: {}: {}\n", of_case, to_string(verdict.requirement),
-               to_string(verdict.decision), evidence(verdict));
-  }
+bool are_met(const Summary& summary) {
+  return std::ranges::all_of(summary.requirements, [](const Verdict& verdict) {
+    return verdict.decision == Decision::pass;
+  });
+}
+
+void print_not_met(std::string_view of_case, const Verdict& verdict, std::string_view others) {
+  fmt::print(stderr, "not met: {}{}: {}: {}{}\n", of_case, to_string(verdict.requirement),
+             to_string(verdict.decision), evidence(verdict), others);
+}
+
+/// What adding runs does to verdicts that are open, or were judged before.
+void print_notes(const Summary& summary) {
   if (!summary.interim.before.empty() && !summary.requirements.empty())
     fmt::print(stderr,
                "note: analysis {} of the same draws, after {} runs: a requirement passes if the "
@@ -66,7 +72,27 @@ bool report_requirements(const Summary& summary, const std::string& of_case) {
         "note: adding runs until a requirement passes inflates the risk. To decide it, use "
         "--until \"requirement {}\", or another --seed and a number of runs fixed beforehand\n",
         name_of(std::ranges::find_if(summary.requirements, is_open)->requirement));
-  return met;
+}
+
+/// Prints each requirement that some case does not meet, with its worst case, and the notes once.
+void report_cases(const std::vector<CaseSummary>& cases) {
+  for (std::size_t i = 0; i < cases.front().summary.requirements.size(); ++i) {
+    const CaseSummary& worst = cases[worst_case(cases, i)];
+    std::vector<std::string> others;
+    for (const CaseSummary& each : cases)
+      if (&each != &worst && each.summary.requirements[i].decision != Decision::pass)
+        others.push_back(each.name);
+    const Verdict& verdict = worst.summary.requirements[i];
+    if (verdict.decision != Decision::pass)
+      print_not_met(worst.name + ": ", verdict,
+                    others.empty() ? "" : fmt::format(" (nor met: {})", fmt::join(others, ", ")));
+  }
+  const auto is_open = [](const CaseSummary& each) {
+    return std::ranges::any_of(each.summary.requirements,
+                               [](const Verdict& verdict) { return !is_decided(verdict); });
+  };
+  const auto open = std::ranges::find_if(cases, is_open);
+  print_notes(open == cases.end() ? cases.front().summary : open->summary);
 }
 
 } // namespace
@@ -74,6 +100,7 @@ bool report_requirements(const Summary& summary, const std::string& of_case) {
 void add_display_options(CLI::App& command, Display& display) {
   command.add_flag("--table", display.table,
                    "Print the table even if standard output is not a terminal");
+  command.add_flag("--all", display.all, "Print the table with every output and its accuracy");
   command.add_flag("--histograms", display.histograms,
                    "Print the table and each output's histogram");
 }
@@ -85,7 +112,7 @@ int report_failed(long failed, long runs, std::string_view consequence) {
 }
 
 bool wants_table(const Display& display) {
-  return display.table || display.histograms || is_terminal(stdout);
+  return display.table || display.histograms || display.all || is_terminal(stdout);
 }
 
 namespace {
@@ -113,7 +140,8 @@ int print_missing(const MissingRuns& missing, std::string_view alternative) {
 }
 
 void show_table(const StoredCampaign& stored, const Summary& summary, const Display& display) {
-  fmt::print("{}", summary_table(summary, title(stored, summary), stored.folder.string()));
+  fmt::print("{}",
+             summary_table(summary, title(stored, summary), stored.folder.string(), display.all));
   if (display.histograms) print_histograms(summary);
 }
 
@@ -125,10 +153,12 @@ void warn_of_preview(const StoredCampaign& stored) {
                stored.folder.string(), preview->runs, preview->of, preview->of - preview->runs);
 }
 
-int judge_results(const StoredCampaign& stored, const Summary& summary) {
-  const std::string& name = stored.campaign.of_case;
+namespace {
+
+/// The exit status of the results; prints what failed, and the previews.
+int judge_quietly(const StoredCampaign& stored, const Summary& summary) {
   warn_of_preview(stored);
-  bool met = stored.stamp.shard || report_requirements(summary, name.empty() ? "" : name + ": ");
+  bool met = stored.stamp.shard || are_met(summary);
   if (stored.stamp.preview && !summary.requirements.empty()) {
     fmt::print(stderr, "not met: a preview has no verdicts\n");
     met = false;
@@ -140,6 +170,31 @@ int judge_results(const StoredCampaign& stored, const Summary& summary) {
   return code != exit_code::done || met ? code : exit_code::not_met;
 }
 
+/// Both outputs of a terminal in the order in which they were printed.
+void end_table() { std::fflush(stdout); }
+
+} // namespace
+
+int judge_results(const StoredCampaign& stored, const Summary& summary) {
+  end_table();
+  if (!stored.stamp.shard) {
+    for (const Verdict& verdict : summary.requirements)
+      if (verdict.decision != Decision::pass) print_not_met("", verdict, "");
+    print_notes(summary);
+  }
+  return judge_quietly(stored, summary);
+}
+
+int judge_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases) {
+  end_table();
+  if (!whole.stamp.shard && !cases.empty()) report_cases(cases);
+  int worst = exit_code::done;
+  for (const CaseSummary& each : cases)
+    worst = std::max(worst,
+                     judge_quietly(read_stored_campaign(whole.folder / each.name), each.summary));
+  return worst;
+}
+
 void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases,
                 const Display& display) {
   const Campaign& campaign = whole.campaign;
@@ -148,7 +203,8 @@ void show_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cas
         "{} · {} · {}, seed {}{}", campaign.scene.name, counted(std::ssize(cases), "case", "cases"),
         design_names[static_cast<std::size_t>(campaign.sampling.design)], campaign.sampling.seed,
         whole.stamp.shard ? " · " + describe(whole.stamp.shard) : "");
-    fmt::print("{}", cases_table(cases, title, whole.folder.string()));
+    fmt::print("{}", display.all ? cases_table(cases, title, whole.folder.string())
+                                 : compact_cases_table(cases, title, whole.folder.string()));
     return;
   }
   fmt::print("{}\n{}\n", (whole.folder / campaign_file).string(),

@@ -16,6 +16,7 @@ namespace wingspread {
 struct Display {
   bool table = false;      ///< print the table even when standard output is not a terminal
   bool histograms = false; ///< print the table and each output's histogram
+  bool all = false;        ///< print the table with every line
 };
 void add_display_options(CLI::App& command, Display& display);
 
@@ -46,6 +47,9 @@ void warn_of_preview(const StoredCampaign& stored);
 /// which runs are missing) meets no requirement.
 /// @return the exit status; failed runs take precedence over requirements
 int judge_results(const StoredCampaign& stored, const Summary& summary);
+
+/// The same for all cases: each requirement once, with its worst case. @return the worst exit status
+int judge_cases(const StoredCampaign& whole, const std::vector<CaseSummary>& cases);
 
 /// Prints the comparison of a campaign's cases, or the paths of their files.
 /// @param whole the outer folder

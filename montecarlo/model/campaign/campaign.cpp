@@ -8,6 +8,7 @@
 
 #include <cassert>
 #include <iterator>
+#include <set>
 
 namespace wingspread {
 InterimAnalyses interim_analyses(const Campaign& campaign) {
@@ -19,6 +20,17 @@ std::string campaign_hash(const Json& resolved) {
   Json hashed = resolved;
   hashed.erase(stamp_key);
   return fmt::format("{:016x}", stream_name(hashed.dump()).hash); // FNV-1a
+}
+
+std::vector<SceneParameter> dispersed_parameters(std::span<const Dispersion> dispersions) {
+  std::vector<SceneParameter> parameters;
+  std::set<SceneParameter> known;
+  for (const Dispersion& dispersion : dispersions)
+    for_each_effect(dispersion, [&](Apply, const auto& targets, const Curve*) {
+      for (const SceneParameter& target : targets)
+        if (known.insert(target).second) parameters.push_back(target);
+    });
+  return parameters;
 }
 
 void apply(const Campaign& campaign, std::span<const double> draws, const Scene& nominal,

@@ -55,6 +55,10 @@ struct Campaign {
 /// those of `simulate`, static margins, input checks, summary.json and the report. Correlations do not move medians.
 [[nodiscard]] Scene nominal_scene(const Campaign& campaign);
 
+/// The parameters that the dispersions change, each once, in the order of their first change.
+[[nodiscard]] std::vector<SceneParameter>
+dispersed_parameters(std::span<const Dispersion> dispersions);
+
 /// Sets all dispersed parameters of a scene to their nominal values and applies a run's draws. Allocates nothing.
 /// @param draws     one for each dispersion, in their order
 /// @param nominal   the campaign's scene

@@ -15,10 +15,11 @@ namespace {
 
 /// "2 N·m"; without a unit the number only.
 std::string with_unit(double value, std::string_view unit) {
-  return fmt::format("{}{}{}", value, unit.empty() ? "" : " ", unit);
+  if (unit == "rad") return degrees_text(value) + " deg";
+  return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
-std::string describe_argument(double value) { return fmt::format("{}", value); }
+std::string describe_argument(double value) { return fmt::format("{:.6g}", value); }
 std::string describe_argument(const std::vector<double>& values) {
   return values.size() <= 4 ? fmt::format("{}", fmt::join(values, " "))
                             : fmt::format("{} numbers", values.size());

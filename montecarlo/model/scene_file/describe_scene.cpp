@@ -49,16 +49,16 @@ std::string describe_base(const Base& base) {
                     base.inertia, describe_vector(base.position), describe_vector(base.velocity));
   else
     text += describe_prescribed(base);
-  text += fmt::format(", angle {} rad", base.angle);
+  text += fmt::format(", angle {} deg", degrees_text(base.angle));
   if (base.motion == BaseMotion::prescribed && base.table && base.table->gives_rate()) return text;
   return text + fmt::format(", rate {} rad/s", base.rate);
 }
 
 std::string describe_table(const TorqueTable& table) {
   const std::vector<double>& angle = table.angle();
-  return fmt::format("{} at {} angles from {} to {} rad, {}",
+  return fmt::format("{} at {} angles from {} to {} deg, {}",
                      table.both_ways() ? "measured both ways" : "by a table", angle.size(),
-                     angle.front(), angle.back(),
+                     degrees_text(angle.front()), degrees_text(angle.back()),
                      interpolation_names[static_cast<std::size_t>(table.interpolation())]);
 }
 
@@ -110,23 +110,23 @@ std::string describe_damper_law(const Damper& damper) {
 std::string describe_damper(const std::optional<Damper>& damper) {
   if (!damper) return "";
   const std::string window =
-      damper->window
-          ? fmt::format(", between {} and {} rad", damper->window->front(), damper->window->back())
-          : "";
+      damper->window ? fmt::format(", between {} and {} deg", degrees_text(damper->window->front()),
+                                   degrees_text(damper->window->back()))
+                     : "";
   return fmt::format("; damper {}{}{}", describe_damper_law(*damper),
                      describe_change(damper->scale), window);
 }
 
 std::string describe_stop(const std::optional<Stop>& stop) {
   if (!stop) return "";
-  return fmt::format("; stop {} N·m/rad, {} s/rad, gap {} rad", stop->stiffness, stop->dissipation,
-                     stop->gap);
+  return fmt::format("; stop {} N·m/rad, {} s/rad, gap {} deg", stop->stiffness, stop->dissipation,
+                     degrees_text(stop->gap));
 }
 
 std::string describe_latch(const std::optional<Latch>& latch) {
   if (!latch) return "; no latch";
   const std::string backlash =
-      latch->backlash == 0 ? "" : fmt::format(", backlash {} rad", latch->backlash);
+      latch->backlash == 0 ? "" : fmt::format(", backlash {} deg", degrees_text(latch->backlash));
   const std::string damping = latch->dissipation
                                   ? fmt::format("dissipation {} s/rad", *latch->dissipation)
                                   : fmt::format("{} N·m·s/rad", latch->damping);
@@ -147,11 +147,13 @@ std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
   const std::string parent = hinge.parent == base_index ? "base" : scene.bodies[hinge.parent].name;
   if (hinge.joint)
     return fmt::format(
-        "{}: {} to {}; elastic joint at {} rad, {} N·m/rad, {} N·m·s/rad{}", hinge.name, parent,
-        scene.bodies[hinge.child].name, hinge.stowed, hinge.joint->stiffness, hinge.joint->damping,
+        "{}: {} to {}; elastic joint at {} deg, {} N·m/rad, {} N·m·s/rad{}", hinge.name, parent,
+        scene.bodies[hinge.child].name, degrees_text(hinge.stowed), hinge.joint->stiffness,
+        hinge.joint->damping,
         hinge.initial_rate == 0 ? "" : fmt::format(", from {} rad/s", hinge.initial_rate));
-  std::string text = fmt::format("{}: {} to {}, {} to {} rad", hinge.name, parent,
-                                 scene.bodies[hinge.child].name, hinge.stowed, hinge.latched);
+  std::string text =
+      fmt::format("{}: {} to {}, {} to {} deg", hinge.name, parent, scene.bodies[hinge.child].name,
+                  degrees_text(hinge.stowed), degrees_text(hinge.latched));
   if (hinge.initial_rate != 0) text += fmt::format(", from {} rad/s", hinge.initial_rate);
   return text + describe_torque("spring", hinge.spring) + describe_hysteresis(hinge) +
          describe_torque("harness", hinge.harness) + describe_friction(hinge.friction) +

@@ -9,8 +9,11 @@
 namespace wingspread {
 
 /// outcome_json with `run`, `draws` and `same_as_recorded` (null without a recorded row).
-[[nodiscard]] Json replay_json(const Replayed& replayed, const Scene& scene);
+[[nodiscard]] Json replay_json(const Replayed& replayed);
 
-[[nodiscard]] std::string replay_text(const Replayed& replayed, const Scene& scene);
+[[nodiscard]] std::string replay_text(const Replayed& replayed);
+
+/// The options of `simulate` that give a scene these settings, each after a blank; empty for the defaults.
+[[nodiscard]] std::string options_of(const Integration& integration);
 
 } // namespace wingspread

@@ -124,11 +124,16 @@ ReplayRequest::ReplayRequest(const StoredCampaign& stored, long run) : stored_(&
   recorded_ = find_stored_row(stored, run);
 }
 
-Replayed ReplayRequest::replay(const Observer& observer) const {
+Replayed ReplayRequest::replay(const Observer& observer, double interval) const {
   const RunPlan plan(stored_->campaign);
-  auto [outcome, row] = Runner(plan).replay(run_, observer);
-  Replayed replayed{std::move(outcome),         std::move(row),        plan.names(),
-                    rows_file(stored_->folder), recorded_.has_value(), {}};
+  auto [outcome, row, scene] = Runner(plan).replay(run_, observer, interval);
+  Replayed replayed{std::move(outcome),
+                    std::move(row),
+                    std::move(scene),
+                    plan.names(),
+                    rows_file(stored_->folder),
+                    recorded_.has_value(),
+                    {}};
   if (recorded_) replayed.differences = differences(plan.names(), *recorded_, replayed.row);
   return replayed;
 }

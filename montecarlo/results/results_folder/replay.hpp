@@ -10,6 +10,7 @@ namespace wingspread {
 struct Replayed {
   Outcome outcome;
   ResultRow row;
+  Scene scene; ///< as the run's draws left it
   ResultNames names;
   /// The file of recorded rows: runs.csv or, in a folder made with --no-rows, broken_runs.csv.
   std::string file;
@@ -30,7 +31,8 @@ public:
   ReplayRequest(const StoredCampaign& stored, long run);
 
   /// @param observer receives the trajectory
-  [[nodiscard]] Replayed replay(const Observer& observer) const;
+  /// @param interval between its samples, s; 0: every step
+  [[nodiscard]] Replayed replay(const Observer& observer, double interval = 0) const;
 
 private:
   const StoredCampaign* stored_;

@@ -2,6 +2,7 @@
 
 #include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/results/summary/compact_table.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
 
 #include <fmt/format.h>
@@ -29,13 +30,24 @@ double share_of(long count, long runs) {
   return static_cast<double>(count) / static_cast<double>(runs);
 }
 
-std::string outcomes(const Summary& summary) {
+std::string outcome_line(std::string_view name, const StatusShare& share) {
+  return fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", name, share.count, percent(share.rate),
+                     percent_bounds(share.bounds));
+}
+
+/// @param all a line for every status; else one for those that no run has
+std::string outcomes(const Summary& summary, bool all) {
   const std::string bounds = fmt::format("{:g} % bounds", 100 * summary.confidence);
   std::string text =
       fmt::format("\n{:<50}{:>10}{:>12}{:>26}\n", "OUTCOME", "runs", "share", bounds);
+  std::vector<std::string> none;
+  const StatusShare* of_none = nullptr; // equal counts have equal bounds
   for (const StatusShare& share : summary.statuses)
-    text += fmt::format("  {:<48}{:>10}{:>12}{:>26}\n", spaced(to_string(share.status)),
-                        share.count, percent(share.rate), percent_bounds(share.bounds));
+    if (share.count > 0 || share.status == Status::deployed || all)
+      text += outcome_line(spaced(to_string(share.status)), share);
+    else
+      none.push_back(spaced(to_string(share.status))), of_none = &share;
+  if (of_none) text += outcome_line(fmt::format("{}", fmt::join(none, ", ")), *of_none);
   if (summary.nominal)
     text +=
         fmt::format("  {:<48}{}\n", "the nominal wing", spaced(to_string(summary.nominal->status)));
@@ -51,8 +63,9 @@ std::string reasons(const Summary& summary) {
     text +=
         fmt::format("  {:<10}{:>8}  {}\n", spaced(to_string(status)), count, wrapped(reason, 22));
   if (shown < summary.reasons.size())
-    text +=
-        fmt::format("  and {} other reasons, in summary.json\n", summary.reasons.size() - shown);
+    text += fmt::format("  and {}, in summary.json\n",
+                        counted(static_cast<long>(summary.reasons.size() - shown), "other reason",
+                                "other reasons"));
   return text;
 }
 
@@ -69,7 +82,8 @@ std::string latch_orders(const Summary& summary) {
     others -= count;
   }
   if (others > 0)
-    line(fmt::format("{} other orders", summary.latch_order_kinds - static_cast<long>(shown)),
+    line(counted(summary.latch_order_kinds - static_cast<long>(shown), "other order",
+                 "other orders"),
          others);
   if (summary.without_latch > 0) line("no latch", summary.without_latch);
   return text;
@@ -113,11 +127,12 @@ std::string output_line(const OutputSummary& output, std::span<const NumberColum
   return text + '\n';
 }
 
-std::string output_block(const Summary& summary, std::span<const NumberColumn> columns) {
+std::string output_block(const Summary& summary, std::span<const NumberColumn> columns, bool all) {
   std::string text = fmt::format("\n{:<{}}{:<6}{:>9}", "OUTPUT", label_width, "unit", "runs");
   for (const NumberColumn& column : columns) text += right_aligned(column.heading, number_width);
   text += '\n';
   for (const char* previous = nullptr; const OutputSummary& output : summary.outputs) {
+    if (!all && is_quiet(output)) continue;
     const std::string hinge = parse_output_name(output.name).hinge;
     if (!previous || hinge != parse_output_name(previous).hinge)
       text += fmt::format("{}\n", hinge.empty() ? "wing" : hinge);
@@ -146,15 +161,16 @@ std::string missing_quantiles(const Summary& summary) {
   return text.empty() ? "" : "\nQUANTILES that do not exist over all runs\n" + text;
 }
 
-/// Splits the columns into blocks so that lines keep within the width.
-std::string outputs(const Summary& summary) {
+/// Splits the columns into blocks so that lines keep within the width. @param all also outputs that are_quiet()
+std::string outputs(const Summary& summary, bool all) {
   if (summary.outputs.empty()) return "";
   const std::vector<NumberColumn> columns = number_columns(summary);
   std::string text;
   for (std::size_t first = 0; first < columns.size(); first += columns_per_block) {
     const std::size_t count = std::min(columns_per_block, columns.size() - first);
-    text += output_block(summary, std::span(columns).subspan(first, count));
+    text += output_block(summary, std::span(columns).subspan(first, count), all);
   }
+  if (!all) text += quiet_outputs(summary.outputs);
   const auto incomplete = [](const OutputSummary& output) { return output.missing > 0; };
   if (std::ranges::any_of(summary.outputs, incomplete))
     text +=
@@ -162,77 +178,6 @@ std::string outputs(const Summary& summary) {
                     "over all runs.\n",
                     summary.runs);
   return text + missing_quantiles(summary);
-}
-
-/// An error: two digits.
-std::string in_two_digits(double error) {
-  return std::isnan(error) ? "–" : fmt::format("{:.2g}", error);
-}
-
-/// The largest error of the integration over the standard error of the mean, of all outputs; NaN if unknown.
-double largest_share(const Summary& summary) {
-  double largest = undefined;
-  for (std::size_t i = 0; i < summary.accuracy->outputs.size(); ++i) {
-    const double error = summary.accuracy->outputs[i].largest;
-    if (error == 0)
-      largest = std::fmax(largest, 0);
-    else
-      largest = std::fmax(largest, error / summary.outputs[i].mean_error);
-  }
-  return largest;
-}
-
-std::string accuracy_lines(const Summary& summary) {
-  std::string text;
-  const Accuracy& found = *summary.accuracy;
-  for (std::size_t i = 0; i < found.outputs.size(); ++i) {
-    const auto& [name, runs, largest, rms] = found.outputs[i];
-    const double sampling = summary.outputs[i].mean_error, share = 100 * rms / sampling;
-    text += fmt::format(
-        "{}{:<6}{}{}{}{}\n", in_column("  " + name, 38), parse_output_name(name).unit,
-        right_aligned(in_two_digits(largest), 14), right_aligned(in_two_digits(rms), 14),
-        right_aligned(in_two_digits(sampling), 18),
-        right_aligned(std::isfinite(share) ? fmt::format("{:.1g} %", share) : "–", 10));
-  }
-  return text;
-}
-
-/// How the errors were measured, and for which share of all runs they hold.
-std::string accuracy_note(const Summary& summary) {
-  const Accuracy& found = *summary.accuracy;
-  const auto at_most = [&](std::size_t runs) {
-    return percent(share_at_most(found, runs, summary.confidence), 2);
-  };
-  std::string note = fmt::format(
-      "{} of {} runs, drawn at random, repeated by {} at rtol {:g} (campaign: {} at {:g}); ratio "
-      "is "
-      "RMS error to standard error of the mean. At most {} of all runs have an error beyond the "
-      "largest, and at most {} an output that moves by more than 1 % ({:g} % confidence). Runs "
-      "that "
-      "move so: {}. Runs whose status or latch order differs: {}.",
-      found.runs, summary.runs, found.reference_method, found.reference_rtol, found.method,
-      found.rtol, at_most(0), at_most(found.moved.size()), 100 * summary.confidence,
-      found.moved.empty() ? "none" : fmt::format("{}", fmt::join(found.moved, ", ")),
-      found.in_doubt.empty() ? "none" : fmt::format("{}", fmt::join(found.in_doubt, ", ")));
-  if (found.unreached > 0)
-    note += fmt::format(" The reference could not finish {} more.", found.unreached);
-  return note;
-}
-
-/// The integration error beside the standard error of the mean: a line if it is negligible, else a table.
-std::string accuracy(const Summary& summary) {
-  if (!summary.accuracy) return "";
-  const Accuracy& found = *summary.accuracy;
-  const double share = largest_share(summary);
-  if (share <= 0.01 && found.moved.empty() && found.in_doubt.empty() && found.unreached == 0)
-    return fmt::format(
-        "\nACCURACY  integration errors ≤ {:.1g} % of a standard error, in ≥ {} of all runs "
-        "({:g} % confidence)\n",
-        100 * share, percent(1 - share_at_most(found, 0, summary.confidence), 1),
-        100 * summary.confidence);
-  return fmt::format("\n{:<38}{:<6}{:>14}{:>14}{:>18}{:>10}\n", "ACCURACY of the integration",
-                     "unit", "largest error", "RMS error", "std error of mean", "ratio") +
-         accuracy_lines(summary) + "  " + wrapped(accuracy_note(summary), 2) + '\n';
 }
 
 std::string in_digits_if_any(const std::optional<double>& value) {
@@ -361,10 +306,12 @@ std::string bar(long eighths) {
 
 } // namespace
 
-std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder) {
-  return std::string(title) + '\n' + outcomes(summary) + reasons(summary) + latch_orders(summary) +
-         outputs(summary) + accuracy(summary) + tolerance(summary) + requirements(summary, folder) +
-         stopping(summary) + warning_lines(summary) + files(summary, folder);
+std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder,
+                          bool all) {
+  return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary) +
+         latch_orders(summary) + outputs(summary, all) + accuracy_text(summary, all) +
+         tolerance(summary) + requirements(summary, folder) + stopping(summary) +
+         warning_lines(summary) + files(summary, folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

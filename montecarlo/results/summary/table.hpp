@@ -12,8 +12,10 @@ namespace wingspread {
 /// tolerance limits, requirements with the runs that break them, stopping goals, and warnings.
 /// @param title first line: campaign, number of runs, seed
 /// @param folder of the files; empty: none
+/// @param all    a line for every status and every output, and the accuracy of each; else those that say nothing share
+///               a line
 [[nodiscard]] std::string summary_table(const Summary& summary, std::string_view title,
-                                        std::string_view folder);
+                                        std::string_view folder, bool all = false);
 
 /// A histogram as horizontal bars whose length is the density. Merges neighbouring bins down to at most 20. Each line
 /// has its bin's lower edge and count.

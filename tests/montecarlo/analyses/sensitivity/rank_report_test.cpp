@@ -90,3 +90,29 @@ TEST_CASE("the report says what its bounds are") {
   one.replicates = 1;
   CHECK(warnings(one) == std::vector<std::string>{std::string(one_replicate)});
 }
+
+TEST_CASE("the short table names what moves an output, and stops") {
+  RankSensitivity all;
+  all.dispersions = {"spring", "damper", "mass", "nothing"};
+  const auto effect = [](double spearman, double partial, bool seen = true) {
+    return RankEffect{{spearman, {}}, {partial, {}}, seen};
+  };
+  all.outputs.push_back(
+      {"root.latch_time",
+       90,
+       0,
+       {effect(-0.3, -0.85), effect(0.6, 0.2), effect(0.1, 0.15), effect(0.5, 0.5, false)},
+       false});
+  all.outputs.push_back(
+      {"root.overtravel",
+       90,
+       0,
+       {effect(std::nan(""), std::nan("")), effect(0.1, 0.05), effect(0, 0), effect(0, 0)},
+       false});
+  CHECK(
+      moved_by_table(all, "t") ==
+      "t\n\nOUTPUT                          moved by (rank correlation, partial or Spearman's, the "
+      "larger)\n"
+      "  root.latch_time               spring -0.85, damper 0.60\n"
+      "  nothing visible moves root.overtravel\n");
+}

@@ -57,3 +57,15 @@ TEST_CASE("an output without indices, and bounds that there are not, are told of
   CHECK(said[0] == one_replicate);
   CHECK_THAT(said[1], Catch::Contains("\"deployment_time\"") && Catch::Contains("no indices"));
 }
+
+TEST_CASE("the short table has shares of the variance") {
+  SobolSensitivity all;
+  all.dispersions = {"a", "b", "c"};
+  const auto effect = [](double total) { return SobolEffect{{0, {}}, {total, {}}, false}; };
+  SobolIndices indices;
+  indices.effects = {effect(0.1), effect(0.004), effect(0.7)};
+  all.outputs.push_back({"root.latch_time", indices});
+  CHECK(moved_by_table(all, "t") == "t\n\nOUTPUT                          moved by (share of the "
+                                    "variance, interactions included)\n"
+                                    "  root.latch_time               c 70 %\n");
+}

@@ -51,7 +51,7 @@ TEST_CASE("watching a run and auditing its energy changes no bit of its row") {
   std::set<Status> seen;
   for (long k = 0; k < 24; ++k) {
     long samples = 0;
-    const auto [outcome, row] = Runner(plan).replay(k, [&](const Sample&) { ++samples; });
+    const auto [outcome, row, scene] = Runner(plan).replay(k, [&](const Sample&) { ++samples; });
     CHECK(line(row) == line(runner.run(k)));
     CHECK((samples > 1) == (row.status != Status::invalid));
     // rounding alone leaves some

@@ -25,7 +25,7 @@ TEST_CASE("A campaign is described with what varies and how it is run", "[descri
         "  mass.outer: uniform (lower 7, upper 9), set bodies.outer.mass (nominal 8 kg)\n"
         "  rate: empirical (values 5 numbers), add hinges.root.initial_rate (nominal -0.1 rad/s)\n"
         "  stop: exponential (rate 9) within [-inf, 0.1], add hinges.root.angle.latched (nominal 0 "
-        "rad)\n"
+        "deg)\n"
         "sampling: random, 1000 runs, seed 1\n"
         "integration: method auto, rtol 1e-08, atol 1e-10, latch event, up to 60 s and 1000000 "
         "steps\n"

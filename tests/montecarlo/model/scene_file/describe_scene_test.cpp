@@ -15,10 +15,10 @@ TEST_CASE("A scene is described part by part", "[describe]") {
       "    inner: mass 10 kg, inertia 0.5 kg·m²\n"
       "    outer: mass 8 kg, inertia 0.25 kg·m²\n"
       "  2 hinges\n"
-      "    root: base to inner, 1.5 to 0 rad, from -0.1 rad/s; spring 2 to 1.4 N·m; harness 0.1 to "
+      "    root: base to inner, 85.94 to 0 deg, from -0.1 rad/s; spring 2 to 1.4 N·m; harness 0.1 to "
       "0.2 N·m; friction 0.1 N·m, 0.01 N·m·s/rad, regularized at 0.002 rad/s; latch 10000 N·m/rad, "
       "100 N·m·s/rad\n"
-      "    mid: inner to outer, -3 to 0 rad; no latch\n");
+      "    mid: inner to outer, -171.9 to 0 deg; no latch\n");
 }
 
 TEST_CASE("A base is described by its motion, and friction by its model", "[describe]") {
@@ -28,12 +28,12 @@ TEST_CASE("A base is described by its motion, and friction by its model", "[desc
   CHECK_THAT(
       describe(read_scene(document)),
       Catch::Contains("base: free, mass 100 kg, inertia 20 kg·m², position (0, 0) m, velocity "
-                      "(0, 0) m/s, angle 0 rad, rate 0 rad/s\n") &&
+                      "(0, 0) m/s, angle 0 deg, rate 0 rad/s\n") &&
           Catch::Contains("friction 0.5 N·m, 0 N·m·s/rad, exact, static 0.5 N·m; no latch"));
   document["base"] = {{"motion", "prescribed"}, {"rate", 0.5}};
   CHECK_THAT(describe(read_scene(document)),
              Catch::Contains("base: prescribed, acceleration (0, 0) m/s², angular acceleration 0 "
-                             "rad/s², angle 0 rad, rate 0.5 rad/s\n"));
+                             "rad/s², angle 0 deg, rate 0.5 rad/s\n"));
 }
 
 TEST_CASE("What real hinges have is described", "[describe]") {
@@ -46,14 +46,14 @@ TEST_CASE("What real hinges have is described", "[describe]") {
       "wide, drag coefficient 1.9\n"
       "    outer: mass 8 kg, inertia 0.25 kg·m²\n"
       "  2 hinges\n"
-      "    root: base to inner, 1.5 to 0 rad, from -0.1 rad/s; spring measured both ways at 3 "
-      "angles from 1.5 to 0 rad, linear, times 1.1, plus -0.05 N·m, its hysteresis as friction, "
-      "times 1.5 (friction.scale); harness by a table at 4 angles from 1.6 to -0.1 rad, monotone, "
+      "    root: base to inner, 85.94 to 0 deg, from -0.1 rad/s; spring measured both ways at 3 "
+      "angles from 85.94 to 0 deg, linear, times 1.1, plus -0.05 N·m, its hysteresis as friction, "
+      "times 1.5 (friction.scale); harness by a table at 4 angles from 91.67 to -5.73 deg, monotone, "
       "times 0.9; friction 0.1 N·m, 0.01 N·m·s/rad, "
       "regularized at 0.002 rad/s, times 1.5; damper 3 N·m·(s/rad)^0.45, linear below 1e-05 "
-      "rad/s, times 0.7, between 1 and 0.25 rad; stop 500 N·m/rad, 0.2 s/rad, gap 0.01 rad; latch "
-      "10000 N·m/rad, 100 N·m·s/rad, backlash 0.002 rad\n"
-      "    mid: inner to outer, -3 to 0 rad; spring 1 to 0.5 N·m, plus 0.125 N·m; damper of eddy "
+      "rad/s, times 0.7, between 57.3 and 14.32 deg; stop 500 N·m/rad, 0.2 s/rad, gap 0.573 deg; latch "
+      "10000 N·m/rad, 100 N·m·s/rad, backlash 0.1146 deg\n"
+      "    mid: inner to outer, -171.9 to 0 deg; spring 1 to 0.5 N·m, plus 0.125 N·m; damper of eddy "
       "currents, 2 N·m at 4 rad/s; no latch\n"
       "  2 synchronisations\n"
       "    loop: root to mid, ratio 2; 300 N·m/rad, 0.5 N·m·s/rad, preload 8 N·m\n"

@@ -94,7 +94,7 @@ TEST_CASE("overtravel stands by hinge, and in the table, and is warned of withou
   CHECK(outcome_json(scene, outcome)["overtravel"].dump() ==
         R"({"root":0.0,"mid":0.5,"tip":0.25})");
   CHECK_THAT(outcome_text(scene, outcome),
-             Catch::Contains("rate, rad/s   overtravel, rad\n") && Catch::Contains("0.5\n  tip"));
+             Catch::Contains("rate, rad/s   overtravel, deg\n") && Catch::Contains("28.65\n  tip"));
 }
 
 TEST_CASE("what did not happen, or is not known, is null") {

@@ -216,7 +216,7 @@ TEST_CASE("the table shows what the campaign asks for, and which runs to look at
 
 TEST_CASE("the table says what the integration contributes") {
   Summary summary = summarize(some_results(), {});
-  CHECK_FALSE(contains(summary_table(summary, "t", "out"), "ACCURACY"));
+  CHECK_FALSE(contains(summary_table(summary, "t", "out", true), "ACCURACY"));
   summary.outputs[0].mean_error = 0.02;
   summary.accuracy = Accuracy{.runs = 10,
                               .method = "auto",
@@ -230,7 +230,7 @@ TEST_CASE("the table says what the integration contributes") {
                                           {"root.rate_at.a_hinge_with_a_long_name", 0, none, none},
                                           {"tip.peak_moment", 10, 0, 0},
                                           {"deployment_time", 9, 0.5, 0.25}}};
-  const std::vector<std::string> all = lines(summary_table(summary, "t", "out"));
+  const std::vector<std::string> all = lines(summary_table(summary, "t", "out", true));
   const auto begin = std::ranges::find_if(
       all, [](const std::string& line) { return line.starts_with("ACCURACY"); });
   REQUIRE(all.end() - begin > 8);
@@ -240,23 +240,49 @@ TEST_CASE("the table says what the integration contributes") {
   CHECK(begin[1] == "  root.latch_time" + blanks(21) + "s" + blanks(12) + "1.3e-09" + blanks(9) +
                         "4e-10" + blanks(14) + "0.02" + blanks(3) + "2e-06 %");
   CHECK(begin[3].starts_with(blanks(38) + "rad/s" + blanks(14) + "–"));
-  const std::string table = summary_table(summary, "t", "out");
+  const std::string table = summary_table(summary, "t", "out", true);
   CHECK(contains(table, "  10 of 100 runs, drawn at random, repeated by dopri5 at rtol 1e-11"));
   CHECK((contains(table, "25.89 %") && contains(table, "differs: none.")));
   summary.accuracy->in_doubt = {17, 40};
   summary.accuracy->unreached = 3;
-  CHECK(contains(summary_table(summary, "t", "out"), "differs: 17, 40."));
-  CHECK(contains(summary_table(summary, "t", "out"), "more."));
-  // An error of at most 1 % of a standard error is a line.
+  CHECK(contains(summary_table(summary, "t", "out", true), "differs: 17, 40."));
+  CHECK(contains(summary_table(summary, "t", "out", true), "more."));
+  // Without --all it is a line.
+  const auto line = [&] { return summary_table(summary, "t", "out"); };
+  CHECK_THAT(line(),
+             Catch::Contains("\nACCURACY  integration errors in an output that does not vary, "
+                             "in ≥ 74.1 % of all runs (95 % confidence);\n"));
+  CHECK_THAT(line(), Catch::Contains("of 10 runs repeated, 2 end otherwise") &&
+                         Catch::Contains("3 could not be finished"));
   summary.accuracy->in_doubt.clear();
   summary.accuracy->unreached = 0;
   summary.accuracy->outputs.resize(3);
-  CHECK(contains(summary_table(summary, "t", "out"),
-                 "\nACCURACY  integration errors ≤ 6e-06 % of a standard error, in ≥ 74.1 % of all "
-                 "runs (95 % confidence)\n"));
+  CHECK_THAT(line(),
+             Catch::Contains("\nACCURACY  integration errors ≤ 6e-06 % of a standard error, in ≥ "
+                             "74.1 % of all runs (95 % confidence)\n"));
   summary.accuracy->outputs[0].largest = 0.0003;
-  CHECK(contains(summary_table(summary, "t", "out"), "ACCURACY of the integration"));
-  summary.accuracy->outputs[0].largest = 0;
   summary.accuracy->moved = {4};
-  CHECK(contains(summary_table(summary, "t", "out"), "ACCURACY of the integration"));
+  CHECK_THAT(line(), Catch::Contains("≤ 1 % of a standard error") ||
+                         Catch::Contains("≤ 2 % of a standard error"));
+  CHECK_THAT(line(), Catch::Contains("1 moves by more than 1 %"));
+  CHECK_FALSE(contains(line(), "largest error"));
+}
+
+TEST_CASE("outcomes that no run has share a line, and outputs that never vary") {
+  Results results(
+      ResultNames{{}, {"root.latch_time", "root.overtravel", "tip.overtravel", "tip.peak_moment"}});
+  for (long run = 0; run < 20; ++run)
+    results.append(
+        {run, Status::deployed, {}, {10.0 + static_cast<double>(run), 0, 0.001, 7}, "root", ""});
+  const Summary summary = summarize(results, {});
+  const std::string table = summary_table(summary, "t", "");
+  CHECK(contains(table, "\n  stalled, timed out, invalid, failed" + std::string(23, ' ') +
+                            "0     0.000 %"));
+  CHECK(contains(table, "\n  overtravel of root, tip: at most 0.001 rad\n"));
+  CHECK(contains(table, "\n  the same in every run: tip.peak_moment = 7 N·m\n"));
+  CHECK_FALSE(contains(table, "\ntip\n"));
+  const std::string all = summary_table(summary, "t", "", true);
+  CHECK(contains(all, "\n  timed out "));
+  CHECK(contains(all, "\ntip\n  overtravel"));
+  CHECK_FALSE(contains(all, "the same in every run"));
 }

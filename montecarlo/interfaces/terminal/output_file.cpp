@@ -1,4 +1,4 @@
-#include "montecarlo/interfaces/commands/output_file.hpp"
+#include "montecarlo/interfaces/terminal/output_file.hpp"
 
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
@@ -68,11 +68,12 @@ std::vector<fs::path> named_files(const fs::path& read) {
 
 } // namespace
 
-void refuse_overwriting(const fs::path& out, const std::vector<fs::path>& read) {
+void refuse_overwriting(const fs::path& out, const std::vector<fs::path>& read,
+                        const char* option) {
   if (out.empty()) return;
   const auto refuse = [&](const char* what) {
-    throw SpecError({{"", "--out", '"' + out.string() + "\", " + what,
-                      "another file: this one would be lost"}});
+    throw SpecError(
+        {{"", option, '"' + out.string() + "\", " + what, "another file: this one would be lost"}});
   };
   for (const fs::path& each : read) {
     if (is_same_file(out, each)) refuse("which this command reads");

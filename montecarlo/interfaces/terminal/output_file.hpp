@@ -11,8 +11,9 @@ namespace wingspread {
 /// are JSON files; a file of a results folder.
 /// @param out  the file; may be empty
 /// @param read the files and results folders that the command reads
-/// @throws SpecError that names --out
+/// @throws SpecError that names the option
 void refuse_overwriting(const std::filesystem::path& out,
-                        const std::vector<std::filesystem::path>& read);
+                        const std::vector<std::filesystem::path>& read,
+                        const char* option = "--out");
 
 } // namespace wingspread

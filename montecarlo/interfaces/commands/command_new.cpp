@@ -1,0 +1,155 @@
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/spec_error.hpp"
+#include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/interfaces/terminal/design_questions.hpp"
+#include "montecarlo/interfaces/terminal/examples.hpp"
+#include "montecarlo/model/starter/starter.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <iostream>
+#include <string_view>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace wingspread {
+namespace {
+
+struct NewOptions {
+  WingDesign design;
+  std::filesystem::path out;
+  std::string example;
+  bool designed = false; ///< whether an option gives a part of the design
+};
+
+/// A file to write: its name within the folder, and its text.
+using NewFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes the files, or nothing if one of them would replace another text.
+void write_new_files(const std::filesystem::path& folder, const NewFiles& files) {
+  std::vector<Problem> problems;
+  for (const auto& [name, text] : files) {
+    const std::filesystem::path file = folder / name;
+    if (std::filesystem::exists(file) && read_text(file) != text)
+      problems.push_back({"", "--out", '"' + file.string() + "\", an existing file",
+                          "a new folder: this file would be lost"});
+  }
+  if (!problems.empty()) throw SpecError(std::move(problems));
+  make_folder(folder);
+  for (const auto& [name, text] : files) {
+    write_file(folder / name, text);
+    fmt::print("{}\n", (folder / name).string());
+  }
+}
+
+/// Prints the commands that come next.
+void print_next(const std::filesystem::path& folder, std::string_view campaign) {
+  const std::string file = (folder / campaign).string(), results = (folder / "results").string();
+  fmt::print("next:\n"
+             "  wingspread check {0} --draw {1}\n"
+             "  wingspread run {0} --out {2} --table\n"
+             "  wingspread report {2}\n",
+             file, (folder / "wing.svg").string(), results);
+}
+
+int copy_example(const NewOptions& options) {
+  if (options.designed)
+    throw SpecError({{"", "--example", "--example and numbers of a wing",
+                      "either an example as it is, or a wing of your own"}});
+  const Example example = read_example(options.example);
+  const std::filesystem::path folder =
+      options.out.empty() ? std::filesystem::path(example.name) : options.out;
+  write_new_files(folder, example.files);
+  print_next(folder, starter_campaign_file);
+  return exit_code::done;
+}
+
+int make_new(const NewOptions& options) {
+  if (!options.example.empty()) return copy_example(options);
+  const bool asks = !options.designed && isatty(STDIN_FILENO) == 1;
+  const WingDesign design = asks ? ask_design(std::cin, std::cout) : options.design;
+  const Starter starter = make_starter(design, command_of(design));
+  const std::filesystem::path folder =
+      options.out.empty() ? std::filesystem::path(design.name) : options.out;
+  write_new_files(folder, {{starter_scene_file, starter.scene},
+                           {starter_campaign_file, starter.campaign},
+                           {starter_page_file, starter.page}});
+  if (!starter.deploys)
+    fmt::print(stderr, "warning: the nominal wing does not deploy in every case: stronger springs, "
+                       "or less harness and friction; the requirements' limits are placeholders\n");
+  fmt::print("{} explains each line\n", (folder / starter_page_file).string());
+  print_next(folder, starter_campaign_file);
+  return exit_code::done;
+}
+
+/// Adds an option whose text `read` accepts, or refuses with a message.
+template <class Read>
+void add_number(CLI::App& command, NewOptions& options, std::string_view option,
+                std::string_view what, std::string_view unit, Read read) {
+  const auto parse = [&options, read](const std::string& text) {
+    options.designed = true;
+    if (const auto message = read(text, options.design)) throw CLI::ValidationError(*message);
+  };
+  command.add_option_function<std::string>(std::string(option), parse, std::string(what))
+      ->type_name(std::string(unit));
+}
+
+void add_design_options(CLI::App& command, NewOptions& options) {
+  WingDesign& design = options.design;
+  const auto designed = [&options](auto) { options.designed = true; };
+  command.add_option("--name", design.name, "Name of the wing and of its folder")
+      ->type_name("NAME")
+      ->each(designed);
+  command.add_option("--wings", design.wings, "1, or 2 on both sides of the spacecraft")
+      ->check(CLI::Range(1, 2).description(""))
+      ->type_name("N")
+      ->each(designed);
+  command.add_option("--panels", design.panels, "Panels of a wing")
+      ->check(CLI::Range(1, most_panels).description(""))
+      ->type_name("N")
+      ->each(designed);
+  command.add_flag_function(
+      "--yoke", [&options](std::int64_t) { options.designed = options.design.yoke = true; },
+      "A yoke between the spacecraft and the first panel");
+  for (const DesignNumber& number : design_numbers())
+    add_number(command, options, number.option,
+               fmt::format("{}; default: {}", number.what, WingDesign().*number.value),
+               number.dimension.unit, [number](const std::string& text, WingDesign& into) {
+                 return read_design_number(text, number, into);
+               });
+  add_number(command, options, damper_option,
+             "damper of the root hinge, 0: none; default: one that doubles the time", "N·m·s/rad",
+             [](const std::string& text, WingDesign& into) { return read_damper(text, into); });
+}
+
+void add_new_options(CLI::App& command, NewOptions& options) {
+  add_design_options(command, options);
+  command.add_option("--example", options.example, "Copy a shipped example, e.g. yoke")
+      ->type_name("NAME");
+  command.add_option("--out", options.out, "The folder to write; default: the name")
+      ->type_name("DIR");
+  command.footer(
+      R"(Writes scene.json (the wing), campaign.json (what varies, cases, requirements) and README.md, which
+explains each line of both. Panels fold as a Z: flat in a stack when stowed, in line when deployed.
+`check`, `run` and `report` take the files as they are; replace the numbers by your own.
+
+Without an option for the wing it asks on a terminal. Numbers may have a unit: "1.8 m", "12 in*lbf".
+The same options give the same bytes.
+
+Example:
+  wingspread new
+  wingspread new --wings 2 --panels 4 --yoke --panel-mass "9 kg" --spring 1.5
+  wingspread new --example yoke --out yoke)");
+}
+
+} // namespace
+
+void add_new(CLI::App& app, Action& action) {
+  add_command<NewOptions>(app, action, "new",
+                          "Write a wing and a campaign of your own to start from, explained",
+                          add_new_options, make_new);
+}
+
+} // namespace wingspread

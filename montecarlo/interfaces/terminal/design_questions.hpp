@@ -1,0 +1,26 @@
+/// The numbers of a new wing: as text from an option or an answer, as questions on a terminal, and as options again.
+#pragma once
+
+#include "montecarlo/model/starter/wing_design.hpp"
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace wingspread {
+
+/// Reads "1.8", "1.8 m" or "70 in" into the design. @return the message if the text is no such number; else nothing
+[[nodiscard]] std::optional<std::string>
+read_design_number(std::string_view text, const DesignNumber& number, WingDesign& design);
+/// The same for the damper.
+[[nodiscard]] std::optional<std::string> read_damper(std::string_view text, WingDesign& design);
+
+/// Asks for each part of the design in turn. An empty line keeps the value in brackets; what cannot be read is asked
+/// again; the end of the input keeps all that is left.
+[[nodiscard]] WingDesign ask_design(std::istream& in, std::ostream& out);
+
+/// "wingspread new --panels 4 --yoke": the options that differ from the defaults.
+[[nodiscard]] std::string command_of(const WingDesign& design);
+
+} // namespace wingspread

@@ -1,0 +1,27 @@
+/// The campaign of a designed wing, line by line.
+#pragma once
+
+#include "montecarlo/model/starter/annotated_json.hpp"
+#include "montecarlo/model/starter/wing_design.hpp"
+
+#include <vector>
+
+namespace wingspread {
+
+/// What the campaign requires, found from the nominal wings of all cases.
+struct StarterLimits {
+  double t_end = 0;           ///< s
+  double deployment_time = 0; ///< s
+  std::vector<double> moment; ///< of each wing's root, N·m
+};
+
+/// @param scene_file name of the scene's file, beside the campaign
+[[nodiscard]] AnnotatedLines starter_campaign(const WingDesign& design,
+                                              const std::string& scene_file,
+                                              const StarterLimits& limits);
+
+/// The longest deployment and the largest moments of the nominal wing in the campaign's cases, half as much again and
+/// rounded up to two digits. Nothing if a nominal wing does not deploy.
+[[nodiscard]] std::optional<StarterLimits> starter_limits(const WingDesign& design);
+
+} // namespace wingspread

@@ -1,0 +1,41 @@
+/// Places the names in a drawing so that they overlap neither each other nor the lines.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+/// A rectangle, px; y points down.
+struct Box {
+  Eigen::Vector2d from{0, 0}, to{0, 0};
+  [[nodiscard]] bool overlaps(const Box& other) const {
+    return from.x() < other.to.x() && other.from.x() < to.x() && from.y() < other.to.y() &&
+           other.from.y() < to.y();
+  }
+};
+
+/// The width of a text of this size in a usual sans-serif font, px; generous.
+[[nodiscard]] double text_width(const std::string& text, double size);
+
+class LabelPlaces {
+public:
+  /// @param area in which all labels have to stay
+  explicit LabelPlaces(const Box& area) : area_(area) {}
+
+  /// Keeps a line free of labels.
+  void avoid(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+
+  /// The nearest free place of a text beside its anchor, as the text's box; beyond a distance the nearest place that
+  /// overlaps no other text. Of places equally near, the one in the direction `away`. The place is then taken.
+  [[nodiscard]] Box place(const std::string& text, double size, const Eigen::Vector2d& anchor,
+                          const Eigen::Vector2d& away = {1, 0});
+
+private:
+  Box area_;
+  std::vector<Box> taken_, kept_free_;
+};
+
+} // namespace wingspread

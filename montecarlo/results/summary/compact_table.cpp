@@ -1,0 +1,286 @@
+#include "montecarlo/results/summary/compact_table.hpp"
+
+#include "montecarlo/foundation/formats/output_name.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/results/summary/overtravel.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+
+namespace wingspread {
+namespace {
+
+constexpr std::size_t compact_name_width = 32, unit_width = 8, compact_case_width = 20;
+constexpr std::size_t most_cases =
+    (table_width - compact_name_width - unit_width) / compact_case_width;
+
+using CompactCases = std::span<const CaseSummary>;
+using CompactCell = std::function<std::string(const CaseSummary&)>;
+
+std::string compact_line(std::string_view name, CompactCases cases, const CompactCell& cell) {
+  std::string text = in_column(name, compact_name_width + unit_width);
+  for (const CaseSummary& each : cases) text += right_aligned(cell(each), compact_case_width);
+  return text + '\n';
+}
+
+std::string compact_heading(std::string_view name, CompactCases cases) {
+  return '\n' + compact_line(name, cases, [](const CaseSummary& each) { return each.name; });
+}
+
+/// A line for each status that some run has, and one for all others together.
+std::string compact_outcomes(CompactCases cases) {
+  std::string text = compact_heading("OUTCOME", cases);
+  text += compact_line("  runs", cases,
+                       [](const CaseSummary& each) { return std::to_string(each.summary.runs); });
+  std::vector<std::string> none;
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    const auto has = [i](const CaseSummary& each) { return each.summary.statuses[i].count > 0; };
+    const std::string name = spaced(to_string(statuses[i]));
+    if (statuses[i] == Status::deployed || std::ranges::any_of(cases, has))
+      text += compact_line("  " + name, cases, [i](const CaseSummary& each) {
+        return percent(each.summary.statuses[i].rate);
+      });
+    else
+      none.push_back(name);
+  }
+  if (!none.empty())
+    text += compact_line(fmt::format("  {}", fmt::join(none, ", ")), cases,
+                         [](const CaseSummary&) { return std::string("0"); });
+  return text + compact_line("  the nominal wing", cases, [](const CaseSummary& each) {
+           return each.summary.nominal ? spaced(to_string(each.summary.nominal->status)) : "–";
+         });
+}
+
+std::string four_digits(double value) {
+  return std::isnan(value) ? "–" : fmt::format("{:.4g}", value);
+}
+
+double quantile_of(const OutputSummary& output, std::size_t index) {
+  return output.quantiles[index].value;
+}
+
+std::string compact_quantile_name(double p) {
+  return p == 0.5 ? "median" : fmt::format("{:.5g} %", 100 * p);
+}
+
+/// The heading names the two quantiles.
+std::string compact_outputs(CompactCases all, CompactCases cases) {
+  const std::vector<OutputSummary>& outputs = cases.front().summary.outputs;
+  if (outputs.empty()) return "";
+  const auto& quantiles = outputs.front().quantiles;
+  const std::size_t last = quantiles.empty() ? 0 : quantiles.size() - 1;
+  std::string text = compact_heading(
+      quantiles.empty() ? "OUTPUT, mean"
+      : last == 0       ? fmt::format("OUTPUT, {}", compact_quantile_name(quantiles[0].p))
+                        : fmt::format("OUTPUT, {} and {}", compact_quantile_name(quantiles[0].p),
+                                      compact_quantile_name(quantiles[last].p)),
+      cases);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto of = [i](const CaseSummary& each) -> const OutputSummary& {
+      return each.summary.outputs[i];
+    };
+    if (std::ranges::all_of(all, [&](const CaseSummary& each) { return is_quiet(of(each)); }))
+      continue;
+    text += compact_line(
+        in_column("  " + outputs[i].name, compact_name_width) +
+            std::string(parse_output_name(outputs[i].name).unit),
+        cases, [&](const CaseSummary& each) {
+          if (quantiles.empty()) return four_digits(of(each).moments.mean);
+          const std::string low = four_digits(quantile_of(of(each), 0));
+          return last == 0 ? low
+                           : low + right_aligned(four_digits(quantile_of(of(each), last)), 10);
+        });
+  }
+  return text;
+}
+
+std::string compact_requirements(CompactCases cases) {
+  const auto count = cases.front().summary.requirements.size();
+  if (count == 0) return "";
+  std::string text = compact_heading("REQUIREMENT, broken / allowed", cases);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto verdict = [i](const CaseSummary& each) -> const Verdict& {
+      return each.summary.requirements[i];
+    };
+    text += compact_line(
+        "  " + to_string(verdict(cases.front()).requirement), cases, [&](const CaseSummary& each) {
+          const auto& allowed = verdict(each).allowed;
+          return fmt::format("{} {} / {}", to_string(verdict(each).decision),
+                             verdict(each).failures(), allowed ? std::to_string(*allowed) : "–");
+        });
+  }
+  return text;
+}
+
+/// The smallest and largest value of an output in all summaries; NaN where none has it.
+struct Reach {
+  double least = std::nan(""), most = std::nan("");
+  void add(const OutputSummary& output) {
+    if (output.moments.count == 0) return;
+    least = std::fmin(least, output.moments.min);
+    most = std::fmax(most, output.moments.max);
+  }
+};
+
+std::string described_quiet(const std::vector<std::pair<std::string, Reach>>& quiet) {
+  std::vector<std::string> hinges, constants;
+  double largest = 0;
+  for (const auto& [name, reach] : quiet) {
+    const OutputName parts = parse_output_name(name);
+    if (parts.quantity == "overtravel") {
+      hinges.push_back(parts.hinge);
+      if (!std::isnan(reach.most)) largest = std::max(largest, reach.most);
+    } else if (std::isnan(reach.most)) {
+      constants.push_back(name + " has no value");
+    } else {
+      const std::string unit = parts.unit;
+      constants.push_back(
+          fmt::format("{} = {:.5g}{}{}", name, reach.most, unit.empty() ? "" : " ", unit));
+    }
+  }
+  std::string text;
+  const auto add = [&](const std::string& sentence) { text += "  " + wrapped(sentence, 2) + '\n'; };
+  if (!hinges.empty())
+    add(fmt::format("overtravel of {}: {}", fmt::join(hinges, ", "),
+                    largest == 0 ? "none" : fmt::format("at most {:.2g} rad", largest)));
+  if (!constants.empty()) add(fmt::format("the same in every run: {}", fmt::join(constants, ", ")));
+  return text;
+}
+
+/// An error: two digits.
+std::string in_two_digits(double error) {
+  return std::isnan(error) ? "–" : fmt::format("{:.2g}", error);
+}
+
+/// The largest error of the integration over the standard error of the mean, of all outputs; NaN if unknown.
+double largest_share(const Summary& summary) {
+  double largest = undefined;
+  for (std::size_t i = 0; i < summary.accuracy->outputs.size(); ++i) {
+    const double error = summary.accuracy->outputs[i].largest;
+    if (error == 0)
+      largest = std::fmax(largest, 0);
+    else
+      largest = std::fmax(largest, error / summary.outputs[i].mean_error);
+  }
+  return largest;
+}
+
+std::string accuracy_lines(const Summary& summary) {
+  std::string text;
+  const Accuracy& found = *summary.accuracy;
+  for (std::size_t i = 0; i < found.outputs.size(); ++i) {
+    const auto& [name, runs, largest, rms] = found.outputs[i];
+    const double sampling = summary.outputs[i].mean_error, share = 100 * rms / sampling;
+    text += fmt::format(
+        "{}{:<6}{}{}{}{}\n", in_column("  " + name, 38), parse_output_name(name).unit,
+        right_aligned(in_two_digits(largest), 14), right_aligned(in_two_digits(rms), 14),
+        right_aligned(in_two_digits(sampling), 18),
+        right_aligned(std::isfinite(share) ? fmt::format("{:.1g} %", share) : "–", 10));
+  }
+  return text;
+}
+
+/// The largest error, and the runs that it does not hold for.
+std::string accuracy_line(const Summary& summary) {
+  const Accuracy& found = *summary.accuracy;
+  const double share = largest_share(summary);
+  std::string line = fmt::format(
+      "integration errors {}, in ≥ {} of all runs ({:g} % confidence)",
+      std::isnan(share)   ? "unknown"
+      : std::isinf(share) ? "in an output that does not vary"
+                          : fmt::format("≤ {:.1g} % of a standard error", 100 * share),
+      percent(1 - share_at_most(found, 0, summary.confidence), 1), 100 * summary.confidence);
+  const auto add = [&](std::size_t runs, const char* one, const char* many) {
+    if (runs > 0)
+      line += fmt::format("; of {} repeated, {} {}", counted(found.runs, "run", "runs"), runs,
+                          runs == 1 ? one : many);
+  };
+  add(found.moved.size(), "moves by more than 1 %", "move by more than 1 %");
+  add(found.in_doubt.size(), "ends otherwise", "end otherwise");
+  add(static_cast<std::size_t>(found.unreached), "could not be finished", "could not be finished");
+  return line;
+}
+
+/// How the errors were measured, and for which share of all runs they hold.
+std::string accuracy_note(const Summary& summary) {
+  const Accuracy& found = *summary.accuracy;
+  const auto at_most = [&](std::size_t runs) {
+    return percent(share_at_most(found, runs, summary.confidence), 2);
+  };
+  std::string note = fmt::format(
+      "{} of {}, drawn at random, repeated by {} at rtol {:g} (campaign: {} at {:g}); ratio "
+      "is "
+      "RMS error to standard error of the mean. At most {} of all runs have an error beyond the "
+      "largest, and at most {} an output that moves by more than 1 % ({:g} % confidence). Runs "
+      "that "
+      "move so: {}. Runs whose status or latch order differs: {}.",
+      found.runs, counted(summary.runs, "run", "runs"), found.reference_method,
+      found.reference_rtol, found.method, found.rtol, at_most(0), at_most(found.moved.size()),
+      100 * summary.confidence,
+      found.moved.empty() ? "none" : fmt::format("{}", fmt::join(found.moved, ", ")),
+      found.in_doubt.empty() ? "none" : fmt::format("{}", fmt::join(found.in_doubt, ", ")));
+  if (found.unreached > 0)
+    note += fmt::format(" The reference could not finish {} more.", found.unreached);
+  return note;
+}
+
+} // namespace
+
+std::string accuracy_text(const Summary& summary, bool all) {
+  if (!summary.accuracy) return "";
+  if (!all) return "\nACCURACY  " + wrapped(accuracy_line(summary), 10) + '\n';
+  return fmt::format("\n{:<38}{:<6}{:>14}{:>14}{:>18}{:>10}\n", "ACCURACY of the integration",
+                     "unit", "largest error", "RMS error", "std error of mean", "ratio") +
+         accuracy_lines(summary) + "  " + wrapped(accuracy_note(summary), 2) + '\n';
+}
+
+bool is_quiet(const OutputSummary& output) {
+  const Moments& found = output.moments;
+  if (parse_output_name(output.name).quantity == "overtravel")
+    return found.count == 0 || found.max <= most_overtravel;
+  return found.count == 0 || (found.min == found.max && found.count > 1 && output.missing == 0);
+}
+
+std::string quiet_outputs(std::span<const CaseSummary> cases) {
+  std::vector<std::pair<std::string, Reach>> quiet;
+  for (std::size_t i = 0; i < cases.front().summary.outputs.size(); ++i) {
+    Reach reach;
+    bool all = true;
+    for (const CaseSummary& each : cases) {
+      all = all && is_quiet(each.summary.outputs[i]);
+      reach.add(each.summary.outputs[i]);
+    }
+    if (all) quiet.emplace_back(cases.front().summary.outputs[i].name, reach);
+  }
+  return described_quiet(quiet);
+}
+
+std::string quiet_outputs(const std::vector<OutputSummary>& outputs) {
+  std::vector<std::pair<std::string, Reach>> quiet;
+  for (const OutputSummary& output : outputs)
+    if (is_quiet(output)) quiet.emplace_back(output.name, Reach()), quiet.back().second.add(output);
+  return described_quiet(quiet);
+}
+
+std::string compact_cases_table(const std::vector<CaseSummary>& cases, std::string_view title,
+                                std::string_view folder) {
+  std::string text = std::string(title) + '\n';
+  for (std::size_t first = 0; first < cases.size(); first += most_cases) {
+    const auto block =
+        CompactCases(cases).subspan(first, std::min(most_cases, cases.size() - first));
+    text += compact_outcomes(block) + compact_outputs(cases, block) + compact_requirements(block);
+  }
+  if (const std::string quiet = quiet_outputs(cases); !quiet.empty()) text += '\n' + quiet;
+  for (const CaseSummary& each : cases)
+    if (each.partial) text += fmt::format("\n{} lacks runs of the campaign\n", each.name);
+  return text + fmt::format("\nFILES  {}: cases.json, and a results folder for each case; --all "
+                            "prints every statistic\n",
+                            folder);
+}
+
+} // namespace wingspread

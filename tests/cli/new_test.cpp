@@ -1,0 +1,86 @@
+#include "tests/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("from nothing to a report: new, check, run, report") {
+  const Folder folder;
+  const std::string wing = folder.path() / "wing", campaign = wing + "/campaign.json";
+  const auto made = run_program(
+      folder, {"new", "--panels", "2", "--yoke", "--panel-mass", "9 kg", "--out", wing});
+  CHECK(made.code == 0);
+  CHECK(made.error.empty());
+  CHECK_THAT(made.out, HasFacts({wing + "/scene.json\n", campaign, wing + "/README.md", "next:",
+                                 "wingspread check " + campaign, "wingspread run " + campaign,
+                                 "wingspread report " + wing + "/results"}));
+  const std::string picture = folder.path() / "wing.svg";
+  const auto checked = run_program(folder, {"check", campaign, "--strict", "--draw", picture});
+  CHECK(checked.code == 0);
+  CHECK(checked.error.empty());
+  CHECK_THAT(checked.out, HasFacts({"mass of 3 bodies: 21.5 kg", "cost: the nominal run takes ",
+                                    " evaluations, ", "3000 runs in 3 cases: about "}));
+  CHECK(read_text(picture).value().starts_with("<svg "));
+  const std::string results = wing + "/results";
+  const auto run = run_program(folder, {"run", campaign, "--out", results, "--runs", "60"});
+  CHECK(run.code == 1); // 60 runs cannot show 99.73 %
+  CHECK(run.error.find("warning") == std::string::npos);
+  for (const char* name : {"cold", "ambient", "hot"}) {
+    const Json summary = parse_json_file(results + "/" + name + "/summary.json");
+    CHECK(summary["status"]["deployed"]["count"] == 60);
+    CHECK(summary["nominal"]["status"] == "deployed");
+  }
+  const auto report = run_program(folder, {"report", results});
+  CHECK(report.code == 0);
+  CHECK(report.error.empty());
+}
+
+TEST_CASE("new keeps files that it did not make, and makes the same ones again") {
+  const Folder folder;
+  const std::string wing = folder.path() / "wing", scene = wing + "/scene.json";
+  const std::vector<std::string> words{"new", "--panels", "1", "--out", wing};
+  REQUIRE(run_program(folder, words).code == 0);
+  const auto before = contents(wing);
+  CHECK(run_program(folder, words).code == 0);
+  CHECK(contents(wing) == before);
+  const auto other = run_program(folder, {"new", "--panels", "2", "--out", wing});
+  CHECK(other.code == 2);
+  CHECK(other.error.starts_with("error: --out: found \"" + scene + "\", an existing file"));
+  CHECK(lines_of(other.error).size() == 3);
+  CHECK(contents(wing) == before);
+}
+
+TEST_CASE("new refuses a wing that cannot be, and says if one does not deploy") {
+  const Folder folder;
+  const std::string out = folder.path() / "w";
+  const auto refused = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"new", "--out", out};
+    words.insert(words.end(), options.begin(), options.end());
+    const auto done = run_program(folder, words);
+    CHECK(done.code == 2);
+    return done.error;
+  };
+  CHECK_THAT(refused({"--panel-mass", "9 m"}),
+             HasFacts({"--panel-mass", "found 9 m, expected a number, kg, > 0"}));
+  CHECK_THAT(refused({"--wings", "3"}), HasFacts({"--wings"}));
+  CHECK_THAT(refused({"--name", "a/b"}), HasFacts({"--name: found \"a/b\""}));
+  CHECK_THAT(refused({"--example", "yoke", "--panels", "3"}), HasFacts({"--example"}));
+  CHECK_FALSE(std::filesystem::exists(out));
+  const auto stalls = run_program(folder, {"new", "--harness", "5", "--out", out});
+  CHECK(stalls.code == 0);
+  CHECK_THAT(stalls.error, HasFacts({"warning: the nominal wing does not deploy"}));
+}
+
+TEST_CASE("an example is copied by its name, and runs from its copy") {
+  const Folder folder;
+  const std::string out = folder.path() / "yoke";
+  REQUIRE(run_program(folder, {"new", "--example", "yoke", "--out", out}).code == 0);
+  CHECK(run_program(folder, {"check", out + "/campaign.json", "--strict"}).code == 0);
+  const auto unknown = run_program(folder, {"new", "--example", "nothing", "--out", out + "2"});
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.error,
+             HasFacts({"--example", "one of correlated, long_chain, ", "yoke_wing"}));
+}

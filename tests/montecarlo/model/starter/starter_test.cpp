@@ -1,0 +1,134 @@
+#include "core/deployment.hpp"
+#include "montecarlo/foundation/formats/json_parse.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/model/input_checks/check_input.hpp"
+#include "montecarlo/model/starter/starter.hpp"
+#include "montecarlo/model/starter/starter_campaign.hpp"
+#include "montecarlo/model/starter/starter_scene.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+using namespace wingspread;
+
+namespace {
+
+Campaign campaign_of(const Starter& starter) {
+  Json json = parse_json(starter.campaign);
+  REQUIRE(json["scene"] == starter_scene_file);
+  json["scene"] = parse_json(starter.scene);
+  return read_campaign(json.dump(), "");
+}
+
+/// Checks that the files are read without a warning and that every case deploys.
+void check_starter(const WingDesign& design) {
+  const Starter starter = make_starter(design, "wingspread new");
+  CHECK(starter.deploys);
+  const Campaign campaign = campaign_of(starter);
+  for (const InputWarning& warning : check_input(campaign, "campaign.json"))
+    FAIL_CHECK(to_string(warning));
+  for (const Campaign& each : campaigns_of(campaign)) {
+    const Outcome outcome = Deployment().run(nominal_scene(each), each.integration, {});
+    CHECK(outcome.status == Status::deployed);
+    CHECK(outcome.peaks_final);
+    CHECK(outcome.latches.back().time < each.integration.t_end / 2);
+  }
+  CHECK(campaign.requirements.size() == static_cast<std::size_t>(2 + design.wings));
+}
+
+} // namespace
+
+TEST_CASE("new wings of all kinds deploy in every case, without a warning") {
+  for (int panels = 1; panels <= 6; ++panels) {
+    const bool yoke = panels % 2 == 0;
+    for (const int wings : {1, 2}) {
+      WingDesign design;
+      design.panels = panels, design.yoke = yoke == (wings == 1), design.wings = wings;
+      CAPTURE(panels, design.yoke, wings);
+      check_starter(design);
+    }
+  }
+}
+
+TEST_CASE("a small wing, a large one and one of springs alone deploy as well") {
+  WingDesign small;
+  small.panels = 2;
+  small.panel_length = 0.3, small.panel_width = 0.1, small.panel_mass = 0.25, small.pitch = 0.006;
+  small.bus_width = 0.1;
+  small.root_spring = 0.06, small.spring = 0.04, small.friction = 0.002, small.harness = 0.008;
+  check_starter(small);
+  WingDesign large;
+  large.panels = 5, large.yoke = true;
+  large.panel_length = 3.5, large.panel_mass = 40, large.yoke_length = 2, large.yoke_mass = 12;
+  large.root_spring = 12, large.spring = 6, large.harness = 1;
+  check_starter(large);
+  WingDesign bare;
+  bare.friction = bare.harness = 0, bare.damper = 0;
+  check_starter(bare);
+}
+
+TEST_CASE("the same design gives the same bytes, and each kind of line is explained") {
+  WingDesign design;
+  design.panels = 4, design.yoke = true, design.wings = 2;
+  const Starter starter = make_starter(design, "wingspread new --wings 2");
+  const Starter again = make_starter(design, "wingspread new --wings 2");
+  CHECK(starter.scene == again.scene);
+  CHECK(starter.campaign == again.campaign);
+  CHECK(starter.page == again.page);
+  for (const char* key : {"\"mass\"", "\"plate\"", "\"parent_point\"", "\"angle\"", "\"spring\"",
+                          "\"harness\"", "\"friction\"", "\"damper\"", "\"stop\"", "\"latch\"",
+                          "\"ratio\"", "\"preload\"", "\"temperature\"", "\"each\"", "\"cold\"",
+                          "\"sampling\"", "\"t_end\"", "\"deployed\"", "R_root.peak_moment"}) {
+    CAPTURE(key);
+    const std::size_t at = starter.page.find(key);
+    REQUIRE(at != std::string::npos);
+    const std::string line = starter.page.substr(at, starter.page.find('\n', at) - at);
+    const std::size_t note = line.find("` | ");
+    REQUIRE(note != std::string::npos);
+    CHECK(line.size() - note > 20);
+  }
+  CHECK(starter.page.find("    wingspread new --wings 2\n") != std::string::npos);
+}
+
+TEST_CASE("a damper of a new wing about doubles its time") {
+  WingDesign design;
+  design.panels = 3;
+  const auto time_of = [&](double damper) {
+    design.damper = damper;
+    Integration integration;
+    integration.t_end = latest_end;
+    return Deployment().run(scene_of(design), integration, {}).latches.back().time;
+  };
+  const double suggested = suggested_damper(design);
+  const double ratio = time_of(suggested) / time_of(0);
+  CHECK(ratio > 1.4);
+  CHECK(ratio < 3);
+}
+
+TEST_CASE("a wing that does not deploy is written, and said to stall") {
+  WingDesign design;
+  design.harness = 4;
+  const Starter starter = make_starter(design, "wingspread new --harness 4");
+  CHECK_FALSE(starter.deploys);
+  CHECK_FALSE(check_input(campaign_of(starter), "campaign.json").empty());
+}
+
+TEST_CASE("limits are half as much again as the nominal values, rounded up to two digits") {
+  WingDesign design;
+  design.damper = suggested_damper(design);
+  const StarterLimits limits = starter_limits(design).value();
+  Json json = parse_json(json_file_text(starter_campaign(design, "", limits)));
+  json["scene"] = parse_json(json_file_text(starter_scene(design)));
+  double slowest = 0, largest = 0;
+  for (const Campaign& each : campaigns_of(read_campaign(json.dump(), ""))) {
+    const Outcome outcome = Deployment().run(nominal_scene(each), each.integration, {});
+    slowest = std::max(slowest, outcome.latches.back().time);
+    largest = std::max(largest, outcome.peak_moment.front().value);
+  }
+  CHECK(limits.deployment_time >= 1.5 * slowest);
+  CHECK(limits.deployment_time <= 1.5 * slowest * 1.1);
+  CHECK(limits.moment.front() >= 1.5 * largest);
+  CHECK(limits.moment.front() <= 1.5 * largest * 1.1);
+  CHECK(two_digits(limits.moment.front()) == limits.moment.front());
+}

@@ -1,0 +1,66 @@
+#include "montecarlo/foundation/formats/text_layout.hpp"
+#include "montecarlo/results/summary/compact_table.hpp"
+#include "tests/montecarlo/sample_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <sstream>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// Twenty runs of a wing whose root latches later by `delay`, and whose overtravel is the same everywhere.
+CaseSummary compact_case(const std::string& name, double delay, double overtravel = 0) {
+  Results results(ResultNames{{}, {"root.latch_time", "root.peak_moment", "root.overtravel"}});
+  for (long run = 0; run < 20; ++run)
+    results.append({run,
+                    run == 3 && delay > 0 ? Status::stalled : Status::deployed,
+                    {},
+                    {5 + delay + 0.01 * static_cast<double>(run), 100, overtravel},
+                    "root",
+                    ""});
+  CaseSummary made{name, summarize(results, {})};
+  made.summary.requirements =
+      judge_all(std::vector<Requirement>{{"T-1", "root.latch_time", 8.0, {}, 0.8, 0.9}}, results);
+  return made;
+}
+
+} // namespace
+
+TEST_CASE("cases have a line for each output, with its outermost quantiles, and for each verdict") {
+  const std::string table =
+      compact_cases_table({compact_case("hot", 0), compact_case("cold", 4, 0.001)}, "title", "out");
+  CHECK(table ==
+        "title\n"
+        "\nOUTCOME                                                  hot                cold\n"
+        "  runs                                                    20                  20\n"
+        "  deployed                                         100.000 %            95.000 %\n"
+        "  stalled                                            0.000 %             5.000 %\n"
+        "  timed out, invalid, failed                               0                   0\n"
+        "  the nominal wing                                         –                   –\n"
+        "\nOUTPUT, 1 % and 99 %                                     hot                cold\n"
+        "  root.latch_time               s              5      5.19           9      9.19\n"
+        "\nREQUIREMENT, broken / allowed                            hot                cold\n"
+        "  T-1: root.latch_time ≤ 8 s, 80 % at 90 %\n"
+        "                                                 pass 0 / 1         fail 20 / 1\n"
+        "\n  overtravel of root: at most 0.001 rad\n"
+        "  the same in every run: root.peak_moment = 100 N·m\n"
+        "\nFILES  out: cases.json, and a results folder for each case; --all prints every "
+        "statistic\n");
+}
+
+TEST_CASE("an output is shown if it varies in any case, and lines keep within the width") {
+  std::vector<CaseSummary> cases{compact_case("hot", 0), compact_case("cold", 0, 0.02)};
+  cases[0].partial = true;
+  while (cases.size() < 7) cases.push_back(compact_case("a_long_name_of_a_case", 1));
+  const std::string table = compact_cases_table(cases, "title", "out");
+  CHECK_THAT(table, Catch::Contains("\n  root.overtravel "));
+  CHECK_THAT(table, Catch::Contains("\nhot lacks runs of the campaign\n"));
+  std::istringstream in(table);
+  for (std::string line; std::getline(in, line);) {
+    INFO(line);
+    CHECK(count_characters(line) <= table_width + 5); // names of cases stand as they are
+  }
+}
