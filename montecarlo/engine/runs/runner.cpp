@@ -26,6 +26,12 @@ Runner::Replay Runner::replay(long k, const Observer& observer) {
   return make(k, goal, observer);
 }
 
+void Runner::watch(long k, const Observer& observer) {
+  Goal goal = plan_->goal();
+  goal.to_t_end = true;
+  (void)make(k, goal, observer);
+}
+
 Occupancy Runner::run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
                           const std::function<void(ResultRow&&)>& done) {
   std::map<long, std::vector<double>> draws; // of the runs in the lanes

@@ -93,13 +93,28 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
   return sources;
 }
 
-Json page_json(const PageSources& sources, const std::string& command, int threads) {
+namespace {
+
+/// The words on the first page: those given, then those of the first campaign that has them.
+Json header_json(const PageSources& sources, const ReportHeader& given) {
+  Json json = Json::object();
+  for (auto source = sources.runs.rbegin(); source != sources.runs.rend(); ++source)
+    json.update(write_report_header((*source)->stored.campaign.report));
+  json.update(write_report_header(given));
+  return json;
+}
+
+} // namespace
+
+Json page_json(const PageSources& sources, const ReportHeader& header, const std::string& command,
+               int threads) {
   const PageDetail detail = page_detail(extent_of(sources));
   const Pairs pairs = pairs_of(sources.runs);
   Json json{{"format", 1},
             {"version", version()},
             {"command", command},
             {"title", title_of(sources)},
+            {"document", header_json(sources, header)},
             {"glossary", glossary_json()},
             {"sets", Json::array()},
             {"comparisons", comparisons_json(sources, pairs)},
