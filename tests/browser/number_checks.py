@@ -179,6 +179,35 @@ class NumberChecks:
         texts = [parsed(text.text)[0][0] for text in self.all(f"figure.{figure} text.limit-text")]
         self.assertTrue(all(any(math.isclose(text, limit, rel_tol=1e-5) for limit in wanted) for text in texts), about)
 
+    def words(self, one):
+        """A requirement as the page states it: in words, and in degrees where they make the shorter number."""
+        name = " ".join(word for word in (one.get("id"), one.get("name")) if word)
+        if one["limit"] is None:
+            return f"{one['id']} {one['text']}" if one.get("id") else one["text"]
+        output = re.sub(r"[._]", " ", one["output"])
+        unit = {"latch_rate": "rad/s", "latch_time": "s", "peak_moment": "N·m", "deployment_time": "s", "peak_rate": "rad/s", "peak_force": "N"}[one["output"].split(".")[-1]]
+        text = f"{one['limit']:g} {unit}".replace("-", "−")
+        if unit.startswith("rad"):
+            degrees = float(f"{one['limit'] * DEGREES:.12g}")
+            turned = unit.replace("rad", "deg")
+            text = f"{degrees:g} {turned}" if len(f"{degrees:g}") < len(repr(one["limit"])) else f"{text} ({f'{degrees:.4g}'.replace('-', '−')} {turned})"
+        return f"{f'{name}: ' if name else ''}{f'|{output}|' if one.get('abs') else output} {'≤' if one['upper'] else '≥'} {text}, {100 * one['probability']:g} % at {100 * one['confidence']:g} %"
+
+    def limit_factor(self, one):
+        return self.factor({"unit": self.run_script("return W.verdicts.unitOf(arguments[0], W.set())", one)}, self.run_script("return W.chosen.angles"))
+
+    def headline(self, sets, texts):
+        """How many requirements fail somewhere, and how each set stands."""
+        failed = {self.words(one) for each in sets for one in each["requirements"] if one["verdict"] == "failed"}
+        text = self.one(".headline").text
+        if failed:
+            self.assertIn(f"Each of {len(texts)} requirements fails" if len(failed) == len(texts) > 1 else f"{len(failed)} of {len(texts)} requirements fail", text)
+        for each in sets:
+            count = {word: sum(one["verdict"] == word for one in each["requirements"]) for word in ("failed", "open", "passed")}
+            parts = [f"{count['failed']} fail{'s' * (count['failed'] == 1)}", f"{count['open']} undecided", f"{count['passed']} pass{'es' * (count['passed'] == 1)}"]
+            entry = next(entry for entry in text.split("\n")[-1].split(" · ") if re.search(rf"(^|\W){re.escape(each['label'])}(\W|$)", entry))
+            self.assertTrue(entry.endswith(", ".join(part for part, number in zip(parts, count.values()) if number)), f"{each['label']}: {entry}")
+
     def test_verdicts_outcomes_and_orders(self):
         for kind in ("stalls", "plain"):
             self.open(pages.made_up(kind))
@@ -192,16 +221,25 @@ class NumberChecks:
             for row, one in zip(self.table("Latch orders"), one_set["orders"]):
                 self.check(row[1], one["count"], about=kind)
                 self.check(row[2], one["count"] / runs, share=True, about=kind)
-            judged = {one["text"]: one for one in one_set["requirements"]}
+            judged = {self.words(one): one for one in one_set["requirements"]}
             rows = self.table("Requirements, the worst first")
             self.assertEqual(len(rows), len(judged))
             for row in rows:
                 one = judged[next(text for text in judged if row[0].startswith(text))]
                 values = one["limit"] is not None
-                self.check(row[2], one["observed_value"] if values else one["observed"], share=not values, about=one["text"])
-                self.check(row[3], one["guaranteed_value"] if values else one["guaranteed"], share=not values, about=one["text"])
-                self.check(row[4], one["margin"] if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
-                self.assertEqual(parsed(row[6])[0][0], one["broken"], one["text"])
+                shown = lambda value: value * self.limit_factor(one) if values and value is not None else value
+                self.check(row[2], shown(one["observed_value"]) if values else one["observed"], share=not values, about=one["text"])
+                self.check(row[3], shown(one["guaranteed_value"]) if values else one["guaranteed"], share=not values, about=one["text"])
+                self.check(row[4], shown(one["margin"]) if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
+                found, parts = [value for value, _ in parsed(row[6])], [one["broken"]]
+                if one["not_deployed"]:
+                    parts += [one["not_deployed"], *(run["run"] for run in one["not_deployed_runs"][:3])]
+                if values and (one["beyond"] or one["not_deployed"]):
+                    parts += [one["beyond"], *(run["run"] for run in one["beyond_runs"][:3])]
+                self.assertEqual(found[:len(parts)], parts, one["text"])
+                if values and one["worst"]:
+                    factor = self.limit_factor(one)
+                    self.assertAlmostEqual(found[len(parts)], one["worst"]["value"] * factor, delta=abs(one["worst"]["value"] * factor) * 1e-3)
                 self.assertEqual(row[4].startswith("+"), (one["margin"] if values else one["guaranteed"] - one["probability"]) > 0, one["text"])
             strain = lambda one: -one["margin"] / abs(one["limit"]) if one["limit"] and one["margin"] is not None else one["broken"] / one_set["runs"] - (1 - one["probability"])
             ranked = [(("failed", "open", "passed").index(one["verdict"]), -strain(one)) for one in self.run_script("return W.verdicts.judged().map(row => row.requirement)")]

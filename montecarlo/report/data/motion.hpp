@@ -33,9 +33,6 @@ public:
 
   /// The observer to pass to the run. @pre the recorder outlives it
   [[nodiscard]] Observer observer();
-  /// Records until the moments have settled after `since`, or to the run's end.
-  /// @param run makes the run with the observer that it is given, which ends the run by an exception
-  template <class Run> void record_until_settled(double since, Run run);
   [[nodiscard]] std::vector<MotionSample>& samples() { return samples_; }
 
 private:
@@ -56,20 +53,6 @@ inline constexpr double settled_share = 0.05;
 /// settled_share of its whole swing since then. (A quarter, so that a turning point of the ring is no end of it.)
 [[nodiscard]] bool has_settled(std::span<const MotionSample> samples, const MotionLayout& layout,
                                double since);
-
-template <class Run> void MotionRecorder::record_until_settled(double since, Run run) {
-  struct Settled {};
-  long next = 64; // samples before the next look; each looks at all samples, so looks become rarer
-  try {
-    run([&](const Sample& sample) {
-      record_sample(sample);
-      if (seen_ < next || sample.t <= since) return;
-      if (has_settled(samples_, layout_, since)) throw Settled{};
-      next = seen_ + seen_ / 16 + 16;
-    });
-  } catch (const Settled&) {
-  }
-}
 
 /// Interpolates between two samples: angles by the Hermite cubic through angles and rates, rates by its slope, others
 /// linearly. @param t between the samples' times, which differ

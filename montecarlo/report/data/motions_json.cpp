@@ -155,6 +155,24 @@ Json motion_json(const Scene& scene, MotionRecorder& recorder, const Outcome& ou
   return json;
 }
 
+/// Records a run until the moments have settled after `since`, or to t_end.
+/// @param run makes the run with the observer that it is given, which ends the run by an exception
+template <class Run>
+void record_until_settled(double since, const MotionLayout& layout, MotionRecorder& recorder,
+                          Run run) {
+  struct Settled {};
+  long seen = 0, next = 64; // each look reads all samples, so looks become rarer
+  try {
+    run([&, record = recorder.observer()](const Sample& sample) {
+      record(sample);
+      if (++seen < next || sample.t <= since) return;
+      if (has_settled(recorder.samples(), layout, since)) throw Settled{};
+      next = seen + seen / 16 + 16;
+    });
+  } catch (const Settled&) {
+  }
+}
+
 /// The last latch; 0 without latches.
 double last_latch(const Outcome& outcome) {
   return outcome.latches.empty() ? 0 : outcome.latches.back().time;
@@ -167,9 +185,10 @@ Json nominal_json(const PageSource& source, std::size_t most) {
   const Outcome outcome = Deployment().run(scene, campaign.integration, goal);
   goal.to_t_end = true;
   MotionRecorder recorder(scene.hinges.size());
-  recorder.record_until_settled(last_latch(outcome), [&](const Observer& observer) {
-    (void)Deployment().run(scene, campaign.integration, goal, observer);
-  });
+  record_until_settled(last_latch(outcome), {scene.hinges.size()}, recorder,
+                       [&](const Observer& observer) {
+                         (void)Deployment().run(scene, campaign.integration, goal, observer);
+                       });
   Json json{{"label", "nominal"},
             {"why", "dispersions at their medians"},
             {"run", nullptr},
@@ -183,10 +202,10 @@ Json chosen_json(const PageSource& source, const RunPlan& plan, const ChosenRun&
                  std::size_t most) {
   Runner runner(plan);
   const Runner::Replay made = runner.replay(chosen.run, {});
-  MotionRecorder recorder(source.stored.campaign.scene.hinges.size());
-  recorder.record_until_settled(last_latch(made.outcome), [&](const Observer& observer) {
-    runner.watch(chosen.run, observer);
-  });
+  const MotionLayout layout{source.stored.campaign.scene.hinges.size()};
+  MotionRecorder recorder(layout.hinges);
+  record_until_settled(last_latch(made.outcome), layout, recorder,
+                       [&](const Observer& observer) { runner.watch(chosen.run, observer); });
   Json json{{"label", chosen.label},
             {"why", chosen.why},
             {"run", chosen.run},

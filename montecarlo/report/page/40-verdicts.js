@@ -205,7 +205,7 @@
     const limited = W.isNumber(one.limit),
       side = one.upper ? "above" : "below",
       worst = one.worst;
-    return [
+    const lines = [
       h("span.cause", F.count(one.broken)),
       one.not_deployed
         ? line(`${F.count(one.not_deployed)} not deployed`, one.not_deployed, (one.not_deployed_runs || []).map((each) => each.run))
@@ -223,6 +223,7 @@
           )
         : null,
     ];
+    return lines.filter(Boolean).flatMap((each) => [each, " "]); // the blank parts the lines for those who hear them
   }
 
   function requirementTable(rows) {
@@ -268,8 +269,9 @@
       const row = rows.find((one) => one.at === at && keyOf(one.requirement) === text);
       if (!row) return F.none;
       const one = row.requirement,
-        shown = W.isNumber(one.margin) || !one.not_deployed ? marginText(one, row.set) : `${F.count(one.not_deployed)} not deployed`;
-      return h("span.cell", W.badge(one.verdict, true), shown);
+        margin = marginText(one, row.set),
+        known = margin !== F.none || !one.not_deployed;
+      return h("span.cell", W.badge(one.verdict, true), " ", known ? margin : `${F.count(one.not_deployed)} not deployed`);
     };
     return W.table(
       "Verdict and margin by case",

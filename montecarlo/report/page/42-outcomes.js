@@ -103,10 +103,33 @@
         F.count(without),
         F.share(without / total),
       ]);
+    const title = h("h3", W.sets.length > 1 ? `Latch orders · ${set.label}` : "Latch orders"),
+      table = W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" });
+    if (!(set.wing_orders || []).length) return [title, table];
     return [
-      h("h3", W.sets.length > 1 ? `Latch orders · ${set.label}` : "Latch orders"),
-      W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" }),
+      title,
+      set.wing_orders.map((wing) => ordersOfWing(wing, total)),
+      h("details", h("summary", `Orders over all wings: ${F.counted(set.order_kinds, "kind")}`), table),
     ];
+  }
+  // The orders of one wing's hinges among themselves.
+  function ordersOfWing(wing, total) {
+    const short = (order) =>
+      order
+        .split(">")
+        .map((hinge) => (hinge.startsWith(wing.wing) ? hinge.slice(wing.wing.length).replace(/^[_\-. ]+/, "") || hinge : hinge))
+        .join(" › ");
+    const listed = d3.sum(wing.orders, (one) => one.count),
+      left = total - listed - wing.without_latch;
+    const rows = wing.orders.map((one) => [short(one.order), F.count(one.count), F.share(one.count / total)]);
+    if (left > 0)
+      rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), F.count(left), F.share(left / total)]);
+    if (wing.without_latch)
+      rows.push(["no hinge latched", F.count(wing.without_latch), F.share(wing.without_latch / total)]);
+    return W.table(`Wing ${wing.wing}`, ["Order", number("Runs"), number("Share")], rows, {
+      class: "long-names",
+      showCaption: true,
+    });
   }
 
   function warnings() {
@@ -214,6 +237,41 @@
     );
   }
 
+  // The document's number, revision, date, author and organisation, as the user gave them.
+  function identity(words) {
+    const kinds = [
+      ["document", "Document"],
+      ["revision", "Revision"],
+      ["date", "Date"],
+      ["author", "Author"],
+      ["organisation", "Organisation"],
+    ].filter(([key]) => words[key]);
+    return kinds.length
+      ? h("dl.identity", kinds.map(([key, name]) => h("div", h("dt", name), h("dd", words[key]))))
+      : null;
+  }
+  // Where requirements have an identifier, a source or a rationale, a table traces them.
+  function traced() {
+    const all = [...new Map(W.sets.flatMap((set) => (set.requirements || []).map((one) => [W.verdicts.keyOf(one), { one, set }]))).values()],
+      known = all.filter(({ one }) => one.id || one.source || one.rationale);
+    return known.length
+      ? [
+          h("h3", "Where the requirements come from"),
+          W.table(
+            "Identifier, source and rationale of each requirement",
+            ["Identifier", "Requirement", "Source", "Rationale"],
+            all.map(({ one, set }) => [
+              one.id || F.none,
+              W.verdicts.wordsOf({ ...one, id: "" }, set),
+              one.source || F.none,
+              one.rationale || F.none,
+            ]),
+            { class: "traced" },
+          ),
+        ]
+      : null;
+  }
+
   function subtitle() {
     const set = W.set(),
       one = (read) => [...new Set(W.sets.map(read))];
@@ -238,16 +296,19 @@
       `wingspread ${one((each) => each.version).join(", ")}`,
       `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`,
     ];
+    const words = W.data.document || {};
     W.fill(
       document.getElementById("subtitle"),
+      words.title ? h("p.wing-name", `Wing: ${W.data.title}`) : null,
+      identity(words),
       set.description ? h("p.description", set.description) : null,
       h(
         "p.facts",
         facts.filter(Boolean).map((fact) => h("span", fact)),
       ),
     );
-    document.getElementById("title").textContent = W.data.title;
-    document.title = `${W.data.title} · wingspread report`;
+    document.getElementById("title").textContent = words.title || W.data.title;
+    document.title = words.title || `${W.data.title} · wingspread report`;
     document.getElementById("colophon").textContent =
       `Made by ${W.data.command} (wingspread ${W.data.version}). This page contains its data and uses no network.`;
   }
@@ -273,6 +334,7 @@
         "div.first",
         h("div.judgement", W.verdicts.requirements()),
         h("div.columns", h("div", outcomes()), h("div", orders()), h("div", warnings(), accuracy())),
+        traced(),
         again(),
       ),
     );

@@ -196,9 +196,11 @@
     if (drawn) W.fill(motionHost, W.motion(set));
     else if (W.onlyStudies) W.fill(motionHost);
     else W.fill(motionHost, h("p.nothing", "No run of this set can be replayed, so none is shown in motion."));
+    const anyRun = W.onlyStudies || !drawn ? null : W.anyRun(set);
     W.fill(
       host,
       motionHost,
+      anyRun,
       h(
         "div.stills",
         P.still(set.wing, P.stowed(set.wing), "Stowed", "The wing stowed, drawn to scale."),

@@ -3,6 +3,7 @@
 #include "montecarlo/report/data/differences.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/set_json.hpp"
+#include "montecarlo/report/kernel/kernel_json.hpp"
 #include "montecarlo/report/page/glossary.hpp"
 #include "montecarlo/report/page/page_files.hpp"
 #include "montecarlo/report/page/static_margins_json.hpp"
@@ -122,6 +123,8 @@ Json page_json(const PageSources& sources, const ReportHeader& header, const std
   for (const auto& source : sources.runs) {
     json["sets"].push_back(set_json(*source, detail, threads));
     json["sets"].back()["static_margins"] = static_margins_json(source->stored.campaign);
+    json["sets"].back()["kernel"] =
+        source->replayable() ? kernel_json(source->stored.campaign) : Json(nullptr);
   }
   for (const Json& set : sources.studies) json["sets"].push_back(set);
   return json;

@@ -48,7 +48,7 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
     json[list] = Json::array();
   json["order_kinds"] = json["without_latch"] = 0;
   for (const char* block : {"accuracy", "correlations", "sensitivity", "wing", "envelopes",
-                            "static_margins", "margin", "rare"})
+                            "static_margins", "margin", "rare", "kernel"})
     json[block] = nullptr;
   json["inputs"] = {
       {"scene", Json::array()}, {"dispersions", Json::array()}, {"settings", Json::array()}};
