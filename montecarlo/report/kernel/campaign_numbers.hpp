@@ -27,8 +27,8 @@ namespace wingspread {
 
 /// The parameter at a place among the scene's numbers, changed by a draw or by a table's value at the draw.
 struct NumberedEffect {
-  int how = 0;   ///< 0: replaces, 1: multiplies, 2: is added
-  int place = 0; ///< counted from 0 over the scene's numbers
+  int how = 0;                   ///< 0: replaces, 1: multiplies, 2: is added
+  int place = 0;                 ///< counted from 0 over the scene's numbers
   std::vector<double> at, value; ///< the table; empty: the draw itself
 };
 
@@ -76,7 +76,8 @@ public:
       numbers({&one.spearman});
     });
     word(campaign.design.kind);
-    for (std::uint64_t* large : {&campaign.design.seed, &campaign.design.runs, &campaign.design.replicates})
+    for (std::uint64_t* large :
+         {&campaign.design.seed, &campaign.design.runs, &campaign.design.replicates})
       halves(*large);
     integration(campaign.integration);
     Goal& goal = campaign.goal;
@@ -213,8 +214,9 @@ private:
   void dispersion(NumberedDispersion& dispersion) {
     pass_.text(dispersion.name);
     law(dispersion.distribution.law);
-    present(dispersion.distribution.truncate,
-            [&](Truncation& at) { numbers({&at.lower, &at.upper}); });
+    present(dispersion.distribution.truncate, [&](Truncation& at) {
+      numbers({&at.lower, &at.upper});
+    });
     each(dispersion.effects, [&](NumberedEffect& effect) {
       whole(effect.how);
       whole(effect.place);
@@ -226,7 +228,8 @@ private:
   void law(Law& law) {
     std::size_t kind = law.index();
     whole(kind);
-    if constexpr (Pass::reads) law = law_of_kind(kind, std::make_index_sequence<std::variant_size_v<Law>>{});
+    if constexpr (Pass::reads)
+      law = law_of_kind(kind, std::make_index_sequence<std::variant_size_v<Law>>{});
     std::visit(
         [&]<class L>(L& own) {
           for (const auto& parameter : L::parameters()) value(own.*parameter.member);
@@ -235,8 +238,7 @@ private:
   }
   void value(double& number) { pass_.number(number); }
   void value(std::vector<double>& list) { pass_.list(list); }
-  template <std::size_t... I>
-  static Law law_of_kind(std::size_t kind, std::index_sequence<I...>) {
+  template <std::size_t... I> static Law law_of_kind(std::size_t kind, std::index_sequence<I...>) {
     Law law;
     (void)((kind == I ? (law.template emplace<I>(), true) : false) || ...);
     return law;

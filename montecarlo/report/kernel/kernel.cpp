@@ -119,14 +119,13 @@ public:
 
 private:
   void apply_draws() {
-    for (std::size_t place = 0; place < places_.size(); ++place)
-      *places_[place] = nominal_[place];
+    for (std::size_t place = 0; place < places_.size(); ++place) *places_[place] = nominal_[place];
     for (std::size_t i = 0; i < draws.size(); ++i)
       for (const NumberedEffect& effect : campaign_.dispersions[i].effects) {
-        const double by = effect.at.empty()
-                              ? draws[i]
-                              : Curve(effect.at, effect.value, Interpolation::monotone)
-                                    .value_at(draws[i]);
+        const double by =
+            effect.at.empty()
+                ? draws[i]
+                : Curve(effect.at, effect.value, Interpolation::monotone).value_at(draws[i]);
         double& number = *places_[static_cast<std::size_t>(effect.place)];
         number = effect.how == 0 ? by : effect.how == 1 ? number * by : number + by;
       }
@@ -189,8 +188,8 @@ private:
   }
 
   NumberedCampaign campaign_;
-  std::vector<double*> places_;  ///< of the scene's numbers
-  std::vector<double> nominal_;  ///< their values
+  std::vector<double*> places_; ///< of the scene's numbers
+  std::vector<double> nominal_; ///< their values
   std::vector<PreparedDistribution> laws_;
   std::optional<PreparedDesign> design_;
   std::optional<GaussianCopula> copula_;

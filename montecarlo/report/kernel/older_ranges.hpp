@@ -34,10 +34,9 @@ constexpr auto upper_bound(Range&& range, const Value& value, Less less = {}) {
 using greater = std::greater<>;
 template <class Range, class Value, class Less = std::less<>, class Key = std::identity>
 constexpr auto lower_bound(Range&& range, const Value& value, Less less = {}, Key key = {}) {
-  return std::lower_bound(std::begin(range), std::end(range), value,
-                          [&](const auto& each, const Value& wanted) {
-                            return less(std::invoke(key, each), wanted);
-                          });
+  return std::lower_bound(
+      std::begin(range), std::end(range), value,
+      [&](const auto& each, const Value& wanted) { return less(std::invoke(key, each), wanted); });
 }
 template <class Range, class Less = std::less<>, class Key = std::identity>
 constexpr void sort(Range&& range, Less less = {}, Key key = {}) {
