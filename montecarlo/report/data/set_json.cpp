@@ -99,7 +99,7 @@ Json wing_orders_json(const PageSource& source) {
   return json;
 }
 
-Json run_json(const RunValue& each) {
+Json run_json(const JudgedRun& each) {
   return {{"run", each.run}, {"value", page_number(each.value)}};
 }
 
@@ -115,7 +115,7 @@ Json broken_json(const Verdict& verdict, const Results& results) {
             {"worst", broken.worst ? run_json(*broken.worst) : Json(nullptr)},
             {"beyond_runs", Json::array()},
             {"not_deployed_runs", Json::array()}};
-  for (const RunValue& each : broken.beyond_runs) json["beyond_runs"].push_back(run_json(each));
+  for (const JudgedRun& each : broken.beyond_runs) json["beyond_runs"].push_back(run_json(each));
   for (const auto& [run, latched] : broken.not_deployed_runs)
     json["not_deployed_runs"].push_back({{"run", run}, {"latched", latched}});
   return json;
@@ -130,7 +130,8 @@ Json asked_json(const Requirement& requirement) {
           {"kind", !limited          ? "status"
                    : requirement.max ? "<="
                                      : ">="},
-          {"limit", page_number(requirement.max ? requirement.max : requirement.min)},
+          {"limit", limited ? Json(*(requirement.max ? requirement.max : requirement.min))
+                            : Json(nullptr)}, // in full: the page shows it as it was written
           {"upper", !limited || requirement.max},
           {"abs", requirement.absolute},
           {"static_margin", requirement.static_margin.has_value()},

@@ -134,19 +134,24 @@
 
   function warnings() {
     const all = W.sets.flatMap((set) => (set.warnings || []).map((text) => ({ set, text })));
-    const texts = [...new Set(all.map((one) => one.text))];
+    // Warnings that differ in numbers only are one.
+    const kind = (text) => text.replace(/\d[\d.]*(e[-+]?\d+)?/g, "#");
+    const texts = [...new Map(all.map((one) => [kind(one.text), one.text]).reverse()).values()].reverse();
     const partial = W.sets
       .filter((set) => set.partial || (set.runs < set.planned && !set.stopped))
       .map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
     const items = [
       ...partial.map((text) => h("li", text)),
       ...texts.map(function (text) {
-        const where = all.filter((one) => one.text === text).map((one) => one.set.label);
+        const same = all.filter((one) => one.text === text).map((one) => one.set.label),
+          other = all.filter((one) => one.text !== text && kind(one.text) === kind(text)).map((one) => one.set.label),
+          where = [...new Set([...same, ...other])];
         return h(
           "li",
           text,
           W.sets.length > 1
-            ? h("span.faint", where.length === W.sets.length ? " (all)" : ` (${where.join(", ")})`)
+            ? h("span.faint", ` (${where.length === W.sets.length ? "all" : where.join(", ")}${other.length ? `; the numbers are those of ${same.join(", ")}` : ""})`,
+              )
             : null,
         );
       }),
@@ -307,8 +312,10 @@
         facts.filter(Boolean).map((fact) => h("span", fact)),
       ),
     );
-    document.getElementById("title").textContent = words.title || W.data.title;
-    document.title = words.title || `${W.data.title} · wingspread report`;
+    const wings = [...new Set(W.sets.map((each) => each.campaign))].filter(Boolean),
+      title = words.title || (wings.length > 1 ? wings.join(" and ") : W.data.title);
+    document.getElementById("title").textContent = title;
+    document.title = words.title || `${title} · wingspread report`;
     document.getElementById("colophon").textContent =
       `Made by ${W.data.command} (wingspread ${W.data.version}). This page contains its data and uses no network.`;
   }

@@ -207,23 +207,38 @@
       ["dispersions", "draw", (one) => [`${one.law}${one.apply ? `, ${one.apply}` : ""}`, "", `dispersion ${one.draw}`]],
       ["settings", "label", (one) => [one.value, "", one.label]],
     ];
+    // Equal changes of several bodies or hinges are one row.
+    const together = function (rows) {
+      const groups = new Map();
+      for (const row of rows) {
+        const key = JSON.stringify([row.kind, ...row.cells.slice(1)]);
+        groups.set(key, [...(groups.get(key) || []), row]);
+      }
+      return [...groups.values()].map(function (group) {
+        const [label, ...cells] = group[0].cells;
+        return [group.length > 1 ? `${group[0].what}: ${group.map((row) => row.owner).join(", ")}` : label, ...cells];
+      });
+    };
     const rows = kinds.flatMap(function ([list, key, value]) {
       const [a, b] = [first, second].map((set) => values(set, list, key, value));
-      return [...new Set([...a.keys(), ...b.keys()])]
+      const found = [...new Set([...a.keys(), ...b.keys()])]
         .filter((name) => textOf((a.get(name) || [])[0]) !== textOf((b.get(name) || [])[0]))
         .map(function (name) {
           const [x, y] = [(a.get(name) || [])[0], (b.get(name) || [])[0]],
             [, unit, label] = a.get(name) || b.get(name);
           const change =
             typeof x === "number" && typeof y === "number" && x !== 0 ? (100 * (y - x)) / Math.abs(x) : null;
-          return [
-            label,
-            F.unit(unit),
-            list === "scene" ? textOf(x ?? 0) : textOf(x),
-            list === "scene" ? textOf(y ?? 0) : textOf(y),
-            W.isNumber(change) ? `${change > 0 ? "+" : ""}${F.number(change, 3)} %` : "",
-          ];
+          const cells = [
+              label,
+              F.unit(unit),
+              list === "scene" ? textOf(x ?? 0) : textOf(x),
+              list === "scene" ? textOf(y ?? 0) : textOf(y),
+              W.isNumber(change) ? `${change > 0 ? "+" : ""}${F.number(change, 3)} %` : "",
+            ],
+            [, owner, ...field] = name.split(".");
+          return { cells, kind: list === "scene" ? field.join(".") : name, owner, what: field.join(" ").replace(/_/g, " ") };
         });
+      return together(found);
     });
     const columns = ["Input", "Unit", number(first.label), number(second.label), number("Change")],
       title = `Inputs that differ: ${second.label} against ${first.label}`;

@@ -35,14 +35,14 @@ void add_deployed(const Requirement& requirement, const Results& results, const 
                   std::size_t most, BrokenRuns& broken) {
   const double sign = sign_of(requirement), limit = limit_of(requirement);
   const bool peak = is_peak(column.name);
-  const auto worse = [&](const RunValue& a, const RunValue& b) {
+  const auto worse = [&](const JudgedRun& a, const JudgedRun& b) {
     return sign * a.value > sign * b.value;
   };
   for (std::size_t row = 0; row < results.size(); ++row) {
     if (results.status[row] != Status::deployed) continue;
     const double value =
         requirement.absolute ? std::abs(column.values[row]) : column.values[row];
-    const RunValue each{results.runs[row], value};
+    const JudgedRun each{results.runs[row], value};
     if (std::isnan(value)) {
       ++broken.without_value;
       continue;

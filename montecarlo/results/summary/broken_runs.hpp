@@ -9,7 +9,7 @@
 
 namespace wingspread {
 
-struct RunValue {
+struct JudgedRun {
   long run = 0;
   double value = 0; ///< of the requirement's output; its magnitude where that is limited
 };
@@ -25,8 +25,8 @@ struct BrokenRuns {
   long cut = 0;           ///< deployed, but t_end cut the peak
   long beyond = 0;        ///< deployed, with a value beyond the limit
   /// The worst value of the runs that deployed, whether or not it is beyond the limit; the first of equals.
-  std::optional<RunValue> worst;
-  std::vector<RunValue> beyond_runs;         ///< the worst first
+  std::optional<JudgedRun> worst;
+  std::vector<JudgedRun> beyond_runs;         ///< the worst first
   std::vector<LatchedRun> not_deployed_runs; ///< those with the fewest latched hinges first
 };
 
