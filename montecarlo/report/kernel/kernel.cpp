@@ -8,8 +8,17 @@
 #include "montecarlo/report/data/motion.hpp"
 #include "montecarlo/report/kernel/campaign_numbers.hpp"
 
+#include <boost/assert/source_location.hpp>
+
 #include <cmath>
+#include <exception>
 #include <limits>
+
+// Called by Boost where it would throw: for arguments that the program's checks refuse.
+namespace boost {
+void throw_exception(const std::exception&) { __builtin_trap(); }
+void throw_exception(const std::exception&, const source_location&) { __builtin_trap(); }
+} // namespace boost
 
 using namespace wingspread;
 
