@@ -26,10 +26,12 @@ Runner::Replay Runner::replay(long k, const Observer& observer) {
   return make(k, goal, observer);
 }
 
-void Runner::watch(long k, const Observer& observer) {
-  Goal goal = plan_->goal();
-  goal.to_t_end = true;
-  (void)make(k, goal, observer);
+Outcome Runner::watch(long k, const Goal& goal, double t_end, const Observer& observer) {
+  std::vector<double> draws;
+  set_scene(k, draws, scene_);
+  Integration how = plan_->campaign().integration;
+  how.t_end = t_end;
+  return deployment_.run(scene_, how, goal, observer);
 }
 
 Occupancy Runner::run_all(InstructionSet set, const std::function<std::optional<long>()>& next,

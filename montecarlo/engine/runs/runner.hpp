@@ -28,9 +28,9 @@ public:
   };
   [[nodiscard]] Replay replay(long k, const Observer& observer);
 
-  /// Integrates run k to t_end, whatever could be proven before. The observer may end the run with an exception, which
+  /// Integrates run k with another goal and end, for its samples. The observer may end the run with an exception, which
   /// passes through.
-  void watch(long k, const Observer& observer);
+  Outcome watch(long k, const Goal& goal, double t_end, const Observer& observer);
 
   /// Makes several runs at once: takes run numbers from `next` until `next` returns nothing. Each row has the same bits
   /// as the row of run().

@@ -204,8 +204,11 @@ Json chosen_json(const PageSource& source, const RunPlan& plan, const ChosenRun&
   const Runner::Replay made = runner.replay(chosen.run, {});
   const MotionLayout layout{source.stored.campaign.scene.hinges.size()};
   MotionRecorder recorder(layout.hinges);
-  record_until_settled(last_latch(made.outcome), layout, recorder,
-                       [&](const Observer& observer) { runner.watch(chosen.run, observer); });
+  Goal goal = plan.goal();
+  goal.to_t_end = true;
+  record_until_settled(last_latch(made.outcome), layout, recorder, [&](const Observer& observer) {
+    (void)runner.watch(chosen.run, goal, plan.campaign().integration.t_end, observer);
+  });
   Json json{{"label", chosen.label},
             {"why", chosen.why},
             {"run", chosen.run},

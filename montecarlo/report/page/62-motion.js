@@ -147,8 +147,8 @@
     const whole = d3.extent(motion.t),
       latches = d3.extent(motion.latches || [], (latch) => latch.time);
     if (player.span === "whole" || latches[0] === undefined) return whole;
-    const room = Math.max(0.03 * whole[1], 0.25 * (latches[1] - latches[0]));
-    return [Math.max(whole[0], latches[0] - room), Math.min(whole[1], latches[1] + 3 * room)];
+    const room = Math.max(0.06 * latches[1], 0.25 * (latches[1] - latches[0]));
+    return [Math.max(whole[0], latches[0] - room), Math.min(whole[1], latches[1] + 5 * room)];
   }
 
   // The hinges' state at the cursor.
