@@ -23,7 +23,7 @@ WINGS = {
     "montecarlo/engine": ["runs", "mpi accuracy"],
     "montecarlo/results": ["summary", "results_folder", "checkpoint streaming export"],
     "montecarlo/analyses": ["run margin sensitivity rare"],
-    "montecarlo/report": ["data", "text page drawing"],
+    "montecarlo/report": ["data", "kernel", "text page drawing"],
     "montecarlo/interfaces": ["library", "python package terminal", "commands"],
     "montecarlo": ["main mpi_main"],
 }

@@ -77,6 +77,11 @@ def requirements_of(rows, hinges, limit):
     count, good = len(rows), sum(row["status"] == "deployed" for row in rows)
     allowed = max(0, int(0.01 * count - 1.3 * math.sqrt(0.01 * count)))
     known = [value for value, _ in values if value < math.inf]
+    down = [{"run": row["run"], "latched": row["order"].count(">") + bool(row["order"])} for row in rows if row["status"] != "deployed"]
+    down.sort(key=lambda one: one["latched"])
+    beyond = [{"run": run, "value": value} for value, run in reversed(values) if limit < value < math.inf]
+    split = {"not_deployed": len(down), "without_value": 0, "cut": 0, "not_deployed_runs": down[:5]}
+    largest = next(({"run": run, "value": value} for value, run in reversed(values) if value < math.inf), None)
     guaranteed = known[-1 - allowed] if len(known) > allowed and count >= 230 else None
     lower = numbers.clopper_pearson(good, count, 0.9)[0]
     verdict = "open" if count < 230 else "passed" if len(broken) <= allowed else "failed"
@@ -85,12 +90,13 @@ def requirements_of(rows, hinges, limit):
          "limit": limit, "upper": True, "verdict": verdict, "probability": 0.99, "confidence": 0.9,
          "observed": 1 - len(broken) / count, "guaranteed": max(0, 1 - (len(broken) + 1.6 + 1.3 * math.sqrt(len(broken))) / count),
          "observed_value": known[int(0.99 * (len(known) - 1))] if known else None, "guaranteed_value": guaranteed,
-         "margin": limit - guaranteed if guaranteed else None, "broken": len(broken), "broken_runs": broken[:20],
+         "margin": limit - guaranteed if guaranteed else None, "broken": len(broken), "name": "L-1", "id": "SYS-1", "source": "specification 4.2",
+         "rationale": "strength of the root fitting", "runs": count, **split, "beyond": len(beyond), "beyond_runs": beyond[:5], "worst": largest,
          "evidence": f"{len(broken)} of {count} runs break it, and {allowed} may"},
         {"text": "D-1: deployed, 99 % at 90 %", "output": "deployed", "kind": "status", "limit": None, "upper": False,
          "verdict": "open" if count < 230 else "passed" if lower >= 0.99 else "failed", "probability": 0.99, "confidence": 0.9,
          "observed": good / count, "guaranteed": lower, "observed_value": None, "guaranteed_value": None, "margin": None,
-         "broken": count - good, "broken_runs": [row["run"] for row in rows if row["status"] != "deployed"][:20],
+         "broken": count - good, "name": "D-1", "runs": count, **split, "beyond": 0, "beyond_runs": [], "worst": None,
          "evidence": f"{count - good} of {count} runs break it"}] + ([] if not known else [
         # an angular limit in the picture, one on both sides, one far outside
         limited("R-1", f"{hinges[0]}.latch_rate", ">=", -1.6, "rad/s", False),
@@ -103,7 +109,8 @@ def limited(name, output, kind, limit, unit, both):
     value = 0.4 * limit
     return {"text": f"{name}: {output} {kind} {limit} {unit}, 99 % at 90 %", "output": output.strip("|"), "kind": kind, "limit": limit,
             "upper": kind == "<=", "abs": both, "verdict": "passed", "probability": 0.99, "confidence": 0.9, "observed": 1, "guaranteed": 0.9985,
-            "observed_value": 0.35 * limit, "guaranteed_value": value, "margin": abs(limit - value), "broken": 0, "broken_runs": [], "evidence": "made up"}
+            "observed_value": 0.35 * limit, "guaranteed_value": value, "margin": abs(limit - value), "broken": 0, "evidence": "made up",
+            "name": name, "not_deployed": 0, "without_value": 0, "cut": 0, "beyond": 0, "beyond_runs": [], "not_deployed_runs": [], "worst": {"run": 3, "value": value}}
 
 
 def sensitivity_of(rows, outputs, hinges):
@@ -158,7 +165,7 @@ def make_set(label, seed, hinge_count=3, count=2000, shift=0.0, stalls=0.0, all_
                               (status, k, k / count, *numbers.clopper_pearson(k, count, 0.95)))) for status, k in zip(STATUSES, tally)],
         "reasons": [{"status": s, "reason": r, "count": k} for s, r, k in (
             ("stalled", f"{hinges[-1]} sticks, and what loads it stays as it is", tally[1]), ("failed", "more than 1000000 steps", tally[4])) if k],
-        "orders": orders, "order_kinds": kinds, "without_latch": sum(not row["order"] for row in rows),
+        "orders": orders, "order_kinds": kinds, "without_latch": sum(not row["order"] for row in rows), "wing_orders": [], "kernel": None,
         "warnings": ["root turned beyond its stowed angle by more than 1 deg in 12 runs, and has no stop"] if full else [],
         "accuracy": {"runs": 40, "method": "auto", "rtol": 1e-8, "reference_method": "dop853", "reference_rtol": 1e-12, "order_in_doubt": 0,
                      "outputs": [{"output": o["name"], "largest": 3e-7 * abs(o["mean"]), "rms": 1e-7 * abs(o["mean"]),
@@ -179,7 +186,7 @@ def study(label, **found):
             "hash": "5f1c0a93d2e84b77", "version": "0.2.0+mock", "runs": 0, "planned": 0, "partial": False, "stopped": False, "shard": None, "design": "",
             "confidence": 0.95, "looks": 1, "replicates": 0, "made_by": "", **empty, "without_latch": 0, "order_kinds": 0, "accuracy": None,
             "correlations": None, "sensitivity": None, "wing": mock_wing.wing(hinges), "envelopes": None, "static_margins": None, "margin": None,
-            "rare": None, "inputs": {"scene": [], "dispersions": [], "settings": []}, **found}
+            "rare": None, "wing_orders": [], "kernel": None, "inputs": {"scene": [], "dispersions": [], "settings": []}, **found}
 
 
 def sobol():
@@ -201,9 +208,9 @@ def comparison(sets, first, second):
             half = 1.96 * math.hypot(one["mean_error"] or 0, two["mean_error"] or 0)
             step = two["mean"] - one["mean"]
             rows.append({"output": one["name"], "difference": step, "lower": step - half, "upper": step + half,
-                         "relative": step / abs(one["mean"]), "runs": one["count"]})
+                         "relative": step / abs(one["mean"]), "runs": one["count"], "magnitude": False})
     rates = [(one["status"], two["rate"] - one["rate"]) for one, two in zip(sets[first]["statuses"], sets[second]["statuses"])]
-    return {"sets": [first, second], "paired": True, "runs": sets[second]["runs"], "outputs": rows,
+    return {"sets": [first, second], "folders": not sets[first]["case"], "paired": True, "runs": sets[second]["runs"], "outputs": rows,
             "text": f"{sets[second]['label']} − {sets[first]['label']}, run by run over the {sets[second]['runs']} runs with the same draws",
             "statuses": [{"status": s, "difference": d, "lower": d - 0.004, "upper": d + 0.004} for s, d in rates]}
 
@@ -212,7 +219,7 @@ def block(sets, title="mock_wing"):
     glossary = {f"HINGE.{name}": {"unit": unit, "text": text} for name, unit, text in (
         ("latch_time", "s", "when the hinge reaches its latched angle for the first time"),
         ("latch_rate", "rad/s", "its own relative rate at that instant; signed"), ("peak_moment", "N m", "largest |M| of the whole run"))}
-    return {"format": 1, "version": "0.2.0+mock", "command": "wingspread report results/mock", "title": title, "glossary": glossary,
+    return {"format": 1, "version": "0.2.0+mock", "command": "wingspread report results/mock", "title": title, "document": {}, "glossary": glossary,
             "sets": sets, "comparisons": [comparison(sets, 0, k) for k in range(1, len(sets)) if sets[k]["runs"]], "unpaired": []}
 
 

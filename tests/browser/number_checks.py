@@ -25,8 +25,8 @@ def parsed(text):
     return found
 
 
-class NumberChecks:
-    """For a Page: open, run_script, one, all and unittest's assertions come from it."""
+class Numbers:
+    """Checks of a page's numbers, for a Page: open, run_script, one, all and unittest's assertions come from it."""
 
     def check(self, text, *expected, share=False, near=1e9, about=""):
         """The numbers of a text are these (None: a dash or words without a number); shares are printed in per cent. `near`: the largest relative difference."""
@@ -77,49 +77,6 @@ class NumberChecks:
 
     def factor(self, output, unit):
         return DEGREES if unit == "deg" and output["unit"].startswith("rad") else 1
-
-    def test_shares_print_what_they_are(self):
-        self.open(pages.made_up("single"))
-        shares = [0, 1, 0.5, *(s for k in range(1, 13) for s in (10.0**-k, 3.7 * 10.0**-k, 1 - 10.0**-k, 1 - 3.7 * 10.0**-k))]
-        texts = self.run_script("return arguments[0].map(share => W.format.share(share))", shares)
-        for share, text in zip(shares, texts):
-            if share < 1 - 1e-6 or share == 1:  # beyond it six decimals are all that is printed
-                self.check(text, share, share=True, about="share")
-        ends = [(low, high) for low in shares for high in shares if low < high and high - low < 1 and min(s for s in (low, high, 1 - low, 1 - high) if s) > 2e-6]
-        for (low, high), text in zip(ends, self.run_script("return arguments[0].map(([low, high]) => W.format.shareBounds(low, high))", ends)):
-            self.check(text, *([low] if low else []), *([high] if high < 1 else []), share=True, about="bounds")
-            self.assertEqual((text.startswith("below"), text.startswith("above")), (low == 0, high == 1 and low > 0), text)
-        for digits, (value, want) in ((v[0], v[1:]) for v in ((4, 99999, "99,999"), (4, 1234, "1234"), (4, -12345, "−12,345"), (4, 123456.7, "123,457"), (2, 0, "0"), (4, 1e8, "1 × 10⁸"),
-                                                              (4, 99999999, "99,999,999"), (4, 1e-4, "0.0001000"), (4, 9.9e-5, "9.9 × 10⁻⁵"))):
-            self.assertEqual(self.run_script("return W.format.number(arguments[0], arguments[1])", value, digits), want)
-        for value, spread, want in ((12.3456, 0.5, "12.35"), (12.3456, 20, "12"), (0.012345, 0.0005, "0.01235"), (1e9, 1, "1 × 10⁹"), (2.5, 1e-9, "2.500"), (-0.004, 0.5, "0.00")):
-            self.assertEqual(self.run_script("return W.format.sized(arguments[0], arguments[1])", value, spread), want)
-        for value, want in ((0.1 + 0.2, "0.3"), (12345.678, "12,345.68"), (1e7, "1 × 10⁷"), (9e-5, "9 × 10⁻⁵"), (-0.25, "−0.25"), (0, "0"), (None, "–")):
-            self.assertEqual(self.run_script("return W.format.given(arguments[0])", value), want)
-        for value, want in ((0, "0"), (1e6, "1 × 10⁶"), (2.5e-5, "2.5 × 10⁻⁵"), (999999, "999,999"), (-0.5, "−0.5"), (1e-4, "0.0001")):
-            self.assertEqual(self.run_script("return W.format.tick(arguments[0])", value), want)
-        numbers = [s * m * 10.0**k for k in range(-9, 10) for m in (1, 1.234567, 9.9996) for s in (1, -1)]
-        for value, text in zip(numbers, self.run_script("return arguments[0].map(v => W.format.number(v, 5))", numbers)):
-            self.check(text, value, about="number")
-
-    def test_every_output_by_unit(self):
-        self.open(pages.made_up("plain"))
-        one_set = self.run_script("return W.set()")
-        for unit in ("rad", "deg"):
-            self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
-            listed = self.table(f"Outputs of {one_set['label']}")
-            for output, row in zip(one_set["outputs"], listed, strict=True):
-                factor, about = self.factor(output, unit), f"{output['name']} in {unit}"
-                self.assertEqual(row[1], output["unit"].replace("rad", unit).replace(" ", "·"), about)
-                self.check(row[2], output["count"], about=about)
-                values = [output["nominal"], output["mean"], output["std"], *(one["value"] for one in output["quantiles"])]
-                for text, value in zip(row[4:], values, strict=True):
-                    self.check(text, value * factor, about=about)
-                self.run_script("W.choose('output', arguments[0])", output["name"])
-                self.output_tables(output, factor, about)
-                if output["family"] in ("latch_rate", "latch_time") or output["hinge"] == "root":
-                    pages.settle(self.driver)
-                    self.output_pictures(one_set, output, factor, about)
 
     def output_tables(self, output, factor, about):
         name = self.run_script("return W.format.name(W.output())")
@@ -179,38 +136,161 @@ class NumberChecks:
         texts = [parsed(text.text)[0][0] for text in self.all(f"figure.{figure} text.limit-text")]
         self.assertTrue(all(any(math.isclose(text, limit, rel_tol=1e-5) for limit in wanted) for text in texts), about)
 
+    def words(self, one):
+        """A requirement as the page states it: in words, and in degrees where they make the shorter number."""
+        name = " ".join(word for word in (one.get("id"), one.get("name")) if word)
+        if one["limit"] is None:
+            return f"{one['id']} {one['text']}" if one.get("id") else one["text"]
+        output = re.sub(r"[._]", " ", one["output"])
+        unit = {"latch_rate": "rad/s", "latch_time": "s", "peak_moment": "N·m", "deployment_time": "s", "peak_rate": "rad/s", "peak_force": "N"}[one["output"].split(".")[-1]]
+        text = f"{one['limit']:g} {unit}".replace("-", "−")
+        if unit.startswith("rad"):
+            degrees = float(f"{one['limit'] * DEGREES:.12g}")
+            turned = unit.replace("rad", "deg")
+            text = f"{degrees:g} {turned}" if len(f"{degrees:g}") < len(repr(one["limit"])) else f"{text} ({f'{degrees:.4g}'.replace('-', '−')} {turned})"
+        return f"{f'{name}: ' if name else ''}{f'|{output}|' if one.get('abs') else output} {'≤' if one['upper'] else '≥'} {text}, {100 * one['probability']:g} % at {100 * one['confidence']:g} %"
+
+    def limit_factor(self, one):
+        return self.factor({"unit": self.run_script("return W.verdicts.unitOf(arguments[0], W.set())", one)}, self.run_script("return W.chosen.angles"))
+
+    def headline(self, sets, texts):
+        """How many requirements fail somewhere, and how each set stands."""
+        failed = {self.words(one) for each in sets for one in each["requirements"] if one["verdict"] == "failed"}
+        text = self.one(".headline").text
+        if failed:
+            self.assertIn(f"Each of {len(texts)} requirements fails" if len(failed) == len(texts) > 1 else f"{len(failed)} of {len(texts)} requirements fail", text)
+        for each in sets:
+            count = {word: sum(one["verdict"] == word for one in each["requirements"]) for word in ("failed", "open", "passed")}
+            parts = [f"{count['failed']} fail{'s' * (count['failed'] == 1)}", f"{count['open']} undecided", f"{count['passed']} pass{'es' * (count['passed'] == 1)}"]
+            entry = next(entry for entry in text.split("\n")[-1].split(" · ") if re.search(rf"(^|\W){re.escape(each['label'])}(\W|$)", entry))
+            self.assertTrue(entry.endswith(", ".join(part for part, number in zip(parts, count.values()) if number)), f"{each['label']}: {entry}")
+
+    def verdict_numbers(self, kind):
+        """Outcomes, orders and requirements of a page with one set, in degrees."""
+        one_set = self.run_script("return W.set()")
+        for row, one in zip(self.table("Outcomes of the runs"), one_set["statuses"], strict=True):
+            self.check(row[1], one["count"], about=kind)
+            self.check(row[2], one["rate"], share=True, about=kind)
+            bounds = [bound for bound, trivial in ((one["lower"], 0), (one["upper"], 1)) if bound != trivial]
+            self.check(row[3], *bounds, share=True, about=kind)
+        runs = sum(one["count"] for one in one_set["orders"])
+        for row, one in zip(self.table("Latch orders"), one_set["orders"]):
+            self.check(row[1], one["count"], about=kind)
+            self.check(row[2], one["count"] / runs, share=True, about=kind)
+        judged = {self.words(one): one for one in one_set["requirements"]}
+        rows = self.table("Requirements, the worst first")
+        self.assertEqual(len(rows), len(judged))
+        for row in rows:
+            one = judged[next(text for text in judged if row[0].startswith(text))]
+            values = one["limit"] is not None
+            shown = lambda value: value * self.limit_factor(one) if values and value is not None else value
+            self.check(row[2], shown(one["observed_value"]) if values else one["observed"], share=not values, about=one["text"])
+            self.check(row[3], shown(one["guaranteed_value"]) if values else one["guaranteed"], share=not values, about=one["text"])
+            self.check(row[4], shown(one["margin"]) if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
+            found, parts = [value for value, _ in parsed(row[6])], [one["broken"]]
+            if one["not_deployed"]:
+                parts += [one["not_deployed"], *(run["run"] for run in one["not_deployed_runs"][:3])]
+            if values and (one["beyond"] or one["not_deployed"]):
+                parts += [one["beyond"], *(run["run"] for run in one["beyond_runs"][:3])]
+            self.assertEqual(found[:len(parts)], parts, one["text"])
+            if values and one["worst"]:
+                factor = self.limit_factor(one)
+                self.assertAlmostEqual(found[len(parts)], one["worst"]["value"] * factor, delta=abs(one["worst"]["value"] * factor) * 1e-3)
+            self.assertEqual(row[4].startswith("+"), (one["margin"] if values else one["guaranteed"] - one["probability"]) > 0, one["text"])
+        strain = lambda one: -one["margin"] / abs(one["limit"]) if one["limit"] and one["margin"] is not None else one["broken"] / one_set["runs"] - (1 - one["probability"])
+        ranked = [(("failed", "open", "passed").index(one["verdict"]), -strain(one)) for one in self.run_script("return W.verdicts.judged().map(row => row.requirement)")]
+        self.assertEqual(ranked, sorted(ranked))
+        badges = self.run_script("return [...document.querySelectorAll('.outputs tbody tr')].map(row => row.querySelector('th .badge')?.title)")
+        for badge, output in zip(badges, one_set["outputs"], strict=True):
+            verdicts = [one_set["requirements"][at]["verdict"] for at in output["limits"]]
+            worst = next((word for verdict, word in (("failed", "fail"), ("open", "undecided"), ("passed", "pass")) if verdict in verdicts), None)
+            self.assertEqual(badge, worst, output["name"])
+
+    def motion_numbers(self):
+        """A motion, the envelopes and the readout, in degrees."""
+        one_set = self.run_script("return W.set()")
+        motion, envelopes = one_set["motions"][0], one_set["envelopes"]
+        self.same_rows("stage", [[t, *(row[at] * DEGREES for row in motion["angles"])] for at, t in enumerate(motion["t"])])
+        self.same_rows("history", [[t, *(row[at] for row in motion["moments"])] for at, t in enumerate(motion["t"])])
+        self.same_rows("envelopes", [[t, *(envelopes[key][hinge][level][at] * DEGREES for hinge in range(min(6, len(one_set["wing"]["hinges"]))) for level in range(len(envelopes["levels"]))
+                                           for key in ("angles", "rates"))] for at, t in enumerate(envelopes["t"])])
+        for at in (0, 57, len(motion["t"]) - 1):  # the readout at a sample
+            if motion["t"].count(motion["t"][at]) > 1:
+                continue  # both sides of a latch
+            self.run_script("W.player.seek(arguments[0])", motion["t"][at])
+            for hinge, row in enumerate(self.table("Hinges at the cursor's time")):
+                for text, key, factor in zip(row[1:4], ("angles", "rates", "moments"), (DEGREES, DEGREES, 1)):
+                    self.assertLessEqual(abs(parsed(text)[0][0] - motion[key][hinge][at] * factor), 0.00501, f"{key} of {row[0]} at sample {at}")
+
+    def difference_numbers(self):
+        """The differences of all comparisons, in both units."""
+        data = self.run_script("return W.data")
+        units = {one["name"]: one["unit"] for one in data["sets"][0]["outputs"]}
+        for unit in ("rad", "deg"):
+            self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
+            for comparison in data["comparisons"]:
+                for row, one in zip(self.table(f"Differences of the means: {comparison['text']}"), comparison["outputs"], strict=True):
+                    factor = self.factor({"unit": units[one["output"]]}, unit)
+                    shown = lambda value: None if value is None else value * factor
+                    self.assertEqual(row[0].startswith("|"), one["magnitude"], row[0])
+                    self.check(row[2], shown(one["difference"]), about=one["output"])
+                    bounds = [bound for bound in (shown(one["lower"]), shown(one["upper"])) if bound is not None]
+                    for (value, half), bound in zip(parsed(row[3]), bounds, strict=True):
+                        self.assertLessEqual(abs(value - bound), half, one["output"])
+                    self.check(row[4], one["relative"], share=True, about=one["output"])
+                    self.check(row[5], one["runs"], about=one["output"])
+
+
+class NumberChecks(Numbers):
+    """The numbers of made-up pages."""
+
+    def test_shares_print_what_they_are(self):
+        self.open(pages.made_up("single"))
+        shares = [0, 1, 0.5, *(s for k in range(1, 13) for s in (10.0**-k, 3.7 * 10.0**-k, 1 - 10.0**-k, 1 - 3.7 * 10.0**-k))]
+        texts = self.run_script("return arguments[0].map(share => W.format.share(share))", shares)
+        for share, text in zip(shares, texts):
+            if share < 1 - 1e-6 or share == 1:  # beyond it six decimals are all that is printed
+                self.check(text, share, share=True, about="share")
+        ends = [(low, high) for low in shares for high in shares if low < high and high - low < 1 and min(s for s in (low, high, 1 - low, 1 - high) if s) > 2e-6]
+        for (low, high), text in zip(ends, self.run_script("return arguments[0].map(([low, high]) => W.format.shareBounds(low, high))", ends)):
+            self.check(text, *([low] if low else []), *([high] if high < 1 else []), share=True, about="bounds")
+            self.assertEqual((text.startswith("below"), text.startswith("above")), (low == 0, high == 1 and low > 0), text)
+        for digits, (value, want) in ((v[0], v[1:]) for v in ((4, 99999, "99,999"), (4, 1234, "1234"), (4, -12345, "−12,345"), (4, 123456.7, "123,457"), (2, 0, "0"), (4, 1e8, "1 × 10⁸"),
+                                                              (4, 99999999, "99,999,999"), (4, 1e-4, "0.0001000"), (4, 9.9e-5, "9.9 × 10⁻⁵"))):
+            self.assertEqual(self.run_script("return W.format.number(arguments[0], arguments[1])", value, digits), want)
+        for value, spread, want in ((12.3456, 0.5, "12.35"), (12.3456, 20, "12"), (0.012345, 0.0005, "0.01235"), (1e9, 1, "1 × 10⁹"), (2.5, 1e-9, "2.500"), (-0.004, 0.5, "0.00")):
+            self.assertEqual(self.run_script("return W.format.sized(arguments[0], arguments[1])", value, spread), want)
+        for value, want in ((0.1 + 0.2, "0.3"), (12345.678, "12,345.68"), (1e7, "1 × 10⁷"), (9e-5, "9 × 10⁻⁵"), (-0.25, "−0.25"), (0, "0"), (None, "–")):
+            self.assertEqual(self.run_script("return W.format.given(arguments[0])", value), want)
+        for value, want in ((0, "0"), (1e6, "1 × 10⁶"), (2.5e-5, "2.5 × 10⁻⁵"), (999999, "999,999"), (-0.5, "−0.5"), (1e-4, "0.0001")):
+            self.assertEqual(self.run_script("return W.format.tick(arguments[0])", value), want)
+        numbers = [s * m * 10.0**k for k in range(-9, 10) for m in (1, 1.234567, 9.9996) for s in (1, -1)]
+        for value, text in zip(numbers, self.run_script("return arguments[0].map(v => W.format.number(v, 5))", numbers)):
+            self.check(text, value, about="number")
+
+    def test_every_output_by_unit(self):
+        self.open(pages.made_up("plain"))
+        one_set = self.run_script("return W.set()")
+        for unit in ("rad", "deg"):
+            self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
+            listed = self.table(f"Outputs of {one_set['label']}")
+            for output, row in zip(one_set["outputs"], listed, strict=True):
+                factor, about = self.factor(output, unit), f"{output['name']} in {unit}"
+                self.assertEqual(row[1], output["unit"].replace("rad", unit).replace(" ", "·"), about)
+                self.check(row[2], output["count"], about=about)
+                values = [output["nominal"], output["mean"], output["std"], *(one["value"] for one in output["quantiles"])]
+                for text, value in zip(row[4:], values, strict=True):
+                    self.check(text, value * factor, about=about)
+                self.run_script("W.choose('output', arguments[0])", output["name"])
+                self.output_tables(output, factor, about)
+                if output["family"] in ("latch_rate", "latch_time") or output["hinge"] == "root":
+                    pages.settle(self.driver)
+                    self.output_pictures(one_set, output, factor, about)
+
     def test_verdicts_outcomes_and_orders(self):
         for kind in ("stalls", "plain"):
             self.open(pages.made_up(kind))
-            one_set = self.run_script("return W.set()")
-            for row, one in zip(self.table("Outcomes of the runs"), one_set["statuses"], strict=True):
-                self.check(row[1], one["count"], about=kind)
-                self.check(row[2], one["rate"], share=True, about=kind)
-                bounds = [bound for bound, trivial in ((one["lower"], 0), (one["upper"], 1)) if bound != trivial]
-                self.check(row[3], *bounds, share=True, about=kind)
-            runs = sum(one["count"] for one in one_set["orders"])
-            for row, one in zip(self.table("Latch orders"), one_set["orders"]):
-                self.check(row[1], one["count"], about=kind)
-                self.check(row[2], one["count"] / runs, share=True, about=kind)
-            judged = {one["text"]: one for one in one_set["requirements"]}
-            rows = self.table("Requirements, the worst first")
-            self.assertEqual(len(rows), len(judged))
-            for row in rows:
-                one = judged[next(text for text in judged if row[0].startswith(text))]
-                values = one["limit"] is not None
-                self.check(row[2], one["observed_value"] if values else one["observed"], share=not values, about=one["text"])
-                self.check(row[3], one["guaranteed_value"] if values else one["guaranteed"], share=not values, about=one["text"])
-                self.check(row[4], one["margin"] if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
-                self.assertEqual(parsed(row[6])[0][0], one["broken"], one["text"])
-                self.assertEqual(row[4].startswith("+"), (one["margin"] if values else one["guaranteed"] - one["probability"]) > 0, one["text"])
-            strain = lambda one: -one["margin"] / abs(one["limit"]) if one["limit"] and one["margin"] is not None else one["broken"] / one_set["runs"] - (1 - one["probability"])
-            ranked = [(("failed", "open", "passed").index(one["verdict"]), -strain(one)) for one in self.run_script("return W.verdicts.judged().map(row => row.requirement)")]
-            self.assertEqual(ranked, sorted(ranked))
-            badges = self.run_script("return [...document.querySelectorAll('.outputs tbody tr')].map(row => row.querySelector('th .badge')?.title)")
-            for badge, output in zip(badges, one_set["outputs"], strict=True):
-                verdicts = [one_set["requirements"][at]["verdict"] for at in output["limits"]]
-                worst = next((word for verdict, word in (("failed", "fail"), ("open", "undecided"), ("passed", "pass")) if verdict in verdicts), None)
-                self.assertEqual(badge, worst, output["name"])
+            self.verdict_numbers(kind)
 
     def test_effects_pairs_and_studies(self):
         self.open(pages.made_up("plain"))
@@ -233,32 +313,12 @@ class NumberChecks:
 
     def test_motion_and_envelopes_in_degrees(self):
         self.open(pages.made_up("plain"))
-        one_set = self.run_script("return W.set()")
-        motion, envelopes = one_set["motions"][0], one_set["envelopes"]
-        self.same_rows("stage", [[t, *(row[at] * DEGREES for row in motion["angles"])] for at, t in enumerate(motion["t"])])
-        self.same_rows("history", [[t, *(row[at] for row in motion["moments"])] for at, t in enumerate(motion["t"])])
-        self.same_rows("envelopes", [[t, *(envelopes[key][hinge][level][at] * DEGREES for hinge in range(3) for level in range(len(envelopes["levels"]))
-                                           for key in ("angles", "rates"))] for at, t in enumerate(envelopes["t"])])
-        for at in (0, 57, len(motion["t"]) - 1):  # the readout at a sample
-            self.run_script("W.player.seek(arguments[0])", motion["t"][at])
-            for hinge, row in enumerate(self.table("Hinges at the cursor's time")):
-                for text, key, factor in zip(row[1:4], ("angles", "rates", "moments"), (DEGREES, DEGREES, 1)):
-                    self.assertLessEqual(abs(parsed(text)[0][0] - motion[key][hinge][at] * factor), 0.00501, f"{key} of {row[0]} at sample {at}")
+        self.motion_numbers()
 
     def test_differences_and_inputs(self):
         self.open(pages.made_up("cases"))
+        self.difference_numbers()
         data = self.run_script("return W.data")
-        units = {one["name"]: one["unit"] for one in data["sets"][0]["outputs"]}
-        for unit in ("rad", "deg"):
-            self.run_script("const s = document.getElementById('angles'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", unit)
-            for comparison in data["comparisons"]:
-                for row, one in zip(self.table(f"Differences of the means: {comparison['text']}"), comparison["outputs"], strict=True):
-                    factor = self.factor({"unit": units[one["output"]]}, unit)
-                    self.check(row[2], one["difference"] * factor, about=one["output"])
-                    for (value, half), bound in zip(parsed(row[3]), (one["lower"], one["upper"]), strict=True):
-                        self.assertLessEqual(abs(value - bound * factor), half, one["output"])
-                    self.check(row[4], one["relative"], share=True, about=one["output"])
-                    self.check(row[5], one["runs"], about=one["output"])
         self.run_script("W.choose('set', 0)")
         for row, one in zip(self.table("Scene of cold"), data["sets"][0]["inputs"]["scene"], strict=True):
             self.check(row[1], one["value"], near=1e-6, about=one["path"])

@@ -38,15 +38,30 @@ def made_up(kind):
     return path
 
 
-def real(campaign, runs):
-    """The path of the program's own page of so many runs of a campaign of studies/campaigns."""
-    path = SCRATCH / f"real_{campaign}.html"
-    if not path.exists():
-        folder = SCRATCH / campaign
-        ran = subprocess.run([PROGRAM, "run", ROOT / f"studies/campaigns/{campaign}.json", "--runs", str(runs), "--out", folder], capture_output=True, text=True)
+def made(campaign, runs, name=None, *options):
+    """The results folder of so many runs of a campaign of studies/campaigns; made once."""
+    folder = SCRATCH / (name or campaign)
+    if not folder.exists():
+        ran = subprocess.run([PROGRAM, "run", ROOT / f"studies/campaigns/{campaign}.json", "--runs", str(runs), "--out", folder, *options], capture_output=True, text=True)
         assert ran.returncode in (0, 1), ran.stderr  # 1: a requirement is not shown to be met
-        subprocess.run([PROGRAM, "report", folder, "--out", path], check=True, capture_output=True)
+    return folder
+
+
+def reported(name, *folders):
+    """The path of the program's own page of results folders."""
+    path = SCRATCH / f"real_{name}.html"
+    if not path.exists():
+        subprocess.run([PROGRAM, "report", *folders, "--out", path], check=True, capture_output=True)
     return path
+
+
+def real(campaign, runs):
+    return reported(campaign, made(campaign, runs))
+
+
+def compared(campaign, runs, *options):
+    """The page of a campaign beside the same with these options."""
+    return reported(f"{campaign}_compared", made(campaign, runs), made(campaign, runs, f"{campaign}_changed", *options))
 
 
 def resize(driver, width, height=1000):

@@ -29,6 +29,14 @@ Runner::Replay Runner::replay(long k, const Observer& observer, double interval)
   return made;
 }
 
+Outcome Runner::watch(long k, const Goal& goal, double t_end, const Observer& observer) {
+  std::vector<double> draws;
+  set_scene(k, draws, scene_);
+  Integration how = plan_->campaign().integration;
+  how.t_end = t_end;
+  return deployment_.run(scene_, how, goal, observer);
+}
+
 Occupancy Runner::run_all(InstructionSet set, const std::function<std::optional<long>()>& next,
                           const std::function<void(ResultRow&&)>& done) {
   std::map<long, std::vector<double>> draws; // of the runs in the lanes

@@ -31,6 +31,10 @@ public:
   /// @param interval Goal::sample_interval
   [[nodiscard]] Replay replay(long k, const Observer& observer, double interval = 0);
 
+  /// Integrates run k with another goal and end, for its samples. The observer may end the run with an exception, which
+  /// passes through.
+  Outcome watch(long k, const Goal& goal, double t_end, const Observer& observer);
+
   /// Makes several runs at once: takes run numbers from `next` until `next` returns nothing. Each row has the same bits
   /// as the row of run().
   /// @param done receives rows in the order in which runs end

@@ -7,6 +7,7 @@
 #include "montecarlo/report/page/study_set.hpp"
 #include "montecarlo/results/export/hdf5_export.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
+#include "montecarlo/results/results_folder/parts.hpp"
 
 #include <fmt/format.h>
 
@@ -22,12 +23,17 @@ struct ReportOptions {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path out;
   int threads = 0;
+  ReportHeader header;
 };
 
 /// The command that makes this page, without --out.
 std::string command_of(const ReportOptions& options) {
   std::string command = "wingspread report";
-  for (const std::filesystem::path& folder : options.folders) command += ' ' + folder.string();
+  for (const std::filesystem::path& folder : options.folders)
+    command += ' ' + shell_word(folder.string());
+  for (const auto& [key, help, member] : header_words)
+    if (const std::string& text = options.header.*member; !text.empty())
+      command += fmt::format(" --{} {}", key, shell_word(text));
   return command;
 }
 
@@ -43,7 +49,8 @@ int report(const ReportOptions& options) {
   const std::filesystem::path out =
       options.out.empty() ? options.folders.front() / report_file : options.out;
   const PageSources sources = read_page_sources(options.folders, options.threads);
-  write_file(out, html_page(page_json(sources, command_of(options), options.threads)));
+  write_file(out,
+             html_page(page_json(sources, options.header, command_of(options), options.threads)));
   fmt::print("{}\n", out.string());
   return exit_code::done;
 }
@@ -69,12 +76,15 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
       ->type_name("FILE");
   command.add_option("--threads", options.threads, "Number of threads; 0: all processors")
       ->check(CLI::Range(0, 1024).description(""));
+  for (const auto& [key, help, member] : header_words)
+    command.add_option("--" + std::string(key), options.header.*member, help)->type_name("TEXT");
   command.footer(
       R"(The page opens offline and loads nothing from the network. It shows verdicts, the distribution of
 every output, the wing in motion (some runs are made again for it), sensitivities, convergence of
-the statistics, and the inputs. Its size does not grow with the number of runs: at most 4 MB. For a
+the statistics, and the inputs. Its size does not grow with the number of runs: at most 5 MB. For a
 campaign with cases it has a section for each case. The same folders give the same bytes. The path
 of the page is printed; exit code 0 means that the page was written, whatever the verdicts.
+The words on the first page may also stand in the campaign, as "report": { "title": "…", … }.
 
 Example:
   wingspread report results/first

@@ -35,6 +35,7 @@ struct Campaign {
   Integration integration;
   Outputs outputs = default_outputs();
   StatisticsSpec statistics;
+  ReportHeader report;
   std::vector<Requirement> requirements;
   StoppingRule until;               ///< empty: makes all runs
   std::optional<MarginSpec> margin; ///< the study of `wingspread margin`; runs ignore it

@@ -122,6 +122,7 @@ Json write_campaign(const Campaign& campaign, Json dispersions) {
         write_wanted_correlations(campaign.wanted_correlations, campaign.dispersions);
   if (!campaign.requirements.empty())
     json["requirements"] = write_requirements(campaign.requirements);
+  if (campaign.report != ReportHeader{}) json["report"] = write_report_header(campaign.report);
   if (!campaign.until.empty()) json["until"] = write_stopping_rule(campaign.until);
   if (!campaign.cases.empty()) json["cases"] = write_cases(campaign.cases);
   if (!campaign.of_case.empty()) json["case"] = campaign.of_case;
@@ -205,6 +206,7 @@ private:
                                             "a base whose motion is \"free\"");
     outputs_known_ = scene_ && problems_.size() == before;
     read_part("statistics", read_statistics, campaign_.statistics);
+    read_part("report", read_report_header, campaign_.report);
   }
 
   void read_dependence() {

@@ -1,5 +1,7 @@
 #include "montecarlo/model/campaign/campaign_settings.hpp"
 
+#include "montecarlo/foundation/formats/printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -122,6 +124,8 @@ void read_bins(const JsonCursor& at, Bins& bins) {
   bins = static_cast<int>(count);
 }
 
+bool is_line(const std::string& text) { return !text.empty() && !has_control_characters(text); }
+
 } // namespace
 
 bool has_fixed_step(std::string_view method) { return method == fixed_step_method; }
@@ -177,6 +181,14 @@ void read_statistics(const JsonCursor& at, StatisticsSpec& statistics) {
   object.refuse_others();
 }
 
+void read_report_header(const JsonCursor& at, ReportHeader& header) {
+  JsonObject object(at, "an object with the words on the report's first page");
+  for (const auto& [key, help, member] : header_words)
+    object.optional(key, header.*member, "a string, not empty, without control characters",
+                    is_line);
+  object.refuse_others();
+}
+
 Json write_sampling(const Sampling& sampling) {
   Json json{{"design", design_names[static_cast<std::size_t>(sampling.design)]},
             {"runs", sampling.runs},
@@ -204,6 +216,13 @@ Json write_statistics(const StatisticsSpec& statistics) {
   if (!statistics.tolerance_limits.empty())
     json["tolerance"] = write_tolerance(statistics.tolerance_limits);
   if (statistics.accuracy_runs) json["accuracy_runs"] = *statistics.accuracy_runs;
+  return json;
+}
+
+Json write_report_header(const ReportHeader& header) {
+  Json json = Json::object();
+  for (const auto& [key, help, member] : header_words)
+    if (!(header.*member).empty()) json[key] = header.*member;
   return json;
 }
 

@@ -1,4 +1,4 @@
-/// The campaign's keys `sampling`, `integration` and `statistics`.
+/// The campaign's keys `sampling`, `integration`, `statistics` and `report`.
 ///
 /// Each `read_` overwrites given keys only (the caller passes the defaults) and notes problems in the cursor's list;
 /// each `write_` makes all values explicit.
@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -59,12 +60,35 @@ struct StatisticsSpec {
   std::optional<std::int64_t> accuracy_runs{};
 };
 
+/// The words on the first page of the report; each may be empty. Nothing depends on them.
+struct ReportHeader {
+  std::string title, author, organisation;
+  std::string document; ///< its number
+  std::string revision, date;
+  bool operator==(const ReportHeader&) const = default;
+};
+/// A key of the block `report`, and an option of `wingspread report`.
+struct HeaderWord {
+  const char *key, *help;
+  std::string ReportHeader::*member;
+};
+inline constexpr std::array header_words{
+    HeaderWord{"title", "Title of the document", &ReportHeader::title},
+    HeaderWord{"author", "Who answers for it", &ReportHeader::author},
+    HeaderWord{"organisation", "Whose document it is", &ReportHeader::organisation},
+    HeaderWord{"document", "Number of the document", &ReportHeader::document},
+    HeaderWord{"revision", "Its revision", &ReportHeader::revision},
+    HeaderWord{"date", "Its date, as given: the page has no other", &ReportHeader::date}};
+
 void read_sampling(const JsonCursor& at, Sampling& sampling);
 void read_integration(const JsonCursor& at, Integration& integration);
 void read_statistics(const JsonCursor& at, StatisticsSpec& statistics);
+void read_report_header(const JsonCursor& at, ReportHeader& header);
 
 [[nodiscard]] Json write_sampling(const Sampling& sampling);
 [[nodiscard]] Json write_integration(const Integration& integration);
 [[nodiscard]] Json write_statistics(const StatisticsSpec& statistics);
+/// Without empty words.
+[[nodiscard]] Json write_report_header(const ReportHeader& header);
 
 } // namespace wingspread

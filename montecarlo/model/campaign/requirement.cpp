@@ -8,11 +8,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace wingspread {
 namespace {
 
 bool is_name(const std::string& text) { return !text.empty() && !has_control_characters(text); }
+
+/// The keys that name a requirement for the report's reader.
+constexpr std::array<std::pair<const char*, std::string Requirement::*>, 3> words_about{
+    {{"id", &Requirement::id},
+     {"source", &Requirement::source},
+     {"rationale", &Requirement::rationale}}};
 
 bool contains(std::span<const std::string> names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
@@ -80,6 +88,14 @@ void check_groups(const JsonCursor& at, std::span<const Requirement> requirement
   }
 }
 
+/// Notes each identifier that an earlier requirement has.
+void refuse_repeated_ids(const JsonCursor& at, std::span<const Requirement> requirements) {
+  for (std::size_t i = 1; i < requirements.size(); ++i)
+    if (const std::string& id = requirements[i].id;
+        !id.empty() && std::ranges::count(requirements.first(i), id, &Requirement::id) > 0)
+      at.element(i).member("id").refuse_repeated("an identifier of its own");
+}
+
 /// Reads a requirement on a static margin. Its only limit is `min`, 0 by default.
 void read_static_margin(JsonObject& object, const Scene* scene, Requirement& requirement) {
   requirement.static_margin.emplace();
@@ -111,6 +127,9 @@ Requirement read_requirement(const JsonCursor& at, const std::vector<std::string
     read_output(object, outputs, all_outputs, requirement);
   object.optional("group", requirement.group, "a string, not empty, without control characters",
                   is_name);
+  for (const auto& [key, member] : words_about)
+    object.optional(key, requirement.*member, "a string, not empty, without control characters",
+                    is_name);
   object.required("probability", requirement.probability, "a number, > 0 and < 1", is_proper_share);
   object.required("confidence", requirement.confidence, "a number, > 0 and < 1", is_proper_share);
   object.refuse_others();
@@ -144,6 +163,7 @@ void read_requirements(const JsonCursor& at, const std::vector<std::string>* out
   for (const JsonCursor& element : at.elements())
     requirements.push_back(read_requirement(element, outputs, all_outputs, scene));
   check_groups(at, requirements);
+  refuse_repeated_ids(at, requirements);
 }
 
 void refuse_late_limits(const JsonCursor& at, std::span<const Requirement> requirements,
@@ -179,6 +199,8 @@ Json write_requirements(std::span<const Requirement> requirements) {
     json["probability"] = requirement.probability;
     json["confidence"] = requirement.confidence;
     if (!requirement.group.empty()) json["group"] = requirement.group;
+    for (const auto& [key, member] : words_about)
+      if (!(requirement.*member).empty()) json[key] = requirement.*member;
     list.push_back(std::move(json));
   }
   return list;

@@ -24,6 +24,10 @@ struct Requirement {
   /// Present if the output is a static margin, which is computed from a run's draws.
   std::optional<RequiredMargin> static_margin{};
   std::string group{}; ///< requirements of a group hold jointly at their confidence; empty: none
+  // for the report's reader; each may be empty
+  std::string id{};        ///< of the document that states it, e.g. "SYS-0421"
+  std::string source{};    ///< that document
+  std::string rationale{}; ///< why it is required
 };
 
 /// The confidence at which a requirement is judged: 1 − (1 − c)/m in a group of m members (Bonferroni), so that the

@@ -132,10 +132,11 @@ constexpr std::array<std::string_view, 4> campaigns{R"({
                   "tolerance": [ { "probability": 0.99, "confidence": 0.9, "side": "upper" } ] },
   "requirements": [
     { "name": "moment", "output": "root.peak_moment", "max": "400 N*m", "abs": true, "probability": 0.99,
-      "confidence": 0.9, "group": "A" },
+      "confidence": 0.9, "group": "A", "id": "SYS-1", "source": "specification 4.2", "rationale": "root fitting" },
     { "output": "root.latch_rate", "min": -3, "probability": 0.99, "confidence": 0.9 },
     { "name": "margin", "motorization": "NASA", "hinge": "*", "min": 0, "probability": 0.99, "confidence": 0.9,
       "group": "A" } ],
+  "report": { "title": "wing", "author": "A", "organisation": "B", "document": "C", "revision": "D", "date": "E" },
   "until": [ { "output": "root.peak_moment", "quantile": 0.5, "width": "5 N*m" },
              { "output": "root.peak_moment", "quantile": 0.5, "relative_width": 0.02 },
              { "output": "deployed", "width": 0.01 }, { "requirement": "moment" } ],

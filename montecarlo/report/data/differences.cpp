@@ -35,6 +35,24 @@ Json difference_json(const char* key, const std::string& name, const Difference&
   return json;
 }
 
+bool has_negative(const Column& column) {
+  return std::ranges::any_of(column.values, [](double value) { return value < 0; });
+}
+
+Column magnitudes(const Column& column) {
+  Column sizes{column.name, {}};
+  for (const double value : column.values) sizes.values.push_back(std::abs(value));
+  return sizes;
+}
+
+/// The values that are numbers.
+std::vector<double> present(const Column& column) {
+  std::vector<double> values;
+  std::ranges::copy_if(column.values, std::back_inserter(values),
+                       [](double value) { return !std::isnan(value); });
+  return values;
+}
+
 /// Two sets and, if paired, their common rows.
 struct Sides {
   const PageSource &first, &second;
@@ -42,18 +60,34 @@ struct Sides {
   SameRuns rows;
 };
 
-Difference output_difference(const Sides& sides, std::size_t i, std::size_t j) {
+/// An output in both sets.
+struct BothColumns {
+  const Column &first, &second;
+  double mean; ///< of the first
+};
+
+Difference output_difference(const Sides& sides, const BothColumns& columns) {
   const double confidence = std::min(sides.first.confidence, sides.second.confidence);
   if (sides.paired)
-    return paired_difference(sides.first.results.outputs[i], sides.second.results.outputs[j],
-                             sides.rows, sides.first.replication, confidence);
-  Difference difference = unpaired_difference(sides.first.summary.outputs[i].moments,
-                                              sides.second.summary.outputs[j].moments, confidence);
+    return paired_difference(columns.first, columns.second, sides.rows, sides.first.replication,
+                             confidence);
+  Difference difference = unpaired_difference(moments(present(columns.first)),
+                                              moments(present(columns.second)), confidence);
   if (sides.first.replication.replicates + sides.second.replication.replicates > 0)
     difference.bounds = {};
   return difference;
 }
 
+Json entry_of(const Sides& sides, const BothColumns& columns) {
+  const Difference difference = output_difference(sides, columns);
+  Json entry = difference_json("output", columns.first.name, difference);
+  entry["relative"] =
+      page_number(columns.mean == 0 ? undefined : difference.value / std::abs(columns.mean));
+  return entry;
+}
+
+/// The differences of all outputs; of an output with negative values those of the magnitudes, because the hinges of
+/// mirrored wings turn in opposite senses.
 Json outputs_difference_json(const Sides& sides) {
   Json json = Json::array();
   const auto& others = sides.second.results.outputs;
@@ -61,12 +95,15 @@ Json outputs_difference_json(const Sides& sides) {
     const Column& column = sides.first.results.outputs[i];
     const auto other = std::ranges::find(others, column.name, &Column::name);
     if (other == others.end()) continue;
-    const Difference difference =
-        output_difference(sides, i, static_cast<std::size_t>(other - others.begin()));
-    Json entry = difference_json("output", column.name, difference);
-    const double mean = sides.first.summary.outputs[i].moments.mean;
-    entry["relative"] = page_number(mean == 0 ? undefined : difference.value / std::abs(mean));
-    json.push_back(std::move(entry));
+    const bool magnitude = has_negative(column) || has_negative(*other);
+    if (magnitude) {
+      const Column first = magnitudes(column), second = magnitudes(*other);
+      json.push_back(entry_of(sides, {first, second, moments(present(first)).mean}));
+    } else {
+      json.push_back(
+          entry_of(sides, {column, *other, sides.first.summary.outputs[i].moments.mean}));
+    }
+    json.back()["magnitude"] = magnitude;
   }
   return json;
 }
@@ -232,15 +269,15 @@ Pairs pairs_of(std::span<const std::unique_ptr<PageSource>> sets) {
     folders.back().push_back(k);
   }
   Pairs pairs;
+  for (std::size_t k = 1; k < folders.size(); ++k) {
+    pair_folders(sets, folders.front(), folders[k], pairs);
+    if (k > 1) pair_folders(sets, folders[k - 1], folders[k], pairs);
+  }
   for (const std::vector<std::size_t>& cases : folders)
     for (std::size_t k = 1; k < cases.size(); ++k) {
       pairs.both.emplace_back(cases.front(), cases[k]);
       if (k > 1) pairs.both.emplace_back(cases[k - 1], cases[k]);
     }
-  for (std::size_t k = 1; k < folders.size(); ++k) {
-    pair_folders(sets, folders.front(), folders[k], pairs);
-    if (k > 1) pair_folders(sets, folders[k - 1], folders[k], pairs);
-  }
   return pairs;
 }
 
@@ -250,6 +287,7 @@ Json comparison_json(const PageSource& first, const PageSource& second,
   if (sides.paired) sides.rows = same_runs(first.results, second.results);
   if (sides.rows.first.empty()) sides.paired = false;
   return {{"sets", {places.first, places.second}},
+          {"folders", first.argument != second.argument},
           {"paired", sides.paired},
           {"runs", sides.paired ? Json(sides.rows.first.size()) : Json(nullptr)},
           {"text", fmt::format("{} − {}, {}", second.label, first.label, runs_text(sides))},

@@ -52,8 +52,8 @@ struct Pairs {
   std::vector<std::pair<std::size_t, std::size_t>> both; ///< indices of sets
   std::vector<std::string> missing;                      ///< "B · hot: A has no case hot"
 };
-/// Pairs the cases of a folder with its first case and with the one before; and each folder with the first folder and
-/// with the one before: case by case of the same name. Two folders with one set each are a pair, whatever their cases.
+/// Pairs each folder with the first folder and with the one before: case by case of the same name. Then the cases of a
+/// folder with its first case and with the one before. Two folders with one set each are a pair, whatever their cases.
 [[nodiscard]] Pairs pairs_of(std::span<const std::unique_ptr<PageSource>> sets);
 
 /// The second set minus the first. @param places indices of both among the page's sets

@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace wingspread {
 namespace {
+
+constexpr double beyond_last_latch = 1.08; // the displayed time ends at so many last latches
 
 constexpr std::array levels{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 
@@ -21,16 +24,37 @@ struct Track {
   bool deployed = false;
 };
 
-Track track_of(const RunPlan& plan, long run) {
+/// Nothing but samples and latches, to the end.
+constexpr Goal samples_only{.peak_moment = false,
+                            .peak_force = false,
+                            .overtravel = false,
+                            .audit = false,
+                            .end_state = false,
+                            .to_t_end = true};
+
+/// The end of the displayed time by the campaign's deployment times; 0 without them.
+double end_by_results(const Results& results) {
+  const auto times = std::ranges::find(results.outputs, "deployment_time", &Column::name);
+  double last = 0;
+  if (times != results.outputs.end())
+    for (const double time : times->values)
+      if (!std::isnan(time)) last = std::max(last, time);
+  return beyond_last_latch * last;
+}
+
+/// @param end of the displayed time, s: a run that deployed is made to there, without peaks; 0: unknown
+Track track_of(const RunPlan& plan, long run, double end) {
   constexpr std::size_t most_samples = 400;
   const std::size_t hinges = plan.campaign().scene.hinges.size();
   MotionRecorder recorder(hinges);
-  const Outcome outcome = Runner(plan).replay(run, recorder.observer()).outcome;
+  Runner runner(plan);
+  const Outcome outcome = end > 0 ? runner.watch(run, samples_only, end, recorder.observer())
+                                  : runner.replay(run, recorder.observer()).outcome;
   Track track;
   track.deployed = outcome.status == Status::deployed;
   track.latches = outcome.latches;
   track.end = outcome.t_end;
-  if (track.deployed) track.end = 1.08 * outcome.latches.back().time;
+  if (track.deployed) track.end = beyond_last_latch * outcome.latches.back().time;
   if (outcome.status == Status::failed) return track;
   pin_only(recorder.samples(), {});
   track.samples = resample(recorder.samples(), {hinges}, most_samples);
@@ -41,21 +65,29 @@ Track track_of(const RunPlan& plan, long run) {
 std::vector<Track> tracks_of(const PageSource& source, std::size_t most, int threads) {
   const std::size_t rows = source.results.size(), count = std::min(rows, most);
   const RunPlan plan(source.stored.campaign);
+  const double end =
+      std::min(end_by_results(source.results), source.stored.campaign.integration.t_end);
   std::vector<Track> tracks(count);
   for_each_task(threads, count, [&](std::size_t i) {
-    tracks[i] = track_of(plan, source.results.runs[i * rows / count]);
+    const std::size_t row = i * rows / count;
+    const bool deployed = source.results.status[row] == Status::deployed;
+    tracks[i] = track_of(plan, source.results.runs[row], deployed ? end : 0);
   });
   std::erase_if(tracks, [](const Track& track) { return track.samples.empty(); });
   return tracks;
 }
 
+/// The 98 % quantile of the ends of the runs that deployed, so that one late run does not squeeze all others; without them
+/// the largest of all ends.
 double end_of(const std::vector<Track>& tracks) {
-  double deployed = 0, any = 0;
+  double any = 0;
+  std::vector<double> deployed;
   for (const Track& track : tracks) {
     any = std::max(any, track.end);
-    if (track.deployed) deployed = std::max(deployed, track.end);
+    if (track.deployed) deployed.push_back(track.end);
   }
-  return deployed > 0 ? deployed : any;
+  std::ranges::sort(deployed);
+  return deployed.empty() ? any : quantile(deployed, 0.98);
 }
 
 /// The state of a run at ascending times. After its end the run keeps its angles, with zero rates.

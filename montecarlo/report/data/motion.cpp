@@ -69,6 +69,23 @@ void MotionRecorder::drop_every_second() {
   stride_ *= 2;
 }
 
+bool has_settled(std::span<const MotionSample> samples, const MotionLayout& layout, double since) {
+  const auto after = std::ranges::lower_bound(samples, since, {}, &MotionSample::t);
+  if (after == samples.end() || !(samples.back().t > since)) return false;
+  const double late = since + 0.75 * (samples.back().t - since);
+  for (std::size_t h = 0; h < layout.hinges; ++h) {
+    std::array<double, 2> all{after->values[layout.moment(h)], after->values[layout.moment(h)]},
+        last{samples.back().values[layout.moment(h)], samples.back().values[layout.moment(h)]};
+    for (auto sample = after; sample != samples.end(); ++sample) {
+      const double moment = sample->values[layout.moment(h)];
+      all = {std::min(all[0], moment), std::max(all[1], moment)};
+      if (sample->t >= late) last = {std::min(last[0], moment), std::max(last[1], moment)};
+    }
+    if (last[1] - last[0] > settled_share * (all[1] - all[0])) return false;
+  }
+  return true;
+}
+
 MotionSample between(const MotionSample& from, const MotionSample& to, const MotionLayout& layout,
                      double t) {
   const double h = to.t - from.t, s = (t - from.t) / h;

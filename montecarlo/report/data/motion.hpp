@@ -46,6 +46,14 @@ private:
   long stride_ = 1, seen_ = 0;
 };
 
+/// The share of a ring's swing below which the ring is over.
+inline constexpr double settled_share = 0.05;
+
+/// Whether the ring after `since` is over: in the last quarter of the time since then, no moment moves by more than
+/// settled_share of its whole swing since then. (A quarter, so that a turning point of the ring is no end of it.)
+[[nodiscard]] bool has_settled(std::span<const MotionSample> samples, const MotionLayout& layout,
+                               double since);
+
 /// Interpolates between two samples: angles by the Hermite cubic through angles and rates, rates by its slope, others
 /// linearly. @param t between the samples' times, which differ
 [[nodiscard]] MotionSample between(const MotionSample& from, const MotionSample& to,

@@ -6,6 +6,7 @@
 #include "montecarlo/report/data/motion.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/results/results_folder/replay.hpp"
+#include "montecarlo/results/summary/broken_runs.hpp"
 
 #include <fmt/format.h>
 
@@ -71,18 +72,19 @@ void add_median(const PageSource& source, Choice& choice) {
                  static_cast<std::size_t>(row));
 }
 
-/// Adds the run that breaks a requirement worst; if none breaks it, the run nearest to its limit.
+/// Adds the run that tells most about a requirement: of the runs that deployed the one with the worst value. If there is
+/// no value, the run that did not deploy with the fewest latched hinges.
 void add_worst_of(const PageSource& source, const Verdict& verdict, Choice& choice) {
-  const Requirement& requirement = verdict.requirement;
-  const std::string label = "worst: " + name_of(requirement);
-  if (!verdict.broken.empty())
-    return choice.add(label, "breaks by most: " + to_string(requirement), verdict.broken.front());
-  const Column* column = column_named(source.results, requirement.output);
-  if (!column) return;
-  const auto row = largest(*column, [&](double value) {
-    return requirement.absolute ? std::abs(value) : requirement.max ? value : -value;
-  });
-  if (row) choice.add_row(label, "comes nearest to the limit of: " + to_string(requirement), *row);
+  const BrokenRuns broken = broken_runs(verdict, source.results, 1);
+  const std::string label = "worst: " + name_of(verdict.requirement);
+  if (broken.worst)
+    choice.add(label, broken.beyond > 0 ? "beyond the limit by most" : "nearest to the limit",
+               broken.worst->run);
+  else if (!broken.not_deployed_runs.empty())
+    choice.add(label, "did not deploy, with the fewest latched hinges",
+               broken.not_deployed_runs.front().run);
+  else if (!verdict.broken.empty())
+    choice.add(label, "breaks the requirement", verdict.broken.front());
 }
 
 /// Adds the run with the largest value of any output of a family.
@@ -102,18 +104,16 @@ void add_largest_of(const PageSource& source, std::string_view family, Choice& c
   if (of) choice.add_row("largest " + of->name, "largest " + of->name + " of all runs", best);
 }
 
-/// Adds the first run of each status except `deployed` and `invalid` (no motion).
+/// Adds the run with the fewest latched hinges of each status except `deployed` and `invalid` (no motion).
 void add_statuses(const PageSource& source, Choice& choice) {
-  for (const Status status : other_statuses) {
-    const auto found = std::ranges::find(source.results.status, status);
-    if (found != source.results.status.end())
-      choice.add_row(spaced(to_string(status)),
-                     fmt::format("the first run that {}", status == Status::stalled ? "stalled"
-                                                          : status == Status::failed
-                                                              ? "failed numerically"
-                                                              : "did not end by t_end"),
-                     static_cast<std::size_t>(found - source.results.status.begin()));
-  }
+  for (const Status status : other_statuses)
+    for (const LatchedRun& each : fewest_latched(source.results, status, 1))
+      choice.add(spaced(to_string(status)),
+                 fmt::format("of the runs that {}, one with the fewest latched hinges",
+                             status == Status::stalled  ? "stalled"
+                             : status == Status::failed ? "failed numerically"
+                                                        : "did not end by t_end"),
+                 each.run);
 }
 
 /// The page's MOTION of a run.
@@ -155,11 +155,40 @@ Json motion_json(const Scene& scene, MotionRecorder& recorder, const Outcome& ou
   return json;
 }
 
+/// Records a run until the moments have settled after `since`, or to t_end.
+/// @param run makes the run with the observer that it is given, which ends the run by an exception
+template <class Run>
+void record_until_settled(double since, const MotionLayout& layout, MotionRecorder& recorder,
+                          Run run) {
+  struct Settled {};
+  long seen = 0, next = 64; // each look reads all samples, so looks become rarer
+  try {
+    run([&, record = recorder.observer()](const Sample& sample) {
+      record(sample);
+      if (++seen < next || sample.t <= since) return;
+      if (has_settled(recorder.samples(), layout, since)) throw Settled{};
+      next = seen + seen / 16 + 16;
+    });
+  } catch (const Settled&) {
+  }
+}
+
+/// The last latch; 0 without latches.
+double last_latch(const Outcome& outcome) {
+  return outcome.latches.empty() ? 0 : outcome.latches.back().time;
+}
+
 Json nominal_json(const PageSource& source, std::size_t most) {
   const Campaign& campaign = source.stored.campaign;
-  MotionRecorder recorder(campaign.scene.hinges.size());
-  const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration,
-                                           goal_of(campaign.outputs), recorder.observer());
+  const Scene scene = nominal_scene(campaign);
+  Goal goal = goal_of(campaign.outputs);
+  const Outcome outcome = Deployment().run(scene, campaign.integration, goal);
+  goal.to_t_end = true;
+  MotionRecorder recorder(scene.hinges.size());
+  record_until_settled(last_latch(outcome), {scene.hinges.size()}, recorder,
+                       [&](const Observer& observer) {
+                         (void)Deployment().run(scene, campaign.integration, goal, observer);
+                       });
   Json json{{"label", "nominal"},
             {"why", "dispersions at their medians"},
             {"run", nullptr},
@@ -171,8 +200,15 @@ Json nominal_json(const PageSource& source, std::size_t most) {
 
 Json chosen_json(const PageSource& source, const RunPlan& plan, const ChosenRun& chosen,
                  std::size_t most) {
-  MotionRecorder recorder(source.stored.campaign.scene.hinges.size());
-  const Runner::Replay made = Runner(plan).replay(chosen.run, recorder.observer());
+  Runner runner(plan);
+  const Runner::Replay made = runner.replay(chosen.run, {});
+  const MotionLayout layout{source.stored.campaign.scene.hinges.size()};
+  MotionRecorder recorder(layout.hinges);
+  Goal goal = plan.goal();
+  goal.to_t_end = true;
+  record_until_settled(last_latch(made.outcome), layout, recorder, [&](const Observer& observer) {
+    (void)runner.watch(chosen.run, goal, plan.campaign().integration.t_end, observer);
+  });
   Json json{{"label", chosen.label},
             {"why", chosen.why},
             {"run", chosen.run},

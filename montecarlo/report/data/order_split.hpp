@@ -41,4 +41,16 @@ private:
   std::vector<std::size_t> of_code_; ///< group of each text of the column
 };
 
+/// The latch orders of the hinges of one wing.
+struct WingOrders {
+  std::string name; ///< what its hinges' names begin with, or the name of the hinge on the base
+  std::vector<std::string> hinges;
+  std::vector<OrderSplit::Group> orders; ///< all, the most frequent first, then by name
+  long without = 0;                      ///< runs in which none of its hinges latched
+};
+
+/// The orders of each wing; none for a scene with less than two wings. The hinges of two wings latch in many orders that
+/// differ only in how the wings' sequences interleave.
+[[nodiscard]] std::vector<WingOrders> wing_orders(const Results& results, const Scene& scene);
+
 } // namespace wingspread

@@ -7,6 +7,7 @@
 #include "montecarlo/report/data/output_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/wing_json.hpp"
+#include "montecarlo/results/summary/broken_runs.hpp"
 #include "montecarlo/results/summary/summary_json.hpp"
 #include "montecarlo/results/summary/warnings.hpp"
 
@@ -81,11 +82,43 @@ Json orders_json(const OrderSplit& orders) {
   return json;
 }
 
-Json broken_json(const Verdict& verdict) {
-  constexpr std::size_t most_broken_shown = 20;
-  const auto shown =
-      static_cast<std::ptrdiff_t>(std::min(verdict.broken.size(), most_broken_shown));
-  return std::vector<long>(verdict.broken.begin(), verdict.broken.begin() + shown);
+/// At most six orders of each wing.
+Json wing_orders_json(const PageSource& source) {
+  Json json = Json::array();
+  for (const WingOrders& wing : wing_orders(source.results, source.stored.campaign.scene)) {
+    Json orders = Json::array();
+    for (const auto& [name, count] : wing.orders)
+      if (orders.size() < OrderSplit::most_orders)
+        orders.push_back({{"order", name}, {"count", count}});
+    json.push_back({{"wing", wing.name},
+                    {"hinges", wing.hinges},
+                    {"orders", std::move(orders)},
+                    {"order_kinds", wing.orders.size()},
+                    {"without_latch", wing.without}});
+  }
+  return json;
+}
+
+Json run_json(const JudgedRun& each) {
+  return {{"run", each.run}, {"value", page_number(each.value)}};
+}
+
+/// The page's keys about the runs that break a requirement.
+Json broken_json(const Verdict& verdict, const Results& results) {
+  constexpr std::size_t most_broken_shown = 5;
+  const BrokenRuns broken = broken_runs(verdict, results, most_broken_shown);
+  Json json{{"broken", verdict.failures()},
+            {"not_deployed", broken.not_deployed},
+            {"without_value", broken.without_value},
+            {"cut", broken.cut},
+            {"beyond", broken.beyond},
+            {"worst", broken.worst ? run_json(*broken.worst) : Json(nullptr)},
+            {"beyond_runs", Json::array()},
+            {"not_deployed_runs", Json::array()}};
+  for (const JudgedRun& each : broken.beyond_runs) json["beyond_runs"].push_back(run_json(each));
+  for (const auto& [run, latched] : broken.not_deployed_runs)
+    json["not_deployed_runs"].push_back({{"run", run}, {"latched", latched}});
+  return json;
 }
 
 /// A requirement without its verdict.
@@ -97,16 +130,20 @@ Json asked_json(const Requirement& requirement) {
           {"kind", !limited          ? "status"
                    : requirement.max ? "<="
                                      : ">="},
-          {"limit", page_number(requirement.max ? requirement.max : requirement.min)},
+          {"limit", limited ? Json(*(requirement.max ? requirement.max : requirement.min))
+                            : Json(nullptr)}, // in full: the page shows it as it was written
           {"upper", !limited || requirement.max},
           {"abs", requirement.absolute},
           {"static_margin", requirement.static_margin.has_value()},
           {"group", requirement.group},
+          {"id", requirement.id},
+          {"source", requirement.source},
+          {"rationale", requirement.rationale},
           {"probability", requirement.probability},
           {"confidence", requirement.confidence}};
 }
 
-Json requirement_json(const Verdict& verdict) {
+Json requirement_json(const Verdict& verdict, const Results& results) {
   constexpr std::array words{"passed", "failed", "open"}; // in the order of Decision
   Json json = asked_json(verdict.requirement);
   json.update({{"verdict", words[static_cast<std::size_t>(verdict.decision)]},
@@ -117,10 +154,9 @@ Json requirement_json(const Verdict& verdict) {
                {"guaranteed_value", page_number(verdict.guaranteed)},
                {"margin", page_number(verdict.margin)},
                {"runs", verdict.runs},
-               {"broken", verdict.broken.size()},
                {"allowed", verdict.allowed ? Json(*verdict.allowed) : Json(nullptr)},
-               {"broken_runs", broken_json(verdict)},
                {"evidence", evidence(verdict)}});
+  json.update(broken_json(verdict, results));
   return json;
 }
 
@@ -137,9 +173,10 @@ std::vector<std::string> all_warnings(const PageSource& source, const PageDetail
   return lines;
 }
 
-Json requirements_json(const Summary& summary) {
+Json requirements_json(const Summary& summary, const Results& results) {
   Json json = Json::array();
-  for (const Verdict& verdict : summary.requirements) json.push_back(requirement_json(verdict));
+  for (const Verdict& verdict : summary.requirements)
+    json.push_back(requirement_json(verdict, results));
   return json;
 }
 
@@ -153,9 +190,10 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["orders"] = orders_json(*source.orders);
   json["order_kinds"] = summary.latch_order_kinds;
   json["without_latch"] = summary.without_latch;
+  json["wing_orders"] = wing_orders_json(source);
   json["warnings"] = all_warnings(source, detail);
   json["accuracy"] = accuracy_json(summary);
-  json["requirements"] = requirements_json(summary);
+  json["requirements"] = requirements_json(summary, source.results);
   json["outputs"] = outputs_json(source, detail, threads);
   json["correlations"] = correlations_json(source, detail);
   json["sensitivity"] = effects_json(source, detail);

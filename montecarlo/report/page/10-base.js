@@ -12,7 +12,7 @@
   W.sets = W.onlyStudies ? W.studySets.slice(0, 1) : all.filter((set) => !isStudy(set));
 
   // The reader's choices. `choose` calls every listener of the key.
-  W.chosen = { set: 0, output: null, split: "order", scale: "linear", angles: "rad", motion: 0, run: null };
+  W.chosen = { set: 0, output: null, split: "order", scale: "linear", angles: "deg", motion: 0, run: null };
   const listeners = {};
   W.on = function (key, listener) {
     (listeners[key] = listeners[key] || []).push(listener);

@@ -80,6 +80,17 @@
     const degrees = W.chosen.angles === "deg" && F.angular(unit);
     return { factor: degrees ? F.DEGREES : 1, unit: degrees ? unit.replace("rad", "deg") : F.unit(unit) };
   };
+  // A limit as its author wrote it: in degrees where that is the shorter number, "5 deg/s". The displayed unit follows in
+  // brackets if it is another.
+  F.written = function (value, unit) {
+    if (!F.angular(unit)) return `${F.given(value)} ${F.unit(unit)}`.trim();
+    const degrees = Number((value * F.DEGREES).toPrecision(12)),
+      short = String(degrees).length < String(value).length,
+      inDegrees = `${F.given(degrees)} ${F.unit(unit).replace("rad", "deg")}`,
+      inRadians = `${F.given(value)} ${F.unit(unit)}`;
+    if (short) return W.chosen.angles === "deg" ? inDegrees : `${inDegrees} (${F.number(value, 4)} ${F.unit(unit)})`;
+    return W.chosen.angles === "rad" ? inRadians : `${inRadians} (${F.number(degrees, 4)} ${F.unit(unit).replace("rad", "deg")})`;
+  };
   // A value of an output in the displayed unit, as precise as two digits of its spread. Value and spread are in SI units.
   F.value = function (value, unit, spread) {
     const { factor } = F.shown(unit);

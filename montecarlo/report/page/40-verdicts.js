@@ -31,6 +31,28 @@
     );
   }
 
+  // Counts of verdicts: { failed, open, passed }.
+  const tally = (verdicts) =>
+    Object.fromEntries(Object.keys(RANK).map((verdict) => [verdict, verdicts.filter((one) => one === verdict).length]));
+  // "2 fail, 3 pass", without zeros.
+  const tallyText = (counts) =>
+    [
+      counts.failed ? `${counts.failed} ${counts.failed === 1 ? "fails" : "fail"}` : null,
+      counts.open ? `${counts.open} undecided` : null,
+      counts.passed ? `${counts.passed} ${counts.passed === 1 ? "passes" : "pass"}` : null,
+    ]
+      .filter(Boolean)
+      .join(", ");
+  // "cold: 6 fail · ambient and hot: 2 fail, 4 pass": sets with equal counts share an entry.
+  function bySet(rows) {
+    const groups = new Map();
+    W.sets.forEach(function (set, at) {
+      const own = rows.filter((row) => row.at === at).map((row) => verdictOf(row.requirement.verdict));
+      const text = tallyText(tally(own)) || "no requirements";
+      groups.set(text, [...(groups.get(text) || []), set.label]);
+    });
+    return [...groups].map(([text, labels]) => `${listed(labels)}: ${text}`).join(" · ");
+  }
   function headline(rows) {
     if (!rows.length)
       return h(
@@ -41,38 +63,70 @@
     // The worst case of a requirement decides.
     const worstOf = new Map();
     for (const row of rows)
-      if (!worstOf.has(row.requirement.text)) worstOf.set(row.requirement.text, verdictOf(row.requirement.verdict));
+      if (!worstOf.has(keyOf(row.requirement))) worstOf.set(keyOf(row.requirement), verdictOf(row.requirement.verdict));
     const total = worstOf.size,
-      count = (verdict) => [...worstOf.values()].filter((one) => one === verdict).length;
-    const [failed, open, passed] = ["failed", "open", "passed"].map(count),
-      worst = failed ? "failed" : open ? "open" : "passed";
-    const noun = total === 1 ? "requirement" : "requirements",
+      counts = tally([...worstOf.values()]),
+      worst = counts.failed ? "failed" : counts.open ? "open" : "passed",
       several = W.sets.length > 1;
-    const failing = [
-      ...new Set(rows.filter((row) => verdictOf(row.requirement.verdict) === "failed").map((row) => row.set.label)),
-    ];
-    const where =
-      !several || !failed ? "" : failing.length === W.sets.length ? ", in every case" : `, in ${listed(failing)}`;
-    const text = failed
-      ? `${failed} of ${total} ${noun} not shown to be met${where}`
-      : open
-        ? `${open} of ${total} ${noun} undecided: too few runs to show ${open === 1 ? "it" : "them"}`
-        : `${total === 1 ? "The requirement is" : `All ${total} requirements are`} shown to be met${several ? " in every case" : ""}`;
-    const parts = [
-      failed && open ? `${open} undecided` : null,
-      passed && worst !== "passed" ? `${passed} passed${several ? " in every case" : ""}` : null,
-    ].filter(Boolean);
+    const failing = W.sets.filter((_, at) =>
+      rows.some((row) => row.at === at && verdictOf(row.requirement.verdict) === "failed"),
+    );
+    const where = !several ? "" : failing.length === 1 ? ` in ${failing[0].label}` : " in at least one case";
+    const all = total === 1 ? "The requirement" : worst === "passed" ? `All ${total} requirements` : `Each of ${total} requirements`;
+    const one = (count, many, single) => (count === 1 ? single : many);
+    const text = {
+      failed:
+        counts.failed === total
+          ? `${all} fails${where}`
+          : `${counts.failed} of ${total} requirements ${one(counts.failed, "fail", "fails")}${where}`,
+      open:
+        counts.open === total
+          ? `${all} is undecided: too few runs`
+          : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided: too few runs`,
+      passed: `${all} ${one(total, "pass", "passes")}${several ? " in every case" : ""}`,
+    }[worst];
     return h(
       "p",
       { class: `headline ${worst}` },
       W.badge(worst),
       " ",
       text,
-      parts.length ? h("small", ` ${parts.join(", ")}`) : null,
+      several && worst !== "passed"
+        ? h("small", ` ${bySet(rows)}`)
+        : counts[worst] < total
+          ? h("small", ` ${tallyText({ ...counts, [worst]: 0 })}`)
+          : null,
     );
+  }
+  // Requirements of two sets are the same if they limit the same output at the same level.
+  const keyOf = (one) => one.text;
+
+  // One sentence where wings that did not deploy are the only failures of a set.
+  function cause(rows) {
+    const sentences = W.sets.map(function (set, at) {
+      const failed = rows.filter((row) => row.at === at && verdictOf(row.requirement.verdict) === "failed");
+      const only = failed.every(({ requirement: one }) => one.not_deployed > 0 && one.not_deployed === one.broken);
+      if (failed.length < 2 || !only) return null;
+      const count = failed[0].requirement.not_deployed;
+      return `${W.sets.length > 1 ? `${set.label}: ` : ""}${F.count(count)} of ${F.runs(set.runs)} did not deploy, and a run that does not deploy breaks every requirement. No deployed run is beyond a limit.`;
+    });
+    return sentences.filter(Boolean).map((text) => h("p.lead", text));
   }
   const listed = (names) =>
     names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}` : names[0];
+
+  // The requirement in words: "SYS-4 moment: root peak moment ≤ 12 N·m, 99 % at 90 %".
+  function wordsOf(one, set) {
+    const name = [one.id, one.name].filter(Boolean).join(" ");
+    if (!W.isNumber(one.limit) || one.static_margin) return one.id ? `${one.id} ${one.text}` : one.text;
+    const output = one.abs ? `|${F.nameOf(one.output)}|` : F.nameOf(one.output);
+    return [
+      name ? `${name}: ` : "",
+      `${output} ${one.upper ? "≤" : "≥"} ${F.written(one.limit, unitOf(one, set))}, `,
+      `${F.given(100 * one.probability)} % at ${F.given(100 * one.confidence)} %`,
+      one.group ? ` in group ${one.group}` : "",
+    ].join("");
+  }
 
   function unitOf(requirement, set) {
     const output = W.outputsOf(set).find((one) => one.name === requirement.output);
@@ -81,12 +135,14 @@
   // Four significant digits, and two of the margin, so that the value differs visibly from its limit.
   function valueText(value, requirement, set) {
     if (!W.isNumber(value)) return F.none;
-    const size = (number) => (W.isNumber(number) && number !== 0 ? Math.floor(Math.log10(Math.abs(number))) : 0);
+    const { factor, unit } = F.shown(unitOf(requirement, set));
+    const size = (number) =>
+      W.isNumber(number) && number !== 0 ? Math.floor(Math.log10(Math.abs(number * factor))) : 0;
     const decimals = Math.max(
       3 - size(W.isNumber(requirement.guaranteed_value) ? requirement.guaranteed_value : value),
       W.isNumber(requirement.margin) ? 1 - size(requirement.margin) : 0,
     );
-    return `${decimals > 7 ? F.number(value, 4) : F.fixed(value, decimals)} ${F.unit(unitOf(requirement, set))}`.trim();
+    return `${decimals > 7 ? F.number(value * factor, 4) : F.fixed(value * factor, decimals)} ${unit}`.trim();
   }
   const observed = (one, set) =>
     W.isNumber(one.observed_value) ? valueText(one.observed_value, one, set) : F.share(one.observed);
@@ -96,8 +152,9 @@
     return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "too few runs";
   }
   function marginText(one, set) {
+    const { factor, unit } = F.shown(unitOf(one, set));
     if (W.isNumber(one.margin) && W.isNumber(one.limit))
-      return `${one.margin > 0 ? "+" : ""}${F.number(one.margin, 3)} ${F.unit(unitOf(one, set))}`.trim();
+      return `${one.margin > 0 ? "+" : ""}${F.number(one.margin * factor, 3)} ${unit}`.trim();
     return W.isNumber(one.guaranteed) && !W.isNumber(one.limit)
       ? `${one.guaranteed > one.probability ? "+" : ""}${F.fixed(100 * (one.guaranteed - one.probability), 2)} points`
       : F.none;
@@ -132,21 +189,41 @@
     return svg.node();
   }
 
-  function brokenRuns(one, at) {
-    if (!one.broken) return "0";
-    const runs = (one.broken_runs || [])
-      .slice(0, 5)
-      .map((run) => h("button.run", { onclick: () => W.selectRun(at, run) }, String(run)));
-    return [
-      F.count(one.broken),
-      runs.length
+  const runButtons = (runs, at) =>
+    (runs || [])
+      .slice(0, 3)
+      .flatMap((run, k) => [k ? ", " : " ", h("button.run", { onclick: () => W.selectRun(at, run) }, String(run))]);
+  // How many runs break a requirement, by cause, each with the runs that tell most.
+  function brokenRuns(one, set, at) {
+    const first = (count, runs) => (count > Math.min(3, (runs || []).length) ? " worst:" : count === 1 ? " run" : " runs");
+    const line = (text, count, runs) =>
+      h(
+        "span.cause",
+        text,
+        (runs || []).length ? h("span.runs", h("span.faint", first(count, runs)), runButtons(runs, at)) : null,
+      );
+    const limited = W.isNumber(one.limit),
+      side = one.upper ? "above" : "below",
+      worst = one.worst;
+    const lines = [
+      h("span.cause", F.count(one.broken)),
+      one.not_deployed
+        ? line(`${F.count(one.not_deployed)} not deployed`, one.not_deployed, (one.not_deployed_runs || []).map((each) => each.run))
+        : null,
+      limited && (one.beyond || one.not_deployed)
+        ? line(`${F.count(one.beyond)} ${side} the limit`, one.beyond, (one.beyond_runs || []).map((each) => each.run))
+        : null,
+      one.without_value ? line(`${F.count(one.without_value)} without this event`) : null,
+      one.cut ? line(`${F.count(one.cut)} with a peak that t_end cut`) : null,
+      limited && worst
         ? h(
-            "span.runs",
-            h("span.faint", one.broken > runs.length ? " worst: " : one.broken === 1 ? " run: " : " runs: "),
-            runs.flatMap((run, k) => (k ? [", ", run] : [run])),
+            "span.cause",
+            `${one.upper ? "largest" : "least"} ${valueText(worst.value, one, set)} of ${F.written(one.limit, unitOf(one, set))}`,
+            one.beyond ? null : [h("span.faint", " run"), runButtons([worst.run], at)],
           )
         : null,
     ];
+    return lines.filter(Boolean).flatMap((each) => [each, " "]); // the blank parts the lines for those who hear them
   }
 
   function requirementTable(rows) {
@@ -166,7 +243,7 @@
       cells: [
         h(
           "span",
-          one.text,
+          wordsOf(one, set),
           h("span.evidence", one.evidence, one.disproved && !/disproved/.test(one.evidence) ? " · disproved" : null),
         ),
         W.badge(one.verdict),
@@ -175,7 +252,7 @@
         guaranteed(one, set),
         marginText(one, set),
         bullet(one),
-        h("span", brokenRuns(one, at)),
+        h("span.causes", brokenRuns(one, set, at)),
       ].filter((cell) => cell !== false),
     }));
     return W.table("Requirements, the worst first", columns, body, { class: "requirements", stacks: true });
@@ -183,17 +260,23 @@
 
   // One cell per requirement and case.
   function matrix(rows) {
-    const texts = [...new Set(rows.map((row) => row.requirement.text))];
+    const texts = [...new Set(rows.map((row) => keyOf(row.requirement)))];
+    const words = (text) => {
+      const row = rows.find((one) => keyOf(one.requirement) === text);
+      return wordsOf(row.requirement, row.set);
+    };
     const cell = function (text, at) {
-      const row = rows.find((one) => one.at === at && one.requirement.text === text);
-      return row
-        ? h("span.cell", W.badge(row.requirement.verdict, true), marginText(row.requirement, row.set))
-        : F.none;
+      const row = rows.find((one) => one.at === at && keyOf(one.requirement) === text);
+      if (!row) return F.none;
+      const one = row.requirement,
+        margin = marginText(one, row.set),
+        known = margin !== F.none || !one.not_deployed;
+      return h("span.cell", W.badge(one.verdict, true), " ", known ? margin : `${F.count(one.not_deployed)} not deployed`);
     };
     return W.table(
       "Verdict and margin by case",
       ["Requirement", ...W.sets.map((set) => number(set.label))],
-      texts.map((text) => [text, ...W.sets.map((set, at) => cell(text, at))]),
+      texts.map((text) => [words(text), ...W.sets.map((set, at) => cell(text, at))]),
       { class: "matrix", showCaption: true },
     );
   }
@@ -203,7 +286,7 @@
     if (!rows.length) return [headline(rows)];
     const several = W.sets.length > 1;
     const shown = several
-      ? rows.filter((row, at) => rows.findIndex((one) => one.requirement.text === row.requirement.text) === at)
+      ? rows.filter((row, at) => rows.findIndex((one) => keyOf(one.requirement) === keyOf(row.requirement)) === at)
       : rows;
     const more =
       rows.length > shown.length
@@ -215,15 +298,16 @@
         : null;
     return [
       headline(rows),
+      cause(rows),
       several ? [matrix(rows), h("h3", "The worst case of each requirement")] : null,
       requirementTable(shown),
       h(
         "p.note",
-        "● observed: quantile (or share) of the runs. ┃ guaranteed: one-sided tolerance limit at the stated confidence; the requirement passes when it lies on the shaded side of the limit. Shares stand on a logarithmic scale: 90, 99, 99.9 % are equally far apart.",
+        "pass: the runs show the requirement at its confidence. fail: they do not, though enough runs were made. undecided: too few runs. ● observed: quantile (or share) of the runs. ┃ guaranteed: one-sided tolerance limit at the stated confidence; the requirement passes when it lies on the shaded side of the limit. Shares stand on a logarithmic scale: 90, 99, 99.9 % are equally far apart.",
       ),
       more,
     ];
   }
 
-  W.verdicts = { judged, requirements, verdictOf, unitOf, guaranteed, observed };
+  W.verdicts = { judged, requirements, verdictOf, unitOf, guaranteed, observed, marginText, wordsOf, keyOf };
 })();

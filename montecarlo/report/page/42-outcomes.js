@@ -103,27 +103,55 @@
         F.count(without),
         F.share(without / total),
       ]);
+    const title = h("h3", W.sets.length > 1 ? `Latch orders · ${set.label}` : "Latch orders"),
+      table = W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" });
+    if (!(set.wing_orders || []).length) return [title, table];
     return [
-      h("h3", W.sets.length > 1 ? `Latch orders · ${set.label}` : "Latch orders"),
-      W.table("Latch orders", ["Order", number("Runs"), number("Share")], rows, { class: "long-names" }),
+      title,
+      set.wing_orders.map((wing) => ordersOfWing(wing, total)),
+      h("details", h("summary", `Orders over all wings: ${F.counted(set.order_kinds, "kind")}`), table),
     ];
+  }
+  // The orders of one wing's hinges among themselves.
+  function ordersOfWing(wing, total) {
+    const short = (order) =>
+      order
+        .split(">")
+        .map((hinge) => (hinge.startsWith(wing.wing) ? hinge.slice(wing.wing.length).replace(/^[_\-. ]+/, "") || hinge : hinge))
+        .join(" › ");
+    const listed = d3.sum(wing.orders, (one) => one.count),
+      left = total - listed - wing.without_latch;
+    const rows = wing.orders.map((one) => [short(one.order), F.count(one.count), F.share(one.count / total)]);
+    if (left > 0)
+      rows.push([F.counted(wing.order_kinds - wing.orders.length, "other order"), F.count(left), F.share(left / total)]);
+    if (wing.without_latch)
+      rows.push(["no hinge latched", F.count(wing.without_latch), F.share(wing.without_latch / total)]);
+    return W.table(`Wing ${wing.wing}`, ["Order", number("Runs"), number("Share")], rows, {
+      class: "long-names",
+      showCaption: true,
+    });
   }
 
   function warnings() {
     const all = W.sets.flatMap((set) => (set.warnings || []).map((text) => ({ set, text })));
-    const texts = [...new Set(all.map((one) => one.text))];
+    // Warnings that differ in numbers only are one.
+    const kind = (text) => text.replace(/\d[\d.]*(e[-+]?\d+)?/g, "#");
+    const texts = [...new Map(all.map((one) => [kind(one.text), one.text]).reverse()).values()].reverse();
     const partial = W.sets
       .filter((set) => set.partial || (set.runs < set.planned && !set.stopped))
       .map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
     const items = [
       ...partial.map((text) => h("li", text)),
       ...texts.map(function (text) {
-        const where = all.filter((one) => one.text === text).map((one) => one.set.label);
+        const same = all.filter((one) => one.text === text).map((one) => one.set.label),
+          other = all.filter((one) => one.text !== text && kind(one.text) === kind(text)).map((one) => one.set.label),
+          where = [...new Set([...same, ...other])];
         return h(
           "li",
           text,
           W.sets.length > 1
-            ? h("span.faint", where.length === W.sets.length ? " (all)" : ` (${where.join(", ")})`)
+            ? h("span.faint", ` (${where.length === W.sets.length ? "all" : where.join(", ")}${other.length ? `; the numbers are those of ${same.join(", ")}` : ""})`,
+              )
             : null,
         );
       }),
@@ -214,6 +242,41 @@
     );
   }
 
+  // The document's number, revision, date, author and organisation, as the user gave them.
+  function identity(words) {
+    const kinds = [
+      ["document", "Document"],
+      ["revision", "Revision"],
+      ["date", "Date"],
+      ["author", "Author"],
+      ["organisation", "Organisation"],
+    ].filter(([key]) => words[key]);
+    return kinds.length
+      ? h("dl.identity", kinds.map(([key, name]) => h("div", h("dt", name), h("dd", words[key]))))
+      : null;
+  }
+  // Where requirements have an identifier, a source or a rationale, a table traces them.
+  function traced() {
+    const all = [...new Map(W.sets.flatMap((set) => (set.requirements || []).map((one) => [W.verdicts.keyOf(one), { one, set }]))).values()],
+      known = all.filter(({ one }) => one.id || one.source || one.rationale);
+    return known.length
+      ? [
+          h("h3", "Where the requirements come from"),
+          W.table(
+            "Identifier, source and rationale of each requirement",
+            ["Identifier", "Requirement", "Source", "Rationale"],
+            all.map(({ one, set }) => [
+              one.id || F.none,
+              W.verdicts.wordsOf({ ...one, id: "" }, set),
+              one.source || F.none,
+              one.rationale || F.none,
+            ]),
+            { class: "traced" },
+          ),
+        ]
+      : null;
+  }
+
   function subtitle() {
     const set = W.set(),
       one = (read) => [...new Set(W.sets.map(read))];
@@ -238,16 +301,21 @@
       `wingspread ${one((each) => each.version).join(", ")}`,
       `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`,
     ];
+    const words = W.data.document || {};
     W.fill(
       document.getElementById("subtitle"),
+      words.title ? h("p.wing-name", `Wing: ${W.data.title}`) : null,
+      identity(words),
       set.description ? h("p.description", set.description) : null,
       h(
         "p.facts",
         facts.filter(Boolean).map((fact) => h("span", fact)),
       ),
     );
-    document.getElementById("title").textContent = W.data.title;
-    document.title = `${W.data.title} · wingspread report`;
+    const wings = [...new Set(W.sets.map((each) => each.campaign))].filter(Boolean),
+      title = words.title || (wings.length > 1 ? wings.join(" and ") : W.data.title);
+    document.getElementById("title").textContent = title;
+    document.title = words.title || `${title} · wingspread report`;
     document.getElementById("colophon").textContent =
       `Made by ${W.data.command} (wingspread ${W.data.version}). This page contains its data and uses no network.`;
   }
@@ -273,6 +341,7 @@
         "div.first",
         h("div.judgement", W.verdicts.requirements()),
         h("div.columns", h("div", outcomes()), h("div", orders()), h("div", warnings(), accuracy())),
+        traced(),
         again(),
       ),
     );

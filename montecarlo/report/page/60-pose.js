@@ -136,8 +136,8 @@
       description: () =>
         `The wing drawn to scale at ${times.length} instants from stowed to ${W.format.number(end, 3)} s.`,
       table: () => ({
-        columns: ["time s", ...wing.hinges.map((hinge) => `${hinge.name} deg`)],
-        rows: times.map((time) => [time, ...P.at(motion, time).angles.map((angle) => angle * W.format.DEGREES)]),
+        columns: ["time s", ...wing.hinges.map((hinge) => `${hinge.name} ${W.format.shown("rad").unit}`)],
+        rows: times.map((time) => [time, ...P.at(motion, time).angles.map((angle) => angle * W.format.shown("rad").factor)]),
       }),
       draw: function (svg, width) {
         const poses = times.map((time) => P.at(motion, time)),
@@ -164,8 +164,8 @@
       printed: 300,
       description,
       table: () => ({
-        columns: ["hinge", "angle deg"],
-        rows: wing.hinges.map((hinge, at) => [hinge.name, angles[at] * W.format.DEGREES]),
+        columns: ["hinge", `angle ${W.format.shown("rad").unit}`],
+        rows: wing.hinges.map((hinge, at) => [hinge.name, angles[at] * W.format.shown("rad").factor]),
       }),
       draw: function (svg, width) {
         const scale = P.scale(P.bounds(wing, [{ angles }]), width, 170, 4),

@@ -4,7 +4,7 @@
   const W = window.wingspread;
   const calm = () => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 
-  const player = (W.player = { time: 0, playing: false, speed: 1, quantity: "moments", span: "whole", motion: null });
+  const player = (W.player = { time: 0, playing: false, speed: 1, quantity: "moments", span: "latches", motion: null });
   const listeners = [];
 
   function seek(time) {

@@ -5,11 +5,9 @@
   const { h, number, format: F, marks: M, pose: P } = W;
   const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10];
   const player = W.player,
-    QUANTITIES = {
-      moments: ["Moment", "N·m", 1],
-      angles: ["Angle", "deg", F.DEGREES],
-      rates: ["Rate", "deg/s", F.DEGREES],
-    };
+    QUANTITIES = { moments: ["Moment", "N m"], angles: ["Angle", "rad"], rates: ["Rate", "rad/s"] };
+  const angle = () => F.shown("rad"),
+    rate = () => F.shown("rad/s");
 
   function stage(wing, motion) {
     let scale, group;
@@ -28,8 +26,8 @@
       class: "stage",
       description: `The wing to scale, moving: ${motion.label}. ${motion.why || ""}`,
       table: () => ({
-        columns: ["time s", ...wing.hinges.map((hinge) => `${hinge.name} deg`)],
-        rows: motion.t.map((time, at) => [time, ...motion.angles.map((row) => row[at] * F.DEGREES)]),
+        columns: ["time s", ...wing.hinges.map((hinge) => `${hinge.name} ${angle().unit}`)],
+        rows: motion.t.map((time, at) => [time, ...motion.angles.map((row) => row[at] * angle().factor)]),
       }),
       draw: function (svg, width) {
         scale = P.scale(bounds, width, Math.max(220, Math.min(430, width * 0.62)), 4);
@@ -58,7 +56,8 @@
   function history(wing, motion) {
     let x, box, cursor;
     const clip = W.newId("clip");
-    const [text, unit, factor] = QUANTITIES[player.quantity],
+    const [text, quantity] = QUANTITIES[player.quantity],
+      { unit, factor } = F.shown(quantity),
       rows = motion[player.quantity] || [];
     const size = rows.map((row) => d3.max(row, (value) => Math.abs(value)) || 0),
       ranked = d3.range(rows.length).sort((a, b) => size[b] - size[a]);
@@ -148,8 +147,8 @@
     const whole = d3.extent(motion.t),
       latches = d3.extent(motion.latches || [], (latch) => latch.time);
     if (player.span === "whole" || latches[0] === undefined) return whole;
-    const room = Math.max(0.03 * whole[1], 0.25 * (latches[1] - latches[0]));
-    return [Math.max(whole[0], latches[0] - room), Math.min(whole[1], latches[1] + 3 * room)];
+    const room = Math.max(0.06 * latches[1], 0.25 * (latches[1] - latches[0]));
+    return [Math.max(whole[0], latches[0] - room), Math.min(whole[1], latches[1] + 5 * room)];
   }
 
   // The hinges' state at the cursor.
@@ -157,7 +156,7 @@
     const cells = wing.hinges.map(() => d3.range(4).map(() => document.createTextNode("")));
     const table = W.table(
       "Hinges at the cursor's time",
-      ["Hinge", number("Angle", "deg"), number("Rate", "deg/s"), number("Moment", "N·m"), "State"],
+      ["Hinge", number("Angle", angle().unit), number("Rate", rate().unit), number("Moment", "N·m"), "State"],
       wing.hinges.map((hinge, at) => [hinge.name, ...cells[at]]),
       { class: "readout" },
     );
@@ -166,8 +165,8 @@
       cells.forEach(function (row, at) {
         const latch = (motion.latches || []).find((one) => one.hinge === at);
         const texts = [
-          F.fixed(now.angles[at] * F.DEGREES, 2),
-          F.fixed(now.rates[at] * F.DEGREES, 2),
+          F.fixed(now.angles[at] * angle().factor, angle().factor === 1 ? 4 : 2),
+          F.fixed(now.rates[at] * rate().factor, rate().factor === 1 ? 4 : 2),
           F.fixed(now.moments[at], 2),
           latch
             ? latch.time <= player.time
@@ -292,7 +291,7 @@
           (motion.latches || []).length
             ? W.buttons(
                 "Time",
-                Object.entries({ whole: "whole run", latches: "while latching" }),
+                Object.entries({ latches: "while latching", whole: "whole run" }),
                 player.span,
                 choose("span"),
               )

@@ -13,11 +13,13 @@
       pairs.push([at, levels.length - 1 - at]);
     return { middle, pairs };
   }
-  const inDegrees = (value) => (W.isNumber(value) ? value * F.DEGREES : null);
+  // An angle or a rate in the displayed unit.
+  const shown = (value) => (W.isNumber(value) ? value * F.shown("rad").factor : null);
   const percent = (level) => `${Number((100 * level).toPrecision(4))} %`;
 
   function panel(svg, box, envelopes, rows, title, unit, range) {
     const { middle, pairs } = bands(envelopes.levels),
+      { factor } = F.shown("rad"),
       x = d3.scaleLinear(d3.extent(envelopes.t), [box.left, box.right]);
     const y = range.copy().range([box.bottom, box.top]);
     M.axes(svg, box, x, y, {
@@ -30,19 +32,19 @@
     pairs.forEach(([low, high], depth) =>
       M.put(svg, "path", {
         class: `envelope depth-${depth}`,
-        d: M.band(x, y)(envelopes.t.map((time, at) => [time, rows[low][at] * F.DEGREES, rows[high][at] * F.DEGREES])),
+        d: M.band(x, y)(envelopes.t.map((time, at) => [time, rows[low][at] * factor, rows[high][at] * factor])),
       }),
     );
     if (middle >= 0)
       M.put(svg, "path.median", {
-        d: M.line(x, y)(envelopes.t.map((time, at) => [time, rows[middle][at] * F.DEGREES])),
+        d: M.line(x, y)(envelopes.t.map((time, at) => [time, rows[middle][at] * factor])),
       });
   }
 
   function envelopeFigure(set, hinges, part, parts) {
     const { envelopes, wing } = set,
       { pairs } = bands(envelopes.levels);
-    const range = (rows) => M.linear(rows.flat().map(inDegrees), [0, 1]);
+    const range = (rows) => M.linear(rows.flat().map(shown), [0, 1]);
     return W.figure({
       title: `Envelopes of angles and rates${parts > 1 ? `, ${wing.hinges[hinges[0]].name} to ${wing.hinges[hinges[hinges.length - 1]].name}` : ""}`,
       class: "envelopes",
@@ -54,8 +56,8 @@
           "time s",
           ...hinges.flatMap((hinge) =>
             envelopes.levels.flatMap((level) => [
-              `${wing.hinges[hinge].name} angle ${percent(level)} deg`,
-              `${wing.hinges[hinge].name} rate ${percent(level)} deg/s`,
+              `${wing.hinges[hinge].name} angle ${percent(level)} ${F.shown("rad").unit}`,
+              `${wing.hinges[hinge].name} rate ${percent(level)} ${F.shown("rad/s").unit}`,
             ]),
           ),
         ],
@@ -63,7 +65,7 @@
           time,
           ...hinges.flatMap((hinge) =>
             envelopes.levels.flatMap((_, level) =>
-              [envelopes.angles, envelopes.rates].map((rows) => inDegrees(rows[hinge][level][at])),
+              [envelopes.angles, envelopes.rates].map((rows) => shown(rows[hinge][level][at])),
             ),
           ),
         ]),
@@ -95,7 +97,7 @@
               envelopes,
               envelopes[`${text}s`][hinge],
               `${wing.hinges[hinge].name} ${text}`,
-              second ? "deg/s" : "deg",
+              F.shown(second ? "rad/s" : "rad").unit,
               range(envelopes[`${text}s`][hinge]),
             );
           });
@@ -194,9 +196,11 @@
     if (drawn) W.fill(motionHost, W.motion(set));
     else if (W.onlyStudies) W.fill(motionHost);
     else W.fill(motionHost, h("p.nothing", "No run of this set can be replayed, so none is shown in motion."));
+    const anyRun = W.onlyStudies || !drawn ? null : W.anyRun(set);
     W.fill(
       host,
       motionHost,
+      anyRun,
       h(
         "div.stills",
         P.still(set.wing, P.stowed(set.wing), "Stowed", "The wing stowed, drawn to scale."),

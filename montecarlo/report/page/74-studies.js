@@ -88,6 +88,9 @@
   }
 
   function staticMargins({ hinges, kind, draws, lower_p: share }) {
+    const { factor, unit } = F.shown("rad");
+    // Mirrored hinges turn in opposite senses: their travels, from 0, coincide.
+    const travel = (one) => one.angle.map((angle) => Math.abs(angle - one.angle[0]) * factor);
     const part = hinges.slice(0, 7),
       dispersed = W.isNumber(share) ? `Least, ${F.level(share)} quantile` : "Least, dispersed",
       least = hinges.map((one) => [
@@ -108,11 +111,11 @@
             .map((one) => `${one.hinge}: least ${F.fixed(one.least, 2)}`)
             .join("; "),
         table: () => ({
-          columns: ["hinge", "angle deg", "margin", "margin, lower quantile", "required"],
+          columns: ["hinge", `travel ${unit}`, "margin", "margin, lower quantile", "required"],
           rows: hinges.flatMap((one) =>
-            one.angle.map((angle, at) => [
+            travel(one).map((angle, at) => [
               one.hinge,
-              angle * F.DEGREES,
+              angle,
               one.margin[at],
               (one.margin_lower || [])[at],
               one.required,
@@ -131,10 +134,10 @@
             ),
             box = M.boxFor(y, width, top, 250, 14);
           const x = M.linear(
-            part.flatMap((one) => one.angle.map((angle) => angle * F.DEGREES)),
+            part.flatMap(travel),
             [box.left, box.right],
           );
-          M.axes(svg, box, x, y, { xText: "hinge angle (deg)", yText: "margin" });
+          M.axes(svg, box, x, y, { xText: `travel from the stowed angle (${unit})`, yText: "margin" });
           for (const required of new Set(part.map((one) => one.required).filter(W.isNumber)))
             M.put(svg, "line.limit", { x1: box.left, x2: box.right, y1: y(required), y2: y(required) });
           part.forEach((one, at) =>
@@ -142,7 +145,7 @@
               ["path.trace", one.margin],
               ["path.trace.thin", one.margin_lower || []],
             ].forEach(([style, values]) =>
-              M.trace(svg, M.line(x, y)(one.angle.map((angle, k) => [angle * F.DEGREES, values[k]])), at, style),
+              M.trace(svg, M.line(x, y)(travel(one).map((angle, k) => [angle, values[k]])), at, style),
             ),
           );
           return box.bottom + 40;

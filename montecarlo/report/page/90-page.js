@@ -87,14 +87,42 @@
     W.fill(W.section("verdicts"), h("p.nothing", "This report contains no results."));
     return;
   }
+  // The printed contents: the sections and their parts, and the document's number at the foot of each page.
+  function contents() {
+    const sections = [...document.querySelectorAll("main > section:not([hidden])")];
+    const parts = (section) =>
+      [...section.querySelectorAll("h3")].filter((one) => !one.closest("details:not([open])")).map((one) => one.firstChild.textContent);
+    W.fill(
+      document.getElementById("contents"),
+      h("h2", "Contents"),
+      h(
+        "ol",
+        sections.map((section) =>
+          h(
+            "li",
+            h("a", { href: `#${section.id}` }, section.querySelector("h2").textContent),
+            h("span.faint", parts(section).length ? `: ${[...new Set(parts(section))].join(" · ")}` : ""),
+          ),
+        ),
+      ),
+    );
+  }
+  function foot() {
+    const words = W.data.document || {},
+      text = [words.organisation, words.document, words.revision && `revision ${words.revision}`, words.date].filter(Boolean).join(" · ");
+    if (!text) return;
+    document.head.append(h("style", `@page { @bottom-left { content: ${JSON.stringify(text).replace(/</g, "\\3c ")}; } }`));
+  }
+
   // Print all inputs, folded ones too.
   const opened = [];
-  window.addEventListener("beforeprint", () =>
+  window.addEventListener("beforeprint", function () {
     document.querySelectorAll("#inputs details:not([open])").forEach((one) => {
       one.open = true;
       opened.push(one);
-    }),
-  );
+    });
+    contents();
+  });
   window.addEventListener("afterprint", () => opened.splice(0).forEach((one) => (one.open = false)));
 
   theme();
@@ -102,5 +130,7 @@
   cases();
   draw();
   sections();
+  contents();
+  foot();
   reading();
 })();

@@ -3,6 +3,7 @@
 #include "montecarlo/report/data/differences.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/set_json.hpp"
+#include "montecarlo/report/kernel/kernel_json.hpp"
 #include "montecarlo/report/page/glossary.hpp"
 #include "montecarlo/report/page/modes_json.hpp"
 #include "montecarlo/report/page/page_files.hpp"
@@ -94,13 +95,28 @@ PageSources read_page_sources(std::span<const std::filesystem::path> folders, in
   return sources;
 }
 
-Json page_json(const PageSources& sources, const std::string& command, int threads) {
+namespace {
+
+/// The words on the first page: those given, then those of the first campaign that has them.
+Json header_json(const PageSources& sources, const ReportHeader& given) {
+  Json json = Json::object();
+  for (auto source = sources.runs.rbegin(); source != sources.runs.rend(); ++source)
+    json.update(write_report_header((*source)->stored.campaign.report));
+  json.update(write_report_header(given));
+  return json;
+}
+
+} // namespace
+
+Json page_json(const PageSources& sources, const ReportHeader& header, const std::string& command,
+               int threads) {
   const PageDetail detail = page_detail(extent_of(sources));
   const Pairs pairs = pairs_of(sources.runs);
   Json json{{"format", 1},
             {"version", version()},
             {"command", command},
             {"title", title_of(sources)},
+            {"document", header_json(sources, header)},
             {"glossary", glossary_json()},
             {"sets", Json::array()},
             {"comparisons", comparisons_json(sources, pairs)},
@@ -109,6 +125,8 @@ Json page_json(const PageSources& sources, const std::string& command, int threa
     json["sets"].push_back(set_json(*source, detail, threads));
     json["sets"].back()["static_margins"] = static_margins_json(source->stored.campaign);
     json["sets"].back()["modes"] = modes_json(nominal_scene(source->stored.campaign));
+    json["sets"].back()["kernel"] =
+        source->replayable() ? kernel_json(source->stored.campaign) : Json(nullptr);
   }
   for (const Json& set : sources.studies) json["sets"].push_back(set);
   return json;

@@ -22,8 +22,10 @@ struct PageSources {
                                             int threads);
 
 /// The data of the page (DATA.md).
+/// @param header  the words on the first page; they replace those of the campaigns
 /// @param command the command line that makes the page
-[[nodiscard]] Json page_json(const PageSources& sources, const std::string& command, int threads);
+[[nodiscard]] Json page_json(const PageSources& sources, const ReportHeader& header,
+                             const std::string& command, int threads);
 
 /// The page's HTML. The same folders give the same bytes on any number of threads.
 [[nodiscard]] std::string html_page(const Json& data);

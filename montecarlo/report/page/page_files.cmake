@@ -1,7 +1,7 @@
 # Writes the report's page as C++ text in two halves, before and behind its block of data. The halves contain the style and
 # the scripts, and d3 with its licence before the scripts (page/DATA.md describes the assembly).
 #
-#   cmake -DPAGE=DIR -DD3=FILE -DD3_LICENCE=FILE -DOUT=FILE -P page_files.cmake
+#   cmake -DPAGE=DIR -DD3=FILE -DD3_LICENCE=FILE [-DKERNEL=FILE] -DOUT=FILE -P page_files.cmake
 cmake_minimum_required(VERSION 3.25)
 
 file(READ ${PAGE}/index.html html)
@@ -33,6 +33,10 @@ foreach(marker style scripts data)
     message(FATAL_ERROR "${PAGE}/index.html: found no <!-- ${marker} -->, expected each of style, data and scripts")
   endif()
 endforeach()
+if(KERNEL)
+  file(READ ${KERNEL} kernel)
+  string(PREPEND scripts "<script type=\"application/octet-stream\" id=\"kernel\">${kernel}</script>\n")
+endif()
 string(REPLACE "<!-- style -->" "<style>\n${style}</style>" html "${html}")
 string(REPLACE "<!-- scripts -->" "${scripts}" html "${html}")
 string(FIND "${html}" "<!-- data -->" place)

@@ -44,11 +44,11 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
             {"replicates", 0},
             {"made_by", ""}};
   for (const char* list : {"statuses", "reasons", "orders", "warnings", "requirements", "outputs",
-                           "scatters", "motions"})
+                           "scatters", "motions", "wing_orders"})
     json[list] = Json::array();
   json["order_kinds"] = json["without_latch"] = 0;
   for (const char* block : {"accuracy", "correlations", "sensitivity", "wing", "envelopes",
-                            "static_margins", "modes", "margin", "rare"})
+                            "static_margins", "modes", "margin", "rare", "kernel"})
     json[block] = nullptr;
   json["inputs"] = {
       {"scene", Json::array()}, {"dispersions", Json::array()}, {"settings", Json::array()}};

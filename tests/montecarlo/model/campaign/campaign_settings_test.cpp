@@ -254,6 +254,19 @@ TEST_CASE("the looks before a campaign was extended are read, and written where 
         "draws");
 }
 
+TEST_CASE("The words on the report's first page are read and written", "[campaign_settings]") {
+  const char* text = R"({"title": "Wing", "document": "D-1", "date": "2026-11-25"})";
+  const auto [header, problems] = read(text, ReportHeader{}, read_report_header);
+  CHECK(problems.empty());
+  CHECK((header.title == "Wing" && header.document == "D-1" && header.author.empty()));
+  CHECK(write_report_header(header) == parse_json(text));
+  CHECK(read(R"({"titel": "Wing"})", ReportHeader{}, read_report_header).problems ==
+        "/titel: found the unknown key \"titel\", expected \"title\", \"author\", "
+        "\"organisation\", \"document\", \"revision\" or \"date\" (did you mean \"title\"?)");
+  CHECK(read(R"({"revision": ""})", ReportHeader{}, read_report_header).problems ==
+        "/revision: found string \"\", expected a string, not empty, without control characters");
+}
+
 TEST_CASE("Runs to be made again are written where they are not the usual number",
           "[campaign_settings]") {
   CHECK_FALSE(write_statistics({}).contains("accuracy_runs"));

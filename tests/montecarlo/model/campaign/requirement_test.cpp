@@ -42,6 +42,21 @@ TEST_CASE("Requirements are read, written in full and said in words", "[requirem
   CHECK(write_requirements(read_list_of_requirements(deployed)) == deployed);
 }
 
+TEST_CASE("A requirement may have an identifier, a source and a rationale", "[requirement]") {
+  Json given = two();
+  given[0].update({{"id", "SYS-4"}, {"source", "ICD 3.2"}, {"rationale", "root fitting"}});
+  const std::vector<Requirement> requirements = read_list_of_requirements(given);
+  CHECK(requirements[0].id == "SYS-4");
+  CHECK(requirements[0].source == "ICD 3.2");
+  CHECK(requirements[0].rationale == "root fitting");
+  CHECK(write_requirements(requirements) == given);
+  given[1]["id"] = "SYS-4";
+  std::vector<Requirement> repeated;
+  CHECK(test::problems_of(given, [&](const JsonCursor& at) {
+          read_requirements(at, &columns, all_columns, repeated);
+        }) == "/1/id: found string \"SYS-4\" a second time, expected an identifier of its own");
+}
+
 TEST_CASE("A limit may have its unit", "[requirement]") {
   const Json given = parse_json(R"([
     { "output": "root.peak_moment", "max": "4 kN*m", "probability": 0.99, "confidence": 0.9 },

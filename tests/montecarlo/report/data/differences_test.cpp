@@ -79,6 +79,42 @@ TEST_CASE("rows of one run stand beside each other", "[page]") {
   CHECK(rows.second == std::vector<std::size_t>{0, 2, 3});
 }
 
+TEST_CASE("folders are compared before the cases of a folder", "[page]") {
+  std::vector<std::unique_ptr<PageSource>> sets;
+  for (const auto& [argument, name] :
+       {std::pair(0, "cold"), std::pair(0, "hot"), std::pair(1, "cold"), std::pair(1, "hot")}) {
+    sets.push_back(std::make_unique<PageSource>());
+    sets.back()->argument = static_cast<std::size_t>(argument);
+    sets.back()->stored.campaign.of_case = name;
+  }
+  CHECK(pairs_of(sets).both ==
+        std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}, {1, 3}, {0, 1}, {2, 3}});
+}
+
+TEST_CASE("outputs with negative values are compared by their magnitudes", "[page]") {
+  const auto first = made(quick_campaign(20));
+  Json json = quick_campaign(20);
+  for (const char* torque : {"torque_stowed", "torque_latched"}) {
+    Json& value = json["scene"]["hinges"][0]["spring"][torque];
+    value = value.get<double>() * 1.2;
+  }
+  const auto stronger = made(json);
+  const Json compared = comparison_json(*first, *stronger, {0, 1});
+  const auto entry = std::ranges::find(compared["outputs"], "root.latch_rate",
+                                       [](const Json& each) { return each["output"]; });
+  const auto mean = [](const PageSource& source) {
+    const auto column = std::ranges::find(source.results.outputs, "root.latch_rate", &Column::name);
+    double sum = 0;
+    for (const double value : column->values) sum += std::abs(value);
+    return sum / 20;
+  };
+  REQUIRE(first->results.outputs[1].values[0] < 0); // the seed wing's root turns clockwise
+  CHECK((*entry)["magnitude"] == true);
+  CHECK((*entry)["difference"].get<double>() ==
+        Approx(mean(*stronger) - mean(*first)).epsilon(1e-5));
+  CHECK((*entry)["relative"].get<double>() > 0); // a stronger spring closes faster
+}
+
 TEST_CASE("sets are paired where their draws are the same", "[page]") {
   const auto first = made(quick_campaign(30));
   Json json = quick_campaign(20);

@@ -31,7 +31,7 @@ TEST_CASE("envelopes are quantiles of runs made again, on any number of threads"
   for (std::size_t level = 0; level < 7; ++level) {
     CHECK(json["angles"][0][level][0] == rounded(root.stowed, 5)); // all begin alike
     CHECK(std::abs(json["angles"][0][level][24].get<double>() - root.latched) < 0.02);
-    CHECK(json["rates"][0][level][24] == 0.0); // at rest behind the end
+    CHECK(json["rates"][0][level][24] != 0.0); // the ring goes on
   }
   std::vector<double> times(source->results.outputs[0].values.begin(),
                             source->results.outputs[0].values.end());

@@ -40,6 +40,20 @@ TEST_CASE("between steps a cubic motion is met exactly", "[page]") {
   }
 }
 
+TEST_CASE("a ring has settled where the last quarter moves by less than a twentieth", "[page]") {
+  const double decay = 2, rate = 30; // e^(−2t) cos 30t: 5 % after 1.5 s
+  std::vector<MotionSample> samples;
+  double settled = 0;
+  for (int k = 0; settled == 0 && k < 4000; ++k) {
+    const double t = 1 + k * 1e-3;
+    samples.push_back({t, {0, 0, std::exp(-decay * (t - 1)) * std::cos(rate * (t - 1)), 0, 0, 0}});
+    if (t > 1.01 && has_settled(samples, one, 1)) settled = t - 1;
+  }
+  // from the start of the last quarter on, the swing is 2 e^(−1.5 t) of 2: settled at ln 20 / 1.5
+  CHECK(settled == Approx(std::log(20) / 1.5).epsilon(0.1));
+  CHECK_FALSE(has_settled(samples, one, samples.back().t)); // nothing is after it
+}
+
 TEST_CASE("a run of many steps is thinned, and keeps its ends", "[page]") {
   MotionRecorder recorder(1);
   const auto samples = recorded(recorder, 100'000, 2);

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <tuple>
+
 using namespace wingspread;
 using namespace wingspread::test;
 
@@ -34,6 +36,38 @@ TEST_CASE("histograms by order of latching add up to the histogram, by hand", "[
   const Histogram bins{{0, 2, 4}, {2, 4}}; // 0, 1 | 2, 4, 2, 4: an inner edge counts above it
   const auto counts = split.counts(bins, results.outputs[0].values);
   CHECK(counts == std::vector<std::vector<long>>{{1, 2}, {1, 1}, {0, 1}});
+}
+
+TEST_CASE("each wing has its own orders, by hand", "[page]") {
+  Scene scene;
+  scene.bodies.resize(4);
+  for (const auto& [name, parent, child] :
+       {std::tuple("left_root", base_index, 0), std::tuple("left_tip", 0, 1),
+        std::tuple("right_root", base_index, 2), std::tuple("right_tip", 2, 3)}) {
+    Hinge hinge;
+    hinge.name = name;
+    hinge.parent = parent;
+    hinge.child = child;
+    scene.hinges.push_back(hinge);
+  }
+  const Results results = rows_with({{"left_root>right_root>left_tip>right_tip", 0},
+                                     {"right_root>left_root>left_tip>right_tip", 0},
+                                     {"right_tip>right_root>left_tip", 0},
+                                     {"left_root", 0},
+                                     {"", 0}});
+  const std::vector<WingOrders> wings = wing_orders(results, scene);
+  REQUIRE(wings.size() == 2);
+  CHECK(wings[0].name == "left");
+  CHECK(wings[1].name == "right");
+  CHECK(wings[1].hinges == std::vector<std::string>{"right_root", "right_tip"});
+  REQUIRE(wings[0].orders.size() == 3);
+  CHECK((wings[0].orders[0].name == "left_root>left_tip" && wings[0].orders[0].count == 2));
+  CHECK(wings[0].without == 1);
+  REQUIRE(wings[1].orders.size() == 2);
+  CHECK((wings[1].orders[0].name == "right_root>right_tip" && wings[1].orders[0].count == 2));
+  CHECK(wings[1].without == 2);
+  scene.hinges[2].parent = 1; // one wing
+  CHECK(wing_orders(results, scene).empty());
 }
 
 TEST_CASE("orders beyond the six most frequent stand together", "[page]") {

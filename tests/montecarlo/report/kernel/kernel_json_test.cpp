@@ -1,0 +1,121 @@
+#include "core/scene/torque.hpp"
+#include "montecarlo/engine/runs/run_plan.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
+#include "montecarlo/model/schema/schema.hpp"
+#include "montecarlo/report/kernel/campaign_numbers.hpp"
+#include "montecarlo/report/kernel/kernel_json.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <deque>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// Reads numbers as the kernel in the page does.
+class NumbersIn {
+public:
+  static constexpr bool reads = true;
+  explicit NumbersIn(const Json& json) {
+    for (const Json& each : json)
+      numbers_.push_back(each.is_number()     ? each.get<double>()
+                         : each == "Infinity" ? std::numeric_limits<double>::infinity()
+                                              : -std::numeric_limits<double>::infinity());
+  }
+  void number(double& value) {
+    places.push_back(&value);
+    value = next();
+  }
+  void integer(int& value) { value = static_cast<int>(next()); }
+  void list(std::vector<double>& values) {
+    values.resize(static_cast<std::size_t>(next()));
+    for (double& value : values) value = next();
+  }
+  void text(std::string& text) {
+    std::vector<double> bytes;
+    list(bytes);
+    for (const double byte : bytes) text += static_cast<char>(byte);
+  }
+  [[nodiscard]] bool at_end() const { return numbers_.empty(); }
+  std::vector<double*> places;
+
+private:
+  double next() {
+    const double value = numbers_.at(0);
+    numbers_.pop_front();
+    return value;
+  }
+  std::deque<double> numbers_;
+};
+
+/// A scene with the names of another, which the numbers do not hold.
+Scene named_like(Scene scene, const Scene& names) {
+  scene.name = names.name;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].name = names.bodies[i].name;
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i) scene.hinges[i].name = names.hinges[i].name;
+  for (std::size_t i = 0; i < scene.synchronisations.size(); ++i)
+    scene.synchronisations[i].name = names.synchronisations[i].name;
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("the kernel's numbers hold every part of a scene and every law", "[page]") {
+  long campaigns = 0;
+  for (const Json& specimen : campaign_specimens()) {
+    Json json = specimen;
+    if (json["scene"].is_string() || json.dump().find("no_such_file") != std::string::npos)
+      continue;
+    CAPTURE(json.dump());
+    const Campaign campaign = campaign_of(json);
+    const Json kernel = kernel_json(campaign);
+    NumbersIn reading(kernel["numbers"]);
+    NumberedCampaign read;
+    CampaignNumbers<NumbersIn> visit(reading);
+    visit.scene(read.scene);
+    visit.rest(read);
+    CHECK(reading.at_end());
+    CHECK(write_scene(named_like(read.scene, campaign.scene)) == write_scene(campaign.scene));
+    CHECK(read.design.seed == campaign.sampling.seed);
+    CHECK(read.integration.method == campaign.integration.method);
+    CHECK(read.integration.t_end == campaign.integration.t_end);
+    REQUIRE(read.dispersions.size() == campaign.dispersions.size());
+    for (std::size_t i = 0; i < read.dispersions.size(); ++i) {
+      CHECK(read.dispersions[i].name == campaign.dispersions[i].name);
+      CHECK(read.dispersions[i].distribution.law.index() ==
+            campaign.dispersions[i].distribution.law.index());
+    }
+    ++campaigns;
+  }
+  CHECK(campaigns > 3);
+}
+
+TEST_CASE("the kernel's effects change the scene as a run's draws do", "[page]") {
+  for (const Json& json : {full_campaign(20), campaign_specimens().front()}) {
+    const Campaign campaign = campaign_of(json);
+    NumbersIn reading(kernel_json(campaign)["numbers"]);
+    NumberedCampaign read;
+    CampaignNumbers<NumbersIn> visit(reading);
+    visit.scene(read.scene);
+    const std::vector<double*> places = reading.places;
+    visit.rest(read);
+    const RunPlan plan(campaign);
+    std::vector<double> draws(campaign.dispersions.size());
+    plan.draw(3, draws);
+    Scene scene = campaign.scene;
+    apply(campaign, draws, campaign.scene, scene);
+    for (std::size_t i = 0; i < draws.size(); ++i)
+      for (const NumberedEffect& effect : read.dispersions[i].effects) {
+        const double by =
+            effect.at.empty()
+                ? draws[i]
+                : Curve(effect.at, effect.value, Interpolation::monotone).value_at(draws[i]);
+        double& number = *places.at(static_cast<std::size_t>(effect.place));
+        number = effect.how == 0 ? by : effect.how == 1 ? number * by : number + by;
+      }
+    CHECK(write_scene(named_like(read.scene, scene)) == write_scene(scene));
+  }
+}
