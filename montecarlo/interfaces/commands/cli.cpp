@@ -92,12 +92,12 @@ int run_action(const Action& action) {
 
 std::span<const Command> all_commands() {
   static constexpr Command all[] = {
-      {"run", add_run},        {"simulate", add_simulate}, {"replay", add_replay},
-      {"check", add_check},    {"sample", add_sample},     {"analyze", add_analyze},
-      {"merge", add_merge},    {"size", add_size},         {"sensitivity", add_sensitivity},
-      {"rare", add_rare},      {"margin", add_margin},     {"report", add_report},
-      {"export", add_export},  {"methods", add_methods},   {"schema", add_schema},
-      {"version", add_version}};
+      {"run", add_run},       {"simulate", add_simulate}, {"replay", add_replay},
+      {"check", add_check},   {"sample", add_sample},     {"analyze", add_analyze},
+      {"merge", add_merge},   {"size", add_size},         {"sensitivity", add_sensitivity},
+      {"rare", add_rare},     {"margin", add_margin},     {"fit", add_fit},
+      {"report", add_report}, {"export", add_export},     {"methods", add_methods},
+      {"schema", add_schema}, {"version", add_version}};
   return all;
 }
 
