@@ -1,24 +1,15 @@
 #include "montecarlo/analyses/rare/rare_event.hpp"
 
-#include "distributions/continuous_law.hpp"
 #include "montecarlo/foundation/formats/spec_error.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace wingspread {
 namespace {
-
-/// Φ(z) and 1 − Φ(z), both above 0. Both are needed: beyond z = 8.2, Φ rounds to 1 and only 1 − Φ tells points apart.
-Tails unit_point(double z) {
-  constexpr double least = std::numeric_limits<double>::min();
-  const auto [below, above] = tails(Normal{}, z);
-  return {std::max(below, least), std::max(above, least)};
-}
 
 double distance(const NormalPoint& z) {
   Sum square;
@@ -63,7 +54,10 @@ public:
 
   [[nodiscard]] LikeliestRun run_at(const NormalPoint& z) {
     points_ = {&z, 1};
-    LikeliestRun likeliest{distance(z), z, std::vector<double>(z.size()), {}, {}};
+    LikeliestRun likeliest{
+        distance(z), {}, std::vector<double>(plan_.names().draws.size()), {}, {}};
+    for (const std::size_t coordinate : plan_.coordinates().of)
+      likeliest.z.push_back(z[coordinate]);
     plan_.draw(0, likeliest.draws);
     ResultRow row = Runner(plan_).run(0);
     likeliest.status = row.status;
@@ -112,7 +106,8 @@ RareResult estimate_rare_event(const Campaign& campaign, const RareOptions& opti
                                static_cast<std::uint64_t>(k)};
     most = made + (options.repeats - k) *
                       most_evaluations(subset); // an upper bound: a repeat may end early
-    result.estimates.push_back(subset_simulation(g, campaign.dispersions.size(), subset));
+    result.estimates.push_back(
+        subset_simulation(g, coordinates_of(campaign.dispersions).names.size(), subset));
   }
   result.estimate = combined(result.estimates, options.confidence);
   result.likeliest = likeliest_of(result.estimates, runs);

@@ -25,7 +25,7 @@ struct RareOptions {
 /// The run of the event whose point is nearest to the origin of the normal space: the most likely one sampled.
 struct LikeliestRun {
   double distance; ///< |z|
-  NormalPoint z;   ///< before the copula
+  NormalPoint z;   ///< of each dispersion, before the copula
   std::vector<double> draws;
   Status status;
   std::string reason;

@@ -37,7 +37,9 @@ Stamp stamp_of(const SaltelliDesign& design) {
 }
 
 RunRange runs_of(const SaltelliDesign& design) {
-  return shard_runs(saltelli_runs(design.rows, design.campaign.dispersions.size()), design.shard);
+  return shard_runs(
+      saltelli_runs(design.rows, coordinates_of(design.campaign.dispersions).names.size()),
+      design.shard);
 }
 
 std::string design_text(const SaltelliDesign& design) {

@@ -15,10 +15,10 @@ namespace {
 /// Names of the coordinates of A, then of B. B's have a control character, which no dispersion's name may contain, so that
 /// they differ from A's and sort behind them.
 std::vector<std::string> coordinates(const Campaign& campaign) {
+  const Coordinates one = coordinates_of(campaign.dispersions);
   std::vector<std::string> names;
   for (const char* prefix : {"", "\x7F"})
-    for (const Dispersion& dispersion : campaign.dispersions)
-      names.push_back(prefix + dispersion.name);
+    for (const std::string& name : one.names) names.push_back(prefix + name);
   return names;
 }
 
@@ -62,7 +62,7 @@ long saltelli_runs(long rows, std::size_t dispersions) {
 RunPlan saltelli_plan(const Campaign& campaign, long rows) {
   refuse_unsuitable(campaign);
   const auto shared = std::make_shared<const PreparedDesign>(design(campaign, rows));
-  const std::size_t d = campaign.dispersions.size();
+  const std::size_t d = coordinates_of(campaign.dispersions).names.size();
   return {campaign, [shared, d](long run, std::span<Tails> u) {
             const SaltelliPoint point = saltelli_point(run, d);
             for (std::size_t i = 0; i < d; ++i) {

@@ -21,17 +21,16 @@ std::vector<std::string> SobolSensitivity::idle() const {
   return names;
 }
 
-SobolSensitivity sobol_sensitivity(const Results& results, long rows, std::string design,
-                                   const SobolBounds& bounds) {
-  const std::size_t d = results.draws.size();
+SobolSensitivity sobol_sensitivity(const Results& results, std::vector<std::string> coordinates,
+                                   long rows, std::string design, const SobolBounds& bounds) {
+  const std::size_t d = coordinates.size();
   SobolSensitivity all{rows,
                        static_cast<long>(results.size()),
                        rows * static_cast<long>(d + 2),
                        std::move(design),
                        bounds,
-                       {},
+                       std::move(coordinates),
                        {}};
-  for (const Column& draw : results.draws) all.dispersions.push_back(draw.name);
   for (const Column& output : results.outputs)
     all.outputs.push_back({output.name, sobol_indices(output.values, d, bounds)});
   const Column deployed = deployed_column(results);

@@ -27,8 +27,10 @@ struct SobolSensitivity {
 };
 
 /// The indices of all outputs, and of `deployed` (deployed_column()) if it varies.
-/// @param results of a Saltelli design, beginning with its first run
-[[nodiscard]] SobolSensitivity sobol_sensitivity(const Results& results, long rows,
+/// @param results     of a Saltelli design, beginning with its first run
+/// @param coordinates names of the design's coordinates: all columns of one `rows` are one
+[[nodiscard]] SobolSensitivity sobol_sensitivity(const Results& results,
+                                                 std::vector<std::string> coordinates, long rows,
                                                  std::string design, const SobolBounds& bounds);
 
 } // namespace wingspread

@@ -38,7 +38,7 @@ std::string chunk_message(const Chunk& chunk, const RunPlan& plan) {
   packer.put(MessageKind::chunk);
   packer.put(chunk);
   if (plan.has_own_points()) {
-    std::vector<Tails> point(plan.campaign().dispersions.size());
+    std::vector<Tails> point(plan.coordinates().names.size());
     for (long run = chunk.runs.first; run < chunk.runs.last; ++run) {
       plan.place(run, point);
       for (const Tails& u : point) packer.put(u);
@@ -49,8 +49,8 @@ std::string chunk_message(const Chunk& chunk, const RunPlan& plan) {
 
 Chunk read_chunk(Deserializer& message) { return message.take<Chunk>(); }
 
-std::vector<Tails> read_points(Deserializer& message, long runs, std::size_t dispersions) {
-  std::vector<Tails> points(static_cast<std::size_t>(runs) * dispersions);
+std::vector<Tails> read_points(Deserializer& message, long runs, std::size_t coordinates) {
+  std::vector<Tails> points(static_cast<std::size_t>(runs) * coordinates);
   for (Tails& u : points) u = message.take<Tails>();
   return points;
 }

@@ -44,9 +44,9 @@ struct PlanDescription {
 /// @param plan if the plan has its own points, those of the chunk are added
 [[nodiscard]] std::string chunk_message(const Chunk& chunk, const RunPlan& plan);
 [[nodiscard]] Chunk read_chunk(Deserializer& message);
-/// The points after a chunk, run by run. @param dispersions of the campaign
+/// The points after a chunk, run by run. @param coordinates of the plan
 [[nodiscard]] std::vector<Tails> read_points(Deserializer& message, long runs,
-                                             std::size_t dispersions);
+                                             std::size_t coordinates);
 
 struct FinishedChunk {
   Chunk chunk;

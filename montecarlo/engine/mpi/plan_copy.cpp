@@ -50,7 +50,8 @@ ThreadPool PlanCopy::pool() const {
 
 void PlanCopy::expect(const Chunk& chunk, Deserializer& message) {
   if (!description_.own_points) return;
-  Points points{chunk.runs, read_points(message, chunk.runs.size(), campaign_.dispersions.size())};
+  Points points{chunk.runs,
+                read_points(message, chunk.runs.size(), plan_->coordinates().names.size())};
   const std::lock_guard lock(guard_);
   points_.emplace(chunk.runs.first, std::move(points));
 }

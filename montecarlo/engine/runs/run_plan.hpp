@@ -18,8 +18,12 @@
 namespace wingspread {
 
 /// A rule that places runs in the unit cube, in place of the campaign's design. Pure.
-/// @param u output, one coordinate per dispersion in order, each given by both tail probabilities, > 0
+/// @param u output, in the order of coordinates_of(dispersions), each given by both tail probabilities, > 0
 using UnitPoints = std::function<void(long run, std::span<Tails> u)>;
+
+/// A coordinate at z of the standard normal law: Φ(z) and 1 − Φ(z), both above 0. Both are needed: beyond z = 8.2, Φ
+/// rounds to 1 and only 1 − Φ tells points apart.
+[[nodiscard]] Tails unit_point(double z);
 
 /// A single number computed from a run, in place of the campaign's outputs.
 struct Measure {
@@ -60,7 +64,9 @@ public:
 
   /// Whether UnitPoints replace the campaign's design.
   [[nodiscard]] bool has_own_points() const { return bool(points_); }
-  /// Run k's point of the unit cube. Pure. @param u output, one per dispersion
+  /// The coordinates of the unit cube.
+  [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
+  /// Run k's point of the unit cube. Pure. @param u output, one per coordinate
   void place(long k, std::span<Tails> u) const;
 
 private:
@@ -69,10 +75,12 @@ private:
   std::optional<Measure> measure_;
   Goal goal_;
   ResultNames names_;
+  Coordinates coordinates_;
   std::vector<PreparedDistribution> distributions_;
   PreparedDesign design_;
   GaussianCopula copula_;
-  UnitPoints points_; ///< empty: the campaign's design
+  bool has_rows_ = false; ///< a dispersion is a column of `rows`
+  UnitPoints points_;     ///< empty: the campaign's design
 };
 
 } // namespace wingspread

@@ -105,6 +105,7 @@ std::span<const Command> all_commands() {
                                     {"sensitivity", add_sensitivity},
                                     {"rare", add_rare},
                                     {"margin", add_margin},
+                                    {"fit", add_fit},
                                     {"report", add_report},
                                     {"export", add_export},
                                     {"methods", add_methods},

@@ -93,7 +93,9 @@ int analyze_design(const SaltelliDesign& design, const Results& results,
       has_replicates(sampling) ? static_cast<int>(saltelli_replicates(sampling, design.rows)) : 0;
   const SobolBounds bounds{confidence_of(options.confidence, design.campaign.statistics),
                            replicates, options.resamples, sampling.seed};
-  show_analysis(sobol_sensitivity(results, design.rows, kind, bounds), stamp_json(stamp_of(design)),
+  show_analysis(sobol_sensitivity(results, coordinates_of(design.campaign.dispersions).names,
+                                  design.rows, kind, bounds),
+                stamp_json(stamp_of(design)),
                 fmt::format("{} · {} samples, {} runs · {}, seed {} · Sobol' indices",
                             design.campaign.scene.name, design.rows, results.size(), kind,
                             sampling.seed),
@@ -171,7 +173,7 @@ int run_design(const SensitivityOptions& options) {
   const ThreadPool pool = pool_of(options.machine);
   const SaltelliDesign design = design_of(options);
   const RunPlan plan = saltelli_plan(design.campaign, design.rows);
-  const long runs = saltelli_runs(design.rows, design.campaign.dispersions.size());
+  const long runs = saltelli_runs(design.rows, plan.coordinates().names.size());
   if (runs > most_runs)
     throw SpecError({{"", "--samples", fmt::format("{}, which take {} runs", design.rows, runs),
                       fmt::format("at most {} runs", most_runs)}});

@@ -29,6 +29,7 @@ void add_sample(CLI::App& app, Action& action);
 void add_sensitivity(CLI::App& app, Action& action);
 void add_rare(CLI::App& app, Action& action);
 void add_margin(CLI::App& app, Action& action);
+void add_fit(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_methods(CLI::App& app, Action& action);

@@ -6,6 +6,7 @@
 ///     const ws::Outcome nominal = ws::simulate(ws::from_file("three_panel.json"));
 ///     const ws::Table runs = ws::run(ws::from_file("campaign.json"), {.runs = 2000});
 ///     for (double moment : runs.numbers("root.peak_moment")) …
+///     const ws::Fit fit = ws::fit(ws::from_file("campaign.json"), ws::from_file("tests.json"));
 ///
 /// All numbers are in SI units and radians. The same seed gives the same bits as the program, with any number of threads.
 /// Errors: wingspread::SpecError for wrong input, wingspread::MachineError if the machine lacks memory, disk space or a
@@ -148,6 +149,27 @@ private:
 /// @param of_case the case, for a campaign with cases
 /// @throws SpecError, MachineError
 [[nodiscard]] Table read(const std::filesystem::path& folder, const std::string& of_case = {});
+
+/// The options of `wingspread fit`.
+struct FitRequest {
+  std::filesystem::path out{}; ///< the folder to write, new or empty; empty: writes no files
+  std::optional<std::uint64_t> seed{};
+  long runs = 0;                           ///< most runs of the sampler; 0: 100 for each sample
+  int threads = 0;                         ///< 0: all processors
+  const std::atomic<bool>* stop = nullptr; ///< once true, no further run begins
+};
+
+/// The fit of a campaign's parameters to deployment tests.
+struct Fit {
+  std::string json;              ///< fit.json; `prediction` only with a folder
+  std::vector<Series> posterior; ///< posterior.csv, by parameter
+  bool finished = false;         ///< false: the chains are too short, and the numbers are no result
+};
+
+/// Fits parameters to tests.
+/// @param tests the tests' JSON; files named in it are relative to its directory
+/// @throws SpecError, MachineError; wingspread::Stopped after a stop
+[[nodiscard]] Fit fit(const Input& campaign, const Input& tests, const FitRequest& request = {});
 
 /// A wing as a function y(x) of some of its parameters: for optimisers, designs of experiments and surrogates.
 class Model {

@@ -81,6 +81,18 @@ py::tuple simulate_it(const Input& input, const Settings& settings, std::optiona
   return py::make_tuple(outcome.json, trajectory);
 }
 
+py::tuple fit_it(const Input& campaign, const Input& tests, const std::filesystem::path& out,
+                 std::optional<std::uint64_t> seed, long runs, int threads) {
+  const Fit made = run_interruptibly([&](const std::atomic<bool>& stop) {
+    return fit(campaign, tests, {out, seed, runs, threads, &stop});
+  });
+  py::dict posterior;
+  for (const Series& series : made.posterior)
+    posterior[py::str(series.name)] =
+        py::array_t<double>(static_cast<py::ssize_t>(series.values.size()), series.values.data());
+  return py::make_tuple(made.json, posterior);
+}
+
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 py::array evaluate_it(const Model& model, const Numbers& x, int threads) {
@@ -178,6 +190,8 @@ PYBIND11_MODULE(_native, module) {
              py::arg("of_case"), py::arg("set"), "Makes a campaign's runs");
   module.def("simulate", &simulate_it, py::arg("input"), py::arg("settings"), py::arg("interval"),
              py::arg("check"), "Returns the outcome as JSON, and the trajectory's columns");
+  module.def("fit", &fit_it, py::arg("campaign"), py::arg("tests"), py::arg("out"), py::arg("seed"),
+             py::arg("runs"), py::arg("threads"), "Returns fit.json and the posterior's columns");
   module.def("read", &read, py::arg("folder"), py::arg("of_case"),
              "Reads the rows of a results folder");
 }

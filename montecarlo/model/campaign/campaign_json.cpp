@@ -214,7 +214,8 @@ private:
       campaign_.wanted_correlations =
           read_wanted_correlations(*at, named_ ? &campaign_.dispersions : nullptr);
     if (const auto at = object_.find("dispersions"))
-      refuse_dimensions(*at, campaign_.sampling, campaign_.dispersions.size());
+      refuse_dimensions(*at, campaign_.sampling,
+                        coordinates_of(campaign_.dispersions).names.size());
   }
 
   void read_guarantees() {

@@ -74,6 +74,9 @@ private:
       if (dispersions_ && !listed)
         place.refuse(fmt::format("\"{}\"", name),
                      "the name of a dispersion" + did_you_mean(name, dispersion_names()));
+      if (listed && listed->contains("rows"))
+        place.refuse(fmt::format("\"{}\", which draws rows", name),
+                     "the name of a dispersion with a distribution");
       spec.distributions.push_back(
           {name, read_distribution(place, directory_,
                                    listed ? unit_of_draws(*listed, scene_) : std::string_view())});

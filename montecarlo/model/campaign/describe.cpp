@@ -44,6 +44,7 @@ std::string describe_table(const Curve& table) {
 /// One line, and one more for each entry of a `through`.
 std::string describe_dispersion(const Scene& scene, const Dispersion& dispersion) {
   std::string text = fmt::format("{}: {}", dispersion.name, describe(dispersion.distribution));
+  if (!dispersion.rows.empty()) text += fmt::format(", a column of the rows {}", dispersion.rows);
   for_each_effect(dispersion, [&](Apply how, const auto& targets, const Curve* table) {
     const std::string_view verb = apply_names[static_cast<std::size_t>(how)];
     text += table ? fmt::format("\n    {} by {}: {}", verb, describe_table(*table),

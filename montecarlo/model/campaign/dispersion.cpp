@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -169,6 +170,94 @@ std::vector<Dispersion> read_targets(JsonObject& object, const Scene* scene, Dis
   return {std::move(dispersion)};
 }
 
+constexpr const char* expected_column =
+    "a path, an array of paths, or an object with to and apply, or with through";
+
+/// Reads the effect of one column of rows.
+Dispersion read_row_column(const JsonCursor& at, const std::string& name, Apply apply,
+                           const Scene* scene, Json& resolved) {
+  Dispersion column{name, {}, apply, {}};
+  if (at.value().is_string()) {
+    for (const ParameterMatch& match : read_path(at, scene))
+      column.targets.push_back(match.parameter);
+  } else if (at.value().is_array()) {
+    column.targets = read_paths(at, scene);
+  } else {
+    JsonObject object(at, expected_column);
+    if (const auto through = object.find("through")) {
+      read_through(*through, scene, column, resolved["through"]);
+    } else {
+      object.optional_choice("apply", column.apply, apply_names);
+      if (const auto to = object.require("to", "an array of at least one parameter's path"))
+        column.targets = read_paths(*to, scene);
+    }
+    object.refuse_others();
+  }
+  return column;
+}
+
+/// Reads the values of all columns: from the file, or from "values" as a resolved campaign has them.
+void read_row_values(JsonObject& object, const std::filesystem::path& directory,
+                     std::vector<Dispersion>& columns, Json& resolved) {
+  std::string name;
+  const auto values = object.find("values"), file = object.find("file");
+  if (object.is_object() && values.has_value() == file.has_value())
+    return void(object.at().refuse(values ? "both values and a file" : "neither a file nor values",
+                                   "one of them"));
+  if (file && !file->read(name, "a string, the name of a CSV file")) return;
+  resolved["values"] = Json::object();
+  std::optional<JsonObject> list;
+  if (values)
+    list.emplace(*values, "an object with the values of each column"), list->keys_are_names();
+  std::size_t rows = 0;
+  for (Dispersion& column : columns) {
+    Empirical law;
+    const std::size_t before = object.at().problems().size();
+    if (file)
+      read_csv_column(object.at(), name, column.name, directory, law.values);
+    else
+      list->required(column.name, law.values, "an array of numbers");
+    if (object.at().problems().size() > before) continue;
+    if (rows == 0) rows = law.values.size();
+    if (law.values.empty() || law.values.size() != rows)
+      object.at().refuse(
+          fmt::format("{} rows in the column \"{}\"", law.values.size(), column.name),
+          rows == 0 ? "at least one" : fmt::format("{}, as in the others", rows));
+    resolved["values"][column.name] = law.values;
+    column.distribution.law = std::move(law);
+  }
+  if (list) list->refuse_others();
+}
+
+/// Reads a dispersion whose columns are drawn together, a row a run.
+std::vector<Dispersion> read_rows(const JsonCursor& at, const std::string& name, const Scene* scene,
+                                  const std::filesystem::path& directory, Json& resolved) {
+  std::vector<Dispersion> columns;
+  JsonObject object(at, "rows: an object with file, columns and apply");
+  Apply apply = Apply::set;
+  object.required_choice("apply", apply, apply_names);
+  const auto named = object.require("columns", "an object with paths by the names of columns");
+  if (named) {
+    if (!named->value().is_object() || named->value().empty())
+      named->refuse("an object with paths by the names of columns, at least one");
+    else
+      for (const auto& [column, effect] : named->value().items()) {
+        const JsonCursor place = named->member(column);
+        if (!is_column_name(column))
+          place.refuse(fmt::format("the column \"{}\"", column),
+                       "a name, not empty, without commas, quotes and control characters");
+        columns.push_back(
+            read_row_column(place, column, apply, scene, resolved["columns"][column]));
+        columns.back().rows = name;
+      }
+    named->note(Question::What::names, "");
+  }
+  resolved.erase("file");
+  read_row_values(object, directory, columns, resolved);
+  object.refuse_others();
+  return columns;
+}
+
 std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene,
                                         const std::filesystem::path& directory, Json& resolved) {
   Dispersion dispersion;
@@ -176,6 +265,11 @@ std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene
   object.required("name", dispersion.name,
                   "a string, not empty, without commas, quotes and control characters",
                   is_column_name);
+  if (const auto rows = object.find("rows")) {
+    auto columns = read_rows(*rows, dispersion.name, scene, directory, resolved["rows"]);
+    object.refuse_others();
+    return columns;
+  }
   if (const auto law = object.require("distribution", "a distribution: an object with its type")) {
     dispersion.distribution = read_distribution(*law, directory, unit_of_draws(at.value(), scene));
     resolved["distribution"] = write_distribution(dispersion.distribution);
@@ -188,10 +282,9 @@ std::vector<Dispersion> read_dispersion(const JsonCursor& at, const Scene* scene
 /// Notes each name that is another column's, or has the random stream of another name.
 void check_names(const std::vector<Sourced>& all) {
   std::map<std::uint64_t, std::string> streams;
-  for (const auto& [dispersion, at] : all) {
-    const std::string& name = dispersion.name;
-    if (name.empty()) continue; // has a problem already
-    const auto refuse = [&, &place = at](const std::string& found, std::string_view expected) {
+  const auto check = [&](const std::string& name, const JsonCursor& place) {
+    if (name.empty()) return; // has a problem already
+    const auto refuse = [&](const std::string& found, std::string_view expected) {
       place.refuse(fmt::format("\"{}\", {}", name, found), expected, "/name");
     };
     const auto [same, is_new] = streams.emplace(stream_name(name).hash, name);
@@ -201,6 +294,12 @@ void check_names(const std::vector<Sourced>& all) {
       refuse("the name of another dispersion too", "a name of its own");
     else if (!is_new)
       refuse(fmt::format("which has the random stream of \"{}\"", same->second), "another name");
+  };
+  std::string whole; // of the columns before
+  for (const auto& [dispersion, at] : all) {
+    if (dispersion.rows != whole) check(dispersion.rows, at);
+    whole = dispersion.rows;
+    check(dispersion.name, at);
   }
 }
 
@@ -238,6 +337,17 @@ Dispersions read_dispersions(const JsonCursor& at, const Scene* scene,
   if (scene) check_order(all, *scene);
   for (Sourced& sourced : all) dispersions.list.push_back(std::move(sourced.dispersion));
   return dispersions;
+}
+
+Coordinates coordinates_of(std::span<const Dispersion> dispersions) {
+  Coordinates all;
+  for (const Dispersion& dispersion : dispersions) {
+    const std::string& name = dispersion.rows.empty() ? dispersion.name : dispersion.rows;
+    const bool shared = !dispersion.rows.empty() && !all.names.empty() && all.names.back() == name;
+    if (!shared) all.names.push_back(name);
+    all.of.push_back(all.names.size() - 1);
+  }
+  return all;
 }
 
 void apply_to(double& parameter, Apply how, double value) {

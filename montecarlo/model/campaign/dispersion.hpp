@@ -36,6 +36,9 @@ struct Dispersion {
   Apply apply = Apply::set;
   std::vector<SceneParameter> targets;
   std::vector<Driven> through{}; ///< instead of apply and targets: one cause with several effects
+  /// Of a column of `rows`: the name of the whole. All columns of a whole take the same row, whose values are those of
+  /// the empirical law in the order of the file. Empty: the dispersion has a draw of its own.
+  std::string rows{};
 };
 
 /// Calls `use(apply, targets, table)` for each effect of the draw, in order. Without a table (null) the draw itself is
@@ -51,8 +54,15 @@ struct Dispersions {
   Json resolved; ///< the JSON in SI, with values instead of file names; an `each` is not expanded
 };
 
+/// The coordinates of the unit cube in which a run is drawn: one for each dispersion, and one for all columns of `rows`.
+struct Coordinates {
+  std::vector<std::string> names;
+  std::vector<std::size_t> of; ///< the coordinate of each dispersion
+};
+[[nodiscard]] Coordinates coordinates_of(std::span<const Dispersion> dispersions);
+
 /// Reads the list of dispersions. An `each` becomes one dispersion for each match, named `name.panel_1`; with several
-/// paths, all parameters of one body, hinge or synchronisation share a draw.
+/// paths, all parameters of one body, hinge or synchronisation share a draw. A `rows` becomes one for each column.
 ///
 /// Notes problems: names that cannot head a column, unknown targets, and draws that a later "set" would overwrite. With
 /// any problem, the returned value is not usable.

@@ -98,23 +98,6 @@ std::vector<double> read_column(std::istream& in, const std::string& file,
   return values;
 }
 
-void read_file(const JsonCursor& at, const std::string& name, const std::string& column,
-               const std::filesystem::path& directory, std::vector<double>& values) {
-  const std::filesystem::path path = directory / name;
-  const auto text = read_text(path);
-  if (!text) {
-    at.refuse(fmt::format("no file that can be read at \"{}\"", path.string()), "a CSV file",
-              "/file");
-    return;
-  }
-  std::istringstream in(*text);
-  try {
-    values = read_column(in, path.string(), column);
-  } catch (const SpecError& error) {
-    at.problems().insert(at.problems().end(), error.problems().begin(), error.problems().end());
-  }
-}
-
 void read_empirical(JsonObject& object, Empirical& law, const std::filesystem::path& directory,
                     std::string_view unit) {
   const bool from_file = object.find("file") || object.find("column");
@@ -123,7 +106,7 @@ void read_empirical(JsonObject& object, Empirical& law, const std::filesystem::p
   std::string name, column;
   const bool named = object.required("file", name, "a string, the name of a CSV file");
   const bool picked = object.required("column", column, "a string, a column's name in the header");
-  if (named && picked) read_file(object.at(), name, column, directory, law.values);
+  if (named && picked) read_csv_column(object.at(), name, column, directory, law.values);
 }
 
 void read_truncation(const JsonCursor& at, std::optional<Truncation>& truncate,
@@ -139,6 +122,23 @@ void read_truncation(const JsonCursor& at, std::optional<Truncation>& truncate,
 }
 
 } // namespace
+
+void read_csv_column(const JsonCursor& at, const std::string& name, const std::string& column,
+                     const std::filesystem::path& directory, std::vector<double>& values) {
+  const std::filesystem::path path = directory / name;
+  const auto text = read_text(path);
+  if (!text) {
+    at.refuse(fmt::format("no file that can be read at \"{}\"", path.string()), "a CSV file",
+              "/file");
+    return;
+  }
+  std::istringstream in(*text);
+  try {
+    values = read_column(in, path.string(), column);
+  } catch (const SpecError& error) {
+    at.problems().insert(at.problems().end(), error.problems().begin(), error.problems().end());
+  }
+}
 
 Distribution read_distribution(const JsonCursor& at, const std::filesystem::path& directory,
                                std::string_view unit) {

@@ -5,7 +5,9 @@
 #include "montecarlo/foundation/formats/json_reader.hpp"
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace wingspread {
 
@@ -16,6 +18,10 @@ namespace wingspread {
 [[nodiscard]] Distribution read_distribution(const JsonCursor& at,
                                              const std::filesystem::path& directory,
                                              std::string_view unit = "");
+
+/// Reads one column of a CSV file with a header; notes a problem at `at`, if no file can be read, or in the file.
+void read_csv_column(const JsonCursor& at, const std::string& name, const std::string& column,
+                     const std::filesystem::path& directory, std::vector<double>& values);
 
 /// The distribution as JSON; an empirical law has its values instead of a file name.
 [[nodiscard]] Json write_distribution(const Distribution& distribution);

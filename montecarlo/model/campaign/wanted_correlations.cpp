@@ -34,6 +34,11 @@ std::optional<std::size_t> read_name(const JsonCursor& at,
   std::string name;
   if (!at.read(name, "a string, the name of a dispersion") || !dispersions) return std::nullopt;
   const auto found = std::ranges::find(*dispersions, name, &Dispersion::name);
+  if (found != dispersions->end() && !found->rows.empty()) {
+    at.refuse(fmt::format("\"{}\", a column of the rows \"{}\"", name, found->rows),
+              "a dispersion with a draw of its own: rows are drawn whole");
+    return std::nullopt;
+  }
   if (found != dispersions->end()) return static_cast<std::size_t>(found - dispersions->begin());
   std::vector<std::string> names, copies; // all names, and the copies of an `each` with this name
   for (const Dispersion& each : *dispersions) {

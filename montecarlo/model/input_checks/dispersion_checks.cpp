@@ -184,6 +184,8 @@ std::string place_of(const Json& resolved, const std::string& name) {
     const std::string own = list[i].at("name").get<std::string>();
     if (own == name || (list[i].contains("each") && name.starts_with(own + ".")))
       return fmt::format("/dispersions/{}", i);
+    if (list[i].contains("rows") && list[i]["rows"]["columns"].contains(name))
+      return fmt::format("/dispersions/{}/rows/columns{}", i, pointer_token(name));
   }
   return "/dispersions";
 }

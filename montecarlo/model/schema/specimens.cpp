@@ -119,7 +119,13 @@ constexpr std::array<std::string_view, 4> campaigns{R"({
                    { "to": ["bodies.inner.mass"], "apply": "add",
                      "table": { "at": [0, 40], "value": ["1 g", "2 g"] } } ] },
     { "name": "m", "distribution": { "type": "normal", "mean": 1, "std": 0.1 }, "apply": "scale",
-      "to": ["hinges.root.harness.scale"] } ],
+      "to": ["hinges.root.harness.scale"] },
+    { "name": "measured",
+      "rows": { "values": { "n": [1, 1.1], "o": [0.9, 1], "p": [1, 2], "q": [20, 30] }, "apply": "scale",
+                "columns": { "n": "hinges.mid.spring.scale", "o": ["hinges.mid.friction.scale"],
+                             "p": { "to": ["hinges.mid.friction.coulomb"], "apply": "add" },
+                             "q": { "through": [ { "to": ["hinges.*.spring.scale"], "apply": "scale",
+                                                   "table": { "at": [0, 40], "value": [1, 0.9] } } ] } } } } ],
   "correlations": [ { "between": ["a", "d"], "spearman": 0.5 }, { "between": ["l", "m"], "covariance": 0.2 } ],
   "cases": [ { "name": "cold", "set": { "bodies.outer.mass": "8 kg" }, "scale": { "hinges.root.spring.scale": 0.9 },
                "add": { "hinges.mid.initial_rate": 0 },
@@ -161,7 +167,9 @@ constexpr std::array<std::string_view, 4> campaigns{R"({
                                                     R"({
   "dispersions": [ { "name": "file", "distribution": { "type": "empirical", "file": "no_such_file.csv", "column": "x",
                                                        "truncate": { "lower": 0 } },
-                     "apply": "set", "to": ["bodies.inner.mass"] } ] })"};
+                     "apply": "set", "to": ["bodies.inner.mass"] },
+                   { "name": "rows", "rows": { "file": "no_such_file.csv", "apply": "set",
+                                               "columns": { "y": "bodies.outer.mass" } } } ] })"};
 
 } // namespace
 

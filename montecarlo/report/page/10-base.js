@@ -4,7 +4,7 @@
   "use strict";
   const W = (window.wingspread = {});
   W.data = JSON.parse(document.getElementById("data").textContent);
-  // Sets of runs come first; results of `margin`, `sensitivity CAMPAIGN` and `rare` are sets without runs, behind them.
+  // Sets of runs come first; results of `margin`, `sensitivity CAMPAIGN`, `rare` and `fit` are sets without runs, behind them.
   const all = W.data.sets || [],
     isStudy = (set) => !set.runs && !(set.statuses || []).length;
   W.studySets = all.filter(isStudy);

@@ -1,4 +1,4 @@
-// Results of `margin`, `sensitivity CAMPAIGN` and `rare`, and static margins of the campaign.
+// Results of `margin`, `sensitivity CAMPAIGN`, `rare` and `fit`, and static margins of the campaign.
 (function () {
   "use strict";
   const W = window.wingspread;
@@ -243,11 +243,13 @@
       if (!found.has("static") && set.static_margins && (set.static_margins.hinges || []).length)
         add("static", "Static margins", set, staticMargins(set.static_margins));
       if (set.rare) add("rare", "Rare events", set, rareEvent(set.rare));
+      if (set.fit) add("fit", "Fit to tests", set, W.fitParts(set.fit));
     }
     const names = {
       margin: "the margin window (wingspread margin)",
       static: "static margins (motorization in the campaign)",
       rare: "rare events (wingspread rare)",
+      fit: "a fit to deployment tests (wingspread fit)",
     };
     const missing = Object.keys(names)
       .filter((kind) => !found.has(kind))

@@ -1,5 +1,6 @@
 #include "montecarlo/report/page/study_set.hpp"
 
+#include "montecarlo/analyses/fit/fit_report.hpp"
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/rare/rare_report.hpp"
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
@@ -8,6 +9,7 @@
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/wing_json.hpp"
+#include "montecarlo/report/page/fit_set.hpp"
 #include "montecarlo/report/page/static_margins_json.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
 
@@ -48,7 +50,7 @@ Json empty_set(const std::filesystem::path& folder, const std::string& label, co
     json[list] = Json::array();
   json["order_kinds"] = json["without_latch"] = 0;
   for (const char* block : {"accuracy", "correlations", "sensitivity", "wing", "envelopes",
-                            "static_margins", "modes", "margin", "rare", "kernel"})
+                            "static_margins", "modes", "margin", "rare", "kernel", "fit"})
     json[block] = nullptr;
   json["inputs"] = {
       {"scene", Json::array()}, {"dispersions", Json::array()}, {"settings", Json::array()}};
@@ -248,6 +250,15 @@ Json rare_set(const std::filesystem::path& folder, const std::string& label) {
   return set;
 }
 
+Json fit_study_set(const std::filesystem::path& folder, const std::string& label) {
+  const Json study = parse_json_file(folder / fit_json_file);
+  Json set = empty_set(folder, label, study.value(stamp_key, Json::object()));
+  if (const auto path = folder / campaign_file; std::filesystem::exists(path))
+    add_campaign(read_campaign_file(path), set);
+  set["fit"] = fit_block(folder);
+  return set;
+}
+
 /// Calls `read`; errors in the files name the folder.
 template <class Read> auto reading(const std::filesystem::path& folder, Read read) {
   try {
@@ -264,6 +275,8 @@ template <class Read> auto reading(const std::filesystem::path& folder, Read rea
 } // namespace
 
 bool is_study_folder(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / fit_json_file))
+    return true; // with a campaign for the prediction
   if (std::filesystem::exists(folder / campaign_file)) return false;
   return std::filesystem::exists(folder / margin_json_file) ||
          std::filesystem::exists(folder / design_file) ||
@@ -274,6 +287,7 @@ std::vector<Json> study_sets_json(const std::filesystem::path& folder, const std
   return reading(folder, [&]() -> std::vector<Json> {
     if (std::filesystem::exists(folder / margin_json_file)) return margin_sets(folder, label);
     if (std::filesystem::exists(folder / design_file)) return {sobol_set(folder, label)};
+    if (std::filesystem::exists(folder / fit_json_file)) return {fit_study_set(folder, label)};
     return {rare_set(folder, label)};
   });
 }

@@ -8,6 +8,7 @@
     outcome, trajectory = wingspread.simulate("three_panel.json", set={"hinges.root.spring.scale": 0.9})
     y = wingspread.evaluate("three_panel.json", ["hinges.*.spring.scale"], [[0.9], [1.1]], ["deployment_time"])
     runs = wingspread.read("results/first")
+    result, posterior = wingspread.fit("campaign.json", "tests.json", out="fit")
 
 All numbers are in SI units and radians. The same seed gives the same bits as `wingspread run`, with any number of
 threads. A scene or a campaign is the path of a file, JSON text, or a dictionary as json.load returns it; files named in
@@ -30,7 +31,8 @@ import numpy.typing as npt
 from . import _native
 from ._native import MachineError, SpecError
 
-__all__ = ["MachineError", "Model", "Notice", "Simulation", "SpecError", "Table", "evaluate", "read", "run", "simulate"]
+__all__ = ["Fit", "MachineError", "Model", "Notice", "Simulation", "SpecError", "Table", "evaluate", "fit", "read", "run",
+           "simulate"]
 __version__: str = _native.version()
 
 Source = typing.Union[str, "os.PathLike[str]", typing.Mapping[str, typing.Any]]
@@ -51,6 +53,15 @@ class Simulation(typing.NamedTuple):
     """The JSON of `wingspread simulate --json`: status, latches, peak_moment, peak_force, final, energy, work, …"""
     trajectory: dict[str, Floats]
     """The columns of `wingspread simulate --out` by name: t, root.angle, root.rate, root.moment, …"""
+
+
+class Fit(typing.NamedTuple):
+    """Parameters fitted to deployment tests."""
+
+    result: dict[str, typing.Any]
+    """The content of fit.json: finished, findings, parameters, correlation, unseen, tests, …"""
+    posterior: dict[str, Floats]
+    """Samples of the parameters by name, a row a sample: the columns of posterior.csv"""
 
 
 class Table(typing.Mapping[str, npt.NDArray[typing.Any]]):
@@ -133,6 +144,21 @@ def run(campaign: Source, *, runs: int | None = None, seed: int | None = None, t
     for notice in table.notices:
         warnings.warn(notice, Notice, stacklevel=2)
     return Table(table)
+
+
+def fit(campaign: Source, tests: Source, *, out: str | os.PathLike[str] = "", seed: int | None = None, runs: int = 0,
+        threads: int = 0) -> Fit:
+    """Fits parameters of a campaign to deployment tests, as `wingspread fit`.
+
+    tests: the tests and the parameters. out: the folder to write; default: no files. runs: most runs of the sampler;
+    0: 100 for each sample. threads: 0 for all processors. If result["finished"] is False, the chains are too short, and
+    the numbers are no result; a Notice says so.
+    """
+    text, posterior = _native.fit(_input_of(campaign), _input_of(tests), os.fspath(out), seed, runs, threads)
+    result = json.loads(text)
+    if not result["finished"]:
+        warnings.warn(result["findings"][0], Notice, stacklevel=2)
+    return Fit(result, posterior)
 
 
 def read(folder: str | os.PathLike[str], *, case: str = "") -> Table:

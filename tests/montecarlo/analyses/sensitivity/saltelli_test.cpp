@@ -62,3 +62,23 @@ TEST_CASE("nothing to vary, and what varies together, is refused") {
   const Campaign bare = campaign_of(json);
   CHECK_THROWS_WITH(saltelli_plan(bare, 8), Catch::Contains("/dispersions: found none"));
 }
+
+TEST_CASE("the columns of rows are one coordinate of the design") {
+  Json json = quick_campaign(1);
+  json["dispersions"].push_back(parse_json(R"({ "name": "fitted",
+    "rows": { "values": { "a": [1, 2, 3], "b": [4, 5, 6] }, "apply": "add",
+              "columns": { "a": "hinges.root.friction.coulomb", "b": "hinges.mid.friction.coulomb" } } })"));
+  const Campaign campaign = campaign_of(json);
+  const RunPlan plan = saltelli_plan(campaign, 8);
+  REQUIRE(plan.coordinates().names.size() == 5);
+  std::vector<double> a(6), changed(6);
+  for (long row = 0; row < 8; ++row) {
+    plan.draw(row * 7, a);
+    for (long i = 0; i < 5; ++i) {
+      plan.draw(row * 7 + 2 + i, changed);
+      CHECK(changed[5] == changed[4] + 3); // always one row
+      for (std::size_t k = 0; k < 4; ++k)
+        CHECK((changed[k] == a[k]) == (static_cast<std::size_t>(i) != k));
+    }
+  }
+}

@@ -17,8 +17,8 @@ TEST_CASE("Sobol' indices as JSON, CSV and a table; what changes nothing is name
   const Campaign campaign = campaign_of(json);
   const RunPlan plan = saltelli_plan(campaign, 12);
   const long runs = saltelli_runs(12, campaign.dispersions.size());
-  const SobolSensitivity all =
-      sobol_sensitivity(rows_of(plan, {0, runs}), 12, "random", {.resamples = 50});
+  const SobolSensitivity all = sobol_sensitivity(rows_of(plan, {0, runs}), plan.coordinates().names,
+                                                 12, "random", {.resamples = 50});
   CHECK(all.idle() == std::vector<std::string>{"none"});
   CHECK(warnings(all) == std::vector<std::string>{"no output of any run changes with \"none\""});
   const Json read = parse_json(json_text(sensitivity_json(all, {})));
@@ -42,8 +42,8 @@ TEST_CASE("an output without indices, and bounds that there are not, are told of
   const Campaign campaign = campaign_of(json);
   const RunPlan plan = saltelli_plan(campaign, 16);
   const long runs = saltelli_runs(16, campaign.dispersions.size());
-  const SobolSensitivity all =
-      sobol_sensitivity(rows_of(plan, {0, runs}), 16, "sobol", {.replicates = 1});
+  const SobolSensitivity all = sobol_sensitivity(rows_of(plan, {0, runs}), plan.coordinates().names,
+                                                 16, "sobol", {.replicates = 1});
   const Json output = sensitivity_json(all, {})["outputs"]["deployment_time"];
   const long incomplete = output["incomplete"];
   CHECK((output["rows"] == 16 && 0 < incomplete && incomplete <= 16));

@@ -1,0 +1,57 @@
+#include "montecarlo/analyses/fit/chain_diagnostics.hpp"
+
+#include "montecarlo/foundation/statistics/statistics.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace wingspread {
+namespace {
+
+/// Mean over the chains of Σ (x_i − m)(x_{i+k} − m)/N, m the chain's mean.
+double autocovariance(std::span<const std::span<const double>> chains,
+                      std::span<const double> means, std::size_t lag) {
+  Sum sum;
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    const std::span<const double> x = chains[c];
+    double own = 0;
+    for (std::size_t i = 0; i + lag < x.size(); ++i)
+      own += (x[i] - means[c]) * (x[i + lag] - means[c]);
+    sum.add(own / static_cast<double>(x.size()));
+  }
+  return sum.value() / static_cast<double>(chains.size());
+}
+
+} // namespace
+
+ChainDiagnostics diagnose(std::span<const std::vector<double>> chains) {
+  std::vector<std::span<const double>> halves;
+  const std::size_t n = chains.front().size() / 2;
+  assert(n >= 2);
+  for (const std::vector<double>& chain : chains) {
+    halves.emplace_back(chain.data(), n);
+    halves.emplace_back(chain.data() + chain.size() - n, n);
+  }
+  std::vector<double> means;
+  for (const auto& half : halves) means.push_back(moments(half).mean);
+  const auto length = static_cast<double>(n), count = static_cast<double>(halves.size());
+  const double within = autocovariance(halves, means, 0) * length / (length - 1);
+  const double between = std::pow(moments(means).std, 2); // B/N
+  const double total = within * (length - 1) / length + between;
+  if (!(within > 0)) return {std::numeric_limits<double>::infinity(), 1};
+  double pairs = 0, last = std::numeric_limits<double>::infinity();
+  const auto rho = [&](std::size_t lag) {
+    return lag == 0 ? 1 : 1 - (within - autocovariance(halves, means, lag)) / total;
+  };
+  for (std::size_t lag = 0; lag + 1 < n; lag += 2) {
+    const double pair = rho(lag) + rho(lag + 1);
+    if (!(pair > 0)) break;
+    pairs += last = std::min(last, pair);
+  }
+  const double time = std::max(1.0, 2 * pairs - 1);
+  return {std::sqrt(total / within), length * count / time};
+}
+
+} // namespace wingspread

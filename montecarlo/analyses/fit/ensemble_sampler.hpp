@@ -1,0 +1,86 @@
+/// An ensemble sampler: walkers whose moves are proposed by one another or by a fixed mixture of Student laws.
+///
+///   symbol     meaning
+///   d, K       dimensions; number of walkers, even, at least 4 d
+///   z          stretch, density ∝ 1/√z on [1/a, a], a = 2
+///   π, q       target density, density of the fixed proposal
+///
+/// The walkers are two halves. Each half moves in turn, all its walkers at once: one batch of evaluations. A walker x
+/// tosses for one of two moves, which both leave π invariant:
+///
+///   stretch      y = x' + z (x − x'), x' a walker of the other half;  min(1, z^{d−1} π(y)/π(x))     (1)
+///   independent  y ~ q;                                               min(1, π(y) q(x)/(π(x) q(y)))  (2)
+///
+/// (1): J. Goodman, J. Weare, Comm. App. Math. Comp. Sci. 5 (2010) 65–80. (2) makes chains short where Laplace's
+/// approximation is good; (1) reaches what it misses. On normal targets of 3 and 8 dimensions the mixture needs 3 to 8
+/// times fewer evaluations per effective sample than (1) alone (ensemble_sampler_test.cpp).
+#pragma once
+
+#include "montecarlo/analyses/fit/chain_diagnostics.hpp"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace wingspread {
+
+/// log π of points, up to a constant; −∞ where π is 0.
+using LogDensity = std::function<std::vector<double>(std::span<const Eigen::VectorXd>)>;
+
+/// q: a mixture of multivariate Student laws with few degrees of freedom.
+class StudentMixture {
+public:
+  struct Part {
+    double log_weight = 0;
+    Eigen::VectorXd center;
+    Eigen::MatrixXd covariance; ///< positive definite
+  };
+  explicit StudentMixture(const std::vector<Part>& parts);
+
+  /// @param uniform source of uniform numbers in (0, 1)
+  [[nodiscard]] Eigen::VectorXd draw(const std::function<double()>& uniform) const;
+  /// log q, up to a constant.
+  [[nodiscard]] double log_density(const Eigen::VectorXd& at) const;
+
+private:
+  struct Prepared {
+    double share;
+    double log_scale;
+    Eigen::VectorXd center;
+    Eigen::MatrixXd factor; ///< lower triangular
+  };
+  std::vector<Prepared> parts_;
+};
+
+struct EnsembleOptions {
+  std::size_t walkers = 64; ///< even
+  std::uint64_t seed = 1;
+  double ess = 1000;   ///< least effective sample size of every coordinate
+  double r_hat = 1.01; ///< largest split R̂ of every coordinate
+  long most_evaluations = 1'000'000;
+  double independent = 0.5; ///< share of independent moves
+};
+
+struct EnsembleState {
+  long evaluations = 0;
+  double acceptance = 0; ///< share of accepted moves
+  double ess = 0;        ///< the least
+  double r_hat = 0;      ///< the largest
+};
+
+struct Ensemble {
+  bool finished = false;
+  EnsembleState state;
+  std::vector<std::vector<Eigen::VectorXd>> chains; ///< by walker, without the first quarter
+};
+
+/// Moves the walkers until ESS and R̂ are reached, or the evaluations are used up. Pure if the density is: interruption,
+/// threads and lanes change nothing.
+/// @param told called after each diagnosis
+[[nodiscard]] Ensemble run_ensemble(const LogDensity& density, const StudentMixture& proposal,
+                                    const EnsembleOptions& options,
+                                    const std::function<void(const EnsembleState&)>& told);
+
+} // namespace wingspread

@@ -1,0 +1,105 @@
+#include "montecarlo/analyses/fit/fit_campaign.hpp"
+
+#include "montecarlo/model/campaign/distribution_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wingspread {
+namespace {
+
+bool has(const std::vector<std::size_t>& list, std::size_t index) {
+  return std::ranges::find(list, index) != list.end();
+}
+
+/// Number of dispersions that an entry of the list becomes.
+std::size_t count_of(const Json& entry, const Scene& scene) {
+  std::vector<Problem> problems;
+  const Json list = Json::array({entry});
+  return read_dispersions(JsonCursor(list, "", problems), &scene, "").list.size();
+}
+
+/// What the draws of a dispersion do, as a column of rows or as a dispersion of its own.
+Json effect_of(const Json& entry, const Dispersion& dispersion, const Scene& scene) {
+  if (entry.contains("through")) return {{"through", entry["through"]}};
+  return {{"to", paths_of(scene, dispersion.targets)}, {"apply", entry["apply"]}};
+}
+
+/// Whether a case's law for `name` is that of a fitted dispersion.
+bool is_fitted_name(const Campaign& campaign, const std::vector<std::size_t>& fitted,
+                    const std::string& name) {
+  return std::ranges::any_of(fitted, [&](std::size_t i) {
+    const std::string& own = campaign.dispersions[i].name;
+    return own == name || own.starts_with(name + ".");
+  });
+}
+
+Json dispersions_of(const Campaign& campaign, const std::vector<std::size_t>& fitted) {
+  Json list = Json::array(), columns = Json::object();
+  std::size_t next = 0, place = 0;
+  bool placed = false;
+  for (const Json& entry : campaign.resolved.at("dispersions")) {
+    const std::size_t first = next;
+    next += count_of(entry, campaign.scene);
+    bool any = false;
+    for (std::size_t i = first; i < next; ++i) any = any || has(fitted, i);
+    if (any && !std::exchange(placed, true)) place = list.size();
+    if (!any) list.push_back(entry);
+    for (std::size_t i = first; any && i < next; ++i) {
+      const Dispersion& dispersion = campaign.dispersions[i];
+      Json effect = effect_of(entry, dispersion, campaign.scene);
+      if (has(fitted, i)) {
+        columns[dispersion.name] = std::move(effect);
+      } else {
+        effect["name"] = dispersion.name;
+        effect["distribution"] = write_distribution(dispersion.distribution);
+        list.push_back(std::move(effect));
+      }
+    }
+  }
+  std::string name = "fitted";
+  const auto is_name = [&](const Dispersion& dispersion) { return dispersion.name == name; };
+  while (std::ranges::any_of(campaign.dispersions, is_name)) name += "_";
+  list.insert(list.begin() + static_cast<std::ptrdiff_t>(place),
+              Json{{"name", name},
+                   {"rows", {{"file", posterior_file}, {"apply", "scale"}, {"columns", columns}}}});
+  return list;
+}
+
+} // namespace
+
+Json predicting_campaign(const Campaign& campaign, const std::vector<std::size_t>& fitted) {
+  Json json = campaign.resolved;
+  json["dispersions"] = dispersions_of(campaign, fitted);
+  if (json.contains("correlations")) {
+    Json kept = Json::array();
+    for (const Json& pair : json["correlations"])
+      if (!is_fitted_name(campaign, fitted, pair["between"][0].get<std::string>()))
+        kept.push_back(pair);
+    json["correlations"] = std::move(kept);
+  }
+  if (json.contains("cases"))
+    for (Json& each : json["cases"])
+      if (each.contains("distributions")) {
+        Json laws = Json::object();
+        for (const auto& [name, law] : each["distributions"].items())
+          if (!is_fitted_name(campaign, fitted, name)) laws[name] = law;
+        each["distributions"] = std::move(laws);
+      }
+  json.erase(stamp_key);
+  return json;
+}
+
+std::vector<std::string> lost_laws(const Campaign& campaign,
+                                   const std::vector<std::size_t>& fitted) {
+  std::vector<std::string> lost;
+  for (const CaseSpec& spec : campaign.cases)
+    for (const CaseDistribution& law : spec.distributions)
+      if (is_fitted_name(campaign, fitted, law.dispersion))
+        lost.push_back(fmt::format("{}: {}", spec.name, law.dispersion));
+  return lost;
+}
+
+} // namespace wingspread

@@ -1,0 +1,94 @@
+#include "montecarlo/analyses/fit/fit_folder.hpp"
+
+#include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/checkpoint/checkpoint.hpp"
+#include "montecarlo/results/results_folder/folder_writer.hpp"
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+constexpr long predicted_runs = 1000;
+constexpr std::array<double, 3> predicted_quantiles{0.05, 0.5, 0.95};
+
+void refuse_unsuitable(const std::filesystem::path& folder, bool resume) {
+  const bool has_log = std::filesystem::exists(folder / fit_log_file);
+  const auto refuse = [&](const char* found, const char* expected) {
+    throw SpecError({{folder.string(), "", found, expected}});
+  };
+  if (!resume && has_log)
+    refuse("an interrupted study", "a new or an empty folder (--resume continues this one)");
+  if (!resume) return refuse_used_folder(folder, "a new or an empty folder");
+  if (!has_log && !std::filesystem::exists(folder / fit_json_file) && !is_new_folder(folder))
+    refuse("no interrupted study", "one to continue, or a new or an empty folder");
+}
+
+/// The output columns of the first runs, sorted; without missing values.
+std::vector<std::vector<double>> sorted_outputs(const Campaign& campaign, ThreadPool pool,
+                                                const std::atomic<bool>& stop) {
+  const RunPlan plan(campaign);
+  std::vector<std::vector<double>> outputs(plan.names().outputs.size());
+  const auto keep = [&](const Batch& batch) {
+    for (const ResultRow& row : batch.rows)
+      for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (std::isfinite(row.outputs[i])) outputs[i].push_back(row.outputs[i]);
+  };
+  if (ThreadEvaluator(pool, stop).make(plan, {0, predicted_runs}, {keep}) < predicted_runs)
+    throw Stopped{};
+  for (std::vector<double>& output : outputs) std::ranges::sort(output);
+  return outputs;
+}
+
+} // namespace
+
+FitFolder::FitFolder(std::filesystem::path folder, const Json& about, bool resume)
+    : folder_(std::move(folder)), about_(about) {
+  refuse_unsuitable(folder_, resume);
+  lock_.emplace(folder_);
+  refuse_unsuitable(folder_, resume); // it may have changed before the lock
+  const auto log = folder_ / fit_log_file;
+  if (std::filesystem::exists(folder_ / fit_json_file) && !std::filesystem::exists(log))
+    refuse_other_study(folder_ / fit_json_file, parse_json_file(folder_ / fit_json_file), about);
+  else
+    log_.emplace(log, about);
+}
+
+void FitFolder::write(FitResult& result, const Campaign& campaign, const FitSpec& spec,
+                      ThreadPool pool, const std::atomic<bool>& stop) {
+  std::vector<std::size_t> fitted;
+  for (std::size_t k = 0; k < result.common; ++k) fitted.push_back(result.space[k].dispersion);
+  write_file(folder_ / traces_csv_file, traces_csv(result, spec));
+  if (!fitted.empty()) {
+    const auto path = folder_ / campaign_file;
+    write_file(folder_ / posterior_file, posterior_csv(result));
+    write_file(path, json_text(predicting_campaign(campaign, fitted)));
+    result.prediction = predicted_outputs(campaign, read_campaign_file(path), pool, stop);
+  }
+  write_file(folder_ / fit_json_file, json_text(fit_json(result, spec, about_)));
+  if (!result.finished) return log_->sync();
+  log_.reset();
+  std::filesystem::remove(folder_ / fit_log_file);
+}
+
+std::vector<PredictedOutput> predicted_outputs(const Campaign& before, const Campaign& after,
+                                               ThreadPool pool, const std::atomic<bool>& stop) {
+  const std::vector<std::string> names = RunPlan(before).names().outputs;
+  const auto first = sorted_outputs(before, pool, stop), second = sorted_outputs(after, pool, stop);
+  std::vector<PredictedOutput> all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (first[i].empty() || second[i].empty()) continue;
+    PredictedOutput& output = all.emplace_back(PredictedOutput{names[i]});
+    for (std::size_t k = 0; k < predicted_quantiles.size(); ++k) {
+      output.before[k] = quantile(first[i], predicted_quantiles[k]);
+      output.after[k] = quantile(second[i], predicted_quantiles[k]);
+    }
+  }
+  return all;
+}
+
+} // namespace wingspread

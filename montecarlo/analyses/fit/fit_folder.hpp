@@ -1,0 +1,45 @@
+/// The folder of a fit.
+#pragma once
+
+#include "montecarlo/analyses/fit/fit_report.hpp"
+#include "montecarlo/foundation/platform/folder_lock.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace wingspread {
+
+/// The checkpoint of an unfinished fit.
+inline constexpr const char* fit_log_file = "looks.log";
+
+/// posterior.csv, campaign.json, traces.csv, fit.json; and the checkpoint until the chains are finished.
+class FitFolder {
+public:
+  /// Without `resume` the folder must be new or empty. With `resume` it may have the checkpoint of the same study.
+  /// @throws SpecError for another folder; MachineError if another process holds the folder, or it cannot be written
+  FitFolder(std::filesystem::path folder, const Json& about, bool resume);
+
+  /// Whether an earlier session finished the study.
+  [[nodiscard]] bool is_finished() const { return !log_; }
+  /// @pre the study is not finished
+  [[nodiscard]] BatchLog& log() { return *log_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+
+  /// Writes the results; adds the prediction: runs of the campaign before and after the fit. Removes the checkpoint if
+  /// the chains are finished.
+  void write(FitResult& result, const Campaign& campaign, const FitSpec& spec, ThreadPool pool,
+             const std::atomic<bool>& stop);
+
+private:
+  std::filesystem::path folder_;
+  Json about_;
+  std::optional<FolderLock> lock_;
+  std::optional<BatchLog> log_;
+};
+
+/// Quantiles of all outputs with the priors and with the posterior, over the first runs of both campaigns.
+[[nodiscard]] std::vector<PredictedOutput> predicted_outputs(const Campaign& before,
+                                                             const Campaign& after, ThreadPool pool,
+                                                             const std::atomic<bool>& stop);
+
+} // namespace wingspread

@@ -1,0 +1,28 @@
+/// The fit as JSON, as CSV and as text for a terminal.
+#pragma once
+
+#include "montecarlo/analyses/fit/fit_study.hpp"
+
+#include <string>
+
+namespace wingspread {
+
+inline constexpr const char* fit_json_file = "fit.json";
+inline constexpr const char* traces_csv_file = "traces.csv";
+
+/// @param about the value of the key "wingspread"
+[[nodiscard]] Json fit_json(const FitResult& result, const FitSpec& spec, const Json& about);
+
+/// Rows of the posterior: the common parameters as their dispersions apply them.
+[[nodiscard]] std::string posterior_csv(const FitResult& result);
+
+/// Traces beside the fit: test, column, t, measured, fitted, lower, upper; SI.
+[[nodiscard]] std::string traces_csv(const FitResult& result, const FitSpec& spec);
+
+/// Misfits first, then parameters, what the tests do not see, candidates, the prediction.
+[[nodiscard]] std::string fit_text(const FitResult& result, const FitSpec& spec);
+
+/// Sentences that a reader has to know before the numbers: misfits, modes, tempering. Empty if there is nothing to say.
+[[nodiscard]] std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& spec);
+
+} // namespace wingspread

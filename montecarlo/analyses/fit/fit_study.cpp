@@ -1,0 +1,295 @@
+#include "montecarlo/analyses/fit/fit_study.hpp"
+
+#include "distributions/prepared_distribution.hpp"
+#include "distributions/random_stream.hpp"
+#include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+#include "montecarlo/results/results_folder/stamp.hpp"
+
+#include <boost/math/special_functions/gamma.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+constexpr std::size_t least_walkers = 48; // enough for two threads and eight lanes
+constexpr long runs_of_a_sample = 100;
+constexpr std::size_t predicted_rows = 400; // for bands and p-values
+constexpr int temperings = 2;               // the mode moves little when the likelihood is tempered
+constexpr std::size_t prior_points = 20000;
+
+std::size_t walkers_for(std::size_t dimensions) {
+  const std::size_t walkers = std::max(least_walkers, 4 * dimensions);
+  return walkers + walkers % 2;
+}
+
+/// u of a sample → the common parameters as their dispersions apply them, others in SI.
+class PhysicalValues {
+public:
+  PhysicalValues(const Campaign& campaign, const FitSpec& spec, const ParameterSpace& space)
+      : space_(space), campaign_(fixed_but(campaign, spec.parameters)),
+        plan_(campaign_, [this](long, std::span<Tails> u) { space_.place(test_, *at_, u); }) {}
+
+  [[nodiscard]] std::vector<double> of(const FitPoint& at) {
+    std::vector<double> values(space_.size());
+    at_ = &at;
+    std::optional<std::size_t> drawn;
+    std::vector<double> draws(campaign_.dispersions.size());
+    test_.reset();
+    plan_.draw(0, draws);
+    for (std::size_t k = 0; k < space_.size(); ++k) {
+      const FitParameter& parameter = space_.list()[k];
+      if (parameter.kind != FitParameter::Kind::dispersion) {
+        values[k] = parameter.std * at[static_cast<Eigen::Index>(k)];
+        continue;
+      }
+      if (parameter.test && parameter.test != test_) {
+        test_ = parameter.test;
+        plan_.draw(0, draws);
+      }
+      values[k] = draws[parameter.dispersion];
+    }
+    return values;
+  }
+
+private:
+  const ParameterSpace& space_;
+  Campaign campaign_;
+  std::optional<std::size_t> test_;
+  const FitPoint* at_ = nullptr;
+  RunPlan plan_;
+};
+
+LawMoments prior_moments(const FitParameter& parameter, const Campaign& campaign) {
+  if (parameter.kind != FitParameter::Kind::dispersion) return {0, parameter.std};
+  const PreparedDistribution law(campaign.dispersions[parameter.dispersion].distribution);
+  std::vector<double> values;
+  for (std::size_t k = 0; k < prior_points; ++k)
+    values.push_back(law.quantile((static_cast<double>(k) + 0.5) / prior_points));
+  const Moments found = moments(values);
+  return {found.mean, found.std};
+}
+
+/// All kept points, step by step.
+std::vector<FitPoint> points_of(const Ensemble& ensemble) {
+  std::vector<FitPoint> points;
+  for (std::size_t n = 0; n < ensemble.chains.front().size(); ++n)
+    for (const auto& chain : ensemble.chains) points.push_back(chain[n]);
+  return points;
+}
+
+/// Evenly chosen ones of the points.
+std::vector<FitPoint> chosen(const std::vector<FitPoint>& points, std::size_t count) {
+  if (count >= points.size()) return points;
+  std::vector<FitPoint> some;
+  for (std::size_t k = 0; k < count; ++k) some.push_back(points[k * points.size() / count]);
+  return some;
+}
+
+Eigen::MatrixXd covariance_of(const std::vector<FitPoint>& points) {
+  FitPoint mean = FitPoint::Zero(points.front().size());
+  for (const FitPoint& point : points) mean += point;
+  mean /= static_cast<double>(points.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(mean.size(), mean.size());
+  for (const FitPoint& point : points) sum += (point - mean) * (point - mean).transpose();
+  return sum / static_cast<double>(points.size() - 1);
+}
+
+StudentMixture proposal_of(const std::vector<FitMode>& modes) {
+  std::vector<StudentMixture::Part> parts;
+  for (const FitMode& mode : modes)
+    parts.push_back({mode.log_posterior + 0.5 * std::log(mode.covariance.determinant()), mode.at,
+                     mode.covariance});
+  return StudentMixture(parts);
+}
+
+std::string name_of(const FitTest& test, const Channel& channel) {
+  return channel.column ? test.columns[*channel.column].name : test.values[channel.value].name;
+}
+
+class Study {
+public:
+  Study(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
+        const std::atomic<bool>& stop)
+      : campaign_(campaign), spec_(spec), options_(options), stop_(stop), space_(campaign, spec),
+        data_(data_of(spec.tests)), runs_(spec.tests, spec.parameters, space_, options.pool, stop),
+        values_(campaign, spec, space_) {}
+
+  FitResult run(BatchLog* log, const std::function<void(const EnsembleState&)>& told) {
+    search_modes();
+    sample(log, told);
+    summarize_parameters();
+    summarize_channels();
+    judge_candidates();
+    result_.space = space_.list();
+    result_.common = space_.common();
+    result_.runs = runs_.runs();
+    return std::move(result_);
+  }
+
+private:
+  void search_modes() {
+    modes_ = find_modes(data_, runs_,
+                        first_points(space_.size(), spec_.starts, campaign_.sampling.seed));
+    for (int k = 0; k < temperings; ++k) {
+      temper(spec_.tests, modes_.front().prediction, data_);
+      std::vector<FitPoint> starts;
+      for (const FitMode& mode : modes_) starts.push_back(mode.at);
+      modes_ = find_modes(data_, runs_, starts);
+    }
+    for (std::size_t k = 1; k < modes_.size(); ++k) {
+      result_.mode_distances.push_back(distance_of(modes_.front(), modes_[k]));
+      result_.mode_drops.push_back(modes_.front().log_posterior - modes_[k].log_posterior);
+    }
+  }
+
+  void sample(BatchLog* log, const std::function<void(const EnsembleState&)>& told) {
+    const LogDensity density = [&](std::span<const FitPoint> points) {
+      const auto make = [&] {
+        const std::vector<Prediction> predictions = runs_.predict(points, RunAccuracy::campaign);
+        std::vector<double> logs;
+        for (std::size_t k = 0; k < points.size(); ++k)
+          logs.push_back(log_posterior(data_, points[k], predictions[k]));
+        return logs;
+      };
+      return log ? log->next(points.size(), make) : make();
+    };
+    const long most =
+        options_.most_runs > 0 ? options_.most_runs : runs_of_a_sample * spec_.samples;
+    const EnsembleOptions how{.walkers = walkers_for(space_.size()),
+                              .seed = campaign_.sampling.seed,
+                              .ess = static_cast<double>(spec_.samples),
+                              .most_evaluations = most};
+    const Ensemble ensemble = run_ensemble(density, proposal_of(modes_), how, told);
+    result_.finished = ensemble.finished;
+    result_.sampler = ensemble.state;
+    points_ = points_of(ensemble);
+  }
+
+  void summarize_parameters() {
+    const std::vector<double> mode = values_.of(modes_.front().at);
+    std::vector<std::vector<double>> columns(space_.size());
+    for (const FitPoint& point : points_) {
+      const std::vector<double> values = values_.of(point);
+      for (std::size_t k = 0; k < values.size(); ++k) columns[k].push_back(values[k]);
+    }
+    const Eigen::MatrixXd covariance = covariance_of(points_);
+    const auto d = static_cast<Eigen::Index>(space_.size());
+    result_.correlation = Eigen::MatrixXd::Identity(d, d);
+    for (Eigen::Index i = 0; i < d; ++i)
+      for (Eigen::Index j = 0; j < i; ++j)
+        result_.correlation(i, j) = result_.correlation(j, i) =
+            pearson(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]);
+    for (std::size_t k = 0; k < space_.size(); ++k) {
+      const FitParameter& parameter = space_.list()[k];
+      const LawMoments prior = prior_moments(parameter, campaign_);
+      const Moments after = moments(columns[k]);
+      std::vector<double> sorted = columns[k];
+      std::ranges::sort(sorted);
+      const double tail = (1 - options_.confidence) / 2;
+      const auto place = static_cast<Eigen::Index>(k);
+      result_.parameters.push_back({parameter.name, std::string(parameter.unit), prior.mean,
+                                    prior.standard_deviation, mode[k], after.mean, after.std,
+                                    quantile(sorted, tail), quantile(sorted, 1 - tail),
+                                    std::sqrt(covariance(place, place))});
+    }
+    const auto common = static_cast<Eigen::Index>(space_.common());
+    result_.u_covariance = covariance.topLeftCorner(common, common);
+    if (common > 0) result_.directions = directions_of(result_.u_covariance);
+    for (const FitPoint& point : chosen(points_, static_cast<std::size_t>(spec_.samples))) {
+      std::vector<double> row = values_.of(point);
+      row.resize(space_.common());
+      result_.rows.push_back(std::move(row));
+    }
+  }
+
+  void summarize_channels() {
+    const std::vector<FitPoint> some = chosen(points_, predicted_rows);
+    const std::vector<Prediction> predictions = runs_.predict(some, RunAccuracy::campaign);
+    for (const Channel& channel : data_.channels) {
+      const Prediction& mode = modes_.front().prediction;
+      const ChannelFit fit = fit_of(data_, channel, mode);
+      FittedChannel& fitted = result_.channels.emplace_back();
+      fitted.channel = channel;
+      fitted.name = name_of(spec_.tests[channel.test], channel);
+      fitted.rms = std::sqrt(fit.sum_of_squares / static_cast<double>(channel.count));
+      fitted.chi_squared = fit.chi_squared;
+      fitted.offset = fit.offset;
+      fitted.measured = data_.measured[channel.first];
+      fitted.fitted = mode[channel.first];
+      fitted.sigmas = (fitted.measured - fitted.fitted) / channel.std.value_or(undefined);
+      fitted.p_value = p_value_of(channel, predictions);
+      if (channel.column) add_bands(channel, predictions, fitted);
+    }
+  }
+
+  /// The mean over the posterior of P(χ²(n_eff) ≥ κ χ²): κ χ² is of n_eff independent numbers.
+  [[nodiscard]] double p_value_of(const Channel& channel,
+                                  const std::vector<Prediction>& predictions) const {
+    if (!channel.std) return undefined;
+    Sum sum;
+    for (const Prediction& prediction : predictions) {
+      const double chi = fit_of(data_, channel, prediction).chi_squared;
+      const double share = channel.effective / static_cast<double>(channel.count);
+      sum.add(std::isfinite(chi) ? boost::math::gamma_q(channel.effective / 2, share * chi / 2)
+                                 : 0);
+    }
+    return sum.value() / static_cast<double>(predictions.size());
+  }
+
+  void add_bands(const Channel& channel, const std::vector<Prediction>& predictions,
+                 FittedChannel& fitted) const {
+    const double tail = (1 - options_.confidence) / 2;
+    for (std::size_t i = channel.first; i < channel.first + channel.count; ++i) {
+      std::vector<double> values;
+      for (const Prediction& prediction : predictions)
+        if (std::isfinite(prediction[i])) values.push_back(prediction[i]);
+      std::ranges::sort(values);
+      fitted.mode.push_back(modes_.front().prediction[i]);
+      fitted.lower.push_back(values.empty() ? undefined : quantile(values, tail));
+      fitted.upper.push_back(values.empty() ? undefined : quantile(values, 1 - tail));
+    }
+  }
+
+  void judge_candidates() {
+    if (spec_.candidates.empty()) return;
+    TestRuns runs(spec_.candidates, spec_.parameters, space_, options_.pool, stop_, true);
+    result_.candidates =
+        candidate_gains(spec_.candidates, runs, modes_.front().at, covariance_of(points_));
+  }
+
+  const Campaign& campaign_;
+  const FitSpec& spec_;
+  const FitOptions& options_;
+  const std::atomic<bool>& stop_;
+  ParameterSpace space_;
+  FitData data_;
+  TestRuns runs_;
+  PhysicalValues values_;
+  std::vector<FitMode> modes_;
+  std::vector<FitPoint> points_;
+  FitResult result_;
+};
+
+} // namespace
+
+FitResult fit_campaign(const Campaign& campaign, const FitSpec& spec, const FitOptions& options,
+                       const std::atomic<bool>& stop, BatchLog* log,
+                       const std::function<void(const EnsembleState&)>& told) {
+  return Study(campaign, spec, options, stop).run(log, told);
+}
+
+Json about_fit(const Campaign& campaign, const FitSpec& spec) {
+  std::string bytes;
+  for (const double number : data_of(spec.tests).measured) bytes += fmt::format("{:a} ", number);
+  for (const FitTest& test : spec.tests)
+    for (const double time : test.times) bytes += fmt::format("{:a} ", time);
+  return {{stamp_key, stamp_json(stamp_of(campaign, {}))},
+          {"tests", campaign_hash(spec.resolved)},
+          {"measured", fmt::format("{:016x}", stream_name(bytes).hash)}};
+}
+
+} // namespace wingspread

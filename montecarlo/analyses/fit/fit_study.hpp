@@ -1,0 +1,81 @@
+/// The fit of a campaign's parameters to tests: modes, samples of the posterior, and their statistics.
+#pragma once
+
+#include "montecarlo/analyses/fit/batch_log.hpp"
+#include "montecarlo/analyses/fit/ensemble_sampler.hpp"
+#include "montecarlo/analyses/fit/identifiability.hpp"
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+struct FitOptions {
+  ThreadPool pool{};
+  long most_runs = 0; ///< evaluations of the sampler; 0: 100 for each sample asked for
+  double confidence = 0.95;
+};
+
+/// A parameter as its dispersion applies it; an offset in SI.
+struct FittedParameter {
+  std::string name, unit;
+  double prior_mean = 0, prior_std = 0;
+  double mode = 0, mean = 0, std = 0, lower = 0, upper = 0;
+  double std_ratio = 0; ///< standard deviation in u: the share of the prior's that is left
+};
+
+/// Residuals of a channel at the highest mode, and over the posterior.
+struct FittedChannel {
+  Channel channel;
+  std::string name;
+  double rms = 0, chi_squared = 0; ///< NaN for unknown noise
+  double offset = 0;               ///< b̂
+  double p_value =
+      0; ///< posterior predictive: P(χ² of new numbers ≥ that of the measured); NaN for unknown noise
+  double measured = 0, fitted = 0, sigmas = 0; ///< of a value: `fitted` at the mode
+  /// Of a trace: predictions at the mode, and the bounds of the posterior's, at the test's times.
+  std::vector<double> mode, lower, upper;
+};
+
+/// Whether a channel contradicts the model: the p-value is below this.
+inline constexpr double misfit_p_value = 0.01;
+/// A trace this far from the best fit, in root mean square of σ, is probably of another hinge or unit.
+inline constexpr double foreign_sigmas = 10;
+
+/// Quantiles 5, 50 and 95 % of an output with the priors and with the posterior.
+struct PredictedOutput {
+  std::string name;
+  std::array<double, 3> before{}, after{};
+};
+
+struct FitResult {
+  bool finished = false;
+  std::vector<FitParameter> space;
+  std::size_t common = 0; ///< parameters of the prediction: the first of the list
+  std::vector<FittedParameter> parameters;
+  Eigen::MatrixXd correlation;        ///< of the parameters
+  std::vector<double> mode_distances; ///< of further modes from the highest, in standard deviations
+  std::vector<double> mode_drops;     ///< their log posterior below the highest
+  std::vector<FitDirection> directions; ///< of the common parameters
+  Eigen::MatrixXd u_covariance;         ///< of the common parameters
+  std::vector<FittedChannel> channels;
+  EnsembleState sampler;
+  long runs = 0;                         ///< all runs made
+  std::vector<std::vector<double>> rows; ///< posterior.csv: common parameters
+  std::vector<CandidateGain> candidates;
+  std::vector<PredictedOutput> prediction;
+};
+
+/// @param log recorded batches of the sampler; may be null
+/// @throws Stopped
+[[nodiscard]] FitResult fit_campaign(const Campaign& campaign, const FitSpec& spec,
+                                     const FitOptions& options, const std::atomic<bool>& stop,
+                                     BatchLog* log,
+                                     const std::function<void(const EnsembleState&)>& told);
+
+/// Identifies the study for --resume: tests, measured numbers and campaign.
+[[nodiscard]] Json about_fit(const Campaign& campaign, const FitSpec& spec);
+
+} // namespace wingspread

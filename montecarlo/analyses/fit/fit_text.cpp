@@ -1,0 +1,137 @@
+#include "montecarlo/analyses/fit/fit_report.hpp"
+#include "montecarlo/foundation/formats/text_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wingspread {
+namespace {
+
+constexpr double other_mode_distance = 3; // standard deviations
+constexpr std::size_t name_width = 30;
+
+/// "chi² 812 for 401 numbers (196 independent ones), p 0.0004".
+std::string misfit_text(const FittedChannel& fitted) {
+  const Channel& channel = fitted.channel;
+  if (!channel.column)
+    return fmt::format("{:.1f} σ from the fitted {:.6g}", std::abs(fitted.sigmas), fitted.fitted);
+  return fmt::format("χ² {:.4g} for {} numbers ({:.0f} independent ones), p {:.2g}",
+                     fitted.chi_squared, channel.count, channel.effective, fitted.p_value);
+}
+
+void add_misfits(const FitResult& result, const FitSpec& spec, std::vector<std::string>& list) {
+  for (const FittedChannel& fitted : result.channels) {
+    const std::string where =
+        fmt::format("{} of \"{}\"", fitted.name, spec.tests[fitted.channel.test].name);
+    const double sigmas = fitted.channel.std ? fitted.rms / *fitted.channel.std : 0;
+    if (fitted.channel.column && sigmas > foreign_sigmas)
+      list.push_back(fmt::format("{}: the residuals are {:.0f} σ at the best fit: a trace of "
+                                 "another hinge, another sense or unit, or a test under other "
+                                 "conditions",
+                                 where, sigmas));
+    else if (fitted.p_value < misfit_p_value)
+      list.push_back(fmt::format("the model does not fit {}: {}", where, misfit_text(fitted)));
+  }
+}
+
+std::string parameters_text(const FitResult& result) {
+  std::string text =
+      fmt::format("{}{:>24}{:>24}{:>26}{:>10}\n", in_column("PARAMETER", name_width),
+                  "prior mean ± sd", "posterior mean ± sd", "95 % interval", "sd left");
+  for (const FittedParameter& each : result.parameters)
+    text += fmt::format("{}{:>24}{:>24}{:>26}{:>10}\n", in_column("  " + each.name, name_width),
+                        fmt::format("{:.5g} +- {:.3g}", each.prior_mean, each.prior_std),
+                        fmt::format("{:.5g} +- {:.3g}", each.mean, each.std),
+                        fmt::format("{:.5g} to {:.5g}", each.lower, each.upper),
+                        percent(each.std_ratio, 0));
+  return text;
+}
+
+std::string identifiability_text(const FitResult& result) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < result.common; ++k) names.push_back(result.parameters[k].name);
+  std::string text = "\nIDENTIFIABILITY\n";
+  bool all_seen = true;
+  for (const FitDirection& direction : result.directions) {
+    if (direction.std_ratio < unseen_ratio) continue;
+    all_seen = false;
+    text += paragraph(describe(direction, names, result.u_covariance));
+  }
+  if (all_seen) text += paragraph("the tests see every combination of the parameters");
+  std::string by_prior;
+  for (const FittedParameter& each : result.parameters)
+    if (each.std_ratio >= unseen_ratio) by_prior += (by_prior.empty() ? "" : ", ") + each.name;
+  if (!by_prior.empty()) text += paragraph("the prior decides, not the tests: " + by_prior);
+  return text;
+}
+
+std::string candidates_text(const FitResult& result) {
+  if (result.candidates.empty()) return "";
+  std::string text =
+      "\nFURTHER TESTS                  expected information   sd that shrinks most\n";
+  std::vector<CandidateGain> sorted = result.candidates;
+  std::ranges::stable_sort(sorted, std::greater(), &CandidateGain::information);
+  for (const CandidateGain& gain : sorted) {
+    const auto least = std::ranges::min_element(gain.shrink) - gain.shrink.begin();
+    text += fmt::format("{}{:>17.2f} nats   {} to {}\n", in_column("  " + gain.name, name_width),
+                        gain.information, result.parameters[static_cast<std::size_t>(least)].name,
+                        percent(gain.shrink[static_cast<std::size_t>(least)], 0));
+  }
+  return text;
+}
+
+std::string prediction_text(const FitResult& result) {
+  if (result.prediction.empty()) return "";
+  std::string text =
+      fmt::format("\n{}{:>36}{:>36}\n", in_column("PREDICTION 5 %, 50 %, 95 %", name_width),
+                  "before the tests", "after");
+  const auto range = [](const std::array<double, 3>& values) {
+    return fmt::format("{:.5g}  {:.5g}  {:.5g}", values[0], values[1], values[2]);
+  };
+  for (const PredictedOutput& output : result.prediction)
+    text += fmt::format("{}{:>36}{:>36}\n", in_column("  " + output.name, name_width),
+                        range(output.before), range(output.after));
+  return text;
+}
+
+} // namespace
+
+std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& spec) {
+  std::vector<std::string> list;
+  if (!result.finished)
+    list.push_back(fmt::format(
+        "not finished: effective sample size {:.0f} of {}, split R-hat {:.3f} "
+        "after {} runs of the sampler",
+        result.sampler.ess, spec.samples, result.sampler.r_hat, result.sampler.evaluations));
+  add_misfits(result, spec, list);
+  for (std::size_t k = 0; k < result.mode_distances.size(); ++k)
+    if (result.mode_distances[k] > other_mode_distance)
+      list.push_back(fmt::format("another mode lies {:.1f} sd away, {:.1f} nats below the best one",
+                                 result.mode_distances[k], result.mode_drops[k]));
+  for (const FittedChannel& fitted : result.channels) {
+    const double share = fitted.channel.effective / static_cast<double>(fitted.channel.count);
+    if (share < 0.5)
+      list.push_back(fmt::format("the residuals of {} of \"{}\" depend on each other: {} numbers "
+                                 "count as {:.0f}",
+                                 fitted.name, spec.tests[fitted.channel.test].name,
+                                 fitted.channel.count, fitted.channel.effective));
+  }
+  return list;
+}
+
+std::string fit_text(const FitResult& result, const FitSpec& spec) {
+  std::string text;
+  for (const std::string& finding : fit_findings(result, spec)) text += paragraph(finding, 0);
+  if (!text.empty()) text += '\n';
+  text += parameters_text(result) + identifiability_text(result) + candidates_text(result) +
+          prediction_text(result);
+  text += fmt::format(
+      "\n{} runs; effective sample size {:.0f}, split R-hat {:.4f}, {} of the moves "
+      "accepted\n",
+      result.runs, result.sampler.ess, result.sampler.r_hat, percent(result.sampler.acceptance, 0));
+  return text;
+}
+
+} // namespace wingspread

@@ -1,0 +1,54 @@
+/// The likelihood of measured numbers, given predictions.
+///
+///   symbol   meaning
+///   r_i      measured − predicted, i = 1 … n of a channel
+///   σ, s     noise of a channel; standard deviation of its constant offset b, a priori N(0, s²)
+///   κ        n_eff/n: the share of independent information in the channel (1 unless tempered)
+///
+/// Known σ, offset integrated out:
+///   −log L = κ Σ (r_i − b̂)²/2σ² + b̂²/2s² + const,  b̂ = (κ Σ r_i/σ²) / (1/s² + κ n/σ²)            (1)
+/// Unknown σ, with the prior 1/σ integrated out (Student's law):
+///   −log L = ½ κ n log Σ r_i² + const                                                             (2)
+///
+/// (1) holds exactly: b̂ minimizes the exponent, which is quadratic in b with a constant second derivative.
+#pragma once
+
+#include "montecarlo/analyses/fit/test_runs.hpp"
+
+namespace wingspread {
+
+/// A channel's residuals at a point.
+struct ChannelFit {
+  double log_likelihood = 0; ///< −∞ if a number is missing
+  double sum_of_squares = 0; ///< Σ (r_i − b̂)²
+  double chi_squared = 0;    ///< the same over σ²; NaN for unknown σ
+  double offset = 0;         ///< b̂
+};
+[[nodiscard]] ChannelFit fit_of(const FitData& data, const Channel& channel,
+                                const Prediction& prediction);
+
+/// Residuals r_i − b̂ of a channel.
+[[nodiscard]] std::vector<double> residuals_of(const FitData& data, const Channel& channel,
+                                               const Prediction& prediction);
+
+/// log of prior and likelihood at a point, up to a constant.
+[[nodiscard]] double log_posterior(const FitData& data, const FitPoint& at,
+                                   const Prediction& prediction);
+
+/// The residuals of a least-squares problem with the same minimum: ½|v|² = −log posterior + const. For unknown σ this
+/// holds where Σ r² is the one in `squares`: the weight κ n/Σ r² is then that of (2).
+/// @param squares Σ r² of each channel, for those with unknown σ
+[[nodiscard]] Eigen::VectorXd least_squares(const FitData& data, std::span<const double> squares,
+                                            const FitPoint& at, const Prediction& prediction);
+/// Its length.
+[[nodiscard]] std::size_t least_squares_size(const FitData& data, std::size_t parameters);
+
+/// τ = 1 + 2 Σ ρ_k of a sequence: the number of residuals with the information of one independent residual. The sum ends
+/// before the first pair ρ_2k + ρ_2k+1 below zero, and the pairs must not rise (C. J. Geyer, Statist. Sci. 7 (1992)
+/// 473–483). At least 1.
+[[nodiscard]] double autocorrelation_time(std::span<const double> values);
+
+/// Sets `effective` of each correlated channel with more than one number from its residuals' autocorrelation.
+void temper(std::span<const FitTest> tests, const Prediction& prediction, FitData& data);
+
+} // namespace wingspread

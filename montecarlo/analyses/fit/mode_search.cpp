@@ -1,0 +1,169 @@
+#include "montecarlo/analyses/fit/mode_search.hpp"
+
+#include "distributions/continuous_law.hpp"
+#include "distributions/design.hpp"
+
+#include <Eigen/Cholesky>
+#include <unsupported/Eigen/NonLinearOptimization>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wingspread {
+namespace {
+
+constexpr int most_evaluations = 200; // of one start
+constexpr int most_weightings = 10;   // of unknown noise
+constexpr double same_mode = 0.1;     // standard deviations: two starts that ended at one mode
+constexpr double improbable = 30;     // nats below the highest: no part of the posterior
+
+double step_of(double u) {
+  return std::cbrt(std::numeric_limits<double>::epsilon()) * (1 + std::abs(u));
+}
+
+/// Predictions one step above and below in each coordinate: +0, −0, +1, −1, …
+std::vector<Prediction> predictions_around(TestRuns& runs, const FitPoint& at) {
+  std::vector<FitPoint> points;
+  for (Eigen::Index i = 0; i < at.size(); ++i)
+    for (const double sign : {1.0, -1.0}) {
+      points.push_back(at);
+      points.back()[i] += sign * step_of(at[i]);
+    }
+  return runs.predict(points, RunAccuracy::derivative);
+}
+
+std::vector<double> squares_of(const FitData& data, const Prediction& prediction) {
+  std::vector<double> squares;
+  for (const Channel& channel : data.channels) {
+    const double sum = fit_of(data, channel, prediction).sum_of_squares;
+    squares.push_back(std::isfinite(sum) ? std::max(sum, std::numeric_limits<double>::min()) : 1);
+  }
+  return squares;
+}
+
+/// Derivative of least_squares with fixed weights.
+Eigen::MatrixXd derivative(const FitData& data, std::span<const double> squares, TestRuns& runs,
+                           const FitPoint& at) {
+  const std::vector<Prediction> around = predictions_around(runs, at);
+  Eigen::MatrixXd matrix(
+      static_cast<Eigen::Index>(least_squares_size(data, static_cast<std::size_t>(at.size()))),
+      at.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const double h = step_of(at[i]);
+    FitPoint above = at, below = at;
+    above[i] += h, below[i] -= h;
+    const auto k = static_cast<std::size_t>(2 * i);
+    matrix.col(i) = (least_squares(data, squares, above, around[k]) -
+                     least_squares(data, squares, below, around[k + 1])) /
+                    (above[i] - below[i]);
+  }
+  return matrix;
+}
+
+/// The functions that Eigen's LevenbergMarquardt asks for.
+struct Problem {
+  const FitData& data;
+  TestRuns& runs;
+  std::vector<double> squares;
+
+  [[nodiscard]] int inputs() const { return static_cast<int>(inputs_); }
+  [[nodiscard]] int values() const {
+    return static_cast<int>(least_squares_size(data, static_cast<std::size_t>(inputs_)));
+  }
+  int operator()(const Eigen::VectorXd& at, Eigen::VectorXd& v) const {
+    v = least_squares(data, squares, at, runs.predict({&at, 1}, RunAccuracy::derivative).front());
+    return 0;
+  }
+  int df(const Eigen::VectorXd& at, Eigen::MatrixXd& matrix) const {
+    matrix = derivative(data, squares, runs, at);
+    return 0;
+  }
+  Eigen::Index inputs_;
+};
+
+Prediction predict_one(TestRuns& runs, const FitPoint& at) {
+  return runs.predict({&at, 1}, RunAccuracy::derivative).front();
+}
+
+/// The end of one start. Unknown noise is estimated anew until it stays.
+FitMode end_of(const FitData& data, TestRuns& runs, FitPoint at) {
+  const bool is_known = std::ranges::all_of(
+      data.channels, [](const Channel& channel) { return channel.std.has_value(); });
+  Prediction prediction = predict_one(runs, at);
+  for (int k = 0; k < (is_known ? 1 : most_weightings); ++k) {
+    Problem problem{data, runs, squares_of(data, prediction), at.size()};
+    Eigen::LevenbergMarquardt<Problem> search(problem);
+    search.parameters.maxfev = most_evaluations;
+    search.parameters.xtol = search.parameters.ftol = 1e-10;
+    const FitPoint before = at;
+    (void)search.minimize(at);
+    prediction = predict_one(runs, at);
+    if ((at - before).norm() < 1e-7 * (1 + at.norm())) break;
+  }
+  return {at, log_posterior(data, at, prediction), laplace_covariance(data, runs, at, prediction),
+          std::move(prediction)};
+}
+
+} // namespace
+
+Eigen::MatrixXd jacobian_of(TestRuns& runs, const FitPoint& at) {
+  const std::vector<Prediction> around = predictions_around(runs, at);
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(runs.numbers()), at.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i)
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+      const auto k = static_cast<std::size_t>(2 * i), n = static_cast<std::size_t>(row);
+      const double slope = (around[k][n] - around[k + 1][n]) / (2 * step_of(at[i]));
+      matrix(row, i) = std::isfinite(slope) ? slope : 0;
+    }
+  return matrix;
+}
+
+Eigen::MatrixXd laplace_covariance(const FitData& data, TestRuns& runs, const FitPoint& at,
+                                   const Prediction& prediction) {
+  const Eigen::MatrixXd v = derivative(data, squares_of(data, prediction), runs, at);
+  const Eigen::MatrixXd curvature = v.transpose() * v;
+  return curvature.llt().solve(Eigen::MatrixXd::Identity(at.size(), at.size()));
+}
+
+std::vector<FitMode> find_modes(const FitData& data, TestRuns& runs,
+                                std::span<const FitPoint> starts) {
+  std::vector<FitMode> ends, modes;
+  for (const FitPoint& start : starts) ends.push_back(end_of(data, runs, start));
+  std::ranges::stable_sort(ends, std::greater(), &FitMode::log_posterior);
+  for (FitMode& end : ends) {
+    const bool is_known = std::ranges::any_of(
+        modes, [&](const FitMode& mode) { return distance_of(mode, end) < same_mode; });
+    const bool counts =
+        modes.empty() || end.log_posterior > modes.front().log_posterior - improbable;
+    if (!is_known && counts) modes.push_back(std::move(end));
+  }
+  return modes;
+}
+
+std::vector<FitPoint> first_points(std::size_t dimensions, int count, std::uint64_t seed) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < dimensions; ++i)
+    names.push_back("\x7F"
+                    "start " +
+                    std::to_string(i));
+  const bool fits = dimensions <= most_sobol_dimensions;
+  const PreparedDesign design({fits ? DesignKind::sobol : DesignKind::random, seed}, names);
+  const auto n = static_cast<Eigen::Index>(dimensions);
+  std::vector<FitPoint> points{FitPoint::Zero(n)};
+  for (int k = 1; k < count; ++k) {
+    FitPoint& point = points.emplace_back(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      point[i] =
+          inverse(Normal{}, tails_of_uniform(design.uniform(static_cast<std::uint64_t>(k - 1),
+                                                            static_cast<std::size_t>(i))));
+  }
+  return points;
+}
+
+double distance_of(const FitMode& first, const FitMode& second) {
+  const FitPoint apart = second.at - first.at;
+  return std::sqrt(apart.dot(first.covariance.llt().solve(apart)));
+}
+
+} // namespace wingspread

@@ -1,0 +1,41 @@
+/// Modes of the posterior by Levenberg–Marquardt (Eigen's, a port of MINPACK) from several starts, and Laplace's
+/// approximation at each.
+///
+/// Derivatives are central differences in u with the step ε^{1/3} (1 + |u|), of runs with rtol ≤ 1e-10. All runs of a
+/// Jacobian are made at once. The starts are the prior's median and Sobol' points of the prior.
+#pragma once
+
+#include "montecarlo/analyses/fit/likelihood.hpp"
+
+#include <cstdint>
+
+namespace wingspread {
+
+/// A mode and the normal law of the same curvature.
+struct FitMode {
+  FitPoint at;
+  double log_posterior = 0;
+  Eigen::MatrixXd
+      covariance; ///< inverse of VᵀV, V the Jacobian of least_squares; the prior makes it positive definite
+  Prediction prediction;
+};
+
+/// Derivatives of all predictions in u: a row a number. Missing numbers have the derivative 0.
+[[nodiscard]] Eigen::MatrixXd jacobian_of(TestRuns& runs, const FitPoint& at);
+
+/// Laplace's covariance at a point. @param data with the tempering in force
+[[nodiscard]] Eigen::MatrixXd laplace_covariance(const FitData& data, TestRuns& runs,
+                                                 const FitPoint& at, const Prediction& prediction);
+
+/// The modes found, the highest first, each once. @throws Stopped
+[[nodiscard]] std::vector<FitMode> find_modes(const FitData& data, TestRuns& runs,
+                                              std::span<const FitPoint> starts);
+
+/// The prior's median and the points of a Sobol' design.
+[[nodiscard]] std::vector<FitPoint> first_points(std::size_t dimensions, int count,
+                                                 std::uint64_t seed);
+
+/// The distance of two modes in standard deviations of the first.
+[[nodiscard]] double distance_of(const FitMode& first, const FitMode& second);
+
+} // namespace wingspread

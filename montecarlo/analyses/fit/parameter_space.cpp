@@ -1,0 +1,79 @@
+#include "montecarlo/analyses/fit/parameter_space.hpp"
+
+#include "distributions/prepared_distribution.hpp"
+#include "montecarlo/engine/runs/run_plan.hpp"
+
+#include <algorithm>
+
+namespace wingspread {
+namespace {
+
+using Kind = FitParameter::Kind;
+
+bool is_own(const FitTest& test, std::size_t dispersion) {
+  return std::ranges::find(test.own, dispersion) != test.own.end();
+}
+
+} // namespace
+
+ParameterSpace::ParameterSpace(const Campaign& campaign, const FitSpec& spec)
+    : dispersions_(campaign.dispersions.size()) {
+  const auto name = [&](std::size_t i) { return campaign.dispersions[i].name; };
+  for (const std::size_t i : spec.parameters)
+    if (!std::ranges::all_of(spec.tests, [&](const FitTest& test) { return is_own(test, i); }))
+      list_.push_back({Kind::dispersion, name(i), i, std::nullopt});
+  common_ = list_.size();
+  for (std::size_t t = 0; t < spec.tests.size(); ++t)
+    for (const std::size_t i : spec.parameters)
+      if (is_own(spec.tests[t], i))
+        list_.push_back({Kind::dispersion, name(i) + " of " + spec.tests[t].name, i, t});
+  for (std::size_t t = 0; t < spec.tests.size(); ++t) {
+    const FitTest& test = spec.tests[t];
+    if (test.time_offset_std > 0 && !test.columns.empty())
+      list_.push_back(
+          {Kind::time_offset, "time offset of " + test.name, 0, t, 0, test.time_offset_std, "s"});
+    for (std::size_t c = 0; c < test.columns.size(); ++c)
+      if (test.columns[c].offset_std > 0 && !test.columns[c].std)
+        list_.push_back({Kind::column_offset,
+                         "offset of " + test.columns[c].name + " of " + test.name, 0, t, c,
+                         test.columns[c].offset_std, test.columns[c].unit});
+  }
+}
+
+void ParameterSpace::place(std::optional<std::size_t> test, const FitPoint& at,
+                           std::span<Tails> u) const {
+  std::ranges::fill(u, Tails{0.5, 0.5});
+  for (std::size_t k = 0; k < list_.size(); ++k) {
+    const FitParameter& parameter = list_[k];
+    if (parameter.kind == Kind::dispersion && (!parameter.test || parameter.test == test))
+      u[parameter.dispersion] = unit_point(at[static_cast<Eigen::Index>(k)]);
+  }
+}
+
+double ParameterSpace::time_offset(std::size_t test, const FitPoint& at) const {
+  for (std::size_t k = 0; k < list_.size(); ++k)
+    if (list_[k].kind == Kind::time_offset && list_[k].test == test)
+      return list_[k].std * at[static_cast<Eigen::Index>(k)];
+  return 0;
+}
+
+double ParameterSpace::column_offset(std::size_t test, std::size_t column,
+                                     const FitPoint& at) const {
+  for (std::size_t k = 0; k < list_.size(); ++k)
+    if (list_[k].kind == Kind::column_offset && list_[k].test == test && list_[k].column == column)
+      return list_[k].std * at[static_cast<Eigen::Index>(k)];
+  return 0;
+}
+
+Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted) {
+  for (std::size_t i = 0; i < campaign.dispersions.size(); ++i) {
+    if (std::ranges::find(fitted, i) != fitted.end()) continue;
+    Dispersion& dispersion = campaign.dispersions[i];
+    const double median = PreparedDistribution(dispersion.distribution).quantile(0.5);
+    dispersion.distribution = {Constant{median}, std::nullopt};
+    dispersion.rows.clear(); // a coordinate of its own, in which nothing varies
+  }
+  return campaign;
+}
+
+} // namespace wingspread

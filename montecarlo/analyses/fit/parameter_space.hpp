@@ -1,0 +1,60 @@
+/// The unknowns of a fit in the standard normal space of their priors: u ~ N(0, I).
+///
+/// A fitted dispersion is u → Φ(u) → copula → quantile, as in rare. So bounds and correlations of the priors hold by
+/// themselves, and one scale fits all unknowns. Offsets of a clock or of a sensor are their standard deviation times u.
+#pragma once
+
+#include "distributions/continuous_law.hpp"
+#include "montecarlo/analyses/fit/fit_spec.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wingspread {
+
+using FitPoint = Eigen::VectorXd; ///< u
+
+struct FitParameter {
+  enum class Kind { dispersion, time_offset, column_offset };
+  Kind kind = Kind::dispersion;
+  std::string name;
+  std::size_t dispersion = 0;      ///< index in the campaign
+  std::optional<std::size_t> test; ///< nothing: common to all tests without a value of their own
+  std::size_t column = 0;          ///< of a column_offset
+  double std = 1;                  ///< of an offset
+  std::string_view unit{};         ///< of an offset
+};
+
+/// The unknowns, in order: fitted dispersions common to tests, those of each test, offsets. An offset of a column with
+/// known noise is no unknown: likelihood.hpp integrates it out.
+class ParameterSpace {
+public:
+  ParameterSpace(const Campaign& campaign, const FitSpec& spec);
+
+  [[nodiscard]] const std::vector<FitParameter>& list() const { return list_; }
+  [[nodiscard]] std::size_t size() const { return list_.size(); }
+  /// Number of common dispersions: the first of the list.
+  [[nodiscard]] std::size_t common() const { return common_; }
+
+  /// The unit point of a run of the test. @param u per dispersion; others than fitted ones are at their medians
+  void place(std::optional<std::size_t> test, const FitPoint& at, std::span<Tails> u) const;
+  /// Clock offset of the test at the point, s.
+  [[nodiscard]] double time_offset(std::size_t test, const FitPoint& at) const;
+  /// Offset of a column of the test, if it is an unknown; else 0.
+  [[nodiscard]] double column_offset(std::size_t test, std::size_t column,
+                                     const FitPoint& at) const;
+
+private:
+  std::vector<FitParameter> list_;
+  std::size_t common_ = 0;
+  std::size_t dispersions_ = 0;
+};
+
+/// The campaign in which only fitted dispersions vary: all others have their medians.
+[[nodiscard]] Campaign fixed_but(Campaign campaign, const std::vector<std::size_t>& fitted);
+
+} // namespace wingspread

@@ -1,0 +1,82 @@
+/// Predictions of all measured numbers at points of the parameter space, by runs of the tests.
+///
+/// A trace is compared at its own times. A run is sampled on a fixed grid by the integrator's dense output, and the grid
+/// is interpolated: angles by cubic Hermite polynomials of angle and rate, other columns linearly. With a fixed grid the
+/// prediction is as smooth in the parameters as the motion: steps of the integrator would move with the parameters.
+/// Interpolation error of an angle: h⁴/384 times its fourth derivative, and about h²/50 times the jump of an
+/// acceleration at a latch; h is 10 to 20 ms, so 2e-5 rad for a jump of 3 rad/s².
+///
+/// Values that are outputs come from runs of their own, in lanes and up to the last output only.
+#pragma once
+
+#include "montecarlo/analyses/fit/parameter_space.hpp"
+#include "montecarlo/engine/runs/evaluator.hpp"
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace wingspread {
+
+/// Consecutive measured numbers with one noise: a column of a trace, or a value.
+struct Channel {
+  std::size_t test = 0;
+  std::optional<std::size_t> column{}; ///< of a trace; nothing: a value
+  std::size_t value = 0;
+  std::size_t first = 0, count = 0; ///< among all numbers
+  std::optional<double> std{};
+  double offset_std = 0;
+  double effective =
+      0; ///< n_eff: independent numbers with the same information; tempers the likelihood
+};
+
+/// All measured numbers, test by test: columns, then values.
+struct FitData {
+  std::vector<double> measured;
+  std::vector<Channel> channels;
+};
+[[nodiscard]] FitData data_of(std::span<const FitTest> tests);
+
+/// Numbers in the order of FitData::measured; NaN where the run failed or the output did not happen.
+using Prediction = std::vector<double>;
+
+/// The accuracy of runs: as the campaign asks, or good enough to be differentiated (rtol ≤ 1e-10).
+enum class RunAccuracy { campaign, derivative };
+
+class TestRuns {
+public:
+  /// @param fitted indices of fitted dispersions
+  /// @param are_candidates the tests are no tests of the space: they have no parameters and offsets of their own
+  /// @pre all arguments outlive this object
+  TestRuns(std::span<const FitTest> tests, const std::vector<std::size_t>& fitted,
+           const ParameterSpace& space, ThreadPool pool, const std::atomic<bool>& stop,
+           bool are_candidates = false);
+  TestRuns(const TestRuns&) = delete;
+  TestRuns& operator=(const TestRuns&) = delete;
+  ~TestRuns();
+
+  /// The predictions at the points, in their order, made on all threads at once. @throws Stopped
+  [[nodiscard]] std::vector<Prediction> predict(std::span<const FitPoint> points,
+                                                RunAccuracy accuracy);
+  /// Number of runs made.
+  [[nodiscard]] long runs() const { return runs_; }
+  [[nodiscard]] std::size_t numbers() const { return numbers_; }
+
+private:
+  struct Prepared;
+
+  const ParameterSpace& space_;
+  ThreadPool pool_;
+  const std::atomic<bool>& stop_;
+  const bool are_candidates_;
+  std::span<const FitPoint> points_;                             ///< the points of the plans' runs
+  std::vector<std::vector<std::unique_ptr<Prepared>>> prepared_; ///< by accuracy and test
+  std::size_t numbers_ = 0;
+  long runs_ = 0;
+
+  void make_values(const Prepared& prepared, std::vector<Prediction>& predictions);
+  void make_traces(RunAccuracy accuracy, std::vector<Prediction>& predictions);
+};
+
+} // namespace wingspread

@@ -1,0 +1,134 @@
+#include "montecarlo/analyses/fit/fit_folder.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/formats/json.hpp"
+#include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/foundation/platform/progress.hpp"
+#include "montecarlo/interfaces/commands/command_setup.hpp"
+#include "montecarlo/interfaces/terminal/command_options.hpp"
+#include "montecarlo/interfaces/terminal/results_display.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace wingspread {
+namespace {
+
+struct FitCommandOptions {
+  std::filesystem::path campaign, tests, out;
+  std::optional<std::uint64_t> seed;
+  std::optional<long> runs;
+  MachineOptions machine;
+  bool resume = false, json = false;
+};
+
+/// The state of the chains on a terminal.
+class ChainProgress {
+public:
+  explicit ChainProgress(double wanted) : wanted_(wanted), shown_(is_terminal(stderr)) {}
+  void show(const EnsembleState& state) const {
+    if (shown_)
+      fmt::print(
+          stderr,
+          "\rsampling: {} runs, effective sample size {:.0f} of {:.0f}, split R-hat {:.4f}   ",
+          state.evaluations, state.ess, wanted_, state.r_hat);
+  }
+  ~ChainProgress() {
+    if (shown_) fmt::print(stderr, "\n");
+  }
+  ChainProgress(const ChainProgress&) = delete;
+  ChainProgress& operator=(const ChainProgress&) = delete;
+
+private:
+  double wanted_;
+  bool shown_;
+};
+
+int exit_of(bool finished) { return finished ? exit_code::done : exit_code::not_met; }
+
+int report_unfinished() {
+  fmt::print(stderr,
+             "not finished: the chains are kept; the same command with --resume and a larger "
+             "--runs continues\n");
+  return exit_of(false);
+}
+
+int fit(const FitCommandOptions& given) {
+  Campaign campaign = read_campaign_file(given.campaign);
+  override_sampling(campaign, std::nullopt, given.seed);
+  const FitSpec spec = read_fit_file(given.tests, campaign);
+  FitFolder folder(given.out, about_fit(campaign, spec), given.resume);
+  if (folder.is_finished()) {
+    (void)show_finished(given.out / fit_json_file, given.json);
+    return exit_of(true);
+  }
+  FitOptions options{.pool = pool_of(given.machine)};
+  options.most_runs = given.runs.value_or(0);
+  options.confidence = campaign.statistics.confidence;
+  const Interrupt interrupt;
+  try {
+    FitResult result;
+    {
+      const ChainProgress progress(static_cast<double>(spec.samples));
+      result = fit_campaign(campaign, spec, options, interrupt.flag(), &folder.log(),
+                            [&](const EnsembleState& state) { progress.show(state); });
+    }
+    folder.write(result, campaign, spec, options.pool, interrupt.flag());
+    fmt::print("{}", given.json ? read_text(given.out / fit_json_file).value_or("")
+                                : fit_text(result, spec));
+    return result.finished ? exit_of(true) : report_unfinished();
+  } catch (const Stopped&) {
+    if (!folder.is_finished()) folder.log().sync();
+    fmt::print(stderr,
+               "interrupted: the chains are kept; the same command with --resume continues\n");
+    return exit_code::interrupted;
+  }
+}
+
+void add_fit_options(CLI::App& command, FitCommandOptions& options) {
+  command.add_option("campaign", options.campaign, "The campaign, a JSON file")->required();
+  command.add_option("tests", options.tests, "The tests and the parameters to fit, a JSON file")
+      ->required();
+  command.add_option("--out", options.out, "The folder of the results: new or empty")->required();
+  command.add_flag("--resume", options.resume,
+                   "Continue an interrupted or unfinished fit in --out");
+  command
+      .add_option("--runs", options.runs,
+                  "Most runs of the sampler for each test; default: 100 for each sample asked for")
+      ->check(CLI::Range(1L, std::numeric_limits<long>::max()).description(""))
+      ->type_name("N");
+  add_seed_option(command, options.seed);
+  add_machine_options(command, options.machine);
+  command.add_flag("--json", options.json, "Print fit.json, not text");
+  command.footer(
+      R"(Fits parameters of the wing to deployment tests. The priors are the laws of the campaign's
+dispersions; the tests' file names those to be fitted, each test's changes of the scene, its traces
+(CSV files) and its measured values:
+
+  { "tests": [ { "name": "air, 20 C", "case": "ambient", "set": { "environment.air_density": 1.2 },
+                 "trace": { "file": "t1.csv", "time": "t_s", "time_offset_std": "0.01 s",
+                            "columns": { "root.angle": { "column": "th1", "unit": "deg",
+                                                         "std": "0.3 deg", "offset_std": "0.2 deg" } } },
+                 "values": [ { "output": "root.latch_time", "value": "4.93 s", "std": "0.02 s" } ] } ],
+    "fit": { "parameters": [ "spring", "friction.*" ], "starts": 8, "samples": 10000 } }
+
+Writes posterior.csv (a row a sample), fit.json, traces.csv (measured, fitted, bands) and
+campaign.json, which draws whole rows of posterior.csv: `wingspread run DIR/campaign.json` is the
+prediction. Prints first whether the model fits at all, then the parameters, what the tests do not
+see, and what further tests ("candidates") would tell. Exit code 1: the chains are not finished.
+
+Example:
+  wingspread fit campaign.json tests.json --out fit
+  wingspread run fit/campaign.json --out flight)");
+}
+
+} // namespace
+
+void add_fit(CLI::App& app, Action& action) {
+  add_command<FitCommandOptions>(app, action, "fit",
+                                 "Fit parameters to deployment tests; predict the flight",
+                                 add_fit_options, fit);
+}
+
+} // namespace wingspread

@@ -1,0 +1,46 @@
+#include "montecarlo/analyses/fit/fit_folder.hpp"
+#include "montecarlo/foundation/formats/files.hpp"
+#include "montecarlo/foundation/platform/interrupt.hpp"
+#include "montecarlo/interfaces/library/single_run.hpp"
+#include "montecarlo/interfaces/library/wingspread.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
+#include "montecarlo/results/results_folder/stamp.hpp"
+
+namespace wingspread::api {
+namespace {
+
+FitSpec read_tests(const Input& tests, const Campaign& campaign) {
+  if (!tests.file.empty()) return read_fit_file(tests.file, campaign);
+  return read_fit(parse_json(tests.text), "", tests.directory, campaign);
+}
+
+Fit fit_of(const FitResult& result, std::string json) {
+  Fit fit{std::move(json), {}, result.finished};
+  for (std::size_t k = 0; k < result.common; ++k) {
+    Series& series = fit.posterior.emplace_back(Series{result.parameters[k].name, {}});
+    for (const std::vector<double>& row : result.rows) series.values.push_back(row[k]);
+  }
+  return fit;
+}
+
+} // namespace
+
+Fit fit(const Input& input, const Input& tests, const FitRequest& request) {
+  Campaign campaign = read_campaign_input(input);
+  override_sampling(campaign, std::nullopt, request.seed);
+  const FitSpec spec = read_tests(tests, campaign);
+  const Json about = about_fit(campaign, spec);
+  const std::atomic<bool> never = false;
+  const std::atomic<bool>& stop = request.stop ? *request.stop : never;
+  FitOptions options{.pool = {.threads = request.threads}};
+  options.most_runs = request.runs;
+  options.confidence = campaign.statistics.confidence;
+  std::optional<FitFolder> folder;
+  if (!request.out.empty()) folder.emplace(request.out, about, false);
+  FitResult result = fit_campaign(campaign, spec, options, stop, folder ? &folder->log() : nullptr,
+                                  [](const EnsembleState&) {});
+  if (folder) folder->write(result, campaign, spec, options.pool, stop);
+  return fit_of(result, json_text(fit_json(result, spec, about)));
+}
+
+} // namespace wingspread::api

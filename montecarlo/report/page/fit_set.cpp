@@ -1,0 +1,109 @@
+#include "montecarlo/report/page/fit_set.hpp"
+
+#include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "montecarlo/analyses/fit/fit_report.hpp"
+#include "montecarlo/engine/runs/results.hpp"
+#include "montecarlo/foundation/formats/csv.hpp"
+#include "montecarlo/report/data/page_numbers.hpp"
+
+#include <array>
+#include <fstream>
+
+namespace wingspread {
+namespace {
+
+constexpr std::size_t most_times = 400; // of a trace: a picture has some 600 pixels
+constexpr std::size_t most_rows = 400;  // of the posterior: points that can be told apart
+
+/// All rows of a CSV file without its header.
+std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& path,
+                                              std::vector<std::string>& header) {
+  std::ifstream in(path);
+  CsvReader reader(in, path.string());
+  std::vector<std::vector<std::string>> rows;
+  if (reader.next()) header = reader.cells();
+  while (reader.next()) {
+    rows.push_back(reader.cells());
+    if (rows.back().size() != header.size())
+      throw reader.error("", "another number of cells", "as many as in the header");
+  }
+  return rows;
+}
+
+Json number_of(const std::string& cell) {
+  const auto value = parse_csv_number(cell);
+  return value ? page_number(*value) : Json(nullptr);
+}
+
+/// Evenly chosen ones of `count` rows.
+std::vector<std::size_t> chosen(std::size_t first, std::size_t count, std::size_t most) {
+  std::vector<std::size_t> rows;
+  const std::size_t kept = std::min(count, most);
+  for (std::size_t k = 0; k < kept; ++k) rows.push_back(first + k * count / kept);
+  return rows;
+}
+
+Json traces_json(const std::filesystem::path& folder, const Json& study) {
+  constexpr std::array series{"t", "measured", "fitted", "lower", "upper"};
+  std::vector<std::string> header;
+  const auto rows = rows_of(folder / traces_csv_file, header);
+  Json traces = Json::array();
+  for (std::size_t first = 0; first < rows.size();) {
+    std::size_t last = first;
+    while (last < rows.size() && rows[last][0] == rows[first][0] && rows[last][1] == rows[first][1])
+      ++last;
+    Json trace{{"test", rows[first][0]}, {"column", rows[first][1]}};
+    for (const char* name : series) trace[name] = Json::array();
+    for (const std::size_t row : chosen(first, last - first, most_times))
+      for (std::size_t i = 0; i < series.size(); ++i)
+        trace[series[i]].push_back(number_of(rows[row].at(i + 2)));
+    for (const Json& test : study.at("tests"))
+      if (test.at("name") == trace["test"]) trace.update(test.at("traces").at(rows[first][1]));
+    traces.push_back(std::move(trace));
+    first = last;
+  }
+  return traces;
+}
+
+Json samples_json(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  const auto rows = rows_of(folder / posterior_file, names);
+  Json samples{{"names", names}, {"rows", Json::array()}};
+  for (const std::size_t row : chosen(0, rows.size(), most_rows)) {
+    Json values = Json::array();
+    for (const std::string& cell : rows[row]) values.push_back(number_of(cell));
+    samples["rows"].push_back(std::move(values));
+  }
+  return samples;
+}
+
+} // namespace
+
+Json fit_block(const std::filesystem::path& folder) {
+  const Json study = parse_json_file(folder / fit_json_file);
+  Json parameters = Json::array();
+  for (const auto& [name, values] : study.at("parameters").items()) {
+    Json parameter{{"name", name}};
+    parameter.update(values);
+    parameters.push_back(std::move(parameter));
+  }
+  Json values = Json::array();
+  for (const Json& test : study.at("tests"))
+    for (const auto& [name, value] : test.at("values").items()) {
+      Json row{{"test", test.at("name")}, {"name", name}};
+      row.update(value);
+      values.push_back(std::move(row));
+    }
+  return {{"finished", study.at("finished")},
+          {"findings", study.at("findings")},
+          {"parameters", std::move(parameters)},
+          {"unseen", study.at("unseen")},
+          {"values", std::move(values)},
+          {"traces", traces_json(folder, study)},
+          {"samples",
+           std::filesystem::exists(folder / posterior_file) ? samples_json(folder) : Json(nullptr)},
+          {"candidates", study.value("candidates", Json::array())},
+          {"prediction", study.value("prediction", Json::object())}};
+}
+
+} // namespace wingspread

@@ -1,0 +1,121 @@
+#include "montecarlo/analyses/fit/ensemble_sampler.hpp"
+#include "montecarlo/foundation/statistics/statistics.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace wingspread;
+
+namespace {
+
+/// A normal law with correlation ½ between all coordinates, standard deviation k in coordinate k, mean k.
+struct CorrelatedNormal {
+  explicit CorrelatedNormal(Eigen::Index d) : mean(d), covariance(d, d) {
+    for (Eigen::Index i = 0; i < d; ++i) {
+      mean[i] = static_cast<double>(i);
+      for (Eigen::Index j = 0; j < d; ++j)
+        covariance(i, j) = (i == j ? 1.0 : 0.5) * static_cast<double>((i + 1) * (j + 1));
+    }
+    inverse = covariance.inverse();
+  }
+  [[nodiscard]] std::vector<double> operator()(std::span<const Eigen::VectorXd> points) const {
+    std::vector<double> logs;
+    for (const Eigen::VectorXd& x : points)
+      logs.push_back(-0.5 * (x - mean).dot(inverse * (x - mean)));
+    return logs;
+  }
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance, inverse;
+};
+
+std::vector<double> coordinate(const Ensemble& ensemble, Eigen::Index i) {
+  std::vector<double> values;
+  for (const auto& chain : ensemble.chains)
+    for (const Eigen::VectorXd& point : chain) values.push_back(point[i]);
+  return values;
+}
+
+const auto nothing = [](const EnsembleState&) {};
+
+} // namespace
+
+TEST_CASE("a normal target: its moments, with and without independent moves") {
+  for (const Eigen::Index d : {3, 8}) {
+    const CorrelatedNormal target(d);
+    const StudentMixture proposal({{0, target.mean, target.covariance}});
+    long evaluations[2] = {};
+    for (const double independent : {0.0, 0.5}) {
+      EnsembleOptions options{.walkers = 48, .ess = 4000};
+      options.independent = independent;
+      const Ensemble ensemble = run_ensemble(target, proposal, options, nothing);
+      REQUIRE(ensemble.finished);
+      CHECK(ensemble.state.r_hat <= 1.01);
+      evaluations[independent > 0] = static_cast<long>(
+          static_cast<double>(ensemble.state.evaluations) / ensemble.state.ess * 1000);
+      for (Eigen::Index i = 0; i < d; ++i) {
+        const Moments found = moments(coordinate(ensemble, i));
+        const double std = std::sqrt(target.covariance(i, i));
+        CHECK(std::abs(found.mean - target.mean[i]) < 4.5 * std / std::sqrt(4000.0));
+        CHECK(found.std == Approx(std).epsilon(4.5 / std::sqrt(8000.0)));
+      }
+    }
+    INFO(evaluations[0] << " and " << evaluations[1] << " evaluations for 1000 effective samples");
+    CHECK(evaluations[0] > 3 * evaluations[1]);
+  }
+}
+
+TEST_CASE("two modes keep their weights, and a wrong proposal does no harm") {
+  // ⅔ N(−4, 1) + ⅓ N(4, ½²); the proposal has the weights wrong and the widths too small.
+  const auto target = [](std::span<const Eigen::VectorXd> points) {
+    std::vector<double> logs;
+    for (const Eigen::VectorXd& x : points)
+      logs.push_back(std::log(2 * std::exp(-0.5 * std::pow(x[0] + 4, 2)) +
+                              2 * std::exp(-2 * std::pow(x[0] - 4, 2))));
+    return logs;
+  };
+  const auto at = [](double x) { return Eigen::VectorXd(Eigen::VectorXd::Constant(1, x)); };
+  const StudentMixture proposal({{0, at(-4), Eigen::MatrixXd::Constant(1, 1, 0.5)},
+                                 {1, at(4), Eigen::MatrixXd::Constant(1, 1, 0.2)}});
+  const Ensemble ensemble = run_ensemble(target, proposal, {.walkers = 48, .ess = 4000}, nothing);
+  REQUIRE(ensemble.finished);
+  double left = 0;
+  const std::vector<double> x = coordinate(ensemble, 0);
+  for (const double each : x) left += each < 0;
+  CHECK(left / static_cast<double>(x.size()) ==
+        Approx(2.0 / 3).margin(4.5 * 0.47 / std::sqrt(4000.0)));
+}
+
+TEST_CASE("a target with a wall keeps its walkers inside, and a mixture is normalized") {
+  const auto exponential = [](std::span<const Eigen::VectorXd> points) {
+    std::vector<double> logs;
+    for (const Eigen::VectorXd& x : points)
+      logs.push_back(x[0] > 0 ? -x[0] : -std::numeric_limits<double>::infinity());
+    return logs;
+  };
+  const StudentMixture proposal(
+      {{0, Eigen::VectorXd::Constant(1, 1), Eigen::MatrixXd::Constant(1, 1, 1)}});
+  const Ensemble ensemble =
+      run_ensemble(exponential, proposal, {.walkers = 48, .ess = 4000}, nothing);
+  REQUIRE(ensemble.finished);
+  const Moments found = moments(coordinate(ensemble, 0));
+  CHECK(found.min > 0);
+  CHECK(found.mean == Approx(1).margin(4.5 / std::sqrt(4000.0)));
+  CHECK(found.std == Approx(1).margin(4.5 * std::sqrt(2.0 / 4000)));
+  // The density of a mixture of the same part twice is that of the part.
+  const StudentMixture twice(
+      {{0, Eigen::VectorXd::Constant(1, 1), Eigen::MatrixXd::Constant(1, 1, 1)},
+       {0, Eigen::VectorXd::Constant(1, 1), Eigen::MatrixXd::Constant(1, 1, 1)}});
+  const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, 0.3);
+  CHECK(twice.log_density(x) == Approx(proposal.log_density(x)));
+}
+
+TEST_CASE("too few evaluations: not finished") {
+  const CorrelatedNormal target(3);
+  const StudentMixture proposal({{0, target.mean, target.covariance}});
+  const Ensemble ensemble = run_ensemble(
+      target, proposal, {.walkers = 48, .ess = 1e6, .most_evaluations = 20000}, nothing);
+  CHECK_FALSE(ensemble.finished);
+  CHECK(ensemble.state.evaluations <= 20000);
+}

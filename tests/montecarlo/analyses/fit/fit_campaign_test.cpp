@@ -1,0 +1,49 @@
+#include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "tests/montecarlo/campaign_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+TEST_CASE("fitted dispersions become columns with their effects, others stay as they are") {
+  const Folder folder;
+  Json json = quick_campaign(4);
+  json["dispersions"].push_back(parse_json(R"({ "name": "cause",
+    "distribution": { "type": "normal", "mean": 20, "std": 5 },
+    "through": [ { "to": ["hinges.*.friction.scale"], "apply": "scale",
+                   "table": { "at": [0, 40], "value": [1, 0.9] } } ] })"));
+  json["correlations"] = parse_json(R"([ { "between": ["root_spring", "cause"], "spearman": 0.5 },
+    { "between": ["mass.panel_1", "mass.panel_3"], "spearman": 0.2 } ])");
+  json["cases"] = parse_json(R"([ { "name": "cold", "distributions": {
+    "cause": { "type": "normal", "mean": -20, "std": 5 } } } ])");
+  const Campaign campaign = campaign_of(json);
+  REQUIRE(campaign.dispersions.size() == 5);
+  const std::vector<std::size_t> fitted{0, 2, 4}; // root_spring, mass.panel_2, cause
+  folder.write(posterior_file, "root_spring,mass.panel_2,cause\n1.1,10,30\n1.1,10,30\n");
+  const Campaign after = read_campaign(predicting_campaign(campaign, fitted).dump(), folder.path());
+  std::vector<std::string> names, own;
+  for (const Dispersion& dispersion : after.dispersions)
+    (dispersion.rows.empty() ? own : names).push_back(dispersion.name);
+  CHECK(names == std::vector<std::string>{"root_spring", "mass.panel_2", "cause"});
+  CHECK(own == std::vector<std::string>{"mass.panel_1", "mass.panel_3"});
+  REQUIRE(after.wanted_correlations.size() == 1);
+  CHECK(lost_laws(campaign, fitted) == std::vector<std::string>{"cold: cause"});
+  CHECK(after.cases.at(0).distributions.empty());
+  // The effects: both campaigns with the same draws make the same scene.
+  const auto draw_of = [](const std::string& name) {
+    return name == "cause" ? 30 : name == "root_spring" ? 1.1 : 10.0;
+  };
+  Scene one = campaign.scene, other = after.scene;
+  std::vector<double> draws, draws_after;
+  for (const Dispersion& dispersion : campaign.dispersions)
+    draws.push_back(draw_of(dispersion.name));
+  for (const Dispersion& dispersion : after.dispersions)
+    draws_after.push_back(draw_of(dispersion.name));
+  apply(campaign, draws, campaign.scene, one);
+  apply(after, draws_after, after.scene, other);
+  for (const std::string& path : parameter_paths(campaign.scene)) {
+    const SceneParameter parameter = resolve(campaign.scene, path).matches.front().parameter;
+    CHECK(parameter.in(std::as_const(one)) == parameter.in(std::as_const(other)));
+  }
+}

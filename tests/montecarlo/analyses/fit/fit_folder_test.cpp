@@ -1,0 +1,93 @@
+#include "montecarlo/analyses/fit/fit_folder.hpp"
+#include "montecarlo/foundation/platform/interrupt.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+FitSpec timer_spec(const Campaign& campaign, long samples = 300) {
+  Json tests = parse_json(R"({ "tests": [ { "name": "timer",
+      "values": [ { "output": "root.latch_time", "value": 2.3, "std": "10 ms" } ] } ],
+    "fit": { "parameters": ["spring"], "samples": 300, "starts": 2 } })");
+  tests["fit"]["samples"] = samples;
+  return read_fit(tests, "", ".", campaign);
+}
+
+/// Fits into a folder. @param stop_after diagnoses of the chains; −1: never. @return whether it was stopped
+bool fit_into(const std::filesystem::path& path, const Campaign& campaign, const FitSpec& spec,
+              bool resume = false, int stop_after = -1, long most_runs = 0) {
+  FitFolder folder(path, about_fit(campaign, spec), resume);
+  if (folder.is_finished()) return false;
+  FitOptions options;
+  options.pool.threads = 1;
+  options.most_runs = most_runs;
+  std::atomic<bool> stop = false;
+  const auto told = [&](const EnsembleState&) {
+    if (stop_after-- == 0) stop = true;
+  };
+  try {
+    FitResult result = fit_campaign(campaign, spec, options, stop, &folder.log(), told);
+    folder.write(result, campaign, spec, options.pool, stop);
+  } catch (const Stopped&) {
+    return true;
+  }
+  return false;
+}
+
+} // namespace
+
+TEST_CASE("a fit's folder, interrupted and resumed, has the same bytes") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign(0.01));
+  const FitSpec spec = timer_spec(campaign);
+  CHECK_FALSE(fit_into(folder.path() / "whole", campaign, spec));
+  CHECK(fit_into(folder.path() / "parts", campaign, spec, false, 0));
+  CHECK(std::filesystem::exists(folder.path() / "parts" / fit_log_file));
+  CHECK(message_of([&] {
+          return fit_into(folder.path() / "parts", campaign, spec);
+        }).find("an interrupted study") != std::string::npos);
+  const FitSpec other = timer_spec(campaign, 301);
+  CHECK_FALSE(
+      message_of([&] { return fit_into(folder.path() / "parts", campaign, other, true); }).empty());
+  CHECK_FALSE(fit_into(folder.path() / "parts", campaign, spec, true));
+  CHECK(contents(folder.path() / "whole") == contents(folder.path() / "parts"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "parts" / fit_log_file));
+}
+
+TEST_CASE("unfinished chains are kept, and go on with more runs") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign(0.01));
+  const FitSpec spec = timer_spec(campaign, 3000);
+  const auto path = folder.path() / "long";
+  CHECK_FALSE(fit_into(path, campaign, spec, false, -1, 100));
+  CHECK(parse_json_file(path / fit_json_file)["finished"] == false);
+  CHECK(std::filesystem::exists(path / fit_log_file));
+  CHECK_FALSE(fit_into(path, campaign, spec, true));
+  CHECK(parse_json_file(path / fit_json_file)["finished"] == true);
+  CHECK_FALSE(fit_into(folder.path() / "whole", campaign, spec));
+  CHECK(contents(folder.path() / "whole") == contents(path));
+}
+
+TEST_CASE("the written campaign draws rows of the posterior and predicts what the test has shown") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign(0.05));
+  const FitSpec spec = timer_spec(campaign);
+  CHECK_FALSE(fit_into(folder.path() / "fit", campaign, spec));
+  const Campaign after = read_campaign_file(folder.path() / "fit" / campaign_file);
+  REQUIRE(after.dispersions.size() == 2);
+  CHECK(after.dispersions[0].name == "spring");
+  CHECK(after.dispersions[0].rows == "fitted");
+  CHECK(after.dispersions[1].name == "friction"); // not fitted: still dispersed
+  CHECK(after.dispersions[1].rows.empty());
+  const Json json = parse_json_file(folder.path() / "fit" / fit_json_file);
+  const Json& predicted = json["prediction"]["root.latch_time"];
+  const double before = predicted["before"][2].get<double>() - predicted["before"][0].get<double>();
+  const double width = predicted["after"][2].get<double>() - predicted["after"][0].get<double>();
+  CHECK(width < 0.95 * before);
+  CHECK(json["tests"][0]["values"]["root.latch_time"]["measured"] == 2.3);
+  CHECK(json["correlation"]["spring"]["spring"] == 1);
+}

@@ -1,0 +1,157 @@
+#include "montecarlo/analyses/fit/fit_spec.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+Json tests_json() {
+  return parse_json(
+      R"({ "tests": [ { "name": "one", "case": "cold", "set": { "hinges.root.initial_rate": "10 deg/s" },
+      "trace": { "file": "t1.csv", "time": "t", "time_offset_std": "5 ms", "correlated": false,
+        "columns": { "root.angle": { "column": "th", "unit": "deg", "std": "0.3 deg", "offset_std": "0.2 deg" },
+                     "root.rate": { "column": "w" } } },
+      "values": [ { "output": "root.latch_time", "value": "4.93 s", "std": "20 ms" },
+                  { "parameter": "hinges.root.friction.scale", "value": 1.1, "std": 0.1 } ],
+      "own": ["fric*"] } ],
+    "fit": { "parameters": ["spring", "friction"], "starts": 4, "samples": 500 } })");
+}
+
+constexpr const char* trace = "t,th,w [deg/s]\n0,86,0\n0.1,85.5,-1\n0.2,84,-2\n";
+
+struct Files {
+  explicit Files(const std::string& text = trace) {
+    folder.write("t1.csv", text);
+    Json json = panel_campaign();
+    json["cases"] =
+        parse_json(R"([ { "name": "cold", "scale": { "hinges.root.friction.scale": 3 } } ])");
+    json["dispersions"].push_back(
+        parse_json(R"({ "name": "lot", "apply": "set", "to": ["bodies.panel.mass"],
+      "distribution": { "type": "discrete", "values": [9, 10], "weights": [1, 1] } })"));
+    campaign = campaign_of(json);
+  }
+  [[nodiscard]] FitSpec read(const Json& json) const {
+    return read_fit(json, "tests.json", folder.path(), campaign);
+  }
+  /// The problems, without the folder's path.
+  [[nodiscard]] std::string problems(const Json& json) const {
+    std::string text = message_of([&] { return read(json); });
+    const std::string path = folder.path().string() + "/";
+    for (std::size_t at; (at = text.find(path)) != std::string::npos;) text.erase(at, path.size());
+    return text;
+  }
+  Folder folder;
+  Campaign campaign;
+};
+
+} // namespace
+
+TEST_CASE("tests: case, changes, traces in SI, values, own parameters") {
+  const Files files;
+  const FitSpec spec = files.read(tests_json());
+  CHECK(spec.parameters == std::vector<std::size_t>{0, 1});
+  CHECK((spec.starts == 4 && spec.samples == 500));
+  const FitTest& test = spec.tests.at(0);
+  constexpr double degree = M_PI / 180;
+  CHECK(test.campaign.scene.hinges[0].friction.scale == 3);
+  CHECK(test.campaign.scene.hinges[0].initial_rate == Approx(10 * degree));
+  CHECK(test.campaign.cases.empty());
+  CHECK(test.campaign.outputs.contains(OutputFamily::latch_time));
+  CHECK(test.times == std::vector<double>{0, 0.1, 0.2});
+  CHECK((test.time_offset_std == Approx(0.005) && !test.correlated));
+  REQUIRE(test.columns.size() == 2);
+  CHECK(test.columns[0].measured[1] == Approx(85.5 * degree));
+  CHECK(*test.columns[0].std == Approx(0.3 * degree));
+  CHECK(test.columns[0].offset_std == Approx(0.2 * degree));
+  CHECK(test.columns[1].measured[2] == Approx(-2 * degree)); // the header's unit
+  CHECK_FALSE(test.columns[1].std);
+  CHECK((test.values[0].measured == 4.93 && test.values[0].std == 0.02));
+  CHECK((test.values[1].parameter && test.values[1].measured == 1.1));
+  CHECK(test.own == std::vector<std::size_t>{1});
+}
+
+TEST_CASE("each fault of the tests has its place") {
+  const Files files;
+  const auto change = [&](const char* pointer, const char* value) {
+    return files.problems(spoil(tests_json(), {pointer, value, ""}));
+  };
+  CHECK(files.problems(tests_json()).empty());
+  CHECK(change("/fit/parameters/0", R"("sprink")") ==
+        "tests.json: /fit/parameters/0: found \"sprink\", expected the name of a dispersion (did "
+        "you mean \"spring\"?)");
+  CHECK(change("/fit/parameters/0", R"("lot")").find("whose law has steps") != std::string::npos);
+  CHECK(change("/fit/parameters/1", R"("spring")").find("\"spring\" a second time") !=
+        std::string::npos);
+  CHECK(change("/tests/0/case", R"("colt")")
+            .starts_with("tests.json: /tests/0/case: found \"colt\""));
+  CHECK(change("/tests/0/set", R"({ "hinges.roof.initial_rate": 1 })")
+            .starts_with("tests.json: /tests/0/set/hinges.roof.initial_rate: found the path"));
+  CHECK(change("/tests/0/set", R"({ "bodies.panel.mass": 9 })").find("\"lot\" sets in every run") !=
+        std::string::npos);
+  CHECK(change("/tests/0/set", R"({ "bodies.panel.inertia": -1 })")
+            .find("bodies.panel.inertia of -1") != std::string::npos);
+  CHECK(change("/tests/0/trace/file", R"("none.csv")")
+            .starts_with("tests.json: /tests/0/trace/file: found no file"));
+  CHECK(change("/tests/0/trace/columns", R"({ "tip.angle": "th" })") ==
+        "tests.json: /tests/0/trace/columns/tip.angle: found \"tip.angle\", expected a column of "
+        "the trajectory (did you mean \"root.angle\"?)");
+  CHECK(change("/tests/0/trace/columns/root.angle/unit", R"("deg/s")")
+            .starts_with("tests.json: /tests/0/trace/columns/root.angle: found the unit \"deg/s\" "
+                         "of the column \"th\", expected one such as"));
+  CHECK(change("/tests/0/trace/columns/root.rate", R"({ "column": "w", "unit": "rad/s" })")
+            .find("the unit \"rad/s\", and \"deg/s\" in the header") != std::string::npos);
+  CHECK(change("/tests/0/trace/columns/root.angle/column", R"("th2")").find("a column of t1.csv") !=
+        std::string::npos);
+  CHECK(change("/tests/0/values/0/output", R"("root.latch_tim")")
+            .find("did you mean \"root.latch_time\"?") != std::string::npos);
+  CHECK(change("/tests/0/values/0/std", R"("20 deg")")
+            .starts_with("tests.json: /tests/0/values/0/std"));
+  CHECK(change("/tests/0/values/1/parameter", R"("hinges.*.x")")
+            .starts_with("tests.json: /tests/0/values/1/parameter"));
+  CHECK(change("/tests/0/own/0", R"("lot")") ==
+        "tests.json: /tests/0/own/0: found \"lot\", which is not fitted, expected one of "
+        "fit.parameters");
+  CHECK(change("/tests/0/tracee", "1").find("the unknown key \"tracee\"") != std::string::npos);
+  CHECK(change("/candidates", R"([ { "name": "x", "own": ["spring"], "values":
+          [ { "output": "root.latch_time", "std": 1 } ] } ])")
+            .starts_with("tests.json: /candidates/0/own"));
+  CHECK(files.problems(parse_json(R"({ "tests": [ { "name": "t", "values": [
+          { "output": "root.latch_time", "value": 2, "std": 0.1 } ] } ],
+        "fit": { "parameters": ["spring", "friction"] } })")) ==
+        "tests.json: /tests: found 1 measured numbers for 2 parameters, expected at least as many "
+        "numbers as parameters");
+}
+
+TEST_CASE("each fault of a trace has its line") {
+  const auto with = [&](const std::string& text) { return Files(text).problems(tests_json()); };
+  CHECK(with("t,th,w\n0,86,0\n0.2,85.5,-1\n0.1,84,-2\n") ==
+        "t1.csv: line 4, column 't': found 0.1, expected a time after that of the row before: sort "
+        "the rows");
+  CHECK(with("t,th,w\n0,86,0\n0.1,x,-1\n") ==
+        "t1.csv: line 3, column 'th': found 'x', expected a finite number");
+  CHECK(with("t,th,w\n0,86,0\n0.1,86\n") ==
+        "t1.csv: line 3: found 2 cells, expected 3, as in the header");
+  CHECK(with("t,th,w\n0,86,0\n0.1,86,-1\n0.2,86,-2\n")
+            .find("\"th\", which is 1.50098 in every row") != std::string::npos);
+  CHECK(with("t,th,w\n0,86,0\n").find("1 rows in t1.csv") != std::string::npos);
+  CHECK(with("").find("no header") != std::string::npos);
+}
+
+TEST_CASE("a correlation of a fitted and another dispersion is refused") {
+  const Folder folder;
+  folder.write("t1.csv", trace);
+  Json json = panel_campaign();
+  json["correlations"] =
+      parse_json(R"([ { "between": ["spring", "friction"], "spearman": 0.5 } ])");
+  Json tests = tests_json();
+  tests["fit"]["parameters"] = {"spring"};
+  tests["tests"][0].erase("own");
+  tests["tests"][0].erase("case");
+  const std::string message =
+      message_of([&] { return read_fit(tests, "", folder.path(), campaign_of(json)); });
+  CHECK(message.find("one of \"spring\" and \"friction\", which the campaign correlates") !=
+        std::string::npos);
+}

@@ -1,0 +1,220 @@
+#include "montecarlo/analyses/fit/fit_report.hpp"
+#include "montecarlo/analyses/fit/fit_study.hpp"
+#include "tests/montecarlo/analyses/fit/fit_support.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <functional>
+
+using namespace wingspread;
+using namespace wingspread::test;
+
+namespace {
+
+/// Mean and standard deviation of a density on a grid.
+LawMoments moments_on_grid(double from, double to,
+                           const std::function<double(double)>& log_density) {
+  constexpr int n = 20000;
+  double sum = 0, first = 0, second = 0, largest = -1e300;
+  for (int k = 0; k <= n; ++k) largest = std::max(largest, log_density(from + (to - from) * k / n));
+  for (int k = 0; k <= n; ++k) {
+    const double x = from + (to - from) * k / n, w = std::exp(log_density(x) - largest);
+    sum += w, first += w * x, second += w * x * x;
+  }
+  return {first / sum, std::sqrt(second / sum - first * first / sum / sum)};
+}
+
+FitSpec spec_of(const char* text, const std::filesystem::path& folder, const Campaign& campaign) {
+  return read_fit(parse_json(text), "tests.json", folder, campaign);
+}
+
+constexpr const char* one_way = R"({ "tests": [ { "name": "one way",
+    "trace": { "file": "t1.csv", "time": "t", "correlated": false,
+               "columns": { "root.angle": { "column": "th", "std": 0.005 } } } } ],
+  "fit": { "parameters": ["spring", "friction"], "samples": 2000, "starts": 3 } })";
+
+constexpr const char* both_ways = R"({ "tests": [
+    { "name": "one way", "trace": { "file": "t1.csv", "time": "t", "correlated": false,
+               "columns": { "root.angle": { "column": "th", "std": 0.005 } } } },
+    { "name": "both ways", "set": { "hinges.root.initial_rate": 0.8 },
+      "trace": { "file": "t2.csv", "time": "t", "correlated": false,
+               "columns": { "root.angle": { "column": "th", "std": 0.005 } } } } ],
+  "fit": { "parameters": ["spring", "friction"], "samples": 2000, "starts": 3 } })";
+
+} // namespace
+
+TEST_CASE("the posterior of one torque from one latch time is that of Bayes' rule") {
+  const Folder folder;
+  const Campaign campaign = campaign_of(panel_campaign(0.01));
+  const double measured = panel_latch_time(1.01, 1), std = 0.01;
+  Json tests = parse_json(R"({ "tests": [ { "name": "timer",
+      "values": [ { "output": "root.latch_time", "value": 0, "std": "10 ms" } ] } ],
+    "fit": { "parameters": ["spring"], "samples": 5000, "starts": 2 } })");
+  tests["tests"][0]["values"][0]["value"] = measured;
+  const FitResult result = fitted(campaign, read_fit(tests, "", folder.path(), campaign));
+  REQUIRE(result.finished);
+  const auto log_density = [&](double s) {
+    return -0.5 * std::pow((s - 1) / 0.01, 2) -
+           0.5 * std::pow((panel_latch_time(s, 1) - measured) / std, 2);
+  };
+  const LawMoments exact = moments_on_grid(0.94, 1.06, log_density);
+  const FittedParameter& spring = result.parameters.at(0);
+  const double error = exact.standard_deviation / std::sqrt(5000.0); // of the mean over the samples
+  CHECK(std::abs(spring.mean - exact.mean) < 4 * error);
+  CHECK(std::abs(spring.std - exact.standard_deviation) < 4 * error / std::sqrt(2.0));
+  double mode = 1; // of the exact density, by bisection of its slope
+  for (double step = 0.02; step > 1e-9; step /= 2)
+    mode += log_density(mode + 1e-7) > log_density(mode - 1e-7) ? step : -step;
+  CHECK(std::abs(spring.mode - mode) < 1e-3 * exact.standard_deviation);
+  CHECK(result.channels.at(0).sigmas ==
+        Approx((measured - panel_latch_time(mode, 1)) / std).margin(1e-3));
+  CHECK(spring.prior_std == Approx(0.01).epsilon(1e-3));
+}
+
+TEST_CASE("one trace sees only the difference of spring and friction, and the fit says so") {
+  const Folder folder;
+  folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));
+  const Campaign campaign = campaign_of(panel_campaign());
+  const FitResult result = fitted(campaign, spec_of(one_way, folder.path(), campaign));
+  REQUIRE(result.finished);
+  CHECK(result.correlation(0, 1) > 0.98);
+  REQUIRE(result.directions.size() == 2);
+  CHECK(result.directions[0].std_ratio == Approx(1).margin(0.06));
+  CHECK(result.directions[1].std_ratio < 0.05);
+  CHECK(describe(result.directions[0], {"spring", "friction"}, result.u_covariance)
+            .starts_with("the tests tell spring and friction only by their difference"));
+  CHECK(fit_text(result, spec_of(one_way, folder.path(), campaign)).find("IDENTIFIABILITY") !=
+        std::string::npos);
+  CHECK(result.channels.at(0).p_value > 0.01);
+}
+
+TEST_CASE("a test in both senses separates them, by as much as Fisher's information says") {
+  const Folder folder;
+  folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));
+  folder.write("t2.csv", panel_trace(1.02, 1.1, 0.8, 0.005, 2));
+  const Campaign campaign = campaign_of(panel_campaign());
+  const FitResult result = fitted(campaign, spec_of(both_ways, folder.path(), campaign));
+  REQUIRE(result.finished);
+  CHECK(std::abs(result.correlation(0, 1)) < 0.5);
+  Eigen::Matrix2d information = Eigen::Matrix2d::Identity(); // of the prior, in u
+  const double s = result.parameters[0].mode, f = result.parameters[1].mode, h = 1e-5;
+  for (const double rate : {0.0, 0.8})
+    for (int k = 0; k <= 80; ++k) {
+      const double t = 0.02 * k;
+      const Eigen::Vector2d slope{
+          0.05 * (panel_angle(t, s + h, f, rate) - panel_angle(t, s - h, f, rate)) / (2 * h),
+          0.3 * (panel_angle(t, s, f + h, rate) - panel_angle(t, s, f - h, rate)) / (2 * h)};
+      information += slope * slope.transpose() / (0.005 * 0.005);
+    }
+  const Eigen::Matrix2d covariance = information.inverse();
+  for (int i = 0; i < 2; ++i)
+    CHECK(result.parameters[static_cast<std::size_t>(i)].std_ratio ==
+          Approx(std::sqrt(covariance(i, i))).epsilon(0.1));
+  CHECK(std::abs(result.parameters[0].mean - 1.02) < 4 * result.parameters[0].std);
+  CHECK(std::abs(result.parameters[1].mean - 1.1) < 4 * result.parameters[1].std);
+}
+
+TEST_CASE("a candidate's expected information is what the test then gives") {
+  const Folder folder;
+  folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));
+  folder.write("t2.csv", panel_trace(1.02, 1.1, 0.8, 0.005, 2));
+  const Campaign campaign = campaign_of(panel_campaign());
+  Json with = parse_json(one_way);
+  with["candidates"] = parse_json(R"([
+    { "name": "again", "trace": { "times": { "to": 1.6, "step": "20 ms" },
+                                  "columns": { "root.angle": { "std": 0.005 } } } },
+    { "name": "both ways", "set": { "hinges.root.initial_rate": 0.8 },
+      "trace": { "times": { "to": 1.6, "step": "20 ms" }, "columns": { "root.angle": { "std": 0.005 } } } },
+    { "name": "torque test", "values": [ { "parameter": "hinges.root.friction.scale", "std": 0.03 } ] } ])");
+  const FitResult before = fitted(campaign, read_fit(with, "", folder.path(), campaign));
+  const FitResult after = fitted(campaign, spec_of(both_ways, folder.path(), campaign));
+  REQUIRE(before.candidates.size() == 3);
+  CHECK(before.candidates[0].information < before.candidates[1].information);
+  CHECK(before.candidates[0].shrink[1] > 0.95);
+  for (std::size_t i = 0; i < 2; ++i)
+    CHECK(before.candidates[1].shrink[i] ==
+          Approx(after.parameters[i].std_ratio / before.parameters[i].std_ratio).epsilon(0.15));
+  // In u the friction's scale is 0.3 u: the test leaves 1/√(1/v + 0.3²/0.03²) of it.
+  const double v = before.u_covariance(1, 1);
+  CHECK(before.candidates[2].shrink[1] == Approx(std::sqrt(1 / (1 + v * 100))).epsilon(1e-6));
+}
+
+TEST_CASE("clock and sensor offsets, an unknown noise and parameters of one test's own are found") {
+  const Folder folder;
+  std::string late = "ms,th [deg]\n"; // the clock is 30 ms late, the encoder 1 deg off
+  RandomStream random(3, 0, stream_name("late"));
+  for (int k = 0; k <= 80; ++k) {
+    const double z = inverse(Normal{}, tails_of_uniform(open_uniform(random())));
+    const double angle = panel_angle(0.02 * k + 0.03, 1.02, 1.1);
+    late += std::to_string(20 * k) + "," + csv_cell(angle * 180 / M_PI + 1 + 0.3 * z) + "\n";
+  }
+  folder.write("t1.csv", late);
+  const Campaign campaign = campaign_of(panel_campaign(0.05, 0.01));
+  const FitResult result =
+      fitted(campaign, spec_of(R"({ "tests": [ { "name": "late", "own": ["friction"],
+          "trace": { "file": "t1.csv", "time": { "column": "ms", "unit": "ms" }, "time_offset_std": "50 ms",
+            "columns": { "root.angle": { "column": "th", "offset_std": "2 deg" } } } } ],
+        "fit": { "parameters": ["spring", "friction"], "samples": 1000, "starts": 2 } })",
+                               folder.path(), campaign));
+  REQUIRE(result.finished);
+  REQUIRE(result.parameters.size() == 4);
+  CHECK(result.common == 1);
+  CHECK(result.parameters[1].name == "friction of late");
+  CHECK(result.parameters[2].name == "time offset of late");
+  CHECK(result.parameters[3].name == "offset of root.angle of late");
+  CHECK(result.parameters[2].mean == Approx(0.03).margin(4 * result.parameters[2].std));
+  CHECK(result.parameters[3].mean == Approx(M_PI / 180).margin(4 * result.parameters[3].std));
+  CHECK(result.parameters[3].std_ratio < 0.5);
+  CHECK(result.channels[0].rms * 180 / M_PI == Approx(0.3).epsilon(0.25)); // 81 numbers: 4 sd
+}
+
+TEST_CASE("a trace of another hinge or sense is told first") {
+  const Folder folder;
+  std::string wrong = "t,th\n";
+  for (int k = 0; k <= 80; ++k)
+    wrong += std::to_string(0.02 * k) + "," + csv_cell(-panel_angle(0.02 * k, 1, 1)) + "\n";
+  folder.write("t1.csv", wrong);
+  const Campaign campaign = campaign_of(panel_campaign());
+  Json tests = parse_json(one_way);
+  tests["fit"]["samples"] = 100;
+  const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+  const FitResult result = fitted(campaign, spec);
+  const auto findings = fit_findings(result, spec);
+  REQUIRE_FALSE(findings.empty());
+  CHECK(findings.front().starts_with("root.angle of \"one way\": the residuals are"));
+  CHECK(fit_text(result, spec).starts_with("root.angle of"));
+}
+
+TEST_CASE("chains that are not finished are no result") {
+  const Folder folder;
+  folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));
+  const Campaign campaign = campaign_of(panel_campaign());
+  const FitSpec spec = spec_of(one_way, folder.path(), campaign);
+  FitOptions few;
+  few.most_runs = 4000;
+  Json long_one = parse_json(one_way);
+  long_one["fit"]["samples"] = 50000;
+  const FitSpec wants = read_fit(long_one, "", folder.path(), campaign);
+  const FitResult result = fitted(campaign, wants, few);
+  CHECK_FALSE(result.finished);
+  CHECK(fit_findings(result, wants).front().starts_with("not finished"));
+  CHECK(fit_json(result, wants, Json::object())["finished"] == false);
+}
+
+TEST_CASE("threads and lanes do not change a bit") {
+  const Folder folder;
+  folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));
+  const Campaign campaign = campaign_of(panel_campaign());
+  Json tests = parse_json(one_way);
+  tests["fit"]["samples"] = 200;
+  tests["tests"][0]["values"] =
+      parse_json(R"([ { "output": "root.latch_time", "value": 2.3, "std": 0.1 } ])");
+  const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+  FitOptions one, other;
+  one.pool = {1, InstructionSet::scalar};
+  other.pool.threads = 3;
+  const FitResult a = fitted(campaign, spec, one), b = fitted(campaign, spec, other);
+  CHECK(posterior_csv(a) == posterior_csv(b));
+  CHECK(traces_csv(a, spec) == traces_csv(b, spec));
+  CHECK(fit_json(a, spec, {}) == fit_json(b, spec, {}));
+}
