@@ -21,8 +21,13 @@ constexpr auto count_if(Range&& range, Predicate predicate) {
 template <class Range, class Value> constexpr auto count(Range&& range, const Value& value) {
   return std::count(std::begin(range), std::end(range), value);
 }
-template <class Range, class Value> constexpr auto find(Range&& range, const Value& value) {
-  return std::find(std::begin(range), std::end(range), value);
+template <class Range, class Value, class Key = std::identity>
+constexpr auto find(Range&& range, const Value& value, Key key = {}) {
+  return std::find_if(std::begin(range), std::end(range),
+                      [&](const auto& each) { return std::invoke(key, each) == value; });
+}
+template <class A, class B, class Same> constexpr bool equal(A&& a, B&& b, Same same) {
+  return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b), same);
 }
 template <class Range, class Out> constexpr auto copy(Range&& range, Out out) {
   return std::copy(std::begin(range), std::end(range), out);
