@@ -61,7 +61,7 @@ std::string four_digits(double value) {
 }
 
 double quantile_of(const OutputSummary& output, std::size_t index) {
-  return output.quantiles[index].value;
+  return output.quantiles[index].all.value;
 }
 
 std::string compact_quantile_name(double p) {
