@@ -146,19 +146,23 @@ std::string output_block(const Summary& summary, std::span<const NumberColumn> c
 std::string missing_quantiles(const Summary& summary) {
   std::string text;
   for (const OutputSummary& output : summary.outputs) {
-    std::string why, found;
-    for (const QuantileEstimate& quantile : output.quantiles) {
-      if (!std::isnan(quantile.all.value) || !quantile.among) continue;
-      why = why_no_quantile(output, quantile);
-      found += fmt::format(" · {} {}", quantile_name(quantile.p), in_digits(quantile.among->value));
-    }
-    if (!why.empty())
-      text += fmt::format("  {}\n",
-                          wrapped(fmt::format("{}: {}. Among runs with a value, {}:{}", output.name,
-                                              why, parse_output_name(output.name).unit, found),
-                                  4));
+    const std::string unit = parse_output_name(output.name).unit;
+    std::vector<std::string> found;
+    for (const QuantileEstimate& quantile : output.quantiles)
+      if (quantile.among && std::isnan(quantile.all.value))
+        found.push_back(fmt::format("{} {}{}", quantile_name(quantile.p),
+                                    in_digits(quantile.among->value),
+                                    unit.empty() ? "" : ' ' + unit));
+    if (found.empty()) continue;
+    const std::string line =
+        fmt::format("{}: {} of {} runs have a value; among these: {}", output.name,
+                    output.moments.count, summary.runs, fmt::join(found, ", "));
+    text += "  " + wrapped(line, 4) + '\n';
   }
-  return text.empty() ? "" : "\nQUANTILES that do not exist over all runs\n" + text;
+  if (text.empty()) return "";
+  return "\nNO QUANTILE over all runs: those without a value rank above every value, for a min "
+         "below\n" +
+         text;
 }
 
 /// Splits the columns into blocks so that lines keep within the width. @param all also outputs that are_quiet()

@@ -67,9 +67,9 @@ TEST_CASE("the table shows outcomes, reasons, latch orders, outputs by hinge, an
                            "\ntip\n",
                            "\nwing\n",
                            "over the runs in which the output happened, of 100.",
-                           "QUANTILES that do not exist over all runs",
+                           "NO QUANTILE over all runs",
                            "deployment_time: 90 of 100 runs have a value",
-                           "Among runs with a value, s: · 99 % 12.000",
+                           "among these: 99 % 12.000 s",
                            "FILES  out: runs.csv, summary.json, histograms.json, histograms.csv\n"})
     CHECK_THAT(table, Catch::Contains(part));
   CHECK_THAT(table, Catch::Contains("  stalled" + std::string(49, ' ') + "10    10.000 %"));
