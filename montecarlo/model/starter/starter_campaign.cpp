@@ -178,7 +178,7 @@ std::optional<StarterLimits> starter_limits(const WingDesign& design) {
       limits.moment[w] = std::max(limits.moment[w], outcome.peak_moment[w * each].value);
   }
   limits.deployment_time = rounded_up(reserve_of_time * limits.deployment_time);
-  limits.t_end = std::min(latest_end, 2 * limits.deployment_time);
+  limits.t_end = 2 * limits.deployment_time;
   for (double& moment : limits.moment) moment = rounded_up(reserve_of_moment * moment);
   return limits;
 }
