@@ -30,9 +30,10 @@ RunCost cost_of(const Scene& scene, Integration integration, Goal goal) {
   return {taken.count(), outcome.work.rhs_evaluations, limited && outcome.status == Status::failed};
 }
 
-/// "3 ms", "40 s", "2 min", "5 h": one or two digits.
+/// "3.1 ms", "0.4 s", "40 s", "2 min", "5 h": one or two digits.
 std::string duration(double seconds) {
-  if (seconds < 1) return fmt::format("{:.2g} ms", std::max(1e3 * seconds, 0.1));
+  if (seconds < 0.095) return fmt::format("{:.2g} ms", std::max(1e3 * seconds, 0.1));
+  if (seconds < 9.5) return fmt::format("{:.1f} s", seconds);
   if (seconds < 100) return fmt::format("{:.0f} s", seconds);
   if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
   return fmt::format("{:.0f} h", seconds / 3600);

@@ -88,9 +88,9 @@ int make_new(const NewOptions& options) {
 template <class Read>
 void add_number(CLI::App& command, NewOptions& options, std::string_view option,
                 std::string_view what, std::string_view unit, Read read) {
-  const auto parse = [&options, read](const std::string& text) {
+  const auto parse = [&options, read, name = std::string(option)](const std::string& text) {
     options.designed = true;
-    if (const auto message = read(text, options.design)) throw CLI::ValidationError(*message);
+    if (const auto message = read(text, options.design)) throw CLI::ValidationError(name, *message);
   };
   command.add_option_function<std::string>(std::string(option), parse, std::string(what))
       ->type_name(std::string(unit));

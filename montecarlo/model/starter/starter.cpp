@@ -21,7 +21,7 @@ number may have a unit: `"1.8 m"`, `"90 deg"`, `"12 in*lbf"`; without one it is 
     wingspread check {campaign} --draw wing.svg      # the wing in a picture, warnings, static margins
     wingspread simulate {scene}                      # one deployment
     wingspread run {campaign} --out results --table  # the campaign: all cases, verdicts
-    wingspread report results                        # one HTML page for a review
+    wingspread report results                           # one HTML page for a review
 
 ## {scene}: the wing
 
@@ -40,7 +40,8 @@ Paths name parameters of the scene; `*` matches every name. `"apply": "scale"` m
 1. Spring torques by the torque test, both ways: `"spring": {{ "measured": {{ "angle": […], "deploying": […], "stowing": […] }} }}`.
 2. Harness torques measured cold, and the temperatures of the cases.
 3. Latch stiffness by the joint's test, masses and inertias by the mass budget.
-4. Limits of the requirements by those of the project: these are half as much again as the nominal values.
+4. Limits of the requirements by those of the project: these are twice the nominal time and three times the
+   nominal moments.
 
 `wingspread schema scene` and `wingspread schema campaign` list every key for an editor.
 )";

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double width_per_size =
     0.58;                   // of a character, of the font's size; digits have 0.556 in Helvetica
-constexpr double gap = 3;   // px on both sides of a text
+constexpr double blank = 3; // px on both sides of a text
 constexpr double crumb = 6; // px: lines are kept free in pieces of this length
 constexpr double nearest = 12, furthest = 170, ring = 11; // px from the anchor
 constexpr int directions = 16;
@@ -33,7 +33,7 @@ void LabelPlaces::avoid(const Eigen::Vector2d& from, const Eigen::Vector2d& to) 
 
 Box LabelPlaces::place(const std::string& text, double size, const Eigen::Vector2d& anchor,
                        const Eigen::Vector2d& away) {
-  const Eigen::Vector2d half{text_width(text, size) / 2 + gap, 0.6 * size};
+  const Eigen::Vector2d half{text_width(text, size) / 2 + blank, 0.6 * size};
   const double preferred = std::atan2(away.y(), away.x());
   const auto is_free = [](const Box& box, const std::vector<Box>& others) {
     return std::ranges::none_of(others, [&](const Box& other) { return box.overlaps(other); });

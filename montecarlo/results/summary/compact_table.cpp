@@ -190,15 +190,14 @@ std::string accuracy_line(const Summary& summary) {
   const Accuracy& found = *summary.accuracy;
   const double share = largest_share(summary);
   std::string line = fmt::format(
-      "integration errors {}, in ≥ {} of all runs ({:g} % confidence)",
+      "integration errors {} in ≥ {} of runs ({:g} % confidence)",
       std::isnan(share)   ? "unknown"
       : std::isinf(share) ? "in an output that does not vary"
                           : fmt::format("≤ {:.1g} % of a standard error", 100 * share),
       percent(1 - share_at_most(found, 0, summary.confidence), 1), 100 * summary.confidence);
   const auto add = [&](std::size_t runs, const char* one, const char* many) {
     if (runs > 0)
-      line += fmt::format("; of {} repeated, {} {}", counted(found.runs, "run", "runs"), runs,
-                          runs == 1 ? one : many);
+      line += fmt::format("; {} of {} repeated {}", runs, found.runs, runs == 1 ? one : many);
   };
   add(found.moved.size(), "moves by more than 1 %", "move by more than 1 %");
   add(found.in_doubt.size(), "ends otherwise", "end otherwise");

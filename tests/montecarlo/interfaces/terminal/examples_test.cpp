@@ -16,7 +16,7 @@ TEST_CASE("every campaign of the studies is an example that can be read on its o
     const Folder folder;
     const Example example = read_example(name, studies);
     CHECK(example.name == name);
-    for (const auto& [file, text] : example.files) (void)folder.write(file, text);
+    for (const auto& [file, text] : example.files) (void)folder.write(file.c_str(), text);
     const Campaign alone = read_campaign_file(folder.path() / starter_campaign_file);
     CHECK(alone.resolved == read_campaign_file(entry.path()).resolved);
     ++read;
