@@ -199,6 +199,7 @@
     const factors = Object.fromEntries(PARTS.map((part) => [part, 1]));
     let which = "all",
       run = null,
+      unchanged = null, // the outcome without changes
       kernel = null;
     const host = h("div", { "aria-live": "polite" }),
       field = h("input", { type: "number", min: 0, step: 1, value: 0, "aria-label": "Number of the run" });
@@ -208,8 +209,9 @@
         kernel = kernel || (await (set.kernelInPage = set.kernelInPage || kernelOf(set)));
         if (run === null) kernel.median();
         else kernel.draw(run);
+        if (!unchanged || unchanged.run !== run) unchanged = { run, made: kernel.run([]) };
         const changes = changesOf(set, factors, which),
-          plain = kernel.run([]),
+          plain = unchanged.made,
           made = changes.length ? kernel.run(changes) : plain,
           label = run === null ? "nominal wing" : `run ${run}`;
         const why = changes.length
