@@ -73,6 +73,10 @@ bool has_settled(std::span<const MotionSample> samples, const MotionLayout& layo
   const auto after = std::ranges::lower_bound(samples, since, {}, &MotionSample::t);
   if (after == samples.end() || !(samples.back().t > since)) return false;
   const double late = since + 0.75 * (samples.back().t - since);
+  // A few steps are no cycle of any mode, and seem to stand still. Heuristic; fewer end a ring at its start.
+  constexpr std::ptrdiff_t fewest = 16;
+  if (samples.end() - std::ranges::lower_bound(samples, late, {}, &MotionSample::t) < fewest)
+    return false;
   for (std::size_t h = 0; h < layout.hinges; ++h) {
     std::array<double, 2> all{after->values[layout.moment(h)], after->values[layout.moment(h)]},
         last{samples.back().values[layout.moment(h)], samples.back().values[layout.moment(h)]};

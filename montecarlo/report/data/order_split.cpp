@@ -15,13 +15,15 @@ std::size_t bin_of(const Histogram& histogram, double value) {
   return static_cast<std::size_t>(inner - histogram.edges.begin() - 1);
 }
 
+constexpr const char* separators = "_-. "; // between the parts of a name
+
 /// What all names begin with, without separators at its end.
 std::string common_beginning(const std::vector<std::string>& names) {
   std::string common = names.front();
   for (const std::string& name : names)
     common.resize(
         static_cast<std::size_t>(std::ranges::mismatch(common, name).in1 - common.begin()));
-  common.resize(common.find_last_not_of("_-. ") + 1);
+  common.resize(common.find_last_not_of(separators) + 1);
   return common;
 }
 
@@ -48,38 +50,76 @@ std::vector<WingOrders> wings_of(const Scene& scene) {
   return wings;
 }
 
+/// The hinges of an order.
+std::vector<std::string> split(std::string_view order) {
+  std::vector<std::string> hinges;
+  while (!order.empty()) {
+    hinges.emplace_back(order.substr(0, order.find('>')));
+    order.remove_prefix(std::min(order.size(), hinges.back().size() + 1));
+  }
+  return hinges;
+}
+
 /// The part of an order that concerns these hinges.
 std::string part_of(std::string_view order, const std::vector<std::string>& hinges) {
   std::string part;
-  while (!order.empty()) {
-    const std::string_view hinge = order.substr(0, order.find('>'));
-    order.remove_prefix(std::min(order.size(), hinge.size() + 1));
-    if (std::ranges::find(hinges, hinge) == hinges.end()) continue;
-    if (!part.empty()) part += '>';
-    part += hinge;
-  }
+  for (const std::string& hinge : split(order))
+    if (std::ranges::find(hinges, hinge) != hinges.end()) part += (part.empty() ? "" : ">") + hinge;
   return part;
+}
+
+/// An order of a wing's hinges without the wing's name in theirs.
+std::string without_name(std::string_view order, const WingOrders& wing) {
+  std::string text;
+  for (const std::string& hinge : split(order)) {
+    std::string_view rest = hinge;
+    if (wing.hinges.size() > 1 && rest.starts_with(wing.name)) rest.remove_prefix(wing.name.size());
+    rest.remove_prefix(std::min(rest.find_first_not_of(separators), rest.size()));
+    text += (text.empty() ? "" : ">") + (rest.empty() ? hinge : std::string(rest));
+  }
+  return text;
+}
+
+/// The orders of all wings, "left: root>tip · right: none"; empty if no hinge latched.
+std::string by_wing(std::string_view order, const std::vector<WingOrders>& wings) {
+  std::string all;
+  for (const WingOrders& wing : wings) {
+    if (order.empty()) break;
+    std::string part = part_of(order, wing.hinges);
+    if (!all.empty()) all += " · ";
+    all += wing.name + ": " + (part.empty() ? "none" : without_name(part, wing));
+  }
+  return all;
 }
 
 } // namespace
 
-OrderSplit::OrderSplit(const Results& results, const Summary& summary) : results_(&results) {
-  const std::size_t named = std::min(summary.latch_orders.size(), most_orders);
-  long beyond = summary.runs - summary.without_latch;
-  for (std::size_t i = 0; i < named; ++i) {
-    groups_.push_back({summary.latch_orders[i].order, summary.latch_orders[i].count});
-    beyond -= summary.latch_orders[i].count;
-  }
+OrderSplit::OrderSplit(const Results& results, const Summary& summary, const Scene& scene)
+    : results_(&results) {
+  const std::vector<WingOrders> wings = wings_of(scene);
+  const TextColumn& texts = results.latch_order.texts();
+  std::vector<std::string> names;
+  for (std::size_t code = 0; code < texts.size(); ++code)
+    names.push_back(wings.size() > 1 ? by_wing(texts[code], wings) : std::string(texts[code]));
+  std::map<std::string, long> counts;
+  for (const std::uint32_t code : results.latch_order.codes()) ++counts[names[code]];
+  counts.erase("");
+  kinds_ = std::ssize(counts);
+  for (const auto& [name, count] : counts) groups_.push_back({name, count});
+  std::ranges::stable_sort(groups_, std::ranges::greater{}, &Group::count);
+  const std::size_t named = std::min(groups_.size(), most_orders);
+  long beyond = 0;
+  for (std::size_t i = named; i < groups_.size(); ++i) beyond += groups_[i].count;
+  groups_.resize(named);
   const std::size_t of_others = groups_.size();
   if (beyond > 0) groups_.push_back({std::string(others), beyond});
   const std::size_t of_none = groups_.size();
   if (summary.without_latch > 0) groups_.push_back({std::string(no_latch), summary.without_latch});
-  const TextColumn& texts = results.latch_order.texts();
-  for (std::size_t code = 0; code < texts.size(); ++code) {
+  for (const std::string& name : names) {
     const auto found =
-        std::ranges::find(groups_.begin(), groups_.begin() + named, texts[code], &Group::name);
+        std::ranges::find(groups_.begin(), groups_.begin() + named, name, &Group::name);
     const auto place = static_cast<std::size_t>(found - groups_.begin());
-    of_code_.push_back(texts[code].empty() ? of_none : place < named ? place : of_others);
+    of_code_.push_back(name.empty() ? of_none : place < named ? place : of_others);
   }
 }
 

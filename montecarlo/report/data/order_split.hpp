@@ -12,20 +12,25 @@
 namespace wingspread {
 
 /// The most frequent orders, then one group for the other orders, then one for runs without a latch.
+///
+/// In a scene of several wings an order is that of each wing by itself, "left: root>tip · right: tip>root": how the wings'
+/// sequences interleave would make almost every run an order of its own.
 class OrderSplit {
 public:
   static constexpr std::size_t most_orders =
       6; ///< largest number of orders with a group of their own
   static constexpr std::string_view others = "others", no_latch = "no latch";
 
-  /// @pre the summary is that of the results; both outlive this
-  OrderSplit(const Results& results, const Summary& summary);
+  /// @pre the summary is that of the results; the results outlive this
+  OrderSplit(const Results& results, const Summary& summary, const Scene& scene = {});
 
   struct Group {
     std::string name;
     long count = 0;
   };
   [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
+  /// Number of different orders.
+  [[nodiscard]] long kinds() const { return kinds_; }
   /// The group of a row.
   [[nodiscard]] std::size_t of_row(std::size_t row) const {
     return of_code_[results_->latch_order.codes()[row]];
@@ -38,6 +43,7 @@ public:
 private:
   const Results* results_;
   std::vector<Group> groups_;
+  long kinds_ = 0;
   std::vector<std::size_t> of_code_; ///< group of each text of the column
 };
 

@@ -15,7 +15,7 @@ std::unique_ptr<PageSource> read_page_source(StoredCampaign stored, const std::s
   source->replication = replication_of(campaign.sampling, source->results);
   source->summary = stored_summary(source->stored, source->results, campaign.statistics, threads);
   source->confidence = source->summary.interim.confidence_of_bound(campaign.statistics.confidence);
-  source->orders = std::make_unique<OrderSplit>(source->results, source->summary);
+  source->orders = std::make_unique<OrderSplit>(source->results, source->summary, campaign.scene);
   return source;
 }
 

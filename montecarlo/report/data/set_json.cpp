@@ -188,7 +188,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   json["statuses"] = statuses_json(summary);
   json["reasons"] = reasons_json(summary);
   json["orders"] = orders_json(*source.orders);
-  json["order_kinds"] = summary.latch_order_kinds;
+  json["order_kinds"] = source.orders->kinds();
   json["without_latch"] = summary.without_latch;
   json["wing_orders"] = wing_orders_json(source);
   json["warnings"] = all_warnings(source, detail);

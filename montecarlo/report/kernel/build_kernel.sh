@@ -9,7 +9,7 @@ rm -rf "$work"
 mkdir "$work"
 trap 'rm -rf "$work"' EXIT
 # -Os: a third of the size of -O2, and the modes compile in seconds in place of minutes. Contraction is off as in the program.
-flags=(--target=wasm32-wasi -std=c++20 -Os -DNDEBUG -ffp-contract=off -fno-exceptions -DBOOST_NO_EXCEPTIONS -D__riscv -DR123_USE_GNU_UINT128=1
+flags=(--target=wasm32-wasi -std=c++20 -Os -DNDEBUG -ffp-contract=off -DWINGSPREAD_HAS_FMA -fno-exceptions -DBOOST_NO_EXCEPTIONS -D__riscv -DR123_USE_GNU_UINT128=1
        -DBOOST_MATH_BERNOULLI_UNTHREADED -DBOOST_SMART_PTR_DETAIL_LIGHTWEIGHT_MUTEX_HPP_INCLUDED
        -D_WASI_EMULATED_PROCESS_CLOCKS -include "$sources/montecarlo/report/kernel/older_ranges.hpp"
        -I "$sources" -isystem "$eigen" -idirafter /usr/include)

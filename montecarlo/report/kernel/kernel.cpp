@@ -10,9 +10,13 @@
 
 #include <boost/assert/source_location.hpp>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <limits>
+#include <span>
 
 // Called by Boost where it would throw: for arguments that the program's checks refuse.
 namespace boost {
@@ -21,6 +25,34 @@ void throw_exception(const std::exception&, const source_location&) { __builtin_
 } // namespace boost
 
 using namespace wingspread;
+
+/// a·b + c with one rounding, in place of the C library's, which takes ten times as long. WebAssembly has no such
+/// instruction; with it the kernel has the program's bits, without it stiff runs differ by 1e-7.
+/// Products of Dekker, the last sum rounded to odd: S. Boldo and G. Melquiond, IEEE Trans. Comput. 57 (2008) 462–471.
+/// Beyond 1e290, where a product of halves overflows, and for what is not finite: two roundings.
+extern "C" double fma(double a, double b, double c) {
+  const double product = a * b;
+  if (!(std::abs(product) < 1e290 && std::abs(c) < 1e290 && std::abs(a) < 1e290 &&
+        std::abs(b) < 1e290) ||
+      product == 0)
+    return product + c;
+  constexpr double splitter = 134217729; // 2²⁷ + 1
+  const double a_top = splitter * a - (splitter * a - a), a_rest = a - a_top;
+  const double b_top = splitter * b - (splitter * b - b), b_rest = b - b_top;
+  const double low =
+      a_rest * b_rest - (((product - a_top * b_top) - a_rest * b_top) - a_top * b_rest);
+  const auto sum = [](double x, double y) { // and its rounding error
+    const double s = x + y, part = s - x;
+    return std::array{s, (x - (s - part)) + (y - part)};
+  };
+  const auto [upper, upper_low] = sum(c, low);
+  const auto [whole, whole_low] = sum(product, upper);
+  auto [last, error] = sum(upper_low, whole_low);
+  auto bits = std::bit_cast<std::int64_t>(last);
+  if (error != 0 && bits % 2 == 0) // to the odd neighbour on the error's side
+    last = std::bit_cast<double>(bits + ((error > 0) == (last > 0) ? 1 : -1));
+  return whole + last;
+}
 
 namespace {
 
@@ -117,10 +149,12 @@ public:
     apply_draws();
     for (int i = 0; i < count; ++i)
       *places_[static_cast<std::size_t>(changes[2 * i])] *= changes[2 * i + 1];
-    const Outcome outcome = integrate(campaign_.scene, campaign_.integration, campaign_.goal, {});
+    MotionRecorder recorder(campaign_.scene.hinges.size());
+    const Outcome outcome =
+        integrate(campaign_.scene, campaign_.integration, campaign_.goal, recorder.observer());
     reason = outcome.reason;
     keep_result(outcome);
-    keep_samples(outcome);
+    keep_samples(recorder, outcome);
   }
 
   std::vector<double> draws, result, samples;
@@ -163,23 +197,39 @@ private:
     result.push_back(outcome.base_peaks ? outcome.base_peaks->rate : none);
   }
 
-  /// Samples to the end of the ring. Exceptions are switched off here, so the run is made again to a later end until the
-  /// moments have settled.
-  void keep_samples(const Outcome& outcome) {
+  /// Samples to the end of the ring. If a proof ended the run before, it is made again to a later end: exceptions, by which
+  /// an observer could end a run, are switched off here.
+  void keep_samples(MotionRecorder& recorder, const Outcome& outcome) {
     const MotionLayout layout{campaign_.scene.hinges.size()};
     const double since = outcome.latches.empty() ? 0 : outcome.latches.back().time;
     Integration how = campaign_.integration;
     Goal goal = campaign_.goal;
     goal.to_t_end = true;
-    double length = std::max(outcome.t_end - since, 0.05 * since);
-    for (bool settled = false; !settled; length *= 2) {
-      how.t_end = std::min(campaign_.integration.t_end, since + length);
-      MotionRecorder recorder(layout.hinges);
+    double end = outcome.t_end;
+    while (!cut_at_end_of_ring(recorder.samples(), layout, since) &&
+           end < campaign_.integration.t_end) {
+      how.t_end = end =
+          std::min(campaign_.integration.t_end, since + 2 * (end - since) + 0.1 * since);
+      recorder = MotionRecorder(layout.hinges);
       (void)integrate(campaign_.scene, how, goal, recorder.observer());
-      settled = !(how.t_end < campaign_.integration.t_end) || outcome.latches.empty() ||
-                has_settled(recorder.samples(), layout, since);
-      if (settled) keep_resampled(recorder, layout, outcome);
     }
+    keep_resampled(recorder, layout, outcome);
+  }
+
+  /// Drops the samples after the moments have settled. @return whether they have
+  static bool cut_at_end_of_ring(std::vector<MotionSample>& samples, const MotionLayout& layout,
+                                 double since) {
+    if (samples.empty()) return true;
+    for (double length = 0.05 * since + 1e-3; since + length < samples.back().t; length *= 1.25) {
+      const auto after =
+          std::upper_bound(samples.begin(), samples.end(), since + length,
+                           [](double t, const MotionSample& sample) { return t < sample.t; });
+      const auto count = static_cast<std::size_t>(after - samples.begin());
+      if (!has_settled(std::span(samples).first(count), layout, since)) continue;
+      samples.resize(count);
+      return true;
+    }
+    return has_settled(samples, layout, since);
   }
 
   /// Rows of t, then the values of MotionLayout.

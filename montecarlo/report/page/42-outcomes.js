@@ -109,7 +109,7 @@
     return [
       title,
       set.wing_orders.map((wing) => ordersOfWing(wing, total)),
-      h("details", h("summary", `Orders over all wings: ${F.counted(set.order_kinds, "kind")}`), table),
+      h("details", h("summary", `All wings together: ${F.counted(set.order_kinds, "order")}`), table),
     ];
   }
   // The orders of one wing's hinges among themselves.

@@ -109,7 +109,7 @@
     return W.isNumber(found) ? found : null;
   }
 
-  function motionOf(set, made, label, why, run) {
+  function motionOf(set, made, label, why, run, changed) {
     const moving = set.wing.base && set.wing.base.kind !== "fixed";
     return {
       computed: true,
@@ -118,7 +118,7 @@
       run,
       status: made.status,
       reason: made.reason,
-      replay: run === null ? null : `wingspread replay ${set.folder} --run ${run}`,
+      replay: run === null || changed ? null : `wingspread replay ${set.folder} --run ${run}`,
       t: made.t,
       angles: made.angles,
       rates: made.rates,
@@ -157,13 +157,14 @@
             kept = value !== null && (one.upper ? size <= one.limit : size >= one.limit);
           return [W.badge(kept ? "passed" : "failed", true), ` ${one.upper ? "≤" : "≥"} ${F.written(one.limit, output.unit)} `];
         });
+    const levels = (shown.map((output) => output.quantiles || []).find((list) => list.length) || []).map((one) => one.p);
     const columns = [
       "Output",
       "Unit",
       number(label),
       changed && number("with changes"),
       number("Mean of the campaign"),
-      number("Lowest to highest quantile"),
+      number(levels.length ? `${F.level(levels[0])} … ${F.level(levels[levels.length - 1])} of the runs` : "Quantiles"),
       "Limit",
     ];
     const rows = shown.map((output) => [
@@ -199,6 +200,7 @@
     const factors = Object.fromEntries(PARTS.map((part) => [part, 1]));
     let which = "all",
       run = null,
+      unchanged = null, // the outcome without changes
       kernel = null;
     const host = h("div", { "aria-live": "polite" }),
       field = h("input", { type: "number", min: 0, step: 1, value: 0, "aria-label": "Number of the run" });
@@ -208,8 +210,9 @@
         kernel = kernel || (await (set.kernelInPage = set.kernelInPage || kernelOf(set)));
         if (run === null) kernel.median();
         else kernel.draw(run);
+        if (!unchanged || unchanged.run !== run) unchanged = { run, made: kernel.run([]) };
         const changes = changesOf(set, factors, which),
-          plain = kernel.run([]),
+          plain = unchanged.made,
           made = changes.length ? kernel.run(changes) : plain,
           label = run === null ? "nominal wing" : `run ${run}`;
         const why = changes.length
@@ -224,7 +227,7 @@
           drawsTable(set, kernel.draws()),
         );
         const others = set.motions.filter((one) => !one.computed);
-        set.motions = [...others, motionOf(set, made, changes.length ? `${label}, changed` : label, why, run)];
+        set.motions = [...others, motionOf(set, made, changes.length ? `${label}, changed` : label, why, run, changes.length > 0)];
         if (made.t.length) W.choose("motion", set.motions.length - 1);
       } catch (error) {
         console.error(error);

@@ -40,8 +40,7 @@ void add_deployed(const Requirement& requirement, const Results& results, const 
   };
   for (std::size_t row = 0; row < results.size(); ++row) {
     if (results.status[row] != Status::deployed) continue;
-    const double value =
-        requirement.absolute ? std::abs(column.values[row]) : column.values[row];
+    const double value = requirement.absolute ? std::abs(column.values[row]) : column.values[row];
     const JudgedRun each{results.runs[row], value};
     if (std::isnan(value)) {
       ++broken.without_value;
@@ -64,8 +63,7 @@ BrokenRuns broken_runs(const Verdict& verdict, const Results& results, std::size
   const auto failed = [](Status status) { return status != Status::deployed; };
   broken.not_deployed = std::ranges::count_if(results.status, failed);
   broken.not_deployed_runs = fewest_latched_of(results, most, failed);
-  const auto column =
-      std::ranges::find(results.outputs, verdict.requirement.output, &Column::name);
+  const auto column = std::ranges::find(results.outputs, verdict.requirement.output, &Column::name);
   if (column != results.outputs.end())
     add_deployed(verdict.requirement, results, *column, most, broken);
   else // a static margin: its column is not kept

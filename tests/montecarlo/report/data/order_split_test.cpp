@@ -66,6 +66,15 @@ TEST_CASE("each wing has its own orders, by hand", "[page]") {
   REQUIRE(wings[1].orders.size() == 2);
   CHECK((wings[1].orders[0].name == "right_root>right_tip" && wings[1].orders[0].count == 2));
   CHECK(wings[1].without == 2);
+  const OrderSplit split(results, summarize(results, {}), scene);
+  CHECK(split.kinds() == 3);
+  REQUIRE(split.groups().size() == 4);
+  CHECK(split.groups()[0].name == "left: root>tip · right: root>tip");
+  CHECK(split.groups()[0].count == 2);
+  CHECK(split.groups()[1].name == "left: root · right: none");
+  CHECK(split.groups()[2].name == "left: tip · right: tip>root");
+  CHECK(split.groups()[3].name == "no latch");
+  CHECK((split.of_row(1) == 0 && split.of_row(3) == 1 && split.of_row(4) == 3));
   scene.hinges[2].parent = 1; // one wing
   CHECK(wing_orders(results, scene).empty());
 }
