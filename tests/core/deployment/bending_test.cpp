@@ -64,6 +64,23 @@ TEST_CASE("a wing that deploys on an elastic root counts its latches alone") {
   CHECK(out.peaks_final);
 }
 
+TEST_CASE("a wing that bends ends where no peak can rise, and none does") {
+  Scene scene = seed_scene();
+  for (Body& body : scene.bodies) {
+    body.inertia = 1, body.plate = Plate{{-0.505, 0}, {0.505, 0}};
+    body.flexible = Flexible{2, std::nullopt, 15.0, 0.02};
+  }
+  const Outcome out = Deployment().run(scene, within(1e-7, 40), {});
+  REQUIRE(out.peaks_final);
+  CHECK(out.t_end < 20);
+  const Outcome whole = Deployment().run(scene, within(1e-7, 40), to_the_end);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(whole.peak_moment[i].value == out.peak_moment[i].value);
+    CHECK(whole.bending_moment[i].value == out.bending_moment[i].value);
+    CHECK(out.bending_moment[i].value > 1);
+  }
+}
+
 TEST_CASE("a turning rod clamped at once loads its root as the modes of a cantilever say") {
   // Σ 4/β² sin ω_n t over 40 modes within the first period of the first, in units of ω_0 L √(EI m/L)
   constexpr double highest = 1.2869, lowest = -1.3537;
