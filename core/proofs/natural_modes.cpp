@@ -2,6 +2,7 @@
 
 #include "core/proofs/rest_model.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -56,23 +57,26 @@ struct Reduced {
 
   /// ω of mode k, lowest first, 1/s; 0 for what rounding leaves of a mode that nothing holds.
   [[nodiscard]] double omega(int k) const {
-    const double square = omega_square(k), largest = omega_square(size() - 1);
-    const double rounding = 16 * size() * std::numeric_limits<double>::epsilon() * largest;
-    return square > rounding ? std::sqrt(square) : 0;
+    const double value = solver.eigenvalues()(column(k));
+    if (inverse) return 1 / std::sqrt(value);
+    const double largest = solver.eigenvalues()(size() - 1);
+    return value > rounding() * largest ? std::sqrt(value) : 0;
   }
   [[nodiscard]] Eigen::VectorXd shape(int k) const { return solver.eigenvectors().col(column(k)); }
 
 private:
   [[nodiscard]] bool solve(int options) {
     const Eigen::MatrixXd K = of_moving(model.stiffness), M = of_moving(model.mass);
-    inverse = K.llt().info() == Eigen::Success;
+    const Eigen::LLT<Eigen::MatrixXd> factors(K);
+    const auto pivots = factors.matrixLLT().diagonal().array().square();
+    inverse = factors.info() == Eigen::Success && // no shape without stiffness
+              (pivots > rounding() * K.diagonal().array()).all();
     inverse ? solver.compute(M, K, options) : solver.compute(K, M, options);
     return solver.info() == Eigen::Success;
   }
   [[nodiscard]] int column(int k) const { return inverse ? size() - 1 - k : k; }
-  [[nodiscard]] double omega_square(int k) const {
-    const double value = solver.eigenvalues()(column(k));
-    return inverse ? 1 / value : value;
+  [[nodiscard]] double rounding() const {
+    return 16 * size() * std::numeric_limits<double>::epsilon();
   }
 };
 

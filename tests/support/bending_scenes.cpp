@@ -125,9 +125,9 @@ Scene with_bending(Scene scene, std::uint64_t seed) {
     body.plate->from = draws.vector(1);
     body.plate->to = body.plate->from + length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     Flexible& flexible = body.flexible.emplace();
-    flexible.joints = 1 + draws.below(3);
+    flexible.joints = 1 + draws.below(2);
     flexible.damping_ratio = draws.uniform(0, 0.05);
-    const double frequency = draws.log_uniform(2, 12);
+    const double frequency = draws.log_uniform(2, 6);
     if (draws.chance(0.5))
       flexible.frequency = frequency;
     else

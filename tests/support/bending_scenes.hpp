@@ -17,7 +17,7 @@ struct Segmented {
 [[nodiscard]] Segmented in_segments(const Scene& scene);
 
 /// Makes a third of the scene's hinges elastic joints, but for the first, and half of its bodies flexible: panels whose
-/// first frequency is 2 to 12 Hz, in a random direction.
+/// first frequency is 2 to 6 Hz, in a random direction.
 [[nodiscard]] Scene with_bending(Scene scene, std::uint64_t seed);
 
 /// A uniform rod of length 1 m, mass 1 kg and EI = 1 N·m² along x, on a hinge at its end with a latch of this stiffness.

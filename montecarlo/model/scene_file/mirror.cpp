@@ -13,8 +13,9 @@ constexpr std::string_view expected_pattern = "a name with one \"*\", as \"R_*\"
 
 bool is_pattern(const std::string& text) { return std::ranges::count(text, '*') == 1; }
 
-void mirror(Eigen::Vector2d& point) { point.x() = -point.x(); }
-void mirror(double& angle) { angle = -angle; }
+// From 0, so that 0 stays 0 and does not become −0.
+void mirror(Eigen::Vector2d& point) { point.x() = 0 - point.x(); }
+void mirror(double& angle) { angle = 0 - angle; }
 
 /// The table with angles of the other sign, which keeps the columns' order from stowed to latched.
 void mirror(std::shared_ptr<const TorqueTable>& table) {

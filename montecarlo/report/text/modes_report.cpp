@@ -17,8 +17,8 @@ std::string shape_text(const WingModes& modes, const NaturalMode& mode) {
   std::string text;
   for (std::size_t h = 0; h < named_hinges(modes); ++h)
     text +=
-        fmt::format("{}{} {:.3f}", text.empty() ? "" : ", ", scene.hinges[h].name, mode.shape[h]);
-  if (scene.base.motion == BaseMotion::free) text += fmt::format(", base {:.3f}", mode.base_angle);
+        fmt::format("{}{}={:.3f}", text.empty() ? "" : ", ", scene.hinges[h].name, mode.shape[h]);
+  if (scene.base.motion == BaseMotion::free) text += fmt::format(", base={:.3f}", mode.base_angle);
   return text;
 }
 

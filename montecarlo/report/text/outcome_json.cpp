@@ -2,6 +2,7 @@
 #include "montecarlo/results/summary/latch_jump.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wingspread {
@@ -45,6 +46,17 @@ Json peaks_json(const Scene& scene, const std::vector<Peak>& peaks, Status statu
   for (std::size_t i = 0; i < peaks.size(); ++i)
     json[scene.hinges[i].name] = {{"value", json_number(peaks[i].value)},
                                   {"time", json_number(peaks[i].time)}};
+  return json;
+}
+
+/// By flexible body.
+Json bending_json(const Scene& scene, const Outcome& outcome) {
+  if (outcome.bending_moment.empty() || outcome.status == Status::failed) return nullptr;
+  Json json = Json::object();
+  for (std::size_t b = 0; b < outcome.bending_moment.size(); ++b)
+    if (scene.bodies[b].flexible)
+      json[scene.bodies[b].name] = {{"value", json_number(outcome.bending_moment[b].value)},
+                                    {"time", json_number(outcome.bending_moment[b].time)}};
   return json;
 }
 
@@ -96,23 +108,26 @@ std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& out
 Json outcome_json(const Scene& scene, const Outcome& outcome) {
   const bool ran = outcome.status != Status::invalid;
   const auto if_ran = [ran](const Json& json) { return ran ? json : Json(nullptr); };
-  return {{"status", to_string(outcome.status)},
-          {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
-          {"method", if_ran(methods_used(outcome))},
-          {"phases", if_ran(phases_json(outcome.phases))},
-          {"t_end", if_ran(json_number(outcome.t_end))},
-          {"latches", latches_json(scene, outcome)},
-          {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},
-          {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
-          {"peaks_final", peaks_final_json(outcome)},
-          {"overtravel", overtravel_json(scene, outcome)},
-          {"warnings", outcome_warnings(scene, outcome)},
-          {"final", if_ran(final_json(scene, outcome.final))},
-          {"energy", if_ran(energy_json(outcome.energy))},
-          {"work",
-           {{"steps", outcome.work.steps},
-            {"rejected", outcome.work.rejected},
-            {"rhs_evaluations", outcome.work.rhs_evaluations}}}};
+  Json json{{"status", to_string(outcome.status)},
+            {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
+            {"method", if_ran(methods_used(outcome))},
+            {"phases", if_ran(phases_json(outcome.phases))},
+            {"t_end", if_ran(json_number(outcome.t_end))},
+            {"latches", latches_json(scene, outcome)},
+            {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},
+            {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
+            {"peaks_final", peaks_final_json(outcome)},
+            {"overtravel", overtravel_json(scene, outcome)},
+            {"warnings", outcome_warnings(scene, outcome)},
+            {"final", if_ran(final_json(scene, outcome.final))},
+            {"energy", if_ran(energy_json(outcome.energy))},
+            {"work",
+             {{"steps", outcome.work.steps},
+              {"rejected", outcome.work.rejected},
+              {"rhs_evaluations", outcome.work.rhs_evaluations}}}};
+  if (std::ranges::any_of(scene.bodies, [](const Body& body) { return body.flexible.has_value(); }))
+    json["peak_bending_moment"] = bending_json(scene, outcome);
+  return json;
 }
 
 } // namespace wingspread

@@ -54,6 +54,10 @@ std::string peaks(const Scene& scene, const Outcome& outcome) {
   for (std::size_t i = 0; i < scene.hinges.size(); ++i)
     text += fmt::format("  {:<22}{} {}\n", scene.hinges[i].name,
                         peak_columns(outcome.peak_moment, i), peak_columns(outcome.peak_force, i));
+  for (std::size_t b = 0; b < outcome.bending_moment.size(); ++b)
+    if (scene.bodies[b].flexible)
+      text += fmt::format("  {:<22}{} bending\n", scene.bodies[b].name,
+                          peak_columns(outcome.bending_moment, b));
   return text;
 }
 

@@ -170,5 +170,5 @@ TEST_CASE("a campaign of wings that bend has moments and frequencies, alone as i
     CHECK(alone.outputs[bending] > 1);
     frequencies.insert(alone.outputs[mode]);
   }
-  CHECK(frequencies.size() == 2);
+  CHECK(frequencies.size() > 2); // the spring is part of the stiffness
 }

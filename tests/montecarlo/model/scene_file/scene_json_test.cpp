@@ -102,7 +102,8 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
         "/hinges/1/parent: found string \"inner\", expected \"base\" or a body's name"},
        {"/hinge", "1",
         "/hinge: found the unknown key \"hinge\", expected \"name\", \"base\", \"bodies\", "
-        "\"hinges\", \"synchronisations\" or \"environment\" (did you mean \"hinges\"?)"},
+        "\"hinges\", \"synchronisations\", \"environment\" or \"mirror\" (did you mean "
+        "\"hinges\"?)"},
        {"/base", "", "/base: found nothing, expected an object with the base's motion"},
        {"/base", "\"fixed\"",
         "/base: found string \"fixed\", expected an object with the base's motion"},
@@ -130,7 +131,7 @@ TEST_CASE("Each fault of a scene is told with place, found and expected", "[scen
        {"/bodies/0/inertia", "", "/bodies/0/inertia: found nothing, expected a number, kg·m², > 0"},
        {"/bodies/0/lenght", "1",
         "/bodies/0/lenght: found the unknown key \"lenght\", expected \"name\", "
-        "\"mass\", \"inertia\" or \"plate\""},
+        "\"mass\", \"inertia\", \"plate\" or \"flexible\""},
        {"/hinges/0/child_point", "[1, null]",
         "/hinges/0/child_point/1: found null, expected a number, m"},
        {"/hinges/1/parent_point", "",

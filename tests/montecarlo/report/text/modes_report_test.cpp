@@ -21,7 +21,7 @@ TEST_CASE("Modes are told lowest first, in text without the joints of flexible b
   CHECK(json["modes"][0]["shape"].contains("rod joint 3"));
   CHECK(json["rest"]["root"] == 0);
   const std::string text = modes_text(*modes);
-  CHECK_THAT(text, Catch::Contains("root ") && !Catch::Contains("joint"));
+  CHECK_THAT(text, Catch::Contains("root=") && !Catch::Contains("joint"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 5);
 }
 
@@ -29,7 +29,7 @@ TEST_CASE("The base of a free wing is part of a mode's shape") {
   const std::optional<WingModes> modes = natural_modes(oracle::symmetric_tree());
   REQUIRE(modes);
   CHECK(modes_json(*modes)["modes"][0]["shape"].contains("base"));
-  CHECK_THAT(modes_text(*modes), Catch::Contains(", base "));
+  CHECK_THAT(modes_text(*modes), Catch::Contains("base="));
   // of a symmetric pair of modes one turns the base, and one does not
   const auto turns = [&](std::size_t k) { return std::abs(modes->modes[k].base_angle); };
   CHECK(std::min(turns(0), turns(1)) < 1e-9);
