@@ -97,6 +97,15 @@ const Runs& runs() {
   return out;
 }
 
+/// Says in words which hinges were never released.
+void name_held_hinges(const Scene& scene, Outcome& outcome) {
+  if (outcome.never_released.empty()) return;
+  outcome.reason.clear();
+  for (const int hinge : outcome.never_released)
+    outcome.reason += (outcome.reason.empty() ? "" : "; ") + scene.hinges[hinge].name +
+                      " was never released";
+}
+
 } // namespace
 
 Outcome Deployment::run(const Scene& scene, const Integration& integration, const Goal& goal,
@@ -110,7 +119,10 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
     kept_->tree = std::move(tree);
   }
   runs().set_parameters(kept_->wing, scene);
-  return runs().alone(kept_->wing, kept_->scratch, integration, goal, observer);
+  Outcome outcome =
+      runs().alone(kept_->wing, kept_->scratch, integration, goal, observer);
+  name_held_hinges(scene, outcome);
+  return outcome;
 }
 
 DeploymentPack::DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal)
@@ -168,7 +180,11 @@ private:
       }
       return std::nullopt;
     };
-    return runs().in_lanes(structure_, *engine, method, how_, goal_, next_wing, done_);
+    return runs().in_lanes(structure_, *engine, method, how_, goal_, next_wing,
+                           [this](long name, Outcome&& outcome) {
+                             name_held_hinges(scene_, outcome);
+                             done_(name, std::move(outcome));
+                           });
   }
 
   /// Sets the wing's numbers to those of the next run and returns the run's name; nothing when there are no more. Runs

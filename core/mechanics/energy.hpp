@@ -87,7 +87,7 @@ template <class T, class Topology, BaseMotion M>
   const LinearLaw<T> open = linear_law(wing.hinges[i], false);
   if (wing.real.empty()) return potential(system.law_without_friction(i), angle);
   const T own = potential(open, angle) + real_potential(wing.real[i], wing.hinges[i].latched, angle,
-                                                        system.work().modes[i].in_contact);
+                                                        system.work().modes[i]);
   return own + system.latch_energy(x, i);
 }
 

@@ -27,8 +27,8 @@ public:
   /// Sets the hinges that stick in a lane. @param task null: the lane has no run
   void load(int lane, const LaneTask* task, Workspace<P>& work) {
     for (std::size_t i = 1; i < before_.size(); ++i) {
-      const bool sticks = task && task->work.contact[i] == Contact::stuck;
-      work.locks[i].v[lane] = sticks ? 1 : 0;
+      const bool sticks = task && is_locked(task->work.contact[i]);
+      work.locks[i].v[lane] = !sticks ? 0 : task->work.contact[i] == Contact::held ? 2 : 1;
       before_[i].v[lane] = sticks ? task->held_before[i] : 0;
       excess_before_[i].v[lane] = sticks ? task->excess_before[i] : 0;
     }
@@ -65,10 +65,11 @@ public:
   /// @return lanes in which the friction of a stuck hinge may pass its limit. @pre as keep_at_end
   template <class AnySystem>
   [[nodiscard]] Mask may_release(const AnySystem& system, const Step<P>& step) {
-    bound_.over_step(system, step);
     keep_at_end(system, step);
     by_method_ = at_end_;
     Mask found{};
+    if (!system.wing().can_stick) return found; // holds alone
+    bound_.over_step(system, step);
     for (int i = 1; i < static_cast<int>(before_.size()); ++i) {
       const Mask locked = system.is_locked(i);
       const auto slips = [&] {

@@ -72,7 +72,9 @@ public:
 
   /// Whether a lane of an engine for this method can go on from here.
   [[nodiscard]] bool fits_lane(Method method) const {
-    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies;
+    const bool watches_hold = run_.goal.hold_moment && events_.releases().held() > 0;
+    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies &&
+           !watches_hold;
   }
 
   /// @pre fits_lane(the engine's method)
@@ -179,6 +181,7 @@ private:
     system.find_sides(run_.step.x);
     if constexpr (M == BaseMotion::free) kept_ = conserved(system, run_.step.x, run_.step.t);
     events_.start();
+    run_.next_release = events_.releases().next();
     diary_.start();
     stepping_.start();
     peaks_.start();
@@ -270,7 +273,7 @@ private:
     }
     diary_.notify();
     const bool at_knot = run_.system.enter_piece(step.t);
-    if (landing_.apply_events(diary_.latches())) {
+    if (landing_.apply_events(diary_.record())) {
       if (diary_.is_watched() || !ending_.ends_at_latch()) restart(landing_.let_go());
     } else {
       if (stepping_.choose_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
@@ -300,6 +303,7 @@ private:
 
   void end(const End& how) {
     diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.peaks_final);
+    if (how.status == Status::stalled) diary_.blame(events_.releases().never_released());
     ended_ = true;
   }
 

@@ -30,15 +30,22 @@ enum class OutputFamily {
   rate_at,
   overtravel,
   peaks_final,
-  base_motion ///< of a free base; not a default, because runs then go to t_end
+  base_motion, ///< of a free base; not a default, because runs then go to t_end
+  hold_moment, ///< of hinges that are held
+  captures,    ///< of latches that may miss or let go
+  held,        ///< of the same latches
+  final_angle  ///< not a default
 };
-inline constexpr std::array<std::string_view, 8> output_family_names{
-    "latch_time", "latch_rate", "peak_moment", "peak_force",
-    "rate_at",    "overtravel", "peaks_final", "base_motion"};
+inline constexpr std::array<std::string_view, 12> output_family_names{
+    "latch_time",  "latch_rate",  "peak_moment", "peak_force", "rate_at", "overtravel",
+    "peaks_final", "base_motion", "hold_moment", "captures",   "held",    "final_angle"};
 using Outputs = std::set<OutputFamily>;
 
-/// All families except `rate_at` (quadratic in the number of hinges) and `base_motion`.
+/// All families except `rate_at` (quadratic in the number of hinges), `base_motion` and `final_angle`, and those of
+/// features that a scene may lack.
 [[nodiscard]] Outputs default_outputs();
+/// default_outputs, and the families of the scene's holds and of its latches that may miss.
+[[nodiscard]] Outputs default_outputs(const Scene& scene);
 
 /// Whether the outputs include peaks, which t_end may cut.
 [[nodiscard]] bool has_peaks(const Outputs& outputs);
@@ -68,7 +75,11 @@ struct OutputColumn {
     overtravel,
     base_peak_angle,
     base_peak_rate,
-    deployment_time
+    deployment_time,
+    hold_moment,
+    captures,
+    held,
+    final_angle
   } quantity;
   int hinge = -1; ///< index into Scene::hinges; −1 for the wing or the base
   int other = -1; ///< of `rate_at`: the hinge that latches
@@ -87,7 +98,7 @@ struct OutputColumn {
 
 /// The column's value in a run; NaN if it did not happen.
 ///
-/// A latching counts whatever the run's status. Peaks and overtravel are NaN in a failed run, whose later values are
+/// A latching counts whatever the run's status; of a latch that let go, the one that holds at the end of the run. Peaks and overtravel are NaN in a failed run, whose later values are
 /// unknown; in a timed-out run they are those up to t_end. `deployment_time` needs all latches.
 [[nodiscard]] double output_of(const OutputColumn& column, const Outcome& outcome);
 
