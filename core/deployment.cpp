@@ -97,13 +97,15 @@ const Runs& runs() {
   return out;
 }
 
+[[nodiscard]] bool may_miss(const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); }
+
 /// Says in words which hinges were never released.
 void name_held_hinges(const Scene& scene, Outcome& outcome) {
   if (outcome.never_released.empty()) return;
   outcome.reason.clear();
   for (const int hinge : outcome.never_released)
-    outcome.reason += (outcome.reason.empty() ? "" : "; ") + scene.hinges[hinge].name +
-                      " was never released";
+    outcome.reason +=
+        (outcome.reason.empty() ? "" : "; ") + scene.hinges[hinge].name + " was never released";
 }
 
 } // namespace
@@ -111,6 +113,11 @@ void name_held_hinges(const Scene& scene, Outcome& outcome) {
 Outcome Deployment::run(const Scene& scene, const Integration& integration, const Goal& goal,
                         const Observer& observer) {
   if (const std::vector<Fault> faults = unphysical(scene); !faults.empty()) return invalid(faults);
+  if (integration.smoothing && std::any_of(scene.hinges.begin(), scene.hinges.end(), may_miss)) {
+    Outcome out; // status failed
+    out.reason = "a latch with a capture rate or a holding moment needs event latches";
+    return out;
+  }
   std::vector<std::pair<int, int>> tree(scene.hinges.size());
   std::transform(scene.hinges.begin(), scene.hinges.end(), tree.begin(),
                  [](const Hinge& hinge) { return std::pair(hinge.parent, hinge.child); });
@@ -119,8 +126,7 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
     kept_->tree = std::move(tree);
   }
   runs().set_parameters(kept_->wing, scene);
-  Outcome outcome =
-      runs().alone(kept_->wing, kept_->scratch, integration, goal, observer);
+  Outcome outcome = runs().alone(kept_->wing, kept_->scratch, integration, goal, observer);
   name_held_hinges(scene, outcome);
   return outcome;
 }

@@ -108,16 +108,18 @@ struct Outcome {
   std::vector<Phase> phases;       ///< in order of time
   double t_end = 0;                ///< time at which the integration ended, s
   std::vector<LatchEvent> latches; ///< in order of time; of a latch that let go, each engagement
-  std::vector<HingeEvent> let_go;   ///< engaged latches that let go, in order of time
-  std::vector<HingeEvent> missed;   ///< passes of the latched angle too fast for the latch, in order of time
+  std::vector<HingeEvent> let_go;  ///< engaged latches that let go, in order of time
+  std::vector<HingeEvent>
+      missed; ///< passes of the latched angle too fast for the latch, in order of time
   std::vector<HingeEvent> releases; ///< holds that let go, in order of time
   /// Of a stalled run, hinges that are held at its end and that no other held hinge keeps waiting.
   std::vector<int> never_released;
-  std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
-  std::vector<Peak> peak_force;    ///< N; empty when not asked for
+  std::vector<Peak> peak_moment; ///< N·m; empty when not asked for
+  std::vector<Peak> peak_force;  ///< N; empty when not asked for
   /// The largest moment that each hinge's hold bore, N·m; empty when not asked for, or where no hinge is held.
   std::vector<Peak> hold_moment;
-  std::vector<double> final_angle; ///< at t_end, from the latched angle, rad; empty when not asked for
+  std::vector<double>
+      final_angle; ///< at t_end, from the latched angle, rad; empty when not asked for
   /// How far each hinge turned beyond its stowed angle up to t_end, rad, ≥ 0; empty when not asked for.
   /// Final if peaks_final, unless the run stalled.
   std::vector<double> overtravel;

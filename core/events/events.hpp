@@ -33,8 +33,7 @@ template <class T> struct Due {
 /// Finds the events of one run and applies them.
 template <class T, class AnySystem> class Events {
 public:
-  explicit Events(AnySystem& system)
-      : system_(system), latches_(system), releases_(system) {}
+  explicit Events(AnySystem& system) : system_(system), latches_(system), releases_(system) {}
 
   /// Starts a run.
   void start() {
@@ -149,8 +148,8 @@ public:
         due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
       step.x[system_.layout().angle(due->hinge)] =
           edge_angle(system_.wing(), due->hinge, due->edge);
-    const bool opened = system_.wing().can_open &&
-                        latches_.open_those_there(hinge_of(Event::open), step, record);
+    const bool opened =
+        system_.wing().can_open && latches_.open_those_there(hinge_of(Event::open), step, record);
     const bool released = releases_.let_go_those_due(hinge_of(Event::seen), step, record);
     const bool changes = due && due->event != Event::graze && due->event != Event::kink;
     return changes || engaged || rested || opened || released;

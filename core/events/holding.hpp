@@ -60,7 +60,7 @@ public:
   /// @pre the last evaluation was at the step's end, as it is again afterwards. Overwrites x and dxdt.
   template <class AnySystem>
   [[nodiscard]] std::optional<Slip<T>> first_release(AnySystem& system, const Step<T>& step,
-                                                        State<T>& x, State<T>& dxdt) {
+                                                     State<T>& x, State<T>& dxdt) {
     if (!system.wing().can_stick || is_stuck_for_good(system, step.x) || !comes_near(system, step))
       return std::nullopt;
     std::optional<Slip<T>> first;
@@ -106,8 +106,8 @@ private:
   [[nodiscard]] bool may_exceed(int i) const { return may_slip(bound_, i, before_[i], after_[i]); }
 
   template <class Function>
-  [[nodiscard]] std::optional<Slip<T>> release_of(const Function& excess_at, int i,
-                                                     const T& limit, const T& h) {
+  [[nodiscard]] std::optional<Slip<T>> release_of(const Function& excess_at, int i, const T& limit,
+                                                  const T& h) {
     constexpr double grazes = 1e-3, width = 1e-3;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
     const auto rise = [&](const T& a, const T& b) { return bound_.friction(i, a, b); };

@@ -44,8 +44,8 @@ public:
   /// The first s in [0, 1] at which hinge i's hold sees the angle for which it waits; none if it does not.
   [[nodiscard]] std::optional<T> first_passage(const Step<T>& step, int i) const {
     if (!watches(i)) return std::nullopt;
-    Quintic<T> past = step.coordinate(system_.layout().angle(terms(i).after),
-                                      system_.layout().freedoms());
+    Quintic<T> past =
+        step.coordinate(system_.layout().angle(terms(i).after), system_.layout().freedoms());
     const T& sense = system_.wing().hinges[terms(i).after].sense;
     for (T& c : past) c = sense * (c - terms(i).angle);
     return first_nonnegative(past);
@@ -104,8 +104,8 @@ public:
     std::vector<int> first, all;
     for (int i = 1; held_ > 0 && i < size(); ++i) {
       if (!system_.is_held(i)) continue;
-      const bool waits = terms(i).after != 0 && terms(i).fails == T(0) &&
-                         system_.is_held(terms(i).after);
+      const bool waits =
+          terms(i).after != 0 && terms(i).fails == T(0) && system_.is_held(terms(i).after);
       (waits ? all : first).push_back(system_.wing().hinge_of[i]);
     }
     std::vector<int>& blamed = first.empty() ? all : first;

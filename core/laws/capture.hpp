@@ -22,13 +22,14 @@
 namespace wingspread {
 
 template <class T> struct CaptureTerms {
-  bool present; ///< whether the hinge may pass its latched angle without engaging, or come loose again
-  T fastest;    ///< capture rate, rad/s
-  T holding;    ///< M_h
-  T sense;      ///< s
-  T start;      ///< φ where e = −β/2, rad
-  T stiffness;  ///< k
-  T damping;    ///< d
+  bool
+      present; ///< whether the hinge may pass its latched angle without engaging, or come loose again
+  T fastest;   ///< capture rate, rad/s
+  T holding;   ///< M_h
+  T sense;     ///< s
+  T start;     ///< φ where e = −β/2, rad
+  T stiffness;   ///< k
+  T damping;     ///< d
   T dissipation; ///< k c
 
   /// Whether the latch may let go at all.
@@ -70,8 +71,7 @@ template <class T> struct CaptureTerms {
 };
 
 /// @param sense sign(φ_latched − φ_stowed)
-template <class T>
-[[nodiscard]] CaptureTerms<T> capture_terms(const Hinge& hinge, const T& sense) {
+template <class T> [[nodiscard]] CaptureTerms<T> capture_terms(const Hinge& hinge, const T& sense) {
   CaptureTerms<T> terms{};
   terms.fastest = terms.holding = T(1e300), terms.sense = sense;
   if (!hinge.latch || !hinge.latch->can_miss()) return terms;

@@ -24,10 +24,10 @@ namespace wingspread {
 
 /// What events change in a real hinge.
 template <class T> struct HingeMode {
-  T in_contact;  ///< 1 while the stop is in contact, else 0
-  T damper_acts; ///< 1 or 0
-  T sliding;     ///< σ of exact friction: −1, 0, 1
-  T bears;       ///< side on which the engaged latch bears: −1, 1; 0: on none
+  T in_contact;     ///< 1 while the stop is in contact, else 0
+  T damper_acts;    ///< 1 or 0
+  T sliding;        ///< σ of exact friction: −1, 0, 1
+  T bears;          ///< side on which the engaged latch bears: −1, 1; 0: on none
   T in_far_contact; ///< 1 while the far stop is in contact, else 0
 };
 

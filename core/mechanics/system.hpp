@@ -168,10 +168,9 @@ public:
   /// Largest moment that locks hinge i at x, N·m: by exact friction; by a hold, without limit.
   [[nodiscard]] T static_limit(const State<T>& x, int i) const {
     const bool tested = !wing_.real.empty() && !wing_.real[i].friction.regularized;
-    const T friction =
-        wing_.hinges[i].static_friction +
-        (tested ? measured_friction(wing_.real[i].friction, x[layout_.angle(i)]) : T(0));
-    return wing_.releases.empty() ? friction : select(is_held(i), T(1e300), friction);
+    T most = wing_.hinges[i].static_friction;
+    most = most + (tested ? measured_friction(wing_.real[i].friction, x[layout_.angle(i)]) : T(0));
+    return wing_.releases.empty() ? most : select(is_held(i), T(1e300), most);
   }
 
   /// Velocity of the base's origin, m/s; a prescribed base starts at rest.

@@ -59,9 +59,9 @@ template <class T> struct Wing {
   // empty where no hinge or body has the feature, which then costs nothing
   std::vector<RealHingeTerms<T>> real; ///< 0 … n; [0] unused
   std::vector<LoopTerms<T>> loops;
-  std::vector<PlateTerms<T>> plates; ///< 0 … n; [0] unused: a free base has no plate
+  std::vector<PlateTerms<T>> plates;     ///< 0 … n; [0] unused: a free base has no plate
   std::vector<ReleaseTerms<T>> releases; ///< 0 … n; [0] unused
-  bool can_open = false; ///< whether the latch of any hinge may let go again
+  bool can_open = false;                 ///< whether the latch of any hinge may let go again
 
   [[nodiscard]] int size() const { return tree.bodies(); }
   /// Whether any hinge has laws of real_hinge.hpp or loops.
@@ -171,8 +171,7 @@ template <class T> void set_release(Wing<T>& wing, const Scene& scene, int i) {
   terms = {};
   const std::optional<Release>& release = scene.hinges[wing.hinge_of[i]].release;
   if (!release) return;
-  terms = {true,          release->event, 0, T(release->time), T(0), T(release->delay),
-           T(release->fails)};
+  terms = {true, release->event, 0, T(release->time), T(0), T(release->delay), T(release->fails)};
   if (release->event == Release::Event::time) return;
   const auto other = std::find(wing.hinge_of.begin() + 1, wing.hinge_of.end(), release->after);
   terms.after = static_cast<int>(other - wing.hinge_of.begin());

@@ -25,7 +25,7 @@ enum class Edge : signed char {
   stop,       ///< contact begins
   window_low, ///< of the damper
   window_high,
-  backlash_low, ///< of an engaged latch with backlash
+  backlash_low,  ///< of an engaged latch with backlash
   backlash_high, ///< or, without backlash, the latched angle of a latch with dissipation
   far_stop,      ///< contact begins
   pass           ///< the latched angle of an open latch that may miss
@@ -50,8 +50,9 @@ template <class T> struct Workspace {
   std::vector<Vec2<T>> velocities; ///< 0 … n: of the hinges' points, m/s
   std::vector<char> engaged;       ///< 1 … n: has passed its latched angle
   std::vector<Contact> contact;    ///< 1 … n
-  std::vector<char> watches; ///< 1 … n: the hinge's hold waits for another hinge's angle
-  std::vector<T> locks; ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, 2 where it is held, else 0
+  std::vector<char> watches;       ///< 1 … n: the hinge's hold waits for another hinge's angle
+  std::vector<T>
+      locks; ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, 2 where it is held, else 0
   std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation that held a hinge
   int stuck = 0;          ///< number of locked hinges, of all lanes together
   std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges are locked

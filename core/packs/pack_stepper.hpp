@@ -211,7 +211,8 @@ private:
     const Mask may_leave = history_.held_back.may_leave(step_.h, P(history_.steps + P(1.0)));
     const Mask accepted_enough = history_.steps >= last_step_;
     Mask asks = busy && (tried_enough || near_limit);
-    asks = asks || (accepted && (accepted_enough || may_leave || events_.lie_inside(system_, step_)));
+    asks =
+        asks || (accepted && (accepted_enough || may_leave || events_.lie_inside(system_, step_)));
     if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
     if constexpr (M == BaseMotion::free) {
       free_.restore_momenta(system_, step_);
@@ -290,7 +291,7 @@ private:
   std::vector<P> overtravel_;
   LaneEvents<W> events_;
   LaneHolds<W> holds_;
-  std::vector<Lever<double>> levers_of_wing_;       ///< scratch
+  std::vector<Lever<double>> levers_of_wing_; ///< scratch
   LanePeaks<P, AnySystem> peaks_;
   FreeBases<W> free_; ///< used if M is free
   StepHistory<P> history_;

@@ -98,10 +98,9 @@ public:
     else if (!is_cut_short && (holds_a_latch() || prove_stall()))
       end.status = Status::stalled, end.reason = stall_.value_or("");
     if (!wants_peaks()) return end;
-    end.peaks_final =
-        peaks_are_proven_ || is_stuck() ||
-        ((latches_left() ? prove_stall() : diary_.any_latch()) && latches_stay() &&
-         prove_peaks_final());
+    end.peaks_final = peaks_are_proven_ || is_stuck() ||
+                      ((latches_left() ? prove_stall() : diary_.any_latch()) && latches_stay() &&
+                       prove_peaks_final());
     return end;
   }
 

@@ -154,9 +154,9 @@ struct Hinge {
   HingeTorque harness;                ///< positive resists
   Friction friction;
   std::optional<Damper> damper{};
-  std::optional<Stop> stop{};     ///< none: the hinge turns through its stowed angle
-  std::optional<Stop> far_stop{}; ///< beyond the latched angle
-  std::optional<Latch> latch; ///< none: the hinge never latches
+  std::optional<Stop> stop{};       ///< none: the hinge turns through its stowed angle
+  std::optional<Stop> far_stop{};   ///< beyond the latched angle
+  std::optional<Latch> latch;       ///< none: the hinge never latches
   std::optional<Release> release{}; ///< none: free from the start
 };
 

@@ -11,10 +11,10 @@ struct Quantity {
   const char* unit;
 };
 
-constexpr std::array per_hinge{Quantity{"latch_time", "s"}, Quantity{"latch_rate", "rad/s"},
+constexpr std::array per_hinge{Quantity{"latch_time", "s"},    Quantity{"latch_rate", "rad/s"},
                                Quantity{"peak_moment", "N·m"}, Quantity{"peak_force", "N"},
-                               Quantity{"overtravel", "rad"}, Quantity{"hold_moment", "N·m"},
-                               Quantity{"captures", ""}, Quantity{"held", ""},
+                               Quantity{"overtravel", "rad"},  Quantity{"hold_moment", "N·m"},
+                               Quantity{"captures", ""},       Quantity{"held", ""},
                                Quantity{"final_angle", "rad"}};
 constexpr std::array of_base{Quantity{"base.peak_angle", "rad"},
                              Quantity{"base.peak_rate", "rad/s"}};

@@ -2,6 +2,7 @@
 #include "montecarlo/results/summary/latch_jump.hpp"
 #include "montecarlo/results/summary/overtravel.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wingspread {
@@ -101,6 +102,24 @@ Json energy_json(const EnergyAudit& energy) {
 
 } // namespace
 
+namespace {
+
+/// Adds what a scene without holds, and without latches that may miss, does not have.
+void add_life(const Scene& scene, const Outcome& outcome, Json& json) {
+  const auto is_held = [](const Hinge& hinge) { return hinge.release.has_value(); };
+  const auto may_miss = [](const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); };
+  if (std::ranges::any_of(scene.hinges, is_held)) {
+    json["releases"] = events_json(scene, outcome.releases);
+    json["hold_moment"] = holds_json(scene, outcome);
+  }
+  if (std::ranges::any_of(scene.hinges, may_miss)) {
+    json["missed"] = events_json(scene, outcome.missed);
+    json["let_go"] = events_json(scene, outcome.let_go);
+  }
+}
+
+} // namespace
+
 bool has_cut_peaks(const Outcome& outcome) {
   const bool ran = has_run(outcome);
   const bool peaks = !outcome.peak_moment.empty() || !outcome.peak_force.empty();
@@ -120,30 +139,28 @@ std::vector<std::string> outcome_warnings(const Scene& scene, const Outcome& out
 Json outcome_json(const Scene& scene, const Outcome& outcome) {
   const bool ran = outcome.status != Status::invalid;
   const auto if_ran = [ran](const Json& json) { return ran ? json : Json(nullptr); };
-  return {{"status", to_string(outcome.status)},
-          {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
-          {"method", if_ran(methods_used(outcome))},
-          {"phases", if_ran(phases_json(outcome.phases))},
-          {"t_end", if_ran(json_number(outcome.t_end))},
-          {"releases", events_json(scene, outcome.releases)},
-          {"latches", latches_json(scene, outcome)},
-          {"missed", events_json(scene, outcome.missed)},
-          {"let_go", events_json(scene, outcome.let_go)},
-          {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},
-          {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
-          {"hold_moment", holds_json(scene, outcome)},
-          {"peaks_final", peaks_final_json(outcome)},
-          {"overtravel", overtravel_json(scene, outcome)},
-          {"final_angle", has_run(outcome) && !outcome.final_angle.empty()
-                              ? by_hinge(scene, outcome.final_angle)
-                              : Json(nullptr)},
-          {"warnings", outcome_warnings(scene, outcome)},
-          {"final", if_ran(final_json(scene, outcome.final))},
-          {"energy", if_ran(energy_json(outcome.energy))},
-          {"work",
-           {{"steps", outcome.work.steps},
-            {"rejected", outcome.work.rejected},
-            {"rhs_evaluations", outcome.work.rhs_evaluations}}}};
+  Json json{{"status", to_string(outcome.status)},
+            {"reason", outcome.reason.empty() ? Json(nullptr) : Json(outcome.reason)},
+            {"method", if_ran(methods_used(outcome))},
+            {"phases", if_ran(phases_json(outcome.phases))},
+            {"t_end", if_ran(json_number(outcome.t_end))},
+            {"latches", latches_json(scene, outcome)},
+            {"peak_moment", peaks_json(scene, outcome.peak_moment, outcome.status)},
+            {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
+            {"peaks_final", peaks_final_json(outcome)},
+            {"overtravel", overtravel_json(scene, outcome)},
+            {"final_angle", has_run(outcome) && !outcome.final_angle.empty()
+                                ? by_hinge(scene, outcome.final_angle)
+                                : Json(nullptr)},
+            {"warnings", outcome_warnings(scene, outcome)},
+            {"final", if_ran(final_json(scene, outcome.final))},
+            {"energy", if_ran(energy_json(outcome.energy))},
+            {"work",
+             {{"steps", outcome.work.steps},
+              {"rejected", outcome.work.rejected},
+              {"rhs_evaluations", outcome.work.rhs_evaluations}}}};
+  add_life(scene, outcome, json);
+  return json;
 }
 
 } // namespace wingspread

@@ -63,8 +63,8 @@ std::string holds(const Scene& scene, const Outcome& outcome) {
   std::string text = fmt::format("\n{:<24}{:>15}{:>12}\n", "HOLD", "moment, N·m", "at, s");
   for (std::size_t i = 0; i < scene.hinges.size(); ++i)
     if (scene.hinges[i].release)
-      text += fmt::format("  {:<22}{}\n", scene.hinges[i].name,
-                          peak_columns(outcome.hold_moment, i));
+      text +=
+          fmt::format("  {:<22}{}\n", scene.hinges[i].name, peak_columns(outcome.hold_moment, i));
   return text;
 }
 
@@ -119,8 +119,8 @@ std::string outcome_text(const Scene& scene, const Outcome& outcome) {
   return ending(scene, outcome) + hinge_events("RELEASE", scene, outcome.releases) +
          latches(scene, outcome) + hinge_events("PASSED, TOO FAST", scene, outcome.missed) +
          hinge_events("LET GO", scene, outcome.let_go) + peaks(scene, outcome) +
-         holds(scene, outcome) +
-         final_state(scene, outcome) + warnings(scene, outcome) + effort(scene, outcome);
+         holds(scene, outcome) + final_state(scene, outcome) + warnings(scene, outcome) +
+         effort(scene, outcome);
 }
 
 } // namespace wingspread

@@ -114,7 +114,8 @@ TEST_CASE("a latch that is met from the far side with too large a damper opens a
   CHECK(out.status == Status::timed_out);
 }
 
-TEST_CASE("a latch that has let go engages again at the next pass, if the spring brings the hinge back") {
+TEST_CASE(
+    "a latch that has let go engages again at the next pass, if the spring brings the hinge back") {
   Scene scene = latching_panel();
   scene.hinges[0].latch = holding(1e4, 120, 10);
   const Outcome out = run_everywhere(scene, 1e-11, 60);

@@ -1,6 +1,5 @@
 // Hinges that are held and released: closed forms, momenta of a free base, stalls, and lanes.
 #include "tests/core/deployment/real_runs.hpp"
-
 #include "tests/support/dense_wing.hpp"
 
 using namespace wingspread;
@@ -37,7 +36,8 @@ Outcome run_stalled(const Scene& scene, double t_end) {
 
 } // namespace
 
-TEST_CASE("a panel that is released at T latches √(2ΘJ/τ) later, and its hold has borne the spring") {
+TEST_CASE(
+    "a panel that is released at T latches √(2ΘJ/τ) later, and its hold has borne the spring") {
   for (const double T : {0., 0.5, 3.}) {
     Scene scene = latching_panel();
     scene.hinges[0].release = at_time(T, T / 2);

@@ -1,7 +1,6 @@
 // Random wings with holds, latches that miss and let go, and stops beyond the latched angle: against the dense
 // formulation in an integrator of its own.
 #include "tests/core/deployment/real_runs.hpp"
-
 #include "tests/support/random_cases.hpp"
 #include "tests/support/whole_life.hpp"
 
@@ -24,8 +23,9 @@ Scene with_life(Scene scene, std::uint64_t seed) {
     if (draws.chance(0.5)) latch.capture_rate = draws.log_uniform(0.2, 5);
     if (draws.chance(0.5)) latch.holding_moment = draws.log_uniform(1, 100);
     hinge.latch = latch;
-    if (draws.chance(0.5)) hinge.far_stop = Stop{draws.log_uniform(50, 1000), draws.uniform(0, 1),
-                                                 draws.uniform(0, 0.2)};
+    if (draws.chance(0.5))
+      hinge.far_stop =
+          Stop{draws.log_uniform(50, 1000), draws.uniform(0, 1), draws.uniform(0, 0.2)};
     if (!draws.chance(0.5)) continue;
     Release release{.delay = draws.chance(0.5) ? draws.uniform(0, 0.5) : 0};
     release.after = draws.below(n);
