@@ -195,9 +195,17 @@ private:
     }
   }
 
-  // ---- events: of each hinge a pass of its latch, a latch that lets go, an angle that a hold waits for
+  // ---- events: of each hinge a pass of its latch, a latch that lets go, an angle that a hold waits for, and the
+  // deflections at which its law bends: Fehlberg's estimate does not see these
 
-  enum { passes, opens, seen, kinds };
+  enum { passes, opens, seen, contact, low, high, kinds };
+
+  /// Where the law of a hinge bends, beyond its latched angle.
+  [[nodiscard]] double bend(int kind, const Hinge& hinge) const {
+    if (kind == contact) return hinge.far_stop ? hinge.far_stop->gap : never;
+    if (!hinge.latch) return never;
+    return kind == low ? -0.5 * hinge.latch->backlash : 0.5 * hinge.latch->backlash;
+  }
 
   /// Negative until the event.
   [[nodiscard]] double gap(int event, const State& y) const {
@@ -212,6 +220,13 @@ private:
       if (!(beyond(y, i) < -0.5 * hinge.latch->backlash)) return -1;
       const double moment = latch_moment(*hinge.latch, y[i] - hinge.latched, y[half() + i]);
       return wing_.sense(i) * moment - *hinge.latch->holding_moment;
+    }
+    case contact:
+    case low:
+    case high: {
+      const double at = bend(event % kinds, hinge), start = beyond(y_, i) - at;
+      if (at == never || start == 0 || (event % kinds != contact && !engaged_[i])) return -1;
+      return start < 0 ? beyond(y, i) - at : at - beyond(y, i);
     }
     default:
       if (!held_[i] || !hinge.release || hinge.release->event != Release::Event::passed ||
@@ -241,6 +256,7 @@ private:
     const int i = event / kinds;
     const Hinge& hinge = scene_.hinges[i];
     const Event now{i, t_, y_[half() + i]};
+    if (event % kinds > seen) return;
     if (event % kinds == seen) return note(hinge.release->after, Release::Event::passed, i);
     if (event % kinds == opens) {
       engaged_[i] = 0, side_[i] = -1;

@@ -226,12 +226,12 @@ Json write_stop(const Stop& stop) {
 /// The stop at the stowed side as it is; others with their sides.
 Json write_stops(const Hinge& hinge) {
   if (!hinge.far_stop) return write_stop(*hinge.stop);
-  Json far = write_stop(*hinge.far_stop);
-  far["side"] = "latched";
-  if (!hinge.stop) return far;
+  Json beyond = write_stop(*hinge.far_stop);
+  beyond["side"] = "latched";
+  if (!hinge.stop) return beyond;
   Json stowed = write_stop(*hinge.stop);
   stowed["side"] = "stowed";
-  return Json::array({stowed, far});
+  return Json::array({stowed, beyond});
 }
 
 Json write_release(const Scene& scene, const Release& release) {

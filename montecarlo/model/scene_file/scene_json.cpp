@@ -64,13 +64,13 @@ template <class Named> void number(std::vector<Named>& all) {
 std::string place_of_stop(const Json& scene, std::string below) {
   const auto cut = below.find("stop/");
   if (cut == std::string::npos) return below;
-  const bool far = below.compare(cut - 4, 4, "far_") == 0;
-  const std::string hinge = below.substr(0, far ? cut - 4 : cut);
+  const bool latched = below.compare(cut - 4, 4, "far_") == 0;
+  const std::string hinge = below.substr(0, latched ? cut - 4 : cut);
   const std::string field = below.substr(cut + 5);
   const Json& stop = scene[Json::json_pointer(hinge + "stop")];
   if (!stop.is_array()) return hinge + "stop/" + field;
   std::size_t k = 0;
-  while (k < stop.size() && (stop[k].value("side", "stowed") == "latched") != far) ++k;
+  while (k < stop.size() && (stop[k].value("side", "stowed") == "latched") != latched) ++k;
   return fmt::format("{}stop/{}/{}", hinge, k, field);
 }
 

@@ -18,8 +18,11 @@ Scene with_life(Scene scene, std::uint64_t seed) {
     hinge.initial_rate = 0;
     hinge.friction.regularization_rate = 0.1;
     Latch latch{draws.log_uniform(50, 1000), draws.log_uniform(0.1, 10)};
-    if (draws.chance(0.2)) latch.damping = 0, latch.dissipation = draws.log_uniform(0.1, 2);
-    if (draws.chance(0.2)) latch.backlash = draws.log_uniform(1e-3, 3e-2);
+    if (draws.chance(0.3)) {
+      latch.damping = 0, latch.dissipation = draws.log_uniform(0.1, 2);
+      // with a damper the moment would jump at its edges, where the oracle's last stage may lie on either side
+      if (draws.chance(0.5)) latch.backlash = draws.log_uniform(1e-3, 3e-2);
+    }
     if (draws.chance(0.5)) latch.capture_rate = draws.log_uniform(0.2, 5);
     if (draws.chance(0.5)) latch.holding_moment = draws.log_uniform(1, 100);
     hinge.latch = latch;
