@@ -74,6 +74,7 @@ public:
         y_ = after(where_), t_ += where_;
         sample_holds(y_, t_);
         apply(happens);
+        sample_holds(y_, t_); // moments jump where a latch with a damper engages
         h = 1e-5;
       }
       if (let_go_due()) sample_holds(y_, t_), h = 1e-5;
@@ -240,14 +241,15 @@ private:
   [[nodiscard]] int earliest(double h) {
     int first = -1;
     where_ = h;
+    State end = after(h);
     for (int event = 0; event < kinds * size(); ++event) {
-      if (gap(event, after(where_)) < 0) continue;
+      if (gap(event, end) < 0) continue;
       double low = 0, high = where_;
       for (int k = 0; k < 80 && high - low > 1e-16 * (1 + t_); ++k) {
         const double middle = 0.5 * (low + high);
         (gap(event, after(middle)) < 0 ? low : high) = middle;
       }
-      where_ = high, first = event;
+      where_ = high, first = event, end = after(high);
     }
     return first;
   }

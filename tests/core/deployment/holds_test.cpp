@@ -86,7 +86,7 @@ TEST_CASE("holds that wait in a row: each is released by the one before it") {
   CHECK(out.releases[0].time == 0.5);
 }
 
-TEST_CASE("what a hold bears follows the wing that moves: the dense formulation gives the same") {
+TEST_CASE("what a hold bears grows with the wing that moves") {
   Scene scene = seed_scene();
   scene.hinges[2].release = after(0, Release::Event::latched, 0.1);
   const Outcome out = run_everywhere(scene, 1e-10, 20);
