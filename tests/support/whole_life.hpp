@@ -74,10 +74,12 @@ public:
         y_ = after(where_), t_ += where_;
         sample_holds(y_, t_);
         apply(happens);
-        sample_holds(y_, t_); // moments jump where a latch with a damper engages
         h = 1e-5;
       }
-      if (let_go_due()) sample_holds(y_, t_), h = 1e-5;
+      const bool released = let_go_due();
+      if (!released && happens < 0) continue;
+      sample_holds(y_, t_); // moments jump where a latch with a damper engages
+      h = 1e-5;
     }
   }
 

@@ -80,7 +80,8 @@ TEST_CASE("Releases that cannot be meant are refused with their place") {
 
 TEST_CASE("A stop at the stowed side, at the latched side, or at both") {
   const char* at = "/hinges/1/stop";
-  const Hinge far = scene_with(at, R"({"side": "latched", "stiffness": 9, "gap": "1 mrad"})").hinges[1];
+  const Hinge far =
+      scene_with(at, R"({"side": "latched", "stiffness": 9, "gap": "1 mrad"})").hinges[1];
   CHECK_FALSE(far.stop);
   REQUIRE(far.far_stop);
   CHECK(far.far_stop->gap == 0.001);
@@ -96,13 +97,15 @@ TEST_CASE("A stop at the stowed side, at the latched side, or at both") {
 }
 
 TEST_CASE("A written life is read back the same") {
-  Json document = panel_with("/hinges/1/stop",
-                             R"([{"side": "latched", "stiffness": 9, "dissipation": 0.1, "gap": 0.2},
+  Json document =
+      panel_with("/hinges/1/stop",
+                 R"([{"side": "latched", "stiffness": 9, "dissipation": 0.1, "gap": 0.2},
                                  {"side": "stowed", "stiffness": 8}])");
   document["hinges"][0]["release"] = parse_json(R"({"time": 0.5})");
   document["hinges"][1]["release"] =
       parse_json(R"({"after": "root", "event": {"angle": 0.7}, "delay": 0.2})");
-  document["hinges"][2]["release"] = parse_json(R"({"after": "mid", "event": "released", "fails": 1})");
+  document["hinges"][2]["release"] =
+      parse_json(R"({"after": "mid", "event": "released", "fails": 1})");
   document["hinges"][2]["latch"]["capture_rate"] = "60 deg/s";
   document["hinges"][2]["latch"]["holding_moment"] = "12 N*m";
   document["hinges"][2]["stop"] = parse_json(R"({"side": "latched", "stiffness": 9})");
