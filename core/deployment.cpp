@@ -170,7 +170,8 @@ private:
   /// Makes the queued runs, which all have this method, and draws more until the queue of others is full.
   [[nodiscard]] Occupancy run_batch(Method method) {
     std::vector<std::pair<long, Wing<double>>> these = std::exchange(waiting_, {});
-    const PackShape shape{method, goal_.peak_force, goal_.peak_moment, goal_.overtravel};
+    const PackShape shape{method, goal_.peak_force, goal_.peak_moment,
+                          goal_.hold_moment && !structure_.releases.empty(), goal_.overtravel};
     const std::unique_ptr<PackEngine> engine = make_engine(set_, structure_, shape);
     const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
       if (!these.empty()) {

@@ -1,5 +1,5 @@
 /// Where latches engage: the instant at which a hinge reaches its latched angle in the deploying sense. From then on
-/// the latch is a spring and a damper. A latch that may miss, or let go again: core/laws/capture.hpp.
+/// the latch is a spring and a damper. A latch that may miss, or let go again: core/laws/latch_laws.hpp.
 #pragma once
 
 #include "core/dense/step.hpp"

@@ -4,19 +4,18 @@
 ///         + [in contact] far stop(φ, φ̇) + [latch bears] dissipation(φ, φ̇)                       (1)
 ///
 /// with spring and harness by tables (curve_torque.hpp), measured friction (friction.hpp), a damper (damper.hpp), a
-/// stop (stop.hpp) at either side and a latch's dissipation (latch_dissipation.hpp). Whether the damper acts, a stop is in
+/// stop (stop.hpp) at either side and a latch's dissipation (latch_laws.hpp). Whether the damper acts, a stop is in
 /// contact and the latch bears are modes of the run, which change at events: inside a step every law is smooth. Whether
-/// the latch engages and lets go: capture.hpp.
+/// the latch engages and lets go: latch_laws.hpp.
 ///
 /// To add a law: README.md.
 #pragma once
 
-#include "core/laws/capture.hpp"
 #include "core/laws/curve_torque.hpp"
 #include "core/laws/damper.hpp"
 #include "core/laws/friction.hpp"
 #include "core/laws/hinge_law.hpp"
-#include "core/laws/latch_dissipation.hpp"
+#include "core/laws/latch_laws.hpp"
 #include "core/laws/stop.hpp"
 #include "core/scene/scene.hpp"
 

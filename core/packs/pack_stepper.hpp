@@ -14,7 +14,6 @@
 #include "core/packs/fields.hpp"
 #include "core/packs/free_bases.hpp"
 #include "core/packs/lane_events.hpp"
-#include "core/packs/lane_holds.hpp"
 #include "core/packs/lane_peaks.hpp"
 #include "core/packs/pack_engine.hpp"
 #include "core/peaks/overtravel.hpp"

@@ -59,7 +59,7 @@ public:
     for (int i = 1; i < net_.size(); ++i) force(i) = sqrt(outward_mass_(i) * Z);
   }
 
-  /// Whether the load on the engaged latch of hinge i stays below its holding moment: capture.hpp (1), with the
+  /// Whether the load on the engaged latch of hinge i stays below its holding moment: latch_laws.hpp (2), with the
   /// largest deflection and rate. @pre bound
   template <class AnySystem>
   [[nodiscard]] bool keeps_latched(const AnySystem& system, const RemainingEnergy<T>& remaining,

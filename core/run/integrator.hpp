@@ -72,9 +72,7 @@ public:
 
   /// Whether a lane of an engine for this method can go on from here.
   [[nodiscard]] bool fits_lane(Method method) const {
-    const bool watches_hold = run_.goal.hold_moment && events_.releases().held() > 0;
-    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies &&
-           !watches_hold;
+    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies;
   }
 
   /// @pre fits_lane(the engine's method)
@@ -88,6 +86,7 @@ public:
             .dense_tolerance = run_.how.atol,
             .moments = goal.peak_moment ? peaks_.moments().data() : nullptr,
             .forces = goal.peak_force ? peaks_.forces().data() : nullptr,
+            .holds = peaks_.holds().empty() ? nullptr : peaks_.holds().data(),
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
             .overtravel = peaks_.overtravel().data(),
             .held_before = holds ? run_.held_before.data() : nullptr,
@@ -103,17 +102,10 @@ public:
 
   /// For the lane to fill: refers to this run's storage.
   [[nodiscard]] LaneResult empty_lane_result() {
-    return {run_.step,
-            peaks_.force_before(),
-            peaks_.moments(),
-            peaks_.forces(),
-            peaks_.overtravel(),
-            *asked_.x1,
-            *asked_.dxdt1,
-            run_.system.made_elsewhere().forces,
-            run_.held_before,
-            events_.excess_before(),
-            run_.system.made_elsewhere().holding,
+    return {run_.step,        peaks_.force_before(),   peaks_.moments(),
+            peaks_.forces(),  peaks_.holds(),          peaks_.overtravel(),
+            *asked_.x1,       *asked_.dxdt1,           run_.system.made_elsewhere().forces,
+            run_.held_before, events_.excess_before(), run_.system.made_elsewhere().holding,
             peaks_.base()};
   }
 

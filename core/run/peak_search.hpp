@@ -27,6 +27,7 @@ public:
   [[nodiscard]] std::vector<PeakOf<T>>& forces() { return forces_.peaks; }
   /// What holds have borne, 1 … n, N·m; empty where no hinge is held or it is not asked for.
   [[nodiscard]] const std::vector<PeakOf<T>>& holds() const { return holds_; }
+  [[nodiscard]] std::vector<PeakOf<T>>& holds() { return holds_; }
   /// Forces at the start of the step, 1 … n, N; only where forces are asked for.
   [[nodiscard]] std::vector<T>& force_before() { return forces_.before(); }
 

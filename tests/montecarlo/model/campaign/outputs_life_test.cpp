@@ -1,6 +1,7 @@
 // Outputs of holds, and of latches that may miss or let go.
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/outputs.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 
 #include <catch2/catch.hpp>
