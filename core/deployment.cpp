@@ -116,7 +116,8 @@ template <class Value> void keep_first(std::vector<Value>& all, std::size_t coun
   }
   for (LatchEvent& latch : out.latches) keep_first(latch.rates, hinges);
   keep_first(out.peak_moment, hinges), keep_first(out.peak_force, hinges);
-  keep_first(out.overtravel, hinges);
+  keep_first(out.hold_moment, hinges), keep_first(out.overtravel, hinges);
+  keep_first(out.final_angle, hinges);
   keep_first(out.final.angles, hinges), keep_first(out.final.rates, hinges);
   return std::move(out);
 }
@@ -129,6 +130,17 @@ template <class Value> void keep_first(std::vector<Value>& all, std::size_t coun
       keep_first(*all, hinges);
     observer(sample);
   };
+}
+
+[[nodiscard]] bool may_miss(const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); }
+
+/// Says in words which hinges were never released.
+void name_held_hinges(const Scene& scene, Outcome& outcome) {
+  if (outcome.never_released.empty()) return;
+  outcome.reason.clear();
+  for (const int hinge : outcome.never_released)
+    outcome.reason +=
+        (outcome.reason.empty() ? "" : "; ") + scene.hinges[hinge].name + " was never released";
 }
 
 } // namespace
@@ -148,6 +160,11 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
     return without_joints(
         made, run(made.scene, integration, goal, without_joints(scene.hinges.size(), observer)));
   }
+  if (integration.smoothing && std::any_of(scene.hinges.begin(), scene.hinges.end(), may_miss)) {
+    Outcome out; // status failed
+    out.reason = "a latch with a capture rate or a holding moment needs event latches";
+    return out;
+  }
   std::vector<std::pair<int, int>> tree(scene.hinges.size());
   std::transform(scene.hinges.begin(), scene.hinges.end(), tree.begin(),
                  [](const Hinge& hinge) { return std::pair(hinge.parent, hinge.child); });
@@ -156,7 +173,9 @@ Outcome Deployment::run(const Scene& scene, const Integration& integration, cons
     kept_->tree = std::move(tree);
   }
   runs().set_parameters(kept_->wing, scene);
-  return runs().alone(kept_->wing, kept_->scratch, integration, goal, observer);
+  Outcome outcome = runs().alone(kept_->wing, kept_->scratch, integration, goal, observer);
+  name_held_hinges(scene, outcome);
+  return outcome;
 }
 
 DeploymentPack::DeploymentPack(InstructionSet set, const Integration& integration, const Goal& goal)
@@ -198,7 +217,8 @@ private:
   /// Makes the queued runs, which all have this method, and draws more until the queue of others is full.
   [[nodiscard]] Occupancy run_batch(Method method) {
     std::vector<std::pair<long, Wing<double>>> these = std::exchange(waiting_, {});
-    const PackShape shape{method, goal_.peak_force, goal_.peak_moment, goal_.overtravel};
+    const PackShape shape{method, goal_.peak_force, goal_.peak_moment,
+                          goal_.hold_moment && !structure_.releases.empty(), goal_.overtravel};
     const std::unique_ptr<PackEngine> engine = make_engine(set_, structure_, shape);
     const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
       if (!these.empty()) {
@@ -214,7 +234,11 @@ private:
       }
       return std::nullopt;
     };
-    return runs().in_lanes(structure_, *engine, method, how_, goal_, next_wing, done_);
+    return runs().in_lanes(structure_, *engine, method, how_, goal_, next_wing,
+                           [this](long name, Outcome&& outcome) {
+                             name_held_hinges(scene_, outcome);
+                             done_(name, std::move(outcome));
+                           });
   }
 
   /// Sets the wing's numbers to those of the next run and returns the run's name; nothing when there are no more. Runs

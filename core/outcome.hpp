@@ -27,8 +27,10 @@ struct Goal {
   bool peak_moment = true;
   bool peak_force = true;
   bool overtravel = true;        ///< watch how far hinges turn beyond their stowed angles
+  bool hold_moment = true;       ///< watch what holds bear
   bool audit = true;             ///< watch how far the energy drifts up to the first latch
   bool end_state = true;         ///< fill Outcome::final and Outcome::energy
+  bool final_angle = true;       ///< fill Outcome::final_angle
   bool to_t_end = false;         ///< integrate to t_end whatever happens
   bool first_latch_only = false; ///< end at the first latch
   bool mode_frequencies = false; ///< fill Outcome::mode_frequencies
@@ -36,8 +38,9 @@ struct Goal {
   double sample_interval = 0;
 };
 
-/// `stalled`: at least one hinge has not latched, and it is proven that no hinge will latch any more,
-/// though some may still swing. Outcome::reason names the proof: everything sticks, or energy is missing.
+/// `deployed`: every latch is engaged at the end. `stalled`: at least one is not, and it is proven that none will engage
+/// any more, though hinges may still swing, or a hinge with a latch is still held at the end. Outcome::reason names the
+/// proof: everything sticks, energy is missing, or a hinge was never released.
 /// A scene without latches ends `timed_out`.
 enum class Status { deployed, stalled, timed_out, invalid, failed };
 [[nodiscard]] const char* to_string(Status status);
@@ -47,6 +50,13 @@ struct LatchEvent {
   int hinge;                 ///< index into Scene::hinges
   double time;               ///< s
   std::vector<double> rates; ///< relative rates of all hinges at that instant, Scene order, rad/s
+};
+
+/// Another event of a hinge.
+struct HingeEvent {
+  int hinge = 0;   ///< index into Scene::hinges
+  double time = 0; ///< s
+  double rate = 0; ///< of the hinge at that instant, rad/s
 };
 
 /// The largest magnitude of a quantity, and the time when it was first reached, s.
@@ -99,9 +109,19 @@ struct Outcome {
   std::string reason;              ///< why status is stalled, invalid or failed; else empty
   std::vector<Phase> phases;       ///< in order of time
   double t_end = 0;                ///< time at which the integration ended, s
-  std::vector<LatchEvent> latches; ///< in order of time
-  std::vector<Peak> peak_moment;   ///< N·m; empty when not asked for
-  std::vector<Peak> peak_force;    ///< N; empty when not asked for
+  std::vector<LatchEvent> latches; ///< in order of time; of a latch that let go, each engagement
+  std::vector<HingeEvent> let_go;  ///< engaged latches that let go, in order of time
+  std::vector<HingeEvent>
+      missed; ///< passes of the latched angle too fast for the latch, in order of time
+  std::vector<HingeEvent> releases; ///< holds that let go, in order of time
+  /// Of a stalled run, hinges that are held at its end and that no other held hinge keeps waiting.
+  std::vector<int> never_released;
+  std::vector<Peak> peak_moment; ///< N·m; empty when not asked for
+  std::vector<Peak> peak_force;  ///< N; empty when not asked for
+  /// The largest moment that each hinge's hold bore, N·m; empty when not asked for, or where no hinge is held.
+  std::vector<Peak> hold_moment;
+  std::vector<double>
+      final_angle; ///< at t_end, from the latched angle, rad; empty when not asked for
   /// The largest moment in the joints of each flexible body, by Scene::bodies, N·m; empty when no moments are asked for,
   /// or without flexible bodies. Zero for a rigid body.
   std::vector<Peak> bending_moment;
@@ -121,6 +141,9 @@ struct Outcome {
   EnergyAudit energy;  ///< zeros unless Goal::end_state or audit
   Work work;
 };
+
+/// The engagement of the hinge that holds at the end of the run; null without one.
+[[nodiscard]] const LatchEvent* holding_latch(const Outcome& outcome, int hinge);
 
 /// Names the methods of an outcome's phases, each once, in order of first use: "dopri5, rosenbrock_w".
 [[nodiscard]] std::string methods_used(const Outcome& outcome);

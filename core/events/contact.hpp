@@ -17,10 +17,9 @@
 
 namespace wingspread {
 
-/// The sense in which hinge i slides: −1 or 1; 0 if the hinge sticks or has no exact friction.
+/// The sense in which hinge i slides: −1 or 1; 0 if the hinge is locked or has no exact friction.
 template <class AnySystem> [[nodiscard]] int sliding_sense(const AnySystem& system, int i) {
-  const Contact contact = system.work().contact[i];
-  return contact == Contact::stuck ? 0 : static_cast<int>(contact);
+  return sense_of(system.work().contact[i]);
 }
 
 namespace detail {
@@ -37,7 +36,7 @@ template <class T, class AnySystem>
   const Layout& at = system.layout();
   std::vector<char> resting(at.bodies + 1, false);
   for (int i = 1; i <= at.bodies; ++i) {
-    if (!system.wing().hinges[i].can_stick()) continue;
+    if (!system.wing().hinges[i].can_stick() || system.is_held(i)) continue;
     const T& rate = x[at.rate(i)];
     resting[i] = rate == T(0);
     system.touch(i, resting[i] ? Contact::stuck : sliding(rate));

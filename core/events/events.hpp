@@ -1,4 +1,5 @@
-/// The events of a run: latches that engage, hinges that come to rest or are released, angles at which laws change.
+/// The events of a run: latches that engage or let go, hinges that come to rest or are released, angles at which laws
+/// change, holds that let go.
 #pragma once
 
 #include "core/events/contact.hpp"
@@ -6,6 +7,7 @@
 #include "core/events/holding.hpp"
 #include "core/events/kinks.hpp"
 #include "core/events/latches.hpp"
+#include "core/events/releases.hpp"
 
 #include <optional>
 #include <vector>
@@ -14,8 +16,9 @@ namespace wingspread {
 
 /// `rest`: a sliding hinge stops. `graze`: the load of a stuck hinge comes so near its limit that only a step of the
 /// method can decide. `edge`: a real hinge reaches an angle at which its law changes. `kink`: a law bends
-/// (kinks.hpp), and the equations stay as they are.
-enum class Event { latch, rest, release, graze, edge, kink };
+/// (kinks.hpp), and the equations stay as they are. `open`: an engaged latch lets go. `seen`: another hinge reaches the
+/// angle for which a hold waits.
+enum class Event { latch, rest, release, graze, edge, kink, open, seen };
 
 /// An event inside a step.
 template <class T> struct Due {
@@ -30,13 +33,17 @@ template <class T> struct Due {
 /// Finds the events of one run and applies them.
 template <class T, class AnySystem> class Events {
 public:
-  explicit Events(AnySystem& system) : system_(system), latches_(system) {}
+  explicit Events(AnySystem& system) : system_(system), latches_(system), releases_(system) {}
 
   /// Starts a run.
-  void start() { latches_.start(); }
+  void start() {
+    latches_.start();
+    releases_.start();
+  }
 
-  /// Latches that have not engaged.
+  /// Latches that are not engaged.
   [[nodiscard]] int latches_left() const { return latches_.left(); }
+  [[nodiscard]] const Releases<T, AnySystem>& releases() const { return releases_; }
 
   /// Whether hinge i can still latch.
   [[nodiscard]] bool may_latch(int i) const { return latches_.may_engage(i); }
@@ -66,6 +73,8 @@ public:
     for (int i = 1; i <= system_.layout().bodies; ++i) {
       if (latches_.may_engage(i)) offer(Event::latch, i, latches_.first_engagement(step, i), T(0));
       if (sliding_sense(system_, i) != 0) offer(Event::rest, i, first_rest(system_, step, i), T(0));
+      if (latches_.may_open(i)) offer(Event::open, i, first_opening(system_, step, i), T(0));
+      if (releases_.held() > 0) offer(Event::seen, i, releases_.first_passage(step, i), T(0));
     }
     if (system_.work().stuck > 0) {
       const auto release = holding_.first_release(system_, step, x, dxdt);
@@ -99,6 +108,17 @@ public:
       return {way * (step.x1[at.angle(i)] - angle), way * step.x1[at.rate(i)],
               way * step.dxdt1[at.rate(i)]};
     }
+    case Event::open: {
+      const Layout& at = system_.layout();
+      const CaptureTerms<T>& latch = system_.wing().real[i].capture;
+      const T &angle = step.x1[at.angle(i)], &rate = step.x1[at.rate(i)];
+      return {latch.excess(angle, rate), latch.excess_rate(angle, rate, step.dxdt1[at.rate(i)])};
+    }
+    case Event::seen: {
+      const int k = releases_.seen_by(i), r = system_.layout().rate(k);
+      const T& sense = system_.wing().hinges[k].sense;
+      return {releases_.passed_by(step.x1, i), sense * step.x1[r], sense * step.dxdt1[r]};
+    }
     case Event::kink: { // just past it, so that the next step begins on the other side
       const Jet<T> u = argument(system_, due.kink, step.x1, step.dxdt1);
       using std::abs;
@@ -113,27 +133,32 @@ public:
     return {Holding<T>::excess(system_, step.x1, i), due.slope};
   }
 
-  /// Applies, at the start of a step, the event `due` and all simultaneous ones: engages latches, and sets the rates of
-  /// hinges that come to rest to zero.
-  /// @param latches to which engagements are appended
+  /// Applies, at the start of a step, the event `due` and all simultaneous ones: engages latches and lets them go, sets
+  /// the rates of hinges that come to rest to zero, and lets holds go.
+  /// @param record to which the events are appended
   /// @return whether the right-hand side has changed
-  [[nodiscard]] bool happen(const std::optional<Due<T>>& due, Step<T>& step,
-                            std::vector<LatchEvent>& latches) {
-    const int latching = due && due->event == Event::latch ? due->hinge : 0;
-    const int resting = due && due->event == Event::rest ? due->hinge : 0;
-    const bool engaged = latches_.engage_those_there(latching, step, latches);
+  [[nodiscard]] bool happen(const std::optional<Due<T>>& due, Step<T>& step, LatchRecord record) {
+    const auto hinge_of = [&](Event event) { return due && due->event == event ? due->hinge : 0; };
+    const bool passes = due && due->event == Event::edge && due->edge == Edge::pass;
+    const int latching = passes ? due->hinge : hinge_of(Event::latch);
+    const int resting = hinge_of(Event::rest);
+    const bool engaged = latches_.engage_those_there(latching, step, record);
     const bool rested = rest_those_there(system_, resting, step);
     if (due &&
         due->event == Event::edge) // exactly at the edge, where settle_edges decides its side
       step.x[system_.layout().angle(due->hinge)] =
           edge_angle(system_.wing(), due->hinge, due->edge);
+    const bool opened =
+        system_.wing().can_open && latches_.open_those_there(hinge_of(Event::open), step, record);
+    const bool released = releases_.let_go_those_due(hinge_of(Event::seen), step, record);
     const bool changes = due && due->event != Event::graze && due->event != Event::kink;
-    return changes || engaged || rested;
+    return changes || engaged || rested || opened || released;
   }
 
 private:
   AnySystem& system_;
   Latches<T, AnySystem> latches_;
+  Releases<T, AnySystem> releases_;
   Holding<T> holding_;
 };
 

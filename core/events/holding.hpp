@@ -28,7 +28,7 @@ template <class AnySystem> [[nodiscard]] auto release_margin(const AnySystem& sy
 
 /// A release of a stuck hinge inside the step; or a graze: friction that comes so near its limit and falls again
 /// that only a step of the method can decide.
-template <class T> struct Release {
+template <class T> struct Slip {
   int hinge;
   T s;     ///< fraction of the step
   T slope; ///< rate of the excess over the limit, N·m/s; 0 for a graze
@@ -59,10 +59,11 @@ public:
   /// excludes it.
   /// @pre the last evaluation was at the step's end, as it is again afterwards. Overwrites x and dxdt.
   template <class AnySystem>
-  [[nodiscard]] std::optional<Release<T>> first_release(AnySystem& system, const Step<T>& step,
-                                                        State<T>& x, State<T>& dxdt) {
-    if (is_stuck_for_good(system, step.x) || !comes_near(system, step)) return std::nullopt;
-    std::optional<Release<T>> first;
+  [[nodiscard]] std::optional<Slip<T>> first_release(AnySystem& system, const Step<T>& step,
+                                                     State<T>& x, State<T>& dxdt) {
+    if (!system.wing().can_stick || is_stuck_for_good(system, step.x) || !comes_near(system, step))
+      return std::nullopt;
+    std::optional<Slip<T>> first;
     for (int i = 1; i <= system.layout().bodies; ++i) {
       if (!system.sticks(i) || !may_exceed(i)) continue;
       const auto excess_at = [&](const T& s) {
@@ -87,7 +88,7 @@ public:
   }
 
 private:
-  /// Whether any stuck hinge may pass its limit in the step, by the load as seen from inertial axes and from its body.
+  /// Whether any hinge that friction locks may pass its limit in the step, by the load as seen from inertial axes and from its body.
   template <class AnySystem>
   [[nodiscard]] bool comes_near(const AnySystem& system, const Step<T>& step) {
     bound_.over_step(system, step);
@@ -105,8 +106,8 @@ private:
   [[nodiscard]] bool may_exceed(int i) const { return may_slip(bound_, i, before_[i], after_[i]); }
 
   template <class Function>
-  [[nodiscard]] std::optional<Release<T>> release_of(const Function& excess_at, int i,
-                                                     const T& limit, const T& h) {
+  [[nodiscard]] std::optional<Slip<T>> release_of(const Function& excess_at, int i, const T& limit,
+                                                  const T& h) {
     constexpr double grazes = 1e-3, width = 1e-3;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
     const auto rise = [&](const T& a, const T& b) { return bound_.friction(i, a, b); };
@@ -114,12 +115,12 @@ private:
         first_positive(excess_at, before_[i], after_[i], rise, close_to(i, limit), crest);
     if (s) {
       const T slope = (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * h);
-      return Release<T>{i, *s, slope};
+      return Slip<T>{i, *s, slope};
     }
     const bool inside = crest.s > T(0.02) && crest.s < T(0.98);
     const T change = crest.value - smaller(before_[i], after_[i]);
     if (inside && crest.value > T(-grazes) * smaller(limit, change))
-      return Release<T>{i, crest.s, T(0)};
+      return Slip<T>{i, crest.s, T(0)};
     return std::nullopt;
   }
 

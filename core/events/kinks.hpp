@@ -108,14 +108,17 @@ private:
       for (const T& at : {T(-real.damper.rate), T(real.damper.rate)})
         pass({Of::rate, i, at, T(0)}, rate, {i, T(0), turn, T(0)});
     }
-    if (mode.in_contact > T(0) && real.stop.dissipation > T(0)) {
-      const HingeStop<T> stop{real.stop, mode.in_contact};
-      const T depth = larger(stop.depth(step_.x[system_.layout().angle(i)]),
-                             stop.depth(step_.x1[system_.layout().angle(i)]));
-      const T turn = real.stop.stiffness * real.stop.dissipation * larger(depth, T(0));
-      pass({Of::rate, i, T(real.stop.sense / real.stop.dissipation), T(0)}, rate,
-           {i, T(0), turn, T(0)});
-    }
+    pass_stop(i, rate, real.stop, mode.in_contact);
+    pass_stop(i, rate, real.far_stop, mode.in_far_contact);
+  }
+
+  void pass_stop(int i, const Quintic<T>& rate, const StopTerms<T>& terms, const T& in_contact) {
+    if (!(in_contact > T(0) && terms.dissipation > T(0))) return;
+    const HingeStop<T> stop{terms, in_contact};
+    const T depth = larger(stop.depth(step_.x[system_.layout().angle(i)]),
+                           stop.depth(step_.x1[system_.layout().angle(i)]));
+    const T turn = terms.stiffness * terms.dissipation * larger(depth, T(0));
+    pass({Of::rate, i, T(terms.sense / terms.dissipation), T(0)}, rate, {i, T(0), turn, T(0)});
   }
 
   /// Knots of a curve of hinge i's angle.

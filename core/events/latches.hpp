@@ -1,12 +1,15 @@
 /// Where latches engage: the instant at which a hinge reaches its latched angle in the deploying sense. From then on
-/// the latch is a spring and a damper.
+/// the latch is a spring and a damper. A latch that may miss, or let go again: core/laws/latch_laws.hpp.
 #pragma once
 
 #include "core/dense/step.hpp"
+#include "core/events/edge_crossing.hpp"
 #include "core/events/instant.hpp"
 #include "core/mechanics/system.hpp"
 #include "core/outcome.hpp"
 
+#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -22,13 +25,58 @@ template <class T>
   return event;
 }
 
+/// What has happened to latches and holds, each in order of time.
+struct LatchRecord {
+  std::vector<LatchEvent>& latches; ///< engagements
+  std::vector<HingeEvent>&missed, &let_go, &releases;
+};
+
+/// An event of hinge i at (x, t).
+template <class T>
+[[nodiscard]] HingeEvent hinge_event(const Wing<T>& wing, const Layout& at, const State<T>& x,
+                                     const T& t, int i) {
+  return {wing.hinge_of[i], static_cast<double>(t), static_cast<double>(x[at.rate(i)])};
+}
+
 /// Whether a latch engages at t or at an instant simultaneous with t.
 /// @param gap, rate signed distance past the latched angle, rad, and its rate, rad/s
 template <class T> [[nodiscard]] auto engages_at(const T& t, const T& gap, const T& rate) {
   return gap + one_instant(t) * larger(rate, T(0)) >= T(0);
 }
 
-/// The latches of one run that have not engaged.
+/// The first s in [0, 1] at which the engaged latch of hinge i lets go in the step; none if it does not. Halves pieces
+/// whose bound on the latch's load does not exclude it.
+template <class T, class AnySystem>
+[[nodiscard]] std::optional<T> first_opening(const AnySystem& system, const Step<T>& step, int i) {
+  struct Piece {
+    Quintic<T> angle, rate;
+    T lower, width;
+  };
+  const CaptureTerms<T>& latch = system.wing().real[i].capture;
+  const Layout& at = system.layout();
+  const Quintic<T> path = step.coordinate(at.angle(i), at.freedoms());
+  constexpr int deepest = 45; // 3e-14 of the step: rounding
+  std::array<Piece, deepest + 2> open;
+  int count = 0;
+  open[count++] = {path, derivative(path, step.h), T(0), T(1)};
+  while (count > 0) {
+    const Piece piece = open[--count];
+    if (latch.most_excess(hull(piece.angle), hull(piece.rate)) < T(0)) continue;
+    if (latch.opens(piece.angle[0], piece.rate[0])) return piece.lower;
+    if (piece.width <= T(1.0 / (1LL << deepest))) {
+      if (latch.opens(piece.angle[5], piece.rate[5])) return piece.lower + piece.width;
+      continue;
+    }
+    Piece left{{}, {}, piece.lower, T(0.5) * piece.width};
+    Piece right{{}, {}, piece.lower + left.width, left.width};
+    halve(piece.angle, left.angle, right.angle), halve(piece.rate, left.rate, right.rate);
+    open[count++] = right;
+    open[count++] = left;
+  }
+  return std::nullopt;
+}
+
+/// The latches of one run that are not engaged.
 template <class T, class AnySystem> class Latches {
 public:
   explicit Latches(AnySystem& system) : system_(system), at_(system.layout()) {}
@@ -40,9 +88,13 @@ public:
   }
 
   [[nodiscard]] int left() const { return left_; }
-  /// Whether hinge i has a latch that can still engage; a stuck hinge does not move.
-  [[nodiscard]] bool may_engage(int i) const {
-    return system_.wing().hinges[i].has_latch && !system_.work().engaged[i] && !system_.sticks(i);
+  /// Whether hinge i has a latch that engages the next time that the hinge reaches its latched angle; a locked hinge
+  /// does not move.
+  [[nodiscard]] bool may_engage(int i) const { return is_open(i) && !may_miss(i); }
+  /// Whether hinge i has an engaged latch that may let go now.
+  [[nodiscard]] bool may_open(int i) const {
+    return system_.wing().can_open && system_.work().engaged[i] && !system_.sticks(i) &&
+           system_.wing().real[i].capture.may_open();
   }
 
   /// Signed distance past the latched angle, rad: the latch engages where it reaches 0 from below.
@@ -63,25 +115,70 @@ public:
   }
 
   /// Engages, at the start of a step, hinge `due` (0: none) and every latch that engages simultaneously.
-  /// @param latches to which the engagements are appended
+  /// @param events to whose latches the engagements are appended; passes too fast for the latch are missed
   /// @return whether any latch engaged
-  bool engage_those_there(int due, Step<T>& step, std::vector<LatchEvent>& latches) {
+  bool engage_those_there(int due, Step<T>& step, LatchRecord& events) {
     bool any = false;
     for (int i = 1; i <= at_.bodies; ++i) {
-      if (!may_engage(i)) continue;
-      if (i != due && !engages_at(step.t, gap(step.x, i), gap_rate(step.x, i))) continue;
+      if (!is_open(i)) continue;
+      if (may_miss(i) && !captures(i, due, step, events)) continue;
+      if (!may_miss(i) && i != due && !engages_at(step.t, gap(step.x, i), gap_rate(step.x, i)))
+        continue;
       system_.engage(i);
       // exactly at the edge, where settle_edges decides its side
       if (has_edge_at_latch(system_.wing(), i))
         step.x[at_.angle(i)] = system_.wing().hinges[i].latched;
       --left_;
-      latches.push_back(latch_event(system_.wing(), at_, step.x, step.t, i));
+      events.latches.push_back(latch_event(system_.wing(), at_, step.x, step.t, i));
+      any = true;
+    }
+    return any;
+  }
+
+  /// Lets go, at the start of a step, the latch of hinge `due` (0: none) and every latch that is loaded beyond its
+  /// holding moment where it begins to bear on its stowed side. @return whether any let go
+  bool open_those_there(int due, Step<T>& step, LatchRecord& events) {
+    bool any = false;
+    for (int i = 1; i <= at_.bodies; ++i) {
+      if (!may_open(i) || (i != due && !opens_at_edge(i, step.x))) continue;
+      system_.disengage(i, step.x);
+      ++left_;
+      events.let_go.push_back(hinge_event(system_.wing(), at_, step.x, step.t, i));
       any = true;
     }
     return any;
   }
 
 private:
+  [[nodiscard]] bool is_open(int i) const {
+    return system_.wing().hinges[i].has_latch && !system_.work().engaged[i] && !system_.sticks(i);
+  }
+  [[nodiscard]] bool may_miss(int i) const { return has_capture(system_.wing(), i); }
+
+  /// Whether hinge i, whose latch may miss, passes its latched angle now, and slowly enough. If it passes, it is put
+  /// there exactly: settle_edges decides its side.
+  [[nodiscard]] bool captures(int i, int due, Step<T>& step, LatchRecord& events) const {
+    using std::abs;
+    const HingeTerms<T>& hinge = system_.wing().hinges[i];
+    const T way(way_over(system_, i, Edge::pass));
+    const T &rate = step.x[at_.rate(i)], along = way * rate;
+    T& angle = step.x[at_.angle(i)];
+    const bool there = along > T(0) && engages_at(step.t, T(way * (angle - hinge.latched)), along);
+    if (i != due && !there) return false;
+    angle = hinge.latched;
+    if (abs(rate) <= system_.wing().real[i].capture.fastest) return true;
+    events.missed.push_back(hinge_event(system_.wing(), at_, step.x, step.t, i));
+    return false;
+  }
+
+  /// Whether the load of hinge i, which stands where its latch begins to bear on its stowed side, opens the latch.
+  [[nodiscard]] bool opens_at_edge(int i, const State<T>& x) const {
+    const CaptureTerms<T>& latch = system_.wing().real[i].capture;
+    const T &angle = x[at_.angle(i)], &rate = x[at_.rate(i)];
+    return !(latch.deflection(angle) > T(0)) && latch.sense * rate < T(0) &&
+           latch.excess(angle, rate) >= T(0);
+  }
+
   AnySystem& system_;
   const Layout at_;
   int left_ = 0;

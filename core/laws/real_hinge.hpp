@@ -1,11 +1,12 @@
 /// The list of laws that a hinge may have beyond linear_law.hpp, regularized friction and smoothed latch.
 ///
 ///     M = w_s S(φ) + w_h H(φ) − σ f F(φ) + [damper acts] damper(φ̇) + [in contact] stop(φ, φ̇)
-///         + [latch bears] dissipation(φ, φ̇)                                                     (1)
+///         + [in contact] far stop(φ, φ̇) + [latch bears] dissipation(φ, φ̇)                       (1)
 ///
 /// with spring and harness by tables (curve_torque.hpp), measured friction (friction.hpp), a damper (damper.hpp), a
-/// stop (stop.hpp) and a latch's dissipation (latch_dissipation.hpp). Whether the damper acts, the stop is in contact
-/// and the latch bears are modes of the run, which change at events: inside a step every law is smooth.
+/// stop (stop.hpp) at either side and a latch's dissipation (latch_laws.hpp). Whether the damper acts, a stop is in
+/// contact and the latch bears are modes of the run, which change at events: inside a step every law is smooth. Whether
+/// the latch engages and lets go: latch_laws.hpp.
 ///
 /// To add a law: README.md.
 #pragma once
@@ -14,7 +15,7 @@
 #include "core/laws/damper.hpp"
 #include "core/laws/friction.hpp"
 #include "core/laws/hinge_law.hpp"
-#include "core/laws/latch_dissipation.hpp"
+#include "core/laws/latch_laws.hpp"
 #include "core/laws/stop.hpp"
 #include "core/scene/scene.hpp"
 
@@ -22,10 +23,11 @@ namespace wingspread {
 
 /// What events change in a real hinge.
 template <class T> struct HingeMode {
-  T in_contact;  ///< 1 while the stop is in contact, else 0
-  T damper_acts; ///< 1 or 0
-  T sliding;     ///< σ of exact friction: −1, 0, 1
-  T bears;       ///< side on which the engaged latch bears: −1, 1; 0: on none
+  T in_contact;     ///< 1 while the stop is in contact, else 0
+  T damper_acts;    ///< 1 or 0
+  T sliding;        ///< σ of exact friction: −1, 0, 1
+  T bears;          ///< side on which the engaged latch bears: −1, 1; 0: on none
+  T in_far_contact; ///< 1 while the far stop is in contact, else 0
 };
 
 template <class T> struct RealHingeTerms {
@@ -37,6 +39,8 @@ template <class T> struct RealHingeTerms {
   StopTerms<T> stop;
   T half_backlash; ///< β/2 of the latch, rad
   LatchDissipationTerms<T> dissipation;
+  StopTerms<T> far_stop;
+  CaptureTerms<T> capture;
 
   /// Whether the latch's law changes at the latched angle, or at the ends of its backlash.
   [[nodiscard]] bool has_latch_edge() const { return has_backlash || dissipation.present; }
@@ -51,13 +55,16 @@ void for_each_law(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, Visi
   if (hinge.friction.level) offer(MeasuredFriction<T>{hinge.friction, mode.sliding});
   if (hinge.has_damper) offer(HingeDamper<T>{hinge.damper, mode.damper_acts});
   if (hinge.stop.present) offer(HingeStop<T>{hinge.stop, mode.in_contact});
+  if (hinge.far_stop.present) offer(HingeStop<T>{hinge.far_stop, mode.in_far_contact});
   if (hinge.dissipation.present) offer(LatchDissipation<T>{hinge.dissipation, mode.bears});
 }
 
-/// Whether a hinge has any of the laws, or a latch with backlash.
+/// Whether a hinge has any of the laws, or a latch with backlash or that may miss.
 [[nodiscard]] inline bool is_real(const Hinge& hinge) {
   return hinge.spring.table || hinge.harness.table || hinge.damper || hinge.stop ||
-         (hinge.latch && (hinge.latch->backlash > 0 || hinge.latch->dissipation));
+         hinge.far_stop ||
+         (hinge.latch &&
+          (hinge.latch->backlash > 0 || hinge.latch->dissipation || hinge.latch->can_miss()));
 }
 
 /// (1), N·m.
@@ -104,12 +111,11 @@ template <class T>
   return change;
 }
 
-/// Potential of the laws, zero at the latched angle, J. @param in_contact 1 or 0
+/// Potential of the laws, zero at the latched angle, J.
 template <class T>
 [[nodiscard]] T real_potential(const RealHingeTerms<T>& hinge, const T& latched, const T& angle,
-                               const T& in_contact) {
+                               const HingeMode<T>& mode) {
   T P(0);
-  const HingeMode<T> mode{in_contact, T(0), T(0), T(0)};
   for_each_law(hinge, mode, [&](const auto& law) { law.add_potential(P, latched, angle); });
   return P;
 }
@@ -170,13 +176,17 @@ template <class T>
       terms.window_high = larger(T((*window)[0]), T((*window)[1]));
     }
   }
-  terms.stop.sense = sense;
+  terms.stop.sense = sense, terms.far_stop.sense = -sense;
   if (hinge.stop)
     terms.stop = {true, sense, T(hinge.stop->stiffness), T(hinge.stop->dissipation),
                   fused(-sense, T(hinge.stop->gap), T(hinge.stowed))};
+  if (hinge.far_stop)
+    terms.far_stop = {true, -sense, T(hinge.far_stop->stiffness), T(hinge.far_stop->dissipation),
+                      fused(sense, T(hinge.far_stop->gap), T(hinge.latched))};
   terms.has_backlash = hinge.latch && hinge.latch->backlash > 0;
   if (hinge.latch) terms.half_backlash = T(0.5) * T(hinge.latch->backlash);
   terms.dissipation = dissipation_terms<T>(hinge);
+  terms.capture = capture_terms<T>(hinge, sense);
   return terms;
 }
 

@@ -8,7 +8,7 @@
 /// | ε      | width: of f in rad, of the weight in S in s        |      |
 /// | k, d, c | the latch's stiffness, and its damping or dissipation | N·m/rad, N·m·s/rad, s/rad |
 ///
-///     M = −h(S/ε) (k y + d φ̇ + k c |y| φ̇)        [Yudintsev; c: latch_dissipation.hpp]        (1)
+///     M = −h(S/ε) (k y + d φ̇ + k c |y| φ̇)        [Yudintsev; c: latch_laws.hpp]        (1)
 #pragma once
 
 #include "core/laws/hinge_terms.hpp"

@@ -1,4 +1,5 @@
-/// The stop at the stowed side of a hinge: a contact that pushes and never pulls [Hunt & Crossley 1975].
+/// A stop of a hinge: a contact that pushes and never pulls [Hunt & Crossley 1975]. Written for the stowed side; with
+/// −s in place of s it is the stop at the far side, beyond the latched angle.
 ///
 /// | symbol | meaning                                       | unit    |
 /// |--------|-----------------------------------------------|---------|
@@ -7,7 +8,7 @@
 ///
 ///     M = s k δ max(0, 1 + c δ̇)                                                                 (1)
 ///
-/// in contact. A run keeps whether the hinge is in contact as a mode, which changes at an event (Edge::stop).
+/// in contact. A run keeps whether the hinge is in contact as a mode, which changes at an event (Edge::stop, far_stop).
 #pragma once
 
 #include "core/laws/hinge_law.hpp"

@@ -20,6 +20,10 @@ template <class T> [[nodiscard]] T edge_angle(const Wing<T>& wing, int i, Edge e
     return real.window_high;
   case Edge::backlash_low:
     return wing.hinges[i].latched - real.half_backlash;
+  case Edge::far_stop:
+    return real.far_stop.contact_angle;
+  case Edge::pass:
+    return wing.hinges[i].latched;
   case Edge::backlash_high:
     break;
   }
@@ -31,9 +35,16 @@ template <class T>
 [[nodiscard]] bool has_edge(const Wing<T>& wing, int i, Edge edge, bool engaged) {
   const RealHingeTerms<T>& real = wing.real[i];
   if (edge == Edge::stop) return real.stop.present;
+  if (edge == Edge::far_stop) return real.far_stop.present;
+  if (edge == Edge::pass) return !engaged && real.capture.present;
   if (edge == Edge::window_low || edge == Edge::window_high) return real.has_window;
   if (edge == Edge::backlash_low) return engaged && real.has_backlash;
   return engaged && real.has_latch_edge();
+}
+
+/// Whether hinge i has a latch that it may pass without engaging, or that may let go again.
+template <class T> [[nodiscard]] bool has_capture(const Wing<T>& wing, int i) {
+  return !wing.real.empty() && wing.real[i].capture.present;
 }
 
 /// Whether the law of the hinge's latch changes where it engages.
@@ -41,9 +52,8 @@ template <class T> [[nodiscard]] bool has_edge_at_latch(const Wing<T>& wing, int
   return !wing.real.empty() && wing.real[i].dissipation.present && !wing.real[i].has_backlash;
 }
 
-/// Whether the stop is in contact, by the side of its edge.
-template <class T> [[nodiscard]] bool touches_stop(const Wing<T>& wing, int i, bool above) {
-  const StopTerms<T>& stop = wing.real[i].stop;
+/// Whether a stop is in contact, by the side of its edge.
+template <class T> [[nodiscard]] bool touches(const StopTerms<T>& stop, bool above) {
   return stop.present && above != (stop.sense > T(0));
 }
 
@@ -62,9 +72,12 @@ template <class T, class Sides>
   const auto above = [&](Edge edge) { return sides[static_cast<int>(edge)] != 0; };
   const bool acts =
       !wing.real[i].has_window || (above(Edge::window_low) && !above(Edge::window_high));
-  return {T(touches_stop(wing, i, above(Edge::stop)) ? 1 : 0), T(acts ? 1 : 0),
-          contact == Contact::stuck ? T(0) : T(static_cast<int>(contact)),
-          T(engaged ? bearing_side(wing.real[i], sides) : 0)};
+  const auto in_contact = [&](const StopTerms<T>& stop, Edge edge) {
+    return T(touches(stop, above(edge)) ? 1 : 0);
+  };
+  return {in_contact(wing.real[i].stop, Edge::stop), T(acts ? 1 : 0), T(sense_of(contact)),
+          T(engaged ? bearing_side(wing.real[i], sides) : 0),
+          in_contact(wing.real[i].far_stop, Edge::far_stop)};
 }
 
 /// Where an engaged latch bears, less the latched angle: −β/2 or β/2, rad; 0 without backlash; none inside it.

@@ -86,8 +86,8 @@ template <class T, class Topology, BaseMotion M>
   const Wing<T>& wing = system.wing();
   const LinearLaw<T> open = linear_law(wing.hinges[i], false);
   if (wing.real.empty()) return potential(system.law_without_friction(i), angle);
-  const T own = potential(open, angle) + real_potential(wing.real[i], wing.hinges[i].latched, angle,
-                                                        system.work().modes[i].in_contact);
+  const T own = potential(open, angle) +
+                real_potential(wing.real[i], wing.hinges[i].latched, angle, system.work().modes[i]);
   return own + system.latch_energy(x, i);
 }
 

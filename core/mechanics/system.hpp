@@ -23,27 +23,13 @@ public:
   System(const Wing<T>& wing, const std::optional<double>& smoothing, Workspace<T>& work)
       : wing_(wing), work_(work), layout_{first_coordinate, wing.size(), smoothing.has_value()},
         epsilon_(smoothing.value_or(0)) {
-    const int n = layout_.bodies;
-    work_.frames.assign(n + 1, BodyFrame<T>{});
-    work_.forces.assign(n + 1, {T(0), T(0)});
-    work_.laws.resize(n + 1);
-    work_.nonlinear.resize(n + 1);
-    work_.crossings.resize(n + 1);
-    work_.modes.assign(wing_.real.size(), {T(0), T(0), T(0), T(0)});
-    work_.above.assign(wing_.real.size(), {});
-    work_.air_moments.assign(wing_.plates.size(), T(0));
-    work_.air_forces.assign(wing_.plates.size(), {T(0), T(0)});
-    work_.velocities.assign(wing_.plates.size(), {T(0), T(0)});
+    work_.resize(layout_.bodies, wing_.real.size(), wing_.plates.size());
     reset();
   }
 
   /// Resets to a run's start: no hinge is latched or stuck. Reads the wing's numbers anew.
   void reset() {
-    work_.engaged.assign(layout_.bodies + 1, false);
-    work_.contact.assign(layout_.bodies + 1, Contact::none);
-    work_.holding.assign(layout_.bodies + 1, T(0));
-    if constexpr (!is_one_number<T>) work_.locks.assign(layout_.bodies + 1, T(0));
-    work_.stuck = 0, work_.evaluations = 0;
+    work_.reset(layout_.bodies);
     for (int i = 1; i <= layout_.bodies; ++i) update_law(i);
     if constexpr (is_one_number<T>)
       if (has_table()) work_.driven = first_piece(wing_.base);
@@ -108,14 +94,29 @@ public:
     update_law(i);
   }
 
-  /// Sets the state of the exact friction of hinge i.
+  /// The latch of hinge i lets go at x.
+  void disengage(int i, const State<T>& x) {
+    work_.engaged[i] = false;
+    work_.above[i][static_cast<int>(Edge::pass)] = x[layout_.angle(i)] > wing_.hinges[i].latched;
+    update_law(i);
+  }
+
+  /// Sets the state of hinge i.
   void touch(int i, Contact contact) {
-    work_.stuck += (contact == Contact::stuck) - (work_.contact[i] == Contact::stuck);
+    work_.stuck += wingspread::is_locked(contact) - wingspread::is_locked(work_.contact[i]);
     work_.contact[i] = contact;
     update_law(i);
   }
-  [[nodiscard]] bool sticks(int i) const { return work_.contact[i] == Contact::stuck; }
-  /// The same; for a pack: the lanes in which it does.
+  /// Whether hinge i is locked, by friction or by its hold.
+  [[nodiscard]] bool sticks(int i) const { return wingspread::is_locked(work_.contact[i]); }
+  /// Whether the hold of hinge i holds it; for a pack: in which lanes.
+  [[nodiscard]] Truth<T> is_held(int i) const {
+    if constexpr (is_one_number<T>)
+      return work_.contact[i] == Contact::held;
+    else
+      return work_.locks[i] > T(1);
+  }
+  /// As sticks; for a pack: the lanes in which it does.
   [[nodiscard]] Truth<T> is_locked(int i) const {
     if constexpr (is_one_number<T>)
       return sticks(i);
@@ -151,7 +152,7 @@ public:
     return sticks(i) ? work_.holding[i] : sliding_moment(x, i);
   }
 
-  /// Friction that held stuck hinge i at the last evaluation, which was at x, N·m.
+  /// What locked hinge i at the last evaluation, which was at x, N·m: friction, or its hold.
   [[nodiscard]] T holding_friction(const State<T>& x, int i) const {
     return work_.holding[i] - sliding_moment(x, i);
   }
@@ -164,11 +165,12 @@ public:
                : linear;
   }
 
-  /// Largest moment that exact friction holds at hinge i at x, N·m.
+  /// Largest moment that locks hinge i at x, N·m: by exact friction; by a hold, without limit.
   [[nodiscard]] T static_limit(const State<T>& x, int i) const {
     const bool tested = !wing_.real.empty() && !wing_.real[i].friction.regularized;
-    return wing_.hinges[i].static_friction +
-           (tested ? measured_friction(wing_.real[i].friction, x[layout_.angle(i)]) : T(0));
+    T most = wing_.hinges[i].static_friction;
+    most = most + (tested ? measured_friction(wing_.real[i].friction, x[layout_.angle(i)]) : T(0));
+    return wing_.releases.empty() ? most : select(is_held(i), T(1e300), most);
   }
 
   /// Velocity of the base's origin, m/s; a prescribed base starts at rest.

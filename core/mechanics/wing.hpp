@@ -36,6 +36,17 @@ template <class T> struct BodyTerms {
   T minus_inverse;   ///< −1/inertia, 1/(kg·m²)
 };
 
+/// When the hold of a hinge lets go.
+template <class T> struct ReleaseTerms {
+  bool present;
+  Release::Event event;
+  int after; ///< body of the hinge whose event counts; 0: none
+  T time;    ///< s
+  T angle;   ///< of Event::passed: of that hinge, rad
+  T delay;   ///< s
+  T fails;   ///< 1: never
+};
+
 template <class T> struct Wing {
   BaseTerms<T> base;
   Tree tree;
@@ -48,7 +59,9 @@ template <class T> struct Wing {
   // empty where no hinge or body has the feature, which then costs nothing
   std::vector<RealHingeTerms<T>> real; ///< 0 … n; [0] unused
   std::vector<LoopTerms<T>> loops;
-  std::vector<PlateTerms<T>> plates; ///< 0 … n; [0] unused: a free base has no plate
+  std::vector<PlateTerms<T>> plates;     ///< 0 … n; [0] unused: a free base has no plate
+  std::vector<ReleaseTerms<T>> releases; ///< 0 … n; [0] unused
+  bool can_open = false;                 ///< whether the latch of any hinge may let go again
 
   [[nodiscard]] int size() const { return tree.bodies(); }
   /// Whether any hinge has laws of real_hinge.hpp or loops.
@@ -62,6 +75,7 @@ template <class T> struct Wing {
 namespace detail {
 
 [[nodiscard]] inline bool has_plate(const Body& body) { return body.plate.has_value(); }
+[[nodiscard]] inline bool has_release(const Hinge& hinge) { return hinge.release.has_value(); }
 
 /// The base's motion; a fixed base under gravity is treated as one that accelerates against gravity.
 [[nodiscard]] inline BaseMotion motion_of_base(const Scene& scene) {
@@ -132,6 +146,8 @@ template <class T>
   if (std::any_of(scene.hinges.begin(), scene.hinges.end(), is_real)) wing.real.resize(n + 1);
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(), detail::has_plate))
     wing.plates.resize(n + 1);
+  if (std::any_of(scene.hinges.begin(), scene.hinges.end(), detail::has_release))
+    wing.releases.resize(n + 1);
   for (const Synchronisation& loop : scene.synchronisations) {
     LoopTerms<T> terms{};
     terms.first = number[scene.hinges[loop.first].child];
@@ -147,6 +163,20 @@ template <class T>
 void set_real(HingeTerms<T>& terms, RealHingeTerms<T>& real, const Hinge& hinge) {
   real = real_hinge_terms<T>(hinge, terms.sense);
   (real.friction.regularized ? terms.more_regularized : terms.more_exact) = real.friction.most;
+}
+
+/// @pre the terms of all hinges are set
+template <class T> void set_release(Wing<T>& wing, const Scene& scene, int i) {
+  ReleaseTerms<T>& terms = wing.releases[i];
+  terms = {};
+  const std::optional<Release>& release = scene.hinges[wing.hinge_of[i]].release;
+  if (!release) return;
+  terms = {true, release->event, 0, T(release->time), T(0), T(release->delay), T(release->fails)};
+  if (release->event == Release::Event::time) return;
+  const auto other = std::find(wing.hinge_of.begin() + 1, wing.hinge_of.end(), release->after);
+  terms.after = static_cast<int>(other - wing.hinge_of.begin());
+  const HingeTerms<T>& hinge = wing.hinges[terms.after];
+  terms.angle = fused(hinge.sense, T(release->angle), hinge.stowed);
 }
 
 /// @pre the terms of the loop's hinges are set
@@ -174,6 +204,8 @@ template <class T> [[nodiscard]] bool has_room(const Wing<T>& wing, const Scene&
          (!wing.real.empty() || std::none_of(scene.hinges.begin(), scene.hinges.end(), is_real)) &&
          (!wing.plates.empty() ||
           std::none_of(scene.bodies.begin(), scene.bodies.end(), detail::has_plate)) &&
+         (!wing.releases.empty() ||
+          std::none_of(scene.hinges.begin(), scene.hinges.end(), detail::has_release)) &&
          std::equal(wing.loops.begin(), wing.loops.end(), scene.synchronisations.begin(),
                     scene.synchronisations.end(), is_of);
 }
@@ -184,7 +216,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
   const Base& base = scene.base;
   detail::set_base(wing.base, scene);
   detail::set_body(wing.bodies[0], base.mass, base.inertia, {T(0), T(0)}, {T(0), T(0)});
-  wing.has_regularized_friction = wing.can_stick = false;
+  wing.has_regularized_friction = wing.can_stick = wing.can_open = false;
   for (int i = 1; i <= wing.size(); ++i) {
     const Hinge& hinge = scene.hinges[wing.hinge_of[i]];
     const Body& body = scene.bodies[hinge.child];
@@ -201,7 +233,10 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
     wing.has_regularized_friction =
         wing.has_regularized_friction || wing.hinges[i].most_regularized() > T(0);
     wing.can_stick = wing.can_stick || wing.hinges[i].can_stick();
+    wing.can_open = wing.can_open || (!wing.real.empty() && wing.real[i].capture.may_open());
   }
+  for (int i = 1; i < static_cast<int>(wing.releases.size()); ++i)
+    detail::set_release(wing, scene, i);
   for (std::size_t k = 0; k < wing.loops.size(); ++k)
     detail::set_loop(wing, scene.synchronisations[k], wing.loops[k]);
 }

@@ -10,18 +10,27 @@
 
 namespace wingspread {
 
-/// State of a hinge's exact friction: sliding backward or forward, stuck, or none.
-enum class Contact : signed char { backward = -1, none = 0, forward = 1, stuck = 2 };
+/// State of a hinge: its exact friction slides backward or forward, or sticks; its hold holds it; or none of these.
+enum class Contact : signed char { backward = -1, none = 0, forward = 1, stuck = 2, held = 3 };
+
+/// Whether the hinge is locked: by friction, or by its hold.
+[[nodiscard]] constexpr bool is_locked(Contact contact) { return contact >= Contact::stuck; }
+/// The sense in which the hinge slides against exact friction: −1 or 1; 0: it does not.
+[[nodiscard]] constexpr int sense_of(Contact contact) {
+  return is_locked(contact) ? 0 : static_cast<int>(contact);
+}
 
 /// Angles of a hinge at which its law changes.
 enum class Edge : signed char {
   stop,       ///< contact begins
   window_low, ///< of the damper
   window_high,
-  backlash_low, ///< of an engaged latch with backlash
-  backlash_high ///< or, without backlash, the latched angle of a latch with dissipation
+  backlash_low,  ///< of an engaged latch with backlash
+  backlash_high, ///< or, without backlash, the latched angle of a latch with dissipation
+  far_stop,      ///< contact begins
+  pass           ///< the latched angle of an open latch that may miss
 };
-inline constexpr int edges_of_hinge = 5;
+inline constexpr int edges_of_hinge = 7;
 
 /// Owned by the caller, one per thread.
 template <class T> struct Workspace {
@@ -40,13 +49,39 @@ template <class T> struct Workspace {
   std::vector<Vec2<T>> air_forces; ///< 0 … n: F of air_loads.hpp, N
   std::vector<Vec2<T>> velocities; ///< 0 … n: of the hinges' points, m/s
   std::vector<char> engaged;       ///< 1 … n: has passed its latched angle
-  std::vector<Contact> contact;    ///< 1 … n: state of the exact friction
-  std::vector<T> locks;   ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, else 0
+  std::vector<Contact> contact;    ///< 1 … n
+  std::vector<char> watches;       ///< 1 … n: the hinge's hold waits for another hinge's angle
+  std::vector<T>
+      locks; ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, 2 where it is held, else 0
   std::vector<T> holding; ///< 1 … n: axis moment at the last evaluation that held a hinge
-  int stuck = 0;          ///< number of stuck hinges, of all lanes together
-  std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges stick
+  int stuck = 0;          ///< number of locked hinges, of all lanes together
+  std::vector<Crossing<T>> crossings; ///< 0 … n: of the last evaluation while hinges are locked
   T least_motion = T(0); ///< atol of the run, rad and rad/s: less is not resolved; 0 without a run
   long evaluations = 0;
+
+  /// Makes room for a wing of n bodies. @param real, plates sizes of the wing's lists
+  void resize(int n, std::size_t real, std::size_t plates) {
+    frames.assign(n + 1, BodyFrame<T>{});
+    forces.assign(n + 1, {T(0), T(0)});
+    laws.resize(n + 1);
+    nonlinear.resize(n + 1);
+    crossings.resize(n + 1);
+    modes.assign(real, {T(0), T(0), T(0), T(0), T(0)});
+    above.assign(real, {});
+    air_moments.assign(plates, T(0));
+    air_forces.assign(plates, {T(0), T(0)});
+    velocities.assign(plates, {T(0), T(0)});
+  }
+
+  /// Resets to a run's start: nothing is latched, stuck or held.
+  void reset(int n) {
+    engaged.assign(n + 1, false);
+    contact.assign(n + 1, Contact::none);
+    holding.assign(n + 1, T(0));
+    watches.assign(n + 1, false);
+    if constexpr (!is_one_number<T>) locks.assign(n + 1, T(0));
+    stuck = 0, evaluations = 0;
+  }
 };
 
 } // namespace wingspread

@@ -35,7 +35,8 @@ namespace wingspread {
 /// only. Regularized friction is excluded too, because there the last terms do not bound the rest of the series.
 template <class T> [[nodiscard]] bool has_series(const Wing<T>& wing) {
   return wing.base.motion == BaseMotion::fixed && wing.size() <= longest_static_chain &&
-         is_chain(wing.tree) && !wing.is_nonlinear() && wing.plates.empty() && !wing.can_stick;
+         is_chain(wing.tree) && !wing.is_nonlinear() && wing.plates.empty() && !wing.can_stick &&
+         wing.releases.empty();
 }
 
 template <class T> class TaylorSeries {

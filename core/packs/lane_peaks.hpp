@@ -23,7 +23,7 @@ public:
   void resize(const Layout& at) {
     const P none(0.0);
     moments_.assign(at.bodies + 1, {none, none});
-    forces_ = raised_moments_ = raised_forces_ = moments_;
+    forces_ = holds_ = raised_moments_ = raised_forces_ = raised_holds_ = moments_;
     before_.assign(at.bodies + 1, none), at_end_.assign(at.bodies + 1, {none, none});
     levers_.assign(at.bodies + 1, {none, none, {none, none}, none});
     samples_.resize(at.bodies);
@@ -39,6 +39,7 @@ public:
     for (std::size_t i = 1; i < moments_.size(); ++i) {
       set_lane(lane, moments_[i], task.moments ? task.moments[i] : none);
       set_lane(lane, forces_[i], task.forces ? task.forces[i] : none);
+      set_lane(lane, holds_[i], task.holds ? task.holds[i] : none);
       before_[i].v[lane] = task.force_before ? task.force_before[i] : 0;
     }
     evaluations_.v[lane] = 0;
@@ -48,6 +49,7 @@ public:
   void unload(int lane, LaneResult& result, bool moved) const {
     for (std::size_t i = 1; i < moments_.size(); ++i) {
       if (shape_.moments && moved) get_lane(lane, moments_[i], result.moments[i]);
+      if (shape_.holds && moved) get_lane(lane, holds_[i], result.holds[i]);
       if (!shape_.forces) continue;
       get_lane(lane, at_end_[i], result.forces_at_end[i]);
       if (!moved) continue;
@@ -76,6 +78,8 @@ public:
     rises_ = samples_made_ = held_is_bounded_ = false;
     Mask asks{};
     if (shape_.moments) asks = search_moments(system, step, accepted, held_before);
+    if (shape_.holds && system.work().stuck > 0)
+      asks = asks || search_holds(system, step, accepted, held_before);
     if (shape_.forces && system.wing().plates.empty())
       asks = asks || search_forces(system, step, accepted && !asks);
     return asks;
@@ -90,6 +94,7 @@ public:
       for (std::size_t i = 1; i < moments_.size(); ++i) {
         assign_where(these, moments_[i], raised_moments_[i]);
         assign_where(these, forces_[i], raised_forces_[i]);
+        assign_where(these, holds_[i], raised_holds_[i]);
       }
     if (!samples_made_) return P(0.0);
     const P made = select(these, sampled_, P(0.0));
@@ -102,7 +107,7 @@ private:
   void begin_to_raise() {
     if (rises_) return;
     rises_ = true;
-    raised_moments_ = moments_, raised_forces_ = forces_;
+    raised_moments_ = moments_, raised_forces_ = forces_, raised_holds_ = holds_;
   }
 
   [[nodiscard]] Mask search_moments(const AnySystem& system, const Step<P>& step,
@@ -148,6 +153,29 @@ private:
                                 negligible(moments_[i], held_, i));
   }
 
+  /// As PeakSearch::doubtful_hold.
+  [[nodiscard]] Mask search_holds(const AnySystem& system, const Step<P>& step,
+                                  const Mask& accepted, const std::vector<P>& held_before) {
+    Mask asks{};
+    for (int i = 1; i < static_cast<int>(holds_.size()); ++i) {
+      const Mask held = accepted && system.is_held(i);
+      if (!any(held)) continue;
+      if (!held_is_bounded_) held_.over_step(system, step);
+      held_is_bounded_ = true;
+      held_.narrow(system, step, i);
+      const P first = abs(held_before[i] - system.sliding_moment(step.x, i));
+      const P last = abs(system.work().holding[i] - system.sliding_moment(step.x1, i));
+      begin_to_raise();
+      PeakOf<P> peak = holds_[i];
+      peak.raise(first, step.t);
+      peak.raise(last, step.t + step.h);
+      assign_where(held, raised_holds_[i], peak);
+      asks = asks || (held && wants_samples(first, last, Bulge<P>{held_.most_friction(i)},
+                                            holds_[i].value, negligible(holds_[i], held_, i)));
+    }
+    return asks;
+  }
+
   /// As ForcePeaks::over_step.
   [[nodiscard]] Mask search_forces(AnySystem& system, const Step<P>& step, const Mask& accepted) {
     if (!any(accepted)) return Mask{};
@@ -182,9 +210,10 @@ private:
   }
 
   PackShape shape_;
-  std::vector<PeakOf<P>> moments_, forces_;               ///< 1 … n: up to the step's start
-  std::vector<PeakOf<P>> raised_moments_, raised_forces_; ///< up to its end, if rises_
-  bool rises_ = false, samples_made_ = false;             ///< in any lane, over this step
+  std::vector<PeakOf<P>> moments_, forces_, holds_; ///< 1 … n: up to the step's start
+  std::vector<PeakOf<P>> raised_moments_, raised_forces_,
+      raised_holds_;                          ///< up to its end, if rises_
+  bool rises_ = false, samples_made_ = false; ///< in any lane, over this step
   HeldLoadBound<P> held_;
   bool held_is_bounded_ = false; ///< over this step
   std::vector<P> before_;        ///< forces at the step's start

@@ -54,6 +54,7 @@ struct PackShape {
   Method method = Method::dop853; ///< has_lanes(method)
   bool forces = false;
   bool moments = false;
+  bool holds = false;
   bool overtravel = true; ///< how far hinges turn beyond their stowed angles
 };
 

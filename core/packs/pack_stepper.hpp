@@ -4,8 +4,6 @@
 
 #include "core/dense/friction_layer.hpp"
 #include "core/dense/roughness.hpp"
-#include "core/events/contact.hpp"
-#include "core/events/latches.hpp"
 #include "core/events/turning.hpp"
 #include "core/mechanics/structure.hpp"
 #include "core/mechanics/system.hpp"
@@ -15,12 +13,11 @@
 #include "core/methods/time_scales.hpp"
 #include "core/packs/fields.hpp"
 #include "core/packs/free_bases.hpp"
-#include "core/packs/lane_holds.hpp"
+#include "core/packs/lane_events.hpp"
 #include "core/packs/lane_peaks.hpp"
 #include "core/packs/pack_engine.hpp"
 #include "core/peaks/overtravel.hpp"
 
-#include <array>
 #include <memory>
 #include <optional>
 
@@ -39,9 +36,9 @@ public:
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
       x->assign(at_.size(), none);
-    for (std::vector<P>* v : {&waits_, &overtravel_, &slides_}) v->assign(at_.bodies + 1, none);
+    for (std::vector<P>* v : {&overtravel_}) v->assign(at_.bodies + 1, none);
     holds_.resize(at_);
-    for (std::vector<P>& ways : ways_) ways.assign(wing_.real.size(), none);
+    events_.resize(at_, wing_.real.size());
     rtol_ = atol_ = dense_tolerance_ = P(1.0);
     step_.t = step_.h = scaled_error_ = judged_ = factor_ = busy_ = t_end_ = none;
     first_round_ = last_round_ = last_step_ = evaluations_before_ = none;
@@ -67,14 +64,10 @@ public:
     set_lane(lane, history_, task.history);
     set_lane(lane, work_.laws, task.work.laws);
     work_.least_motion.v[lane] = task.work.least_motion;
-    if (!wing_.real.empty()) set_modes(lane, task.work);
+    if (!wing_.real.empty()) set_lane(lane, work_.modes, task.work.modes);
     if (wing_.base.table) set_lane(lane, work_.driven, task.work.driven);
-    for (int i = 1; i <= at_.bodies; ++i) {
-      overtravel_[i].v[lane] = task.overtravel[i];
-      const Contact contact = task.work.contact[i];
-      slides_[i].v[lane] = contact == Contact::stuck ? 0 : static_cast<double>(contact);
-      waits_[i].v[lane] = task.work.engaged[i] ? 0 : 1;
-    }
+    for (int i = 1; i <= at_.bodies; ++i) overtravel_[i].v[lane] = task.overtravel[i];
+    events_.load(lane, task.work);
     peaks_.load(lane, task);
     if constexpr (M == BaseMotion::free) free_.load(lane, task);
     rtol_.v[lane] = task.tolerance.rtol, atol_.v[lane] = task.tolerance.atol;
@@ -151,13 +144,14 @@ private:
     }
     for (HingeTerms<double>& hinge : harmless.hinges) hinge = {}, hinge.sense = hinge.slip_rate = 1;
     for (RealHingeTerms<double>& real : harmless.real) {
-      real = {}, real.stop.sense = real.friction.slip_rate = 1;
+      real = {}, real.stop.sense = real.far_stop.sense = real.friction.slip_rate = 1;
       real.damper.rate = 1;
     }
     for (PlateTerms<double>& plate : harmless.plates) plate = {};
     wing_.real.resize(structure.real.size());
     wing_.loops.resize(structure.loops.size());
     wing_.plates.resize(structure.plates.size());
+    wing_.releases.resize(structure.releases.size());
     wing_.base.motion = structure.base.motion;
     wing_.tree = structure.tree;
     wing_.bodies.resize(structure.bodies.size());
@@ -165,13 +159,6 @@ private:
     wing_.initial_rates.resize(structure.initial_rates.size());
     for (int lane = 0; lane < W; ++lane) set_lane(lane, wing_, harmless);
     return wing_;
-  }
-
-  /// Copies the modes of the run's real hinges, and on which side of its edges each hinge is.
-  void set_modes(int lane, const Workspace<double>& work) {
-    set_lane(lane, work_.modes, work.modes);
-    for (int i = 1; i <= at_.bodies; ++i)
-      for (int e = 0; e < edges_of_hinge; ++e) ways_[e][i].v[lane] = work.above[i][e] != 0 ? -1 : 1;
   }
 
   struct Judgement {
@@ -223,7 +210,8 @@ private:
     const Mask may_leave = history_.held_back.may_leave(step_.h, P(history_.steps + P(1.0)));
     const Mask accepted_enough = history_.steps >= last_step_;
     Mask asks = busy && (tried_enough || near_limit);
-    asks = asks || (accepted && (accepted_enough || may_leave || may_hold_event()));
+    asks =
+        asks || (accepted && (accepted_enough || may_leave || events_.lie_inside(system_, step_)));
     if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
     if constexpr (M == BaseMotion::free) {
       free_.restore_momenta(system_, step_);
@@ -271,21 +259,9 @@ private:
 
   // The tests for events and peaks are the first tests of the run alone: they exclude, and never find.
 
-  /// @return lanes in which an event may lie inside the step
-  [[nodiscard]] Mask may_hold_event() {
-    Mask found{};
-    for (int i = 1; i <= at_.bodies; ++i) {
-      const HingeTerms<P>& hinge = wing_.hinges[i];
-      if (hinge.has_latch) found = found || (waits_[i] > P(0.0) && may_engage(i));
-      if (!wing_.real.empty()) found = found || (!system_.is_locked(i) && may_pass_edge(i));
-      if (wing_.can_stick) found = found || (slides(i) && may_come_to_rest(i));
-    }
-    return found;
-  }
-
   /// @return lanes in which the base may turn further inside the step than at its ends, or a hinge may
-  ///         turn back beyond its stowed angle, leaves the angles that are known, or latches or comes to
-  ///         rest within an instant of the step's end
+  ///         turn back beyond its stowed angle, leaves the angles that are known, or an event lies within an instant of
+  ///         the step's end
   /// @pre a free base's momenta are restored: the accelerations at the end depend on them
   [[nodiscard]] Mask may_turn_or_end_at_event() {
     Mask found{};
@@ -294,58 +270,11 @@ private:
     for (int i = 1; i <= at_.bodies; ++i) {
       found = found || !(abs(step_.x1[at_.angle(i)]) < P(largest_known_angle));
       if constexpr (Formula::order > 8)
-        found = found || turns_where_it_counts(wing_, at_, step_, i, waits_[i] > P(0.0));
+        found = found || turns_where_it_counts(wing_, at_, step_, i, events_.waits(i));
       if (shape_.overtravel) found = found || may_turn_back(wing_, at_, step_, i, overtravel_[i]);
-      if (wing_.hinges[i].has_latch) found = found || (waits_[i] > P(0.0) && engages_at_end(i));
-      if (wing_.can_stick) found = found || (slides(i) && rests_at_end(i));
+      found = found || events_.lie_at_end(system_, step_, i);
     }
     return found;
-  }
-
-  [[nodiscard]] Mask may_engage(int i) const {
-    const HingeTerms<P>& hinge = wing_.hinges[i];
-    Mask any{};
-    for (const P& c : step_.coordinate(at_.angle(i), at_.freedoms()))
-      any = any || !(hinge.sense * (c - hinge.latched) < P(0.0));
-    return any;
-  }
-
-  [[nodiscard]] Mask may_pass_edge(int i) const {
-    Mask any{};
-    const Quintic<P> angle = step_.coordinate(at_.angle(i), at_.freedoms());
-    for (int e = 0; e < edges_of_hinge; ++e) {
-      const Edge edge = static_cast<Edge>(e);
-      if (!has_edge(wing_, i, edge, wing_.hinges[i].has_latch)) continue;
-      const P there = edge_angle(wing_, i, edge);
-      const bool of_latch = edge == Edge::backlash_low || edge == Edge::backlash_high;
-      for (const P& c : angle) {
-        const Mask stays = ways_[e][i] * (c - there) < P(0.0);
-        any = any || (of_latch ? !stays && !(waits_[i] > P(0.0)) : !stays);
-      }
-    }
-    return any;
-  }
-
-  [[nodiscard]] Mask slides(int i) const { return !(slides_[i] == P(0.0)); }
-
-  /// Whether a hinge that slides may turn back: the first test of first_rest.
-  [[nodiscard]] Mask may_come_to_rest(int i) const {
-    Mask any{};
-    for (const P& c : way_to_rest(at_, step_, i, -slides_[i])) any = any || !(c < P(0.0));
-    return any;
-  }
-
-  /// As Latches::engage_those_there.
-  [[nodiscard]] Mask engages_at_end(int i) const {
-    const HingeTerms<P>& hinge = wing_.hinges[i];
-    const P gap = hinge.sense * (step_.x1[at_.angle(i)] - hinge.latched);
-    return engages_at(P(step_.t + step_.h), gap, P(hinge.sense * step_.x1[at_.rate(i)]));
-  }
-
-  /// As rest_those_there.
-  [[nodiscard]] Mask rests_at_end(int i) const {
-    const P rate = -(slides_[i] * step_.x1[at_.rate(i)]);
-    return rests_at(P(step_.t + step_.h), rate, P(-(slides_[i] * step_.dxdt1[at_.rate(i)])));
   }
 
   PackShape shape_;
@@ -358,12 +287,10 @@ private:
   State<P> error_;
   P rtol_, atol_, dense_tolerance_, t_end_;
   P scaled_error_, judged_, factor_; ///< of the last trial step: as in LaneResult
-  std::vector<P> waits_;             ///< 1: the latch has not engaged, else 0
   std::vector<P> overtravel_;
-  std::vector<P> slides_; ///< sense in which a hinge slides against exact friction; 0: it does not
+  LaneEvents<W> events_;
   LaneHolds<W> holds_;
-  std::array<std::vector<P>, edges_of_hinge> ways_; ///< 1: edge above the angle; −1: below
-  std::vector<Lever<double>> levers_of_wing_;       ///< scratch
+  std::vector<Lever<double>> levers_of_wing_; ///< scratch
   LanePeaks<P, AnySystem> peaks_;
   FreeBases<W> free_; ///< used if M is free
   StepHistory<P> history_;

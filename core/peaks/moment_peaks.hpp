@@ -238,21 +238,16 @@ template <class T>
   return T(1e-10) * larger(peak.value, bound.size(i));
 }
 
-/// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation,
-/// so a step is dismissed first by held_moment_may_rise, then by the load's curvature. The maximum inside is that of a
-/// polynomial through samples, or is searched by the load's curvature where few samples do not resolve the load.
-/// @param load load(s): the moment by an evaluation on the dense output
-/// @return where a step of the method must confirm a larger value
-template <class T, class AnySystem, class Load>
-[[nodiscard]] std::optional<T>
-raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
-                  const HeldMoments<T>& ends, HeldLoadBound<T>& bound, Load&& load) {
+/// Raises `peak` to the largest |load| of a locked hinge at the step's ends, and says where inside it is larger.
+/// @param rise  largest excess over the larger end
+/// @param close difference below which two loads count as one, N·m
+/// @param load  as of raise_held_moment
+template <class T, class Load>
+[[nodiscard]] std::optional<T> raise_locked_load(PeakOf<T>& peak, const Step<T>& step,
+                                                 const HeldMoments<T>& ends, const Bulge<T>& rise,
+                                                 const T& close, Load&& load) {
   using std::abs;
-  if (!held_moment_may_rise(peak, system, step, i)) return std::nullopt;
-  bound.over_step(system, step);
-  bound.narrow(system, step, i);
-  const Bulge<T> rise{bound.rise(i)};
-  const T first = abs(ends.first), last = abs(ends.last), close = negligible(peak, bound, i);
+  const T first = abs(ends.first), last = abs(ends.last);
   Sampled<T> found{T(0), T(0)};
   if (wants_samples(first, last, rise, peak.value, close)) {
     StepInterpolant<T> interpolant;
@@ -265,6 +260,22 @@ raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step,
   peak.raise(last, step.t + step.h);
   if (!(found.value > peak.value)) return std::nullopt;
   return found.s;
+}
+
+/// Raises `peak` to the largest |moment| of a stuck hinge i at the step's ends. A value inside takes an evaluation,
+/// so a step is dismissed first by held_moment_may_rise, then by the load's curvature. The maximum inside is that of a
+/// polynomial through samples, or is searched by the load's curvature where few samples do not resolve the load.
+/// @param load load(s): the moment by an evaluation on the dense output
+/// @return where a step of the method must confirm a larger value
+template <class T, class AnySystem, class Load>
+[[nodiscard]] std::optional<T>
+raise_held_moment(PeakOf<T>& peak, const AnySystem& system, const Step<T>& step, int i,
+                  const HeldMoments<T>& ends, HeldLoadBound<T>& bound, Load&& load) {
+  if (!held_moment_may_rise(peak, system, step, i)) return std::nullopt;
+  bound.over_step(system, step);
+  bound.narrow(system, step, i);
+  return raise_locked_load(peak, step, ends, Bulge<T>{bound.rise(i)}, negligible(peak, bound, i),
+                           load);
 }
 
 } // namespace wingspread

@@ -59,6 +59,17 @@ public:
     for (int i = 1; i < net_.size(); ++i) force(i) = sqrt(outward_mass_(i) * Z);
   }
 
+  /// Whether the load on the engaged latch of hinge i stays below its holding moment: latch_laws.hpp (2), with the
+  /// largest deflection and rate. @pre bound
+  template <class AnySystem>
+  [[nodiscard]] bool keeps_latched(const AnySystem& system, const RemainingEnergy<T>& remaining,
+                                   const T& energy, int i) const {
+    const CaptureTerms<T>& latch = system.wing().real[i].capture;
+    if (!latch.may_open()) return true;
+    const T &rest = remaining.rest()[system.layout().angle(i)], way = remaining.furthest(i, energy);
+    return latch.most_excess({rest - way, rest + way}, {T(-rate_(i)), T(rate_(i))}) < T(0);
+  }
+
 private:
   /// The first body that moves.
   template <class AnySystem>

@@ -67,6 +67,7 @@ public:
   [[nodiscard]] bool prove(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
                            const SeenPeaks<T>& seen, bool all_latched) {
     if (system.next_knot() < T(never)) return false; // the base's motion will change
+    if (any_held(system)) return false;              // the bounds have no locked hinges
     if (!is_prepared_) prepare(system, x, t, all_latched);
     if (!modes_ || !latches_act_fully(system, x)) {
       const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
@@ -85,7 +86,29 @@ public:
     return is_proven;
   }
 
+  /// Proves that no engaged latch lets go: the energy left bounds the load on each.
+  /// @param all_latched, @pre as of `prove`
+  [[nodiscard]] bool latches_stay(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
+                                  bool all_latched) {
+    if (system.next_knot() < T(never) || any_held(system)) return false;
+    if (!is_prepared_) prepare(system, x, t, all_latched);
+    const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
+    if (!energy) return false;
+    bounds_.bound(system, remaining_, *energy);
+    for (int i = 1; i <= system.layout().bodies; ++i)
+      if (system.latch_acts(i) && !bounds_.keeps_latched(system, remaining_, *energy, i))
+        return false;
+    return true;
+  }
+
 private:
+  [[nodiscard]] static bool any_held(const AnySystem& system) {
+    if (system.wing().releases.empty()) return false;
+    for (int i = 1; i <= system.layout().bodies; ++i)
+      if (system.is_held(i)) return true;
+    return false;
+  }
+
   void prepare(AnySystem& system, const State<T>& x, const T& t, bool all_latched) {
     remaining_.prepare(system);
     bounds_.prepare(system);

@@ -158,15 +158,18 @@ private:
     return hinge_potential(system, x, i) + smoothed_latch_energy(system, x, i);
   }
 
-  /// Whether a hinge touches its stop, or could with this energy.
+  /// Whether a hinge touches a stop, or could with this energy.
   template <class AnySystem>
   [[nodiscard]] bool may_touch_stop(const AnySystem& system, const T& available) const {
     using std::abs;
     for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
       const RealHingeTerms<T>& real = system.wing().real[i];
-      if (!real.stop.present) continue;
-      const T way = abs(rest_[system.layout().angle(i)] - real.stop.contact_angle);
-      if (system.work().modes[i].in_contact != T(0) || !(furthest(i, available) < way)) return true;
+      const HingeMode<T>& mode = system.work().modes[i];
+      if (mode.in_contact != T(0) || mode.in_far_contact != T(0)) return true;
+      for (const StopTerms<T>* stop : {&real.stop, &real.far_stop}) {
+        const T way = abs(rest_[system.layout().angle(i)] - stop->contact_angle);
+        if (stop->present && !(furthest(i, available) < way)) return true;
+      }
     }
     return false;
   }

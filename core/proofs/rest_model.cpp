@@ -357,8 +357,8 @@ private:
       left.bend = bend(real.spring.curve, real.spring.weight, phi) +
                   bend(real.harness.curve, real.harness.weight, phi);
       double& room = m_.room(i - 1);
-      if (real.stop.present)
-        room = std::min(room, real.stop.sense * (phi - real.stop.contact_angle));
+      for (const StopTerms<double>* stop : {&real.stop, &real.far_stop})
+        if (stop->present) room = std::min(room, stop->sense * (phi - stop->contact_angle));
       if (real.has_damper && real.has_window)
         for (const double edge : {real.window_low, real.window_high})
           room = std::min(room, std::abs(phi - edge));

@@ -10,7 +10,8 @@
 /// P is the potential of spring, harness and engaged latch; beyond the latched angle it includes the
 /// latch, which can only take energy. τ is the kinetic level of exact friction. For regularized
 /// friction τ is 0: such a hinge may creep at no cost. On a free base T is taken about the common
-/// centre of mass. Where (1) fails for every open hinge, none will ever latch.
+/// centre of mass. A held hinge does not move, and gives nothing. Where (1) fails for every open hinge that is not
+/// held, none will ever latch.
 #pragma once
 
 #include "core/mechanics/energy.hpp"
@@ -65,10 +66,11 @@ template <class AnySystem, class T>
   const Layout& at = system.layout();
   T all(0);
   for (int i = 1; i <= at.bodies; ++i)
-    all = all + most_given(system.wing().hinges[i], system.work().engaged[i], x[at.angle(i)]);
+    if (!system.is_held(i))
+      all = all + most_given(system.wing().hinges[i], system.work().engaged[i], x[at.angle(i)]);
   for (int i = 1; i <= at.bodies; ++i) {
     const HingeTerms<T>& hinge = system.wing().hinges[i];
-    if (!hinge.has_latch || system.work().engaged[i]) continue;
+    if (!hinge.has_latch || system.work().engaged[i] || system.is_held(i)) continue;
     const T &angle = x[at.angle(i)], others = all - most_given(hinge, false, angle);
     if (!(others + given_to_latch(hinge, angle) < T(0))) return true;
   }
@@ -77,7 +79,7 @@ template <class AnySystem, class T>
 
 } // namespace detail
 
-/// Proves by (1) that no open hinge will latch. Cost O(n).
+/// Proves by (1) that no open hinge will latch while holds keep theirs. Cost O(n).
 /// @return the least energy that an open hinge lacks to reach its latch, J, > 0. None without a proof:
 ///         a hinge may reach its latch, none is open, the base is driven, or smoothed latches or the
 ///         wind may bring energy in
@@ -94,6 +96,7 @@ template <class T, class Topology, BaseMotion M>
   T budget = M == BaseMotion::free ? now.central_kinetic() : now.kinetic;
   T scale = now.kinetic;
   for (int i = 1; i <= at.bodies; ++i) {
+    if (system.is_held(i)) continue;
     const T given =
         detail::most_given(system.wing().hinges[i], system.work().engaged[i], x[at.angle(i)]);
     budget = budget + given;
@@ -103,7 +106,7 @@ template <class T, class Topology, BaseMotion M>
   std::optional<T> least;
   for (int i = 1; i <= at.bodies; ++i) {
     const HingeTerms<T>& hinge = system.wing().hinges[i];
-    if (!hinge.has_latch || system.work().engaged[i]) continue;
+    if (!hinge.has_latch || system.work().engaged[i] || system.is_held(i)) continue;
     const T own = detail::most_given(hinge, false, x[at.angle(i)]);
     const T to_latch = detail::given_to_latch(hinge, x[at.angle(i)]);
     const T missing = -(budget - own + to_latch);

@@ -24,13 +24,14 @@ public:
   void start() {
     keep_storage(outcome_.latches, latches_);
     keep_storage(outcome_.phases, phases_);
+    for (std::vector<HingeEvent>* events : {&missed_, &let_go_, &releases_}) events->clear();
     largest_drift_ = 0;
     samples_ = 0;
     initial_energy_ = run_.goal.end_state || run_.goal.audit ? energy() : 0;
   }
 
-  /// The latches that have engaged, in order of time.
-  [[nodiscard]] std::vector<LatchEvent>& latches() { return latches_; }
+  /// What has happened to latches and holds.
+  [[nodiscard]] LatchRecord record() { return {latches_, missed_, let_go_, releases_}; }
   [[nodiscard]] bool any_latch() const { return !latches_.empty(); }
 
   /// Begins a phase, unless the method is that of the last one. @param steps accepted so far
@@ -85,8 +86,16 @@ public:
     out.phases = std::move(phases_);
     out.t_end = static_cast<double>(run_.step.t);
     out.latches = std::move(latches_);
+    out.missed = missed_, out.let_go = let_go_, out.releases = releases_;
+    out.never_released.clear();
     if (run_.goal.peak_moment) out.peak_moment = in_scene_order(wing, peaks.moments());
     if (run_.goal.peak_force) out.peak_force = in_scene_order(wing, peaks.forces());
+    if (run_.goal.hold_moment && !wing.releases.empty())
+      out.hold_moment = in_scene_order(wing, peaks.holds());
+    if (run_.goal.final_angle) out.final_angle.resize(wing.size());
+    for (int i = 1; run_.goal.final_angle && i <= wing.size(); ++i)
+      out.final_angle[wing.hinge_of[i]] =
+          static_cast<double>(T(run_.step.x[run_.at.angle(i)] - wing.hinges[i].latched));
     if (run_.goal.overtravel) out.overtravel.resize(wing.size());
     for (int i = 1; run_.goal.overtravel && i <= wing.size(); ++i)
       out.overtravel[wing.hinge_of[i]] = static_cast<double>(peaks.overtravel()[i]);
@@ -100,6 +109,9 @@ public:
     out.energy = {initial_energy_, energy(), largest_drift_};
   }
   [[nodiscard]] Outcome&& outcome() { return std::move(outcome_); }
+
+  /// Notes the held hinges that stall the run. @pre closed
+  void blame(std::vector<int> held) { outcome_.never_released = std::move(held); }
 
 private:
   /// Reuses the storage of the last outcome unless a caller has moved it out.
@@ -125,6 +137,7 @@ private:
   const Observer& observer_;
   Outcome outcome_;
   std::vector<LatchEvent> latches_;
+  std::vector<HingeEvent> missed_, let_go_, releases_;
   std::vector<Phase> phases_;
   long samples_ = 0;                              ///< shown to the observer
   double initial_energy_ = 0, largest_drift_ = 0; ///< J

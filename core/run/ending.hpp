@@ -10,6 +10,9 @@
 /// |   … and no peak can rise                     | the energy left bounds every peak         | energy_bounds.hpp  |
 /// | early: all have latched, no peak can rise    | the modes of the wing bound every peak,   | modal_bounds.hpp   |
 /// |                                              | or the energy left does                   | energy_bounds.hpp  |
+/// | … and no latch lets go                       | the energy left bounds its load           | energy_bounds.hpp  |
+///
+/// No run ends early while a hold may still let go.
 ///
 /// The proofs stand in the room proofs/ (standstill.hpp in events/), the last two called by final_peaks.hpp.
 /// They are functions of the state. `Ending` remembers the results, and proof_schedule.hpp says at which
@@ -52,6 +55,7 @@ public:
     final_peaks_.reset();
     standstill_.reset();
     latches_were_left_ = true, peaks_are_proven_ = false;
+    latches_before_ = events_.latches_left();
     schedule_.restart(SoughtProof::stall);
   }
 
@@ -59,6 +63,7 @@ public:
   [[nodiscard]] bool ends_here() {
     const Goal& goal = run_.goal;
     watch_standstill();
+    watch_latches();
     if (!(run_.step.t < T(run_.how.t_end))) return true;
     if (goal.first_latch_only && diary_.any_latch()) return true;
     if (goal.to_t_end) {
@@ -69,6 +74,7 @@ public:
     if (!seeks_proof()) return diary_.any_latch();
     if (!is_attempt_due()) return false;
     if (latches_left() && !prove_stall()) return false;
+    if (!latches_stay()) return false;
     if (!wants_peaks()) return true;
     peaks_are_proven_ = prove_peaks_final();
     return peaks_are_proven_;
@@ -77,7 +83,7 @@ public:
   /// Whether the latch just engaged ends the run and no peak is asked for. If so, the new right-hand side need not
   /// be evaluated.
   [[nodiscard]] bool ends_at_latch() const {
-    if (wants_peaks() || !diary_.any_latch()) return false;
+    if (wants_peaks() || may_open() || !diary_.any_latch()) return false;
     return run_.goal.first_latch_only || (!latches_left() && !run_.goal.to_t_end);
   }
 
@@ -89,12 +95,12 @@ public:
     if (run_.goal.to_t_end && is_stuck()) stall_.reset();
     if (!latches_left())
       end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
-    else if (!is_cut_short && prove_stall())
-      end.status = Status::stalled, end.reason = *stall_;
+    else if (!is_cut_short && (holds_a_latch() || prove_stall()))
+      end.status = Status::stalled, end.reason = stall_.value_or("");
     if (!wants_peaks()) return end;
-    end.peaks_final =
-        peaks_are_proven_ || is_stuck() ||
-        ((latches_left() ? prove_stall() : diary_.any_latch()) && prove_peaks_final());
+    end.peaks_final = peaks_are_proven_ || is_stuck() ||
+                      ((latches_left() ? prove_stall() : diary_.any_latch()) && latches_stay() &&
+                       prove_peaks_final());
     return end;
   }
 
@@ -109,9 +115,37 @@ public:
 
 private:
   [[nodiscard]] bool latches_left() const { return events_.latches_left() > 0; }
-  [[nodiscard]] bool wants_peaks() const { return run_.goal.peak_moment || run_.goal.peak_force; }
+  [[nodiscard]] bool wants_peaks() const {
+    return run_.goal.peak_moment || run_.goal.peak_force ||
+           (run_.goal.hold_moment && events_.releases().held() > 0);
+  }
 
-  [[nodiscard]] bool is_stuck() const { return is_stuck_for_good(run_.system, run_.step.x); }
+  [[nodiscard]] bool is_stuck() const {
+    return is_stuck_for_good(run_.system, run_.step.x) &&
+           !events_.releases().may_come(T(run_.how.t_end), true);
+  }
+
+  /// Whether a hinge that has a latch is held.
+  [[nodiscard]] bool holds_a_latch() const { return events_.releases().latches_held() > 0; }
+  /// Whether an engaged latch may let go, as far as its holding moment tells.
+  [[nodiscard]] bool may_open() const { return run_.system.wing().can_open; }
+  /// Whether it is proven that no engaged latch lets go. @pre no open hinge will latch any more
+  [[nodiscard]] bool latches_stay() {
+    return !may_open() || is_stuck() ||
+           final_peaks_.latches_stay(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end),
+                                     !latches_left());
+  }
+
+  /// Proofs hold for the latches that are engaged.
+  void watch_latches() {
+    if (events_.latches_left() == latches_before_) return;
+    latches_before_ = events_.latches_left();
+    if (!may_open()) return;
+    stall_.reset();
+    final_peaks_.reset();
+    if (latches_were_left_ != latches_left()) return; // is_attempt_due will note that
+    schedule_.restart(sought());
+  }
 
   /// Notes when all hinges came to rest for the last time.
   void watch_standstill() {
@@ -136,7 +170,7 @@ private:
   /// Whether a proof may end the run before its next event; in a run to t_end, whether it may say why the run stalls.
   [[nodiscard]] bool seeks_proof() const {
     if (run_.goal.to_t_end) return latches_left() && !stall_;
-    return latches_left() || (diary_.any_latch() && wants_peaks());
+    return latches_left() || (diary_.any_latch() && (wants_peaks() || may_open()));
   }
   [[nodiscard]] SoughtProof sought() const {
     if (latches_left()) return stall_ ? SoughtProof::peaks_after_stall : SoughtProof::stall;
@@ -149,8 +183,13 @@ private:
     const auto from = [](const T& t) {
       return ", from t = " + in_words(static_cast<double>(t)) + " s on";
     };
+    if (events_.releases().may_come(T(run_.how.t_end), is_stuck())) return false;
     if (is_stuck())
       stall_ = "every hinge sticks, and the load on them stays as it is" + from(*standstill_);
+    else if (!latches_stay())
+      return false;
+    else if (events_.latches_left() == events_.releases().latches_held())
+      stall_ = ""; // the outcome names the held hinges
     else if (const auto missing = energy_missing(run_.system, run_.step.x, run_.step.t))
       stall_ = "energy: no hinge can reach its latch, the nearest to it lacks " +
                in_words(static_cast<double>(*missing)) + " J" + from(run_.step.t);
@@ -178,6 +217,7 @@ private:
   std::optional<std::string> stall_; ///< why no open hinge will latch; none: not proven
   std::optional<T> standstill_;      ///< since when every hinge sticks, s
   bool latches_were_left_ = true;    ///< at the step counted last
+  int latches_before_ = 0;           ///< not engaged, at the step before
   bool peaks_are_proven_ = false;    ///< no peak can rise after the present time
 };
 

@@ -86,6 +86,7 @@ public:
             .dense_tolerance = run_.how.atol,
             .moments = goal.peak_moment ? peaks_.moments().data() : nullptr,
             .forces = goal.peak_force ? peaks_.forces().data() : nullptr,
+            .holds = peaks_.holds().empty() ? nullptr : peaks_.holds().data(),
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
             .overtravel = peaks_.overtravel().data(),
             .held_before = holds ? run_.held_before.data() : nullptr,
@@ -101,17 +102,10 @@ public:
 
   /// For the lane to fill: refers to this run's storage.
   [[nodiscard]] LaneResult empty_lane_result() {
-    return {run_.step,
-            peaks_.force_before(),
-            peaks_.moments(),
-            peaks_.forces(),
-            peaks_.overtravel(),
-            *asked_.x1,
-            *asked_.dxdt1,
-            run_.system.made_elsewhere().forces,
-            run_.held_before,
-            events_.excess_before(),
-            run_.system.made_elsewhere().holding,
+    return {run_.step,        peaks_.force_before(),   peaks_.moments(),
+            peaks_.forces(),  peaks_.holds(),          peaks_.overtravel(),
+            *asked_.x1,       *asked_.dxdt1,           run_.system.made_elsewhere().forces,
+            run_.held_before, events_.excess_before(), run_.system.made_elsewhere().holding,
             peaks_.base()};
   }
 
@@ -179,6 +173,7 @@ private:
     system.find_sides(run_.step.x);
     if constexpr (M == BaseMotion::free) kept_ = conserved(system, run_.step.x, run_.step.t);
     events_.start();
+    run_.next_release = events_.releases().next();
     diary_.start();
     stepping_.start();
     peaks_.start();
@@ -270,7 +265,7 @@ private:
     }
     diary_.notify();
     const bool at_knot = run_.system.enter_piece(step.t);
-    if (landing_.apply_events(diary_.latches())) {
+    if (landing_.apply_events(diary_.record())) {
       if (diary_.is_watched() || !ending_.ends_at_latch()) restart(landing_.let_go());
     } else {
       if (stepping_.choose_method()) diary_.begin_phase(stepping_.method(), stepping_.steps());
@@ -300,6 +295,7 @@ private:
 
   void end(const End& how) {
     diary_.close(how.status, how.reason, stepping_.work(), peaks_, how.peaks_final);
+    if (how.status == Status::stalled) diary_.blame(events_.releases().never_released());
     ended_ = true;
   }
 

@@ -58,11 +58,13 @@ public:
   [[nodiscard]] bool at_event() const { return due_.has_value(); }
 
   /// Applies the event that was due, and all others at the same instant, at the end of a step: latches
-  /// engage (events/latches.hpp), hinges stick or begin to slide.
-  /// @param latches those that engage are added
+  /// engage (events/latches.hpp), hinges stick or begin to slide, holds let go.
+  /// @param record to which the events are added
   /// @return whether anything happened; the right-hand side has then changed
-  [[nodiscard]] bool apply_events(std::vector<LatchEvent>& latches) {
-    return events_.happen(due_, run_.step, latches);
+  [[nodiscard]] bool apply_events(const LatchRecord& record) {
+    const bool happened = events_.happen(due_, run_.step, record);
+    run_.next_release = events_.releases().next();
+    return happened;
   }
 
   /// The stuck hinge that was due to slide; 0: none.

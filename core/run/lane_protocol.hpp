@@ -44,6 +44,7 @@ struct LaneTask {
   double dense_tolerance;        ///< absolute, of the roughness of a step's dense output
   const PeakOf<double>* moments; ///< 1 … n: peaks so far; null: not asked for
   const PeakOf<double>* forces;  ///< the same
+  const PeakOf<double>* holds;   ///< the same of what holds have borne
   const double* force_before;    ///< 1 … n: at the state, N; null: not asked for
   const double* overtravel;      ///< 1 … n: so far, rad
   const double*
@@ -65,6 +66,7 @@ struct LaneResult {
   std::vector<double>& force_before;        ///< 1 … n: there, N; if asked for
   std::vector<PeakOf<double>>& moments;     ///< 1 … n: up to there; if asked for
   std::vector<PeakOf<double>>& forces;      ///< the same
+  std::vector<PeakOf<double>>& holds;       ///< the same
   std::vector<double>& overtravel;          ///< 1 … n: up to there, rad
   State<double>&x1, &dxdt1;                 ///< end of the last trial step
   std::vector<Vec2<double>>& forces_at_end; ///< 1 … n: there, N; if asked for

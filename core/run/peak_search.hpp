@@ -25,6 +25,9 @@ public:
   /// For the lane of an engine to write to.
   [[nodiscard]] std::vector<PeakOf<T>>& moments() { return moments_; }
   [[nodiscard]] std::vector<PeakOf<T>>& forces() { return forces_.peaks; }
+  /// What holds have borne, 1 … n, N·m; empty where no hinge is held or it is not asked for.
+  [[nodiscard]] const std::vector<PeakOf<T>>& holds() const { return holds_; }
+  [[nodiscard]] std::vector<PeakOf<T>>& holds() { return holds_; }
   /// Forces at the start of the step, 1 … n, N; only where forces are asked for.
   [[nodiscard]] std::vector<T>& force_before() { return forces_.before(); }
 
@@ -41,6 +44,7 @@ public:
     base_.start(run_.at, run_.step.x);
     moments_.assign(run_.at.bodies + 1, {});
     overtravel_.assign(run_.at.bodies + 1, T(0));
+    holds_.assign(watches_holds() ? run_.at.bodies + 1 : 0, {});
     if (run_.goal.peak_force) forces_.start(run_.system, worth_a_step());
   }
 
@@ -50,6 +54,9 @@ public:
     const Step<T>& step = run_.step;
     for (int i = 1; run_.goal.peak_moment && i <= run_.at.bodies; ++i)
       moments_[i].raise(T(abs(run_.system.moment(step.x, i))), step.t);
+    for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
+      if (run_.system.is_held(i))
+        holds_[i].raise(T(abs(run_.system.holding_friction(step.x, i))), step.t);
     if (run_.goal.peak_force) forces_.sample(run_.system, step.t);
   }
 
@@ -58,8 +65,8 @@ public:
   [[nodiscard]] std::optional<T> first_doubt() {
     made_sure_ = false;
     if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
-    hinge_ = 0;
-    doubt_.reset(), held_at_.reset();
+    hinge_ = hold_ = 0;
+    doubt_.reset(), held_at_.reset(), borne_at_.reset();
     base_.over_step(run_.at, run_.step);
     if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // nothing else changes
     for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
@@ -70,7 +77,9 @@ public:
 
   /// Uses the state inside that the method has stepped to. @return the next doubt
   [[nodiscard]] std::optional<T> resolve_doubt() {
-    if (held_at_)
+    if (borne_at_)
+      confirm_hold();
+    else if (held_at_)
       confirm_held_moment();
     else if (!doubt_)
       forces_.confirm(run_.system, run_.step, run_.x, run_.dxdt);
@@ -90,11 +99,16 @@ private:
     return run_.how.method == "bulirsch_stoer" ? std::max(1e-12, run_.how.rtol) : 1;
   }
 
-  /// Forces first, then the moments of hinge after hinge.
+  [[nodiscard]] bool watches_holds() const {
+    return run_.goal.hold_moment && !run_.system.wing().releases.empty();
+  }
+
+  /// Forces first, then the moments of hinge after hinge, then what holds bear.
   [[nodiscard]] std::optional<T> next_doubt() {
     std::optional<T> s;
     if (run_.goal.peak_force) s = forces_.doubtful();
     while (!s && run_.goal.peak_moment && ++hinge_ <= run_.at.bodies) s = doubtful_moment();
+    while (!s && ++hold_ < static_cast<int>(holds_.size())) s = doubtful_hold();
     made_sure_ = made_sure_ || s;
     return s;
   }
@@ -114,6 +128,30 @@ private:
     return doubt_->s;
   }
 
+  /// What hold hold_ bears: the moment that locks its hinge, less the hinge's own.
+  [[nodiscard]] std::optional<T> doubtful_hold() {
+    if (!run_.system.is_held(hold_)) return std::nullopt;
+    const Step<T>& step = run_.step;
+    const HeldMoments<T> ends{run_.held_before[hold_] - run_.system.sliding_moment(step.x, hold_),
+                              held_at_end_[hold_] - run_.system.sliding_moment(step.x1, hold_)};
+    const auto load = [this](const T& s) {
+      return run_.system.holding_friction(run_.evaluate_at(s), hold_);
+    };
+    held_.over_step(run_.system, step);
+    held_.narrow(run_.system, step, hold_);
+    PeakOf<T>& peak = holds_[hold_];
+    const Bulge<T> rise{held_.most_friction(hold_)};
+    borne_at_ = raise_locked_load(peak, step, ends, rise, negligible(peak, held_, hold_), load);
+    return borne_at_;
+  }
+
+  void confirm_hold() {
+    using std::abs;
+    holds_[hold_].raise(T(abs(run_.system.holding_friction(run_.x, hold_))),
+                        run_.step.t + *borne_at_ * run_.step.h);
+    borne_at_.reset();
+  }
+
   void confirm_held_moment() {
     using std::abs;
     moments_[hinge_].raise(T(abs(run_.system.moment(run_.x, hinge_))),
@@ -123,6 +161,7 @@ private:
 
   Underway<T, AnySystem>& run_;
   std::vector<PeakOf<T>> moments_; ///< 1 … n
+  std::vector<PeakOf<T>> holds_;   ///< 1 … n
   std::vector<T> overtravel_;      ///< 1 … n
   BaseExcursion<T> base_;
   ForcePeaks<T, AnySystem> forces_;
@@ -131,6 +170,8 @@ private:
   HeldLoadBound<T> held_;
   std::vector<T> held_at_end_; ///< 1 … n: moments on stuck hinges at the step's end
   std::optional<T> held_at_;   ///< where the moment of a stuck hinge is in doubt
+  int hold_ = 0;               ///< the hold searched
+  std::optional<T> borne_at_;  ///< where its load is in doubt
   bool made_sure_ = false;
 };
 

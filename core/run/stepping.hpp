@@ -91,9 +91,9 @@ public:
     return std::nullopt;
   }
 
-  /// Where a step ends at the latest, s: at t_end, or at a knot of the base's table.
+  /// Where a step ends at the latest, s: at t_end, at a knot of the base's table, or where a hold lets go.
   [[nodiscard]] T end_of_stretch() const {
-    return smaller(T(run_.how.t_end), run_.system.next_knot());
+    return smaller(T(run_.how.t_end), smaller(run_.system.next_knot(), run_.next_release));
   }
   /// Whether the planned step ends there.
   [[nodiscard]] bool is_last() const { return last_; }

@@ -29,6 +29,7 @@ template <class T, class AnySystem> struct Underway {
   const Integration& how;
   const Goal& goal;
   Step<T> step;
+  T next_release = T(never);  ///< when the next hold lets go, s; `never`: none, or not known
   std::vector<T> held_before; ///< 1 … n: moments on stuck hinges at the step's start, N·m
   State<T> x, dxdt;           ///< scratch: a state inside the step
 };

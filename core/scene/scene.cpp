@@ -101,10 +101,33 @@ void inspect(const Stop& stop, const Owner& owner, Inspector& check) {
   check.require(stop.gap >= 0, stop.gap, owner, "stop.gap", ">= 0");
 }
 
+void inspect_far(const Stop& stop, const Owner& owner, Inspector& check) {
+  check.require(stop.stiffness >= 0, stop.stiffness, owner, "far_stop.stiffness", ">= 0");
+  check.require(stop.dissipation >= 0, stop.dissipation, owner, "far_stop.dissipation", ">= 0");
+  check.require(stop.gap >= 0, stop.gap, owner, "far_stop.gap", ">= 0");
+}
+
+void inspect(const Release& release, const Hinge& hinge, const Owner& owner, Inspector& check) {
+  check.require(release.time >= 0, release.time, owner, "release.time", ">= 0");
+  check.require(release.delay >= 0, release.delay, owner, "release.delay", ">= 0");
+  check.require(release.fails == 0 || release.fails == 1, release.fails, owner, "release.fails",
+                "0 or 1");
+  if (release.event == Release::Event::passed)
+    check.require(release.angle > 0, release.angle, owner, "release.event.angle", "> 0");
+  check.require(hinge.initial_rate == 0, hinge.initial_rate, owner, "initial_rate",
+                "0 of a hinge that is held");
+}
+
 void inspect(const Latch& latch, const Owner& owner, Inspector& check) {
   check.require(latch.stiffness >= 0, latch.stiffness, owner, "latch.stiffness", ">= 0");
   check.require(latch.damping >= 0, latch.damping, owner, "latch.damping", ">= 0");
   check.require(latch.backlash >= 0, latch.backlash, owner, "latch.backlash", ">= 0");
+  if (latch.capture_rate)
+    check.require(*latch.capture_rate >= 0, *latch.capture_rate, owner, "latch.capture_rate",
+                  ">= 0");
+  if (latch.holding_moment)
+    check.require(*latch.holding_moment > 0, *latch.holding_moment, owner, "latch.holding_moment",
+                  "> 0");
   if (!latch.dissipation) return;
   check.require(*latch.dissipation >= 0, *latch.dissipation, owner, "latch.dissipation", ">= 0");
   check.require(latch.damping == 0, latch.damping, owner, "latch.damping",
@@ -138,7 +161,9 @@ void inspect(const Hinge& hinge, Inspector& check) {
   inspect(hinge.friction, owner, check);
   if (hinge.damper) inspect(*hinge.damper, owner, check);
   if (hinge.stop) inspect(*hinge.stop, owner, check);
+  if (hinge.far_stop) inspect_far(*hinge.far_stop, owner, check);
   if (hinge.latch) inspect(*hinge.latch, owner, check);
+  if (hinge.release) inspect(*hinge.release, hinge, owner, check);
 }
 
 /// @pre the body has a plate

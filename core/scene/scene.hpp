@@ -108,21 +108,45 @@ struct Damper {
   double scale = 1; ///< ≥ 0
 };
 
-/// A stop at the stowed side [Hunt & Crossley 1975]: with a penetration δ = −travel − gap > 0 it pushes by
-/// k δ (1 + c δ̇), and never pulls.
+/// A stop [Hunt & Crossley 1975]: with a penetration δ > 0 it pushes by k δ (1 + c δ̇), and never pulls. At the
+/// stowed side δ = −travel − gap; at the far side δ is how far the hinge is beyond its latched angle, less the gap.
 struct Stop {
   double stiffness = 0;   ///< k, N·m/rad, ≥ 0
   double dissipation = 0; ///< c, s/rad, ≥ 0
   double gap = 0;         ///< rad, ≥ 0
 };
 
-/// A latch: once engaged, a spring and a damper about the latched angle for the rest of the run.
+/// A latch: once engaged, a spring and a damper about the latched angle.
 struct Latch {
   double stiffness = 0; ///< k, N·m/rad, ≥ 0
   double damping = 0;   ///< d, N·m·s/rad, ≥ 0
   double backlash = 0;  ///< β, rad, ≥ 0: no moment within ±β/2 of the latched angle
   /// c, s/rad, ≥ 0, in place of `damping`: damps by k c |deflection|, so that the moment has no jump at engagement.
   std::optional<double> dissipation{};
+  /// rad/s, ≥ 0: a hinge that passes its latched angle faster does not engage; none: it always does.
+  std::optional<double> capture_rate{};
+  /// N·m, > 0: an engaged latch lets go of a load towards stowed from this on; none: it never does.
+  std::optional<double> holding_moment{};
+
+  /// Whether the hinge may pass its latched angle without being held for ever.
+  [[nodiscard]] bool can_miss() const { return capture_rate || holding_moment; }
+};
+
+/// A hinge that is held rigidly at its stowed angle until its hold lets go: at a time, or at an event of another
+/// hinge; and a delay after that.
+struct Release {
+  enum class Event {
+    time,
+    latched,  ///< the other hinge latches for the first time
+    released, ///< its hold lets go
+    passed    ///< its travel reaches an angle for the first time
+  };
+  Event event = Event::time;
+  double time = 0;  ///< of Event::time, s, ≥ 0
+  int after = -1;   ///< the other hinge, index into Scene::hinges; −1 of Event::time
+  double angle = 0; ///< of Event::passed, rad, > 0: sense (φ − stowed) of the other hinge
+  double delay = 0; ///< s, ≥ 0
+  double fails = 0; ///< 1: the hold never lets go; else 0
 };
 
 /// An elastic joint: −k (φ − φ_0) − d φ̇ from the start.
@@ -147,8 +171,10 @@ struct Hinge {
   HingeTorque harness;                ///< positive resists
   Friction friction;
   std::optional<Damper> damper{};
-  std::optional<Stop> stop{}; ///< none: the hinge turns through its stowed angle
-  std::optional<Latch> latch; ///< none: the hinge never latches
+  std::optional<Stop> stop{};       ///< none: the hinge turns through its stowed angle
+  std::optional<Stop> far_stop{};   ///< beyond the latched angle
+  std::optional<Latch> latch;       ///< none: the hinge never latches
+  std::optional<Release> release{}; ///< none: free from the start
   /// In place of all laws above. The hinge then starts and rests at φ_0 = `stowed` = `latched`.
   std::optional<Joint> joint{};
 };

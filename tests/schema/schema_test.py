@@ -75,7 +75,7 @@ class Schemas(unittest.TestCase):
             self.assertEqual([error.message for error in self.validators[what].iter_errors(document)], [], file)
 
     def test_a_campaign_as_the_program_writes_it_is_valid(self):
-        for name in ("seed", "margin", "two_wing_free", "prescribed_base", "yoke_wing"):
+        for name in ("seed", "margin", "two_wing_free", "two_wing_release", "prescribed_base", "yoke_wing"):
             out = self.folder / name
             subprocess.run([PROGRAM, "run", ROOT / f"studies/campaigns/{name}.json", "--out", out, "--runs", "1"],
                            capture_output=True, check=False)

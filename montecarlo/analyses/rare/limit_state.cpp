@@ -58,8 +58,7 @@ double remaining_travel(const Scene& scene, const Outcome& outcome) {
   double most = 0;
   for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
     const Hinge& hinge = scene.hinges[i];
-    const bool open = hinge.latch && std::ranges::find(outcome.latches, static_cast<int>(i),
-                                                       &LatchEvent::hinge) == outcome.latches.end();
+    const bool open = hinge.latch && !holding_latch(outcome, static_cast<int>(i));
     if (open && i < outcome.final.angles.size())
       most = std::max(most, std::abs((outcome.final.angles[i] - hinge.latched) /
                                      (hinge.stowed - hinge.latched)));

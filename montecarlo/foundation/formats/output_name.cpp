@@ -14,7 +14,9 @@ struct Quantity {
 constexpr std::array per_hinge{
     Quantity{"latch_time", "s"},    Quantity{"latch_rate", "rad/s"},
     Quantity{"peak_moment", "N·m"}, Quantity{"peak_force", "N"},
-    Quantity{"overtravel", "rad"},  Quantity{"peak_bending_moment", "N·m"}, // of a body
+    Quantity{"overtravel", "rad"},  Quantity{"hold_moment", "N·m"},
+    Quantity{"captures", ""},       Quantity{"held", ""},
+    Quantity{"final_angle", "rad"}, Quantity{"peak_bending_moment", "N·m"}, // of a body
     Quantity{"frequency", "Hz"}};                                           // of a mode
 constexpr std::array of_base{Quantity{"base.peak_angle", "rad"},
                              Quantity{"base.peak_rate", "rad/s"}};

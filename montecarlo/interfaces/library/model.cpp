@@ -67,6 +67,14 @@ Outputs families_of(const std::vector<OutputColumn>& columns) {
       families.insert(OutputFamily::peak_moment);
     else if (column.quantity == Quantity::peak_force)
       families.insert(OutputFamily::peak_force);
+    else if (column.quantity == Quantity::hold_moment)
+      families.insert(OutputFamily::hold_moment);
+    else if (column.quantity == Quantity::captures)
+      families.insert(OutputFamily::captures);
+    else if (column.quantity == Quantity::held)
+      families.insert(OutputFamily::held);
+    else if (column.quantity == Quantity::final_angle)
+      families.insert(OutputFamily::final_angle);
     else if (column.quantity == Quantity::base_peak_angle ||
              column.quantity == Quantity::base_peak_rate)
       families.insert(OutputFamily::base_motion);
@@ -97,7 +105,7 @@ Model::Model(const Input& input, const std::vector<std::string>& paths,
   auto prepared = std::make_shared<Prepared>();
   prepared->task = task_of(read_input(input), settings);
   const Scene& scene = prepared->task.scene;
-  if (outputs.empty()) outputs = names_of(output_columns(scene, default_outputs()));
+  if (outputs.empty()) outputs = names_of(output_columns(scene, default_outputs(scene)));
   std::vector<Problem> problems;
   prepared->parameters = find_parameters(paths, scene, problems);
   prepared->columns = find_outputs(outputs, scene, problems);

@@ -199,6 +199,7 @@ private:
     if (const auto at = object_.find("integration")) read_integration(*at, campaign_.integration);
     if (!was_run_ && problems_.size() == before) t_end_ = campaign_.integration.t_end;
     before = problems_.size();
+    if (scene_) campaign_.outputs = default_outputs(*scene_);
     read_part("outputs", read_outputs, campaign_.outputs);
     if (scene_ && scene_->base.motion != BaseMotion::free &&
         campaign_.outputs.contains(OutputFamily::base_motion))

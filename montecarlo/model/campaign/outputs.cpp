@@ -14,6 +14,8 @@ namespace {
 
 using Quantity = OutputColumn::Quantity;
 
+bool can_miss(const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); }
+
 void add_rates_at(const Scene& scene, int hinge, std::vector<OutputColumn>& columns) {
   for (int other = 0; other < std::ssize(scene.hinges); ++other)
     if (other != hinge && scene.hinges[other].latch)
@@ -28,9 +30,22 @@ int freedoms(const Scene& scene) {
   return count;
 }
 
-const LatchEvent* latch_of(int hinge, const Outcome& outcome) {
-  const auto found = std::ranges::find(outcome.latches, hinge, &LatchEvent::hinge);
-  return found == outcome.latches.end() ? nullptr : &*found;
+bool has_run(const Outcome& outcome) {
+  return outcome.status != Status::invalid && outcome.status != Status::failed;
+}
+
+double captures_of(int hinge, const Outcome& outcome) {
+  const auto count = std::ranges::count(outcome.latches, hinge, &LatchEvent::hinge);
+  return has_run(outcome) ? static_cast<double>(count) : undefined;
+}
+
+double held_of(int hinge, const Outcome& outcome) {
+  if (!has_run(outcome)) return undefined;
+  return holding_latch(outcome, hinge) != nullptr ? 1 : 0;
+}
+
+double final_angle_of(int hinge, const Outcome& outcome) {
+  return has_run(outcome) && !outcome.final_angle.empty() ? outcome.final_angle[hinge] : undefined;
 }
 
 double peak_of(int hinge, const std::vector<Peak>& peaks, Status status) {
@@ -49,7 +64,7 @@ double of_base(const Outcome& outcome, double BasePeaks::*quantity) {
 
 double number_of(const OutputColumn& column, const Outcome& outcome) {
   const auto at_latch = [&](int hinge, auto value) {
-    const LatchEvent* latch = latch_of(hinge, outcome);
+    const LatchEvent* latch = holding_latch(outcome, hinge);
     return latch ? value(*latch) : undefined;
   };
   const auto rate = [&](const LatchEvent& latch) { return latch.rates[column.hinge]; };
@@ -78,6 +93,14 @@ double number_of(const OutputColumn& column, const Outcome& outcome) {
                : undefined;
   case Quantity::deployment_time:
     return outcome.status == Status::deployed ? outcome.latches.back().time : undefined;
+  case Quantity::hold_moment:
+    return peak_of(column.hinge, outcome.hold_moment, outcome.status);
+  case Quantity::captures:
+    return captures_of(column.hinge, outcome);
+  case Quantity::held:
+    return held_of(column.hinge, outcome);
+  case Quantity::final_angle:
+    return final_angle_of(column.hinge, outcome);
   }
   return undefined;
 }
@@ -93,6 +116,15 @@ std::optional<Status> status_named(std::string_view name) {
 Outputs default_outputs() {
   return {OutputFamily::latch_time, OutputFamily::latch_rate, OutputFamily::peak_moment,
           OutputFamily::peak_force, OutputFamily::overtravel};
+}
+
+Outputs default_outputs(const Scene& scene) {
+  Outputs outputs = default_outputs();
+  if (std::ranges::any_of(scene.hinges, [](const Hinge& h) { return h.release.has_value(); }))
+    outputs.insert(OutputFamily::hold_moment);
+  if (std::ranges::any_of(scene.hinges, can_miss))
+    outputs.insert({OutputFamily::captures, OutputFamily::held});
+  return outputs;
 }
 
 bool has_peaks(const Outputs& outputs) {
@@ -114,8 +146,8 @@ void match_peaks_final(Outputs& outputs) {
 Outputs all_outputs() {
   Outputs outputs = default_outputs();
   outputs.insert(OutputFamily::rate_at);
-  outputs.insert(OutputFamily::base_motion);
-  outputs.insert(OutputFamily::frequency);
+  outputs.insert({OutputFamily::base_motion, OutputFamily::frequency, OutputFamily::hold_moment,
+                  OutputFamily::captures, OutputFamily::held, OutputFamily::final_angle});
   return outputs;
 }
 
@@ -151,6 +183,12 @@ std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outp
     add(OutputFamily::peak_force, "peak_force", Quantity::peak_force);
     if (hinge.joint) continue;
     add(OutputFamily::overtravel, "overtravel", Quantity::overtravel);
+    if (hinge.release) add(OutputFamily::hold_moment, "hold_moment", Quantity::hold_moment);
+    if (can_miss(hinge)) {
+      add(OutputFamily::captures, "captures", Quantity::captures);
+      add(OutputFamily::held, "held", Quantity::held);
+    }
+    add(OutputFamily::final_angle, "final_angle", Quantity::final_angle);
     if (outputs.contains(OutputFamily::rate_at)) add_rates_at(scene, i, columns);
   }
   for (int b = 0; b < std::ssize(scene.bodies); ++b)
@@ -173,6 +211,8 @@ Goal goal_of(const Outputs& outputs) {
   goal.peak_moment = outputs.contains(OutputFamily::peak_moment);
   goal.peak_force = outputs.contains(OutputFamily::peak_force);
   goal.overtravel = outputs.contains(OutputFamily::overtravel);
+  goal.hold_moment = outputs.contains(OutputFamily::hold_moment);
+  goal.final_angle = outputs.contains(OutputFamily::final_angle);
   goal.audit = goal.end_state = false;
   goal.to_t_end = outputs.contains(OutputFamily::base_motion);
   goal.mode_frequencies = outputs.contains(OutputFamily::frequency);
@@ -188,6 +228,7 @@ double output_of(const OutputColumn& column, const Outcome& outcome) {
 std::string latch_order(const Scene& scene, const Outcome& outcome) {
   std::string order;
   for (const LatchEvent& latch : outcome.latches) {
+    if (&latch != holding_latch(outcome, latch.hinge)) continue;
     if (!order.empty()) order += '>';
     order += scene.hinges[latch.hinge].name;
   }

@@ -31,16 +31,24 @@ enum class OutputFamily {
   overtravel,
   peaks_final,
   base_motion, ///< of a free base; not a default, because runs then go to t_end
-  frequency    ///< of the deployed wing's modes; not a default, because each costs a decomposition
+  frequency,   ///< of the deployed wing's modes; not a default, because each costs a decomposition
+  hold_moment, ///< of hinges that are held
+  captures,    ///< of latches that may miss or let go
+  held,        ///< of the same latches
+  final_angle  ///< not a default
 };
-inline constexpr std::array<std::string_view, 9> output_family_names{
+inline constexpr std::array<std::string_view, 13> output_family_names{
     "latch_time", "latch_rate",  "peak_moment", "peak_force", "rate_at",
-    "overtravel", "peaks_final", "base_motion", "frequency"};
+    "overtravel", "peaks_final", "base_motion", "frequency",  "hold_moment",
+    "captures",   "held",        "final_angle"};
 inline constexpr int most_mode_outputs = 10; ///< mode_1.frequency … mode_10.frequency
 using Outputs = std::set<OutputFamily>;
 
-/// All families except `rate_at` (quadratic in the number of hinges), `base_motion` and `frequency`.
+/// All families except `rate_at` (quadratic in the number of hinges), `base_motion`, `frequency` and `final_angle`, and
+/// those of features that a scene may lack.
 [[nodiscard]] Outputs default_outputs();
+/// default_outputs, and the families of the scene's holds and of its latches that may miss.
+[[nodiscard]] Outputs default_outputs(const Scene& scene);
 
 /// Whether the outputs include peaks, which t_end may cut.
 [[nodiscard]] bool has_peaks(const Outputs& outputs);
@@ -72,7 +80,11 @@ struct OutputColumn {
     base_peak_rate,
     bending_moment,
     frequency,
-    deployment_time
+    deployment_time,
+    hold_moment,
+    captures,
+    held,
+    final_angle
   } quantity;
   /// Index into Scene::hinges; of a bending moment into Scene::bodies; of a frequency the mode, from 0; else −1.
   int hinge = -1;
@@ -93,7 +105,7 @@ struct OutputColumn {
 
 /// The column's value in a run; NaN if it did not happen.
 ///
-/// A latching counts whatever the run's status. Peaks and overtravel are NaN in a failed run, whose later values are
+/// A latching counts whatever the run's status; of a latch that let go, the one that holds at the end of the run. Peaks and overtravel are NaN in a failed run, whose later values are
 /// unknown; in a timed-out run they are those up to t_end. `deployment_time` needs all latches.
 [[nodiscard]] double output_of(const OutputColumn& column, const Outcome& outcome);
 

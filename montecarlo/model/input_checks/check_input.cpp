@@ -5,6 +5,7 @@
 #include "montecarlo/model/input_checks/clearance_check.hpp"
 #include "montecarlo/model/input_checks/damper_check.hpp"
 #include "montecarlo/model/input_checks/dispersion_checks.hpp"
+#include "montecarlo/model/input_checks/life_checks.hpp"
 #include "montecarlo/model/input_checks/shape_checks.hpp"
 #include "montecarlo/model/input_checks/size_checks.hpp"
 #include "montecarlo/model/input_checks/torque_checks.hpp"
@@ -26,6 +27,7 @@ void check_numbers(const Scene& scene, InputWarnings& warnings) {
 Outcome check_motion(const Scene& scene, const Integration& integration, InputWarnings& warnings) {
   Outcome nominal = check_clearance(scene, integration, warnings);
   check_dampers(scene, integration, nominal, warnings);
+  check_life(scene, integration, nominal, warnings);
   return nominal;
 }
 

@@ -117,10 +117,33 @@ std::string describe_damper(const std::optional<Damper>& damper) {
                      describe_change(damper->scale), window);
 }
 
-std::string describe_stop(const std::optional<Stop>& stop) {
+std::string describe_stop(const char* name, const std::optional<Stop>& stop) {
   if (!stop) return "";
-  return fmt::format("; stop {} N·m/rad, {} s/rad, gap {} deg", stop->stiffness, stop->dissipation,
-                     degrees_text(stop->gap));
+  return fmt::format("; {} {} N·m/rad, {} s/rad, gap {} deg", name, stop->stiffness,
+                     stop->dissipation, degrees_text(stop->gap));
+}
+
+/// "; held until 0.2 s after root latches, never released".
+std::string describe_release(const Scene& scene, const Hinge& hinge) {
+  if (!hinge.release) return "";
+  const Release& release = *hinge.release;
+  const auto other = [&] { return scene.hinges[release.after].name; };
+  const auto event = [&]() -> std::string {
+    switch (release.event) {
+    case Release::Event::time:
+      break;
+    case Release::Event::latched:
+      return other() + " latches";
+    case Release::Event::released:
+      return other() + " is released";
+    case Release::Event::passed:
+      return fmt::format("{} has turned by {} deg", other(), degrees_text(release.angle));
+    }
+    return fmt::format("{} s", release.time);
+  };
+  const std::string delay = release.delay == 0 ? "" : fmt::format("{} s after ", release.delay);
+  return fmt::format("; held until {}{}{}", delay, event(),
+                     release.fails == 0 ? "" : ", but never released (fails)");
 }
 
 std::string describe_latch(const std::optional<Latch>& latch) {
@@ -130,7 +153,12 @@ std::string describe_latch(const std::optional<Latch>& latch) {
   const std::string damping = latch->dissipation
                                   ? fmt::format("dissipation {} s/rad", *latch->dissipation)
                                   : fmt::format("{} N·m·s/rad", latch->damping);
-  return fmt::format("; latch {} N·m/rad, {}{}", latch->stiffness, damping, backlash);
+  const std::string capture =
+      latch->capture_rate ? fmt::format(", engages up to {} rad/s", *latch->capture_rate) : "";
+  const std::string holding =
+      latch->holding_moment ? fmt::format(", lets go from {} N·m on", *latch->holding_moment) : "";
+  return fmt::format("; latch {} N·m/rad, {}{}{}{}", latch->stiffness, damping, backlash, capture,
+                     holding);
 }
 
 std::string describe_flexible(const Body& body) {
@@ -157,7 +185,9 @@ std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
   if (hinge.initial_rate != 0) text += fmt::format(", from {} rad/s", hinge.initial_rate);
   return text + describe_torque("spring", hinge.spring) + describe_hysteresis(hinge) +
          describe_torque("harness", hinge.harness) + describe_friction(hinge.friction) +
-         describe_damper(hinge.damper) + describe_stop(hinge.stop) + describe_latch(hinge.latch);
+         describe_damper(hinge.damper) + describe_stop("stop", hinge.stop) +
+         describe_stop("stop beyond the latched angle", hinge.far_stop) +
+         describe_latch(hinge.latch) + describe_release(scene, hinge);
 }
 
 std::string describe_body(const Body& body) {

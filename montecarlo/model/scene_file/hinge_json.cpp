@@ -85,13 +85,58 @@ void read_damper(const JsonCursor& at, std::optional<Damper>& damper) {
   object.refuse_others();
 }
 
-void read_stop(const JsonCursor& at, std::optional<Stop>& stop) {
+/// Reads a stop to the side that it names; without a name, the stowed side.
+void read_stop(const JsonCursor& at, Hinge& hinge) {
   JsonObject object(at, "an object with the stop's stiffness and dissipation");
+  enum class Side { stowed, latched } side = Side::stowed;
+  const bool known = object.optional_choice("side", side, stop_side_names);
+  std::optional<Stop>& stop = side == Side::latched ? hinge.far_stop : hinge.stop;
+  if (known && stop) at.refuse_repeated("one stop at each side");
   stop.emplace();
   object.required("stiffness", stop->stiffness, Dimension{"N·m/rad", "≥ 0"});
   object.optional("dissipation", stop->dissipation, Dimension{"s/rad", "≥ 0"});
   object.optional("gap", stop->gap, Dimension{"rad", "≥ 0"});
   object.refuse_others();
+}
+
+void read_stops(const JsonCursor& at, Hinge& hinge) {
+  if (!at.value().is_array()) return read_stop(at, hinge);
+  if (at.value().empty() || at.value().size() > 2)
+    return void(at.refuse("a stop, or an array of two, one at each side"));
+  for (const JsonCursor& element : at.elements()) read_stop(element, hinge);
+}
+
+/// Reads the event for which a release waits.
+void read_event(const JsonCursor& at, Release& release) {
+  if (!at.value().is_object()) {
+    const auto index = at.choice(release_event_names);
+    if (index) release.event = *index == 0 ? Release::Event::latched : Release::Event::released;
+    return;
+  }
+  JsonObject object(at, "\"latched\", \"released\", or an object with the other hinge's angle");
+  release.event = Release::Event::passed;
+  object.required("angle", release.angle, Dimension{"rad", "> 0"});
+  object.refuse_others();
+}
+
+/// Returns the name of the hinge for which the release waits.
+std::optional<std::string> read_release(const JsonCursor& at, Release& release) {
+  JsonObject object(at, "an object with the time of the release, or the hinge and event that it "
+                        "waits for");
+  std::optional<std::string> after;
+  if (const auto other = object.find("after")) {
+    if (std::string name; other->read(name, "a string, another hinge's name")) after = name;
+    if (const auto event = object.require(
+            "event", "\"latched\", \"released\", or an object with the other hinge's angle"))
+      read_event(*event, release);
+  } else if (const auto time =
+                 object.require("time", "a number, s, ≥ 0, or \"after\" in its place")) {
+    time->read(release.time, Dimension{"s", "≥ 0"});
+  }
+  object.optional("delay", release.delay, Dimension{"s", "≥ 0"});
+  object.optional("fails", release.fails, "0 or 1");
+  object.refuse_others();
+  return after;
 }
 
 void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
@@ -108,12 +153,18 @@ void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
     damping->read(latch->damping, Dimension{"N·m·s/rad", "≥ 0"});
   }
   object.optional("backlash", latch->backlash, Dimension{"rad", "≥ 0"});
+  const auto read_limit = [&](const char* key, std::optional<double>& limit, Dimension dimension) {
+    double value = 0;
+    if (const auto found = object.find(key); found && found->read(value, dimension)) limit = value;
+  };
+  read_limit("capture_rate", latch->capture_rate, Dimension{"rad/s", "≥ 0"});
+  read_limit("holding_moment", latch->holding_moment, Dimension{"N·m", "> 0"});
   object.refuse_others();
 }
 
 /// Refuses the laws that a joint replaces.
 void refuse_laws_beside_joint(JsonObject& object) {
-  for (const char* key : {"spring", "harness", "friction", "damper", "stop", "latch"})
+  for (const char* key : {"spring", "harness", "friction", "damper", "stop", "latch", "release"})
     if (const auto law = object.find(key))
       law->refuse(
           fmt::format("no \"{}\" beside \"joint\": an elastic joint has no other law", key));
@@ -138,13 +189,13 @@ std::optional<std::string> read_end(JsonObject& object, std::string_view key,
   return at && at->read(name, expected) ? std::optional(name) : std::nullopt;
 }
 
-/// Reads all torques, the damper, stop and latch.
+/// Reads all torques, the damper, stops and latch.
 void read_laws(JsonObject& object, Way way, Hinge& hinge) {
   if (const auto spring = object.find("spring")) read_spring(*spring, way, hinge.spring);
   if (const auto harness = object.find("harness")) read_harness(*harness, way, hinge.harness);
   if (const auto friction = object.find("friction")) read_friction(*friction, hinge.friction);
   if (const auto damper = object.find("damper")) read_damper(*damper, hinge.damper);
-  if (const auto stop = object.find("stop")) read_stop(*stop, hinge.stop);
+  if (const auto stop = object.find("stop")) read_stops(*stop, hinge);
   if (const auto latch = object.find("latch")) read_latch(*latch, hinge.latch);
 }
 
@@ -188,6 +239,39 @@ Json write_latch(const Latch& latch) {
   else
     json["damping"] = latch.damping;
   if (latch.backlash != 0) json["backlash"] = latch.backlash;
+  if (latch.capture_rate) json["capture_rate"] = *latch.capture_rate;
+  if (latch.holding_moment) json["holding_moment"] = *latch.holding_moment;
+  return json;
+}
+
+Json write_stop(const Stop& stop) {
+  return {{"stiffness", stop.stiffness}, {"dissipation", stop.dissipation}, {"gap", stop.gap}};
+}
+
+/// The stop at the stowed side as it is; others with their sides.
+Json write_stops(const Hinge& hinge) {
+  if (!hinge.far_stop) return write_stop(*hinge.stop);
+  Json beyond = write_stop(*hinge.far_stop);
+  beyond["side"] = "latched";
+  if (!hinge.stop) return beyond;
+  Json stowed = write_stop(*hinge.stop);
+  stowed["side"] = "stowed";
+  return Json::array({stowed, beyond});
+}
+
+Json write_release(const Scene& scene, const Release& release) {
+  Json json = Json::object();
+  if (release.event == Release::Event::time) {
+    json["time"] = release.time;
+  } else {
+    json["after"] = scene.hinges[release.after].name;
+    if (release.event == Release::Event::passed)
+      json["event"] = {{"angle", release.angle}};
+    else
+      json["event"] = release_event_names[release.event == Release::Event::latched ? 0 : 1];
+  }
+  json["delay"] = release.delay;
+  json["fails"] = release.fails;
   return json;
 }
 
@@ -207,6 +291,8 @@ HingeEnds read_hinge(const JsonCursor& at, Hinge& hinge) {
   } else {
     const auto angle = object.require("angle", "an object with the stowed and the latched angle");
     read_laws(object, angle ? read_angle(*angle, hinge) : Way::unknown, hinge);
+    if (const auto release = object.find("release"))
+      ends.after = read_release(*release, hinge.release.emplace());
   }
   object.refuse_others();
   return ends;
@@ -230,11 +316,9 @@ Json write_hinge(const Scene& scene, const Hinge& hinge) {
   json["harness"] = write_torque(hinge.harness);
   json["friction"] = write_friction(hinge.friction);
   if (hinge.damper) json["damper"] = write_damper(*hinge.damper);
-  if (hinge.stop)
-    json["stop"] = {{"stiffness", hinge.stop->stiffness},
-                    {"dissipation", hinge.stop->dissipation},
-                    {"gap", hinge.stop->gap}};
+  if (hinge.stop || hinge.far_stop) json["stop"] = write_stops(hinge);
   if (hinge.latch) json["latch"] = write_latch(*hinge.latch);
+  if (hinge.release) json["release"] = write_release(scene, *hinge.release);
   return json;
 }
 

@@ -57,6 +57,8 @@ public:
       Hinge copy = mirrored(hinge);
       copy.child = body_[hinge.child];
       if (hinge.parent != base_index) copy.parent = body_[hinge.parent];
+      if (hinge.release && hinge.release->after >= 0 && hinge_[hinge.release->after] >= 0)
+        copy.release->after = hinge_[hinge.release->after];
       return copy;
     });
     std::vector<int> loops(scene_.synchronisations.size(), -1);

@@ -88,6 +88,20 @@ template <class Named> void number(std::vector<Named>& all) {
   for (std::size_t i = 0; i < all.size(); ++i) all[i].name = std::to_string(i);
 }
 
+/// The place below the scene at which a parameter of a stop stands: `stop` may be a list.
+std::string place_of_stop(const Json& scene, std::string below) {
+  const auto cut = below.find("stop/");
+  if (cut == std::string::npos) return below;
+  const bool latched = below.compare(cut - 4, 4, "far_") == 0;
+  const std::string hinge = below.substr(0, latched ? cut - 4 : cut);
+  const std::string field = below.substr(cut + 5);
+  const Json& stop = scene[Json::json_pointer(hinge + "stop")];
+  if (!stop.is_array()) return hinge + "stop/" + field;
+  std::size_t k = 0;
+  while (k < stop.size() && (stop[k].value("side", "stowed") == "latched") != latched) ++k;
+  return fmt::format("{}stop/{}/{}", hinge, k, field);
+}
+
 /// Notes a problem for each unphysical parameter whose pointer has no problem yet.
 void refuse_unphysical(const JsonCursor& at, Scene scene) {
   number(scene.bodies);
@@ -97,6 +111,7 @@ void refuse_unphysical(const JsonCursor& at, Scene scene) {
   for (const Fault& fault : unphysical(scene)) {
     std::string below = "/" + fault.path;
     std::ranges::replace(below, '.', '/');
+    below = place_of_stop(at.value(), std::move(below));
     const std::string pointer = at.pointer() + below + "/";
     const auto covers = [&](const Problem& problem) {
       return problem.file == at.file() && pointer.starts_with(problem.pointer + "/");
@@ -159,6 +174,7 @@ Scene read_scene(const JsonCursor& at) {
   refuse_unphysical(at, scene);
   check_names(at, scene);
   link_hinges(at, ends, scene);
+  link_releases(at, ends, scene);
   link_synchronisations(at, loop_ends, scene);
   if (mirror && at.problems().size() == known_problems) add_mirrored(*mirror, names, scene);
   return scene;

@@ -58,6 +58,15 @@ bool has_power_law(const Hinge& hinge) { return has_law(hinge, DamperLaw::power)
 bool has_coefficient(const Hinge& hinge) { return hinge.damper && !has_eddy_current(hinge); }
 bool has_window(const Hinge& hinge) { return hinge.damper && hinge.damper->window; }
 bool has_stop(const Hinge& hinge) { return hinge.stop.has_value(); }
+bool has_far_stop(const Hinge& hinge) { return hinge.far_stop.has_value(); }
+bool has_capture_rate(const Hinge& hinge) { return hinge.latch && hinge.latch->capture_rate; }
+bool has_holding_moment(const Hinge& hinge) { return hinge.latch && hinge.latch->holding_moment; }
+bool has_release(const Hinge& hinge) { return hinge.release.has_value(); }
+bool has_event(const Hinge& hinge, Release::Event event) {
+  return hinge.release && hinge.release->event == event;
+}
+bool has_release_time(const Hinge& hinge) { return has_event(hinge, Release::Event::time); }
+bool has_release_angle(const Hinge& hinge) { return has_event(hinge, Release::Event::passed); }
 bool has_ratio(const Synchronisation& loop) { return !loop.table; }
 bool has_preload(const Synchronisation& loop) { return loop.preload.has_value(); }
 bool has_latch(const Hinge& hinge) { return hinge.latch.has_value(); }
@@ -90,6 +99,13 @@ constexpr std::string_view needs_power_law = "a hinge with a power-law damper";
 constexpr std::string_view needs_eddy_current = "a hinge with an eddy-current damper";
 constexpr std::string_view needs_window = "a hinge whose damper has a window";
 constexpr std::string_view needs_stop = "a hinge that has a stop";
+constexpr std::string_view needs_far_stop = "a hinge that has a stop at its latched side";
+constexpr std::string_view needs_capture_rate = "a hinge whose latch has a capture_rate";
+constexpr std::string_view needs_holding_moment = "a hinge whose latch has a holding_moment";
+constexpr std::string_view needs_release = "a hinge that has a release";
+constexpr std::string_view needs_release_time = "a hinge with a release at a time";
+constexpr std::string_view needs_release_angle =
+    "a hinge with a release after another hinge's angle";
 constexpr std::string_view needs_ratio = "a synchronisation whose ratio is a number";
 constexpr std::string_view needs_preload = "a synchronisation that has a preload";
 constexpr std::string_view needs_latch = "a hinge that has a latch";
@@ -154,6 +170,15 @@ constexpr std::array hinge_fields{
     Field<Hinge>{"stop.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.stop->stiffness; }, has_stop, needs_stop},
     Field<Hinge>{"stop.dissipation", "s/rad", [](auto& h) -> auto& { return h.stop->dissipation; }, has_stop, needs_stop},
     Field<Hinge>{"stop.gap", "rad", [](auto& h) -> auto& { return h.stop->gap; }, has_stop, needs_stop},
+    Field<Hinge>{"far_stop.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.far_stop->stiffness; }, has_far_stop, needs_far_stop},
+    Field<Hinge>{"far_stop.dissipation", "s/rad", [](auto& h) -> auto& { return h.far_stop->dissipation; }, has_far_stop, needs_far_stop},
+    Field<Hinge>{"far_stop.gap", "rad", [](auto& h) -> auto& { return h.far_stop->gap; }, has_far_stop, needs_far_stop},
+    Field<Hinge>{"release.time", "s", [](auto& h) -> auto& { return h.release->time; }, has_release_time, needs_release_time},
+    Field<Hinge>{"release.event.angle", "rad", [](auto& h) -> auto& { return h.release->angle; }, has_release_angle, needs_release_angle},
+    Field<Hinge>{"release.delay", "s", [](auto& h) -> auto& { return h.release->delay; }, has_release, needs_release},
+    Field<Hinge>{"release.fails", "", [](auto& h) -> auto& { return h.release->fails; }, has_release, needs_release},
+    Field<Hinge>{"latch.capture_rate", "rad/s", [](auto& h) -> auto& { return *h.latch->capture_rate; }, has_capture_rate, needs_capture_rate},
+    Field<Hinge>{"latch.holding_moment", "N·m", [](auto& h) -> auto& { return *h.latch->holding_moment; }, has_holding_moment, needs_holding_moment},
     Field<Hinge>{"latch.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.latch->stiffness; }, has_latch, needs_latch},
     Field<Hinge>{"latch.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.latch->damping; }, has_damping, needs_damping},
     Field<Hinge>{"latch.dissipation", "s/rad", [](auto& h) -> auto& { return *h.latch->dissipation; }, has_dissipation, needs_dissipation},

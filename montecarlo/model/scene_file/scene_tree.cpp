@@ -139,4 +139,26 @@ void link_hinges(const JsonCursor& at, const std::vector<HingeEnds>& ends, Scene
   if (linked && check_children(at, scene) && outward_order(scene).empty()) refuse_cycle(at, scene);
 }
 
+void link_releases(const JsonCursor& at, const std::vector<HingeEnds>& ends, Scene& scene) {
+  for (std::size_t h = 0; h < ends.size(); ++h) {
+    if (!ends[h].after) continue;
+    const JsonCursor place = at.member("hinges").element(h).member("release").member("after");
+    Release& release = *scene.hinges[h].release;
+    const auto other = std::ranges::find(scene.hinges, *ends[h].after, &Hinge::name);
+    if (other == scene.hinges.end()) {
+      std::vector<std::string> names;
+      for (const Hinge& hinge : scene.hinges) names.push_back(hinge.name);
+      place.refuse("a hinge's name" + did_you_mean(*ends[h].after, names));
+      continue;
+    }
+    release.after = static_cast<int>(other - scene.hinges.begin());
+    if (release.after == static_cast<int>(h))
+      place.refuse("another hinge than the one that is held");
+    else if (release.event == Release::Event::latched && !other->latch)
+      place.refuse("a hinge that has a latch, for the event \"latched\"");
+    else if (release.event == Release::Event::released && !other->release)
+      place.refuse("a hinge that has a release, for the event \"released\"");
+  }
+}
+
 } // namespace wingspread

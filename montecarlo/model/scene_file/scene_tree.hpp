@@ -10,10 +10,12 @@
 
 namespace wingspread {
 
-/// The names of the bodies that a hinge joins; nothing where a name could not be read.
+/// The names of the bodies that a hinge joins, and of the hinge for which its release waits; nothing where a name could
+/// not be read.
 struct HingeEnds {
   std::optional<std::string> parent;
   std::optional<std::string> child;
+  std::optional<std::string> after{};
 };
 
 /// Notes a problem for each name that is empty, used twice, `base` for a body, or has a reserved character. Reserved
@@ -27,5 +29,9 @@ void check_names(const JsonCursor& at, const Scene& scene);
 /// @param at   the scene
 /// @param ends one for each hinge
 void link_hinges(const JsonCursor& at, const std::vector<HingeEnds>& ends, Scene& scene);
+
+/// Sets the hinge for which each release waits from its name. Notes a problem for each unknown name, and for an event
+/// that the other hinge never has.
+void link_releases(const JsonCursor& at, const std::vector<HingeEnds>& ends, Scene& scene);
 
 } // namespace wingspread

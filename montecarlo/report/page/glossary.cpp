@@ -27,6 +27,10 @@ constexpr std::array outputs{
         "HINGE.overtravel",
         "largest rotation of the hinge beyond its stowed angle, away from the latch; in a stalled "
         "run up to its end"},
+    Entry{"HINGE.hold_moment", "largest |moment| that the hold of the hinge bore before it let go"},
+    Entry{"HINGE.captures", "how many times the latch engaged"},
+    Entry{"HINGE.held", "1 if the latch holds at the end of the run, else 0"},
+    Entry{"HINGE.final_angle", "the hinge's angle at the end of the run, from its latched angle"},
     Entry{"base.peak_angle", "largest change of a free base's angle from the start"},
     Entry{"base.peak_rate", "largest change of a free base's rate from the start"},
     Entry{"deployment_time", "latch time of the last hinge with a latch"}};

@@ -8,6 +8,10 @@
 namespace wingspread {
 namespace {
 
+bool has_run(const Outcome& outcome) {
+  return outcome.status != Status::invalid && outcome.status != Status::failed;
+}
+
 Json vector(const Eigen::Vector2d& v) {
   return Json::array({json_number(v.x()), json_number(v.y())});
 }
@@ -37,6 +41,26 @@ Json latches_json(const Scene& scene, const Outcome& outcome) {
                     {"time", json_number(latch.time)},
                     {"rate", json_number(latch.rates[latch.hinge])},
                     {"rates", by_hinge(scene, latch.rates)}});
+  return json;
+}
+
+Json events_json(const Scene& scene, const std::vector<HingeEvent>& events) {
+  Json json = Json::array();
+  for (const HingeEvent& event : events)
+    json.push_back({{"hinge", scene.hinges[event.hinge].name},
+                    {"time", json_number(event.time)},
+                    {"rate", json_number(event.rate)}});
+  return json;
+}
+
+/// Of hinges that are held.
+Json holds_json(const Scene& scene, const Outcome& outcome) {
+  if (outcome.hold_moment.empty() || outcome.status == Status::failed) return nullptr;
+  Json json = Json::object();
+  for (std::size_t i = 0; i < outcome.hold_moment.size(); ++i)
+    if (scene.hinges[i].release)
+      json[scene.hinges[i].name] = {{"value", json_number(outcome.hold_moment[i].value)},
+                                    {"time", json_number(outcome.hold_moment[i].time)}};
   return json;
 }
 
@@ -89,8 +113,26 @@ Json energy_json(const EnergyAudit& energy) {
 
 } // namespace
 
+namespace {
+
+/// Adds what a scene without holds, and without latches that may miss, does not have.
+void add_life(const Scene& scene, const Outcome& outcome, Json& json) {
+  const auto is_held = [](const Hinge& hinge) { return hinge.release.has_value(); };
+  const auto may_miss = [](const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); };
+  if (std::ranges::any_of(scene.hinges, is_held)) {
+    json["releases"] = events_json(scene, outcome.releases);
+    json["hold_moment"] = holds_json(scene, outcome);
+  }
+  if (std::ranges::any_of(scene.hinges, may_miss)) {
+    json["missed"] = events_json(scene, outcome.missed);
+    json["let_go"] = events_json(scene, outcome.let_go);
+  }
+}
+
+} // namespace
+
 bool has_cut_peaks(const Outcome& outcome) {
-  const bool ran = outcome.status != Status::invalid && outcome.status != Status::failed;
+  const bool ran = has_run(outcome);
   const bool peaks = !outcome.peak_moment.empty() || !outcome.peak_force.empty();
   return ran && peaks && !outcome.peaks_final;
 }
@@ -118,6 +160,9 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
             {"peak_force", peaks_json(scene, outcome.peak_force, outcome.status)},
             {"peaks_final", peaks_final_json(outcome)},
             {"overtravel", overtravel_json(scene, outcome)},
+            {"final_angle", has_run(outcome) && !outcome.final_angle.empty()
+                                ? by_hinge(scene, outcome.final_angle)
+                                : Json(nullptr)},
             {"warnings", outcome_warnings(scene, outcome)},
             {"final", if_ran(final_json(scene, outcome.final))},
             {"energy", if_ran(energy_json(outcome.energy))},
@@ -127,6 +172,7 @@ Json outcome_json(const Scene& scene, const Outcome& outcome) {
               {"rhs_evaluations", outcome.work.rhs_evaluations}}}};
   if (std::ranges::any_of(scene.bodies, [](const Body& body) { return body.flexible.has_value(); }))
     json["peak_bending_moment"] = bending_json(scene, outcome);
+  add_life(scene, outcome, json);
   return json;
 }
 

@@ -41,9 +41,31 @@ std::string latches(const Scene& scene, const Outcome& outcome) {
   return text;
 }
 
+/// Empty without events.
+std::string hinge_events(const char* title, const Scene& scene,
+                         const std::vector<HingeEvent>& events) {
+  if (events.empty()) return "";
+  std::string text = fmt::format("\n{:<24}{:>14}{:>16}\n", title, "time, s", "rate, rad/s");
+  for (const HingeEvent& event : events)
+    text += fmt::format("  {:<22}{:>14.6f}{:>16.6f}\n", scene.hinges[event.hinge].name, event.time,
+                        event.rate);
+  return text;
+}
+
 std::string peak_columns(const std::vector<Peak>& peaks, std::size_t hinge) {
   if (peaks.empty()) return fmt::format("{:>14}{:>12}", "–", "–");
   return fmt::format("{:>14.4f}{:>12.6f}", peaks[hinge].value, peaks[hinge].time);
+}
+
+/// What holds bore; empty where no hinge is held.
+std::string holds(const Scene& scene, const Outcome& outcome) {
+  if (outcome.hold_moment.empty() || outcome.status == Status::failed) return "";
+  std::string text = fmt::format("\n{:<24}{:>15}{:>12}\n", "HOLD", "moment, N·m", "at, s");
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i)
+    if (scene.hinges[i].release)
+      text +=
+          fmt::format("  {:<22}{}\n", scene.hinges[i].name, peak_columns(outcome.hold_moment, i));
+  return text;
 }
 
 std::string peaks(const Scene& scene, const Outcome& outcome) {
@@ -99,8 +121,11 @@ std::string effort(const Scene& scene, const Outcome& outcome) {
 
 std::string outcome_text(const Scene& scene, const Outcome& outcome) {
   if (outcome.status == Status::invalid) return ending(scene, outcome);
-  return ending(scene, outcome) + latches(scene, outcome) + peaks(scene, outcome) +
-         final_state(scene, outcome) + warnings(scene, outcome) + effort(scene, outcome);
+  return ending(scene, outcome) + hinge_events("RELEASE", scene, outcome.releases) +
+         latches(scene, outcome) + hinge_events("PASSED, TOO FAST", scene, outcome.missed) +
+         hinge_events("LET GO", scene, outcome.let_go) + peaks(scene, outcome) +
+         holds(scene, outcome) + final_state(scene, outcome) + warnings(scene, outcome) +
+         effort(scene, outcome);
 }
 
 } // namespace wingspread

@@ -30,7 +30,7 @@ template <class Visit> std::map<std::string, int> for_random_laws(Visit&& visit)
     const double sense = hinge.latched > hinge.stowed ? 1 : -1;
     const RealHingeTerms<double> terms = real_hinge_terms(hinge, sense);
     const auto mode = [&] { return draws.chance(0.8) ? 1.0 : 0.0; };
-    const HingeMode<double> now{mode(), mode(), draws.sign(), mode() * draws.sign()};
+    const HingeMode<double> now{mode(), mode(), draws.sign(), mode() * draws.sign(), 1};
     for_each_law(terms, now, [&](const auto& law) {
       ++seen[typeid(law).name()];
       CAPTURE(seed, typeid(law).name());
@@ -170,7 +170,7 @@ TEST_CASE("the sums over laws are those of the laws") {
     const Hinge& hinge = scene.hinges[0];
     const double sense = hinge.latched > hinge.stowed ? 1 : -1;
     const RealHingeTerms<double> terms = real_hinge_terms(hinge, sense);
-    const HingeMode<double> mode{1, 1, 1, 1};
+    const HingeMode<double> mode{1, 1, 1, 1, 1};
     const ValueRange<double> angle = random_angles(draws, hinge), rate = random_rates(draws);
     const ValueRange<double> acceleration = random_rates(draws);
     const KnownRange<double> change = real_change(terms, mode, angle, rate, acceleration);

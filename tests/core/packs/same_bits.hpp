@@ -30,7 +30,10 @@ inline std::string bits_of(const Outcome& outcome) {
     add(latch.hinge), add(latch.time);
     for (const double rate : latch.rates) add(rate);
   }
-  for (const auto* peaks : {&outcome.peak_moment, &outcome.peak_force})
+  for (const auto* events : {&outcome.missed, &outcome.let_go, &outcome.releases})
+    for (const HingeEvent& event : *events) add(event.hinge), add(event.time), add(event.rate);
+  for (const double angle : outcome.final_angle) add(angle);
+  for (const auto* peaks : {&outcome.peak_moment, &outcome.peak_force, &outcome.hold_moment})
     for (const Peak& peak : *peaks) add(peak.value), add(peak.time);
   for (const double beyond : outcome.overtravel) add(beyond);
   for (const Phase& phase : outcome.phases) all += phase.method, add(phase.from), add(phase.to);

@@ -50,8 +50,8 @@ TEST_CASE("the seed scene's outcome as JSON") {
   const Json json = parse_json(json_text(outcome_json(scene, outcome)));
   CHECK(keys(json) == std::vector<std::string>{"status", "reason", "method", "phases", "t_end",
                                                "latches", "peak_moment", "peak_force",
-                                               "peaks_final", "overtravel", "warnings", "final",
-                                               "energy", "work"});
+                                               "peaks_final", "overtravel", "final_angle",
+                                               "warnings", "final", "energy", "work"});
   CHECK(json["status"] == "deployed");
   CHECK(json["reason"].is_null());
   CHECK(json["t_end"] == 10);

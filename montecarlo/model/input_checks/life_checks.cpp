@@ -1,0 +1,83 @@
+#include "montecarlo/model/input_checks/life_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace wingspread {
+namespace {
+
+/// "root waits for mid waits for root", of a hold that waits for itself; else empty.
+std::string cycle_of(const Scene& scene, int hinge) {
+  std::string names = scene.hinges[hinge].name;
+  int at = hinge;
+  for (std::size_t step = 0; step < scene.hinges.size(); ++step) {
+    const std::optional<Release>& release = scene.hinges[at].release;
+    if (!release || release->after < 0) return "";
+    at = release->after;
+    names += " waits for " + scene.hinges[at].name;
+    if (at == hinge) return names;
+  }
+  return "";
+}
+
+void check_release(const Scene& scene, int h, double t_end, InputWarnings& warnings) {
+  const std::string at = fmt::format("/hinges/{}/release", h);
+  const Release& release = *scene.hinges[h].release;
+  if (release.fails != 0)
+    warnings.add(at + "/fails", "1: the nominal wing is never released",
+                 "0, and a dispersion that sets it to 1 in some runs");
+  if (const std::string cycle = cycle_of(scene, h); !cycle.empty())
+    warnings.add(at + "/after", "a hold that waits for itself: " + cycle,
+                 "holds of which the first waits for a time, or for a hinge that is free");
+  if (release.event == Release::Event::time && release.time + release.delay >= t_end)
+    warnings.add(at + "/time",
+                 fmt::format("{:.6g} s with its delay, not before t_end = {:.6g} s",
+                             release.time + release.delay, t_end),
+                 "a release within the run");
+  const Hinge* other = release.after < 0 ? nullptr : &scene.hinges[release.after];
+  if (release.event == Release::Event::passed && other &&
+      release.angle > std::abs(other->latched - other->stowed))
+    warnings.add(at + "/event/angle",
+                 fmt::format("{:.4g} rad, more than the {:.4g} rad of travel that {} has",
+                             release.angle, std::abs(other->latched - other->stowed), other->name),
+                 "how far that hinge has turned from its stowed angle, up to its latched angle");
+}
+
+void check_capture(const Scene& scene, int h, const Outcome& nominal, InputWarnings& warnings) {
+  const std::string at = fmt::format("/hinges/{}/latch", h);
+  const Hinge& hinge = scene.hinges[h];
+  const auto first_of = [&](const std::vector<HingeEvent>& events) {
+    const auto found = std::ranges::find(events, h, &HingeEvent::hinge);
+    return found == events.end() ? nullptr : &*found;
+  };
+  if (const HingeEvent* missed = first_of(nominal.missed))
+    warnings.add(at + "/capture_rate",
+                 fmt::format("{:.4g} rad/s; the nominal wing passes its latched angle at {:.4g} "
+                             "rad/s ({:.4g} s)",
+                             *hinge.latch->capture_rate, std::abs(missed->rate), missed->time),
+                 "above the nominal rate at the latch");
+  if (const HingeEvent* opened = first_of(nominal.let_go))
+    warnings.add(at + "/holding_moment",
+                 fmt::format("{:.4g} N·m; the latch of the nominal wing lets go at {:.4g} s",
+                             *hinge.latch->holding_moment, opened->time),
+                 "above the load of the nominal deployment");
+  if (hinge.latch->capture_rate && !hinge.far_stop)
+    warnings.add(fmt::format("/hinges/{}/stop", h),
+                 "no stop at the latched side of a hinge that may miss its latch",
+                 "{ \"side\": \"latched\", … }: else nothing turns the hinge back");
+}
+
+} // namespace
+
+void check_life(const Scene& scene, const Integration& integration, const Outcome& nominal,
+                InputWarnings& warnings) {
+  for (int h = 0; h < std::ssize(scene.hinges); ++h) {
+    if (scene.hinges[h].release) check_release(scene, h, integration.t_end, warnings);
+    if (scene.hinges[h].latch && scene.hinges[h].latch->can_miss())
+      check_capture(scene, h, nominal, warnings);
+  }
+}
+
+} // namespace wingspread

@@ -1,0 +1,200 @@
+// Hinges that are held and released: closed forms, momenta of a free base, stalls, and lanes.
+#include "tests/core/deployment/real_runs.hpp"
+#include "tests/support/dense_wing.hpp"
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+using std::numbers::pi;
+
+namespace {
+
+Release at_time(double time, double delay = 0) { return {.time = time, .delay = delay}; }
+
+Release after(int hinge, Release::Event event, double delay = 0, double angle = 0) {
+  return {.event = event, .after = hinge, .angle = angle, .delay = delay};
+}
+
+/// Two panels side by side on a fixed base, which do not feel each other.
+Scene two_panels() {
+  Scene scene = latching_panel();
+  scene.bodies.push_back({"other_panel", 10, 0.5});
+  Hinge other = scene.hinges[0];
+  other.name = "other", other.child = 1, other.parent_point = {3, 1};
+  scene.hinges.push_back(other);
+  return scene;
+}
+
+double way_of_panel() { return std::sqrt(2 * (pi / 2) * panel_inertia / 2); } // √(2ΘJ/τ), s
+
+Outcome run_stalled(const Scene& scene, double t_end) {
+  const Integration how = within(1e-10, t_end);
+  const Outcome out = Deployment().run(scene, how, {});
+  REQUIRE(out.status == Status::stalled);
+  require_equal_bits({scene, scene, scene}, how, every_peak);
+  return out;
+}
+
+} // namespace
+
+TEST_CASE(
+    "a panel that is released at T latches √(2ΘJ/τ) later, and its hold has borne the spring") {
+  for (const double T : {0., 0.5, 3.}) {
+    Scene scene = latching_panel();
+    scene.hinges[0].release = at_time(T, T / 2);
+    CAPTURE(T);
+    for (const Scene& way : {scene, other_sense(scene)}) {
+      const Outcome out = run_everywhere(way, 1e-11, 30);
+      check_arrival(out, {1.5 * T + way_of_panel(), std::sqrt(2 * (pi / 2) * 2 / panel_inertia)},
+                    1e-10);
+      REQUIRE(out.releases.size() == (T > 0 ? 1 : 0));
+      if (T > 0) CHECK(out.releases[0].time == 1.5 * T);
+      CHECK(out.hold_moment[0].value == (T > 0 ? 2 : 0));
+    }
+  }
+}
+
+TEST_CASE("a hinge is released after another one latches, is released, or passes an angle") {
+  const double way = way_of_panel();
+  const double quarter = std::sqrt(2 * (pi / 8) * panel_inertia / 2); // to a quarter of the travel
+  const std::array cases{std::pair{after(0, Release::Event::latched, 0.25), 1 + way + 0.25},
+                         std::pair{after(0, Release::Event::latched), 1 + way},
+                         std::pair{after(0, Release::Event::released, 0.75), 1.75},
+                         std::pair{after(0, Release::Event::released), 1.0},
+                         std::pair{after(0, Release::Event::passed, 0.5, pi / 8), 1.5 + quarter},
+                         std::pair{after(0, Release::Event::passed, 0, pi / 8), 1 + quarter}};
+  for (const auto& [release, time] : cases) {
+    Scene scene = two_panels();
+    scene.hinges[0].release = at_time(1);
+    scene.hinges[1].release = release;
+    CAPTURE(static_cast<int>(release.event), release.delay);
+    for (const Scene& sense : {scene, other_sense(scene)}) {
+      const Outcome out = run_everywhere(sense, 1e-11, 30);
+      REQUIRE(out.releases.size() == 2);
+      CHECK(relative(out.releases[1].time, time) < 1e-10);
+      REQUIRE(out.latches.size() == 2);
+      CHECK(relative(out.latches[1].time, time + way) < 1e-10);
+    }
+  }
+}
+
+TEST_CASE("holds that wait in a row: each is released by the one before it") {
+  Scene scene = two_panels();
+  scene.hinges[0].release = after(1, Release::Event::released, 0.5);
+  scene.hinges[1].release = at_time(0);
+  const Outcome out = run_everywhere(scene, 1e-11, 30);
+  REQUIRE(out.releases.size() == 1);
+  CHECK(out.releases[0].time == 0.5);
+}
+
+TEST_CASE("what a hold bears grows with the wing that moves") {
+  Scene scene = seed_scene();
+  scene.hinges[2].release = after(0, Release::Event::latched, 0.1);
+  const Outcome out = run_everywhere(scene, 1e-10, 20);
+  CHECK(out.status == Status::deployed);
+  REQUIRE(out.releases.size() == 1);
+  CHECK(out.releases[0].time > out.latches[0].time);
+  CHECK(out.hold_moment[2].value > 0.75);
+  CHECK(out.hold_moment[0].value == 0);
+}
+
+TEST_CASE("two mirrored wings that are released at once do not turn their free base") {
+  Scene scene = symmetric_tree();
+  for (Hinge& hinge : scene.hinges)
+    if (hinge.parent == base_index) hinge.release = at_time(0.75);
+  const Outcome out = run_everywhere(scene, 1e-9, 20);
+  CHECK(out.status == Status::deployed);
+  REQUIRE(out.base_peaks);
+  CHECK(out.base_peaks->angle < 1e-12);
+}
+
+TEST_CASE("a wing that is released late turns the free base; the angular momentum is 0 for ever") {
+  Scene scene = symmetric_tree();
+  int roots = 0;
+  for (Hinge& hinge : scene.hinges)
+    if (hinge.parent == base_index) hinge.release = at_time(++roots * 0.8);
+  const DenseWing<double> wing(scene);
+  for (const double t_end : {0.5, 1.2, 2., 4., 7., 40.}) {
+    CAPTURE(t_end);
+    const Outcome out = run(scene, 1e-10, t_end);
+    WingState<double> final = wing.initial_state();
+    for (int i = 0; i < wing.size(); ++i)
+      final.angles(i) = out.final.angles[i], final.rates(i) = out.final.rates[i];
+    final.base_position = out.final.base_position, final.base_velocity = out.final.base_velocity;
+    final.base_angle = out.final.base_angle, final.base_rate = out.final.base_rate;
+    CHECK(std::abs(wing.balance(final).angular_momentum) < 1e-12);
+    CHECK(wing.balance(final).linear_momentum.norm() < 1e-12);
+    if (t_end < 40) continue;
+    CHECK(out.status == Status::deployed);
+    CHECK(out.base_peaks->angle > 1e-3);
+    CHECK(std::abs(out.final.base_rate) < 1e-8); // at rest again
+  }
+}
+
+TEST_CASE("a hold that fails stalls the run, which names its hinge") {
+  Scene scene = two_panels();
+  scene.hinges[1].release = at_time(1);
+  scene.hinges[1].release->fails = 1;
+  const Outcome out = run_stalled(scene, 60);
+  CHECK(out.reason == "other was never released");
+  CHECK(out.releases.empty());
+  CHECK(out.hold_moment[1].value == 2);
+  CHECK(out.final_angle[1] == pi / 2);
+  Goal latches = {.peak_moment = false, .peak_force = false, .hold_moment = false};
+  const Outcome early = Deployment().run(scene, within(1e-10, 60), latches);
+  CHECK(early.status == Status::stalled);
+  CHECK(early.t_end < 20); // no output can change any more
+}
+
+TEST_CASE("a hold that waits for what never comes stalls the run; the first cause is named") {
+  Scene scene = two_panels();
+  scene.hinges[0].release = at_time(1);
+  scene.hinges[0].release->fails = 1;
+  scene.hinges[1].release = after(0, Release::Event::latched);
+  CHECK(run_stalled(scene, 60).reason == "root was never released");
+  CHECK(Deployment().run(scene, within(1e-10, 60), {}).t_end < 60); // all are held
+  scene.hinges[0].release = after(1, Release::Event::released);     // each waits for the other
+  CHECK(run_stalled(scene, 60).reason == "root was never released; other was never released");
+  scene.hinges[0].release.reset();
+  rub(scene.hinges[0], 3); // sticks
+  CHECK(run_stalled(scene, 60).reason == "other was never released");
+}
+
+TEST_CASE("a hold whose time is after t_end has stalled the run at t_end") {
+  Scene scene = latching_panel();
+  scene.hinges[0].release = at_time(20);
+  const Outcome out = run_stalled(scene, 10);
+  CHECK(out.reason == "root was never released");
+  scene.hinges[0].release = at_time(5);
+  CHECK(Deployment().run(scene, within(1e-10, 10), {}).status == Status::deployed);
+}
+
+TEST_CASE("no run ends early while a release is still to come") {
+  Scene scene = two_panels();
+  rub(scene.hinges[0], 3); // sticks for good
+  scene.hinges[1].release = at_time(8);
+  const Outcome out = Deployment().run(scene, within(1e-10, 60), {});
+  CHECK(out.status == Status::stalled);
+  REQUIRE(out.latches.size() == 1);
+  CHECK(relative(out.latches[0].time, 8 + way_of_panel()) < 1e-9);
+}
+
+TEST_CASE("a released hinge may stick by its own friction until its load grows") {
+  Scene scene = latching_panel();
+  rub(scene.hinges[0], 2.5);
+  scene.hinges[0].release = at_time(1);
+  const Outcome out = run_stalled(scene, 10);
+  REQUIRE(out.releases.size() == 1);
+  CHECK(out.reason.starts_with("every hinge sticks"));
+}
+
+TEST_CASE("every method releases a hinge at its time") {
+  Scene scene = two_panels();
+  scene.hinges[0].release = at_time(1);
+  scene.hinges[1].release = after(0, Release::Event::passed, 0.5, pi / 8);
+  const double quarter = std::sqrt(2 * (pi / 8) * panel_inertia / 2);
+  with_every_method(scene, within(1e-9, 30, 1e-3), {}, MayGiveUp::fixed_step,
+                    [&](const Outcome& out) {
+                      REQUIRE(out.latches.size() == 2);
+                      CHECK(relative(out.latches[1].time, 1.5 + quarter + way_of_panel()) < 1e-6);
+                    });
+}

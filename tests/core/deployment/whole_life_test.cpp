@@ -1,0 +1,134 @@
+// Random wings with holds, latches that miss and let go, and stops beyond the latched angle: against the dense
+// formulation in an integrator of its own.
+#include "tests/core/deployment/real_runs.hpp"
+#include "tests/support/random_cases.hpp"
+#include "tests/support/whole_life.hpp"
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+/// Makes the latches of a random scene softer, and gives its hinges a life.
+Scene with_life(Scene scene, std::uint64_t seed) {
+  Draws draws(seed);
+  const int n = static_cast<int>(scene.hinges.size());
+  for (int i = 0; i < n; ++i) {
+    Hinge& hinge = scene.hinges[i];
+    hinge.initial_rate = 0;
+    hinge.friction.regularization_rate = 0.1;
+    Latch latch{draws.log_uniform(50, 1000), draws.log_uniform(0.1, 10)};
+    if (draws.chance(0.3)) {
+      latch.damping = 0, latch.dissipation = draws.log_uniform(0.1, 2);
+      // with a damper the moment would jump at its edges, where the oracle's last stage may lie on either side
+      if (draws.chance(0.5)) latch.backlash = draws.log_uniform(1e-3, 3e-2);
+    }
+    if (draws.chance(0.5)) latch.capture_rate = draws.log_uniform(0.2, 5);
+    if (draws.chance(0.5)) latch.holding_moment = draws.log_uniform(1, 100);
+    hinge.latch = latch;
+    if (draws.chance(0.5))
+      hinge.far_stop =
+          Stop{draws.log_uniform(50, 1000), draws.uniform(0, 1), draws.uniform(0, 0.2)};
+    if (!draws.chance(0.5)) continue;
+    Release release{.delay = draws.chance(0.5) ? draws.uniform(0, 0.5) : 0};
+    release.after = draws.below(n);
+    if (release.after == i || draws.chance(0.4)) {
+      release.time = draws.uniform(0, 1), release.after = -1;
+    } else {
+      const bool held = scene.hinges[release.after].release.has_value() && release.after < i;
+      const Hinge& other = scene.hinges[release.after];
+      release.event = held && draws.chance(0.3) ? Release::Event::released
+                      : draws.chance(0.5)       ? Release::Event::latched
+                                                : Release::Event::passed;
+      release.angle = draws.uniform(0.05, 0.95) * std::abs(other.latched - other.stowed);
+    }
+    if (draws.chance(0.1)) release.fails = 1;
+    hinge.release = release;
+  }
+  return scene;
+}
+
+void check_events(const std::vector<HingeEvent>& got, const std::vector<WholeLife::Event>& exact) {
+  REQUIRE(got.size() == exact.size());
+  for (std::size_t k = 0; k < got.size(); ++k) {
+    CAPTURE(k, got[k].time, exact[k].time);
+    CHECK(got[k].hinge == exact[k].hinge);
+    CHECK(std::abs(got[k].time - exact[k].time) < 1e-7);
+  }
+}
+
+std::vector<HingeEvent> events_of(const std::vector<LatchEvent>& latches) {
+  std::vector<HingeEvent> events;
+  for (const LatchEvent& latch : latches)
+    events.push_back({latch.hinge, latch.time, latch.rates[latch.hinge]});
+  return events;
+}
+
+} // namespace
+
+TEST_CASE("random wings live as the dense formulation says: holds, captures, latches that let go") {
+  std::size_t releases = 0, missed = 0, let_go = 0, held = 0;
+  for (int k = 0; k < random_cases(200, 10); ++k) {
+    RandomScene options;
+    options.bodies = 1 + k % 4;
+    options.branching = k % 3 != 0;
+    options.motion = static_cast<BaseMotion>(k % 3);
+    options.mass_lower = 1, options.mass_upper = 10;
+    const Scene scene = with_life(random_scene(9000 + k, options), 9500 + k);
+    CAPTURE(k, options.bodies);
+    const double t_end = 3;
+    WholeLife exact(scene);
+    exact.run(t_end);
+    const Outcome out = run(scene, 1e-11, t_end);
+    REQUIRE(out.status != Status::failed);
+    check_events(out.releases, exact.releases);
+    check_events(out.missed, exact.missed);
+    check_events(events_of(out.latches), exact.latches);
+    check_events(out.let_go, exact.let_go);
+    releases += out.releases.size(), missed += out.missed.size(), let_go += out.let_go.size();
+    const WingState<double> end = exact.state();
+    for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
+      CAPTURE(i);
+      CHECK(std::abs(out.final.angles[i] - end.angles(static_cast<int>(i))) < 1e-6);
+      CHECK(std::abs(out.final.rates[i] - end.rates(static_cast<int>(i))) < 1e-5);
+      CHECK((holding_latch(out, static_cast<int>(i)) != nullptr) ==
+            exact.engaged(static_cast<int>(i)));
+      if (out.hold_moment.empty()) continue;
+      held += exact.hold_moment[i] > 0;
+      CHECK(std::abs(out.hold_moment[i].value - exact.hold_moment[i]) <
+            1e-7 * (1 + exact.hold_moment[i]));
+    }
+  }
+  CHECK(releases > 0);
+  CHECK(missed > 0);
+  CHECK(let_go > 0);
+  CHECK(held > 0);
+}
+
+TEST_CASE("random wings with a life have the same bits in lanes") {
+  for (int k = 0; k < random_cases(60, 12); ++k) {
+    RandomScene options;
+    options.bodies = 1 + k % 5;
+    options.motion = static_cast<BaseMotion>(k % 3);
+    const Scene drawing = with_life(random_scene(9000 + k, options), 9500 + k);
+    std::vector<Scene> units;
+    for (int u = 0; u < 10; ++u) {
+      Draws draws(400 + u);
+      units.push_back(drawing);
+      for (Hinge& hinge : units.back().hinges) {
+        hinge.spring.scale *= draws.uniform(0.9, 1.1);
+        if (hinge.release) hinge.release->delay *= draws.uniform(0.5, 1.5);
+        if (hinge.release) hinge.release->fails = draws.chance(0.1) ? 1 : 0;
+        if (hinge.latch->capture_rate) *hinge.latch->capture_rate *= draws.uniform(0.5, 2);
+        if (hinge.latch->holding_moment) *hinge.latch->holding_moment *= draws.uniform(0.5, 2);
+        if (k % 4 == 3) hinge.friction.model = FrictionModel::exact;
+      }
+    }
+    CAPTURE(k);
+    Integration how;
+    how.rtol = 1e-6, how.atol = 1e-8, how.t_end = 4, how.max_steps = 5000;
+    Goal goal = k % 2 ? every_peak : latches_alone;
+    goal.hold_moment = k % 3 == 0;
+    require_equal_bits(units, how, goal);
+  }
+}
