@@ -27,6 +27,10 @@ constexpr std::array outputs{
         "HINGE.overtravel",
         "largest rotation of the hinge beyond its stowed angle, away from the latch; in a stalled "
         "run up to its end"},
+    Entry{"BODY.peak_bending_moment",
+          "largest |moment| in the joints of a flexible body over the whole run"},
+    Entry{"mode_K.frequency", "natural frequency of the draw's wing with every latch engaged, "
+                              "lowest first; without damping"},
     Entry{"base.peak_angle", "largest change of a free base's angle from the start"},
     Entry{"base.peak_rate", "largest change of a free base's rate from the start"},
     Entry{"deployment_time", "latch time of the last hinge with a latch"}};
