@@ -39,7 +39,8 @@ void refuse_unsuitable(const Campaign& campaign) {
 Outputs outputs_for(const std::vector<Requirement>& requirements) {
   Outputs outputs;
   for (const Requirement& requirement : requirements) {
-    const std::string quantity = parse_output_name(requirement.output).quantity;
+    std::string quantity = parse_output_name(requirement.output).quantity;
+    if (quantity == "peak_bending_moment") quantity = "peak_moment";
     const auto family = std::ranges::find(output_family_names, quantity);
     if (family != output_family_names.end())
       outputs.insert(static_cast<OutputFamily>(family - output_family_names.begin()));

@@ -28,7 +28,9 @@ OutputColumn column_named(const Scene& scene, const std::string& name) {
 Goal goal_for(const std::optional<OutputColumn>& column) {
   Goal goal;
   goal.audit = false;
-  goal.peak_moment = column && column->quantity == OutputColumn::Quantity::peak_moment;
+  goal.peak_moment = column && (column->quantity == OutputColumn::Quantity::peak_moment ||
+                                column->quantity == OutputColumn::Quantity::bending_moment);
+  goal.mode_frequencies = column && column->quantity == OutputColumn::Quantity::frequency;
   goal.peak_force = column && column->quantity == OutputColumn::Quantity::peak_force;
   goal.overtravel = column && column->quantity == OutputColumn::Quantity::overtravel;
   return goal;

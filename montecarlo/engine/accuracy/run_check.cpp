@@ -39,7 +39,9 @@ std::optional<RunCheck> check_run(const Scene& scene, const Integration& integra
     RunCheck check{reference.method,          reference.rtol, to_string(again.status),
                    latch_order(scene, again), false,          {}};
     check.agrees = again.status == own.status && check.latch_order == latch_order(scene, own);
-    for (const OutputColumn& column : output_columns(scene, all_outputs()))
+    Outputs integrated = all_outputs();
+    integrated.erase(OutputFamily::frequency);
+    for (const OutputColumn& column : output_columns(scene, integrated))
       check.outputs.push_back(compare(column.name, output_of(column, own), output_of(column, again),
                                       unresolved(column.name, integration)));
     return check;

@@ -63,7 +63,7 @@ Outputs families_of(const std::vector<OutputColumn>& columns) {
   using Quantity = OutputColumn::Quantity;
   Outputs families;
   for (const OutputColumn& column : columns)
-    if (column.quantity == Quantity::peak_moment)
+    if (column.quantity == Quantity::peak_moment || column.quantity == Quantity::bending_moment)
       families.insert(OutputFamily::peak_moment);
     else if (column.quantity == Quantity::peak_force)
       families.insert(OutputFamily::peak_force);
@@ -78,6 +78,8 @@ Outputs families_of(const std::vector<OutputColumn>& columns) {
     else if (column.quantity == Quantity::base_peak_angle ||
              column.quantity == Quantity::base_peak_rate)
       families.insert(OutputFamily::base_motion);
+    else if (column.quantity == Quantity::frequency)
+      families.insert(OutputFamily::frequency);
   return families;
 }
 

@@ -194,7 +194,9 @@
 
   function glossaryText(output) {
     const known = W.data.glossary || {},
-      stem = output.hinge ? `HINGE.${output.name.slice(output.hinge.length + 1)}` : output.name;
+      quantity = output.hinge ? output.name.slice(output.hinge.length + 1) : "",
+      owner = { frequency: "mode_K", peak_bending_moment: "BODY" }[quantity] || "HINGE",
+      stem = output.hinge ? `${owner}.${quantity}` : output.name;
     const entry = known[output.name] || known[stem] || known[output.family];
     return entry ? entry.text : null;
   }

@@ -31,6 +31,10 @@ constexpr std::array outputs{
     Entry{"HINGE.captures", "how many times the latch engaged"},
     Entry{"HINGE.held", "1 if the latch holds at the end of the run, else 0"},
     Entry{"HINGE.final_angle", "the hinge's angle at the end of the run, from its latched angle"},
+    Entry{"BODY.peak_bending_moment",
+          "largest |moment| in the joints of a flexible body over the whole run"},
+    Entry{"mode_K.frequency", "natural frequency of the draw's wing with every latch engaged, "
+                              "lowest first; without damping"},
     Entry{"base.peak_angle", "largest change of a free base's angle from the start"},
     Entry{"base.peak_rate", "largest change of a free base's rate from the start"},
     Entry{"deployment_time", "latch time of the last hinge with a latch"}};

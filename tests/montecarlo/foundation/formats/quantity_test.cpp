@@ -111,7 +111,7 @@ TEST_CASE("A message names the units of a dimension", "[quantity]") {
 
 TEST_CASE("Every unit that a message names is one", "[quantity]") {
   for (const char* unit : {"m", "kg", "s", "rad", "rad/s", "rad/s²", "s/rad", "m/s", "m/s²",
-                           "kg·m²", "kg/m³", "N", "N·m", "N·m/rad", "N·m·s/rad"}) {
+                           "kg·m²", "Hz", "N·m²", "kg/m³", "N", "N·m", "N·m/rad", "N·m·s/rad"}) {
     const std::string list = units_like(unit);
     for (std::size_t quote = list.find('"'); quote != std::string::npos;) {
       const std::size_t end = list.find('"', quote + 1);

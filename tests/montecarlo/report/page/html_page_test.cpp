@@ -122,6 +122,7 @@ TEST_CASE("every output that a campaign can have is in the glossary", "[page]") 
         column.hinge < 0 ? "" : scene.hinges[static_cast<std::size_t>(column.hinge)].name + '.';
     std::string name = hinge.empty() ? column.name : "HINGE." + column.name.substr(hinge.size());
     if (column.other >= 0) name = "HINGE.rate_at.OTHER";
+    if (column.quantity == OutputColumn::Quantity::frequency) name = "mode_K.frequency";
     CAPTURE(column.name);
     REQUIRE(glossary.contains(name));
     CHECK(!glossary[name]["unit"].get<std::string>().empty());
