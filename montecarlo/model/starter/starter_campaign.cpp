@@ -159,7 +159,9 @@ AnnotatedLines starter_campaign(const WingDesign& design, const std::string& sce
        {R"(  "sampling": { "design": "random", "runs": 1000, "seed": 1 },)",
         "independent draws; 852 runs without a failure show 99.73 % at 90 % (`wingspread size`)"},
        {fmt::format(R"(  "integration": {{ "t_end": {} }},)", short_number(limits.t_end)),
-        "a run that has not deployed by then, in s, is counted as timed out"},
+        "a run that has not deployed by then, in s, is counted as timed out; a run ends earlier, "
+        "once "
+        "no larger peak can follow"},
        {R"(  "requirements": [)"}});
   append(requirements(design, limits));
   append({{"  ]"}, {"}"}});
@@ -172,13 +174,14 @@ std::optional<StarterLimits> starter_limits(const WingDesign& design) {
     const Outcome outcome = Deployment().run(nominal_scene(campaign), campaign.integration, {});
     if (outcome.status != Status::deployed) return std::nullopt;
     limits.deployment_time = std::max(limits.deployment_time, outcome.latches.back().time);
+    if (outcome.peaks_final) limits.t_end = std::max(limits.t_end, outcome.t_end);
     const std::size_t each = outcome.peak_moment.size() / static_cast<std::size_t>(design.wings);
     limits.moment.resize(static_cast<std::size_t>(design.wings));
     for (std::size_t w = 0; w < limits.moment.size(); ++w)
       limits.moment[w] = std::max(limits.moment[w], outcome.peak_moment[w * each].value);
   }
   limits.deployment_time = rounded_up(reserve_of_time * limits.deployment_time);
-  limits.t_end = 2 * limits.deployment_time;
+  limits.t_end = rounded_up(2 * std::max(limits.deployment_time, limits.t_end));
   for (double& moment : limits.moment) moment = rounded_up(reserve_of_moment * moment);
   return limits;
 }

@@ -181,8 +181,7 @@ AnnotatedLines starter_scene(const WingDesign& design) {
       {"{"},
       {fmt::format(R"(  "name": "{}",)", design.name), "heads every table and the report"},
       {R"(  "base": { "motion": "fixed" },)",
-       "the spacecraft, held still; a free one is `{ \"motion\": \"free\", \"mass\": …, "
-       "\"inertia\": … }`"},
+       "the spacecraft, held still; a free one moves, and needs its mass and inertia"},
       {R"(  "bodies": [)"}};
   Elements bodies;
   for (const DesignedWing& wing : wings)
