@@ -100,8 +100,8 @@ TEST_CASE("a campaign of rattling wings says in how many runs an output moves by
   REQUIRE(moved > 0);
   CHECK(accuracy["moved"]["which"].size() == static_cast<std::size_t>(moved));
   CHECK(accuracy["moved"]["share_at_most"] > static_cast<double>(moved + doubt) / 5);
-  CHECK_THAT(out, HasFacts({"ACCURACY  integration errors", "by more than 1 %",
-                            "WARNING", fmt::format("in {} of the 5 runs", moved)}));
+  CHECK_THAT(out, HasFacts({"ACCURACY  integration errors", "by more than 1 %", "WARNING",
+                            fmt::format("in {} of the 5 runs", moved)}));
 }
 
 TEST_CASE("accuracy is of all runs: of no shard, no part, and no rows of another tool",

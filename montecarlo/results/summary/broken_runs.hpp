@@ -26,7 +26,7 @@ struct BrokenRuns {
   long beyond = 0;        ///< deployed, with a value beyond the limit
   /// The worst value of the runs that deployed, whether or not it is beyond the limit; the first of equals.
   std::optional<JudgedRun> worst;
-  std::vector<JudgedRun> beyond_runs;         ///< the worst first
+  std::vector<JudgedRun> beyond_runs;        ///< the worst first
   std::vector<LatchedRun> not_deployed_runs; ///< those with the fewest latched hinges first
 };
 
