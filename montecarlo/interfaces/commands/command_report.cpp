@@ -1,7 +1,7 @@
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
-#include "montecarlo/interfaces/commands/output_file.hpp"
+#include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/interfaces/terminal/results_display.hpp"
 #include "montecarlo/report/page/html_page.hpp"
 #include "montecarlo/report/page/study_set.hpp"

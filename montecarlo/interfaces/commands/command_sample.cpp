@@ -2,8 +2,8 @@
 #include "montecarlo/foundation/formats/csv.hpp"
 #include "montecarlo/foundation/formats/files.hpp"
 #include "montecarlo/interfaces/commands/command_setup.hpp"
-#include "montecarlo/interfaces/commands/output_file.hpp"
 #include "montecarlo/interfaces/terminal/command_options.hpp"
+#include "montecarlo/interfaces/terminal/output_file.hpp"
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/results/results_folder/cases_folder.hpp"
 

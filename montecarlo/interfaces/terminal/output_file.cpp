@@ -1,4 +1,4 @@
-#include "montecarlo/interfaces/commands/output_file.hpp"
+#include "montecarlo/interfaces/terminal/output_file.hpp"
 
 #include "montecarlo/analyses/margin/margin_report.hpp"
 #include "montecarlo/analyses/sensitivity/design_folder.hpp"
