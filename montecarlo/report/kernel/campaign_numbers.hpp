@@ -188,6 +188,7 @@ private:
                &damper.peak_torque, &damper.peak_rate, &damper.scale});
       present(damper.window, [&](auto& window) { numbers({&window[0], &window[1]}); });
     });
+    present(hinge.joint, [&](Joint& joint) { numbers({&joint.stiffness, &joint.damping}); });
     present(hinge.stop, [&](Stop& stop) {
       numbers({&stop.stiffness, &stop.dissipation, &stop.gap});
     });

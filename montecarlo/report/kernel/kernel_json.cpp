@@ -1,5 +1,6 @@
 #include "montecarlo/report/kernel/kernel_json.hpp"
 
+#include "core/scene/segments.hpp"
 #include "montecarlo/report/kernel/campaign_numbers.hpp"
 
 #include <cassert>
@@ -78,6 +79,7 @@ Json sliders_of(Scene& scene, const Writing& writing) {
 } // namespace
 
 Json kernel_json(const Campaign& campaign) {
+  if (has_flexible_bodies(campaign.scene)) return nullptr;
   NumberedCampaign numbered{campaign.scene,
                             {},
                             campaign.wanted_correlations,
