@@ -3,6 +3,7 @@
 #include "core/scene/segments.hpp"
 #include "montecarlo/report/kernel/campaign_numbers.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -80,6 +81,8 @@ Json sliders_of(Scene& scene, const Writing& writing) {
 
 Json kernel_json(const Campaign& campaign) {
   if (has_flexible_bodies(campaign.scene)) return nullptr;
+  const auto of_rows = [](const Dispersion& dispersion) { return !dispersion.rows.empty(); };
+  if (std::ranges::any_of(campaign.dispersions, of_rows)) return nullptr;
   NumberedCampaign numbered{campaign.scene,
                             {},
                             campaign.wanted_correlations,
