@@ -117,18 +117,38 @@ private:
   Quintic<T> angle_, rate_, linear_;
 };
 
+/// |moment| at eighths of a step, N·m.
+template <class T, class AnySystem>
+[[nodiscard]] std::array<T, 9> moment_samples(const MomentOverStep<T, AnySystem>& moment) {
+  using std::abs;
+  std::array<T, 9> samples;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    samples[k] =
+        abs(moment(T(static_cast<double>(k)) / T(static_cast<double>(samples.size() - 1))));
+  return samples;
+}
+
+/// Whether any sample comes so near the peak that raise_by_interpolant looks for a maximum beside it; for a pack: in
+/// which lanes.
+template <class T, class AnySystem>
+[[nodiscard]] Truth<T> samples_come_near(const PeakOf<T>& peak,
+                                         const MomentOverStep<T, AnySystem>& moment) {
+  const std::array<T, 9> samples = moment_samples(moment);
+  T largest = samples[0];
+  for (const T& sample : samples) largest = larger(largest, sample);
+  return !(largest < T(sample_margin) * peak.value);
+}
+
 /// Raises `peak` to the largest |moment| that the dense output has over the step: samples the step, and refines
 /// the largest sample.
 template <class T, class AnySystem>
 void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
                           const Step<T>& step) {
   using std::abs;
-  std::array<T, 9> samples;
+  const std::array<T, 9> samples = moment_samples(moment);
   std::size_t best = 0;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    samples[k] = abs(moment(T(k) / T(samples.size() - 1)));
+  for (std::size_t k = 0; k < samples.size(); ++k)
     if (samples[k] > samples[best]) best = k;
-  }
   if (samples[best] < T(sample_margin) * peak.value) return;
   const auto [found, vertex] =
       maximum_near(samples, best, [&](const T& s) { return T(abs(moment(s))); });
@@ -252,9 +272,10 @@ template <class T, class Load>
   if (wants_samples(first, last, rise, peak.value, close)) {
     StepInterpolant<T> interpolant;
     const auto size = [&](const T& s) { return T(abs(load(s))); };
-    found = interpolant.resolve(load, ends.first, ends.last)
-                ? interpolant.largest_magnitude()
-                : largest_of(size, first, last, rise, peak.value, close);
+    found =
+        interpolant.resolve(load, ends.first, ends.last)
+            ? interpolant.largest_magnitude()
+            : largest_of(size, first, last, rise, peak.value, close, shortest_part(step.t, step.h));
   }
   peak.raise(first, step.t);
   peak.raise(last, step.t + step.h);

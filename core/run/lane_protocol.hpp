@@ -76,6 +76,7 @@ struct LaneResult {
   std::vector<double>& excess_before; ///< 1 … n: of their friction over its limit there, N·m
   std::vector<double>& held_at_end; ///< 1 … n: their moments at the end of the last trial step, N·m
   BaseExcursion<double>& base;      ///< of a free base, up to the start of that step
+  std::vector<char>& moments_may_rise; ///< 1 … n: over that step; only if `searched`
   // values
   long trial_steps = 0; ///< before the last one; 0: the state is the task's, and not written
   double h = 0;         ///< the last trial step, s
@@ -83,6 +84,8 @@ struct LaneResult {
   double error = 0;     ///< of the last trial step, as in Verdict
   Verdict judged{0, 1}; ///< on it, by all that a whole step must satisfy
   StepHistory<double> history{};
+  /// The last trial step is accepted and holds no event: the lane asks for a peak alone.
+  bool searched = false;
 };
 
 } // namespace wingspread
