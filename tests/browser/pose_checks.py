@@ -114,7 +114,7 @@ class PoseChecks:
         self.run_script("[...document.querySelectorAll('.player button')].find(one => one.textContent === 'while latching').click()")
         pages.settle(self.driver)
         first, last = latches[0][0], latches[-1][0]
-        room = max(0.03 * end, 0.25 * (last - first))
+        room = max(0.06 * last, 0.25 * (last - first))
         x = self.scale("history", "x")
         box = self.run_script("const box = document.querySelector('figure.history .axis.x .domain').getBBox(); return [box.x, box.x + box.width]")
-        self.near([box], [(x(max(0, first - room)), x(min(end, last + 3 * room)))], "while latching")
+        self.near([box], [(x(max(0, first - room)), x(min(end, last + 5 * room)))], "while latching")

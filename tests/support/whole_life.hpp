@@ -246,12 +246,12 @@ private:
     State end = after(h);
     for (int event = 0; event < kinds * size(); ++event) {
       if (gap(event, end) < 0) continue;
-      double low = 0, high = where_;
-      for (int k = 0; k < 80 && high - low > 1e-16 * (1 + t_); ++k) {
-        const double middle = 0.5 * (low + high);
-        (gap(event, after(middle)) < 0 ? low : high) = middle;
+      double left = 0, right = where_;
+      for (int k = 0; k < 80 && right - left > 1e-16 * (1 + t_); ++k) {
+        const double middle = 0.5 * (left + right);
+        (gap(event, after(middle)) < 0 ? left : right) = middle;
       }
-      where_ = high, first = event, end = after(high);
+      where_ = right, first = event, end = after(right);
     }
     return first;
   }

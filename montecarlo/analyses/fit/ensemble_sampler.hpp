@@ -16,7 +16,7 @@
 /// times fewer evaluations per effective sample than (1) alone (ensemble_sampler_test.cpp).
 #pragma once
 
-#include "montecarlo/analyses/fit/chain_diagnostics.hpp"
+#include "montecarlo/foundation/statistics/chain_diagnostics.hpp"
 
 #include <Eigen/Core>
 

@@ -23,16 +23,6 @@ constexpr double most_candidate_times = 1e5;
 bool is_starts(const std::int64_t& n) { return 1 <= n && n <= most_starts; }
 bool is_samples(const std::int64_t& n) { return least_samples <= n && n <= most_samples; }
 
-/// The SI unit of a trajectory's column.
-std::string_view unit_of_column(const std::string& name) {
-  const std::string last = name.substr(name.find_last_of('.') + 1);
-  if (last == "angle") return "rad";
-  if (last == "rate") return "rad/s";
-  if (last == "moment") return "N·m";
-  if (name.starts_with("base.position")) return "m";
-  return "J";
-}
-
 void read_truth(JsonObject& object, std::string_view key, bool& out) {
   const auto at = object.find(key);
   if (at && !at->value().is_boolean())

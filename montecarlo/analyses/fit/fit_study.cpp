@@ -288,8 +288,8 @@ Json about_fit(const Campaign& campaign, const FitSpec& spec) {
   for (const FitTest& test : spec.tests)
     for (const double time : test.times) bytes += fmt::format("{:a} ", time);
   return {{stamp_key, stamp_json(stamp_of(campaign, {}))},
-          {"tests", campaign_hash(spec.resolved)},
-          {"measured", fmt::format("{:016x}", stream_name(bytes).hash)}};
+          {"tests_hash", campaign_hash(spec.resolved)},
+          {"measured_hash", fmt::format("{:016x}", stream_name(bytes).hash)}};
 }
 
 } // namespace wingspread

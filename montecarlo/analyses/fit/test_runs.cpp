@@ -1,6 +1,6 @@
 #include "montecarlo/analyses/fit/test_runs.hpp"
 
-#include "montecarlo/analyses/fit/sampled_motion.hpp"
+#include "montecarlo/engine/runs/sampled_motion.hpp"
 #include "montecarlo/foundation/platform/interrupt.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"

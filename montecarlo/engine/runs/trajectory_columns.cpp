@@ -15,4 +15,13 @@ std::vector<std::string> trajectory_columns(const Scene& scene) {
   return columns;
 }
 
+std::string_view unit_of_column(const std::string& name) {
+  const std::string last = name.substr(name.find_last_of('.') + 1);
+  if (last == "angle") return "rad";
+  if (last == "rate") return "rad/s";
+  if (last == "moment") return "N·m";
+  if (name.starts_with("base.position")) return "m";
+  return "J";
+}
+
 } // namespace wingspread

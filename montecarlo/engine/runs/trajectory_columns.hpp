@@ -4,6 +4,7 @@
 #include "core/outcome.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wingspread {
@@ -12,6 +13,8 @@ namespace wingspread {
 /// `total`; for a moving base `base.angle` and `base.rate`, for a free one also `base.position.0` and
 /// `base.position.1`.
 [[nodiscard]] std::vector<std::string> trajectory_columns(const Scene& scene);
+/// The SI unit of a column; `t` is not among them.
+[[nodiscard]] std::string_view unit_of_column(const std::string& name);
 /// Passes a row's numbers to `take`, one by one in the order of the columns. @param base the scene's base
 template <class Take> void take_sample(const Sample& sample, BaseMotion base, const Take& take) {
   take(sample.t);

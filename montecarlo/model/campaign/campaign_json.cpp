@@ -17,9 +17,9 @@ namespace {
 constexpr const char* expected_scene = "a scene, or the name of the file that holds it";
 
 /// Refuses more dispersions than Sobol' points have coordinates.
-void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, std::size_t dispersions) {
-  if (sampling.design == DesignKind::sobol && dispersions > most_sobol_dimensions)
-    at.refuse(fmt::format("{} dispersions", dispersions),
+void refuse_dimensions(const JsonCursor& at, const Sampling& sampling, const Coordinates& drawn) {
+  if (sampling.design == DesignKind::sobol && drawn.names.size() > most_sobol_dimensions)
+    at.refuse(fmt::format("{} dispersions", drawn.names.size()),
               fmt::format("up to {} with the design \"sobol\"", most_sobol_dimensions));
 }
 
@@ -215,8 +215,7 @@ private:
       campaign_.wanted_correlations =
           read_wanted_correlations(*at, named_ ? &campaign_.dispersions : nullptr);
     if (const auto at = object_.find("dispersions"))
-      refuse_dimensions(*at, campaign_.sampling,
-                        coordinates_of(campaign_.dispersions).names.size());
+      refuse_dimensions(*at, campaign_.sampling, coordinates_of(campaign_.dispersions));
   }
 
   void read_guarantees() {

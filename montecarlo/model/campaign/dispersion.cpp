@@ -170,9 +170,6 @@ std::vector<Dispersion> read_targets(JsonObject& object, const Scene* scene, Dis
   return {std::move(dispersion)};
 }
 
-constexpr const char* expected_column =
-    "a path, an array of paths, or an object with to and apply, or with through";
-
 /// Reads the effect of one column of rows.
 Dispersion read_row_column(const JsonCursor& at, const std::string& name, Apply apply,
                            const Scene* scene, Json& resolved) {
@@ -183,7 +180,7 @@ Dispersion read_row_column(const JsonCursor& at, const std::string& name, Apply 
   } else if (at.value().is_array()) {
     column.targets = read_paths(at, scene);
   } else {
-    JsonObject object(at, expected_column);
+    JsonObject object(at, "a path, an array of paths, or an object with to or through");
     if (const auto through = object.find("through")) {
       read_through(*through, scene, column, resolved["through"]);
     } else {

@@ -373,19 +373,12 @@ std::vector<std::string> paths_of(const Scene& scene, std::span<const SceneParam
 }
 
 std::string_view unit_of(const SceneParameter& parameter) {
-  switch (parameter.owner) {
-  case Owner::body:
-    return body_fields[parameter.field].unit;
-  case Owner::hinge:
-    return hinge_fields[parameter.field].unit;
-  case Owner::synchronisation:
-    return synchronisation_fields[parameter.field].unit;
-  case Owner::environment:
-    return environment_fields[parameter.field].unit;
-  case Owner::base:
-    break;
-  }
-  return base_fields[parameter.field].unit;
+  const auto [owner, field] = std::pair(parameter.owner, parameter.field);
+  if (owner == Owner::body) return body_fields[field].unit;
+  if (owner == Owner::hinge) return hinge_fields[field].unit;
+  if (owner == Owner::synchronisation) return synchronisation_fields[field].unit;
+  if (owner == Owner::environment) return environment_fields[field].unit;
+  return base_fields[field].unit;
 }
 
 std::vector<std::string> parameter_paths(const Scene& scene) {

@@ -188,12 +188,19 @@ private:
                &damper.peak_torque, &damper.peak_rate, &damper.scale});
       present(damper.window, [&](auto& window) { numbers({&window[0], &window[1]}); });
     });
-    present(hinge.stop, [&](Stop& stop) {
-      numbers({&stop.stiffness, &stop.dissipation, &stop.gap});
-    });
+    present(hinge.joint, [&](Joint& joint) { numbers({&joint.stiffness, &joint.damping}); });
+    for (std::optional<Stop>* side : {&hinge.stop, &hinge.far_stop})
+      present(*side, [&](Stop& stop) { numbers({&stop.stiffness, &stop.dissipation, &stop.gap}); });
     present(hinge.latch, [&](Latch& latch) {
       numbers({&latch.stiffness, &latch.damping, &latch.backlash});
       present(latch.dissipation);
+      present(latch.capture_rate);
+      present(latch.holding_moment);
+    });
+    present(hinge.release, [&](Release& release) {
+      word(release.event);
+      whole(release.after);
+      numbers({&release.time, &release.angle, &release.delay, &release.fails});
     });
   }
 

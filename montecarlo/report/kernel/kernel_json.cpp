@@ -1,7 +1,9 @@
 #include "montecarlo/report/kernel/kernel_json.hpp"
 
+#include "core/scene/segments.hpp"
 #include "montecarlo/report/kernel/campaign_numbers.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -78,6 +80,9 @@ Json sliders_of(Scene& scene, const Writing& writing) {
 } // namespace
 
 Json kernel_json(const Campaign& campaign) {
+  if (has_flexible_bodies(campaign.scene)) return nullptr;
+  const auto of_rows = [](const Dispersion& dispersion) { return !dispersion.rows.empty(); };
+  if (std::ranges::any_of(campaign.dispersions, of_rows)) return nullptr;
   NumberedCampaign numbered{campaign.scene,
                             {},
                             campaign.wanted_correlations,

@@ -141,7 +141,12 @@
   }
 
   function table(set, made, plain, label) {
-    const shown = set.outputs.filter((output) => outputOf(set, output, made) !== null || output.count);
+    // Bending moments and frequencies are not among what the kernel hands over.
+    const known = (output) =>
+      /^(deployment_time$|base\.)/.test(output.name) || set.wing.hinges.some((hinge) => hinge.name === output.hinge);
+    const shown = set.outputs
+      .filter(known)
+      .filter((output) => outputOf(set, output, made) !== null || output.count);
     const changed = made !== plain,
       text = (value, output) => (value === null ? "did not happen" : F.value(value, output.unit, F.grain(output)));
     const quantile = (output, first) => {

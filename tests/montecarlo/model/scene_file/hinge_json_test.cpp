@@ -134,7 +134,8 @@ TEST_CASE("Each fault of what acts across a hinge is told", "[hinge_json]") {
        {"/hinges/0/stop/dissipation", "-1", "/hinges/0/stop/dissipation: found -1, expected >= 0"},
        {"/hinges/0/stop/gap", "-1", "/hinges/0/stop/gap: found -1, expected >= 0"},
        {"/hinges/0/stop/damping", "1",
-        "/hinges/0/stop/damping: found the unknown key \"damping\", expected \"stiffness\", "
+        "/hinges/0/stop/damping: found the unknown key \"damping\", expected \"side\", "
+        "\"stiffness\", "
         "\"dissipation\" or \"gap\""},
        {"/hinges/0/latch/backlash", "-1", "/hinges/0/latch/backlash: found -1, expected >= 0"},
        {"/hinges/0/latch/dissipation", "0.5",

@@ -1,6 +1,6 @@
 #include "distributions/continuous_law.hpp"
 #include "distributions/random_stream.hpp"
-#include "montecarlo/analyses/fit/chain_diagnostics.hpp"
+#include "montecarlo/foundation/statistics/chain_diagnostics.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "montecarlo/analyses/fit/sampled_motion.hpp"
+#include "montecarlo/engine/runs/sampled_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

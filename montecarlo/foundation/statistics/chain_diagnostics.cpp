@@ -1,4 +1,4 @@
-#include "montecarlo/analyses/fit/chain_diagnostics.hpp"
+#include "montecarlo/foundation/statistics/chain_diagnostics.hpp"
 
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
