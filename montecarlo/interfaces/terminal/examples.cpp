@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <system_error>
 
 namespace wingspread {
 namespace {
@@ -65,7 +66,10 @@ Example read_example(const std::string& name, const fs::path& folder) {
 }
 
 Example read_example(const std::string& name) {
-  const auto folder = examples_folder(fs::read_symlink("/proc/self/exe"));
+  std::error_code no_proc; // a bare root may not have it: then a package's program is assumed
+  fs::path program = fs::read_symlink("/proc/self/exe", no_proc);
+  if (no_proc) program = "/usr/bin/wingspread";
+  const auto folder = examples_folder(program);
   if (!folder)
     throw SpecError({{"", "--example", "no examples beside this program",
                       "share/wingspread/examples in the folder that has bin/wingspread"}});

@@ -51,7 +51,8 @@ std::vector<double> dense_frequencies(const Scene& scene, const std::vector<doub
             .cast<double>();
   }
   std::vector<double> found;
-  for (const auto& value : Eigen::EigenSolver<Eigen::MatrixXd>(A).eigenvalues())
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+  for (const auto& value : solver.eigenvalues())
     found.push_back(hertz(std::sqrt(std::max(0.0, -value.real()))));
   std::sort(found.begin(), found.end());
   return found;

@@ -47,7 +47,8 @@ TEST_CASE("a normal target: its moments, with and without independent moves") {
     const StudentMixture proposal({{0, target.mean, target.covariance}});
     long evaluations[2] = {};
     for (const double independent : {0.0, 0.5}) {
-      EnsembleOptions options{.walkers = 48, .ess = 4000};
+      if (d > 3 && independent == 0) continue; // takes too long for every day
+      EnsembleOptions options{.walkers = 48, .ess = 1000};
       options.independent = independent;
       const Ensemble ensemble = run_ensemble(target, proposal, options, nothing);
       REQUIRE(ensemble.finished);
@@ -57,12 +58,12 @@ TEST_CASE("a normal target: its moments, with and without independent moves") {
       for (Eigen::Index i = 0; i < d; ++i) {
         const Moments found = moments(coordinate(ensemble, i));
         const double std = std::sqrt(target.covariance(i, i));
-        CHECK(std::abs(found.mean - target.mean[i]) < 4.5 * std / std::sqrt(4000.0));
-        CHECK(found.std == Approx(std).epsilon(4.5 / std::sqrt(8000.0)));
+        CHECK(std::abs(found.mean - target.mean[i]) < 4.5 * std / std::sqrt(1000.0));
+        CHECK(found.std == Approx(std).epsilon(4.5 / std::sqrt(2000.0)));
       }
     }
     INFO(evaluations[0] << " and " << evaluations[1] << " evaluations for 1000 effective samples");
-    CHECK(evaluations[0] > 3 * evaluations[1]);
+    if (d == 3) CHECK(evaluations[0] > 3 * evaluations[1]);
   }
 }
 

@@ -31,7 +31,7 @@ FitSpec spec_of(const char* text, const std::filesystem::path& folder, const Cam
 constexpr const char* one_way = R"({ "tests": [ { "name": "one way",
     "trace": { "file": "t1.csv", "time": "t", "correlated": false,
                "columns": { "root.angle": { "column": "th", "std": 0.005 } } } } ],
-  "fit": { "parameters": ["spring", "friction"], "samples": 2000, "starts": 3 } })";
+  "fit": { "parameters": ["spring", "friction"], "samples": 800, "starts": 2 } })";
 
 constexpr const char* both_ways = R"({ "tests": [
     { "name": "one way", "trace": { "file": "t1.csv", "time": "t", "correlated": false,
@@ -39,7 +39,7 @@ constexpr const char* both_ways = R"({ "tests": [
     { "name": "both ways", "set": { "hinges.root.initial_rate": 0.8 },
       "trace": { "file": "t2.csv", "time": "t", "correlated": false,
                "columns": { "root.angle": { "column": "th", "std": 0.005 } } } } ],
-  "fit": { "parameters": ["spring", "friction"], "samples": 2000, "starts": 3 } })";
+  "fit": { "parameters": ["spring", "friction"], "samples": 800, "starts": 2 } })";
 
 } // namespace
 
@@ -49,7 +49,7 @@ TEST_CASE("the posterior of one torque from one latch time is that of Bayes' rul
   const double measured = panel_latch_time(1.01, 1), std = 0.01;
   Json tests = parse_json(R"({ "tests": [ { "name": "timer",
       "values": [ { "output": "root.latch_time", "value": 0, "std": "10 ms" } ] } ],
-    "fit": { "parameters": ["spring"], "samples": 5000, "starts": 2 } })");
+    "fit": { "parameters": ["spring"], "samples": 1000, "starts": 2 } })");
   tests["tests"][0]["values"][0]["value"] = measured;
   const FitResult result = fitted(campaign, read_fit(tests, "", folder.path(), campaign));
   REQUIRE(result.finished);
@@ -59,7 +59,7 @@ TEST_CASE("the posterior of one torque from one latch time is that of Bayes' rul
   };
   const LawMoments exact = moments_on_grid(0.94, 1.06, log_density);
   const FittedParameter& spring = result.parameters.at(0);
-  const double error = exact.standard_deviation / std::sqrt(5000.0); // of the mean over the samples
+  const double error = exact.standard_deviation / std::sqrt(1000.0); // of the mean over the samples
   CHECK(std::abs(spring.mean - exact.mean) < 4 * error);
   CHECK(std::abs(spring.std - exact.standard_deviation) < 4 * error / std::sqrt(2.0));
   double mode = 1; // of the exact density, by bisection of its slope
@@ -79,7 +79,7 @@ TEST_CASE("one trace sees only the difference of spring and friction, and the fi
   REQUIRE(result.finished);
   CHECK(result.correlation(0, 1) > 0.98);
   REQUIRE(result.directions.size() == 2);
-  CHECK(result.directions[0].std_ratio == Approx(1).margin(0.06));
+  CHECK(result.directions[0].std_ratio == Approx(1).margin(0.1));
   CHECK(result.directions[1].std_ratio < 0.05);
   CHECK(describe(result.directions[0], {"spring", "friction"}, result.u_covariance)
             .starts_with("the tests tell spring and friction only by their difference"));

@@ -61,7 +61,7 @@ inline std::string panel_trace(double spring, double friction, double rate, doub
 
 inline FitResult fitted(const Campaign& campaign, const FitSpec& spec, FitOptions options = {},
                         BatchLog* log = nullptr) {
-  options.pool.threads = options.pool.threads == 0 ? 2 : options.pool.threads;
+  options.pool.threads = options.pool.threads == 0 ? 1 : options.pool.threads;
   return fit_campaign(campaign, spec, options, never, log, [](const EnsembleState&) {});
 }
 

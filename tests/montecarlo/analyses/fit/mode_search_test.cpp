@@ -6,7 +6,7 @@
 using namespace wingspread;
 using namespace wingspread::test;
 
-TEST_CASE("derivatives of a latch time have the closed form's value to 1e-6") {
+TEST_CASE("derivatives of a latch time have the closed form's value to 1e-5") {
   const Campaign campaign = campaign_of(panel_campaign());
   const FitSpec spec = read_fit(parse_json(R"({ "tests": [ { "name": "timer",
       "values": [ { "output": "root.latch_time", "value": 2, "std": 0.01 } ,
@@ -20,8 +20,9 @@ TEST_CASE("derivatives of a latch time have the closed form's value to 1e-6") {
   const Eigen::MatrixXd slopes = jacobian_of(runs, at);
   const double s = 1 + 0.05 * 0.5, f = 1 - 0.3, torque = 2 * s - 0.3 * f;
   const double t = panel_latch_time(s, f);
-  CHECK(slopes(0, 0) == Approx(-0.5 * t / torque * 2 * 0.05).epsilon(1e-6));
-  CHECK(slopes(0, 1) == Approx(0.5 * t / torque * 0.3 * 0.3).epsilon(1e-6));
+  CHECK(slopes(0, 0) == Approx(-0.5 * t / torque * 2 * 0.05)
+                            .epsilon(1e-5)); // a run's error of 1e-12 s over a step of 1e-5
+  CHECK(slopes(0, 1) == Approx(0.5 * t / torque * 0.3 * 0.3).epsilon(1e-5));
   CHECK(slopes(1, 0) == Approx(0).margin(1e-9));
   CHECK(slopes(1, 1) == Approx(0.3).epsilon(1e-9));
   CHECK(runs.runs() == 4);

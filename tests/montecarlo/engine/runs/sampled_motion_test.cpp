@@ -10,7 +10,9 @@ TEST_CASE("a motion between its samples has the closed form's angle and rate") {
   const Scene scene = campaign_of(panel_campaign()).scene;
   SampledMotion motion(scene, {1, 2}); // root.angle, root.rate
   Deployment deployment;
-  REQUIRE(motion.run(deployment, scene, {.rtol = 1e-10, .atol = 1e-12}, 2, 0.02));
+  Integration how;
+  how.rtol = 1e-10, how.atol = 1e-12;
+  REQUIRE(motion.run(deployment, scene, how, 2, 0.02));
   for (double t = 0.001; t < 1.9; t += 0.0137) {
     CHECK(motion.at(0, t) == Approx(panel_angle(t, 1, 1)).margin(1e-8));
     CHECK(motion.at(1, t) == Approx(-(2 - 0.3) / panel_inertia * t).margin(1e-8));

@@ -14,14 +14,14 @@ Json panel_with(const char* pointer, const char* value) {
   return test::spoil(parse_json_file(test::three_panel_file()), {pointer, value, ""});
 }
 
-Scene scene_with(const char* pointer, const char* value) {
+Scene life_with(const char* pointer, const char* value) {
   return read_scene(panel_with(pointer, value));
 }
 
 /// "POINTER: found …, expected …" of the only problem.
 Problem problem_with(const char* pointer, const char* value) {
   try {
-    (void)scene_with(pointer, value);
+    (void)life_with(pointer, value);
   } catch (const SpecError& error) {
     REQUIRE(error.problems().size() == 1);
     return error.problems().front();
@@ -41,7 +41,7 @@ void check_refused(const char* pointer, const char* value, const char* at, const
 
 TEST_CASE("A release at a time, or after an event of another hinge") {
   const Hinge timed =
-      scene_with("/hinges/2/release", R"({"time": "500 ms", "delay": 2, "fails": 1})").hinges[2];
+      life_with("/hinges/2/release", R"({"time": "500 ms", "delay": 2, "fails": 1})").hinges[2];
   REQUIRE(timed.release);
   CHECK(timed.release->event == Release::Event::time);
   CHECK(timed.release->time == 0.5);
@@ -49,7 +49,7 @@ TEST_CASE("A release at a time, or after an event of another hinge") {
   CHECK(timed.release->fails == 1);
   const auto read = [](const char* event) {
     const std::string text = std::string(R"({"after": "root", "event": )") + event + "}";
-    return *scene_with("/hinges/2/release", text.c_str()).hinges[2].release;
+    return *life_with("/hinges/2/release", text.c_str()).hinges[2].release;
   };
   CHECK(read("\"latched\"").event == Release::Event::latched);
   CHECK(read("\"latched\"").after == 0);
@@ -81,12 +81,12 @@ TEST_CASE("Releases that cannot be meant are refused with their place") {
 TEST_CASE("A stop at the stowed side, at the latched side, or at both") {
   const char* at = "/hinges/1/stop";
   const Hinge far =
-      scene_with(at, R"({"side": "latched", "stiffness": 9, "gap": "1 mrad"})").hinges[1];
+      life_with(at, R"({"side": "latched", "stiffness": 9, "gap": "1 mrad"})").hinges[1];
   CHECK_FALSE(far.stop);
   REQUIRE(far.far_stop);
   CHECK(far.far_stop->gap == 0.001);
   const char* two = R"([{"side": "latched", "stiffness": 9}, {"side": "stowed", "stiffness": 8}])";
-  const Scene both = scene_with(at, two);
+  const Scene both = life_with(at, two);
   CHECK(both.hinges[1].stop->stiffness == 8);
   CHECK(both.hinges[1].far_stop->stiffness == 9);
   check_refused(at, R"([{"stiffness": 9}, {"stiffness": 9}])", "/hinges/1/stop/1", "each side");
