@@ -255,12 +255,13 @@ private:
     accept();
   }
 
-  /// Tries a shorter step: to the kink that may be why the step was refused, or by step control.
+  /// Tries a shorter step: to the kink that may be why the step was refused, or by step control. A step that was to end
+  /// at an event is not cut again: its kink may be the one at its end, and it would be as long as before.
   void try_again(const Verdict& refused) {
     const T h = run_.step.h;
-    if (suggests_kink(run_.system.wing(), T(refused.error)) &&
+    if (asked_.stage == Stage::step && suggests_kink(run_.system.wing(), T(refused.error)) &&
         landing_.cut_at_kink(stepping_.kinks_in_refused())) {
-      stepping_.count_cut(asked_.stage == Stage::step ? std::optional<T>(h) : std::nullopt);
+      stepping_.count_cut(h);
       return ask_to_end(Stage::landing);
     }
     ask_for_step(stepping_.plan_again());

@@ -200,10 +200,10 @@ public:
   }
 
   /// Counts a rejection after which the step is cut at a kink.
-  /// @param h the size planned for the step after that; none: as planned before
-  void count_cut(const std::optional<T>& h) {
+  /// @param h size of the refused step: of the step after that too
+  void count_cut(const T& h) {
     ++rejected_;
-    if (h) h_ = *h;
+    h_ = h;
     steppers_.with(method(), [](auto& stepper) { stepper.rejected(); });
   }
 

@@ -58,7 +58,7 @@ TEST_CASE("the largest value is found, at an end or inside, and none below the f
     inside += best.s > 0 && best.s < 1;
     calls = 0;
     (void)largest_of(counted, wave(0), wave(1), Bulge<double>{wave.rise()}, 7 + wave.rise() + 1,
-                     1e-12);
+                     1e-12, 1.0 / (1 << 17));
     CHECK(calls == 0);
   }
   CHECK(inside > 100);
