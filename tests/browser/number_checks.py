@@ -184,7 +184,8 @@ class Numbers:
             one = judged[next(text for text in judged if row[0].startswith(text))]
             values = one["limit"] is not None
             shown = lambda value: value * self.limit_factor(one) if values and value is not None else value
-            self.check(row[2], shown(one["observed_value"]) if values else one["observed"], share=not values, about=one["text"])
+            counted = not values or one["observed_value"] is None  # a share where there is no such value
+            self.check(row[2], one["observed"] if counted else shown(one["observed_value"]), share=counted, about=one["text"])
             self.check(row[3], shown(one["guaranteed_value"]) if values else one["guaranteed"], share=not values, about=one["text"])
             self.check(row[4], shown(one["margin"]) if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
             found, parts = [value for value, _ in parsed(row[6])], [one["broken"]]

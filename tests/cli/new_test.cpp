@@ -81,6 +81,6 @@ TEST_CASE("an example is copied by its name, and runs from its copy") {
   CHECK(run_program(folder, {"check", out + "/campaign.json", "--strict"}).code == 0);
   const auto unknown = run_program(folder, {"new", "--example", "nothing", "--out", out + "2"});
   CHECK(unknown.code == 2);
-  CHECK_THAT(unknown.error,
-             HasFacts({"--example", "one of correlated, long_chain, ", "yoke_wing"}));
+  CHECK_THAT(unknown.error, HasFacts({"--example", "one of bending_wings, correlated, long_chain, ",
+                                      "yoke_wing"}));
 }

@@ -59,5 +59,5 @@ TEST_CASE("check says where every body is, and how much they weigh") {
   const std::string out = run_program(folder, {"check", three_panel_file()}).out;
   CHECK(out.find("  panel_3                     0.1000      0.5050     90.00      2.5250") !=
         std::string::npos);
-  CHECK(out.ends_with("mass of 3 bodies: 30 kg\n"));
+  CHECK(out.find("mass of 3 bodies: 30 kg\n") != std::string::npos);
 }

@@ -254,9 +254,10 @@ TEST_CASE("folders with cases are compared case by case, over the runs that both
                     of = over + " (of 12 and 20)";
   CHECK(compared({a, b}) ==
         std::vector<std::string>{
+            "B · hot − A · hot" + of, "B · cold − A · cold" + of,
             "A · hot − A · cold, run by run over the 20 runs with the same draws",
             "B · space − B · hot" + over, "B · cold − B · hot" + over,
-            "B · cold − B · space" + over, "B · hot − A · hot" + of, "B · cold − A · cold" + of,
+            "B · cold − B · space" + over,
             "B · space: none of A · cold, A · hot is the case space"});
   CHECK(compared({a + "/cold", b + "/hot"}) ==
         std::vector<std::string>{"hot − cold" + of}); // as asked

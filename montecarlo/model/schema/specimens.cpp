@@ -148,6 +148,7 @@ constexpr std::array<std::string_view, 4> campaigns{R"({
     { "name": "moment", "output": "root.peak_moment", "max": "400 N*m", "abs": true, "probability": 0.99,
       "confidence": 0.9, "group": "A", "id": "SYS-1", "source": "specification 4.2", "rationale": "root fitting" },
     { "output": "root.latch_rate", "min": -3, "probability": 0.99, "confidence": 0.9 },
+    { "output": "mode_1.frequency", "min": "0.3 Hz", "probability": 0.99, "confidence": 0.9 },
     { "name": "margin", "motorization": "NASA", "hinge": "*", "min": 0, "probability": 0.99, "confidence": 0.9,
       "group": "A" } ],
   "report": { "title": "wing", "author": "A", "organisation": "B", "document": "C", "revision": "D", "date": "E" },

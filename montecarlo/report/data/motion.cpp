@@ -78,13 +78,21 @@ bool has_settled(std::span<const MotionSample> samples, const MotionLayout& layo
   if (samples.end() - std::ranges::lower_bound(samples, late, {}, &MotionSample::t) < fewest)
     return false;
   for (std::size_t h = 0; h < layout.hinges; ++h) {
+    int turns = 0; // of the moment in the last quarter
+    double before = after->values[layout.moment(h)], way = 0;
     std::array<double, 2> all{after->values[layout.moment(h)], after->values[layout.moment(h)]},
         last{samples.back().values[layout.moment(h)], samples.back().values[layout.moment(h)]};
     for (auto sample = after; sample != samples.end(); ++sample) {
       const double moment = sample->values[layout.moment(h)];
       all = {std::min(all[0], moment), std::max(all[1], moment)};
-      if (sample->t >= late) last = {std::min(last[0], moment), std::max(last[1], moment)};
+      if (sample->t >= late) {
+        last = {std::min(last[0], moment), std::max(last[1], moment)};
+        if (way * (moment - before) < 0) ++turns;
+      }
+      if (moment != before) way = moment - before, before = moment;
     }
+    if (turns == 1 || turns == 2)
+      return false; // less than a cycle: a swing at its crest seems to stand still
     if (last[1] - last[0] > settled_share * (all[1] - all[0])) return false;
   }
   return true;

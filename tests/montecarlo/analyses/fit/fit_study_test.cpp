@@ -181,6 +181,7 @@ TEST_CASE("a trace of another hinge or sense is told first") {
   const FitResult result = fitted(campaign, spec);
   const auto findings = fit_findings(result, spec);
   REQUIRE_FALSE(findings.empty());
+  CAPTURE(findings);
   CHECK(findings.front().starts_with("root.angle of \"one way\": the residuals are"));
   CHECK(fit_text(result, spec).starts_with("root.angle of"));
 }

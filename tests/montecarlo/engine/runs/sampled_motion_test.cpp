@@ -15,7 +15,8 @@ TEST_CASE("a motion between its samples has the closed form's angle and rate") {
   REQUIRE(motion.run(deployment, scene, how, 2, 0.02));
   for (double t = 0.001; t < 1.9; t += 0.0137) {
     CHECK(motion.at(0, t) == Approx(panel_angle(t, 1, 1)).margin(1e-8));
-    CHECK(motion.at(1, t) == Approx(-(2 - 0.3) / panel_inertia * t).margin(1e-8));
+    // while the rate is below its regularization, 1e-6 rad/s, friction is less: some 1e-7 rad/s in all
+    CHECK(motion.at(1, t) == Approx(-(2 - 0.3) / panel_inertia * t).margin(3e-7));
   }
   CHECK(motion.at(0, -1) == motion.at(0, 0)); // before the release
 }

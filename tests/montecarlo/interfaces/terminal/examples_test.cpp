@@ -30,7 +30,8 @@ TEST_CASE("an example is found by the beginning of its name, if that is the only
   CHECK(read_example("work_precision", studies).name == "work_precision");
   for (const char* name : {"work", "no", ""})
     CHECK_THROWS_WITH(read_example(name, studies),
-                      Catch::Contains("one of correlated, ") && Catch::Contains(", yoke_wing"));
+                      Catch::Contains("one of bending_wings, correlated, ") &&
+                          Catch::Contains(", yoke_wing"));
 }
 
 TEST_CASE("examples are found beside an installed program and beside a built one") {

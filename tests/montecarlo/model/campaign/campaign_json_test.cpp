@@ -134,7 +134,8 @@ TEST_CASE("Each fault of a campaign is told", "[campaign_json]") {
        {"/output", "[]",
         "/output: found the unknown key \"output\", expected \"scene\", \"dispersions\", "
         "\"cases\", \"case\", \"sampling\", \"integration\", \"outputs\", \"statistics\", "
-        "\"correlations\", \"requirements\", \"until\", \"motorization\", \"margin\" or "
+        "\"report\", \"correlations\", \"requirements\", \"until\", \"motorization\", \"margin\" "
+        "or "
         "\"wingspread\" (did you mean "
         "\"outputs\"?)"}}));
   CAPTURE(change.pointer, change.value);

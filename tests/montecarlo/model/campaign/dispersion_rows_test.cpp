@@ -47,13 +47,13 @@ TEST_CASE("columns of rows are drawn together, in every design, each row equally
     json["sampling"]["design"] = design;
     const Campaign campaign = read_campaign(json.dump(), folder.path());
     const RunPlan plan(campaign);
-    CHECK(plan.names().draws == std::vector<std::string>{"own", "mass", "spring"});
+    CHECK(plan.names().draws == std::vector<std::string>{"own", "spring", "mass"});
     CHECK(plan.coordinates().names == std::vector<std::string>{"own", "fitted"});
     std::map<std::pair<double, double>, int> seen;
     std::vector<double> draws(3);
     for (long k = 0; k < 64; ++k) {
       plan.draw(k, draws);
-      ++seen[{draws[2], draws[1]}];
+      ++seen[{draws[1], draws[2]}];
     }
     const std::map<std::pair<double, double>, int> all{
         {{0.9, 9}, 16}, {{1.1, 11}, 16}, {{1, 10.5}, 16}, {{1.05, 9.5}, 16}};
@@ -73,9 +73,9 @@ TEST_CASE("rows are applied as written, column by column, and replayed alone") {
   plan.draw(3, draws);
   Scene scene = campaign.scene;
   apply(campaign, draws, campaign.scene, scene);
-  CHECK(scene.hinges[0].spring.scale == draws[2]);
-  CHECK(scene.hinges[2].spring.scale == draws[2]);
-  CHECK(scene.bodies[0].mass == draws[1]);
+  CHECK(scene.hinges[0].spring.scale == draws[1]);
+  CHECK(scene.hinges[2].spring.scale == draws[1]);
+  CHECK(scene.bodies[0].mass == draws[2]);
   const Scene nominal = nominal_scene(campaign);
   CHECK(nominal.hinges[0].spring.scale == 1); // the medians, column by column
   CHECK(nominal.bodies[0].mass == 9.5);

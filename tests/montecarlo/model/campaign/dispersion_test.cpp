@@ -232,8 +232,8 @@ TEST_CASE("Each fault of a dispersion is told", "[dispersion]") {
         "/0/distribution/std: found 0, expected > 0\n"
         "/0/apply: found string \"mul\", expected \"set\", \"scale\" or \"add\"\n"
         "/0: found neither \"to\" nor \"each\" nor \"through\", expected one of them\n"
-        "/0/too: found the unknown key \"too\", expected \"name\", \"distribution\", \"to\", "
-        "\"each\", \"through\" or \"apply\" (did you mean \"to\"?)"}}));
+        "/0/too: found the unknown key \"too\", expected \"name\", \"rows\", \"distribution\", "
+        "\"to\", \"each\", \"through\" or \"apply\" (did you mean \"to\"?)"}}));
   CHECK(test::facts_of(list_problems({parse_json(json)})) == test::facts_of(message));
 }
 

@@ -30,6 +30,7 @@ Outcome some_outcome() {
   outcome.peak_moment = {{10, 3}, {20, 2}};
   outcome.peak_force = {{30, 3}, {40, 2}};
   outcome.overtravel = {0.5, 0};
+  outcome.final_angle = {0.0625, -0.5};
   outcome.mode_frequencies = {0.75, 9}; // whatever became of the run
   return outcome;
 }
@@ -68,7 +69,8 @@ TEST_CASE("Outputs are families, all but rate_at by default", "[campaign_setting
       {{"\"latch_time\"", "found string \"latch_time\", expected an array of output families"},
        {R"(["latch_times"])", "/0: found string \"latch_times\", expected \"latch_time\", "
                               "\"latch_rate\", \"peak_moment\", \"peak_force\", \"rate_at\", "
-                              "\"overtravel\", \"peaks_final\", \"base_motion\" or \"frequency\""},
+                              "\"overtravel\", \"peaks_final\", \"base_motion\", \"frequency\", "
+                              "\"hold_moment\", \"captures\", \"held\" or \"final_angle\""},
        {R"(["rate_at", "rate_at"])",
         "/1: found string \"rate_at\" a second time, expected each family once"}}));
   CHECK(facts_of(read(json, default_outputs(), read_outputs).problems) == facts_of(message));
@@ -113,9 +115,10 @@ TEST_CASE("a hinge without a latch has no latch time, but a rate when others lat
   const Scene scene = campaign_of(small_campaign()).scene; // mid has no latch
   CHECK(column_names(scene, all_outputs()) ==
         std::vector<std::string>{"root.latch_time", "root.latch_rate", "root.peak_moment",
-                                 "root.peak_force", "root.overtravel", "mid.peak_moment",
-                                 "mid.peak_force", "mid.overtravel", "mid.rate_at.root",
-                                 "mode_1.frequency", "mode_2.frequency", "deployment_time"});
+                                 "root.peak_force", "root.overtravel", "root.final_angle",
+                                 "mid.peak_moment", "mid.peak_force", "mid.overtravel",
+                                 "mid.final_angle", "mid.rate_at.root", "mode_1.frequency",
+                                 "mode_2.frequency", "deployment_time"});
 }
 
 TEST_CASE("a run goes no further than the outputs need") {
@@ -131,32 +134,32 @@ TEST_CASE("a run goes no further than the outputs need") {
 
 TEST_CASE("outputs are taken from the outcome, and missing where they did not happen") {
   Outcome outcome = some_outcome();
-  // root: latch time, latch rate, peak moment, peak force, overtravel, rate at mid; mid likewise;
+  // root: latch time, latch rate, peak moment, peak force, overtravel, final angle, rate at mid; mid likewise;
   // the modes; the last latch
   check_same(outputs_of(outcome),
-             {3, -1.5, 10, 30, 0.5, -0.5, 2, 0.25, 20, 40, 0, 0.125, 0.75, 9, 3});
+             {3, -1.5, 10, 30, 0.5, 0.0625, -0.5, 2, 0.25, 20, 40, 0, -0.5, 0.125, 0.75, 9, 3});
 
   SECTION("stalled or timed out: peaks up to the end, and no deployment time") {
     outcome.status = GENERATE(Status::stalled, Status::timed_out);
     outcome.latches.pop_back();
-    check_same(outputs_of(outcome),
-               {none, none, 10, 30, 0.5, -0.5, 2, 0.25, 20, 40, 0, none, 0.75, 9, none});
+    check_same(outputs_of(outcome), {none, none, 10, 30, 0.5, 0.0625, -0.5, 2, 0.25, 20, 40, 0,
+                                     -0.5, none, 0.75, 9, none});
   }
   SECTION("failed: what latched did, but a larger peak might have come") {
     outcome.status = Status::failed;
     outcome.latches.pop_back();
-    check_same(outputs_of(outcome), {none, none, none, none, none, -0.5, 2, 0.25, none, none, none,
-                                     none, 0.75, 9, none});
+    check_same(outputs_of(outcome), {none, none, none, none, none, none, -0.5, 2, 0.25, none, none,
+                                     none, none, none, 0.75, 9, none});
   }
   SECTION("a number that is not finite is none") {
     outcome.peak_force[0].value = std::numeric_limits<double>::infinity();
     check_same(outputs_of(outcome),
-               {3, -1.5, 10, none, 0.5, -0.5, 2, 0.25, 20, 40, 0, 0.125, 0.75, 9, 3});
+               {3, -1.5, 10, none, 0.5, 0.0625, -0.5, 2, 0.25, 20, 40, 0, -0.5, 0.125, 0.75, 9, 3});
   }
   SECTION("invalid: nothing") {
     outcome = {};
     outcome.status = Status::invalid;
-    check_same(outputs_of(outcome), std::vector<double>(15, none));
+    check_same(outputs_of(outcome), std::vector<double>(17, none));
   }
 }
 

@@ -97,7 +97,8 @@ TEST_CASE("Each fault of a requirement is told", "[requirement]") {
         "/1/name: found string \"\", expected a string, not empty, without control characters"},
        {"/1/minimum", "1",
         "/1/minimum: found the unknown key \"minimum\", expected \"name\", \"output\", \"max\", "
-        "\"min\", \"abs\", \"group\", \"probability\" or \"confidence\""},
+        "\"min\", \"abs\", \"group\", \"id\", \"source\", \"rationale\", \"probability\" or "
+        "\"confidence\""},
        {"/1/abs", "1", "/1/abs: found 1, expected true or false"},
        {"/0/group", "\"\"",
         "/0/group: found string \"\", expected a string, not empty, without control characters"}}));
@@ -217,9 +218,10 @@ TEST_CASE("Each fault of a required margin is told", "[requirement]") {
         "\"*\" for all\n"
         "/1/hinge: found 1, expected a string, a hinge's name, or \"*\" for all\n"
         "/1/max: found the unknown key \"max\", expected \"name\", \"motorization\", \"hinge\", "
-        "\"min\", \"group\", \"probability\" or \"confidence\"\n"
+        "\"min\", \"group\", \"id\", \"source\", \"rationale\", \"probability\" or \"confidence\"\n"
         "/2/hinge: found string \"rot\", expected the name of a hinge with a spring or a latch, or "
         "\"*\" for all (did you mean \"root\"?)\n"
         "/2/output: found the unknown key \"output\", expected \"name\", \"motorization\", "
-        "\"hinge\", \"min\", \"group\", \"probability\" or \"confidence\"");
+        "\"hinge\", \"min\", \"group\", \"id\", \"source\", \"rationale\", \"probability\" or "
+        "\"confidence\"");
 }

@@ -132,17 +132,17 @@ TEST_CASE("A base's table is dispersed by its scale, and by no number that it gi
 TEST_CASE("A base's table is described", "[base_json]") {
   CHECK_THAT(describe(read_scene(driven_scene())),
              Catch::Contains("base: prescribed, acceleration and rate by a table of 3 times from 0 "
-                             "to 4 s, linear, times 1.5, angle 0.5 rad\n"));
+                             "to 4 s, linear, times 1.5, angle 28.65 deg\n"));
   Json document = driven_scene();
   document["base"]["table"].erase("acceleration");
   document["base"]["table"].erase("scale");
   CHECK_THAT(describe(read_scene(document)),
              Catch::Contains("base: prescribed, acceleration (0, 0) m/s², rate by a table of 3 "
-                             "times from 0 to 4 s, linear, angle 0.5 rad\n"));
+                             "times from 0 to 4 s, linear, angle 28.65 deg\n"));
   document["base"].erase("interpolation");
   document["base"]["table"].erase("rate");
   document["base"]["table"]["angular_acceleration"] = {0, 1, 0};
   CHECK_THAT(describe(read_scene(document)),
              Catch::Contains("acceleration (0, 0) m/s², angular acceleration by a table of 3 times "
-                             "from 0 to 4 s, monotone, angle 0.5 rad, rate 0 rad/s\n"));
+                             "from 0 to 4 s, monotone, angle 28.65 deg, rate 0 rad/s\n"));
 }

@@ -116,7 +116,7 @@ TEST_CASE("A written life is read back the same") {
   CHECK(scene.hinges[2].latch->capture_rate.value() == Approx(1.0471975511965976).epsilon(1e-15));
   const std::string text = describe(scene);
   for (const char* words :
-       {"held until 0.5 s", "held until 0.2 s after root has turned by 0.7 rad",
+       {"held until 0.5 s", "held until 0.2 s after root has turned by 40.11 deg",
         "held until mid is released, but never released (fails)", "engages up to 1.047",
         "lets go from 12 N·m on", "stop beyond the latched angle 9 N·m/rad"})
     CHECK(text.find(words) != std::string::npos);

@@ -112,7 +112,8 @@ TEST_CASE("outputs with negative values are compared by their magnitudes", "[pag
   CHECK((*entry)["magnitude"] == true);
   CHECK((*entry)["difference"].get<double>() ==
         Approx(mean(*stronger) - mean(*first)).epsilon(1e-5));
-  CHECK((*entry)["relative"].get<double>() > 0); // a stronger spring closes faster
+  CHECK((*entry)["relative"].get<double>() ==
+        Approx(mean(*stronger) / mean(*first) - 1).epsilon(1e-5));
 }
 
 TEST_CASE("sets are paired where their draws are the same", "[page]") {
