@@ -197,7 +197,8 @@ class Numbers:
             if values and one["worst"]:
                 factor = self.limit_factor(one)
                 self.assertAlmostEqual(found[len(parts)], one["worst"]["value"] * factor, delta=abs(one["worst"]["value"] * factor) * 1e-3)
-            self.assertEqual(row[4].startswith("+"), (one["margin"] if values else one["guaranteed"] - one["probability"]) > 0, one["text"])
+            margin = one["margin"] if values else one["guaranteed"] - one["probability"]
+            self.assertEqual(row[4].startswith("+"), margin is not None and margin > 0, one["text"])
         strain = lambda one: -one["margin"] / abs(one["limit"]) if one["limit"] and one["margin"] is not None else one["broken"] / one_set["runs"] - (1 - one["probability"])
         ranked = [(("failed", "open", "passed").index(one["verdict"]), -strain(one)) for one in self.run_script("return W.verdicts.judged().map(row => row.requirement)")]
         self.assertEqual(ranked, sorted(ranked))

@@ -100,12 +100,12 @@ std::string prediction_text(const FitResult& result) {
 
 std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& spec) {
   std::vector<std::string> list;
+  add_misfits(result, spec, list);
   if (!result.finished)
     list.push_back(fmt::format(
         "not finished: effective sample size {:.0f} of {}, split R-hat {:.3f} "
         "after {} runs of the sampler",
         result.sampler.ess, spec.samples, result.sampler.r_hat, result.sampler.evaluations));
-  add_misfits(result, spec, list);
   for (std::size_t k = 0; k < result.mode_distances.size(); ++k)
     if (result.mode_distances[k] > other_mode_distance)
       list.push_back(fmt::format("another mode lies {:.1f} sd away, {:.1f} nats below the best one",

@@ -76,6 +76,7 @@ public:
   void text(std::string& text) {
     std::vector<double> bytes;
     list(bytes);
+    text.clear();
     for (const double byte : bytes) text += static_cast<char>(byte);
   }
 

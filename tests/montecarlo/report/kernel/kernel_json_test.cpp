@@ -38,6 +38,7 @@ public:
   void text(std::string& text) {
     std::vector<double> bytes;
     list(bytes);
+    text.clear();
     for (const double byte : bytes) text += static_cast<char>(byte);
   }
   [[nodiscard]] bool at_end() const { return numbers_.empty(); }
