@@ -141,7 +141,8 @@ class Numbers:
         name = " ".join(word for word in (one.get("id"), one.get("name")) if word)
         if one["limit"] is None:
             return f"{one['id']} {one['text']}" if one.get("id") else one["text"]
-        output = re.sub(r"[._]", " ", one["output"])
+        hinge, _, quantity = one["output"].rpartition(".")
+        output = f"{hinge} {quantity.replace('_', ' ')}".strip()
         unit = {"latch_rate": "rad/s", "latch_time": "s", "peak_moment": "N·m", "deployment_time": "s", "peak_rate": "rad/s", "peak_force": "N"}[one["output"].split(".")[-1]]
         text = f"{one['limit']:g} {unit}".replace("-", "−")
         if unit.startswith("rad"):
@@ -214,7 +215,9 @@ class Numbers:
         motion, envelopes = one_set["motions"][0], one_set["envelopes"]
         self.same_rows("stage", [[t, *(row[at] * DEGREES for row in motion["angles"])] for at, t in enumerate(motion["t"])])
         self.same_rows("history", [[t, *(row[at] for row in motion["moments"])] for at, t in enumerate(motion["t"])])
-        self.same_rows("envelopes", [[t, *(envelopes[key][hinge][level][at] * DEGREES for hinge in range(min(6, len(one_set["wing"]["hinges"]))) for level in range(len(envelopes["levels"]))
+        names = [one["name"] for one in one_set["wing"]["hinges"]]
+        shown = [names.index(column.split(" angle ")[0]) for column in self.exported("envelopes")[0][1::2 * len(envelopes["levels"])]]
+        self.same_rows("envelopes", [[t, *(envelopes[key][hinge][level][at] * DEGREES for hinge in shown for level in range(len(envelopes["levels"]))
                                            for key in ("angles", "rates"))] for at, t in enumerate(envelopes["t"])])
         for at in (0, 57, len(motion["t"]) - 1):  # the readout at a sample
             if motion["t"].count(motion["t"][at]) > 1:
