@@ -158,6 +158,8 @@ void link_releases(const JsonCursor& at, const std::vector<HingeEnds>& ends, Sce
       place.refuse("a hinge that has a latch, for the event \"latched\"");
     else if (release.event == Release::Event::released && !other->release)
       place.refuse("a hinge that has a release, for the event \"released\"");
+    else if (release.event == Release::Event::passed && other->joint)
+      place.refuse("a hinge that travels, for an angle: an elastic joint does not");
   }
 }
 

@@ -31,7 +31,8 @@ std::vector<std::vector<double>> chains_of(std::size_t count, std::size_t length
 TEST_CASE("the effective sample size of a chain with a known autocorrelation") {
   for (const double phi : {0.0, 0.5, 0.9}) {
     const auto [r_hat, ess] = diagnose(chains_of(20, 2000, phi));
-    CHECK(ess == Approx(40000 * (1 - phi) / (1 + phi)).epsilon(0.2)); // some 3 of its own errors
+    CHECK(ess == Approx(40000 * (1 - phi) / (1 + phi))
+                     .epsilon(0.2)); // heuristic: 11 % off at φ = 0.9 with these draws
     CHECK(r_hat == Approx(1).margin(0.01));
   }
 }

@@ -137,3 +137,18 @@ TEST_CASE("A written life is read back the same") {
                            "hinges.root.latch.capture_rate", "hinges.root.far_stop.gap"})
     CHECK(resolve(scene, path).matches.empty());
 }
+
+TEST_CASE("A hold cannot wait for the angle of an elastic joint") {
+  Json document = test::small_scene();
+  Json& root = document["hinges"][0];
+  root = {{"name", "root"},
+          {"parent", "base"},
+          {"child", root["child"]},
+          {"parent_point", {0, 0}},
+          {"child_point", {-0.5, 0}},
+          {"angle", 0},
+          {"joint", {{"stiffness", 100}, {"damping", 1}}}};
+  document["hinges"][1]["release"] = parse_json(R"({"after": "root", "event": {"angle": 0.1}})");
+  CHECK_THROWS_WITH(read_scene(document),
+                    Catch::Contains("/hinges/1/release/after") && Catch::Contains("travels"));
+}
