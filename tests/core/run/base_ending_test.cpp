@@ -14,7 +14,7 @@ using namespace wingspread::oracle;
 
 namespace {
 
-/// A random wing on a free base, at rest or turning, with linear or real hinges.
+/// A random wing on a free base, at rest or turning, with linear or real hinges. The springs of one in five are too weak.
 Scene on_free_base(std::uint64_t seed) {
   RandomScene options;
   options.bodies = 1 + static_cast<int>(seed % 4);
@@ -25,13 +25,15 @@ Scene on_free_base(std::uint64_t seed) {
   if (seed % 2 == 0) scene = with_real_hinges(scene, seed, {.gravity = false, .air = false});
   if (seed % 4 < 2) scene.base.rate = 0;
   for (Hinge& hinge : scene.hinges) hinge.initial_rate = 0;
+  if (seed % 5 == 0)
+    for (Hinge& hinge : scene.hinges) hinge.spring = {.torque_stowed = 0.05, .torque_latched = -1};
   return scene;
 }
 
 } // namespace
 
 TEST_CASE("an early end loses no peak of a free base's motion") {
-  int early_ends = 0, turning = 0, stalled = 0;
+  int early_ends = 0, stalled = 0;
   for (int seed = 1; seed <= random_cases(2000, 60); ++seed) {
     const Scene scene = on_free_base(static_cast<std::uint64_t>(seed));
     Integration how;
@@ -51,10 +53,8 @@ TEST_CASE("an early end loses no peak of a free base's motion") {
     }
     stalled += whole.status == Status::stalled;
     early_ends += early.t_end < how.t_end;
-    turning += early.t_end < how.t_end && scene.base.rate != 0;
   }
-  CAPTURE(early_ends, turning, stalled);
+  CAPTURE(early_ends, stalled);
   CHECK(early_ends > 10);
-  CHECK(turning > 0);
   CHECK(stalled > 0);
 }
