@@ -28,6 +28,7 @@ struct Goal {
   bool peak_force = true;
   bool overtravel = true;        ///< watch how far hinges turn beyond their stowed angles
   bool hold_moment = true;       ///< watch what holds bear
+  bool base_motion = false;      ///< end no sooner than the peaks of a free base's motion are final
   bool audit = true;             ///< watch how far the energy drifts up to the first latch
   bool end_state = true;         ///< fill Outcome::final and Outcome::energy
   bool final_angle = true;       ///< fill Outcome::final_angle

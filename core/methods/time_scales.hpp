@@ -12,9 +12,10 @@ namespace wingspread {
 /// if larger, the rate of a latched hinge over its distance from rest. In a swing one of the two is
 /// always at least its frequency. Hinges a thousand times slower than the fastest do not count
 /// (heuristic: rounding near rest would otherwise look like a high frequency).
+/// @param still rad/s: slower hinges count as at rest; what an explicit method leaves of a motion that has died out
 /// @return 0 if nothing moves
 template <class T, class AnySystem>
-[[nodiscard]] double quickness(const AnySystem& system, const Step<T>& step) {
+[[nodiscard]] double quickness(const AnySystem& system, const Step<T>& step, const T& still) {
   using std::abs;
   const Layout& at = system.layout();
   T fastest(0), acceleration(0), swing(0);
@@ -22,7 +23,7 @@ template <class T, class AnySystem>
     fastest = larger(fastest, T(abs(step.x[at.rate(i)])));
     acceleration = larger(acceleration, T(abs(step.dxdt[at.rate(i)])));
   }
-  if (!(fastest > T(0))) return 0;
+  if (!(fastest > still)) return 0;
   for (int i = 1; i <= at.bodies; ++i) {
     const LinearLaw<T>& law = system.work().laws[i];
     const T rate = abs(step.x[at.rate(i)]);

@@ -5,6 +5,7 @@
 /// peaks are final where all of the bounds lie below the peaks seen so far.
 #pragma once
 
+#include "core/peaks/base_peaks.hpp"
 #include "core/peaks/overtravel.hpp"
 #include "core/peaks/peak.hpp"
 #include "core/proofs/energy_bounds.hpp"
@@ -21,6 +22,7 @@ namespace wingspread {
 template <class T> struct SeenPeaks {
   const std::vector<PeakOf<T>>*moments, *forces; ///< N·m, N
   const std::vector<T>* overtravel;              ///< rad
+  const BaseExcursion<T>* base;                  ///< of a free base
 };
 
 /// Whether the peaks seen lie above bounds on all later moments and forces.
@@ -45,6 +47,27 @@ template <class T, class Rest, class Way>
         !(beyond_stowed(wing.hinges[i], T(rest(i))) + T(way(i)) <= (*seen.overtravel)[i]))
       return false;
   return true;
+}
+
+/// Whether a free base cannot turn further or faster than it has.
+///
+///     θ(t') = θ(t) − (S u(t))_0 + (S u(t'))_0 + ∫ r          H/I − drift ≤ r ≤ H/I + drift
+///
+/// in the symbols of rest_model.hpp.
+/// @param at_rest θ(t) − (S u(t))_0, rad
+/// @param mean    H/I, rad/s
+/// @param time    t_end − t, s
+template <class T>
+[[nodiscard]] bool no_base_peak_can_rise(const BaseExcursion<T>& seen, const BaseBounds& bounds,
+                                         const T& at_rest, const T& mean, const T& time) {
+  const auto stays = [](const T& low, const T& high, const T& most) {
+    return -low <= most && high <= most;
+  };
+  const T slow = mean - T(bounds.drift), fast = mean + T(bounds.drift);
+  const T turn = at_rest - seen.first_angle, rate(bounds.rate), way(bounds.way);
+  return stays(slow - rate - seen.first_rate, fast + rate - seen.first_rate, seen.rate) &&
+         stays(turn - way + smaller(T(0), T(slow * time)),
+               turn + way + larger(T(0), T(fast * time)), seen.angle);
 }
 
 /// The proofs of one run. What depends on the wing alone is made at the first attempt.
@@ -79,7 +102,7 @@ public:
     // asked either. Its bounds ignore damping and are as a rule wider; where they are not, the run ends some attempts later.
     if (linear_loads_are_below(seen, start)) {
       const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
-      is_proven = prove_by_modes(system, x, t, start, energy, seen) ||
+      is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen) ||
                   (energy && prove_by_energy(system, *energy, seen));
     }
     if (!is_proven) tune_dampers(system, start);
@@ -149,10 +172,20 @@ private:
 
   /// @pre modes_
   [[nodiscard]] bool prove_by_modes(AnySystem& system, const State<T>& x, const T& t,
-                                    const ModalBounds::ModeVector& start,
+                                    const T& t_end, const ModalBounds::ModeVector& start,
                                     const std::optional<T>& energy, const SeenPeaks<T>& seen) {
-    const auto most = modes_->bound(start, energy, spin(system, x, t));
-    return most && no_load_can_rise(seen, model_.size(), most->moment, most->force, 1) &&
+    using std::abs;
+    const T momentum = spin(system, x, t);
+    const auto most = modes_->bound(start, energy, abs(momentum));
+    if (!most) return false;
+    if (seen.base) {
+      const int base = BaseExcursion<T>::coordinate;
+      const T at_rest = x[base] - T(modes_->turn_of_base(&x[system.layout().angle(1)]));
+      if (!no_base_peak_can_rise(*seen.base, most->base, at_rest, T(model_.rigid * momentum),
+                                 T(t_end - t)))
+        return false;
+    }
+    return no_load_can_rise(seen, model_.size(), most->moment, most->force, 1) &&
            no_overtravel_can_rise(
                seen, system.wing(), [&](int i) { return model_.angles(i - 1); },
                [&](int i) { return most->way(i - 1); });
@@ -160,6 +193,7 @@ private:
 
   [[nodiscard]] bool prove_by_energy(const AnySystem& system, const T& energy,
                                      const SeenPeaks<T>& seen) {
+    if (seen.base) return false; // of the base it tells nothing
     const Layout& at = system.layout();
     bounds_.bound(system, remaining_, energy);
     return no_load_can_rise(seen, at.bodies, bounds_.moment, bounds_.force, 0) &&
@@ -168,11 +202,10 @@ private:
                [&](int i) { return remaining_.furthest(i, energy); });
   }
 
-  /// |H| of a free base about the common centre of mass, kg·m²/s; else 0.
+  /// H of a free base about the common centre of mass, kg·m²/s; else 0.
   [[nodiscard]] static T spin(AnySystem& system, const State<T>& x, const T& t) {
-    using std::abs;
     if constexpr (AnySystem::base_motion != BaseMotion::free) return T(0);
-    return abs(total_motion(system, x, t).spin());
+    return total_motion(system, x, t).spin();
   }
 
   /// Whether every latch acts with its whole strength: a smoothed one comes in gradually.

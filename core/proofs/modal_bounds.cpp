@@ -153,6 +153,7 @@ void ModalBounds::keep_columns(const Matrix& vectors, const Matrix& moments) {
   way_ = sizes_of_columns(ways), rate_of_ = sizes_of_columns(rates);
   const Matrix turns = product(model_->turns, rates);
   turn_ = sizes_of_columns(turns);
+  base_way_ = sizes_of_columns(product(model_->turns.topRows(1), ways).eval());
   swing_ = turn_ * quick.asDiagonal();
   moment_of_ = sizes_of_columns(moments);
   const Matrix &x = model_->lever_x, &y = model_->lever_y;
@@ -227,6 +228,12 @@ HingeVector ModalBounds::rates(const ModeVector& start) const {
   return product(rate_of_, start + swung_);
 }
 
+double ModalBounds::turn_of_base(const double* angles) const {
+  double turn = 0;
+  for (int i = 0; i < size(); ++i) turn += model_->turns(0, i) * (angles[i] - model_->angles(i));
+  return turn;
+}
+
 double ModalBounds::linear_moment(int i, const ModeVector& modes) const {
   return sum_of_row(moment_of_, i, modes);
 }
@@ -280,7 +287,8 @@ auto ModalBounds::map(const Box& box, const ModeVector& start, double spin) cons
   image.remainder = m.bound_remainders(image.way, rates);
   const RestModel::Turned off = m.bound_turns(image.way, box.accelerations, image.spin);
   image.turned = off.ways, image.moments = off.moments;
-  image.box.rigid = m.spin + m.rigid * (spin + off.momentum);
+  image.drift = m.rigid * off.momentum;
+  image.box.rigid = m.spin + m.rigid * spin + image.drift;
   if (m.rigid == 0) image.moments(0) = 0; // the base is not moved by it
   image.box.modes = start + swung_ + product(rounding_, box.modes) +
                     product(by_turns_, image.moments) + product(by_hinges_, image.remainder);
@@ -316,6 +324,8 @@ HingeBounds ModalBounds::bounds_inside(const Box& box, const Image& image) const
   bounds.moment = rounded_up * (bounds.moment + image.remainder + model_->moment.cwiseAbs());
   bounds.force = rounded_up * (bounds.force + product(lever_, shaken) + model_->weight);
   bounds.way = image.way;
+  bounds.base = {rounded_up * sum_of_row(base_way_, 0, image.box.modes),
+                 rounded_up * sum_of_row(turn_, 0, image.box.modes), rounded_up * image.drift};
   return bounds;
 }
 

@@ -68,11 +68,19 @@
 
 namespace wingspread {
 
+/// A free base turns as the hinges do, by (S u)_0, and with the whole, by ∫ r.
+struct BaseBounds {
+  double way;   ///< |(S u)_0|, rad
+  double rate;  ///< |(S u̇)_0|, rad/s
+  double drift; ///< |r − H/I|, rad/s
+};
+
 /// The most that each hinge sees, 0 … n − 1.
 struct HingeBounds {
   HingeVector moment; ///< N·m
   HingeVector force;  ///< N
   HingeVector way;    ///< off rest, rad
+  BaseBounds base;
 };
 
 /// The matrices of (5) to (9), made once for a latched wing, and the bounds that follow from a state.
@@ -97,6 +105,8 @@ public:
 
   /// The largest rates of the hinges from that start on in the linear model, rad/s.
   [[nodiscard]] HingeVector rates(const ModeVector& start) const;
+  /// (S u)_0: what hinges at these angles have turned a free base by, since they were at rest, rad.
+  [[nodiscard]] double turn_of_base(const double* angles) const;
   /// Moment, N·m, and force, N, of hinge i while |w| stays below these: parts of what `bound` returns.
   [[nodiscard]] double linear_moment(int i, const ModeVector& modes) const;
   [[nodiscard]] double linear_force(int i, const ModeVector& modes) const;
@@ -138,6 +148,7 @@ private:
     BodyVector turned, spin;    ///< by how much bodies have turned since rest, rad; |ω|
     BodyVector moments;         ///< n
     BodyVector added;           ///< what (6) adds to the modes
+    double drift;               ///< |r − H/I| by (4)
   };
 
   explicit ModalBounds(const RestModel& model) : model_(&model) {}
@@ -165,6 +176,7 @@ private:
   Matrix rows_; ///< P of a real W, with columns v of a real mode, v and v' of a pair v ± iv'
   Matrix way_, rate_of_;                    ///< |W_u|, |W_v|, pairs counted twice
   Matrix turn_, swing_;                     ///< |S W_v|, |S W_v Λ|, likewise
+  Matrix base_way_;                         ///< the first row of |S W_u|, likewise
   Matrix rounding_, by_turns_, by_hinges_;  ///< of (5), divided by α
   Matrix swing_by_turns_, swing_by_hinges_; ///< of (6)
   Matrix moment_of_, force_x_, force_y_;    ///< of (8)

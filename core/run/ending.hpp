@@ -66,7 +66,7 @@ public:
     watch_latches();
     if (!(run_.step.t < T(run_.how.t_end))) return true;
     if (goal.first_latch_only && diary_.any_latch()) return true;
-    if (goal.to_t_end) {
+    if (goes_to_t_end()) {
       note_stall();
       return false;
     }
@@ -76,7 +76,7 @@ public:
     if (latches_left() && !prove_stall()) return false;
     if (!latches_stay()) return false;
     if (!wants_peaks()) return true;
-    peaks_are_proven_ = prove_peaks_final();
+    peaks_are_proven_ = prove_peaks_final(watches_base());
     return peaks_are_proven_;
   }
 
@@ -84,7 +84,7 @@ public:
   /// be evaluated.
   [[nodiscard]] bool ends_at_latch() const {
     if (wants_peaks() || may_open() || !diary_.any_latch()) return false;
-    return run_.goal.first_latch_only || (!latches_left() && !run_.goal.to_t_end);
+    return run_.goal.first_latch_only || (!latches_left() && !goes_to_t_end());
   }
 
   /// @pre ends_here()
@@ -92,7 +92,7 @@ public:
     End end;
     const bool is_cut_short = run_.goal.first_latch_only && diary_.any_latch();
     // when motion ended tells more than when its end was certain
-    if (run_.goal.to_t_end && is_stuck()) stall_.reset();
+    if (goes_to_t_end() && is_stuck()) stall_.reset();
     if (!latches_left())
       end.status = diary_.any_latch() ? Status::deployed : Status::timed_out;
     else if (!is_cut_short && (holds_a_latch() || prove_stall()))
@@ -100,7 +100,7 @@ public:
     if (!wants_peaks()) return end;
     end.peaks_final = peaks_are_proven_ || is_stuck() ||
                       ((latches_left() ? prove_stall() : diary_.any_latch()) && latches_stay() &&
-                       prove_peaks_final());
+                       prove_peaks_final(false)); // the base's are those up to t_end
     return end;
   }
 
@@ -117,7 +117,15 @@ private:
   [[nodiscard]] bool latches_left() const { return events_.latches_left() > 0; }
   [[nodiscard]] bool wants_peaks() const {
     return run_.goal.peak_moment || run_.goal.peak_force ||
-           (run_.goal.hold_moment && events_.releases().held() > 0);
+           (run_.goal.hold_moment && events_.releases().held() > 0) || watches_base();
+  }
+  /// Whether peaks of a free base's motion are asked for.
+  [[nodiscard]] bool watches_base() const {
+    return run_.goal.base_motion && AnySystem::base_motion == BaseMotion::free;
+  }
+  /// A base turns on where no hinge moves, and only the modes of a latched wing bound how it turns.
+  [[nodiscard]] bool goes_to_t_end() const {
+    return run_.goal.to_t_end || (watches_base() && (latches_left() || is_stuck()));
   }
 
   [[nodiscard]] bool is_stuck() const {
@@ -169,7 +177,7 @@ private:
 
   /// Whether a proof may end the run before its next event; in a run to t_end, whether it may say why the run stalls.
   [[nodiscard]] bool seeks_proof() const {
-    if (run_.goal.to_t_end) return latches_left() && !stall_;
+    if (goes_to_t_end()) return latches_left() && !stall_;
     return latches_left() || (diary_.any_latch() && (wants_peaks() || may_open()));
   }
   [[nodiscard]] SoughtProof sought() const {
@@ -197,13 +205,15 @@ private:
   }
 
   /// Proves that no peak will rise. @pre no hinge will latch any more
-  [[nodiscard]] bool prove_peaks_final() {
+  /// @param base whether to prove it of a free base's motion too
+  [[nodiscard]] bool prove_peaks_final(bool base) {
     const Goal& goal = run_.goal;
     // of a stalled run overtravel is reported up to the run's end only: it need not be final
     const bool tells_overtravel = goal.overtravel && !latches_left();
     const SeenPeaks<T> seen{goal.peak_moment ? &peaks_.moments() : nullptr,
                             goal.peak_force ? &peaks_.forces() : nullptr,
-                            tells_overtravel ? &peaks_.overtravel() : nullptr};
+                            tells_overtravel ? &peaks_.overtravel() : nullptr,
+                            base ? &peaks_.base() : nullptr};
     return final_peaks_.prove(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end), seen,
                               !latches_left());
   }

@@ -235,7 +235,8 @@ public:
   /// Lets `auto` choose the method for what follows. @return whether the method changes
   [[nodiscard]] bool choose_method() {
     const double h = static_cast<double>(run_.step.h);
-    const double quick = choice_.may_leave(h) ? quickness(run_.system, run_.step) : 0;
+    const double quick =
+        choice_.may_leave(h) ? quickness(run_.system, run_.step, T(tolerance().atol)) : 0;
     const bool changes = choice_.after_step(h, static_cast<double>(run_.step.t),
                                             run_.system.work().evaluations, quick);
     if (changes) {

@@ -214,7 +214,7 @@ Goal goal_of(const Outputs& outputs) {
   goal.hold_moment = outputs.contains(OutputFamily::hold_moment);
   goal.final_angle = outputs.contains(OutputFamily::final_angle);
   goal.audit = goal.end_state = false;
-  goal.to_t_end = outputs.contains(OutputFamily::base_motion);
+  goal.base_motion = outputs.contains(OutputFamily::base_motion);
   goal.mode_frequencies = outputs.contains(OutputFamily::frequency);
   return goal;
 }

@@ -30,7 +30,7 @@ enum class OutputFamily {
   rate_at,
   overtravel,
   peaks_final,
-  base_motion, ///< of a free base; not a default, because runs then go to t_end
+  base_motion, ///< of a free base; not a default: runs then last longer
   frequency,   ///< of the deployed wing's modes; not a default, because each costs a decomposition
   hold_moment, ///< of hinges that are held
   captures,    ///< of latches that may miss or let go
@@ -97,7 +97,7 @@ struct OutputColumn {
 /// other hinges' latching. A hinge has no rate_at its own latching: that is its latch_rate.
 [[nodiscard]] std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outputs);
 
-/// The goal of a run that has these outputs. Without peaks a run ends at the last latch, with base_motion at t_end.
+/// The goal of a run that has these outputs. Without peaks a run ends at the last latch.
 [[nodiscard]] Goal goal_of(const Outputs& outputs);
 
 /// The number; NaN if it is not finite.

@@ -81,7 +81,7 @@ public:
       halves(*large);
     integration(campaign.integration);
     Goal& goal = campaign.goal;
-    for (bool* flag : {&goal.peak_moment, &goal.peak_force, &goal.overtravel, &goal.to_t_end})
+    for (bool* flag : {&goal.peak_moment, &goal.peak_force, &goal.overtravel, &goal.base_motion})
       whole(*flag);
   }
 

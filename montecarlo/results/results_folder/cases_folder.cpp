@@ -68,14 +68,7 @@ Campaign chosen_case(const Campaign& campaign, const std::string& name) {
 CasesFolder::CasesFolder(std::filesystem::path folder, const Campaign& campaign,
                          const std::optional<Shard>& shard, bool resume)
     : stored_{std::move(folder), campaign, stamp_of(campaign, shard)} {
-  constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
-  if (!resume)
-    refuse_used_folder(stored_.folder, expected);
-  else if (!is_new_folder(stored_.folder))
-    // Throws for a folder without a campaign, before a lock file is made in it.
-    (void)read_stored_campaign(stored_.folder);
-  lock_.emplace(stored_.folder);
-  if (!resume) refuse_used_folder(stored_.folder, expected);
+  lock_campaign_folder(lock_, stored_.folder, resume);
   const std::filesystem::path file = stored_.folder / campaign_file;
   if (!is_new_folder(stored_.folder))
     refuse_other_campaign(read_stored_campaign(stored_.folder), stored_.campaign, stored_.stamp);

@@ -142,25 +142,30 @@ void refuse_used_folder(const std::filesystem::path& folder, const char* expecte
       {{folder.string(), "", is_folder ? "a folder with files in it" : "a file", expected}});
 }
 
+void lock_campaign_folder(std::optional<FolderLock>& lock, const std::filesystem::path& folder,
+                          bool resume) {
+  const auto refuse = [&] {
+    refuse_used_folder(folder, "a new or an empty folder (--resume continues a campaign)");
+  };
+  if (!resume)
+    refuse();
+  else if (!is_new_folder(folder))
+    (void)read_stored_campaign(
+        folder); // throws for a folder without one, before a lock file is made in it
+  lock.emplace(folder);
+  if (!resume) refuse(); // it may have changed before the lock
+}
+
 FolderWriter::FolderWriter(std::filesystem::path folder, const RunPlan& plan,
                            const std::optional<Shard>& shard, bool resume)
     : stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)},
       rows_(stored_.folder / runs_file, plan.names()) {
   refuse_stopping_shard(stored_.campaign, shard);
-  constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
-  if (!resume)
-    refuse_used_folder(stored_.folder, expected);
-  else if (!is_new_folder(stored_.folder))
-    // Throws for a folder without a campaign, before a lock file is made in it.
-    (void)read_stored_campaign(stored_.folder);
-  lock_.emplace(stored_.folder);
-  const bool fresh = is_new_folder(stored_.folder);
-  if (!resume) refuse_used_folder(stored_.folder, expected);
-  if (!fresh) {
-    go_on(plan);
-  } else {
+  lock_campaign_folder(lock_, stored_.folder, resume);
+  if (is_new_folder(stored_.folder))
     write_file(stored_.folder / campaign_file, campaign_text(stored_.campaign, stored_.stamp));
-  }
+  else
+    go_on(plan);
   rows_.open(plan.names());
 }
 

@@ -59,6 +59,11 @@ private:
 /// @throws SpecError with each difference
 void refuse_other_campaign(const StoredCampaign& there, const Campaign& ours, const Stamp& stamp);
 
+/// Locks the folder of a campaign: a new one or, with `resume`, one that has a campaign.
+/// @throws SpecError for any other folder, with nothing written; MachineError as FolderLock
+void lock_campaign_folder(std::optional<FolderLock>& lock, const std::filesystem::path& folder,
+                          bool resume);
+
 /// @throws SpecError unless is_new_folder()
 void refuse_used_folder(const std::filesystem::path& folder, const char* expected);
 

@@ -94,14 +94,7 @@ StreamingFolder::StreamingFolder(std::filesystem::path folder, const RunPlan& pl
                                  const std::optional<Shard>& shard, bool resume)
     : plan_(&plan), stored_{std::move(folder), plan.campaign(), stamp_of(plan.campaign(), shard)} {
   refuse_without_rows(stored_.campaign);
-  constexpr const char* expected = "a new or an empty folder (--resume continues a campaign)";
-  if (!resume)
-    refuse_used_folder(stored_.folder, expected);
-  else if (!is_new_folder(stored_.folder))
-    // Throws for a folder without a campaign, before a lock file is made in it.
-    (void)read_stored_campaign(stored_.folder);
-  lock_.emplace(stored_.folder);
-  if (!resume) refuse_used_folder(stored_.folder, expected);
+  lock_campaign_folder(lock_, stored_.folder, resume);
   if (is_new_folder(stored_.folder)) return;
   const StoredCampaign there = read_stored_campaign(stored_.folder);
   refuse_other_campaign(there, stored_.campaign, stored_.stamp);

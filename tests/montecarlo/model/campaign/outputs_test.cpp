@@ -83,8 +83,8 @@ TEST_CASE("a free base has columns of its own, for which runs go to t_end") {
   scene.base.motion = BaseMotion::free;
   CHECK(column_names(scene, asked) ==
         std::vector<std::string>{"base.peak_angle", "base.peak_rate", "deployment_time"});
-  CHECK(goal_of(asked).to_t_end);
-  CHECK_FALSE(goal_of(default_outputs()).to_t_end);
+  CHECK(goal_of(asked).base_motion);
+  CHECK_FALSE(goal_of(default_outputs()).base_motion);
   Outcome outcome;
   outcome.status = Status::timed_out;
   const std::vector<OutputColumn> columns = output_columns(scene, asked);
@@ -126,7 +126,7 @@ TEST_CASE("a run goes no further than the outputs need") {
   CHECK_FALSE(latches.peak_moment);
   CHECK_FALSE(latches.peak_force);
   CHECK_FALSE(latches.audit);
-  CHECK_FALSE(latches.to_t_end);
+  CHECK_FALSE(latches.base_motion);
   CHECK(goal_of({OutputFamily::peak_moment}).peak_moment);
   CHECK_FALSE(goal_of({OutputFamily::peak_moment}).peak_force);
   CHECK(goal_of({OutputFamily::peak_force}).peak_force);
