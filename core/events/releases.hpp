@@ -71,6 +71,7 @@ public:
         schedule(i, due, step, record);
         if (!(due_[i] <= step.t)) continue;
         system_.touch(i, Contact::none);
+        system_.start_motor(i, step.t);
         system_.made_elsewhere().watches[i] = false;
         --held_;
         record.releases.push_back(hinge_event(system_.wing(), system_.layout(), step.x, step.t, i));

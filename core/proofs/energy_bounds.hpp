@@ -99,7 +99,8 @@ private:
     }
   }
 
-  /// Adds what dampers and loops may exert at the largest rates, and dissipating latches at the largest deflection too.
+  /// Adds what dampers, motors and loops may exert at the largest rates, and dissipating latches at the largest deflection
+  /// too.
   /// The energy of a loop bounds its torque, with a slack strand too: (K e)² ≤ 2 K E.
   template <class AnySystem>
   void add_real(const AnySystem& system, const RemainingEnergy<T>& remaining, const T& energy) {
@@ -113,6 +114,8 @@ private:
       const T deflection = T(abs(at_rest)) + remaining.furthest(i, energy);
       moment(i) = moment(i) + real.dissipation.strength * deflection * rate_(i);
     }
+    for (int i = 1; i < static_cast<int>(wing.motors.size()); ++i)
+      moment(i) = moment(i) + most_braking(wing.motors[i], system.work().motors[i], T(rate_(i)));
     for (const LoopTerms<T>& loop : wing.loops) {
       const T gear = largest_gear(loop);
       const T torque = sqrt(T(2) * loop.stiffness * energy) +

@@ -28,6 +28,9 @@
 /// the steepest slopes of its curves. Off its rest, P' = 0, the potential grows by at least ½ κ u²,
 /// and the moment is at most κ⁺ |u|: in (2) it has the stiffness κ⁺²/κ. A loop adds its own energy,
 /// never negative. Backlash, and a stop within reach, are beyond this proof.
+///
+/// A motor under a constant command is a constant drive, which counts in y*, and a part that takes energy: motor.hpp (2).
+/// While its command changes, and at an open hinge, a motor may bring energy in: there is no bound.
 #pragma once
 
 #include "core/proofs/apparent_load.hpp"
@@ -43,7 +46,7 @@ public:
   using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>; ///< 0 … n, as the bodies are numbered
 
   /// Finds what depends on the wing alone. Cost O(n) times the tree's depth.
-  /// @pre no hinge will latch any more
+  /// @pre no hinge will latch any more, and no motor's command will change
   template <class AnySystem> void prepare(const AnySystem& system) {
     const int n = system.layout().bodies;
     for (Numbers* v : {&stiffness_, &damping_, &steady_, &least_stiffness_, &at_rest_})
@@ -104,8 +107,9 @@ private:
   template <class AnySystem> void prepare(const AnySystem& system, int i) {
     using std::sqrt;
     const bool open = is_open(system, i);
-    const LinearLaw<T> law = linear_law(system.wing().hinges[i], !open);
+    const LinearLaw<T> law = with_motor(system, linear_law(system.wing().hinges[i], !open), i);
     const bool loaded = load_.moment(i) > T(0);
+    if (open && system.motor_runs(i)) bounded_ = false;
     damping_(i) = law.damping;
     if (!system.wing().real.empty()) return prepare_real(system, i, law, open);
     if (open || !(law.stiffness > T(0))) {
@@ -117,6 +121,13 @@ private:
     stiffness_(i) = law.stiffness;
     rest_[system.layout().angle(i)] = law.latched + law.drive / law.stiffness;
     add_load(i, law.stiffness);
+  }
+
+  /// The law with the constant drive of the hinge's motor.
+  template <class AnySystem>
+  [[nodiscard]] static LinearLaw<T> with_motor(const AnySystem& system, LinearLaw<T> law, int i) {
+    law.drive = law.drive + system.drive_of_motor(i);
+    return law;
   }
 
   /// Adds the load's moment on hinge i. @param kappa its stiffness
@@ -152,10 +163,12 @@ private:
     add_load(i, least);
   }
 
-  /// The potential of a real hinge whose latch, if it has one, has engaged, J.
+  /// The potential of a real hinge whose latch, if it has one, has engaged, with the drive of its motor, J.
   template <class AnySystem>
   [[nodiscard]] static T latched_potential(const AnySystem& system, const State<T>& x, int i) {
-    return hinge_potential(system, x, i) + smoothed_latch_energy(system, x, i);
+    const T way = x[system.layout().angle(i)] - system.wing().hinges[i].latched;
+    return (hinge_potential(system, x, i) + smoothed_latch_energy(system, x, i)) -
+           system.drive_of_motor(i) * way;
   }
 
   /// Whether a hinge touches a stop, or could with this energy.
@@ -192,7 +205,7 @@ private:
       // heuristic, for the rounding of P: too small a share could prove what is false by 1e-14 of P
       return (P - at_rest_(i)) + T(256 * epsilon_of<T>) * (abs(P) + abs(at_rest_(i)));
     }
-    const LinearLaw<T> law = linear_law(hinge, true);
+    const LinearLaw<T> law = with_motor(system, linear_law(hinge, true), i);
     const T u = x[at.angle(i)] - law.latched - law.drive / law.stiffness;
     return T(0.5) * law.stiffness * u * u;
   }

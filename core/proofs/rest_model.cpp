@@ -173,6 +173,7 @@ private:
       const double phi = m_.angles(i - 1);
       double& k = m_.stiffness(i - 1, i - 1);
       m_.moment(i - 1) = linear_moment(own, phi, 0.0), k = own.stiffness;
+      if (!work_.motors.empty()) m_.moment(i - 1) += motor_drive(wing_.motors[i], work_.motors[i]);
       if (wing_.real.empty()) continue;
       const RealHingeTerms<double>& real = wing_.real[i];
       m_.moment(i - 1) += curves_moment(real, phi);
@@ -209,6 +210,10 @@ private:
     for (int i = 1; i <= n_; ++i) {
       double& own = m_.damping(i - 1, i - 1);
       own = law(i).damping;
+      if (!work_.motors.empty()) {
+        m_.remainders[i - 1].motor = MotorAtRest(wing_.motors[i], work_.motors[i]);
+        own += m_.remainders[i - 1].motor.taken;
+      }
       if (wing_.real.empty() || !wing_.real[i].has_damper) continue;
       if (!damper_acts_at_rest(wing_.real[i], m_.angles(i - 1))) continue;
       RestModel::Remainder& left = m_.remainders[i - 1];

@@ -89,6 +89,7 @@ public:
             .holds = peaks_.holds().empty() ? nullptr : peaks_.holds().data(),
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
             .overtravel = peaks_.overtravel().data(),
+            .motor_energy = peaks_.motor_energy().empty() ? nullptr : peaks_.motor_energy().data(),
             .held_before = holds ? run_.held_before.data() : nullptr,
             .excess_before = holds ? events_.excess_before().data() : nullptr,
             .conserved = kept_,
@@ -102,10 +103,19 @@ public:
 
   /// For the lane to fill: refers to this run's storage.
   [[nodiscard]] LaneResult empty_lane_result() {
-    return {run_.step,        peaks_.force_before(),   peaks_.moments(),
-            peaks_.forces(),  peaks_.holds(),          peaks_.overtravel(),
-            *asked_.x1,       *asked_.dxdt1,           run_.system.made_elsewhere().forces,
-            run_.held_before, events_.excess_before(), run_.system.made_elsewhere().holding,
+    return {run_.step,
+            peaks_.force_before(),
+            peaks_.moments(),
+            peaks_.forces(),
+            peaks_.holds(),
+            peaks_.overtravel(),
+            peaks_.motor_energy(),
+            *asked_.x1,
+            *asked_.dxdt1,
+            run_.system.made_elsewhere().forces,
+            run_.held_before,
+            events_.excess_before(),
+            run_.system.made_elsewhere().holding,
             peaks_.base()};
   }
 
@@ -113,6 +123,7 @@ public:
   /// @param result empty_lane_result() of this run, filled by its lane
   void resume(const LaneResult& result) {
     run_.system.made_elsewhere().evaluations += result.evaluations;
+    run_.system.command(T(run_.step.t + result.h)); // the lane's last evaluation
     if (result.trial_steps > 0) {
       ending_.pass(stepping_.resume(result));
       run_.step.h = asked_.h = result.h;

@@ -5,6 +5,7 @@
 #include "core/peaks/base_peaks.hpp"
 #include "core/peaks/force_peaks.hpp"
 #include "core/peaks/moment_peaks.hpp"
+#include "core/peaks/motor_energy.hpp"
 #include "core/peaks/overtravel.hpp"
 #include "core/run/underway.hpp"
 
@@ -35,6 +36,10 @@ public:
   [[nodiscard]] std::vector<T>& overtravel() { return overtravel_; }
   [[nodiscard]] const std::vector<T>& overtravel() const { return overtravel_; }
 
+  /// What motors have given, 0 … n, J; empty where no hinge has one or it is not asked for.
+  [[nodiscard]] std::vector<T>& motor_energy() { return motor_energy_; }
+  [[nodiscard]] const std::vector<T>& motor_energy() const { return motor_energy_; }
+
   /// The largest excursions of a free base.
   [[nodiscard]] const BaseExcursion<T>& base() const { return base_; }
   [[nodiscard]] BaseExcursion<T>& base() { return base_; }
@@ -44,6 +49,7 @@ public:
     base_.start(run_.at, run_.step.x);
     moments_.assign(run_.at.bodies + 1, {});
     overtravel_.assign(run_.at.bodies + 1, T(0));
+    motor_energy_.assign(run_.goal.motor_energy ? run_.system.wing().motors.size() : 0, T(0));
     holds_.assign(watches_holds() ? run_.at.bodies + 1 : 0, {});
     if (run_.goal.peak_force) forces_.start(run_.system, worth_a_step());
   }
@@ -71,6 +77,7 @@ public:
     if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // nothing else changes
     for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
       raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
+    add_motor_energy(motor_energy_, run_.system, run_.step);
     if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
     return next_doubt();
   }
@@ -163,6 +170,7 @@ private:
   std::vector<PeakOf<T>> moments_; ///< 1 … n
   std::vector<PeakOf<T>> holds_;   ///< 1 … n
   std::vector<T> overtravel_;      ///< 1 … n
+  std::vector<T> motor_energy_;    ///< 0 … n
   BaseExcursion<T> base_;
   ForcePeaks<T, AnySystem> forces_;
   int hinge_ = 0;                          ///< the hinge searched for moment peaks

@@ -134,6 +134,15 @@ void inspect(const Latch& latch, const Owner& owner, Inspector& check) {
                 "0 beside latch.dissipation");
 }
 
+void inspect(const Motor& motor, const Owner& owner, Inspector& check) {
+  if (motor.table)
+    check.require(true, motor.scale, owner, "motor.rate.scale", "");
+  else
+    check.require(true, motor.rate, owner, "motor.rate", "");
+  check.require(motor.gain >= 0, motor.gain, owner, "motor.gain", ">= 0");
+  check.require(motor.torque_limit >= 0, motor.torque_limit, owner, "motor.torque_limit", ">= 0");
+}
+
 void inspect(const Joint& joint, const Owner& owner, Inspector& check) {
   check.require(joint.stiffness > 0, joint.stiffness, owner, "joint.stiffness", "> 0");
   check.require(joint.damping >= 0, joint.damping, owner, "joint.damping", ">= 0");
@@ -164,6 +173,7 @@ void inspect(const Hinge& hinge, Inspector& check) {
   if (hinge.far_stop) inspect_far(*hinge.far_stop, owner, check);
   if (hinge.latch) inspect(*hinge.latch, owner, check);
   if (hinge.release) inspect(*hinge.release, hinge, owner, check);
+  if (hinge.motor) inspect(*hinge.motor, owner, check);
 }
 
 /// @pre the body has a plate

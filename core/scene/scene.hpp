@@ -149,6 +149,18 @@ struct Release {
   double fails = 0; ///< 1: the hold never lets go; else 0
 };
 
+/// A motor: from its hinge's release on it drives the travel x at a commanded rate r by clamp(c (r − ẋ), −T, T).
+struct Motor {
+  double rate = 0; ///< r, rad/s; positive deploys
+  /// r against the time since release, rad/s against s, in place of `rate`; and the table as given.
+  std::shared_ptr<const Curve> table{};
+  std::vector<double> time{}, rates{};
+  Interpolation interpolation = Interpolation::monotone;
+  double scale = 1;        ///< factor of the table
+  double gain = 0;         ///< c, N·m·s/rad, ≥ 0
+  double torque_limit = 0; ///< T, N·m, ≥ 0
+};
+
 /// An elastic joint: −k (φ − φ_0) − d φ̇ from the start.
 struct Joint {
   double stiffness = 0; ///< k, N·m/rad, > 0
@@ -175,6 +187,7 @@ struct Hinge {
   std::optional<Stop> far_stop{};   ///< beyond the latched angle
   std::optional<Latch> latch;       ///< none: the hinge never latches
   std::optional<Release> release{}; ///< none: free from the start
+  std::optional<Motor> motor{};
   /// In place of all laws above. The hinge then starts and rests at φ_0 = `stowed` = `latched`.
   std::optional<Joint> joint{};
 };

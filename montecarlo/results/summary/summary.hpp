@@ -105,6 +105,13 @@ struct PeaksCount {
   long proven = 0, cut = 0, unknown = 0;
 };
 
+/// Where a hinge stopped in the stalled runs in which it did not latch: its final_angle, rad.
+struct StoppedHinge {
+  std::string hinge;
+  long runs = 0;
+  double median = undefined, least = undefined, largest = undefined;
+};
+
 struct Summary {
   long runs = 0;
   double confidence = 0; ///< of all bounds, two-sided
@@ -120,6 +127,7 @@ struct Summary {
   std::vector<Verdict> requirements{};
   std::optional<NominalRun> nominal{};   ///< its outputs are in `outputs`
   std::optional<Accuracy> accuracy{};    ///< of the integration; nothing if not measured
+  std::vector<StoppedHinge> stopped{};   ///< in the order of the columns; only with final_angle
   std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
   std::vector<LatchJump> latch_jumps{};  ///< of the nominal run
   std::optional<PeaksCount> peaks{};     ///< nothing if not recorded
