@@ -3,7 +3,8 @@
 /// motor its torque limit.
 ///
 /// Estimates of extrapolation, of implicit methods and of Fehlberg's formula expect a smooth right-hand side: they may
-/// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter.
+/// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter. So
+/// do all methods' steps at the limits of motors, where loads have their peaks.
 ///
 /// Let the law's change across the kink be jump + turn·abs(u − b) + bend·(u − b)². A step that meets the kink at the
 /// time τ from its nearer end differs from one under the smooth law, by the impulse of that change:
@@ -23,6 +24,7 @@ namespace wingspread {
 /// Tolerance of a step, by which kinks matter.
 struct KinkLimit {
   double rtol, atol;
+  bool motors_only = false; ///< of methods that do not need smooth laws
 };
 
 /// A function u of the state and its value b at a kink.
@@ -86,13 +88,14 @@ public:
   };
 
   [[nodiscard]] std::optional<Found> first() {
-    const int hinges = static_cast<int>(system_.wing().real.size());
+    const int hinges = limit_.motors_only ? 0 : static_cast<int>(system_.wing().real.size());
     for (int i = 1; i < hinges; ++i)
       if (!system_.sticks(i)) pass_hinge(i);
     const int motors = static_cast<int>(system_.wing().motors.size());
     for (int i = 1; i < motors; ++i)
       if (!system_.sticks(i) && system_.motor_runs(i)) pass_motor(i);
-    for (std::size_t l = 0; l < system_.wing().loops.size(); ++l) pass_loop(static_cast<int>(l));
+    const int loops = limit_.motors_only ? 0 : static_cast<int>(system_.wing().loops.size());
+    for (int l = 0; l < loops; ++l) pass_loop(l);
     return first_;
   }
 

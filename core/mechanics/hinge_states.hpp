@@ -61,6 +61,26 @@ public:
       if (contact == Contact::held && !wing_.motors.empty()) work_.motors[i] = idle_motor<T>();
     update_law(i);
   }
+  /// Sets whether the elastic hold of hinge i restrains it.
+  void restrain(int i, bool restrained) {
+    work_.restrained[i] = restrained;
+    if (restrained && !wing_.motors.empty()) work_.motors[i] = idle_motor<T>();
+    update_law(i);
+  }
+  [[nodiscard]] bool is_restrained(int i) const { return work_.restrained[i] != 0; }
+  /// Moment of the elastic hold of hinge i at x, N·m. @pre is_restrained(i)
+  [[nodiscard]] T elastic_hold(const State<T>& x, int i) const {
+    const ReleaseTerms<T>& hold = wing_.releases[i];
+    const T way = x[layout_.angle(i)] - wing_.hinges[i].stowed;
+    return -fused(hold.stiffness, way, hold.damping * x[layout_.rate(i)]);
+  }
+  /// Its energy, J; 0 for a hinge that none restrains.
+  [[nodiscard]] T hold_energy(const State<T>& x, int i) const {
+    if (!is_restrained(i)) return T(0);
+    const T way = x[layout_.angle(i)] - wing_.hinges[i].stowed;
+    return T(0.5) * wing_.releases[i].stiffness * way * way;
+  }
+
   /// Starts the motor of hinge i, which is released at t.
   void start_motor(int i, const T& t) {
     if (!wing_.motors.empty() && wing_.motors[i].present)
@@ -163,6 +183,15 @@ protected:
       if (!wing_.real.empty())
         work_.modes[i] = mode_of(wing_, i, work_.above[i], contact, latch_acts(i));
     work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction, backlash_side(i));
+    if (is_restrained(i)) add_elastic_hold(i);
+  }
+
+  /// −k (φ − φ_stowed) − d φ̇ about the latched angle, as a LinearLaw has it.
+  void add_elastic_hold(int i) {
+    LinearLaw<T>& law = work_.laws[i];
+    const ReleaseTerms<T>& hold = wing_.releases[i];
+    law.drive = fused(hold.stiffness, wing_.hinges[i].stowed - wing_.hinges[i].latched, law.drive);
+    law.stiffness = law.stiffness + hold.stiffness, law.damping = law.damping + hold.damping;
   }
 
   [[nodiscard]] std::optional<T> backlash_side(int i) const {

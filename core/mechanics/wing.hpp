@@ -46,6 +46,8 @@ template <class T> struct ReleaseTerms {
   T angle;   ///< of Event::passed: of that hinge, rad
   T delay;   ///< s
   T fails;   ///< 1: never
+  bool is_elastic;
+  T stiffness, damping; ///< of an elastic hold, N·m/rad and N·m·s/rad
 };
 
 template <class T> struct Wing {
@@ -175,8 +177,18 @@ template <class T> void set_release(Wing<T>& wing, const Scene& scene, int i) {
   ReleaseTerms<T>& terms = wing.releases[i];
   terms = {};
   const std::optional<Release>& release = scene.hinges[wing.hinge_of[i]].release;
+  const Hold hold = scene.hinges[wing.hinge_of[i]].hold.value_or(Hold{});
   if (!release) return;
-  terms = {true, release->event, 0, T(release->time), T(0), T(release->delay), T(release->fails)};
+  terms = {true,
+           release->event,
+           0,
+           T(release->time),
+           T(0),
+           T(release->delay),
+           T(release->fails),
+           scene.hinges[wing.hinge_of[i]].hold.has_value(),
+           T(hold.stiffness),
+           T(hold.damping)};
   if (release->event == Release::Event::time) return;
   const auto other = std::find(wing.hinge_of.begin() + 1, wing.hinge_of.end(), release->after);
   terms.after = static_cast<int>(other - wing.hinge_of.begin());

@@ -52,6 +52,7 @@ template <class T> struct Workspace {
   std::vector<Vec2<T>> velocities; ///< 0 … n: of the hinges' points, m/s
   std::vector<char> engaged;       ///< 1 … n: has passed its latched angle
   std::vector<Contact> contact;    ///< 1 … n
+  std::vector<char> restrained;    ///< 1 … n: the hinge's hold is elastic and has not let go
   std::vector<char> watches;       ///< 1 … n: the hinge's hold waits for another hinge's angle
   std::vector<T>
       locks; ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, 2 where it is held, else 0
@@ -81,7 +82,7 @@ template <class T> struct Workspace {
     engaged.assign(n + 1, false);
     contact.assign(n + 1, Contact::none);
     holding.assign(n + 1, T(0));
-    watches.assign(n + 1, false);
+    watches.assign(n + 1, false), restrained.assign(n + 1, false);
     motors.assign(motors.size(), idle_motor<T>());
     if constexpr (!is_one_number<T>) locks.assign(n + 1, T(0));
     stuck = 0, evaluations = 0;

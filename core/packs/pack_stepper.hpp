@@ -226,7 +226,7 @@ private:
       free_.restore_momenta(system_, step_);
       if (work_.stuck > 0) holds_.keep_at_end(system_, step_);
     }
-    if (shape_.motor_energy) asks = asks || (accepted && motors_may_pass_limit());
+    if (!wing_.motors.empty()) asks = asks || (accepted && motors_may_pass_limit());
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
     return asks || peaks_.search_step(system_, step_, accepted && !asks, holds_.before());
@@ -270,14 +270,16 @@ private:
     assign_where(accepted, history_.memory, after);
   }
 
-  /// Finds the work of every motor over the step. @return lanes in which the run must: add_motor_energy
+  /// Finds the work of every motor over the step. @return lanes in which a motor may reach or leave its limit: a kink, at
+  /// which the run's step may end
   [[nodiscard]] Mask motors_may_pass_limit() {
     Mask found{};
     for (int i = 1; i <= at_.bodies; ++i) {
       const MotorOverStep<P> motor(system_, step_, i);
-      const Mask runs = work_.motors[i].runs > P(0.0) && events_.waits(i);
+      const Mask runs = work_.motors[i].runs > P(0.0);
       found = found || (runs && motor.may_pass_limit());
-      motor_work_[i] = select(runs, motor.work(), P(0.0));
+      if (shape_.motor_energy)
+        motor_work_[i] = select(runs && events_.waits(i), motor.work(), P(0.0));
     }
     return found;
   }

@@ -128,10 +128,9 @@ private:
 };
 
 /// Raises `peak` to the largest |moment| that the dense output has over the step: samples the step, and refines
-/// the largest sample.
-template <class T, class AnySystem>
-void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
-                          const Step<T>& step) {
+/// the largest sample. @param moment moment(s), as MomentOverStep has it
+template <class T, class Moment>
+void raise_by_interpolant(PeakOf<T>& peak, const Moment& moment, const Step<T>& step) {
   using std::abs;
   std::array<T, 9> samples;
   std::size_t best = 0;

@@ -105,7 +105,7 @@ private:
   [[nodiscard]] static bool any_held(const AnySystem& system) {
     if (system.wing().releases.empty()) return false;
     for (int i = 1; i <= system.layout().bodies; ++i)
-      if (system.is_held(i)) return true;
+      if (system.is_held(i) || system.is_restrained(i)) return true;
     return false;
   }
 

@@ -72,7 +72,8 @@ public:
 
   /// Whether a lane of an engine for this method can go on from here.
   [[nodiscard]] bool fits_lane(Method method) const {
-    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies;
+    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies &&
+           !peaks_.watches_elastic_hold();
   }
 
   /// @pre fits_lane(the engine's method)

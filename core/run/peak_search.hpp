@@ -40,6 +40,13 @@ public:
   [[nodiscard]] std::vector<T>& motor_energy() { return motor_energy_; }
   [[nodiscard]] const std::vector<T>& motor_energy() const { return motor_energy_; }
 
+  /// Whether an elastic hold holds a hinge, whose load lanes do not watch.
+  [[nodiscard]] bool watches_elastic_hold() const {
+    for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
+      if (run_.system.is_restrained(i)) return true;
+    return false;
+  }
+
   /// The largest excursions of a free base.
   [[nodiscard]] const BaseExcursion<T>& base() const { return base_; }
   [[nodiscard]] BaseExcursion<T>& base() { return base_; }
@@ -61,8 +68,8 @@ public:
     for (int i = 1; run_.goal.peak_moment && i <= run_.at.bodies; ++i)
       moments_[i].raise(T(abs(run_.system.moment(step.x, i))), step.t);
     for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
-      if (run_.system.is_held(i))
-        holds_[i].raise(T(abs(run_.system.holding_friction(step.x, i))), step.t);
+      if (run_.system.is_held(i) || run_.system.is_restrained(i))
+        holds_[i].raise(T(abs(load_of_hold(step.x, i))), step.t);
     if (run_.goal.peak_force) forces_.sample(run_.system, step.t);
   }
 
@@ -137,6 +144,7 @@ private:
 
   /// What hold hold_ bears: the moment that locks its hinge, less the hinge's own.
   [[nodiscard]] std::optional<T> doubtful_hold() {
+    if (run_.system.is_restrained(hold_)) return doubtful_elastic_hold();
     if (!run_.system.is_held(hold_)) return std::nullopt;
     const Step<T>& step = run_.step;
     const HeldMoments<T> ends{run_.held_before[hold_] - run_.system.sliding_moment(step.x, hold_),
@@ -152,9 +160,42 @@ private:
     return borne_at_;
   }
 
+  /// What the hold of hinge i bears at x. @pre the last evaluation was there
+  [[nodiscard]] T load_of_hold(const State<T>& x, int i) const {
+    return run_.system.is_restrained(i) ? run_.system.elastic_hold(x, i)
+                                        : run_.system.holding_friction(x, i);
+  }
+
+  /// The same of an elastic hold: linear in angle and rate, so that its hull dismisses a step.
+  [[nodiscard]] std::optional<T> doubtful_elastic_hold() {
+    using std::abs;
+    const Step<T>& step = run_.step;
+    const ReleaseTerms<T>& hold = run_.system.wing().releases[hold_];
+    const Quintic<T> angle = step.coordinate(run_.at.angle(hold_), run_.at.freedoms());
+    const Quintic<T> rate = derivative(angle, step.h);
+    Quintic<T> load;
+    for (int k = 0; k < 6; ++k)
+      load[k] = fused(hold.stiffness, angle[k] - run_.system.wing().hinges[hold_].stowed,
+                      hold.damping * rate[k]);
+    PeakOf<T>& peak = holds_[hold_];
+    if (!(bound(load) > peak.value)) return std::nullopt;
+    PeakOf<T> candidate = peak;
+    raise_by_interpolant(
+        candidate, [&](const T& s) { return value(load, s); }, step);
+    peak.raise(T(abs(load[0])), step.t), peak.raise(T(abs(load[5])), step.t + step.h);
+    if (!(candidate.value > peak.value)) return std::nullopt;
+    const T s = (candidate.time - step.t) / step.h;
+    if (s < T(next_to_an_end) || s > T(1 - next_to_an_end)) {
+      peak = candidate;
+      return std::nullopt;
+    }
+    borne_at_ = s;
+    return borne_at_;
+  }
+
   void confirm_hold() {
     using std::abs;
-    holds_[hold_].raise(T(abs(run_.system.holding_friction(run_.x, hold_))),
+    holds_[hold_].raise(T(abs(load_of_hold(run_.x, hold_))),
                         run_.step.t + *borne_at_ * run_.step.h);
     borne_at_.reset();
   }

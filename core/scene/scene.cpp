@@ -134,6 +134,13 @@ void inspect(const Latch& latch, const Owner& owner, Inspector& check) {
                 "0 beside latch.dissipation");
 }
 
+void inspect(const Hold& hold, const Hinge& hinge, const Owner& owner, Inspector& check) {
+  check.require(hold.stiffness > 0, hold.stiffness, owner, "hold.stiffness", "> 0");
+  check.require(hold.damping >= 0, hold.damping, owner, "hold.damping", ">= 0");
+  check.require(hinge.release.has_value(), 0, owner, "release",
+                "the release of a hinge with a hold");
+}
+
 void inspect(const Motor& motor, const Owner& owner, Inspector& check) {
   if (motor.table)
     check.require(true, motor.scale, owner, "motor.rate.scale", "");
@@ -173,6 +180,7 @@ void inspect(const Hinge& hinge, Inspector& check) {
   if (hinge.far_stop) inspect_far(*hinge.far_stop, owner, check);
   if (hinge.latch) inspect(*hinge.latch, owner, check);
   if (hinge.release) inspect(*hinge.release, hinge, owner, check);
+  if (hinge.hold) inspect(*hinge.hold, hinge, owner, check);
   if (hinge.motor) inspect(*hinge.motor, owner, check);
 }
 

@@ -122,6 +122,12 @@ private:
   [[nodiscard]] double beyond(const State& y, int i) const { return wing_.overtravel(i, y[i]); }
   [[nodiscard]] double along(const State& y, int i) const { return wing_.sense(i) * y[half() + i]; }
 
+  [[nodiscard]] double elastic_hold(const State& y, int i) const {
+    const Hinge& hinge = scene_.hinges[i];
+    if (!held_[i] || !hinge.hold) return 0;
+    return -hinge.hold->stiffness * (y[i] - hinge.stowed) - hinge.hold->damping * y[half() + i];
+  }
+
   // ---- motors, along the travel
 
   /// The command less the rate.
@@ -164,7 +170,8 @@ private:
   /// The hinges' own moments, those of stops at the far side included.
   [[nodiscard]] Vector<double> own_moments(const State& y, double t) const {
     Vector<double> moments = wing_.moments(state(y));
-    for (int i = 0; i < size(); ++i) moments(i) += wing_.sense(i) * motor_torque(y, t, i);
+    for (int i = 0; i < size(); ++i)
+      moments(i) += wing_.sense(i) * motor_torque(y, t, i) + elastic_hold(y, i);
     for (int i = 0; i < size(); ++i) {
       const std::optional<Stop>& stop = scene_.hinges[i].far_stop;
       const double depth = stop ? beyond(y, i) - stop->gap : 0;
@@ -182,8 +189,9 @@ private:
     Vector<double> moments = own_moments(y, t);
     std::vector<int> held;
     for (int i = 0; i < size(); ++i)
-      if (held_[i]) held.push_back(i);
+      if (held_[i] && !scene_.hinges[i].hold) held.push_back(i);
     if (holds) *holds = Vector<double>::Zero(size());
+    for (int i = 0; holds && i < size(); ++i) (*holds)(i) = elastic_hold(y, i);
     if (held.empty()) return wing_.respond(now, moments);
     const Vector<double> free = wing_.respond(now, moments).hinge_accelerations;
     const auto count = static_cast<Eigen::Index>(held.size());

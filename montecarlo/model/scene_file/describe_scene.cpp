@@ -142,7 +142,10 @@ std::string describe_release(const Scene& scene, const Hinge& hinge) {
     return fmt::format("{} s", release.time);
   };
   const std::string delay = release.delay == 0 ? "" : fmt::format("{} s after ", release.delay);
-  return fmt::format("; held until {}{}{}", delay, event(),
+  const std::string spring = hinge.hold ? fmt::format(" by {} N·m/rad, {} N·m·s/rad",
+                                                      hinge.hold->stiffness, hinge.hold->damping)
+                                        : "";
+  return fmt::format("; held{} until {}{}{}", spring, delay, event(),
                      release.fails == 0 ? "" : ", but never released (fails)");
 }
 

@@ -73,6 +73,7 @@ inline bool has_release_time(const Hinge& hinge) { return has_event(hinge, Relea
 inline bool has_release_angle(const Hinge& hinge) {
   return has_event(hinge, Release::Event::passed);
 }
+inline bool has_hold(const Hinge& hinge) { return hinge.hold.has_value(); }
 inline bool has_motor(const Hinge& hinge) { return hinge.motor.has_value(); }
 inline bool has_motor_rate(const Hinge& hinge) { return hinge.motor && !hinge.motor->table; }
 inline bool has_motor_table(const Hinge& hinge) { return hinge.motor && hinge.motor->table; }
@@ -117,6 +118,7 @@ inline constexpr std::string_view needs_release = "a hinge that has a release";
 inline constexpr std::string_view needs_release_time = "a hinge with a release at a time";
 inline constexpr std::string_view needs_release_angle =
     "a hinge with a release after another hinge's angle";
+inline constexpr std::string_view needs_hold = "a hinge that has an elastic hold";
 inline constexpr std::string_view needs_motor = "a hinge that has a motor";
 inline constexpr std::string_view needs_motor_rate =
     "a hinge whose motor has one rate (rate.scale disperses a table)";
@@ -192,6 +194,8 @@ inline constexpr std::array hinge_fields{
     Field<Hinge>{"release.event.angle", "rad", [](auto& h) -> auto& { return h.release->angle; }, has_release_angle, needs_release_angle},
     Field<Hinge>{"release.delay", "s", [](auto& h) -> auto& { return h.release->delay; }, has_release, needs_release},
     Field<Hinge>{"release.fails", "", [](auto& h) -> auto& { return h.release->fails; }, has_release, needs_release},
+    Field<Hinge>{"hold.stiffness", "N·m/rad", [](auto& h) -> auto& { return h.hold->stiffness; }, has_hold, needs_hold},
+    Field<Hinge>{"hold.damping", "N·m·s/rad", [](auto& h) -> auto& { return h.hold->damping; }, has_hold, needs_hold},
     Field<Hinge>{"motor.rate", "rad/s", [](auto& h) -> auto& { return h.motor->rate; }, has_motor_rate, needs_motor_rate},
     Field<Hinge>{"motor.rate.scale", "", [](auto& h) -> auto& { return h.motor->scale; }, has_motor_table, needs_motor_table},
     Field<Hinge>{"motor.gain", "N·m·s/rad", [](auto& h) -> auto& { return h.motor->gain; }, has_motor, needs_motor},

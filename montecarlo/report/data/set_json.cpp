@@ -45,8 +45,8 @@ Json identity_json(const PageSource& source) {
           {"version", stored.stamp.version},
           {"runs", source.summary.runs},
           {"planned", stored.runs().size()},
-          {"partial", source.summary.runs < stored.runs().size() && !source.summary.stopped},
-          {"stopped", source.summary.stopped},
+          {"partial", source.summary.runs < stored.runs().size() && !source.summary.stalled_at},
+          {"stopped", source.summary.stalled_at},
           {"shard", shard ? Json(fmt::format("{}/{}", shard->index, shard->of)) : Json(nullptr)},
           {"design", design_names[static_cast<std::size_t>(campaign.sampling.design)]},
           {"confidence", source.summary.confidence},
@@ -75,9 +75,9 @@ Json reasons_json(const Summary& summary) {
   return json;
 }
 
-Json stopped_json(const Summary& summary) {
+Json stalled_at_json(const Summary& summary) {
   Json json = Json::array();
-  for (const StoppedHinge& each : summary.stopped)
+  for (const StoppedHinge& each : summary.stalled_at)
     json.push_back({{"hinge", each.hinge},
                     {"count", each.runs},
                     {"median", page_number(each.median)},
@@ -198,7 +198,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   Json json = identity_json(source);
   json["statuses"] = statuses_json(summary);
   json["reasons"] = reasons_json(summary);
-  if (!summary.stopped.empty()) json["stopped"] = stopped_json(summary);
+  if (!summary.stalled_at.empty()) json["stalled_at"] = stalled_at_json(summary);
   json["orders"] = orders_json(*source.orders);
   json["order_kinds"] = source.orders->kinds();
   json["without_latch"] = summary.without_latch;

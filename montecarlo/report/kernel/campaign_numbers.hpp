@@ -202,6 +202,7 @@ private:
       whole(release.after);
       numbers({&release.time, &release.angle, &release.delay, &release.fails});
     });
+    present(hinge.hold, [&](Hold& hold) { numbers({&hold.stiffness, &hold.damping}); });
     present(hinge.motor, [&](Motor& motor) {
       numbers({&motor.rate, &motor.scale, &motor.gain, &motor.torque_limit});
       word(motor.interpolation);

@@ -35,7 +35,7 @@
         statusBar(set),
         W.table("Outcomes of the runs", ["Outcome", number("Runs"), number("Share"), number(confidence)], rows),
         reasons(set),
-        stopped(set),
+        stalledAt(set),
       ];
     }
     const statuses = [...new Set(W.sets.flatMap((set) => set.statuses.map((one) => one.status)))].filter(
@@ -63,7 +63,7 @@
         "p.note",
         `Under each share its ${confidence} (exact for independent draws). Outcomes not listed occurred in no run.`,
       ),
-      W.sets.map((set) => [reasons(set, set.label), stopped(set, set.label)]),
+      W.sets.map((set) => [reasons(set, set.label), stalledAt(set, set.label)]),
     ];
   }
   function reasons(set, label) {
@@ -82,14 +82,14 @@
   }
 
   // Where hinges stopped in the stalled runs in which they did not latch.
-  function stopped(set, label) {
-    if (!(set.stopped || []).length) return null;
+  function stalledAt(set, label) {
+    if (!(set.stalled_at || []).length) return null;
     const { unit } = F.shown("rad"),
       angle = (value) => F.value(value, "rad");
     return W.table(
       `Where stalled hinges stopped${label ? `: ${label}` : ""}: angle from the latched one, ${unit}`,
       ["Hinge", number("Runs"), number("Median"), number("Least"), number("Largest")],
-      set.stopped.map((one) => [one.hinge, F.count(one.count), angle(one.median), angle(one.least), angle(one.largest)]),
+      set.stalled_at.map((one) => [one.hinge, F.count(one.count), angle(one.median), angle(one.least), angle(one.largest)]),
     );
   }
 
@@ -151,7 +151,7 @@
     const kind = (text) => text.replace(/\d[\d.]*(e[-+]?\d+)?/g, "#");
     const texts = [...new Map(all.map((one) => [kind(one.text), one.text]).reverse()).values()].reverse();
     const partial = W.sets
-      .filter((set) => set.partial || (set.runs < set.planned && !set.stopped))
+      .filter((set) => set.partial || (set.runs < set.planned && !set.stalled_at))
       .map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
     const items = [
       ...partial.map((text) => h("li", text)),
@@ -309,7 +309,7 @@
       set.foreign ? "rows from another tool" : null,
       `bounds at ${100 * set.confidence} %`,
       set.shard ? `shard ${set.shard}` : null,
-      set.stopped ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
+      set.stalled_at ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
       set.looks > 1 ? `bounds hold over ${set.looks} interim analyses` : null,
       `wingspread ${one((each) => each.version).join(", ")}`,
       `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`,

@@ -163,7 +163,7 @@ void summarize_columns(const Results& results, const StatisticsSpec& spec,
       threads_worth(threads, sorting_operations(results.size()) * static_cast<double>(tasks));
   for_each_task(threads_within_memory(team, bytes), tasks, [&](std::size_t task) {
     if (task == 0)
-      summary.reasons = count_reasons(results), summary.stopped = stopped_hinges(results);
+      summary.reasons = count_reasons(results), summary.stalled_at = stopped_hinges(results);
     else
       summary.outputs[task - 1] =
           summarize_output(results.outputs[task - 1], spec, replication, requirements);

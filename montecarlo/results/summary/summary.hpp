@@ -127,7 +127,7 @@ struct Summary {
   std::vector<Verdict> requirements{};
   std::optional<NominalRun> nominal{};   ///< its outputs are in `outputs`
   std::optional<Accuracy> accuracy{};    ///< of the integration; nothing if not measured
-  std::vector<StoppedHinge> stopped{};   ///< in the order of the columns; only with final_angle
+  std::vector<StoppedHinge> stalled_at{}; ///< in the order of the columns; only with final_angle
   std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
   std::vector<LatchJump> latch_jumps{};  ///< of the nominal run
   std::optional<PeaksCount> peaks{};     ///< nothing if not recorded

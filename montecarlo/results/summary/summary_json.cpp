@@ -141,8 +141,8 @@ void add_reasons(Json& json, const Summary& summary) {
 }
 
 void add_stopped(Json& json, const Summary& summary) {
-  for (const StoppedHinge& each : summary.stopped)
-    json["stopped"][each.hinge] = {{"runs", each.runs},
+  for (const StoppedHinge& each : summary.stalled_at)
+    json["stalled_at"][each.hinge] = {{"runs", each.runs},
                                    {"median", json_number(each.median)},
                                    {"least", json_number(each.least)},
                                    {"largest", json_number(each.largest)}};

@@ -71,13 +71,13 @@ std::string reasons(const Summary& summary) {
 }
 
 /// Where hinges stopped in stalled runs; empty without final_angle.
-std::string stopped(const Summary& summary) {
-  if (summary.stopped.empty()) return "";
+std::string stalled_at(const Summary& summary) {
+  if (summary.stalled_at.empty()) return "";
   std::string text =
       fmt::format("\n{:<50}{:>10}{:>12}{:>12}{:>12}\n", "STALLED AT, from latched, deg", "runs",
                   "median", "least", "largest");
   const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
-  for (const StoppedHinge& each : summary.stopped)
+  for (const StoppedHinge& each : summary.stalled_at)
     text += fmt::format("{}{:>10}{:>12.3f}{:>12.3f}{:>12.3f}\n",
                         in_column(fmt::format("  {}", each.hinge), 50), each.runs,
                         degrees(each.median), degrees(each.least), degrees(each.largest));
@@ -327,7 +327,7 @@ std::string bar(long eighths) {
 
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder,
                           bool all) {
-  return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary) + stopped(summary) +
+  return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary) + stalled_at(summary) +
          latch_orders(summary) + outputs(summary, all) + accuracy_text(summary, all) +
          tolerance(summary) + requirements(summary, folder) + stopping(summary) +
          warning_lines(summary) + files(summary, folder);

@@ -89,7 +89,7 @@ TEST_CASE("every method meets the closed form of a motor with a limit") {
   for (const MethodInfo& method : methods()) {
     CAPTURE(method.name);
     Integration how = within(1e-9, 30);
-    how.method = std::string(method.name), how.step = 1e-3;
+    how.method = std::string(method.name), how.step = 1e-4;
     const Outcome out = Deployment().run(driven(at_rate(r, c, T)), how, {});
     REQUIRE(out.latches.size() == 1);
     CHECK(relative(out.latches[0].time, exact.time) < 1e-6);

@@ -28,7 +28,7 @@ std::optional<Motor> random_motor(Draws& draws) {
 }
 
 /// Makes the latches of a random scene softer, and gives its hinges a life.
-/// @param motors whether hinges may have motors, which leave all other draws as they are
+/// @param motors whether hinges may have motors and elastic holds, which leave all other draws as they are
 Scene with_life(Scene scene, std::uint64_t seed, bool motors = false) {
   Draws draws(seed), motor_draws(seed + 77777);
   const int n = static_cast<int>(scene.hinges.size());
@@ -64,6 +64,8 @@ Scene with_life(Scene scene, std::uint64_t seed, bool motors = false) {
     }
     if (draws.chance(0.1)) release.fails = 1;
     hinge.release = release;
+    if (motors && motor_draws.chance(0.4))
+      hinge.hold = Hold{motor_draws.log_uniform(30, 3000), motor_draws.log_uniform(0.1, 10)};
   }
   return scene;
 }
@@ -141,7 +143,7 @@ TEST_CASE("random wings live as the dense formulation says: holds, captures, lat
   check_lives(9000, random_cases(200, 10), false);
 }
 
-TEST_CASE("random wings with motors live as the dense formulation says") {
+TEST_CASE("random wings with motors and elastic holds live as the dense formulation says") {
   check_lives(12000, random_cases(200, 12), true);
 }
 
