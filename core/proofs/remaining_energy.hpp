@@ -29,6 +29,8 @@
 /// and the moment is at most κ⁺ |u|: in (2) it has the stiffness κ⁺²/κ. A loop adds its own energy,
 /// never negative. Backlash, and a stop within reach, are beyond this proof.
 ///
+/// A hinge whose rigid hold never lets go does not move: it has no part in any sum.
+///
 /// A motor under a constant command is a constant drive, which counts in y*, and a part that takes energy: motor.hpp (2).
 /// While its command changes, and at an open hinge, a motor may bring energy in: there is no bound.
 #pragma once
@@ -101,11 +103,15 @@ public:
 private:
   /// Whether hinge i has a latch that it cannot reach.
   template <class AnySystem> [[nodiscard]] static bool is_open(const AnySystem& system, int i) {
-    return system.wing().hinges[i].has_latch && !system.work().engaged[i];
+    return system.wing().hinges[i].has_latch && !system.work().engaged[i] && !system.is_held(i);
   }
 
   template <class AnySystem> void prepare(const AnySystem& system, int i) {
     using std::sqrt;
+    if (system.is_held(i)) { // it does not move, and gives nothing
+      rest_[system.layout().angle(i)] = system.wing().hinges[i].stowed;
+      return;
+    }
     const bool open = is_open(system, i);
     const LinearLaw<T> law = with_motor(system, linear_law(system.wing().hinges[i], !open), i);
     const bool loaded = load_.moment(i) > T(0);
@@ -178,6 +184,7 @@ private:
     for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
       const RealHingeTerms<T>& real = system.wing().real[i];
       const HingeMode<T>& mode = system.work().modes[i];
+      if (system.is_held(i)) continue;
       if (mode.in_contact != T(0) || mode.in_far_contact != T(0)) return true;
       for (const StopTerms<T>* stop : {&real.stop, &real.far_stop}) {
         const T way = abs(rest_[system.layout().angle(i)] - stop->contact_angle);
@@ -192,6 +199,7 @@ private:
   [[nodiscard]] std::optional<T> energy(const AnySystem& system, const State<T>& x, int i) const {
     const Layout& at = system.layout();
     const HingeTerms<T>& hinge = system.wing().hinges[i];
+    if (system.is_held(i)) return T(0);
     if (is_open(system, i)) {
       const T given = detail::most_given(hinge, false, x[at.angle(i)]);
       return is_finite(given) ? std::optional(given) : std::nullopt;

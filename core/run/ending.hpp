@@ -203,7 +203,8 @@ private:
     const bool tells_overtravel = goal.overtravel && !latches_left();
     const SeenPeaks<T> seen{goal.peak_moment ? &peaks_.moments() : nullptr,
                             goal.peak_force ? &peaks_.forces() : nullptr,
-                            tells_overtravel ? &peaks_.overtravel() : nullptr};
+                            tells_overtravel ? &peaks_.overtravel() : nullptr,
+                            peaks_.holds().empty() ? nullptr : &peaks_.holds()};
     return final_peaks_.prove(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end), seen,
                               !latches_left());
   }

@@ -8,10 +8,10 @@
 namespace wingspread {
 namespace {
 
-constexpr std::string_view expected_table = "a table: an object with time and rate";
+constexpr std::string_view expected_motor_table = "a table: an object with time and rate";
 
 bool read_columns(const JsonCursor& at, Motor& motor) {
-  JsonObject object(at, expected_table);
+  JsonObject object(at, expected_motor_table);
   const std::string expected = expected_column("s");
   const auto time = object.require("time", expected);
   const auto rate = object.require("rate", expected_column("rad/s"));
@@ -24,7 +24,7 @@ bool read_columns(const JsonCursor& at, Motor& motor) {
 
 void read_table(const JsonCursor& at, Motor& motor) {
   JsonObject object(at, "a number, rad/s, or an object with a table of time and rate");
-  const auto table = object.require("table", expected_table);
+  const auto table = object.require("table", expected_motor_table);
   object.optional_choice("interpolation", motor.interpolation, interpolation_names);
   object.optional("scale", motor.scale, "a number");
   object.refuse_others();

@@ -91,6 +91,38 @@ TEST_CASE("an elastic hold that fails stalls the run, and no latch engages meanw
   CHECK(out.hold_moment[0].value > 2);
 }
 
+TEST_CASE("peaks are final where a hold has failed and the other hinges have rung out") {
+  Scene beside = two_panels();
+  beside.hinges[1].release = at_time(1), beside.hinges[1].release->fails = 1;
+  Scene wings =
+      two_wing_free_spacecraft(); // one wing hangs, the other rings on a spacecraft that turns
+  const std::string hung = wings.hinges[0].name.substr(0, wings.hinges[0].name.find('_'));
+  for (Hinge& hinge : wings.hinges) {
+    hinge.friction = {};
+    if (!hinge.name.starts_with(hung)) continue;
+    hinge.initial_rate = 0;
+    hinge.release = at_time(1), hinge.release->fails = 1;
+  }
+  for (const Scene& scene : {beside, wings}) {
+    CAPTURE(scene.name);
+    const Integration how = within(1e-9, 2000);
+    const Outcome early = Deployment().run(scene, how, {});
+    CHECK(early.status == Status::stalled);
+    CHECK(early.peaks_final);
+    CHECK(early.t_end < 1000);
+    Goal longer;
+    longer.to_t_end = true;
+    const Outcome late = Deployment().run(scene, within(1e-9, early.t_end + 60), longer);
+    for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
+      CAPTURE(i);
+      CHECK(early.peak_moment[i].value == late.peak_moment[i].value);
+      CHECK(early.peak_force[i].value == late.peak_force[i].value);
+      CHECK(early.hold_moment[i].value == late.hold_moment[i].value);
+    }
+    require_equal_bits({scene, scene, scene}, how, every_peak);
+  }
+}
+
 TEST_CASE("a hinge is released after another one latches, is released, or passes an angle") {
   const double way = way_of_panel();
   const double quarter = std::sqrt(2 * (pi / 8) * panel_inertia / 2); // to a quarter of the travel
