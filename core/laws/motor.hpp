@@ -213,6 +213,7 @@ template <class T>
 
 /// (2) about φ̇ = 0: D is −taken φ̇ up to |φ̇| = until, where the motor reaches its limit or leaves it.
 struct MotorAtRest {
+  double drive = 0;           ///< M_0, N·m
   double taken = 0;           ///< c within the limit; beyond it 0, N·m·s/rad
   double until = 0, gain = 0; ///< rad/s; c
   double most = 0;            ///< bounds |D + taken φ̇|, where taken is 0, N·m
@@ -222,6 +223,7 @@ struct MotorAtRest {
   MotorAtRest(const MotorTerms<double>& terms, const MotorPiece<double>& piece)
       : gain(piece.runs * terms.gain), most(std::numeric_limits<double>::infinity()) {
     if (!(gain > 0)) return;
+    drive = motor_drive(terms, piece);
     const double w = std::abs(piece.rate[0]), limit = terms.limit / terms.gain;
     until = std::abs(w - limit);
     if (w < limit)
@@ -235,5 +237,12 @@ struct MotorAtRest {
     return v > until ? std::min(gain * (v - until), most) : 0;
   }
 };
+
+/// The motor of hinge i; none where no hinge has one, or their commands are not known. @pre as of MotorAtRest
+[[nodiscard]] inline MotorAtRest motor_at_rest(const std::vector<MotorTerms<double>>& terms,
+                                               const std::vector<MotorPiece<double>>& pieces,
+                                               int i) {
+  return pieces.empty() ? MotorAtRest{} : MotorAtRest(terms[i], pieces[i]);
+}
 
 } // namespace wingspread

@@ -13,8 +13,7 @@ public:
   template <class AnySystem>
   MotorOverStep(const AnySystem& system, const Step<T>& step, int i)
       : terms_(system.wing().motors[i]), piece_(system.work().motors[i]), h_(step.h),
-        rate_(derivative(step.coordinate(system.layout().angle(i), system.layout().freedoms()),
-                         step.h)),
+        rate_(step.rate(system.layout().angle(i), system.layout().freedoms())),
         excess_(motor_excess(piece_, step.t, step.h, rate_)) {}
 
   /// Whether the motor may reach its limit or leave it inside the step. For a pack: in which lanes.
