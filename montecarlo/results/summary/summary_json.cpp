@@ -143,9 +143,9 @@ void add_reasons(Json& json, const Summary& summary) {
 void add_stopped(Json& json, const Summary& summary) {
   for (const StoppedHinge& each : summary.stalled_at)
     json["stalled_at"][each.hinge] = {{"runs", each.runs},
-                                   {"median", json_number(each.median)},
-                                   {"least", json_number(each.least)},
-                                   {"largest", json_number(each.largest)}};
+                                      {"median", json_number(each.median)},
+                                      {"least", json_number(each.least)},
+                                      {"largest", json_number(each.largest)}};
 }
 
 void add_latch_orders(Json& json, const Summary& summary) {

@@ -327,10 +327,10 @@ std::string bar(long eighths) {
 
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder,
                           bool all) {
-  return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary) + stalled_at(summary) +
-         latch_orders(summary) + outputs(summary, all) + accuracy_text(summary, all) +
-         tolerance(summary) + requirements(summary, folder) + stopping(summary) +
-         warning_lines(summary) + files(summary, folder);
+  return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary) +
+         stalled_at(summary) + latch_orders(summary) + outputs(summary, all) +
+         accuracy_text(summary, all) + tolerance(summary) + requirements(summary, folder) +
+         stopping(summary) + warning_lines(summary) + files(summary, folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,
