@@ -89,7 +89,11 @@
     return W.table(
       `Where stalled hinges stopped${label ? `: ${label}` : ""}: angle from the latched one, ${unit}`,
       ["Hinge", number("Runs"), number("Median"), number("Least"), number("Largest")],
-      set.stalled_at.map((one) => [one.hinge, F.count(one.count), angle(one.median), angle(one.least), angle(one.largest)]),
+      set.stalled_at.map((one) => [
+        one.hinge,
+        F.count(one.count),
+        ...[one.median, one.least, one.largest].map(angle),
+      ]),
     );
   }
 
@@ -151,7 +155,7 @@
     const kind = (text) => text.replace(/\d[\d.]*(e[-+]?\d+)?/g, "#");
     const texts = [...new Map(all.map((one) => [kind(one.text), one.text]).reverse()).values()].reverse();
     const partial = W.sets
-      .filter((set) => set.partial || (set.runs < set.planned && !set.stalled_at))
+      .filter((set) => set.partial || (set.runs < set.planned && !set.stopped))
       .map((set) => `${set.label} holds ${F.count(set.runs)} of ${F.count(set.planned)} planned runs.`);
     const items = [
       ...partial.map((text) => h("li", text)),
@@ -309,7 +313,7 @@
       set.foreign ? "rows from another tool" : null,
       `bounds at ${100 * set.confidence} %`,
       set.shard ? `shard ${set.shard}` : null,
-      set.stalled_at ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
+      set.stopped ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
       set.looks > 1 ? `bounds hold over ${set.looks} interim analyses` : null,
       `wingspread ${one((each) => each.version).join(", ")}`,
       `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`,
