@@ -117,7 +117,7 @@ template <class Value> void keep_first(std::vector<Value>& all, std::size_t coun
   for (LatchEvent& latch : out.latches) keep_first(latch.rates, hinges);
   keep_first(out.peak_moment, hinges), keep_first(out.peak_force, hinges);
   keep_first(out.hold_moment, hinges), keep_first(out.overtravel, hinges);
-  keep_first(out.final_angle, hinges);
+  keep_first(out.final_angle, hinges), keep_first(out.motor_energy, hinges);
   keep_first(out.final.angles, hinges), keep_first(out.final.rates, hinges);
   return std::move(out);
 }
@@ -217,8 +217,12 @@ private:
   /// Makes the queued runs, which all have this method, and draws more until the queue of others is full.
   [[nodiscard]] Occupancy run_batch(Method method) {
     std::vector<std::pair<long, Wing<double>>> these = std::exchange(waiting_, {});
-    const PackShape shape{method, goal_.peak_force, goal_.peak_moment,
-                          goal_.hold_moment && !structure_.releases.empty(), goal_.overtravel};
+    const PackShape shape{method,
+                          goal_.peak_force,
+                          goal_.peak_moment,
+                          goal_.hold_moment && !structure_.releases.empty(),
+                          goal_.motor_energy && !structure_.motors.empty(),
+                          goal_.overtravel};
     const std::unique_ptr<PackEngine> engine = make_engine(set_, structure_, shape);
     const auto next_wing = [&](Wing<double>& wing) -> std::optional<long> {
       if (!these.empty()) {

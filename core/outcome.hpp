@@ -29,6 +29,7 @@ struct Goal {
   bool overtravel = true;        ///< watch how far hinges turn beyond their stowed angles
   bool hold_moment = true;       ///< watch what holds bear
   bool base_motion = false;      ///< end no sooner than the peaks of a free base's motion are final
+  bool motor_energy = true;      ///< watch what motors give
   bool audit = true;             ///< watch how far the energy drifts up to the first latch
   bool end_state = true;         ///< fill Outcome::final and Outcome::energy
   bool final_angle = true;       ///< fill Outcome::final_angle
@@ -123,6 +124,9 @@ struct Outcome {
   std::vector<Peak> hold_moment;
   std::vector<double>
       final_angle; ///< at t_end, from the latched angle, rad; empty when not asked for
+  /// Work of each hinge's motor while the hinge's latch was not engaged, J; 0 without a motor. Empty when not asked for, or
+  /// where no hinge has a motor.
+  std::vector<double> motor_energy;
   /// The largest moment in the joints of each flexible body, by Scene::bodies, N·m; empty when no moments are asked for,
   /// or without flexible bodies. Zero for a rigid body.
   std::vector<Peak> bending_moment;

@@ -120,7 +120,7 @@ public:
       return {releases_.passed_by(step.x1, i), sense * step.x1[r], sense * step.dxdt1[r]};
     }
     case Event::kink: { // just past it, so that the next step begins on the other side
-      const Jet<T> u = argument(system_, due.kink, step.x1, step.dxdt1);
+      const Jet<T> u = argument(system_, due.kink, step.x1, step.dxdt1, T(step.t + step.h));
       const T beyond = beyond_rounding(system_, due.kink, step.x1);
       return {due.kink.way * (u.value - due.kink.at) - beyond, due.kink.way * u.first,
               due.kink.way * u.second};

@@ -30,7 +30,8 @@
 ///
 ///     |F| ≤ B V²    |Ḟ| ≤ 2 B V |v̇|    |F̈| ≤ 2 B (V |v̈| + |v̇|²)                                   (3)
 ///
-/// The friction that holds a hinge balances L and the moments of the loops on it (loop_bulge.hpp).
+/// The friction that holds a hinge balances L and the moments of the loops on it (loop_bulge.hpp) and of its motor, which
+/// at φ̇ = 0 changes by at most c |ẇ|.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -64,6 +65,7 @@ public:
     loads_.resize(bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i) loads_[i] = bodies_[i].moment;
     add_loops(system, step);
+    add_motors(system, step);
   }
 
   /// Narrows the bound for hinge i: seen from body i. Cost as that of over_step. @pre over_step
@@ -97,13 +99,14 @@ public:
 
   /// Largest excess over the whole step of the friction that holds hinge i.
   [[nodiscard]] T most_friction(int i) const {
-    return loops_.empty() ? rise(i) : T(rise(i) + loops_[i].over(T(1)));
+    const T load = rise(i) + of_motor(i);
+    return loops_.empty() ? load : T(load + loops_[i].over(T(1)));
   }
 
   /// Largest excess of the friction that holds hinge i, between s = a and b. Where a loop may go slack or pass a
   /// knot in the step, its bound is that of the interval a … b.
   [[nodiscard]] Inside<T> friction(int i, const T& a, const T& b) const {
-    Bulge<T> bulge{rise(i)};
+    Bulge<T> bulge{rise(i), of_motor(i)};
     if (loops_.empty()) return bulge(a, b);
     if (loops_[i].is_smooth()) return (bulge += loops_[i])(a, b);
     Inside<T> inside = bulge(a, b);
@@ -260,6 +263,19 @@ private:
     }
   }
 
+  template <class Topology, BaseMotion M>
+  void add_motors(const System<T, Topology, M>& system, const Step<T>& step) {
+    const std::vector<MotorTerms<T>>& motors = system.wing().motors;
+    motors_.assign(motors.size(), T(0));
+    for (std::size_t i = 1; i < motors.size(); ++i) {
+      const MotorPiece<T>& piece = system.work().motors[i];
+      const T change = cubic_bounds(shifted(piece.rate, T(step.t - piece.from)), step.h).first;
+      motors_[i] = T(0.5) * step.h * piece.runs * motors[i].gain * change;
+    }
+  }
+  /// Largest excess of a motor's moment on a stuck hinge over that at the step's ends, N·m. Over a part: times the part.
+  [[nodiscard]] T of_motor(int i) const { return motors_.empty() ? T(0) : motors_[i]; }
+
   // ---- the base, in inertial axes
 
   template <class Topology, BaseMotion M>
@@ -319,6 +335,7 @@ private:
   std::vector<Moment> loads_;   ///< 1 … n
   std::vector<Bulge<T>> loops_; ///< 1 … n: of the loops; empty where there are none
   std::vector<HeldLoop> held_;  ///< the loops on stuck hinges
+  std::vector<T> motors_;       ///< 1 … n: of_motor; empty where there are none
   T h_ = T(0), weight_ = T(0);
 };
 

@@ -1,8 +1,10 @@
 /// Kinks: where a law bends or jumps inside its domain, and no event changes the law. A strand of a loop goes slack, a
-/// hinge passes a knot of a table, a damper's power law its regularization rate, a stop the rate at which it lets go.
+/// hinge passes a knot of a table, a damper's power law its regularization rate, a stop the rate at which it lets go, a
+/// motor its torque limit.
 ///
 /// Estimates of extrapolation, of implicit methods and of Fehlberg's formula expect a smooth right-hand side: they may
-/// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter.
+/// accept a step over a kink and be wrong by a thousand tolerances. Their steps therefore end at the kinks that matter. So
+/// do all methods' steps at the limits of motors, where loads have their peaks.
 ///
 /// Let the law's change across the kink be jump + turn·abs(u − b) + bend·(u − b)². A step that meets the kink at the
 /// time τ from its nearer end differs from one under the smooth law, by the impulse of that change:
@@ -26,7 +28,8 @@ namespace wingspread {
 /// Tolerance of a step, by which kinks matter.
 struct KinkLimit {
   double rtol, atol;
-  bool refused; ///< whether the step was refused
+  bool refused = false;     ///< whether the step was refused
+  bool motors_only = false; ///< of methods that do not need smooth laws
 };
 
 /// Whether a trial step's error, in units of its tolerance, suggests a kink inside; for a pack: in which lanes. Heuristic:
@@ -42,6 +45,7 @@ template <class T> struct Kink {
   enum class Of : signed char {
     angle,  ///< of hinge `index`
     rate,   ///< of hinge `index`
+    excess, ///< of the rate that the motor of hinge `index` commands, over the hinge's
     strands ///< K e of loop `index`
   };
   Of of;
@@ -56,11 +60,16 @@ template <class T> struct KinkChange {
   T jump, turn, bend;
 };
 
-/// u, u̇ and ü; of a rate ü is unknown, 0. @param x, dxdt the state and its derivative
+/// u, u̇ and ü; of a rate ü is unknown, 0. @param x, dxdt the state at t and its derivative
 template <class T, class AnySystem>
 [[nodiscard]] Jet<T> argument(const AnySystem& system, const Kink<T>& kink, const State<T>& x,
-                              const State<T>& dxdt) {
+                              const State<T>& dxdt, const T& t) {
   const Layout& at = system.layout();
+  if (kink.of == Kink<T>::Of::excess) {
+    const MotorPiece<T>& motor = system.work().motors[kink.index];
+    const T w = commanded_rate(motor, t), change = cubic_slope(motor.rate, T(t - motor.from));
+    return {w - x[at.rate(kink.index)], change - dxdt[at.rate(kink.index)], T(0)};
+  }
   if (kink.of == Kink<T>::Of::angle)
     return {x[at.angle(kink.index)], x[at.rate(kink.index)], dxdt[at.rate(kink.index)]};
   if (kink.of == Kink<T>::Of::rate)
@@ -91,6 +100,7 @@ template <class T, class AnySystem>
     size = size + loop.stiffness * (abs(x[at.angle(loop.first)]) + abs(loop.stowed_a) +
                                     abs(x[at.angle(loop.second)]) + abs(loop.stowed_b));
   }
+  if (kink.of == Kink<T>::Of::excess) size = size + T(2) * abs(x[at.rate(kink.index)]);
   return T(8 * epsilon_of<T>) * size;
 }
 
@@ -106,10 +116,14 @@ public:
   };
 
   [[nodiscard]] std::optional<Found> first() {
-    const int hinges = static_cast<int>(system_.wing().real.size());
+    const int hinges = limit_.motors_only ? 0 : static_cast<int>(system_.wing().real.size());
     for (int i = 1; i < hinges; ++i)
       if (!system_.sticks(i)) pass_hinge(i);
-    for (std::size_t l = 0; l < system_.wing().loops.size(); ++l) pass_loop(static_cast<int>(l));
+    const int motors = static_cast<int>(system_.wing().motors.size());
+    for (int i = 1; i < motors; ++i)
+      if (!system_.sticks(i) && system_.motor_runs(i)) pass_motor(i);
+    const int loops = limit_.motors_only ? 0 : static_cast<int>(system_.wing().loops.size());
+    for (int l = 0; l < loops; ++l) pass_loop(l);
     return first_;
   }
 
@@ -148,6 +162,16 @@ private:
     pass({Of::rate, i, T(terms.sense / terms.dissipation), T(0)}, rate, {i, T(0), turn, T(0)});
   }
 
+  void pass_motor(int i) {
+    const MotorTerms<T>& motor = system_.wing().motors[i];
+    const Layout& at = system_.layout();
+    const Quintic<T> rate = step_.rate(at.angle(i), at.freedoms());
+    const Quintic<T> excess = motor_excess(system_.work().motors[i], step_.t, step_.h, rate);
+    if (!(motor_regime(motor, excess) == T(2))) return;
+    for (const T& at_limit : {T(motor.limit / motor.gain), T(-motor.limit / motor.gain)})
+      pass({Of::excess, i, at_limit, T(0)}, excess, {i, T(0), motor.gain, T(0)});
+  }
+
   /// Knots of a curve of hinge i's angle.
   void pass_knots(const Curve& curve, const T& weight, int i, const Quintic<T>& angle) {
     using std::abs;
@@ -180,8 +204,8 @@ private:
     const LoopTerms<T>& loop = system_.wing().loops[l];
     if (system_.sticks(loop.first) && system_.sticks(loop.second)) return;
     const Kink<T> taut{Of::strands, l, loop.slack_beyond, T(0)};
-    const Jet<T> start = argument(system_, taut, step_.x, step_.dxdt),
-                 end = argument(system_, taut, step_.x1, step_.dxdt1);
+    const Jet<T> start = argument(system_, taut, step_.x, step_.dxdt, step_.t),
+                 end = argument(system_, taut, step_.x1, step_.dxdt1, T(step_.t + step_.h));
     const Quintic<T> elastic = hermite<T>(step_.h, start, end);
     if (loop.table) pass_gear(loop, largest(start.value, end.value));
     if (!(bound(elastic) > loop.slack_beyond)) return;

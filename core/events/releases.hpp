@@ -1,6 +1,7 @@
 /// Holds: hinges that are locked at their stowed angles until a time, or until an event of another hinge.
 ///
-/// A held hinge is a locked hinge of the recursion (locked.hpp) without a limit. Where its hold lets go the state is
+/// A held hinge is a locked hinge of the recursion (locked.hpp) without a limit, or has a spring and a damper to its stowed
+/// angle beside its own laws (an elastic hold), and cannot latch. Where its hold lets go the state is
 /// continuous, and the hinge may stick by its own friction (contact.hpp).
 #pragma once
 
@@ -28,7 +29,10 @@ public:
     for (int i = 1; i < size(); ++i) {
       const ReleaseTerms<T>& hold = terms(i);
       if (!hold.present || !(due_[i] > T(0))) continue;
-      system_.touch(i, Contact::held);
+      if (hold.is_elastic)
+        system_.restrain(i, true);
+      else
+        system_.touch(i, Contact::held);
       ++held_;
       system_.made_elsewhere().watches[i] =
           hold.fails == T(0) && hold.event == Release::Event::passed;
@@ -67,10 +71,14 @@ public:
     for (bool again = true; again;) { // a release may be the event for which another hold waits
       again = false;
       for (int i = 1; i < size(); ++i) {
-        if (!system_.is_held(i)) continue;
+        if (!is_held(i)) continue;
         schedule(i, due, step, record);
         if (!(due_[i] <= step.t)) continue;
-        system_.touch(i, Contact::none);
+        if (system_.is_restrained(i))
+          system_.restrain(i, false);
+        else
+          system_.touch(i, Contact::none);
+        system_.start_motor(i, step.t);
         system_.made_elsewhere().watches[i] = false;
         --held_;
         record.releases.push_back(hinge_event(system_.wing(), system_.layout(), step.x, step.t, i));
@@ -85,8 +93,7 @@ public:
   /// @param rests whether no hinge will move any more
   [[nodiscard]] bool may_come(const T& t_end, bool rests) const {
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      if (system_.is_held(i) && (due_[i] < t_end || (watches(i) && !rests && moves(i))))
-        return true;
+      if (is_held(i) && (due_[i] < t_end || (watches(i) && !rests && moves(i)))) return true;
     return false;
   }
 
@@ -94,7 +101,7 @@ public:
   [[nodiscard]] int latches_held() const {
     int count = 0;
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      count += system_.is_held(i) && system_.wing().hinges[i].has_latch;
+      count += is_held(i) && system_.wing().hinges[i].has_latch;
     return count;
   }
 
@@ -103,15 +110,17 @@ public:
   [[nodiscard]] std::vector<int> never_released() const {
     std::vector<int> first, all;
     for (int i = 1; held_ > 0 && i < size(); ++i) {
-      if (!system_.is_held(i)) continue;
-      const bool waits =
-          terms(i).after != 0 && terms(i).fails == T(0) && system_.is_held(terms(i).after);
+      if (!is_held(i)) continue;
+      const bool waits = terms(i).after != 0 && terms(i).fails == T(0) && is_held(terms(i).after);
       (waits ? all : first).push_back(system_.wing().hinge_of[i]);
     }
     std::vector<int>& blamed = first.empty() ? all : first;
     std::sort(blamed.begin(), blamed.end());
     return blamed;
   }
+
+  /// Whether a hold holds hinge i, rigidly or elastically.
+  [[nodiscard]] bool is_held(int i) const { return system_.is_held(i) || system_.is_restrained(i); }
 
 private:
   [[nodiscard]] int size() const { return static_cast<int>(system_.wing().releases.size()); }
@@ -125,7 +134,7 @@ private:
            (hold.event == Release::Event::released && !(due_[hold.after] > T(0)));
   }
   /// Whether the hinge for whose angle the hold of hinge i waits is free.
-  [[nodiscard]] bool moves(int i) const { return !system_.is_held(terms(i).after); }
+  [[nodiscard]] bool moves(int i) const { return !is_held(terms(i).after); }
 
   /// Notes when the hold of hinge i lets go, once that is known.
   void schedule(int i, int due, const Step<T>& step, const LatchRecord& record) {
@@ -155,7 +164,7 @@ private:
   void find_next() {
     next_ = T(never);
     for (int i = 1; held_ > 0 && i < size(); ++i)
-      if (system_.is_held(i)) next_ = smaller(next_, due_[i]);
+      if (is_held(i)) next_ = smaller(next_, due_[i]);
   }
 
   AnySystem& system_;

@@ -34,13 +34,14 @@ template <class AnySystem, class T>
 
 } // namespace detail
 
-/// Whether a wing whose hinges all stick is loaded by constants: on a fixed or free base, and on one
-/// that is driven without rotation, or rotates about a point at rest at a constant rate.
+/// Whether a wing whose hinges all stick is loaded by constants: no motor's command changes, and the base is fixed or
+/// free, driven without rotation, or rotates about a point at rest at a constant rate.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] bool loads_are_constant(const System<T, Topology, M>& system, const State<T>& x) {
   const Wing<T>& wing = system.wing();
   if (detail::latches_come_in(system, x)) return false;
   if (M == BaseMotion::prescribed && !system.drive_is_steady()) return false;
+  if (!system.motors_are_steady()) return false;
   if (!wing.plates.empty() && !detail::flow_is_constant(system, x)) return false;
   if (M != BaseMotion::prescribed) return true;
   const Drive<T> base = system.drive(system.work().driven.from); // as at any other time

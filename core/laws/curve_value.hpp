@@ -1,7 +1,7 @@
 /// A table's value, slope, integral and their ranges, for one number or a pack.
 #pragma once
 
-#include "core/laws/range.hpp"
+#include "core/laws/hinge_law.hpp"
 #include "core/number/pack.hpp"
 #include "core/scene/curve.hpp"
 

@@ -40,6 +40,13 @@ template <class T> [[nodiscard]] std::array<T, 4> shifted(const std::array<T, 4>
 template <class T> [[nodiscard]] T cubic_at(const std::array<T, 4>& c, const T& u) {
   return fused(u, fused(u, fused(u, c[3], c[2]), c[1]), c[0]);
 }
+/// Its first and second derivative.
+template <class T> [[nodiscard]] T cubic_slope(const std::array<T, 4>& c, const T& u) {
+  return fused(u, fused(u, T(3) * c[3], T(2) * c[2]), c[1]);
+}
+template <class T> [[nodiscard]] T cubic_bend(const std::array<T, 4>& c, const T& u) {
+  return fused(u, T(6) * c[3], T(2) * c[2]);
+}
 /// ∫ of the cubic from 0 to u.
 template <class T> [[nodiscard]] T cubic_integral(const std::array<T, 4>& c, const T& u) {
   const T high = fused(u, T(0.25) * c[3], c[2] / T(3));

@@ -79,16 +79,18 @@ template <class T, class Topology, BaseMotion M>
   return now.kinetic + dot(v, now.linear) + T(0.5) * now.mass * dot(v, v);
 }
 
-/// Potential of hinge i, J: spring and harness, zero at the latched angle, stop and engaged latch.
+/// Potential of hinge i, J: spring and harness, zero at the latched angle, stop, engaged latch and
+/// elastic hold.
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] T hinge_potential(const System<T, Topology, M>& system, const State<T>& x, int i) {
   const T& angle = x[system.layout().angle(i)];
   const Wing<T>& wing = system.wing();
   const LinearLaw<T> open = linear_law(wing.hinges[i], false);
-  if (wing.real.empty()) return potential(system.law_without_friction(i), angle);
+  const T held = system.hold_energy(x, i);
+  if (wing.real.empty()) return potential(system.law_without_friction(i), angle) + held;
   const T own = potential(open, angle) +
                 real_potential(wing.real[i], wing.hinges[i].latched, angle, system.work().modes[i]);
-  return own + system.latch_energy(x, i);
+  return own + system.latch_energy(x, i) + held;
 }
 
 /// Energy of a smoothed latch of hinge i at full weight, J; 0 for an event latch.

@@ -31,10 +31,10 @@ template <class T> struct Resistance {
   T stiffness; ///< N·m/rad, ≥ 0
 };
 
-/// Damping and stiffness of hinge i at x.
+/// Damping and stiffness of hinge i at (x, t).
 template <class T, class Topology, BaseMotion M>
 [[nodiscard]] Resistance<T> resistance(const System<T, Topology, M>& system, const State<T>& x,
-                                       int i) {
+                                       const T& t, int i) {
   const Layout& at = system.layout();
   const LinearLaw<T>& law = system.work().laws[i];
   const HingeTerms<T>& hinge = system.wing().hinges[i];
@@ -45,6 +45,11 @@ template <class T, class Topology, BaseMotion M>
     const T weight = smooth_step(x[at.latch(i)] / system.epsilon());
     r.damping = fused(weight, smoothed_latch_damping(hinge, x[at.angle(i)]), r.damping);
     r.stiffness = fused(weight, hinge.stiffness, r.stiffness);
+  }
+  if (!system.wing().motors.empty()) {
+    const MotorPiece<T>& motor = system.work().motors[i];
+    const T excess = commanded_rate(motor, t) - x[at.rate(i)];
+    r.damping = r.damping + motor_damping(system.wing().motors[i], motor, excess);
   }
   if (!system.wing().real.empty()) {
     const HingeResistance<T> real = real_resistance(system.wing().real[i], system.work().modes[i],

@@ -13,6 +13,7 @@
 #include "core/laws/driven_base.hpp"
 #include "core/laws/hinge_terms.hpp"
 #include "core/laws/loop.hpp"
+#include "core/laws/motor.hpp"
 #include "core/laws/real_hinge.hpp"
 #include "core/mechanics/tree.hpp"
 #include "core/number/planar.hpp"
@@ -45,6 +46,8 @@ template <class T> struct ReleaseTerms {
   T angle;   ///< of Event::passed: of that hinge, rad
   T delay;   ///< s
   T fails;   ///< 1: never
+  bool is_elastic;
+  T stiffness, damping; ///< of an elastic hold, N·m/rad and N·m·s/rad
 };
 
 template <class T> struct Wing {
@@ -61,11 +64,12 @@ template <class T> struct Wing {
   std::vector<LoopTerms<T>> loops;
   std::vector<PlateTerms<T>> plates;     ///< 0 … n; [0] unused: a free base has no plate
   std::vector<ReleaseTerms<T>> releases; ///< 0 … n; [0] unused
+  std::vector<MotorTerms<T>> motors;     ///< 0 … n; [0] unused
   bool can_open = false;                 ///< whether the latch of any hinge may let go again
 
   [[nodiscard]] int size() const { return tree.bodies(); }
-  /// Whether any hinge has laws of real_hinge.hpp or loops.
-  [[nodiscard]] bool is_real() const { return !real.empty() || !loops.empty(); }
+  /// Whether any hinge has laws of real_hinge.hpp, loops or motors.
+  [[nodiscard]] bool is_real() const { return !real.empty() || !loops.empty() || !motors.empty(); }
   /// Whether any moment is not linear in angles and rates.
   [[nodiscard]] bool is_nonlinear() const { return has_regularized_friction || is_real(); }
   /// Whether regularized friction is the only nonlinear moment.
@@ -75,6 +79,7 @@ template <class T> struct Wing {
 namespace detail {
 
 [[nodiscard]] inline bool has_plate(const Body& body) { return body.plate.has_value(); }
+[[nodiscard]] inline bool has_motor(const Hinge& hinge) { return hinge.motor.has_value(); }
 [[nodiscard]] inline bool has_release(const Hinge& hinge) { return hinge.release.has_value(); }
 
 /// The base's motion; a fixed base under gravity is treated as one that accelerates against gravity.
@@ -148,6 +153,8 @@ template <class T>
     wing.plates.resize(n + 1);
   if (std::any_of(scene.hinges.begin(), scene.hinges.end(), detail::has_release))
     wing.releases.resize(n + 1);
+  if (std::any_of(scene.hinges.begin(), scene.hinges.end(), detail::has_motor))
+    wing.motors.resize(n + 1);
   for (const Synchronisation& loop : scene.synchronisations) {
     LoopTerms<T> terms{};
     terms.first = number[scene.hinges[loop.first].child];
@@ -170,13 +177,34 @@ template <class T> void set_release(Wing<T>& wing, const Scene& scene, int i) {
   ReleaseTerms<T>& terms = wing.releases[i];
   terms = {};
   const std::optional<Release>& release = scene.hinges[wing.hinge_of[i]].release;
+  const Hold hold = scene.hinges[wing.hinge_of[i]].hold.value_or(Hold{});
   if (!release) return;
-  terms = {true, release->event, 0, T(release->time), T(0), T(release->delay), T(release->fails)};
+  terms = {true,
+           release->event,
+           0,
+           T(release->time),
+           T(0),
+           T(release->delay),
+           T(release->fails),
+           scene.hinges[wing.hinge_of[i]].hold.has_value(),
+           T(hold.stiffness),
+           T(hold.damping)};
   if (release->event == Release::Event::time) return;
   const auto other = std::find(wing.hinge_of.begin() + 1, wing.hinge_of.end(), release->after);
   terms.after = static_cast<int>(other - wing.hinge_of.begin());
   const HingeTerms<T>& hinge = wing.hinges[terms.after];
   terms.angle = fused(hinge.sense, T(release->angle), hinge.stowed);
+}
+
+/// @pre the terms of the hinge are set
+template <class T> void set_motor(Wing<T>& wing, const Scene& scene, int i) {
+  MotorTerms<T>& terms = wing.motors[i];
+  terms = {};
+  const std::optional<Motor>& motor = scene.hinges[wing.hinge_of[i]].motor;
+  if (!motor) return;
+  terms = {true, motor->table.get(),
+           wing.hinges[i].sense * T(motor->table ? motor->scale : motor->rate), T(motor->gain),
+           T(motor->torque_limit)};
 }
 
 /// @pre the terms of the loop's hinges are set
@@ -206,6 +234,8 @@ template <class T> [[nodiscard]] bool has_room(const Wing<T>& wing, const Scene&
           std::none_of(scene.bodies.begin(), scene.bodies.end(), detail::has_plate)) &&
          (!wing.releases.empty() ||
           std::none_of(scene.hinges.begin(), scene.hinges.end(), detail::has_release)) &&
+         (!wing.motors.empty() ||
+          std::none_of(scene.hinges.begin(), scene.hinges.end(), detail::has_motor)) &&
          std::equal(wing.loops.begin(), wing.loops.end(), scene.synchronisations.begin(),
                     scene.synchronisations.end(), is_of);
 }
@@ -237,6 +267,7 @@ template <class T> void set_parameters(Wing<T>& wing, const Scene& scene) {
   }
   for (int i = 1; i < static_cast<int>(wing.releases.size()); ++i)
     detail::set_release(wing, scene, i);
+  for (int i = 1; i < static_cast<int>(wing.motors.size()); ++i) detail::set_motor(wing, scene, i);
   for (std::size_t k = 0; k < wing.loops.size(); ++k)
     detail::set_loop(wing, scene.synchronisations[k], wing.loops[k]);
 }

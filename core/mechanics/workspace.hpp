@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/laws/linear_law.hpp"
+#include "core/laws/motor.hpp"
 #include "core/laws/smoothed_latch.hpp"
 #include "core/mechanics/locked.hpp"
 
@@ -42,14 +43,16 @@ template <class T> struct Workspace {
   // of real hinges; empty where there are none
   std::vector<HingeMode<T>> modes; ///< 1 … n
   std::vector<std::array<char, edges_of_hinge>>
-      above;               ///< 1 … n: whether the angle is above the edge
-  DrivenPiece<T> driven{}; ///< current piece of the base's table
+      above;                         ///< 1 … n: whether the angle is above the edge
+  std::vector<MotorPiece<T>> motors; ///< 0 … n: present commands; empty where no hinge has a motor
+  DrivenPiece<T> driven{};           ///< current piece of the base's table
   // of plates in the air; empty where there are none
   std::vector<T> air_moments;      ///< 1 … n: L of air_loads.hpp, N·m
   std::vector<Vec2<T>> air_forces; ///< 0 … n: F of air_loads.hpp, N
   std::vector<Vec2<T>> velocities; ///< 0 … n: of the hinges' points, m/s
   std::vector<char> engaged;       ///< 1 … n: has passed its latched angle
   std::vector<Contact> contact;    ///< 1 … n
+  std::vector<char> restrained;    ///< 1 … n: the hinge's hold is elastic and has not let go
   std::vector<char> watches;       ///< 1 … n: the hinge's hold waits for another hinge's angle
   std::vector<T>
       locks; ///< 1 … n: of packs, 1 in the lanes where the hinge sticks, 2 where it is held, else 0
@@ -59,8 +62,8 @@ template <class T> struct Workspace {
   T least_motion = T(0); ///< atol of the run, rad and rad/s: less is not resolved; 0 without a run
   long evaluations = 0;
 
-  /// Makes room for a wing of n bodies. @param real, plates sizes of the wing's lists
-  void resize(int n, std::size_t real, std::size_t plates) {
+  /// Makes room for a wing of n bodies. @param real, plates, motored sizes of the wing's lists
+  void resize(int n, std::size_t real, std::size_t plates, std::size_t motored = 0) {
     frames.assign(n + 1, BodyFrame<T>{});
     forces.assign(n + 1, {T(0), T(0)});
     laws.resize(n + 1);
@@ -68,6 +71,7 @@ template <class T> struct Workspace {
     crossings.resize(n + 1);
     modes.assign(real, {T(0), T(0), T(0), T(0), T(0)});
     above.assign(real, {});
+    motors.assign(motored, idle_motor<T>());
     air_moments.assign(plates, T(0));
     air_forces.assign(plates, {T(0), T(0)});
     velocities.assign(plates, {T(0), T(0)});
@@ -78,7 +82,8 @@ template <class T> struct Workspace {
     engaged.assign(n + 1, false);
     contact.assign(n + 1, Contact::none);
     holding.assign(n + 1, T(0));
-    watches.assign(n + 1, false);
+    watches.assign(n + 1, false), restrained.assign(n + 1, false);
+    motors.assign(motors.size(), idle_motor<T>());
     if constexpr (!is_one_number<T>) locks.assign(n + 1, T(0));
     stuck = 0, evaluations = 0;
   }

@@ -95,7 +95,7 @@ public:
     added_.resize(at.bodies + 1), spring_.resize(at.bodies + 1);
     solved_.resize(at.freedoms());
     for (int i = 1; i <= at.bodies; ++i) {
-      const auto hinge = resistance(system, from.x, i);
+      const auto hinge = resistance(system, from.x, from.t, i);
       spring_[i] = eta * hinge.stiffness;
       added_[i] = eta * (hinge.damping + spring_[i]);
     }

@@ -34,6 +34,7 @@ template <class T, class AnySystem>
     T resisted = law.damping;
     if (hinge.regularized_friction > T(0))
       resisted = resisted + regularized_friction_damping(hinge, T(0)); // where it is largest
+    if (!wing.motors.empty()) resisted = resisted + wing.motors[i].gain;
     damping += sigma * static_cast<double>(resisted);
     stiffness += sigma * std::max(0.0, static_cast<double>(law.stiffness));
   }
@@ -48,6 +49,7 @@ public:
   template <class AnySystem>
   [[nodiscard]] double estimate(AnySystem& system, const State<T>& x, const T& t) {
     const int size = system.layout().freedoms();
+    t_ = t;
     linear_.factorize(system, x, t, [](int) { return T(0); });
     loop_resistances(system, x, loops_);
     q_.assign(size, T(0)), next_.assign(size, T(0)), v_.resize(size);
@@ -84,7 +86,7 @@ private:
     linear_.solve(
         system,
         [&](int i) {
-          const auto hinge = resistance(system, x, i);
+          const auto hinge = resistance(system, x, t_, i);
           const int k = at.angle(i);
           return -fused(hinge.stiffness, q_[k], hinge.damping * v_[k]) - of_loops(at, i);
         },
@@ -116,6 +118,7 @@ private:
   LinearSolve<T> linear_;
   std::vector<LoopResistance<T>> loops_;
   State<T> q_, v_, next_;
+  T t_ = T(0);
 };
 
 } // namespace wingspread

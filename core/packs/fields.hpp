@@ -145,10 +145,12 @@ const Wing<Pack<W>>& set_harmless(Wing<Pack<W>>& wing, const Wing<double>& struc
     real.damper.rate = 1;
   }
   for (PlateTerms<double>& plate : harmless.plates) plate = {};
+  for (MotorTerms<double>& motor : harmless.motors) motor = {};
   wing.real.resize(structure.real.size());
   wing.loops.resize(structure.loops.size());
   wing.plates.resize(structure.plates.size());
   wing.releases.resize(structure.releases.size());
+  wing.motors.resize(structure.motors.size());
   wing.base.motion = structure.base.motion;
   wing.tree = structure.tree;
   wing.bodies.resize(structure.bodies.size());

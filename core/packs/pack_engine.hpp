@@ -57,6 +57,7 @@ struct PackShape {
   bool forces = false;
   bool moments = false;
   bool holds = false;
+  bool motor_energy = false;
   bool overtravel = true; ///< how far hinges turn beyond their stowed angles
 };
 

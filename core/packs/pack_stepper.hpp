@@ -17,6 +17,7 @@
 #include "core/packs/lane_events.hpp"
 #include "core/packs/lane_peaks.hpp"
 #include "core/packs/pack_engine.hpp"
+#include "core/peaks/motor_energy.hpp"
 #include "core/peaks/overtravel.hpp"
 
 #include <memory>
@@ -37,7 +38,8 @@ public:
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
       x->assign(at_.size(), none);
-    for (std::vector<P>* v : {&overtravel_}) v->assign(at_.bodies + 1, none);
+    for (std::vector<P>* v : {&overtravel_, &motor_energy_, &motor_work_})
+      v->assign(at_.bodies + 1, none);
     holds_.resize(at_);
     events_.resize(at_, wing_.real.size());
     rtol_ = atol_ = dense_tolerance_ = P(1.0);
@@ -66,8 +68,11 @@ public:
     set_lane(lane, work_.laws, task.work.laws);
     work_.least_motion.v[lane] = task.work.least_motion;
     if (!wing_.real.empty()) set_lane(lane, work_.modes, task.work.modes);
+    if (!wing_.motors.empty()) set_lane(lane, work_.motors, task.work.motors);
     if (wing_.base.table) set_lane(lane, work_.driven, task.work.driven);
     for (int i = 1; i <= at_.bodies; ++i) overtravel_[i].v[lane] = task.overtravel[i];
+    for (int i = 1; task.motor_energy && i <= at_.bodies; ++i)
+      motor_energy_[i].v[lane] = task.motor_energy[i];
     events_.load(lane, task.work);
     peaks_.load(lane, task);
     if constexpr (M == BaseMotion::free) free_.load(lane, task);
@@ -95,6 +100,8 @@ public:
       result.step.t = step_.t.v[lane];
       get_lane(lane, step_.x, result.step.x), get_lane(lane, step_.dxdt, result.step.dxdt);
       for (int i = 1; i <= at_.bodies; ++i) result.overtravel[i] = overtravel_[i].v[lane];
+      for (std::size_t i = 1; i < result.motor_energy.size(); ++i)
+        result.motor_energy[i] = motor_energy_[i].v[lane];
     }
     get_lane(lane, step_.x1, result.x1), get_lane(lane, step_.dxdt1, result.dxdt1);
     peaks_.unload(lane, result, moved);
@@ -197,6 +204,7 @@ private:
     asks = asks || (busy && !judgement.accepted && suggests_kink(wing_, scaled_error_));
     asks_after_[0] = asks;
     asks = asks || (accepted && events_.lie_inside(system_, step_));
+    if (!wing_.motors.empty()) asks = asks || (accepted && motors_may_pass_limit());
     asks_after_[1] = asks;
     if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
     asks_after_[2] = asks;
@@ -204,6 +212,9 @@ private:
       free_.restore_momenta(system_, step_);
       if (work_.stuck > 0) holds_.keep_at_end(system_, step_);
     }
+    if (M == BaseMotion::free &&
+        !wing_.motors.empty()) // after the momenta too, which change the rates
+      asks = asks || (accepted && motors_may_pass_limit());
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
     asks_after_[3] = asks;
@@ -221,6 +232,9 @@ private:
       const P beyond = beyond_stowed(wing_.hinges[i], step_.x[at_.angle(i)]);
       overtravel_[i] = select(accepted, larger(overtravel_[i], beyond), overtravel_[i]);
     }
+    for (int i = 1; shape_.motor_energy && i <= at_.bodies; ++i)
+      motor_energy_[i] = select(accepted && events_.waits(i), P(motor_energy_[i] + motor_work_[i]),
+                                motor_energy_[i]);
     evaluations_before_ = evaluations_before_ + peaks_.accept(accepted);
     if (work_.stuck > 0) holds_.accept(accepted);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
@@ -243,6 +257,20 @@ private:
     cut.rejected();
     assign_where(these, history_.memory, cut);
     assign_where(accepted, history_.memory, after);
+  }
+
+  /// Finds the work of every motor over the step. @return lanes in which a motor may reach or leave its limit: a kink, at
+  /// which the run's step may end
+  [[nodiscard]] Mask motors_may_pass_limit() {
+    Mask found{};
+    for (int i = 1; i <= at_.bodies; ++i) {
+      const MotorOverStep<P> motor(system_, step_, i);
+      const Mask runs = work_.motors[i].runs > P(0.0);
+      found = found || (runs && motor.may_pass_limit());
+      if (shape_.motor_energy)
+        motor_work_[i] = select(runs && events_.waits(i), motor.work(), P(0.0));
+    }
+    return found;
   }
 
   // The tests for events and peaks are the first tests of the run alone: they exclude, and never find.
@@ -276,6 +304,7 @@ private:
   P rtol_, atol_, dense_tolerance_, t_end_;
   P scaled_error_, judged_, factor_; ///< of the last trial step: as in LaneResult
   std::vector<P> overtravel_;
+  std::vector<P> motor_energy_, motor_work_; ///< up to the step's start; over the step, J
   LaneEvents<W> events_;
   LaneHolds<W> holds_;
   std::array<Mask, 4>

@@ -28,7 +28,10 @@ public:
         latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
         smoothed_(system.layout().smoothed && hinge_.has_latch), angle_(angle_of(i)),
         rate_(step.rate_of(angle_, system.layout().angle(i), system.layout().freedoms())),
-        linear_(linear_moment(system.work().laws[i], angle_, rate_)) {}
+        linear_(linear_moment(system.work().laws[i], angle_, rate_)) {
+    if (!system.wing().motors.empty())
+      excess_ = motor_excess(system.work().motors[i], step.t, step.h, rate_);
+  }
 
   /// Upper bound of |moment| in the step, by the laws' ranges.
   [[nodiscard]] T most() const {
@@ -44,6 +47,8 @@ public:
     ValueRange<T> range{T(0), T(0)};
     if (!wing.real.empty())
       range = real_range(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_));
+    if (!wing.motors.empty())
+      range = range + motor_range(wing.motors[i_], system_.work().motors[i_], excess_);
     for (const LoopTerms<T>& loop : wing.loops)
       if (joins(loop, i_))
         range = range + loop_moment_range(loop, i_, angle_of(loop.first), rate_of(loop.first),
@@ -63,6 +68,8 @@ public:
     if (!wing.real.empty())
       change.add(real_change(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_),
                              acceleration()));
+    if (!wing.motors.empty())
+      change.add(motor_change(wing.motors[i_], system_.work().motors[i_], excess_, step_.h));
     for (const LoopTerms<T>& loop : wing.loops)
       if (any(change.known) && joins(loop, i_))
         change.add(
@@ -89,6 +96,8 @@ public:
     if (!system_.wing().real.empty())
       m = m + real_moment(system_.wing().real[i_], system_.work().modes[i_], value(angle_, s),
                           value(rate_, s));
+    if (!system_.wing().motors.empty())
+      m = m + motor_moment(system_.wing().motors[i_], system_.work().motors[i_], value(excess_, s));
     for (const LoopTerms<T>& loop : system_.wing().loops)
       if (joins(loop, i_)) m = m + moment_of(loop, s);
     return m;
@@ -119,11 +128,12 @@ private:
   T epsilon_;
   bool smoothed_;
   Quintic<T> angle_, rate_, linear_;
+  Quintic<T> excess_; ///< of a motor's command over the rate; only where the wing has motors
 };
 
 /// |moment| at eighths of a step, N·m.
-template <class T, class AnySystem>
-[[nodiscard]] std::array<T, 9> moment_samples(const MomentOverStep<T, AnySystem>& moment) {
+template <class T, class Moment>
+[[nodiscard]] std::array<T, 9> moment_samples(const Moment& moment) {
   using std::abs;
   std::array<T, 9> samples;
   for (std::size_t k = 0; k < samples.size(); ++k)
@@ -137,19 +147,18 @@ template <class T, class AnySystem>
 template <class T, class AnySystem>
 [[nodiscard]] Truth<T> samples_come_near(const PeakOf<T>& peak,
                                          const MomentOverStep<T, AnySystem>& moment) {
-  const std::array<T, 9> samples = moment_samples(moment);
+  const std::array<T, 9> samples = moment_samples<T>(moment);
   T largest = samples[0];
   for (const T& sample : samples) largest = larger(largest, sample);
   return !(largest < T(sample_margin) * peak.value);
 }
 
 /// Raises `peak` to the largest |moment| that the dense output has over the step: samples the step, and refines
-/// the largest sample.
-template <class T, class AnySystem>
-void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
-                          const Step<T>& step) {
+/// the largest sample. @param moment moment(s), as MomentOverStep has it
+template <class T, class Moment>
+void raise_by_interpolant(PeakOf<T>& peak, const Moment& moment, const Step<T>& step) {
   using std::abs;
-  const std::array<T, 9> samples = moment_samples(moment);
+  const std::array<T, 9> samples = moment_samples<T>(moment);
   std::size_t best = 0;
   for (std::size_t k = 0; k < samples.size(); ++k)
     if (samples[k] > samples[best]) best = k;
@@ -160,10 +169,10 @@ void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& m
   peak.raise(T(abs(moment(vertex))), step.t + vertex * step.h);
 }
 
-/// dM/dt of hinge i at a state and its derivative, N·m/s. @pre the hinge does not stick and has no smoothed latch
+/// dM/dt of hinge i at a state, its derivative and t, N·m/s. @pre the hinge does not stick and has no smoothed latch
 template <class T, class AnySystem>
 [[nodiscard]] T moment_rate(const AnySystem& system, const State<T>& x, const State<T>& dxdt,
-                            int i) {
+                            const T& t, int i) {
   const Layout& at = system.layout();
   const LinearLaw<T>& law = system.work().laws[i];
   const T& rate = x[at.rate(i)];
@@ -176,6 +185,9 @@ template <class T, class AnySystem>
     stiffness = stiffness + real.stiffness, damping = damping + real.damping;
   }
   T change = -fused(stiffness, rate, damping * dxdt[at.rate(i)]);
+  if (!system.wing().motors.empty())
+    change = change + motor_moment_rate(system.wing().motors[i], system.work().motors[i], t, rate,
+                                        dxdt[at.rate(i)]);
   for (const LoopTerms<T>& loop : system.wing().loops) {
     if (!joins(loop, i)) continue;
     const LoopState<T> state = system.state_of(loop, x);
@@ -238,7 +250,10 @@ template <class T, class AnySystem>
   using std::abs;
   const T M = system.moment(x, i);
   peak.raise(T(abs(M)), step.t + doubt.s * step.h);
-  const T late = system.layout().smoothed ? T(0) : T(moment_rate(system, x, dxdt, i) / doubt.bend);
+  const T late =
+      system.layout().smoothed
+          ? T(0)
+          : T(moment_rate(system, x, dxdt, T(step.t + doubt.s * step.h), i) / doubt.bend);
   const T gain = T(0.5) * late * late * abs(doubt.bend);
   doubt.s = doubt.s - late / step.h;
   return M * doubt.bend < T(0) && gain > T(1e-12) * abs(M) && doubt.s > T(0) && doubt.s < T(1) &&

@@ -21,6 +21,14 @@
 ///
 ///     Σ m r̈² ≤ Z := Σ m γ² + Σ L²/J,    |Y_i| ≤ √(m outward of i) √Z                           (4)
 ///
+/// The axis moment of a hinge that is held is a moment of the constraint. It turns all that is outward of the hinge: with
+/// λ_k the way from the hinge to the centre of body k, sums over the bodies outward, and Σ J (ω̇ − L/J)² ≤ Z too,
+///
+///     |M_i| ≤ Σ m λ |r̈| + Σ J |ω̇| ≤ (√(Σ m λ²) + √(Σ J)) √Z + Σ |L|                             (5)
+///
+/// A body that only held hinges tie to a base that is fixed or driven does not move as seen from the base: ω = 0, and its
+/// hinges' moments accelerate nothing.
+///
 /// ω² ≤ 2E/J bounds γ along each path, and (3) bounds L. On a base that is driven, positions and
 /// velocities are as seen from the base, and γ − f replaces γ, f the apparent force of
 /// apparent_load.hpp.
@@ -55,8 +63,10 @@ public:
     bound_moments(system, remaining, energy);
     T Z = centripetal(system, remaining.load(), energy);
     for (int i = first_body<AnySystem>; i < net_.size(); ++i)
-      Z = Z + net_(i) * net_(i) / system.wing().bodies[i].central_inertia;
+      if (!is_still(system, i)) Z = Z + net_(i) * net_(i) / system.wing().bodies[i].central_inertia;
     for (int i = 1; i < net_.size(); ++i) force(i) = sqrt(outward_mass_(i) * Z);
+    for (int i = 1; !system.wing().releases.empty() && i < net_.size(); ++i)
+      if (system.is_held(i)) bound_held(system, T(sqrt(Z)), i);
   }
 
   /// Whether the load on the engaged latch of hinge i stays below its holding moment: latch_laws.hpp (2), with the
@@ -75,6 +85,36 @@ private:
   template <class AnySystem>
   static constexpr int first_body = AnySystem::base_motion == BaseMotion::free ? 0 : 1;
 
+  /// Whether body i does not move as seen from the base.
+  template <class AnySystem> [[nodiscard]] static bool is_still(const AnySystem& system, int i) {
+    if (AnySystem::base_motion == BaseMotion::free || system.wing().releases.empty()) return false;
+    for (; i != 0; i = system.topology().parent_of(i))
+      if (!system.is_held(i)) return false;
+    return true;
+  }
+
+  /// Finds (5) for hinge i, which is held; on a base that is fixed, what does not move loads no hinge. @param root √Z
+  template <class AnySystem> void bound_held(const AnySystem& system, const T& root, int i) {
+    using std::sqrt;
+    const Wing<T>& wing = system.wing();
+    const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
+    T levers(0), inertias(0), loads(0);
+    bool rests = AnySystem::base_motion == BaseMotion::fixed;
+    for (int k = 1; k <= wing.size(); ++k) {
+      T lambda = length(wing.bodies[k].center);
+      int outward = k;
+      for (; outward != i && outward != 0; outward = system.topology().parent_of(outward))
+        lambda = lambda + length(wing.bodies[outward].arm);
+      if (outward == 0) continue;
+      levers = fused(wing.bodies[k].mass, lambda * lambda, levers);
+      inertias = inertias + wing.bodies[k].central_inertia;
+      loads = loads + net_(k);
+      rests = rests && is_still(system, k);
+    }
+    moment(i) = rests ? T(0) : T((sqrt(levers) + sqrt(inertias)) * root + loads);
+    if (rests) force(i) = T(0);
+  }
+
   /// Finds (3) and L.
   template <class AnySystem>
   void bound_moments(const AnySystem& system, const RemainingEnergy<T>& remaining,
@@ -84,6 +124,10 @@ private:
     net_.setZero(moment.size()), rate_.setZero(moment.size());
     for (int i = 1; i < moment.size(); ++i) {
       const int p = system.topology().parent_of(i);
+      if (system.is_held(i)) {
+        moment(i) = T(0);
+        continue;
+      }
       const T& damping = remaining.damping(i);
       T sigma = T(1) / wing.bodies[i].central_inertia;
       if (p >= first_body<AnySystem>) sigma = sigma + T(1) / wing.bodies[p].central_inertia;
@@ -99,7 +143,8 @@ private:
     }
   }
 
-  /// Adds what dampers and loops may exert at the largest rates, and dissipating latches at the largest deflection too.
+  /// Adds what dampers, motors and loops may exert at the largest rates, and dissipating latches at the largest deflection
+  /// too.
   /// The energy of a loop bounds its torque, with a slack strand too: (K e)² ≤ 2 K E.
   template <class AnySystem>
   void add_real(const AnySystem& system, const RemainingEnergy<T>& remaining, const T& energy) {
@@ -107,12 +152,15 @@ private:
     const Wing<T>& wing = system.wing();
     for (int i = 1; i < static_cast<int>(wing.real.size()); ++i) {
       const RealHingeTerms<T>& real = wing.real[i];
+      if (system.is_held(i)) continue;
       if (real.has_damper) moment(i) = moment(i) + most_of_damper(real.damper, T(rate_(i)));
       if (!real.dissipation.present) continue;
       const T at_rest = remaining.rest()[system.layout().angle(i)] - real.dissipation.latched;
       const T deflection = T(abs(at_rest)) + remaining.furthest(i, energy);
       moment(i) = moment(i) + real.dissipation.strength * deflection * rate_(i);
     }
+    for (int i = 1; i < static_cast<int>(wing.motors.size()); ++i)
+      moment(i) = moment(i) + most_braking(wing.motors[i], system.work().motors[i], T(rate_(i)));
     for (const LoopTerms<T>& loop : wing.loops) {
       const T gear = largest_gear(loop);
       const T torque = sqrt(T(2) * loop.stiffness * energy) +
@@ -130,7 +178,8 @@ private:
     const Wing<T>& wing = system.wing();
     const auto length = [](const Vec2<T>& v) { return T(sqrt(dot(v, v))); };
     const auto spin = [&](int i) { // bounds ω_i²
-      return i < first_body<AnySystem> ? T(0) : T(2) * energy / wing.bodies[i].central_inertia;
+      const bool still = i < first_body<AnySystem> || is_still(system, i);
+      return still ? T(0) : T(2) * energy / wing.bodies[i].central_inertia;
     };
     T sum(0);
     gamma_.setZero(net_.size()), speed_.setZero(net_.size());

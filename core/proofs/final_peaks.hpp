@@ -23,6 +23,7 @@ template <class T> struct SeenPeaks {
   const std::vector<PeakOf<T>>*moments, *forces; ///< N·m, N
   const std::vector<T>* overtravel;              ///< rad
   const BaseExcursion<T>* base;                  ///< of a free base
+  const std::vector<PeakOf<T>>* holds;           ///< what holds have borne, N·m
 };
 
 /// Whether the peaks seen lie above bounds on all later moments and forces.
@@ -90,11 +91,11 @@ public:
   [[nodiscard]] bool prove(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
                            const SeenPeaks<T>& seen, bool all_latched) {
     if (system.next_knot() < T(never)) return false; // the base's motion will change
-    if (any_held(system)) return false;              // the bounds have no locked hinges
+    if (holds_forbid(system)) return false;
     if (!is_prepared_) prepare(system, x, t, all_latched);
     if (!modes_ || !latches_act_fully(system, x)) {
       const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
-      return energy && prove_by_energy(system, *energy, seen);
+      return energy && prove_by_energy(system, x, *energy, seen);
     }
     const auto start = modes_->start(&x[system.layout().angle(1)], &x[system.layout().rate(1)], t);
     bool is_proven = false;
@@ -103,7 +104,7 @@ public:
     if (linear_loads_are_below(seen, start)) {
       const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
       is_proven = prove_by_modes(system, x, t, t_end, start, energy, seen) ||
-                  (energy && prove_by_energy(system, *energy, seen));
+                  (energy && prove_by_energy(system, x, *energy, seen));
     }
     if (!is_proven) tune_dampers(system, start);
     return is_proven;
@@ -113,7 +114,7 @@ public:
   /// @param all_latched, @pre as of `prove`
   [[nodiscard]] bool latches_stay(AnySystem& system, const State<T>& x, const T& t, const T& t_end,
                                   bool all_latched) {
-    if (system.next_knot() < T(never) || any_held(system)) return false;
+    if (system.next_knot() < T(never) || holds_forbid(system)) return false;
     if (!is_prepared_) prepare(system, x, t, all_latched);
     const std::optional<T> energy = remaining_.energy(system, x, t, t_end);
     if (!energy) return false;
@@ -125,11 +126,29 @@ public:
   }
 
 private:
-  [[nodiscard]] static bool any_held(const AnySystem& system) {
+  /// Whether holds leave no bounds: one that may still let go, for its hinge has no latch (of the others the caller knows
+  /// that they do not), an elastic one, or one with a loop.
+  [[nodiscard]] static bool holds_forbid(const AnySystem& system) {
     if (system.wing().releases.empty()) return false;
-    for (int i = 1; i <= system.layout().bodies; ++i)
-      if (system.is_held(i)) return true;
+    for (int i = 1; i <= system.layout().bodies; ++i) {
+      if (system.is_restrained(i)) return true;
+      if (!system.is_held(i)) continue;
+      if (!system.wing().hinges[i].has_latch) return true;
+      for (const LoopTerms<T>& loop : system.wing().loops)
+        if (joins(loop, i)) return true;
+    }
     return false;
+  }
+
+  /// Whether the holds bear less than they have: the moment of a held hinge, less its own, which stays as it is.
+  [[nodiscard]] bool no_hold_rises(const AnySystem& system, const State<T>& x,
+                                   const SeenPeaks<T>& seen) const {
+    using std::abs;
+    for (int i = 1; seen.holds && i < static_cast<int>(seen.holds->size()); ++i)
+      if (system.is_held(i) &&
+          !(bounds_.moment(i) + abs(system.sliding_moment(x, i)) <= (*seen.holds)[i].value))
+        return false;
+    return true;
   }
 
   void prepare(AnySystem& system, const State<T>& x, const T& t, bool all_latched) {
@@ -191,12 +210,13 @@ private:
                [&](int i) { return most->way(i - 1); });
   }
 
-  [[nodiscard]] bool prove_by_energy(const AnySystem& system, const T& energy,
+  [[nodiscard]] bool prove_by_energy(const AnySystem& system, const State<T>& x, const T& energy,
                                      const SeenPeaks<T>& seen) {
     if (seen.base) return false; // of the base it tells nothing
     const Layout& at = system.layout();
     bounds_.bound(system, remaining_, energy);
     return no_load_can_rise(seen, at.bodies, bounds_.moment, bounds_.force, 0) &&
+           no_hold_rises(system, x, seen) &&
            no_overtravel_can_rise(
                seen, system.wing(), [&](int i) { return remaining_.rest()[at.angle(i)]; },
                [&](int i) { return remaining_.furthest(i, energy); });

@@ -28,6 +28,11 @@
 /// the steepest slopes of its curves. Off its rest, P' = 0, the potential grows by at least ½ κ u²,
 /// and the moment is at most κ⁺ |u|: in (2) it has the stiffness κ⁺²/κ. A loop adds its own energy,
 /// never negative. Backlash, and a stop within reach, are beyond this proof.
+///
+/// A hinge whose rigid hold never lets go does not move: it has no part in any sum.
+///
+/// A motor under a constant command is a constant drive, which counts in y*, and a part that takes energy: motor.hpp (2).
+/// While its command changes, and at an open hinge, a motor may bring energy in: there is no bound.
 #pragma once
 
 #include "core/proofs/apparent_load.hpp"
@@ -43,7 +48,7 @@ public:
   using Numbers = Eigen::Matrix<T, Eigen::Dynamic, 1>; ///< 0 … n, as the bodies are numbered
 
   /// Finds what depends on the wing alone. Cost O(n) times the tree's depth.
-  /// @pre no hinge will latch any more
+  /// @pre no hinge will latch any more, and no motor's command will change
   template <class AnySystem> void prepare(const AnySystem& system) {
     const int n = system.layout().bodies;
     for (Numbers* v : {&stiffness_, &damping_, &steady_, &least_stiffness_, &at_rest_})
@@ -98,14 +103,19 @@ public:
 private:
   /// Whether hinge i has a latch that it cannot reach.
   template <class AnySystem> [[nodiscard]] static bool is_open(const AnySystem& system, int i) {
-    return system.wing().hinges[i].has_latch && !system.work().engaged[i];
+    return system.wing().hinges[i].has_latch && !system.work().engaged[i] && !system.is_held(i);
   }
 
   template <class AnySystem> void prepare(const AnySystem& system, int i) {
     using std::sqrt;
+    if (system.is_held(i)) { // it does not move, and gives nothing
+      rest_[system.layout().angle(i)] = system.wing().hinges[i].stowed;
+      return;
+    }
     const bool open = is_open(system, i);
-    const LinearLaw<T> law = linear_law(system.wing().hinges[i], !open);
+    const LinearLaw<T> law = with_motor(system, linear_law(system.wing().hinges[i], !open), i);
     const bool loaded = load_.moment(i) > T(0);
+    if (open && system.motor_runs(i)) bounded_ = false;
     damping_(i) = law.damping;
     if (!system.wing().real.empty()) return prepare_real(system, i, law, open);
     if (open || !(law.stiffness > T(0))) {
@@ -117,6 +127,13 @@ private:
     stiffness_(i) = law.stiffness;
     rest_[system.layout().angle(i)] = law.latched + law.drive / law.stiffness;
     add_load(i, law.stiffness);
+  }
+
+  /// The law with the constant drive of the hinge's motor.
+  template <class AnySystem>
+  [[nodiscard]] static LinearLaw<T> with_motor(const AnySystem& system, LinearLaw<T> law, int i) {
+    law.drive = law.drive + system.drive_of_motor(i);
+    return law;
   }
 
   /// Adds the load's moment on hinge i. @param kappa its stiffness
@@ -152,10 +169,12 @@ private:
     add_load(i, least);
   }
 
-  /// The potential of a real hinge whose latch, if it has one, has engaged, J.
+  /// The potential of a real hinge whose latch, if it has one, has engaged, with the drive of its motor, J.
   template <class AnySystem>
   [[nodiscard]] static T latched_potential(const AnySystem& system, const State<T>& x, int i) {
-    return hinge_potential(system, x, i) + smoothed_latch_energy(system, x, i);
+    const T way = x[system.layout().angle(i)] - system.wing().hinges[i].latched;
+    return (hinge_potential(system, x, i) + smoothed_latch_energy(system, x, i)) -
+           system.drive_of_motor(i) * way;
   }
 
   /// Whether a hinge touches a stop, or could with this energy.
@@ -165,6 +184,7 @@ private:
     for (int i = 1; i < static_cast<int>(system.wing().real.size()); ++i) {
       const RealHingeTerms<T>& real = system.wing().real[i];
       const HingeMode<T>& mode = system.work().modes[i];
+      if (system.is_held(i)) continue;
       if (mode.in_contact != T(0) || mode.in_far_contact != T(0)) return true;
       for (const StopTerms<T>* stop : {&real.stop, &real.far_stop}) {
         const T way = abs(rest_[system.layout().angle(i)] - stop->contact_angle);
@@ -179,6 +199,7 @@ private:
   [[nodiscard]] std::optional<T> energy(const AnySystem& system, const State<T>& x, int i) const {
     const Layout& at = system.layout();
     const HingeTerms<T>& hinge = system.wing().hinges[i];
+    if (system.is_held(i)) return T(0);
     if (is_open(system, i)) {
       const T given = detail::most_given(hinge, false, x[at.angle(i)]);
       return is_finite(given) ? std::optional(given) : std::nullopt;
@@ -192,7 +213,7 @@ private:
       // heuristic, for the rounding of P: too small a share could prove what is false by 1e-14 of P
       return (P - at_rest_(i)) + T(256 * epsilon_of<T>) * (abs(P) + abs(at_rest_(i)));
     }
-    const LinearLaw<T> law = linear_law(hinge, true);
+    const LinearLaw<T> law = with_motor(system, linear_law(hinge, true), i);
     const T u = x[at.angle(i)] - law.latched - law.drive / law.stiffness;
     return T(0.5) * law.stiffness * u * u;
   }

@@ -31,8 +31,7 @@ public:
     begin(angles);
     find_rest();
     take_damping(rates);
-    take_dissipation();
-    take_loops();
+    take_dissipation(), take_loops();
     find_masses();
     find_levers();
     take_remainders();
@@ -54,6 +53,7 @@ private:
     for (int i = 1; i <= n_; ++i) {
       m_.parents[i - 1] = wing_.tree.parent_of(i);
       m_.angles(i - 1) = angles[i - 1];
+      m_.remainders[i - 1].motor = motor_at_rest(wing_.motors, work_.motors, i);
     }
     weigh();
   }
@@ -171,8 +171,8 @@ private:
     for (int i = 1; i <= n_; ++i) {
       const LinearLaw<double> own = law(i);
       const double phi = m_.angles(i - 1);
-      double& k = m_.stiffness(i - 1, i - 1);
-      m_.moment(i - 1) = linear_moment(own, phi, 0.0), k = own.stiffness;
+      double& k = m_.stiffness(i - 1, i - 1) = own.stiffness;
+      m_.moment(i - 1) = linear_moment(own, phi, 0.0) + m_.remainders[i - 1].motor.drive;
       if (wing_.real.empty()) continue;
       const RealHingeTerms<double>& real = wing_.real[i];
       m_.moment(i - 1) += curves_moment(real, phi);
@@ -208,7 +208,7 @@ private:
   void take_damping(const double* rates) {
     for (int i = 1; i <= n_; ++i) {
       double& own = m_.damping(i - 1, i - 1);
-      own = law(i).damping;
+      own = law(i).damping + m_.remainders[i - 1].motor.taken;
       if (wing_.real.empty() || !wing_.real[i].has_damper) continue;
       if (!damper_acts_at_rest(wing_.real[i], m_.angles(i - 1))) continue;
       RestModel::Remainder& left = m_.remainders[i - 1];

@@ -28,9 +28,10 @@
 /// The first sum of (3) is M(θ) − M(rest), the second bounds centripetal accelerations. On a base that
 /// turns, r is the base's rate and has no first sum; the push on the wing at rest, which comes and goes
 /// as the base turns, is kept apart. f holds friction, curves that bend, dampers that are not viscous,
-/// and loops that go slack.
+/// motors that pass their limits, and loops that go slack.
 #pragma once
 
+#include "core/laws/motor.hpp"
 #include "core/mechanics/wing.hpp"
 #include "core/mechanics/workspace.hpp"
 
@@ -57,7 +58,7 @@ struct RestModel {
     double cosine, sine;     ///< |c|, |s|
   };
 
-  /// |f| ≤ steady + (bend + dissipation |v|) |u| + what the damper exerts beyond its part of C.
+  /// |f| ≤ steady + (bend + dissipation |v|) |u| + what damper and motor exert beyond their parts of C.
   struct Remainder {
     double steady = 0;      ///< N·m
     double bend = 0;        ///< N·m/rad
@@ -65,6 +66,7 @@ struct RestModel {
     std::optional<DamperTerms<double>> damper;
     double taken = 0;     ///< its part of C, N·m·s/rad
     double tuned_for = 0; ///< the rate at which `taken` is exact, rad/s; 0: at any
+    MotorAtRest motor{};
   };
   struct Loop {
     int first, second;

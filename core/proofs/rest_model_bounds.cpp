@@ -42,6 +42,7 @@ HingeVector RestModel::bound_remainders(const HingeVector& u, const HingeVector&
     const Remainder& left = remainders[i];
     f(i) = left.steady + (left.bend + left.dissipation * v(i)) * u(i);
     if (left.damper) f(i) += beyond_linear(*left.damper, left.taken, v(i));
+    f(i) += left.motor.beyond(v(i));
   }
   for (const Loop& loop : loops) {
     const double e = loop.gear * u(loop.first) + u(loop.second);

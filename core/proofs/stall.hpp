@@ -89,6 +89,8 @@ template <class T, class Topology, BaseMotion M>
   if constexpr (M == BaseMotion::prescribed) return std::nullopt;
   const Layout& at = system.layout();
   if (at.smoothed || system.wing().is_real()) return std::nullopt;
+  for (int i = 1; i <= at.bodies; ++i)
+    if (system.is_restrained(i)) return std::nullopt;
   if (M == BaseMotion::free && !system.wing().plates.empty()) return std::nullopt; // wind
   if (detail::springs_reach_a_latch(system, x)) return std::nullopt; // most attempts end here
   using std::abs;

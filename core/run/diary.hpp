@@ -92,6 +92,9 @@ public:
     if (run_.goal.peak_force) out.peak_force = in_scene_order(wing, peaks.forces());
     if (run_.goal.hold_moment && !wing.releases.empty())
       out.hold_moment = in_scene_order(wing, peaks.holds());
+    out.motor_energy.assign(peaks.motor_energy().empty() ? 0 : wing.size(), 0.0);
+    for (int i = 1; i < static_cast<int>(peaks.motor_energy().size()); ++i)
+      out.motor_energy[wing.hinge_of[i]] = static_cast<double>(peaks.motor_energy()[i]);
     if (run_.goal.final_angle) out.final_angle.resize(wing.size());
     for (int i = 1; run_.goal.final_angle && i <= wing.size(); ++i)
       out.final_angle[wing.hinge_of[i]] =

@@ -213,7 +213,8 @@ private:
     const SeenPeaks<T> seen{goal.peak_moment ? &peaks_.moments() : nullptr,
                             goal.peak_force ? &peaks_.forces() : nullptr,
                             tells_overtravel ? &peaks_.overtravel() : nullptr,
-                            base ? &peaks_.base() : nullptr};
+                            base ? &peaks_.base() : nullptr,
+                            peaks_.holds().empty() ? nullptr : &peaks_.holds()};
     return final_peaks_.prove(run_.system, run_.step.x, run_.step.t, T(run_.how.t_end), seen,
                               !latches_left());
   }

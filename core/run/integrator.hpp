@@ -72,7 +72,8 @@ public:
 
   /// Whether a lane of an engine for this method can go on from here.
   [[nodiscard]] bool fits_lane(Method method) const {
-    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies;
+    return stepping_.method() == method && run_.system.work().stuck < run_.at.bodies &&
+           !peaks_.watches_elastic_hold();
   }
 
   /// @pre fits_lane(the engine's method)
@@ -89,6 +90,7 @@ public:
             .holds = peaks_.holds().empty() ? nullptr : peaks_.holds().data(),
             .force_before = goal.peak_force ? peaks_.force_before().data() : nullptr,
             .overtravel = peaks_.overtravel().data(),
+            .motor_energy = peaks_.motor_energy().empty() ? nullptr : peaks_.motor_energy().data(),
             .held_before = holds ? run_.held_before.data() : nullptr,
             .excess_before = holds ? events_.excess_before().data() : nullptr,
             .conserved = kept_,
@@ -108,6 +110,7 @@ public:
             peaks_.forces(),
             peaks_.holds(),
             peaks_.overtravel(),
+            peaks_.motor_energy(),
             *asked_.x1,
             *asked_.dxdt1,
             run_.system.made_elsewhere().forces,
@@ -125,6 +128,7 @@ public:
   /// @param result empty_lane_result() of this run, filled by its lane
   void resume(const LaneResult& result) {
     run_.system.made_elsewhere().evaluations += result.evaluations;
+    run_.system.command(T(run_.step.t + result.h)); // the lane's last evaluation
     if (result.trial_steps > 0) {
       ending_.pass(stepping_.resume(result));
       run_.step.h = asked_.h = result.h;
@@ -290,6 +294,7 @@ private:
     diary_.watch_energy();
     if (run_.system.work().stuck > 0) {
       run_.system.made_elsewhere().holding = peaks_.held_at_end();
+      run_.system.command(step.t);
       begin_step();
     }
     diary_.notify();

@@ -49,6 +49,7 @@ struct LaneTask {
   const PeakOf<double>* holds;   ///< the same of what holds have borne
   const double* force_before;    ///< 1 … n: at the state, N; null: not asked for
   const double* overtravel;      ///< 1 … n: so far, rad
+  const double* motor_energy;    ///< 1 … n: so far, J; null: not asked for
   const double*
       held_before; ///< 1 … n: moments on stuck hinges at the state, N·m; null: none sticks
   const double* excess_before; ///< 1 … n: of their friction over its limit, N·m; null: none sticks
@@ -70,6 +71,7 @@ struct LaneResult {
   std::vector<PeakOf<double>>& forces;      ///< the same
   std::vector<PeakOf<double>>& holds;       ///< the same
   std::vector<double>& overtravel;          ///< 1 … n: up to there, rad
+  std::vector<double>& motor_energy;        ///< 0 … n: up to there, J; empty if not asked for
   State<double>&x1, &dxdt1;                 ///< end of the last trial step
   std::vector<Vec2<double>>& forces_at_end; ///< 1 … n: there, N; if asked for
   // where hinges stick

@@ -5,6 +5,7 @@
 #include "core/peaks/base_peaks.hpp"
 #include "core/peaks/force_peaks.hpp"
 #include "core/peaks/moment_peaks.hpp"
+#include "core/peaks/motor_energy.hpp"
 #include "core/peaks/overtravel.hpp"
 #include "core/run/underway.hpp"
 
@@ -35,6 +36,17 @@ public:
   [[nodiscard]] std::vector<T>& overtravel() { return overtravel_; }
   [[nodiscard]] const std::vector<T>& overtravel() const { return overtravel_; }
 
+  /// What motors have given, 0 … n, J; empty where no hinge has one or it is not asked for.
+  [[nodiscard]] std::vector<T>& motor_energy() { return motor_energy_; }
+  [[nodiscard]] const std::vector<T>& motor_energy() const { return motor_energy_; }
+
+  /// Whether an elastic hold holds a hinge, whose load lanes do not watch.
+  [[nodiscard]] bool watches_elastic_hold() const {
+    for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
+      if (run_.system.is_restrained(i)) return true;
+    return false;
+  }
+
   /// Which moments may rise over a step that a lane has searched, 1 … n; for the lane to write to.
   [[nodiscard]] std::vector<char>& moments_may_rise() { return may_rise_; }
 
@@ -51,6 +63,7 @@ public:
     moments_.assign(run_.at.bodies + 1, {});
     may_rise_.assign(run_.at.bodies + 1, true);
     overtravel_.assign(run_.at.bodies + 1, T(0));
+    motor_energy_.assign(run_.goal.motor_energy ? run_.system.wing().motors.size() : 0, T(0));
     holds_.assign(watches_holds() ? run_.at.bodies + 1 : 0, {});
     if (run_.goal.peak_force) forces_.start(run_.system, worth_a_step());
   }
@@ -62,8 +75,8 @@ public:
     for (int i = 1; run_.goal.peak_moment && i <= run_.at.bodies; ++i)
       moments_[i].raise(T(abs(run_.system.moment(step.x, i))), step.t);
     for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
-      if (run_.system.is_held(i))
-        holds_[i].raise(T(abs(run_.system.holding_friction(step.x, i))), step.t);
+      if (run_.system.is_held(i) || run_.system.is_restrained(i))
+        holds_[i].raise(T(abs(load_of_hold(step.x, i))), step.t);
     if (run_.goal.peak_force) forces_.sample(run_.system, step.t);
   }
 
@@ -79,6 +92,7 @@ public:
     if (is_stuck_for_good(run_.system, run_.step.x)) return std::nullopt; // nothing else changes
     for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
       raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
+    add_motor_energy(motor_energy_, run_.system, run_.step);
     if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
     return next_doubt();
   }
@@ -139,6 +153,7 @@ private:
 
   /// What hold hold_ bears: the moment that locks its hinge, less the hinge's own.
   [[nodiscard]] std::optional<T> doubtful_hold() {
+    if (run_.system.is_restrained(hold_)) return doubtful_elastic_hold();
     if (!run_.system.is_held(hold_)) return std::nullopt;
     const Step<T>& step = run_.step;
     const HeldMoments<T> ends{run_.held_before[hold_] - run_.system.sliding_moment(step.x, hold_),
@@ -154,9 +169,42 @@ private:
     return borne_at_;
   }
 
+  /// What the hold of hinge i bears at x. @pre the last evaluation was there
+  [[nodiscard]] T load_of_hold(const State<T>& x, int i) const {
+    return run_.system.is_restrained(i) ? run_.system.elastic_hold(x, i)
+                                        : run_.system.holding_friction(x, i);
+  }
+
+  /// The same of an elastic hold: linear in angle and rate, so that its hull dismisses a step.
+  [[nodiscard]] std::optional<T> doubtful_elastic_hold() {
+    using std::abs;
+    const Step<T>& step = run_.step;
+    const ReleaseTerms<T>& hold = run_.system.wing().releases[hold_];
+    const Quintic<T> angle = step.coordinate(run_.at.angle(hold_), run_.at.freedoms());
+    const Quintic<T> rate = step.rate_of(angle, run_.at.angle(hold_), run_.at.freedoms());
+    Quintic<T> load;
+    for (int k = 0; k < 6; ++k)
+      load[k] = fused(hold.stiffness, angle[k] - run_.system.wing().hinges[hold_].stowed,
+                      hold.damping * rate[k]);
+    PeakOf<T>& peak = holds_[hold_];
+    if (!(bound(load) > peak.value)) return std::nullopt;
+    PeakOf<T> candidate = peak;
+    raise_by_interpolant(
+        candidate, [&](const T& s) { return value(load, s); }, step);
+    peak.raise(T(abs(load[0])), step.t), peak.raise(T(abs(load[5])), step.t + step.h);
+    if (!(candidate.value > peak.value)) return std::nullopt;
+    const T s = (candidate.time - step.t) / step.h;
+    if (s < T(next_to_an_end) || s > T(1 - next_to_an_end)) {
+      peak = candidate;
+      return std::nullopt;
+    }
+    borne_at_ = s;
+    return borne_at_;
+  }
+
   void confirm_hold() {
     using std::abs;
-    holds_[hold_].raise(T(abs(run_.system.holding_friction(run_.x, hold_))),
+    holds_[hold_].raise(T(abs(load_of_hold(run_.x, hold_))),
                         run_.step.t + *borne_at_ * run_.step.h);
     borne_at_.reset();
   }
@@ -172,6 +220,7 @@ private:
   std::vector<PeakOf<T>> moments_; ///< 1 … n
   std::vector<PeakOf<T>> holds_;   ///< 1 … n
   std::vector<T> overtravel_;      ///< 1 … n
+  std::vector<T> motor_energy_;    ///< 0 … n
   BaseExcursion<T> base_;
   ForcePeaks<T, AnySystem> forces_;
   int hinge_ = 0;                          ///< the hinge searched for moment peaks

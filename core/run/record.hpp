@@ -29,6 +29,7 @@ template <class T, class Topology, BaseMotion M>
   const Layout& at = system.layout();
   Sample sample;
   sample.t = static_cast<double>(t);
+  system.place_all(x, t);
   sample.angles.resize(at.bodies), sample.rates.resize(at.bodies), sample.moments.resize(at.bodies);
   for (int i = 1; i <= at.bodies; ++i) {
     const int hinge = system.wing().hinge_of[i];
@@ -36,7 +37,6 @@ template <class T, class Topology, BaseMotion M>
     sample.rates[hinge] = static_cast<double>(x[at.rate(i)]);
     sample.moments[hinge] = static_cast<double>(system.moment(x, i));
   }
-  system.place_all(x, t);
   sample.base_angle = static_cast<double>(system.work().frames[0].angle);
   sample.base_rate = static_cast<double>(system.work().frames[0].rate);
   if constexpr (M == BaseMotion::free)

@@ -78,8 +78,9 @@ public:
 
   /// Which kinks end a step of the method, if any does.
   [[nodiscard]] std::optional<KinkLimit> kinks() const {
-    if (!needs_smooth_laws(method())) return std::nullopt;
-    return KinkLimit{tolerance().rtol, tolerance().atol, false};
+    const bool smooth = needs_smooth_laws(method());
+    if (!smooth && run_.system.wing().motors.empty()) return std::nullopt;
+    return KinkLimit{tolerance().rtol, tolerance().atol, false, !smooth};
   }
   /// Which kinks may be why a step was refused.
   [[nodiscard]] KinkLimit kinks_in_refused() const {

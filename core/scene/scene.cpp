@@ -134,6 +134,22 @@ void inspect(const Latch& latch, const Owner& owner, Inspector& check) {
                 "0 beside latch.dissipation");
 }
 
+void inspect(const Hold& hold, const Hinge& hinge, const Owner& owner, Inspector& check) {
+  check.require(hold.stiffness > 0, hold.stiffness, owner, "hold.stiffness", "> 0");
+  check.require(hold.damping >= 0, hold.damping, owner, "hold.damping", ">= 0");
+  check.require(hinge.release.has_value(), 0, owner, "release",
+                "the release of a hinge with a hold");
+}
+
+void inspect(const Motor& motor, const Owner& owner, Inspector& check) {
+  if (motor.table)
+    check.require(true, motor.scale, owner, "motor.rate.scale", "");
+  else
+    check.require(true, motor.rate, owner, "motor.rate", "");
+  check.require(motor.gain >= 0, motor.gain, owner, "motor.gain", ">= 0");
+  check.require(motor.torque_limit >= 0, motor.torque_limit, owner, "motor.torque_limit", ">= 0");
+}
+
 void inspect(const Joint& joint, const Owner& owner, Inspector& check) {
   check.require(joint.stiffness > 0, joint.stiffness, owner, "joint.stiffness", "> 0");
   check.require(joint.damping >= 0, joint.damping, owner, "joint.damping", ">= 0");
@@ -164,6 +180,8 @@ void inspect(const Hinge& hinge, Inspector& check) {
   if (hinge.far_stop) inspect_far(*hinge.far_stop, owner, check);
   if (hinge.latch) inspect(*hinge.latch, owner, check);
   if (hinge.release) inspect(*hinge.release, hinge, owner, check);
+  if (hinge.hold) inspect(*hinge.hold, hinge, owner, check);
+  if (hinge.motor) inspect(*hinge.motor, owner, check);
 }
 
 /// @pre the body has a plate

@@ -132,7 +132,7 @@ struct Latch {
   [[nodiscard]] bool can_miss() const { return capture_rate || holding_moment; }
 };
 
-/// A hinge that is held rigidly at its stowed angle until its hold lets go: at a time, or at an event of another
+/// A hinge that is held at its stowed angle, rigidly unless it has a Hold, until its hold lets go: at a time, or at an event of another
 /// hinge; and a delay after that.
 struct Release {
   enum class Event {
@@ -147,6 +147,24 @@ struct Release {
   double angle = 0; ///< of Event::passed, rad, > 0: sense (φ − stowed) of the other hinge
   double delay = 0; ///< s, ≥ 0
   double fails = 0; ///< 1: the hold never lets go; else 0
+};
+
+/// An elastic hold: −k (φ − φ_stowed) − d φ̇ until the hinge's release.
+struct Hold {
+  double stiffness = 0; ///< k, N·m/rad, > 0
+  double damping = 0;   ///< d, N·m·s/rad, ≥ 0
+};
+
+/// A motor: from its hinge's release on it drives the travel x at a commanded rate r by clamp(c (r − ẋ), −T, T).
+struct Motor {
+  double rate = 0; ///< r, rad/s; positive deploys
+  /// r against the time since release, rad/s against s, in place of `rate`; and the table as given.
+  std::shared_ptr<const Curve> table{};
+  std::vector<double> time{}, rates{};
+  Interpolation interpolation = Interpolation::monotone;
+  double scale = 1;        ///< factor of the table
+  double gain = 0;         ///< c, N·m·s/rad, ≥ 0
+  double torque_limit = 0; ///< T, N·m, ≥ 0
 };
 
 /// An elastic joint: −k (φ − φ_0) − d φ̇ from the start.
@@ -175,6 +193,8 @@ struct Hinge {
   std::optional<Stop> far_stop{};   ///< beyond the latched angle
   std::optional<Latch> latch;       ///< none: the hinge never latches
   std::optional<Release> release{}; ///< none: free from the start
+  std::optional<Hold> hold{};       ///< only with a release; none: the hinge is held rigidly
+  std::optional<Motor> motor{};
   /// In place of all laws above. The hinge then starts and rests at φ_0 = `stowed` = `latched`.
   std::optional<Joint> joint{};
 };

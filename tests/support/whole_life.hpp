@@ -1,11 +1,12 @@
 /// The whole life of a wing by the dense formulation of dense_wing.hpp: hinges that are held and released, latches that
-/// miss and let go again, stops at the far side.
+/// miss and let go again, stops at the far side, motors.
 ///
 /// Held hinges are held by the moments that a linear solve gives, as sticking hinges in dry_friction.hpp. Steps are
 /// those of Fehlberg's order-8 formula; events are found by bisection with real steps. core/ uses none of these.
 #pragma once
 
 #include "tests/support/dense_wing.hpp"
+#include "tests/support/hinge_laws.hpp"
 
 #include <Eigen/LU>
 #include <boost/math/tools/minima.hpp>
@@ -34,13 +35,19 @@ public:
     const WingState<double> start = wing_.initial_state();
     y_.resize(2 * (n + 3));
     write(start);
+    released_.assign(n, 0), commands_.resize(n);
+    motor_energy.assign(n, 0);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const auto& motor = scene.hinges[i].motor; motor && motor->table)
+        commands_[i].emplace(motor->time, motor->rates, motor->interpolation, Beyond::constant);
     for (std::size_t i = 0; i < n; ++i) held_[i] = scene.hinges[i].release.has_value();
     for (std::size_t i = 0; i < n; ++i) schedule(static_cast<int>(i), Release::Event::time, -1);
     let_go_due();
   }
 
   std::vector<Event> releases, latches, missed, let_go;
-  std::vector<double> hold_moment; ///< largest |moment| of each hold, N·m
+  std::vector<double> hold_moment;  ///< largest |moment| of each hold, N·m
+  std::vector<double> motor_energy; ///< of each motor while its latch is not engaged, J
 
   [[nodiscard]] double time() const { return t_; }
   [[nodiscard]] WingState<double> state() const { return state(y_); }
@@ -52,7 +59,8 @@ public:
     double h = 1e-4;
     sample_holds(y_, t_);
     while (t_ < t_end) {
-      const double stretch = std::min(t_end, *std::min_element(due_.begin(), due_.end()));
+      const double stretch =
+          std::min({t_end, *std::min_element(due_.begin(), due_.end()), next_knot()});
       h = std::min(h, longest);
       const bool last = t_ + h >= stretch * (1 - 1e-15);
       if (last) h = stretch - t_;
@@ -65,6 +73,7 @@ public:
       const double step = t - t_;
       h = std::max(tried, 1e-7);
       const int happens = earliest(step);
+      add_motor_work(happens < 0 ? step : where_);
       if (happens < 0) {
         search_holds(step);
         y_ = next, t_ = last ? stretch : t;
@@ -113,9 +122,56 @@ private:
   [[nodiscard]] double beyond(const State& y, int i) const { return wing_.overtravel(i, y[i]); }
   [[nodiscard]] double along(const State& y, int i) const { return wing_.sense(i) * y[half() + i]; }
 
+  [[nodiscard]] double elastic_hold(const State& y, int i) const {
+    const Hinge& hinge = scene_.hinges[i];
+    if (!held_[i] || !hinge.hold) return 0;
+    return -hinge.hold->stiffness * (y[i] - hinge.stowed) - hinge.hold->damping * y[half() + i];
+  }
+
+  // ---- motors, along the travel
+
+  /// The command less the rate.
+  [[nodiscard]] double lag(const State& y, double t, int i) const {
+    const Motor& motor = *scene_.hinges[i].motor;
+    const double since = t - released_[i];
+    const double rate = motor.table ? motor.scale * commands_[i]->value(since) : motor.rate;
+    return rate - along(y, i);
+  }
+  [[nodiscard]] double motor_torque(const State& y, double t, int i) const {
+    const std::optional<Motor>& motor = scene_.hinges[i].motor;
+    if (!motor || held_[i]) return 0;
+    return std::min(std::max(motor->gain * lag(y, t, i), -motor->torque_limit),
+                    motor->torque_limit);
+  }
+  [[nodiscard]] double next_knot() const {
+    double next = never;
+    for (int i = 0; i < size(); ++i)
+      if (scene_.hinges[i].motor && !held_[i])
+        for (const double knot : scene_.hinges[i].motor->time)
+          if (released_[i] + knot > t_ * (1 + 1e-14)) next = std::min(next, released_[i] + knot);
+    return next;
+  }
+  /// Simpson's rule over the next step of h, with real steps.
+  void add_motor_work(double h) {
+    if (std::none_of(scene_.hinges.begin(), scene_.hinges.end(),
+                     [](const Hinge& hinge) { return hinge.motor.has_value(); }))
+      return;
+    const State middle = after(0.5 * h), last = after(h);
+    for (int i = 0; i < size(); ++i) {
+      if (engaged_[i]) continue;
+      const auto power = [&](const State& y, double t) {
+        return motor_torque(y, t, i) * along(y, i);
+      };
+      motor_energy[i] +=
+          h / 6 * (power(y_, t_) + 4 * power(middle, t_ + 0.5 * h) + power(last, t_ + h));
+    }
+  }
+
   /// The hinges' own moments, those of stops at the far side included.
-  [[nodiscard]] Vector<double> own_moments(const State& y) const {
+  [[nodiscard]] Vector<double> own_moments(const State& y, double t) const {
     Vector<double> moments = wing_.moments(state(y));
+    for (int i = 0; i < size(); ++i)
+      moments(i) += wing_.sense(i) * motor_torque(y, t, i) + elastic_hold(y, i);
     for (int i = 0; i < size(); ++i) {
       const std::optional<Stop>& stop = scene_.hinges[i].far_stop;
       const double depth = stop ? beyond(y, i) - stop->gap : 0;
@@ -127,13 +183,15 @@ private:
   }
 
   /// Accelerations, and the moments of the holds in `holds`.
-  [[nodiscard]] WingResponse<double> respond(const State& y, Vector<double>* holds) const {
+  [[nodiscard]] WingResponse<double> respond(const State& y, double t,
+                                             Vector<double>* holds) const {
     const WingState<double> now = state(y);
-    Vector<double> moments = own_moments(y);
+    Vector<double> moments = own_moments(y, t);
     std::vector<int> held;
     for (int i = 0; i < size(); ++i)
-      if (held_[i]) held.push_back(i);
+      if (held_[i] && !scene_.hinges[i].hold) held.push_back(i);
     if (holds) *holds = Vector<double>::Zero(size());
+    for (int i = 0; holds && i < size(); ++i) (*holds)(i) = elastic_hold(y, i);
     if (held.empty()) return wing_.respond(now, moments);
     const Vector<double> free = wing_.respond(now, moments).hinge_accelerations;
     const auto count = static_cast<Eigen::Index>(held.size());
@@ -157,8 +215,8 @@ private:
   }
 
   [[nodiscard]] std::function<void(const State&, State&, double)> right_side() const {
-    return [this](const State& y, State& dydt, double) {
-      const WingResponse<double> r = respond(y, nullptr);
+    return [this](const State& y, State& dydt, double t) {
+      const WingResponse<double> r = respond(y, t, nullptr);
       dydt.resize(y.size());
       for (int k = 0; k < half(); ++k) dydt[k] = y[half() + k];
       const int n = size();
@@ -175,9 +233,9 @@ private:
     return next;
   }
 
-  void sample_holds(const State& y, double /*t*/) {
+  void sample_holds(const State& y, double t) {
     Vector<double> holds;
-    (void)respond(y, &holds);
+    (void)respond(y, t, &holds);
     for (int i = 0; i < size(); ++i) hold_moment[i] = std::max(hold_moment[i], std::abs(holds(i)));
   }
   /// Looks for the largest moment of each hold inside the next step of h.
@@ -186,7 +244,7 @@ private:
       if (!held_[i]) continue;
       const auto minus = [&](double s) {
         Vector<double> holds;
-        (void)respond(s == 0 ? y_ : after(s), &holds);
+        (void)respond(s == 0 ? y_ : after(s), t_ + s, &holds);
         return -std::abs(holds(i));
       };
       const double first = minus(0), middle = minus(0.5 * h), last = minus(h);
@@ -201,7 +259,7 @@ private:
   // ---- events: of each hinge a pass of its latch, a latch that lets go, an angle that a hold waits for, and the
   // deflections at which its law bends: Fehlberg's estimate does not see these
 
-  enum { passes, opens, seen, contact, low, high, kinds };
+  enum { passes, opens, seen, contact, low, high, driving, braking, kinds };
 
   /// Where the law of a hinge bends, beyond its latched angle.
   [[nodiscard]] double bend(int kind, const Hinge& hinge) const {
@@ -211,7 +269,7 @@ private:
   }
 
   /// Negative until the event.
-  [[nodiscard]] double gap(int event, const State& y) const {
+  [[nodiscard]] double gap(int event, const State& y, double t) const {
     const int i = event / kinds;
     const Hinge& hinge = scene_.hinges[i];
     switch (event % kinds) {
@@ -231,6 +289,15 @@ private:
       if (at == never || start == 0 || (event % kinds != contact && !engaged_[i])) return -1;
       return start < 0 ? beyond(y, i) - at : at - beyond(y, i);
     }
+    case driving:
+    case braking: { // the motor reaches or leaves its limit
+      if (!hinge.motor || held_[i] || !(hinge.motor->gain > 0)) return -1;
+      const double limit =
+          (event % kinds == driving ? 1 : -1) * hinge.motor->torque_limit / hinge.motor->gain;
+      const double start = lag(y_, t_, i) - limit, now = lag(y, t, i) - limit;
+      if (std::abs(start) < 1e-13) return -1; // the last event was this one
+      return start < 0 ? now : -now;
+    }
     default:
       if (!held_[i] || !hinge.release || hinge.release->event != Release::Event::passed ||
           due_[i] < never || hinge.release->fails != 0)
@@ -245,11 +312,11 @@ private:
     where_ = h;
     State end = after(h);
     for (int event = 0; event < kinds * size(); ++event) {
-      if (gap(event, end) < 0) continue;
+      if (gap(event, end, t_ + where_) < 0) continue;
       double left = 0, right = where_;
       for (int k = 0; k < 80 && right - left > 1e-16 * (1 + t_); ++k) {
         const double middle = 0.5 * (left + right);
-        (gap(event, after(middle)) < 0 ? left : right) = middle;
+        (gap(event, after(middle), t_ + middle) < 0 ? left : right) = middle;
       }
       where_ = right, first = event, end = after(right);
     }
@@ -293,7 +360,7 @@ private:
       again = false;
       for (int i = 0; i < size(); ++i) {
         if (!held_[i] || due_[i] > t_) continue;
-        held_[i] = 0, due_[i] = never;
+        held_[i] = 0, due_[i] = never, released_[i] = t_;
         if (t_ > 0) releases.push_back({i, t_, 0});
         note(i, Release::Event::released, -1);
         any = again = true;
@@ -308,7 +375,8 @@ private:
   double t_ = 0, where_ = 0;
   std::vector<char> engaged_, held_;
   std::vector<int> side_; ///< of its latched angle on which an open hinge is: −1 towards stowed
-  std::vector<double> due_;
+  std::vector<double> due_, released_;
+  std::vector<std::optional<Table<double>>> commands_; ///< r of each motor with a table
 };
 
 } // namespace wingspread::oracle

@@ -17,7 +17,7 @@ constexpr std::array per_hinge{
     Quantity{"overtravel", "rad"},  Quantity{"hold_moment", "N·m"},
     Quantity{"captures", ""},       Quantity{"held", ""},
     Quantity{"final_angle", "rad"}, Quantity{"peak_bending_moment", "N·m"}, // of a body
-    Quantity{"frequency", "Hz"}};                                           // of a mode
+    Quantity{"motor_energy", "J"},  Quantity{"frequency", "Hz"}};           // of a mode
 constexpr std::array of_base{Quantity{"base.peak_angle", "rad"},
                              Quantity{"base.peak_rate", "rad/s"}};
 constexpr std::string_view rate_at = ".rate_at.";

@@ -73,6 +73,8 @@ Outputs families_of(const std::vector<OutputColumn>& columns) {
       families.insert(OutputFamily::captures);
     else if (column.quantity == Quantity::held)
       families.insert(OutputFamily::held);
+    else if (column.quantity == Quantity::motor_energy)
+      families.insert(OutputFamily::motor_energy);
     else if (column.quantity == Quantity::final_angle)
       families.insert(OutputFamily::final_angle);
     else if (column.quantity == Quantity::base_peak_angle ||

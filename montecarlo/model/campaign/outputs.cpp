@@ -48,6 +48,11 @@ double final_angle_of(int hinge, const Outcome& outcome) {
   return has_run(outcome) && !outcome.final_angle.empty() ? outcome.final_angle[hinge] : undefined;
 }
 
+double motor_energy_of(int hinge, const Outcome& outcome) {
+  return has_run(outcome) && !outcome.motor_energy.empty() ? outcome.motor_energy[hinge]
+                                                           : undefined;
+}
+
 double peak_of(int hinge, const std::vector<Peak>& peaks, Status status) {
   return peaks.empty() || status == Status::failed ? undefined : peaks[hinge].value;
 }
@@ -101,6 +106,8 @@ double number_of(const OutputColumn& column, const Outcome& outcome) {
     return held_of(column.hinge, outcome);
   case Quantity::final_angle:
     return final_angle_of(column.hinge, outcome);
+  case Quantity::motor_energy:
+    return motor_energy_of(column.hinge, outcome);
   }
   return undefined;
 }
@@ -122,6 +129,8 @@ Outputs default_outputs(const Scene& scene) {
   Outputs outputs = default_outputs();
   if (std::ranges::any_of(scene.hinges, [](const Hinge& h) { return h.release.has_value(); }))
     outputs.insert(OutputFamily::hold_moment);
+  if (std::ranges::any_of(scene.hinges, [](const Hinge& h) { return h.motor.has_value(); }))
+    outputs.insert(OutputFamily::motor_energy);
   if (std::ranges::any_of(scene.hinges, can_miss))
     outputs.insert({OutputFamily::captures, OutputFamily::held});
   return outputs;
@@ -147,7 +156,8 @@ Outputs all_outputs() {
   Outputs outputs = default_outputs();
   outputs.insert(OutputFamily::rate_at);
   outputs.insert({OutputFamily::base_motion, OutputFamily::frequency, OutputFamily::hold_moment,
-                  OutputFamily::captures, OutputFamily::held, OutputFamily::final_angle});
+                  OutputFamily::captures, OutputFamily::held, OutputFamily::final_angle,
+                  OutputFamily::motor_energy});
   return outputs;
 }
 
@@ -188,6 +198,7 @@ std::vector<OutputColumn> output_columns(const Scene& scene, const Outputs& outp
       add(OutputFamily::captures, "captures", Quantity::captures);
       add(OutputFamily::held, "held", Quantity::held);
     }
+    if (hinge.motor) add(OutputFamily::motor_energy, "motor_energy", Quantity::motor_energy);
     add(OutputFamily::final_angle, "final_angle", Quantity::final_angle);
     if (outputs.contains(OutputFamily::rate_at)) add_rates_at(scene, i, columns);
   }
@@ -212,6 +223,7 @@ Goal goal_of(const Outputs& outputs) {
   goal.peak_force = outputs.contains(OutputFamily::peak_force);
   goal.overtravel = outputs.contains(OutputFamily::overtravel);
   goal.hold_moment = outputs.contains(OutputFamily::hold_moment);
+  goal.motor_energy = outputs.contains(OutputFamily::motor_energy);
   goal.final_angle = outputs.contains(OutputFamily::final_angle);
   goal.audit = goal.end_state = false;
   goal.base_motion = outputs.contains(OutputFamily::base_motion);

@@ -35,19 +35,20 @@ enum class OutputFamily {
   hold_moment, ///< of hinges that are held
   captures,    ///< of latches that may miss or let go
   held,        ///< of the same latches
-  final_angle  ///< not a default
+  final_angle, ///< not a default
+  motor_energy ///< of hinges with motors
 };
-inline constexpr std::array<std::string_view, 13> output_family_names{
-    "latch_time", "latch_rate",  "peak_moment", "peak_force", "rate_at",
-    "overtravel", "peaks_final", "base_motion", "frequency",  "hold_moment",
-    "captures",   "held",        "final_angle"};
+inline constexpr std::array<std::string_view, 14> output_family_names{
+    "latch_time", "latch_rate",  "peak_moment", "peak_force",  "rate_at",
+    "overtravel", "peaks_final", "base_motion", "frequency",   "hold_moment",
+    "captures",   "held",        "final_angle", "motor_energy"};
 inline constexpr int most_mode_outputs = 10; ///< mode_1.frequency … mode_10.frequency
 using Outputs = std::set<OutputFamily>;
 
 /// All families except `rate_at` (quadratic in the number of hinges), `base_motion`, `frequency` and `final_angle`, and
 /// those of features that a scene may lack.
 [[nodiscard]] Outputs default_outputs();
-/// default_outputs, and the families of the scene's holds and of its latches that may miss.
+/// default_outputs, and the families of the scene's holds, motors and latches that may miss.
 [[nodiscard]] Outputs default_outputs(const Scene& scene);
 
 /// Whether the outputs include peaks, which t_end may cut.
@@ -84,7 +85,8 @@ struct OutputColumn {
     hold_moment,
     captures,
     held,
-    final_angle
+    final_angle,
+    motor_energy
   } quantity;
   /// Index into Scene::hinges; of a bending moment into Scene::bodies; of a frequency the mode, from 0; else −1.
   int hinge = -1;

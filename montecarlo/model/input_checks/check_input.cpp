@@ -6,6 +6,7 @@
 #include "montecarlo/model/input_checks/damper_check.hpp"
 #include "montecarlo/model/input_checks/dispersion_checks.hpp"
 #include "montecarlo/model/input_checks/life_checks.hpp"
+#include "montecarlo/model/input_checks/motor_checks.hpp"
 #include "montecarlo/model/input_checks/shape_checks.hpp"
 #include "montecarlo/model/input_checks/size_checks.hpp"
 #include "montecarlo/model/input_checks/torque_checks.hpp"
@@ -28,6 +29,7 @@ Outcome check_motion(const Scene& scene, const Integration& integration, InputWa
   Outcome nominal = check_clearance(scene, integration, warnings);
   check_dampers(scene, integration, nominal, warnings);
   check_life(scene, integration, nominal, warnings);
+  check_motors(scene, integration, nominal, warnings);
   return nominal;
 }
 

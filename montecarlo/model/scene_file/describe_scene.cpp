@@ -142,8 +142,25 @@ std::string describe_release(const Scene& scene, const Hinge& hinge) {
     return fmt::format("{} s", release.time);
   };
   const std::string delay = release.delay == 0 ? "" : fmt::format("{} s after ", release.delay);
-  return fmt::format("; held until {}{}{}", delay, event(),
+  const std::string spring = hinge.hold ? fmt::format(" by {} N·m/rad, {} N·m·s/rad",
+                                                      hinge.hold->stiffness, hinge.hold->damping)
+                                        : "";
+  return fmt::format("; held{} until {}{}{}", spring, delay, event(),
                      release.fails == 0 ? "" : ", but never released (fails)");
+}
+
+/// "; motor at 0.05 rad/s, 40 N·m·s/rad up to 3 N·m".
+std::string describe_motor(const std::optional<Motor>& motor) {
+  if (!motor) return "";
+  const std::string rate =
+      motor->table
+          ? fmt::format("by a table of {} times from {} to {} s, {}{}", motor->time.size(),
+                        motor->time.front(), motor->time.back(),
+                        interpolation_names[static_cast<std::size_t>(motor->interpolation)],
+                        describe_change(motor->scale))
+          : fmt::format("at {} rad/s", motor->rate);
+  return fmt::format("; motor {}, {} N·m·s/rad up to {} N·m", rate, motor->gain,
+                     motor->torque_limit);
 }
 
 std::string describe_latch(const std::optional<Latch>& latch) {
@@ -187,7 +204,7 @@ std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
          describe_torque("harness", hinge.harness) + describe_friction(hinge.friction) +
          describe_damper(hinge.damper) + describe_stop("stop", hinge.stop) +
          describe_stop("stop beyond the latched angle", hinge.far_stop) +
-         describe_latch(hinge.latch) + describe_release(scene, hinge);
+         describe_latch(hinge.latch) + describe_motor(hinge.motor) + describe_release(scene, hinge);
 }
 
 std::string describe_body(const Body& body) {

@@ -1,5 +1,6 @@
 #include "montecarlo/model/scene_file/hinge_json.hpp"
 
+#include "montecarlo/model/scene_file/motor_json.hpp"
 #include "montecarlo/model/scene_file/torque_json.hpp"
 
 #include <fmt/format.h>
@@ -139,6 +140,16 @@ std::optional<std::string> read_release(const JsonCursor& at, Release& release) 
   return after;
 }
 
+/// Reads an elastic hold. @param released whether the hinge has a release
+void read_hold(const JsonCursor& at, bool released, std::optional<Hold>& hold) {
+  JsonObject object(at, "an object with the hold's stiffness and damping");
+  if (!released) return void(at.refuse("no hold without a release: nothing would let go"));
+  hold.emplace();
+  object.required("stiffness", hold->stiffness, Dimension{"N·m/rad", "> 0"});
+  object.optional("damping", hold->damping, Dimension{"N·m·s/rad", "≥ 0"});
+  object.refuse_others();
+}
+
 void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
   JsonObject object(at, "an object with the latch's stiffness, and its damping or dissipation");
   latch.emplace();
@@ -164,7 +175,8 @@ void read_latch(const JsonCursor& at, std::optional<Latch>& latch) {
 
 /// Refuses the laws that a joint replaces.
 void refuse_laws_beside_joint(JsonObject& object) {
-  for (const char* key : {"spring", "harness", "friction", "damper", "stop", "latch", "release"})
+  for (const char* key :
+       {"spring", "harness", "friction", "damper", "stop", "latch", "release", "hold", "motor"})
     if (const auto law = object.find(key))
       law->refuse(
           fmt::format("no \"{}\" beside \"joint\": an elastic joint has no other law", key));
@@ -189,7 +201,7 @@ std::optional<std::string> read_end(JsonObject& object, std::string_view key,
   return at && at->read(name, expected) ? std::optional(name) : std::nullopt;
 }
 
-/// Reads all torques, the damper, stops and latch.
+/// Reads all torques, the damper, stops, latch and motor.
 void read_laws(JsonObject& object, Way way, Hinge& hinge) {
   if (const auto spring = object.find("spring")) read_spring(*spring, way, hinge.spring);
   if (const auto harness = object.find("harness")) read_harness(*harness, way, hinge.harness);
@@ -197,6 +209,7 @@ void read_laws(JsonObject& object, Way way, Hinge& hinge) {
   if (const auto damper = object.find("damper")) read_damper(*damper, hinge.damper);
   if (const auto stop = object.find("stop")) read_stops(*stop, hinge);
   if (const auto latch = object.find("latch")) read_latch(*latch, hinge.latch);
+  if (const auto motor = object.find("motor")) read_motor(*motor, hinge.motor);
 }
 
 Json write_angle(const Hinge& hinge) {
@@ -293,6 +306,8 @@ HingeEnds read_hinge(const JsonCursor& at, Hinge& hinge) {
     read_laws(object, angle ? read_angle(*angle, hinge) : Way::unknown, hinge);
     if (const auto release = object.find("release"))
       ends.after = read_release(*release, hinge.release.emplace());
+    if (const auto hold = object.find("hold"))
+      read_hold(*hold, hinge.release.has_value(), hinge.hold);
   }
   object.refuse_others();
   return ends;
@@ -319,6 +334,9 @@ Json write_hinge(const Scene& scene, const Hinge& hinge) {
   if (hinge.stop || hinge.far_stop) json["stop"] = write_stops(hinge);
   if (hinge.latch) json["latch"] = write_latch(*hinge.latch);
   if (hinge.release) json["release"] = write_release(scene, *hinge.release);
+  if (hinge.hold)
+    json["hold"] = {{"stiffness", hinge.hold->stiffness}, {"damping", hinge.hold->damping}};
+  if (hinge.motor) json["motor"] = write_motor(*hinge.motor);
   return json;
 }
 

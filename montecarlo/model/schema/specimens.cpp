@@ -27,7 +27,10 @@ constexpr std::array<std::string_view, 6> scenes{
                   "window": [1, 0.25], "scale": 0.7 },
       "stop": { "stiffness": 500, "dissipation": 0.2, "gap": 0.01, "side": "stowed" },
       "latch": { "stiffness": 10000, "damping": 100, "backlash": 0.002, "capture_rate": 1, "holding_moment": 12 },
-      "release": { "after": "mid", "event": "latched", "delay": 0.1, "fails": 0 } },
+      "motor": { "rate": { "table": { "time": [0, 1, 60], "rate": [0, 0.05, 0.05] }, "interpolation": "linear",
+                           "scale": 1 }, "gain": 40, "torque_limit": "5 N*m" },
+      "release": { "after": "mid", "event": "latched", "delay": 0.1, "fails": 0 },
+      "hold": { "stiffness": 2000, "damping": 3 } },
     { "name": "mid", "parent": "inner", "child": "outer", "parent_point": [0.5, 0], "child_point": [-0.5, 0],
       "angle": { "stowed": -3, "latched": 0 },
       "spring": { "torque_stowed": 1, "torque_latched": 0.5, "scale": 1, "offset": 0 },
@@ -37,6 +40,7 @@ constexpr std::array<std::string_view, 6> scenes{
                 { "stiffness": 500, "dissipation": 0.2, "gap": 0.01, "side": "latched" } ],
       "initial_rate": 0,
       "latch": { "stiffness": 10000, "dissipation": 0.5 },
+      "motor": { "rate": "2 deg/s", "gain": 40, "torque_limit": 5 },
       "release": { "after": "root", "event": { "angle": "45 deg" }, "delay": 0.1, "fails": 0 } } ],
   "synchronisations": [
     { "name": "loop", "between": ["root", "mid"], "ratio": 2, "stiffness": 300, "damping": 0.5, "preload": 8 },
@@ -141,7 +145,7 @@ constexpr std::array<std::string_view, 4> campaigns{R"({
   "integration": { "method": "auto", "rtol": 1e-8, "atol": 1e-9, "latch": "event", "t_end": "60 s",
                    "max_steps": 100000 },
   "outputs": ["latch_time", "latch_rate", "peak_moment", "peak_force", "rate_at", "overtravel", "peaks_final", "frequency",
-              "hold_moment", "captures", "held", "final_angle"],
+              "hold_moment", "captures", "held", "final_angle", "motor_energy"],
   "statistics": { "quantiles": [0.5], "confidence": 0.95, "bins": "auto", "accuracy_runs": 24,
                   "tolerance": [ { "probability": 0.99, "confidence": 0.9, "side": "upper" } ] },
   "requirements": [

@@ -72,13 +72,27 @@ double damping_at(const Hinge& hinge, double x, double rate) {
 
 } // namespace
 
+StallTorques stall_torques(const Motor& motor) {
+  double slowest = motor.rate, fastest = motor.rate;
+  if (motor.table) { // its curve is largest and smallest at knots
+    const auto [least, most] = std::ranges::minmax(motor.rates);
+    slowest = std::min(motor.scale * least, motor.scale * most);
+    fastest = std::max(motor.scale * least, motor.scale * most);
+  }
+  const auto at = [&](double rate) {
+    return std::clamp(motor.gain * rate, -motor.torque_limit, motor.torque_limit);
+  };
+  return {at(slowest), at(fastest)};
+}
+
 void add_terms(const Hinge& hinge, double x, double gear, const HingeExtras& extras,
                TorqueTerms& terms) {
   const double size = std::abs(gear);
   const double spring = gear * torque_at(hinge.spring, hinge, x);
+  const double motor = hinge.motor ? gear * stall_torques(*hinge.motor).most : 0;
   const TorqueTerms& other = extras.other;
-  terms.available += size * other.available + std::max(spring, 0.0);
-  terms.spring += size * other.spring + std::max(-spring, 0.0);
+  terms.available += size * other.available + std::max(spring, 0.0) + std::max(motor, 0.0);
+  terms.spring += size * other.spring + std::max(-spring, 0.0) + std::max(-motor, 0.0);
   terms.harness += size * other.harness + std::max(gear * torque_at(hinge.harness, hinge, x), 0.0);
   terms.friction += size * (other.friction + static_level_at(hinge, x));
   terms.damping += size * (other.damping + damping_at(hinge, x, extras.rate));

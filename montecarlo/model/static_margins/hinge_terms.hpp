@@ -2,6 +2,9 @@
 /// Kinetic energy, stops, gravity and air are not counted. A torque test both ways (`measured`) gives its mean to the
 /// spring and half its difference to the friction.
 ///
+/// A motor counts with its moment at rest: its stall torque under the fastest command towards the latch. One that is never
+/// commanded towards the latch resists.
+///
 /// Dampers and viscous friction vanish at rest. With a stated rate they resist as at that rate, in addition to the
 /// friction at rest.
 ///
@@ -22,6 +25,12 @@ struct HingeExtras {
   TorqueTerms other{}; ///< terms that a scene cannot hold, N·m
   double rate = 0;     ///< rate for the dampers' torque, rad/s, ≥ 0; 0: dampers are not counted
 };
+
+/// The moments that a motor exerts at rest under its slowest and its fastest command, N·m along the travel.
+struct StallTorques {
+  double least, most;
+};
+[[nodiscard]] StallTorques stall_torques(const Motor& motor);
 
 /// The hinge's terms at x of its travel (0 stowed … 1 latched), the extras included. A spring that pulls back counts as
 /// resistance S; a harness that helps counts as 0. FR is the friction level at rest: `static` of the exact model, else

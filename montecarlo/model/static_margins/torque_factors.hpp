@@ -1,9 +1,9 @@
 /// The torque terms of a static margin, and the factors of the standards. The formulas: static_margin.hpp.
 ///
 ///   symbol  term (N·m, each ≥ 0)                                         class
-///   T       the spring's torque, in the deploying sense
+///   T       the torque of spring and motor, in the deploying sense
 ///   I       inertial load that resists                                   fixed (known)
-///   S       a spring that resists                                        fixed (known)
+///   S       spring or motor that resists                                      fixed (known)
 ///   HM      a motor's magnetic losses                                    variable
 ///   FR      friction                                                     variable
 ///   HY      hysteresis                                                   variable

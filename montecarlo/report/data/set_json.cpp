@@ -75,6 +75,17 @@ Json reasons_json(const Summary& summary) {
   return json;
 }
 
+Json stalled_at_json(const Summary& summary) {
+  Json json = Json::array();
+  for (const StoppedHinge& each : summary.stalled_at)
+    json.push_back({{"hinge", each.hinge},
+                    {"count", each.runs},
+                    {"median", page_number(each.median)},
+                    {"least", page_number(each.least)},
+                    {"largest", page_number(each.largest)}});
+  return json;
+}
+
 Json orders_json(const OrderSplit& orders) {
   Json json = Json::array();
   for (const auto& [name, count] : orders.groups())
@@ -187,6 +198,7 @@ Json set_json(const PageSource& source, const PageDetail& detail, int threads) {
   Json json = identity_json(source);
   json["statuses"] = statuses_json(summary);
   json["reasons"] = reasons_json(summary);
+  if (!summary.stalled_at.empty()) json["stalled_at"] = stalled_at_json(summary);
   json["orders"] = orders_json(*source.orders);
   json["order_kinds"] = source.orders->kinds();
   json["without_latch"] = summary.without_latch;

@@ -202,6 +202,17 @@ private:
       whole(release.after);
       numbers({&release.time, &release.angle, &release.delay, &release.fails});
     });
+    present(hinge.hold, [&](Hold& hold) { numbers({&hold.stiffness, &hold.damping}); });
+    present(hinge.motor, [&](Motor& motor) {
+      numbers({&motor.rate, &motor.scale, &motor.gain, &motor.torque_limit});
+      word(motor.interpolation);
+      bool there = motor.table != nullptr;
+      whole(there);
+      pass_.list(motor.time);
+      pass_.list(motor.rates);
+      if (there && !motor.table)
+        motor.table = std::make_shared<const Curve>(motor.time, motor.rates, motor.interpolation);
+    });
   }
 
   void loop(Synchronisation& loop) {

@@ -35,6 +35,7 @@
         statusBar(set),
         W.table("Outcomes of the runs", ["Outcome", number("Runs"), number("Share"), number(confidence)], rows),
         reasons(set),
+        stalledAt(set),
       ];
     }
     const statuses = [...new Set(W.sets.flatMap((set) => set.statuses.map((one) => one.status)))].filter(
@@ -62,7 +63,7 @@
         "p.note",
         `Under each share its ${confidence} (exact for independent draws). Outcomes not listed occurred in no run.`,
       ),
-      W.sets.map((set) => reasons(set, set.label)),
+      W.sets.map((set) => [reasons(set, set.label), stalledAt(set, set.label)]),
     ];
   }
   function reasons(set, label) {
@@ -77,6 +78,22 @@
           h("li", h("b", F.count(one.count)), ` ${nameOf(one.status)}: ${one.reason || "no reason given"}`),
         ),
       ),
+    );
+  }
+
+  // Where hinges stopped in the stalled runs in which they did not latch.
+  function stalledAt(set, label) {
+    if (!(set.stalled_at || []).length) return null;
+    const { unit } = F.shown("rad"),
+      angle = (value) => F.value(value, "rad");
+    return W.table(
+      `Where stalled hinges stopped${label ? `: ${label}` : ""}: angle from the latched one, ${unit}`,
+      ["Hinge", number("Runs"), number("Median"), number("Least"), number("Largest")],
+      set.stalled_at.map((one) => [
+        one.hinge,
+        F.count(one.count),
+        ...[one.median, one.least, one.largest].map(angle),
+      ]),
     );
   }
 

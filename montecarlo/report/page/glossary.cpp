@@ -21,7 +21,7 @@ constexpr std::array outputs{
     Entry{
         "HINGE.peak_moment",
         "largest |moment| about the hinge's axis over the whole run, including the instants after "
-        "each engagement: springs, harness, friction, dampers, stops, loops and latch"},
+        "each engagement: springs, harness, friction, dampers, motor, stops, loops and latch"},
     Entry{"HINGE.peak_force", "largest force across the hinge over the whole run"},
     Entry{
         "HINGE.overtravel",
@@ -31,6 +31,10 @@ constexpr std::array outputs{
     Entry{"HINGE.captures", "how many times the latch engaged"},
     Entry{"HINGE.held", "1 if the latch holds at the end of the run, else 0"},
     Entry{"HINGE.final_angle", "the hinge's angle at the end of the run, from its latched angle"},
+    Entry{
+        "HINGE.motor_energy",
+        "work of the hinge's motor on the wing while the hinge's latch is not engaged; below 0 of "
+        "a motor that brakes"},
     Entry{"BODY.peak_bending_moment",
           "largest |moment| in the joints of a flexible body over the whole run"},
     Entry{"mode_K.frequency", "natural frequency of the draw's wing with every latch engaged, "

@@ -84,6 +84,15 @@ Json bending_json(const Scene& scene, const Outcome& outcome) {
   return json;
 }
 
+/// Of hinges with a motor.
+Json motors_json(const Scene& scene, const Outcome& outcome) {
+  if (outcome.motor_energy.empty() || outcome.status == Status::failed) return nullptr;
+  Json json = Json::object();
+  for (std::size_t i = 0; i < outcome.motor_energy.size(); ++i)
+    if (scene.hinges[i].motor) json[scene.hinges[i].name] = json_number(outcome.motor_energy[i]);
+  return json;
+}
+
 Json overtravel_json(const Scene& scene, const Outcome& outcome) {
   if (outcome.overtravel.empty() || outcome.status == Status::failed) return nullptr;
   return by_hinge(scene, outcome.overtravel);
@@ -115,7 +124,7 @@ Json energy_json(const EnergyAudit& energy) {
 
 namespace {
 
-/// Adds what a scene without holds, and without latches that may miss, does not have.
+/// Adds what a scene without holds, motors, and latches that may miss does not have.
 void add_life(const Scene& scene, const Outcome& outcome, Json& json) {
   const auto is_held = [](const Hinge& hinge) { return hinge.release.has_value(); };
   const auto may_miss = [](const Hinge& hinge) { return hinge.latch && hinge.latch->can_miss(); };
@@ -123,6 +132,8 @@ void add_life(const Scene& scene, const Outcome& outcome, Json& json) {
     json["releases"] = events_json(scene, outcome.releases);
     json["hold_moment"] = holds_json(scene, outcome);
   }
+  if (std::ranges::any_of(scene.hinges, [](const Hinge& h) { return h.motor.has_value(); }))
+    json["motor_energy"] = motors_json(scene, outcome);
   if (std::ranges::any_of(scene.hinges, may_miss)) {
     json["missed"] = events_json(scene, outcome.missed);
     json["let_go"] = events_json(scene, outcome.let_go);

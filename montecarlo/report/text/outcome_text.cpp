@@ -68,6 +68,16 @@ std::string holds(const Scene& scene, const Outcome& outcome) {
   return text;
 }
 
+/// What motors gave; empty where no hinge has one.
+std::string motors(const Scene& scene, const Outcome& outcome) {
+  if (outcome.motor_energy.empty() || outcome.status == Status::failed) return "";
+  std::string text = fmt::format("\n{:<24}{:>15}\n", "MOTOR", "energy, J");
+  for (std::size_t i = 0; i < scene.hinges.size(); ++i)
+    if (scene.hinges[i].motor)
+      text += fmt::format("  {:<22}{:>15.6f}\n", scene.hinges[i].name, outcome.motor_energy[i]);
+  return text;
+}
+
 std::string peaks(const Scene& scene, const Outcome& outcome) {
   const bool any = !outcome.peak_moment.empty() || !outcome.peak_force.empty();
   if (!any || outcome.status == Status::failed) return "";
@@ -124,8 +134,8 @@ std::string outcome_text(const Scene& scene, const Outcome& outcome) {
   return ending(scene, outcome) + hinge_events("RELEASE", scene, outcome.releases) +
          latches(scene, outcome) + hinge_events("PASSED, TOO FAST", scene, outcome.missed) +
          hinge_events("LET GO", scene, outcome.let_go) + peaks(scene, outcome) +
-         holds(scene, outcome) + final_state(scene, outcome) + warnings(scene, outcome) +
-         effort(scene, outcome);
+         holds(scene, outcome) + motors(scene, outcome) + final_state(scene, outcome) +
+         warnings(scene, outcome) + effort(scene, outcome);
 }
 
 } // namespace wingspread

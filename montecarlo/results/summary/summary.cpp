@@ -1,5 +1,6 @@
 #include "montecarlo/results/summary/summary.hpp"
 
+#include "montecarlo/foundation/formats/output_name.hpp"
 #include "montecarlo/foundation/formats/text_layout.hpp"
 #include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/foundation/statistics/binomial_bounds.hpp"
@@ -48,6 +49,31 @@ std::vector<ReasonCount> count_reasons(const Results& results) {
   results.reason.release();
   results.status.release();
   return counts.sorted();
+}
+
+/// Of hinges with an output final_angle.
+std::vector<StoppedHinge> stopped_hinges(const Results& results) {
+  std::vector<StoppedHinge> stopped;
+  for (const Column& column : results.outputs) {
+    const OutputName name = parse_output_name(column.name);
+    if (name.quantity != "final_angle") continue;
+    const auto latched =
+        std::ranges::find(results.outputs, name.hinge + ".latch_time", &Column::name);
+    std::vector<double> angles;
+    for (std::size_t row = 0; row < results.size(); ++row) {
+      const bool open = latched == results.outputs.end() || std::isnan(latched->values[row]);
+      if (results.status[row] == Status::stalled && open && !std::isnan(column.values[row]))
+        angles.push_back(column.values[row]);
+    }
+    column.values.release();
+    if (latched != results.outputs.end()) latched->values.release();
+    if (angles.empty()) continue;
+    std::ranges::sort(angles);
+    stopped.push_back(
+        {name.hinge, std::ssize(angles), quantile(angles, 0.5), angles.front(), angles.back()});
+  }
+  results.status.release();
+  return stopped;
 }
 
 void count_latch_orders(const DictionaryColumn& column, Summary& summary) {
@@ -137,7 +163,7 @@ void summarize_columns(const Results& results, const StatisticsSpec& spec,
       threads_worth(threads, sorting_operations(results.size()) * static_cast<double>(tasks));
   for_each_task(threads_within_memory(team, bytes), tasks, [&](std::size_t task) {
     if (task == 0)
-      summary.reasons = count_reasons(results);
+      summary.reasons = count_reasons(results), summary.stalled_at = stopped_hinges(results);
     else
       summary.outputs[task - 1] =
           summarize_output(results.outputs[task - 1], spec, replication, requirements);

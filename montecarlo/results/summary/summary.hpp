@@ -105,6 +105,13 @@ struct PeaksCount {
   long proven = 0, cut = 0, unknown = 0;
 };
 
+/// Where a hinge stopped in the stalled runs in which it did not latch: its final_angle, rad.
+struct StoppedHinge {
+  std::string hinge;
+  long runs = 0;
+  double median = undefined, least = undefined, largest = undefined;
+};
+
 struct Summary {
   long runs = 0;
   double confidence = 0; ///< of all bounds, two-sided
@@ -118,15 +125,16 @@ struct Summary {
   std::vector<DrawCorrelation> correlations; ///< each draw with each output and with `deployed`
   /// Added by write_statistics (results_folder.hpp) if the campaign asks for it.
   std::vector<Verdict> requirements{};
-  std::optional<NominalRun> nominal{};   ///< its outputs are in `outputs`
-  std::optional<Accuracy> accuracy{};    ///< of the integration; nothing if not measured
-  std::vector<Overtravel> overtravels{}; ///< of hinges without a stop
-  std::vector<LatchJump> latch_jumps{};  ///< of the nominal run
-  std::optional<PeaksCount> peaks{};     ///< nothing if not recorded
-  std::vector<GoalFound> until{};        ///< goals of the stopping rule
-  bool stopped = false;                  ///< all goals were met before all runs were made
-  InterimAnalyses interim{};             ///< which share the risk of every bound and verdict
-  bool without_rows = false;             ///< computed from streaming statistics
+  std::optional<NominalRun> nominal{};    ///< its outputs are in `outputs`
+  std::optional<Accuracy> accuracy{};     ///< of the integration; nothing if not measured
+  std::vector<StoppedHinge> stalled_at{}; ///< in the order of the columns; only with final_angle
+  std::vector<Overtravel> overtravels{};  ///< of hinges without a stop
+  std::vector<LatchJump> latch_jumps{};   ///< of the nominal run
+  std::optional<PeaksCount> peaks{};      ///< nothing if not recorded
+  std::vector<GoalFound> until{};         ///< goals of the stopping rule
+  bool stopped = false;                   ///< all goals were met before all runs were made
+  InterimAnalyses interim{};              ///< which share the risk of every bound and verdict
+  bool without_rows = false;              ///< computed from streaming statistics
 };
 
 /// Cost O((D + O) N log N + D O N) for D draws, O outputs, N runs. Memory: 20 to 50 bytes per run and thread; as many

@@ -140,6 +140,14 @@ void add_reasons(Json& json, const Summary& summary) {
   json["reasons_omitted"] = omitted;
 }
 
+void add_stopped(Json& json, const Summary& summary) {
+  for (const StoppedHinge& each : summary.stalled_at)
+    json["stalled_at"][each.hinge] = {{"runs", each.runs},
+                                      {"median", json_number(each.median)},
+                                      {"least", json_number(each.least)},
+                                      {"largest", json_number(each.largest)}};
+}
+
 void add_latch_orders(Json& json, const Summary& summary) {
   json["latch_order"] = Json::object();
   long omitted = summary.runs - summary.without_latch;
@@ -340,6 +348,7 @@ Json summary_json(const Summary& summary, const Json& about) {
   if (summary.nominal) json["nominal"] = nominal_json(*summary.nominal);
   json["status"] = statuses_json(summary);
   add_reasons(json, summary);
+  add_stopped(json, summary);
   add_latch_orders(json, summary);
   if (summary.peaks)
     json["peaks_final"] = {{"true", summary.peaks->proven},

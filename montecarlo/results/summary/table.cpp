@@ -13,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numbers>
 
 namespace wingspread {
 
@@ -66,6 +67,20 @@ std::string reasons(const Summary& summary) {
     text += fmt::format("  and {}, in summary.json\n",
                         counted(static_cast<long>(summary.reasons.size() - shown), "other reason",
                                 "other reasons"));
+  return text;
+}
+
+/// Where hinges stopped in stalled runs; empty without final_angle.
+std::string stalled_at(const Summary& summary) {
+  if (summary.stalled_at.empty()) return "";
+  std::string text =
+      fmt::format("\n{:<50}{:>10}{:>12}{:>12}{:>12}\n", "STALLED AT, from latched, deg", "runs",
+                  "median", "least", "largest");
+  const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
+  for (const StoppedHinge& each : summary.stalled_at)
+    text += fmt::format("{}{:>10}{:>12.3f}{:>12.3f}{:>12.3f}\n",
+                        in_column(fmt::format("  {}", each.hinge), 50), each.runs,
+                        degrees(each.median), degrees(each.least), degrees(each.largest));
   return text;
 }
 
@@ -313,9 +328,9 @@ std::string bar(long eighths) {
 std::string summary_table(const Summary& summary, std::string_view title, std::string_view folder,
                           bool all) {
   return std::string(title) + '\n' + outcomes(summary, all) + reasons(summary) +
-         latch_orders(summary) + outputs(summary, all) + accuracy_text(summary, all) +
-         tolerance(summary) + requirements(summary, folder) + stopping(summary) +
-         warning_lines(summary) + files(summary, folder);
+         stalled_at(summary) + latch_orders(summary) + outputs(summary, all) +
+         accuracy_text(summary, all) + tolerance(summary) + requirements(summary, folder) +
+         stopping(summary) + warning_lines(summary) + files(summary, folder);
 }
 
 std::string draw_histogram(std::string_view name, std::string_view unit, const Histogram& histogram,

@@ -53,6 +53,72 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a panel that a spring holds swings about its load until it is released") {
+  constexpr double k = 500, tau = 2, T = 1.23;
+  Scene scene = latching_panel();
+  scene.hinges[0].release = at_time(T);
+  scene.hinges[0].hold = Hold{k, 0};
+  const double omega = std::sqrt(k / panel_inertia), at_rest = tau / k;
+  const double x = at_rest * (1 - std::cos(omega * T)), v = at_rest * omega * std::sin(omega * T);
+  const double rate = std::sqrt(v * v + 2 * (pi / 2 - x) * tau / panel_inertia);
+  for (const Scene& way : {scene, other_sense(scene)}) {
+    const Outcome out = run_everywhere(way, 1e-11, 30);
+    check_arrival(out, {T + (rate - v) * panel_inertia / tau, rate}, 1e-9);
+    CHECK(relative(out.hold_moment[0].value, 2 * tau) < 1e-9);
+    CHECK(out.overtravel[0] < 1e-12);
+  }
+  scene.hinges[0].hold->damping = 20; // ζ = 0.26
+  const double zeta = 20 / (2 * std::sqrt(k * panel_inertia)), swing = std::sqrt(1 - zeta * zeta);
+  const Outcome damped = run_everywhere(scene, 1e-11, 30);
+  // the load τ (1 + A e^(−ζωt) cos(…)) of spring and damper together is largest where the panel's acceleration is least
+  double most = 0;
+  for (double t = 0; t < 1; t += 1e-6) {
+    const double fall = std::exp(-zeta * omega * t), phase = swing * omega * t;
+    const double acceleration =
+        tau / panel_inertia * fall * (std::cos(phase) - zeta / swing * std::sin(phase));
+    most = std::max(most, tau - panel_inertia * acceleration);
+  }
+  CHECK(relative(damped.hold_moment[0].value, most) < 1e-9);
+}
+
+TEST_CASE("an elastic hold that fails stalls the run, and no latch engages meanwhile") {
+  Scene scene = two_panels();
+  scene.hinges[0].release = at_time(1), scene.hinges[0].release->fails = 1;
+  scene.hinges[0].hold = Hold{500, 5};
+  const Outcome out = run_stalled(scene, 20);
+  CHECK(out.never_released == std::vector<int>{0});
+  CHECK(out.latches.size() == 1);
+  CHECK(out.hold_moment[0].value > 2);
+}
+
+TEST_CASE("peaks are final where a hold has failed and the other hinges have rung out") {
+  Scene beside = two_panels();
+  beside.hinges[1].release = at_time(1), beside.hinges[1].release->fails = 1;
+  Scene wings = symmetric_tree(); // one wing hangs, the other rings and turns the spacecraft
+  const int first = wings.hinges[0].child;
+  for (Hinge& hinge : wings.hinges)
+    if (hinge.child == first || hinge.parent == first)
+      hinge.release = at_time(1), hinge.release->fails = 1;
+  for (const Scene& scene : {beside, wings}) {
+    CAPTURE(scene.name);
+    const Integration how = within(1e-9, 2000);
+    const Outcome early = Deployment().run(scene, how, {});
+    CHECK(early.status == Status::stalled);
+    CHECK(early.peaks_final);
+    CHECK(early.t_end < 1000);
+    Goal longer;
+    longer.to_t_end = true;
+    const Outcome late = Deployment().run(scene, within(1e-9, early.t_end + 60), longer);
+    for (std::size_t i = 0; i < scene.hinges.size(); ++i) {
+      CAPTURE(i);
+      CHECK(early.peak_moment[i].value == late.peak_moment[i].value);
+      CHECK(early.peak_force[i].value == late.peak_force[i].value);
+      CHECK(early.hold_moment[i].value == late.hold_moment[i].value);
+    }
+    require_equal_bits({scene, scene, scene}, how, every_peak);
+  }
+}
+
 TEST_CASE("a hinge is released after another one latches, is released, or passes an angle") {
   const double way = way_of_panel();
   const double quarter = std::sqrt(2 * (pi / 8) * panel_inertia / 2); // to a quarter of the travel

@@ -1,4 +1,4 @@
-// Random wings with holds, latches that miss and let go, and stops beyond the latched angle: against the dense
+// Random wings with holds, motors, latches that miss and let go, and stops beyond the latched angle: against the dense
 // formulation in an integrator of its own.
 #include "tests/core/deployment/real_runs.hpp"
 #include "tests/support/random_cases.hpp"
@@ -9,9 +9,28 @@ using namespace wingspread::oracle;
 
 namespace {
 
+std::optional<Motor> random_motor(Draws& draws) {
+  if (draws.chance(0.3)) return std::nullopt;
+  Motor motor;
+  motor.gain = draws.log_uniform(0.3, 100);
+  motor.rate = draws.uniform(-0.3, 1);
+  motor.torque_limit = motor.gain * draws.log_uniform(0.05, 5);
+  if (draws.chance(0.6)) return motor;
+  motor.time = {draws.uniform(-1, 0.3)}, motor.rates = {draws.uniform(-0.3, 1)};
+  for (int k = 0; k < 4; ++k) {
+    motor.time.push_back(motor.time.back() + draws.uniform(0.1, 1));
+    motor.rates.push_back(draws.uniform(-0.3, 1));
+  }
+  motor.interpolation = draws.chance(0.5) ? Interpolation::monotone : Interpolation::linear;
+  motor.table = std::make_shared<Curve>(motor.time, motor.rates, motor.interpolation);
+  motor.scale = draws.uniform(0.5, 1.5);
+  return motor;
+}
+
 /// Makes the latches of a random scene softer, and gives its hinges a life.
-Scene with_life(Scene scene, std::uint64_t seed) {
-  Draws draws(seed);
+/// @param motors whether hinges may have motors and elastic holds, which leave all other draws as they are
+Scene with_life(Scene scene, std::uint64_t seed, bool motors = false) {
+  Draws draws(seed), motor_draws(seed + 77777);
   const int n = static_cast<int>(scene.hinges.size());
   for (int i = 0; i < n; ++i) {
     Hinge& hinge = scene.hinges[i];
@@ -29,6 +48,7 @@ Scene with_life(Scene scene, std::uint64_t seed) {
     if (draws.chance(0.5))
       hinge.far_stop =
           Stop{draws.log_uniform(50, 1000), draws.uniform(0, 1), draws.uniform(0, 0.2)};
+    if (motors) hinge.motor = random_motor(motor_draws);
     if (!draws.chance(0.5)) continue;
     Release release{.delay = draws.chance(0.5) ? draws.uniform(0, 0.5) : 0};
     release.after = draws.below(n);
@@ -44,6 +64,8 @@ Scene with_life(Scene scene, std::uint64_t seed) {
     }
     if (draws.chance(0.1)) release.fails = 1;
     hinge.release = release;
+    if (motors && motor_draws.chance(0.4))
+      hinge.hold = Hold{motor_draws.log_uniform(30, 3000), motor_draws.log_uniform(0.1, 10)};
   }
   return scene;
 }
@@ -66,15 +88,19 @@ std::vector<HingeEvent> events_of(const std::vector<LatchEvent>& latches) {
 
 } // namespace
 
-TEST_CASE("random wings live as the dense formulation says: holds, captures, latches that let go") {
+namespace {
+
+/// Runs random wings and CHECKs all that happens to them against the dense formulation.
+void check_lives(int first, int cases, bool motors) {
   std::size_t releases = 0, missed = 0, let_go = 0, held = 0;
-  for (int k = 0; k < random_cases(200, 10); ++k) {
+  double work = 0;
+  for (int k = 0; k < cases; ++k) {
     RandomScene options;
     options.bodies = 1 + k % 4;
     options.branching = k % 3 != 0;
     options.motion = static_cast<BaseMotion>(k % 3);
     options.mass_lower = 1, options.mass_upper = 10;
-    const Scene scene = with_life(random_scene(9000 + k, options), 9500 + k);
+    const Scene scene = with_life(random_scene(first + k, options), first + 500 + k, motors);
     CAPTURE(k, options.bodies);
     const double t_end = 3;
     WholeLife exact(scene);
@@ -93,6 +119,11 @@ TEST_CASE("random wings live as the dense formulation says: holds, captures, lat
       CHECK(std::abs(out.final.rates[i] - end.rates(static_cast<int>(i))) < 1e-5);
       CHECK((holding_latch(out, static_cast<int>(i)) != nullptr) ==
             exact.engaged(static_cast<int>(i)));
+      if (!out.motor_energy.empty()) {
+        work += std::abs(exact.motor_energy[i]);
+        CHECK(std::abs(out.motor_energy[i] - exact.motor_energy[i]) <
+              1e-6 * (1 + std::abs(exact.motor_energy[i])));
+      }
       if (out.hold_moment.empty()) continue;
       held += exact.hold_moment[i] > 0;
       CHECK(std::abs(out.hold_moment[i].value - exact.hold_moment[i]) <
@@ -103,6 +134,17 @@ TEST_CASE("random wings live as the dense formulation says: holds, captures, lat
   CHECK(missed > 0);
   CHECK(let_go > 0);
   CHECK(held > 0);
+  CHECK((work > 0) == motors);
+}
+
+} // namespace
+
+TEST_CASE("random wings live as the dense formulation says: holds, captures, latches that let go") {
+  check_lives(9000, random_cases(200, 10), false);
+}
+
+TEST_CASE("random wings with motors and elastic holds live as the dense formulation says") {
+  check_lives(12000, random_cases(200, 12), true);
 }
 
 TEST_CASE("random wings with a life have the same bits in lanes") {
@@ -110,7 +152,7 @@ TEST_CASE("random wings with a life have the same bits in lanes") {
     RandomScene options;
     options.bodies = 1 + k % 5;
     options.motion = static_cast<BaseMotion>(k % 3);
-    const Scene drawing = with_life(random_scene(9000 + k, options), 9500 + k);
+    const Scene drawing = with_life(random_scene(9000 + k, options), 9500 + k, k % 2 == 1);
     std::vector<Scene> units;
     for (int u = 0; u < 10; ++u) {
       Draws draws(400 + u);
@@ -121,6 +163,8 @@ TEST_CASE("random wings with a life have the same bits in lanes") {
         if (hinge.release) hinge.release->fails = draws.chance(0.1) ? 1 : 0;
         if (hinge.latch->capture_rate) *hinge.latch->capture_rate *= draws.uniform(0.5, 2);
         if (hinge.latch->holding_moment) *hinge.latch->holding_moment *= draws.uniform(0.5, 2);
+        if (hinge.motor) hinge.motor->gain *= draws.uniform(0.5, 2);
+        if (hinge.motor) hinge.motor->torque_limit *= draws.uniform(0.5, 2);
         if (k % 4 == 3) hinge.friction.model = FrictionModel::exact;
       }
     }

@@ -33,6 +33,7 @@ inline std::string bits_of(const Outcome& outcome) {
   for (const auto* events : {&outcome.missed, &outcome.let_go, &outcome.releases})
     for (const HingeEvent& event : *events) add(event.hinge), add(event.time), add(event.rate);
   for (const double angle : outcome.final_angle) add(angle);
+  for (const double energy : outcome.motor_energy) add(energy);
   for (const auto* peaks : {&outcome.peak_moment, &outcome.peak_force, &outcome.hold_moment})
     for (const Peak& peak : *peaks) add(peak.value), add(peak.time);
   for (const double beyond : outcome.overtravel) add(beyond);

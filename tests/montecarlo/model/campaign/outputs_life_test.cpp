@@ -1,4 +1,4 @@
-// Outputs of holds, and of latches that may miss or let go.
+// Outputs of holds, motors, and latches that may miss or let go.
 #include "montecarlo/model/campaign/campaign_json.hpp"
 #include "montecarlo/model/campaign/outputs.hpp"
 #include "montecarlo/model/scene_file/scene_json.hpp"
@@ -45,6 +45,24 @@ TEST_CASE("Only hinges with a life have its outputs, and only scenes with one ha
   for (const OutputFamily family : life) CHECK(default_outputs(scene).contains(family));
   CHECK_FALSE(default_outputs(scene).contains(OutputFamily::final_angle));
   CHECK(names(plain, {OutputFamily::final_angle}).size() == 4);
+}
+
+TEST_CASE("Only hinges with a motor have its energy") {
+  Json document = parse_json_file(test::three_panel_file());
+  document["hinges"][1]["motor"] = {{"rate", 0.1}, {"gain", 40}, {"torque_limit", 3}};
+  const Scene scene = read_scene(document);
+  CHECK(default_outputs(scene).contains(OutputFamily::motor_energy));
+  CHECK(names(scene, {OutputFamily::motor_energy}) ==
+        std::vector<std::string>{"mid.motor_energy", "deployment_time"});
+  CHECK(goal_of(default_outputs(scene)).motor_energy);
+  CHECK_FALSE(goal_of(default_outputs()).motor_energy);
+  Outcome outcome;
+  outcome.status = Status::timed_out;
+  CHECK(std::isnan(value(scene, outcome, "mid.motor_energy")));
+  outcome.motor_energy = {0, -1.5, 0};
+  CHECK(value(scene, outcome, "mid.motor_energy") == -1.5);
+  outcome.status = Status::failed;
+  CHECK(std::isnan(value(scene, outcome, "mid.motor_energy")));
 }
 
 TEST_CASE("A latch that let go has the time of the engagement that holds, or none") {

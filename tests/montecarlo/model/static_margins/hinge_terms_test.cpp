@@ -25,6 +25,28 @@ Hinge hinge_with(const HingeTorque& spring, const HingeTorque& harness, double c
 
 } // namespace
 
+TEST_CASE("a motor counts with its torque at rest", "[motorization]") {
+  Hinge hinge = hinge_with({2, 1}, {0, 0}, 0);
+  hinge.motor = Motor{.rate = 0.1, .gain = 20, .torque_limit = 3}; // 2 N·m at rest
+  CHECK(terms_at(hinge, 0).available == 4);
+  CHECK(terms_at(hinge, 1).available == 3);
+  hinge.motor->gain = 400; // its limit
+  CHECK(terms_at(hinge, 0).available == 5);
+  hinge.motor->rate = -0.1; // pulls back
+  CHECK((terms_at(hinge, 0).available == 2 && terms_at(hinge, 0).spring == 3));
+  TorqueTerms turned; // a hinge that another one turns backwards
+  add_terms(hinge, 0, -2, {}, turned);
+  CHECK((turned.available == 6 && turned.spring == 4));
+  Motor& motor = *hinge.motor;
+  motor.time = {0, 1, 2}, motor.rates = {-0.05, 0.1, 0}, motor.gain = 20, motor.scale = 0.5;
+  motor.table = std::make_shared<Curve>(motor.time, motor.rates, Interpolation::monotone);
+  CHECK(stall_torques(motor).most == 1);
+  CHECK(stall_torques(motor).least == -0.5);
+  motor.scale = -0.5;
+  CHECK(stall_torques(motor).most == 0.5);
+  CHECK(stall_torques(motor).least == -1);
+}
+
 TEST_CASE("a hinge's terms: what changes its sense changes its side", "[motorization]") {
   Hinge hinge = hinge_with({2, -1}, {-0.1, 0.3}, 0.02);
   const TorqueTerms stowed = terms_at(hinge, 0), latched = terms_at(hinge, 1);

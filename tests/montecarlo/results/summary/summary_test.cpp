@@ -50,6 +50,27 @@ TEST_CASE("a summary counts every run once, by status, with bounds") {
   CHECK(*summary.statuses[2].bounds.upper == clopper_pearson(0, 10, 0.95).upper);
 }
 
+TEST_CASE("a summary says where stalled hinges stopped") {
+  Results results(ResultNames{{}, {"root.latch_time", "root.final_angle", "tip.final_angle"}});
+  for (long run = 0; run < 9; ++run) {
+    const bool stalled = run >= 4, latched = run == 8; // the root has latched in run 8
+    results.append(
+        {run,
+         stalled ? Status::stalled : Status::deployed,
+         {},
+         {stalled && !latched ? none : 10, static_cast<double>(run), stalled ? -0.5 : 1e-3},
+         "",
+         ""});
+  }
+  const Summary summary = summarize(results, {});
+  REQUIRE(summary.stalled_at.size() == 2);
+  const StoppedHinge &root = summary.stalled_at[0], &tip = summary.stalled_at[1];
+  CHECK((root.hinge == "root" && root.runs == 4));
+  CHECK((root.median == 5 && root.least == 4 && root.largest == 7));
+  CHECK((tip.hinge == "tip" && tip.runs == 5 && tip.median == -0.5));
+  CHECK(summarize(ten_runs(), {}).stalled_at.empty());
+}
+
 TEST_CASE("a summary of an output is over the runs in which it happened, and says so") {
   const Summary summary = summarize(ten_runs(), {{0.5, 0.99}, 0.5, 4});
   const OutputSummary& latch_time = summary.outputs[0];

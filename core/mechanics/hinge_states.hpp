@@ -1,0 +1,264 @@
+/// The hinges of a wing in a run: their laws in the present state of latches, contacts and motors, and the moments that
+/// follow. The right-hand side is made of them: system.hpp.
+#pragma once
+
+#include "core/mechanics/edges.hpp"
+#include "core/mechanics/wing.hpp"
+#include "core/mechanics/workspace.hpp"
+
+#include <optional>
+
+namespace wingspread {
+
+template <class T> class HingeStates {
+public:
+  HingeStates(const Wing<T>& wing, const Layout& layout, const T& epsilon, Workspace<T>& work)
+      : wing_(wing), work_(work), layout_(layout), epsilon_(epsilon) {}
+
+  /// Sets the side of every edge of real hinges at x, where a run begins.
+  void find_sides(const State<T>& x) {
+    for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i) {
+      for (int e = 0; e < edges_of_hinge; ++e)
+        work_.above[i][e] = x[layout_.angle(i)] > edge_angle(wing_, i, static_cast<Edge>(e));
+      update_law(i);
+    }
+  }
+  /// Records that hinge i has passed an edge, upwards or downwards.
+  void pass(int i, Edge edge, bool upwards) {
+    work_.above[i][static_cast<int>(edge)] = upwards;
+    update_law(i);
+  }
+
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] const Wing<T>& wing() const { return wing_; }
+  [[nodiscard]] const Workspace<T>& work() const { return work_; }
+  [[nodiscard]] const T& epsilon() const { return epsilon_; }
+  /// The workspace, for the tolerances, and for evaluations made outside this object.
+  [[nodiscard]] Workspace<T>& made_elsewhere() { return work_; }
+
+  /// Engages the latch of hinge i, which has reached its latched angle.
+  void engage(int i) {
+    work_.engaged[i] = true;
+    if (wing_.is_real() && !wing_.real.empty()) { // inside its backlash
+      work_.above[i][static_cast<int>(Edge::backlash_low)] = true;
+      work_.above[i][static_cast<int>(Edge::backlash_high)] = false;
+    }
+    update_law(i);
+  }
+
+  /// The latch of hinge i lets go at x.
+  void disengage(int i, const State<T>& x) {
+    work_.engaged[i] = false;
+    work_.above[i][static_cast<int>(Edge::pass)] = x[layout_.angle(i)] > wing_.hinges[i].latched;
+    update_law(i);
+  }
+
+  /// Sets the state of hinge i.
+  void touch(int i, Contact contact) {
+    work_.stuck += wingspread::is_locked(contact) - wingspread::is_locked(work_.contact[i]);
+    work_.contact[i] = contact;
+    if constexpr (is_one_number<T>)
+      if (contact == Contact::held && !wing_.motors.empty()) work_.motors[i] = idle_motor<T>();
+    update_law(i);
+  }
+  /// Sets whether the elastic hold of hinge i restrains it.
+  void restrain(int i, bool restrained) {
+    work_.restrained[i] = restrained;
+    if (restrained && !wing_.motors.empty()) work_.motors[i] = idle_motor<T>();
+    update_law(i);
+  }
+  [[nodiscard]] bool is_restrained(int i) const { return work_.restrained[i] != 0; }
+  /// Moment of the elastic hold of hinge i at x, N·m. @pre is_restrained(i)
+  [[nodiscard]] T elastic_hold(const State<T>& x, int i) const {
+    const ReleaseTerms<T>& hold = wing_.releases[i];
+    const T way = x[layout_.angle(i)] - wing_.hinges[i].stowed;
+    return -fused(hold.stiffness, way, hold.damping * x[layout_.rate(i)]);
+  }
+  /// Its energy, J; 0 for a hinge that none restrains.
+  [[nodiscard]] T hold_energy(const State<T>& x, int i) const {
+    if (!is_restrained(i)) return T(0);
+    const T way = x[layout_.angle(i)] - wing_.hinges[i].stowed;
+    return T(0.5) * wing_.releases[i].stiffness * way * way;
+  }
+
+  /// Starts the motor of hinge i, which is released at t.
+  void start_motor(int i, const T& t) {
+    if (!wing_.motors.empty() && wing_.motors[i].present)
+      work_.motors[i] = started_motor(wing_.motors[i], t);
+  }
+  /// Sets the commanded rates of all motors to those at t.
+  void command(const T& t) {
+    for (int i = 1; i < motors_end(); ++i) work_.motors[i].now = commanded_rate(work_.motors[i], t);
+  }
+  /// Whether no command changes any more; a motor whose hinge is held does not count.
+  [[nodiscard]] bool motors_are_steady() const {
+    for (int i = 1; i < motors_end(); ++i)
+      if (!is_steady(work_.motors[i])) return false;
+    return true;
+  }
+  /// Whether hinge i is released and has a motor.
+  [[nodiscard]] bool motor_runs(int i) const {
+    return !wing_.motors.empty() && work_.motors[i].runs > T(0);
+  }
+  /// What the motor of hinge i exerts at rest under its present command, N·m.
+  [[nodiscard]] T drive_of_motor(int i) const {
+    return wing_.motors.empty() ? T(0) : motor_drive(wing_.motors[i], work_.motors[i]);
+  }
+
+  /// Whether hinge i is locked, by friction or by its hold.
+  [[nodiscard]] bool sticks(int i) const { return wingspread::is_locked(work_.contact[i]); }
+  /// Whether the hold of hinge i holds it; for a pack: in which lanes.
+  [[nodiscard]] Truth<T> is_held(int i) const {
+    if constexpr (is_one_number<T>)
+      return work_.contact[i] == Contact::held;
+    else
+      return work_.locks[i] > T(1);
+  }
+  /// As sticks; for a pack: the lanes in which it does.
+  [[nodiscard]] Truth<T> is_locked(int i) const {
+    if constexpr (is_one_number<T>)
+      return sticks(i);
+    else
+      return work_.locks[i] > T(0);
+  }
+  /// Whether hinge i has an event latch that has engaged.
+  [[nodiscard]] bool latch_acts(int i) const {
+    return work_.engaged[i] && wing_.hinges[i].has_latch && !layout_.smoothed;
+  }
+
+  /// The hinge's linear law in its present state without friction: the part that has a potential.
+  [[nodiscard]] LinearLaw<T> law_without_friction(int i) const {
+    return linear_law(wing_.hinges[i], latch_acts(i), T(0), backlash_side(i));
+  }
+
+  /// Energy of an engaged latch of a real hinge, J; 0 inside its backlash.
+  [[nodiscard]] T latch_energy(const State<T>& x, int i) const {
+    const std::optional<T> side = backlash_side(i);
+    if (!latch_acts(i) || !side) return T(0);
+    const T y = x[layout_.angle(i)] - wing_.hinges[i].latched - *side;
+    return T(0.5) * wing_.hinges[i].stiffness * y * y;
+  }
+
+  /// Moment of hinge i, N·m; of a stuck hinge, the one that held it at the last evaluation.
+  [[nodiscard]] T moment(const State<T>& x, int i) const {
+    return sticks(i) ? work_.holding[i] : sliding_moment(x, i);
+  }
+
+  /// What locked hinge i at the last evaluation, which was at x, N·m: friction, or its hold.
+  [[nodiscard]] T holding_friction(const State<T>& x, int i) const {
+    return work_.holding[i] - sliding_moment(x, i);
+  }
+
+  /// Moment of hinge i without the friction that holds it, N·m; of a motor by its command at the last evaluation.
+  [[nodiscard]] T sliding_moment(const State<T>& x, int i) const {
+    const T linear = linear_moment(work_.laws[i], x[layout_.angle(i)], x[layout_.rate(i)]);
+    return wing_.is_nonlinear() || layout_.smoothed
+               ? linear + (nonlinear_moment(x, i) + loops_moment(x, i))
+               : linear;
+  }
+
+  /// Largest moment that locks hinge i at x, N·m: by exact friction; by a hold, without limit.
+  [[nodiscard]] T static_limit(const State<T>& x, int i) const {
+    const bool tested = !wing_.real.empty() && !wing_.real[i].friction.regularized;
+    T most = wing_.hinges[i].static_friction;
+    most = most + (tested ? measured_friction(wing_.real[i].friction, x[layout_.angle(i)]) : T(0));
+    return wing_.releases.empty() ? most : select(is_held(i), T(1e300), most);
+  }
+
+  /// State of a loop at x.
+  [[nodiscard]] LoopState<T> state_of(const LoopTerms<T>& loop, const State<T>& x) const {
+    return loop_state(loop, x[layout_.angle(loop.first)], x[layout_.rate(loop.first)],
+                      x[layout_.angle(loop.second)], x[layout_.rate(loop.second)]);
+  }
+
+protected:
+  [[nodiscard]] int motors_end() const { return static_cast<int>(wing_.motors.size()); }
+
+  void update_law(int i) {
+    const Contact contact = work_.contact[i];
+    const T friction = contact == Contact::forward    ? -wing_.hinges[i].kinetic_friction
+                       : contact == Contact::backward ? wing_.hinges[i].kinetic_friction
+                                                      : T(0);
+    if constexpr (is_one_number<T>)
+      if (!wing_.real.empty())
+        work_.modes[i] = mode_of(wing_, i, work_.above[i], contact, latch_acts(i));
+    work_.laws[i] = linear_law(wing_.hinges[i], latch_acts(i), friction, backlash_side(i));
+    if (is_restrained(i)) add_elastic_hold(i);
+  }
+
+  /// −k (φ − φ_stowed) − d φ̇ about the latched angle, as a LinearLaw has it.
+  void add_elastic_hold(int i) {
+    LinearLaw<T>& law = work_.laws[i];
+    const ReleaseTerms<T>& hold = wing_.releases[i];
+    law.drive = fused(hold.stiffness, wing_.hinges[i].stowed - wing_.hinges[i].latched, law.drive);
+    law.stiffness = law.stiffness + hold.stiffness, law.damping = law.damping + hold.damping;
+  }
+
+  [[nodiscard]] std::optional<T> backlash_side(int i) const {
+    if (wing_.real.empty() || !latch_acts(i)) return T(0);
+    return side_of_backlash(wing_.real[i], work_.above[i]);
+  }
+
+  /// Nonlinear moments. A function of its own (noinline), so that the frames stay in registers.
+  [[gnu::noinline]] void find_nonlinear_moments(const State<T>& x) {
+    for (int i = 1; i <= layout_.bodies; ++i) work_.nonlinear[i] = smooth_moment(x, i);
+    if (wing_.is_real()) add_real_moments(x);
+  }
+
+  [[gnu::noinline]] void add_real_moments(const State<T>& x) {
+    for (int i = 1; i < static_cast<int>(wing_.real.size()); ++i)
+      work_.nonlinear[i] = work_.nonlinear[i] + of_real_hinge(x, i);
+    for (int i = 1; i < motors_end(); ++i) work_.nonlinear[i] = work_.nonlinear[i] + of_motor(x, i);
+    for (const LoopTerms<T>& loop : wing_.loops) {
+      const LoopState<T> state = state_of(loop, x);
+      const T torque = loop_torque(loop, state);
+      T &a = work_.nonlinear[loop.first], &b = work_.nonlinear[loop.second];
+      a = fused(on_first(loop, state.gear), torque, a);
+      b = fused(on_second(loop), torque, b);
+    }
+  }
+
+  /// Moment of all loops at hinge i, N·m.
+  [[nodiscard]] T loops_moment(const State<T>& x, int i) const {
+    T sum(0);
+    for (const LoopTerms<T>& loop : wing_.loops) {
+      if (!joins(loop, i)) continue;
+      const LoopState<T> state = state_of(loop, x);
+      sum = fused(on_hinge(loop, i, state.gear), loop_torque(loop, state), sum);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] T nonlinear_moment(const State<T>& x, int i) const {
+    T m = smooth_moment(x, i) + (wing_.real.empty() ? T(0) : of_real_hinge(x, i));
+    if (!wing_.motors.empty()) m = m + of_motor(x, i);
+    return m;
+  }
+
+  [[nodiscard]] T of_motor(const State<T>& x, int i) const {
+    const MotorPiece<T>& piece = work_.motors[i];
+    return motor_moment(wing_.motors[i], piece, T(piece.now - x[layout_.rate(i)]));
+  }
+
+  [[nodiscard]] T of_real_hinge(const State<T>& x, int i) const {
+    return real_moment(wing_.real[i], work_.modes[i], x[layout_.angle(i)], x[layout_.rate(i)]);
+  }
+
+  /// Moment of regularized friction and a smoothed latch, N·m.
+  [[nodiscard]] T smooth_moment(const State<T>& x, int i) const {
+    const T& rate = x[layout_.rate(i)];
+    T m =
+        wing_.has_regularized_friction ? regularized_friction_moment(wing_.hinges[i], rate) : T(0);
+    if (layout_.smoothed && wing_.hinges[i].has_latch)
+      m = m + smoothed_latch_moment(wing_.hinges[i], x[layout_.angle(i)], rate, x[layout_.latch(i)],
+                                    epsilon_);
+    return m;
+  }
+
+  const Wing<T>& wing_;
+  Workspace<T>& work_;
+  const Layout layout_;
+  const T epsilon_;
+};
+
+} // namespace wingspread

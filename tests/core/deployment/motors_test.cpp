@@ -1,0 +1,192 @@
+// Motors: closed forms, tables of the rate, releases, braking, energy, proofs of the early end, and lanes.
+#include "tests/core/deployment/real_runs.hpp"
+
+using namespace wingspread;
+using namespace wingspread::oracle;
+
+namespace {
+
+constexpr double I = panel_inertia;
+
+Motor at_rate(double rate, double gain, double limit) {
+  return {.rate = rate, .gain = gain, .torque_limit = limit};
+}
+
+Motor by_table(std::vector<double> time, std::vector<double> rates, double gain, double limit,
+               Interpolation interpolation = Interpolation::linear) {
+  Motor motor{.time = time, .rates = rates, .interpolation = interpolation};
+  motor.table = std::make_shared<Curve>(time, rates, interpolation);
+  motor.gain = gain, motor.torque_limit = limit;
+  return motor;
+}
+
+/// A panel 1 rad before its latch, at rest, with a motor and nothing else.
+Scene driven(const Motor& motor) {
+  Scene scene = thrown_panel(0);
+  scene.hinges[0].motor = motor;
+  return scene;
+}
+
+/// I ẍ = c (r − ẋ) from rest, and a constant torque beside the motor: rate and way at t.
+struct Spin {
+  double rate, way;
+};
+Spin spun_up(double r, double c, double t) {
+  const double fall = -std::expm1(-c * t / I);
+  return {r * fall, r * (t - I / c * fall)};
+}
+
+/// The same with the limit T < c r.
+Spin spun_up_within(double r, double c, double T, double t) {
+  const double t_1 = I / T * (r - T / c);
+  if (t <= t_1) return {T * t / I, T * t * t / (2 * I)};
+  const double s = t - t_1, left = std::exp(-c * s / I);
+  return {r - T / c * left, T * t_1 * t_1 / (2 * I) + r * s - T * I / (c * c) * (1 - left)};
+}
+
+template <class Motion> Arrival arrival_of(double way, const Motion& motion) {
+  const double t = root_between(1e-6, 1e3, [&](double at) { return motion(at).way - way; });
+  return {t, motion(t).rate};
+}
+
+void check(const Scene& scene, const Arrival& exact, double energy, double tolerance = 1e-9) {
+  for (const Scene& way : {scene, other_sense(scene)}) {
+    const Outcome out = run_everywhere(way, 1e-11, 60);
+    check_arrival(out, exact, tolerance);
+    REQUIRE(out.motor_energy.size() == 1);
+    CAPTURE(out.motor_energy[0], energy);
+    CHECK(relative(out.motor_energy[0], energy) < tolerance);
+  }
+}
+
+double kinetic(const Arrival& at) { return 0.5 * I * at.rate * at.rate; }
+
+} // namespace
+
+TEST_CASE("a motor spins an inertia up to its rate, and gives it the kinetic energy") {
+  for (const double r : {0.05, 0.5, 2.0})
+    for (const double c : {0.3, 3.0, 30.0}) {
+      const Arrival exact = arrival_of(1, [&](double t) { return spun_up(r, c, t); });
+      if (exact.time > 55) continue;
+      CAPTURE(r, c);
+      check(driven(at_rate(r, c, 1e6)), exact, kinetic(exact));
+    }
+}
+
+TEST_CASE("within its torque limit a motor accelerates an inertia uniformly, then by its gain") {
+  for (const double share : {0.1, 0.5, 0.9})
+    for (const double c : {3.0, 30.0}) {
+      const double r = 0.4, T = share * c * r;
+      const Arrival exact = arrival_of(1, [&](double t) { return spun_up_within(r, c, T, t); });
+      CAPTURE(share, c);
+      check(driven(at_rate(r, c, T)), exact, kinetic(exact));
+    }
+}
+
+TEST_CASE("every method meets the closed form of a motor with a limit") {
+  const double r = 0.4, c = 6, T = 0.7;
+  const Arrival exact = arrival_of(1, [&](double t) { return spun_up_within(r, c, T, t); });
+  for (const MethodInfo& method : methods()) {
+    CAPTURE(method.name);
+    Integration how = within(1e-9, 30);
+    how.method = std::string(method.name), how.step = 1e-4;
+    const Outcome out = Deployment().run(driven(at_rate(r, c, T)), how, {});
+    REQUIRE(out.latches.size() == 1);
+    CHECK(relative(out.latches[0].time, exact.time) < 1e-6);
+    CHECK(relative(out.latches[0].rates[0], exact.rate) < 1e-6);
+    CHECK(relative(out.motor_energy[0], kinetic(exact)) < 1e-5);
+  }
+}
+
+TEST_CASE("a motor follows a table of its rate from the release of its hinge on") {
+  const double c = 5, a = 0.1, ramp = 2, R = a * ramp; // a ramp, then a constant rate
+  const auto motion = [&](double t) -> Spin {
+    const auto on_ramp = [&](double u) -> Spin {
+      const double fall = -std::expm1(-c * u / I), k = I / c;
+      return {a * (u - k * fall), a * (u * u / 2 - k * u + k * k * fall)};
+    };
+    if (t <= ramp) return on_ramp(t);
+    const auto [v, x] = on_ramp(ramp);
+    const double s = t - ramp, fall = -std::expm1(-c * s / I);
+    return {R - (R - v) * (1 - fall), x + R * s - (R - v) * I / c * fall};
+  };
+  const Arrival exact = arrival_of(1, motion);
+  const Motor motor = by_table({0, ramp}, {0, R}, c, 1e6);
+  check(driven(motor), exact, kinetic(exact));
+  for (const double T0 : {0.3, 4.0}) {
+    Scene held = driven(motor);
+    held.hinges[0].release = Release{.time = T0};
+    check(held, {T0 + exact.time, exact.rate}, kinetic(exact));
+  }
+  Motor scaled = by_table({0, ramp}, {0, R / 4}, c, 1e6);
+  scaled.scale = 4;
+  check(driven(scaled), exact, kinetic(exact));
+}
+
+TEST_CASE("a spring that a motor governs: the motor takes what the spring gives too much") {
+  const double c = 40, r = 0.05, tau = 2;
+  Scene scene = driven(at_rate(r, c, 1e6));
+  scene.hinges[0].spring.torque_stowed = scene.hinges[0].spring.torque_latched = tau;
+  const Arrival exact = arrival_of(1, [&](double t) { return spun_up(r + tau / c, c, t); });
+  check(scene, exact, kinetic(exact) - tau * 1);
+  // a motor that may not exert enough lets the spring run away
+  scene.hinges[0].motor->torque_limit = 0.5;
+  const Outcome out = run_everywhere(scene, 1e-11, 60);
+  CHECK(out.latches[0].rates[0] > 0.9);
+  CHECK(relative(kinetic({0, out.latches[0].rates[0]}), tau + out.motor_energy[0]) < 1e-9);
+}
+
+TEST_CASE("a motor with a gain or limit of zero changes no bit") {
+  Scene scene = latching_panel();
+  const Outcome without = Deployment().run(scene, within(1e-9, 30), {});
+  for (const Motor& motor : {at_rate(1, 0, 5), at_rate(1, 5, 0)}) {
+    scene.hinges[0].motor = motor;
+    const Outcome with = run_everywhere(scene, 1e-9, 30);
+    CHECK(with.motor_energy[0] == 0);
+    CHECK(relative(with.latches[0].time, without.latches[0].time) < 1e-9);
+    CHECK(relative(with.peak_moment[0].value, without.peak_moment[0].value) < 1e-7);
+  }
+}
+
+TEST_CASE("a run whose motors have constant commands ends early with its peaks") {
+  for (const double limit : {0.5, 3.0, 1e6}) {
+    Scene scene = latching_panel();
+    scene.hinges[0].motor = at_rate(0.3, 4, limit);
+    CAPTURE(limit);
+    const Outcome early = run_everywhere(scene, 1e-9, 2000);
+    CHECK(early.status == Status::deployed);
+    CHECK(early.peaks_final);
+    CHECK(early.t_end < 60);
+    const Outcome late = run_everywhere(scene, 1e-9, 100, true);
+    CHECK(early.peak_moment[0].value == late.peak_moment[0].value);
+    CHECK(early.peak_force[0].value == late.peak_force[0].value);
+    CHECK(early.motor_energy == late.motor_energy);
+  }
+}
+
+TEST_CASE("no run ends before the last knot of its motors' tables") {
+  Scene scene = latching_panel();
+  scene.hinges[0].motor = by_table({0, 40}, {0.3, -0.3}, 4, 3);
+  const Outcome out = run_everywhere(scene, 1e-9, 100);
+  CHECK(out.peaks_final);
+  CHECK(out.t_end > 40);
+  const Outcome late = run_everywhere(scene, 1e-9, 100, true);
+  CHECK(out.peak_moment[0].value == late.peak_moment[0].value);
+}
+
+TEST_CASE("a stuck hinge is torn loose by a rising command") {
+  Scene scene = driven(by_table({0, 10}, {0, 1}, 2, 1e6));
+  scene.hinges[0].friction.model = FrictionModel::exact;
+  scene.hinges[0].friction.coulomb = 0.5, scene.hinges[0].friction.static_level = 0.6;
+  const Outcome out = run_everywhere(scene, 1e-10, 60);
+  // c r(t) = 0.6 at t = 3; then I ẍ = c (r − ẋ) − 0.5
+  const double c = 2, a = 0.1, k = I / c;
+  const auto motion = [&](double t) -> Spin {
+    const double u = t - 3, fall = -std::expm1(-c * u / I), b = (0.6 - 0.5) / c;
+    return {a * (u - k * fall) + b * fall,
+            a * (u * u / 2 - k * u + k * k * fall) + b * (u - k * fall)};
+  };
+  const double t = root_between(3.01, 10, [&](double at) { return motion(at).way - 1; });
+  CHECK(relative(out.latches[0].time, t) < 1e-8);
+  CHECK(relative(out.latches[0].rates[0], motion(t).rate) < 1e-8);
+}
