@@ -55,8 +55,8 @@ inline constexpr int steps_before_leaving_series = 100;
 
 /// The implicit method is promising if the stable step is a smaller share than this of the time in
 /// which the motion changes (`quickness`), beyond which implicit steps cannot reach. An implicit step
-/// takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 11 steps of order 8, so it
-/// breaks even at a share of 0.09; somewhat less, for `quickness` is known to a factor of two. Larger:
+/// takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 6.5 steps of order 8, so it
+/// breaks even at a share of 0.15; half of that, for `quickness` is known to a factor of two. Larger:
 /// more vain trials. Smaller: wings at the border stay with many short explicit steps.
 inline constexpr double promising_share = 0.08;
 /// Steps until `auto` checks the promise again, doubled from check to check between these limits.
@@ -66,6 +66,12 @@ inline constexpr int first_recheck = 10, longest_recheck = 80;
 /// costs about a third of that, and waits double. With 1,600 a wing that seulex alone integrates in 1,300
 /// evaluations took 29,000.
 inline constexpr int steps_to_try_anyway = 200;
+
+/// The first implicit step, in explicit ones. The error of extrapolation has a hump where a step lasts 1 to 10 time
+/// constants of a fast mode that has died out, and step control stays below it: on one wing at 1e-4 s for 1,200 steps,
+/// where 0.1 s would do. So the first step is tried beyond the hump. Heuristic: smaller, and it may lie on the hump;
+/// larger, and more trial steps are refused.
+inline constexpr double first_implicit_step = 30;
 
 /// Implicit steps that are not judged: extrapolation needs them to find its order and step.
 inline constexpr int unjudged_steps = 2;
@@ -81,9 +87,9 @@ inline constexpr int first_retry = 64, longest_retry = 4096;
 /// Cost of an evaluation of the implicit method with its solves, in evaluations of an explicit one: 1.5 if
 /// both are made alone. In lanes an explicit evaluation costs a third (20 panels) to a sixth (3 panels) of
 /// one alone, real hinges and stuck ones gain less, and lanes have no implicit method; so there it is 1.5
-/// times about three. A run must not depend on where it is made, and campaigns run in lanes: with their price a run
-/// alone may stay with an explicit method at up to three times the least cost.
-inline constexpr double implicit_cost = 4.5;
+/// times about three. A run must not depend on where it is made: the geometric mean √(1.5·4.5), which is at
+/// most a factor of 1.75 off at either end.
+inline constexpr double implicit_cost = 2.6;
 
 } // namespace choice
 
@@ -184,7 +190,7 @@ public:
 
   /// The first trial step of the active method, s. @param h the step planned by the method before
   [[nodiscard]] double first_step(double h) const {
-    return active_ == explicit_ ? std::min(h, 0.5 * stable_step_) : h;
+    return active_ == explicit_ ? std::min(h, 0.5 * stable_step_) : choice::first_implicit_step * h;
   }
 
   // ---- steps that a lane makes with the explicit method
