@@ -42,10 +42,15 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
     return;
   }
   const StoredCampaign whole = read_stored_campaign(folder);
-  for (const CaseSpec& spec : made_cases(whole))
+  const std::vector<CaseSpec> made = made_cases(whole);
+  for (const CaseSpec& spec : made) {
     sources.runs.push_back(read_page_source(as_analyzed(read_stored_campaign(folder / spec.name)),
                                             several ? name + " · " + spec.name : spec.name,
                                             &whole.campaign, threads));
+    sources.runs.back()->made_from = folder;
+    if (made.size() < whole.campaign.cases.size())
+      for (const CaseSpec& each : made) sources.runs.back()->made_cases.push_back(each.name);
+  }
 }
 
 /// Replaces equal labels by the paths of their sets.
