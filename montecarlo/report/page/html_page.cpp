@@ -1,5 +1,6 @@
 #include "montecarlo/report/page/html_page.hpp"
 
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/differences.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/set_json.hpp"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace wingspread {
 namespace {
@@ -126,9 +128,14 @@ Json page_json(const PageSources& sources, const ReportHeader& header, const std
             {"sets", Json::array()},
             {"comparisons", comparisons_json(sources, pairs)},
             {"unpaired", pairs.missing}};
-  for (const auto& source : sources.runs) {
+  std::vector<Json> margins(sources.runs.size());
+  for_each_task(threads, margins.size(), [&](std::size_t i) {
+    margins[i] = static_margins_json(sources.runs[i]->stored.campaign);
+  });
+  for (std::size_t i = 0; i < sources.runs.size(); ++i) {
+    const auto& source = sources.runs[i];
     json["sets"].push_back(set_json(*source, detail, threads));
-    json["sets"].back()["static_margins"] = static_margins_json(source->stored.campaign);
+    json["sets"].back()["static_margins"] = std::move(margins[i]);
     json["sets"].back()["modes"] = modes_json(nominal_scene(source->stored.campaign));
     json["sets"].back()["kernel"] =
         source->replayable() ? kernel_json(source->stored.campaign) : Json(nullptr);
