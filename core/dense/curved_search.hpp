@@ -47,6 +47,16 @@ template <class T> struct Bulge {
   }
 };
 
+/// The part of a step below which intervals are not halved: 2^-17, so that a search ends after 2^17 samples whatever
+/// its bound says. A smooth function exceeds its larger end there by at most 2^-34 = 6e-11 of its rise over the step; a
+/// kink or a jump hides at most the 2^-17 part of the step in which it lies. Or more than that, where times so close
+/// cannot be told apart: the bound of a step of a few roundings says nothing.
+/// @param t, h start and length of the step, s
+template <class T> [[nodiscard]] T shortest_part(const T& t, const T& h) {
+  using std::abs;
+  return larger(T(1.0 / (1 << 17)), T(4 * epsilon_of<T>) * abs(t) / h);
+}
+
 /// A function's value at a fraction of the step.
 template <class T> struct Sampled { T s, value; };
 
@@ -54,13 +64,7 @@ namespace detail {
 
 template <class T> struct Stretch { Sampled<T> a, b; };
 
-/// Intervals shorter than this part of the step are not halved: a search ends after 2^17 samples whatever its bound
-/// says. A smooth function exceeds its larger end there by at most 2^-34 = 6e-11 of its rise over the step; a kink or
-/// a jump hides at most the 2^-17 part of the step in which it lies.
 inline constexpr int most_halvings = 17;
-template <class T> [[nodiscard]] bool is_shortest(const Stretch<T>& at) {
-  return at.b.s - at.a.s <= T(1.0 / (1 << most_halvings));
-}
 
 /// Intervals still to be decided, last in, first out: at most one per halving, and the last one's twin.
 template <class T> class OpenStretches {
@@ -105,10 +109,11 @@ template <class T, class Function>
 /// The first s in [0, 1] where f > 0; none where f ≤ `close` throughout.
 /// @param first, last f at s = 0 and 1
 /// @param rise  rise(a, b) → Inside between two fractions of the step
+/// @param shortest part of the step that is not halved (shortest_part)
 /// @param crest raised to the largest sample made
 template <class T, class Function, class Bulges>
 [[nodiscard]] std::optional<T> first_positive(const Function& f, const T& first, const T& last,
-                                              const Bulges& rise, const T& close,
+                                              const Bulges& rise, const T& close, const T& shortest,
                                               Sampled<T>& crest) {
   if (first > T(0)) return T(0);
   detail::OpenStretches<T> open;
@@ -117,7 +122,7 @@ template <class T, class Function, class Bulges>
     const T inside = detail::rise_inside(*at, rise);
     const bool ends_above = at->b.value > T(0);
     if (!ends_above && !(larger(at->a.value, at->b.value) + inside > T(0))) continue;
-    if (inside <= close || detail::is_shortest(*at)) {
+    if (inside <= close || at->b.s - at->a.s <= shortest) {
       if (!ends_above) continue;
       return at->a.value < T(0) ? detail::root_of_rise(*at, f) : at->a.s;
     }
@@ -143,14 +148,15 @@ template <class T>
 /// The maximum of f, to `close`, if it exceeds `floor`; else any sample.
 template <class T, class Function>
 [[nodiscard]] Sampled<T> largest_of(const Function& f, const T& first, const T& last,
-                                    const Bulge<T>& rise, const T& floor, const T& close) {
+                                    const Bulge<T>& rise, const T& floor, const T& close,
+                                    const T& shortest) {
   Sampled<T> best = last > first ? Sampled<T>{T(1), last} : Sampled<T>{T(0), first};
   detail::OpenStretches<T> open;
   open.push({{T(0), first}, {T(1), last}});
   while (const auto at = open.pop()) {
     const T inside = detail::rise_inside(*at, rise);
     if (!detail::may_crest(*at, inside, larger(best.value, floor), close) ||
-        detail::is_shortest(*at))
+        at->b.s - at->a.s <= shortest)
       continue;
     const T s = T(0.5) * (at->a.s + at->b.s);
     const Sampled<T> middle{s, f(s)};

@@ -18,6 +18,21 @@ template <class T> struct Step {
     return hermite<T>(h, {x[k], x[r], dxdt[r]}, {x1[k], x1[r], dxdt1[r]});
   }
 
+  /// The rate of coordinate k over the step. In a short step the difference of the angles at its ends is rounding, ε φ,
+  /// and the derivative of their quintic noise of ε φ/h. There the rate is the cubic by the rates and accelerations at the
+  /// ends.
+  /// @param path coordinate(k, freedoms)
+  [[nodiscard]] Quintic<T> rate_of(const Quintic<T>& path, int k, int freedoms) const {
+    const int r = k + freedoms;
+    const T way = fused(T(0.5) * h, x[r] + x1[r], h * h * (dxdt[r] - dxdt1[r]) / T(12));
+    const auto drowned = is_rounding(T((x1[k] - x[k]) - way), k);
+    if (!any(drowned)) return derivative(path, h);
+    return chosen(drowned, cubic_hermite(h, x[r], dxdt[r], x1[r], dxdt1[r]), derivative(path, h));
+  }
+  [[nodiscard]] Quintic<T> rate(int k, int freedoms) const {
+    return rate_of(coordinate(k, freedoms), k, freedoms);
+  }
+
   /// Component k of the state at t + s·h by cubic Hermite interpolation, for the states of smoothed latches.
   [[nodiscard]] T cubic(int k, const T& s) const {
     const T r = T(1) - s;
@@ -25,13 +40,14 @@ template <class T> struct Step {
            s * s * (x1[k] * fused(T(2), r, T(1)) - r * h * dxdt1[k]);
   }
 
-  /// The whole state at t + s·h.
+  /// The whole state at t + s·h: `coordinate` and `rate`.
   void interpolate(const Layout& at, const T& s, State<T>& out) const {
     const int n = at.freedoms();
     for (int k = 0; k < n; ++k) {
       const T v = h * x[k + n], a = h * h * dxdt[k + n]; // the same quintic about the start
-      const T D = (x1[k] - x[k]) - fused(T(0.5), a, v);
       const T V = fused(h, x1[k + n] - x[k + n], -a), A = fused(h * h, dxdt1[k + n], -a);
+      const T way = (x1[k] - x[k]) - fused(T(0.5), a, v), by_rates = fused(T(0.5), V, -A / T(12));
+      const T D = select(is_rounding(T(way - by_rates), k), by_rates, way);
       const T c3 = fused(T(10), D, fused(T(-4), V, T(0.5) * A));
       const T c4 = fused(T(-15), D, fused(T(7), V, -A));
       const T c5 = fused(T(6), D, fused(T(-3), V, T(0.5) * A));
@@ -42,6 +58,13 @@ template <class T> struct Step {
     }
     if (at.smoothed)
       for (int i = 1; i <= at.bodies; ++i) out[at.latch(i)] = cubic(at.latch(i), s);
+  }
+
+private:
+  /// Whether a difference of coordinate k's ways may come from the rounding of its values at the ends.
+  [[nodiscard]] Truth<T> is_rounding(const T& difference, int k) const {
+    using std::abs;
+    return !(abs(difference) > T(4 * epsilon_of<T>) * (abs(x[k]) + abs(x1[k])));
   }
 };
 

@@ -114,18 +114,9 @@ void sort_contacts(AnySystem& system, const State<T>& x, State<T>& dxdt, const T
 template <class T>
 [[nodiscard]] Quintic<T> way_to_rest(const Layout& at, const Step<T>& step, int i,
                                      const T& against) {
-  using std::abs;
-  Quintic<T> rate = derivative(step.coordinate(at.angle(i), at.freedoms()), step.h);
-  const int r = at.rate(i);
-  const T angle = larger(T(abs(step.x[at.angle(i)])), T(abs(step.x1[at.angle(i)])));
-  const T moved = step.h * larger(T(abs(step.x[r])), T(abs(step.x1[r])));
-  // the angle's rounding hides its change: use the rates alone
-  const auto drowned = T(64 * epsilon_of<T>) * angle > T(1e-6) * moved;
-  if (any(drowned))
-    rate = chosen(drowned,
-                  cubic_hermite(step.h, step.x[r], step.dxdt[r], step.x1[r], step.dxdt1[r]), rate);
+  Quintic<T> rate = step.rate(at.angle(i), at.freedoms());
   for (T& c : rate) c = against * c;
-  const auto sets_out = step.x[r] == T(0);
+  const auto sets_out = step.x[at.rate(i)] == T(0);
   return any(sets_out) ? chosen(sets_out, without_root_at_start(rate), rate) : rate;
 }
 

@@ -79,7 +79,7 @@ public:
     if (system_.work().stuck > 0) {
       const auto release = holding_.first_release(system_, step, x, dxdt);
       if (release)
-        offer(release->slope > T(0) ? Event::release : Event::graze, release->hinge, release->s,
+        offer(release->graze ? Event::graze : Event::release, release->hinge, release->s,
               release->slope);
     }
     return first;
@@ -121,8 +121,7 @@ public:
     }
     case Event::kink: { // just past it, so that the next step begins on the other side
       const Jet<T> u = argument(system_, due.kink, step.x1, step.dxdt1);
-      using std::abs;
-      const T beyond = T(8 * epsilon_of<T>) * larger(T(abs(u.value)), T(abs(due.kink.at)));
+      const T beyond = beyond_rounding(system_, due.kink, step.x1);
       return {due.kink.way * (u.value - due.kink.at) - beyond, due.kink.way * u.first,
               due.kink.way * u.second};
     }

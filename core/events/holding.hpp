@@ -30,8 +30,9 @@ template <class AnySystem> [[nodiscard]] auto release_margin(const AnySystem& sy
 /// that only a step of the method can decide.
 template <class T> struct Slip {
   int hinge;
-  T s;     ///< fraction of the step
-  T slope; ///< rate of the excess over the limit, N·m/s; 0 for a graze
+  T s; ///< fraction of the step
+  T slope; ///< rate of the excess over the limit, N·m/s; where a kink makes the load jump it may be 0 or less
+  bool graze;
 };
 
 /// Whether the friction that holds hinge i may pass its limit in a step; for a pack: in which lanes.
@@ -71,7 +72,7 @@ public:
         system(x, dxdt, step.t + s * step.h);
         return excess(system, x, i);
       };
-      const auto found = release_of(excess_at, i, system.static_limit(step.x, i), step.h);
+      const auto found = release_of(excess_at, i, system.static_limit(step.x, i), step);
       if (found && (!first || found->s < first->s)) first = found;
     }
     system(step.x1, dxdt, step.t + step.h);
@@ -107,20 +108,21 @@ private:
 
   template <class Function>
   [[nodiscard]] std::optional<Slip<T>> release_of(const Function& excess_at, int i, const T& limit,
-                                                  const T& h) {
+                                                  const Step<T>& step) {
     constexpr double grazes = 1e-3, width = 1e-3;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
     const auto rise = [&](const T& a, const T& b) { return bound_.friction(i, a, b); };
-    const auto s =
-        first_positive(excess_at, before_[i], after_[i], rise, close_to(i, limit), crest);
+    const auto s = first_positive(excess_at, before_[i], after_[i], rise, close_to(i, limit),
+                                  shortest_part(step.t, step.h), crest);
     if (s) {
-      const T slope = (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * h);
-      return Slip<T>{i, *s, slope};
+      const T slope =
+          (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * step.h);
+      return Slip<T>{i, *s, slope, false};
     }
     const bool inside = crest.s > T(0.02) && crest.s < T(0.98);
     const T change = crest.value - smaller(before_[i], after_[i]);
     if (inside && crest.value > T(-grazes) * smaller(limit, change))
-      return Slip<T>{i, crest.s, T(0)};
+      return Slip<T>{i, crest.s, T(0), true};
     return std::nullopt;
   }
 

@@ -10,6 +10,10 @@
 ///     Δφ̇ ≤ σ (jump τ + turn abs(u̇) τ²/2 + bend u̇² τ³/3),    σ ≥ (M⁻¹)_ii                           (1)
 ///
 /// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter.
+///
+/// The estimates of the other methods refuse such a step, and halving finds the kink only after some ten refusals. So a
+/// step refused with a large error is cut at the first kink that may be why. Its stages lie anywhere in the step, so
+/// there τ in (1) is the whole step.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -22,7 +26,16 @@ namespace wingspread {
 /// Tolerance of a step, by which kinks matter.
 struct KinkLimit {
   double rtol, atol;
+  bool refused; ///< whether the step was refused
 };
+
+/// Whether a trial step's error, in units of its tolerance, suggests a kink inside; for a pack: in which lanes. Heuristic:
+/// step control alone seldom errs by ten, which is a factor of 1.3 in the step of order 8. Less: more searches in vain.
+/// More: kinks found by more refusals.
+template <class T> [[nodiscard]] Truth<T> suggests_kink(const Wing<T>& wing, const T& error) {
+  if (!wing.is_real() && wing.loops.empty()) return Truth<T>{};
+  return error > T(10);
+}
 
 /// A function u of the state and its value b at a kink.
 template <class T> struct Kink {
@@ -67,6 +80,20 @@ template <class T, class AnySystem>
           loop.stiffness * (fused(state.gear, aa, -ab) + bend * va * va)};
 }
 
+/// How far `argument` must be beyond the kink, for rounding not to leave it before.
+template <class T, class AnySystem>
+[[nodiscard]] T beyond_rounding(const AnySystem& system, const Kink<T>& kink, const State<T>& x) {
+  using std::abs;
+  const Layout& at = system.layout();
+  T size = abs(kink.at);
+  if (kink.of == Kink<T>::Of::strands) {
+    const LoopTerms<T>& loop = system.wing().loops[kink.index];
+    size = size + loop.stiffness * (abs(x[at.angle(loop.first)]) + abs(loop.stowed_a) +
+                                    abs(x[at.angle(loop.second)]) + abs(loop.stowed_b));
+  }
+  return T(8 * epsilon_of<T>) * size;
+}
+
 /// Finds the first kink that matters in a step.
 template <class T, class AnySystem> class KinkSearch {
 public:
@@ -96,7 +123,7 @@ private:
     for (const CurveTorqueTerms<T>* torque : {&real.spring, &real.harness})
       if (torque->curve) pass_knots(*torque->curve, torque->weight, i, angle);
     if (real.friction.level) pass_knots(*real.friction.level, real.friction.weight, i, angle);
-    pass_rates(i, derivative(angle, step_.h));
+    pass_rates(i, step_.rate_of(angle, at.angle(i), at.freedoms()));
   }
 
   void pass_rates(int i, const Quintic<T>& rate) {
@@ -222,7 +249,8 @@ private:
   [[nodiscard]] bool matters(const T& s, const T& speed, const KinkChange<T>& change) const {
     using std::abs;
     const int r = system_.layout().rate(change.hinge);
-    const T tau = step_.h * smaller(s, T(T(1) - s)), way = speed * tau;
+    const T tau = limit_.refused ? step_.h : T(step_.h * smaller(s, T(T(1) - s)));
+    const T way = speed * tau;
     const T impulse =
         tau * (change.jump + way * fused(T(0.5), change.turn, way * change.bend / T(3)));
     const T rate = larger(T(abs(step_.x[r])), T(abs(step_.x1[r])));

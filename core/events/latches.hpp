@@ -58,7 +58,7 @@ template <class T, class AnySystem>
   constexpr int deepest = 45; // 3e-14 of the step: rounding
   std::array<Piece, deepest + 2> open;
   int count = 0;
-  open[count++] = {path, derivative(path, step.h), T(0), T(1)};
+  open[count++] = {path, step.rate_of(path, at.angle(i), at.freedoms()), T(0), T(1)};
   while (count > 0) {
     const Piece piece = open[--count];
     if (latch.most_excess(hull(piece.angle), hull(piece.rate)) < T(0)) continue;

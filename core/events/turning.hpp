@@ -38,7 +38,7 @@ template <class T, class Mask>
 template <class T>
 [[nodiscard]] std::optional<T> turning_point(const Layout& at, const Step<T>& step, int i) {
   constexpr double beside_an_end = 1e-3; // fraction of the step
-  Quintic<T> rate = derivative(step.coordinate(at.angle(i), at.freedoms()), step.h);
+  Quintic<T> rate = step.rate(at.angle(i), at.freedoms());
   if (step.x[at.rate(i)] > T(0))
     for (T& c : rate) c = -c;
   const std::optional<T> s = first_nonnegative(rate);

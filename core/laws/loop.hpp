@@ -110,15 +110,15 @@ template <class T>
   return taut_share(loop, at.elastic) * fused(loop.stiffness, e1, loop.damping * e2);
 }
 
-// ---- over a step of h, in which the hinges a and b move by two quintics
+// ---- over a step of h, in which the hinges a and b move by two quintics, at the rates va and vb
 
 /// A range of (2) at hinge i: K e and D ė as polynomials, about the table's slope at the step's start. The
 /// table's bend adds at most half its largest second derivative times the square of the way.
 template <class T>
 [[nodiscard]] ValueRange<T> loop_moment_range(const LoopTerms<T>& loop, int i, const Quintic<T>& a,
-                                              const Quintic<T>& b, const T& h) {
+                                              const Quintic<T>& va, const Quintic<T>& b,
+                                              const Quintic<T>& vb) {
   using std::abs;
-  const Quintic<T> va = derivative(a, h), vb = derivative(b, h);
   const LoopState<T> start = loop_state(loop, a[0], va[0], b[0], vb[0]);
   const T on_a = loop.sense_a * start.gear;
   Quintic<T> elastic, viscous;

@@ -55,8 +55,8 @@ inline constexpr int steps_before_leaving_series = 100;
 
 /// The implicit method is promising if the stable step is a smaller share than this of the time in
 /// which the motion changes (`quickness`), beyond which implicit steps cannot reach. An implicit step
-/// takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 6.5 steps of order 8, so it
-/// breaks even at a share of 0.15; half of that, for `quickness` is known to a factor of two. Larger:
+/// takes about 30 evaluations, which cost as much as 30·implicit_cost/12 = 11 steps of order 8, so it
+/// breaks even at a share of 0.09; somewhat less, for `quickness` is known to a factor of two. Larger:
 /// more vain trials. Smaller: wings at the border stay with many short explicit steps.
 inline constexpr double promising_share = 0.08;
 /// Steps until `auto` checks the promise again, doubled from check to check between these limits.
@@ -81,9 +81,9 @@ inline constexpr int first_retry = 64, longest_retry = 4096;
 /// Cost of an evaluation of the implicit method with its solves, in evaluations of an explicit one: 1.5 if
 /// both are made alone. In lanes an explicit evaluation costs a third (20 panels) to a sixth (3 panels) of
 /// one alone, real hinges and stuck ones gain less, and lanes have no implicit method; so there it is 1.5
-/// times about three. A run must not depend on where it is made: the geometric mean √(1.5·4.5), which is at
-/// most a factor of 1.75 off at either end.
-inline constexpr double implicit_cost = 2.6;
+/// times about three. A run must not depend on where it is made, and campaigns run in lanes: with their price a run
+/// alone may stay with an explicit method at up to three times the least cost.
+inline constexpr double implicit_cost = 4.5;
 
 } // namespace choice
 
@@ -125,6 +125,14 @@ public:
     measured_ = !std::isfinite(most);
     wants_first_ = false;
     keep_radius(measured_ ? 0 : most);
+  }
+
+  /// Goes on after a hinge has come to rest or let go. That changes neither springs nor latches, so ρ need not be
+  /// measured anew. @return false where the phase must begin anew all the same
+  [[nodiscard]] bool goes_on(double time, long evaluations) {
+    if (explicit_ == Method::taylor || !measured_) return false;
+    held_back_.last_free = before_ = mark(time, evaluations);
+    return true;
   }
 
   /// Whether ρ should be measured anew before the next step.

@@ -5,7 +5,7 @@
 /// and a struct with more fields than `fields` knows does not compile.
 #pragma once
 
-#include "core/mechanics/tree.hpp"
+#include "core/mechanics/wing.hpp"
 #include "core/number/pack.hpp"
 #include "core/scene/scene.hpp"
 
@@ -128,6 +128,34 @@ template <class Packs, class Numbers> void get_lane(int lane, const Packs& from,
   else
     for_each_field(from, to,
                    [lane](const auto& part_from, auto& part) { get_lane(lane, part_from, part); });
+}
+
+/// Gives a wing of packs this structure, and numbers without which an idle lane would divide by zero. @return the wing
+template <int W>
+const Wing<Pack<W>>& set_harmless(Wing<Pack<W>>& wing, const Wing<double>& structure) {
+  Wing<double> harmless = structure;
+  harmless.base = {};
+  for (BodyTerms<double>& body : harmless.bodies) {
+    body = {};
+    body.mass = body.inertia = body.central_inertia = 1, body.minus_inverse = -1;
+  }
+  for (HingeTerms<double>& hinge : harmless.hinges) hinge = {}, hinge.sense = hinge.slip_rate = 1;
+  for (RealHingeTerms<double>& real : harmless.real) {
+    real = {}, real.stop.sense = real.far_stop.sense = real.friction.slip_rate = 1;
+    real.damper.rate = 1;
+  }
+  for (PlateTerms<double>& plate : harmless.plates) plate = {};
+  wing.real.resize(structure.real.size());
+  wing.loops.resize(structure.loops.size());
+  wing.plates.resize(structure.plates.size());
+  wing.releases.resize(structure.releases.size());
+  wing.base.motion = structure.base.motion;
+  wing.tree = structure.tree;
+  wing.bodies.resize(structure.bodies.size());
+  wing.hinges.resize(structure.hinges.size());
+  wing.initial_rates.resize(structure.initial_rates.size());
+  for (int lane = 0; lane < W; ++lane) set_lane(lane, wing, harmless);
+  return wing;
 }
 
 } // namespace wingspread

@@ -69,6 +69,8 @@ int lanes_of(InstructionSet set) {
 
 Occupancy& Occupancy::operator+=(const Occupancy& other) {
   tries += other.tries, busy += other.busy, scalar += other.scalar, looks += other.looks;
+  in_lanes += other.in_lanes;
+  for (std::size_t k = 0; k < outside.size(); ++k) outside[k] += other.outside[k];
   return *this;
 }
 

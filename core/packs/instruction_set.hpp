@@ -1,6 +1,7 @@
 /// The instruction sets of engines, and how well their lanes were used.
 #pragma once
 
+#include <array>
 #include <vector>
 
 namespace wingspread {
@@ -13,12 +14,22 @@ enum class InstructionSet { scalar, neon, avx2, avx512 };
 /// Number of lanes: 1, 2, 4 or 8.
 [[nodiscard]] int lanes_of(InstructionSet set);
 
-/// How well the lanes of engines were used, in trial steps.
+/// Why a run is worked on outside its lane. `start`: it begins. `method`: no lane can make its steps. `limit`: t_end, a
+/// knot of the base's table, an attempt to end the run early, or another look of `auto`. `event`: a latch may engage, a
+/// hinge come to rest, an angle at which a law changes be passed. `release`: a stuck hinge may let go. `base`, `moment`,
+/// `force`: a peak may lie inside the step.
+enum class Cause { start, method, limit, event, release, base, moment, force };
+inline constexpr std::array cause_names{"start",   "method", "limit",  "event",
+                                        "release", "base",   "moment", "force"};
+
+/// How well the lanes of engines were used.
 struct Occupancy {
-  long tries = 0;  ///< made by engines, all lanes counted
-  long busy = 0;   ///< made by engines in lanes with a run
-  long scalar = 0; ///< made outside engines
-  long looks = 0;  ///< trial steps by engines after which a lane needed its run
+  long tries = 0;      ///< trial steps made by engines, all lanes counted
+  long busy = 0;       ///< made by engines in lanes with a run
+  long scalar = 0;     ///< made outside engines
+  long looks = 0;      ///< trial steps by engines after which a lane needed its run
+  double in_lanes = 0; ///< time in engines, s
+  std::array<double, cause_names.size()> outside{}; ///< time with one run at a time, by Cause, s
   Occupancy& operator+=(const Occupancy& other);
 };
 

@@ -115,7 +115,8 @@ private:
     const CaptureTerms<P>& latch = system.wing().real[i].capture;
     const Quintic<P> angle = angle_of(system, step, i);
     return latch.may_open() &&
-           !(latch.most_excess(hull(angle), hull(derivative(angle, step.h))) < P(0.0));
+           !(latch.most_excess(hull(angle), hull(step.rate(system.layout().angle(i),
+                                                           system.layout().freedoms()))) < P(0.0));
   }
 
   /// The first test of Releases::first_passage.
@@ -188,7 +189,7 @@ public:
     const P none(0.0);
     for (std::vector<P>* v : {&before_, &at_end_, &by_method_, &excess_before_, &excess_at_end_})
       v->assign(at.bodies + 1, none);
-    holds_ = evaluations_ = none;
+    holds_ = none;
   }
 
   /// Sets the hinges that stick in a lane. @param task null: the lane has no run
@@ -202,7 +203,6 @@ public:
     work.stuck += (task ? task->work.stuck : 0) - stuck_[lane];
     stuck_[lane] = task ? task->work.stuck : 0;
     holds_.v[lane] = stuck_[lane] > 0 ? 1 : 0;
-    evaluations_.v[lane] = 0;
   }
 
   /// @param by_method whether the run is given what held at the end before its momenta were restored
@@ -219,8 +219,6 @@ public:
   [[nodiscard]] Mask lanes() const { return holds_ > P(0.0); }
   /// Moments on stuck hinges at the step's start, 1 … n, N·m.
   [[nodiscard]] const std::vector<P>& before() const { return before_; }
-  /// Evaluations that a run alone makes at the ends of steps with stuck hinges, since `load`.
-  [[nodiscard]] long evaluations(int lane) const { return static_cast<long>(evaluations_.v[lane]); }
 
   /// Keeps the moments on stuck hinges at the step's end. @pre the system's last evaluation was there
   template <class AnySystem> void keep_at_end(const AnySystem& system, const Step<P>& step) {
@@ -249,15 +247,12 @@ public:
     return found;
   }
 
-  /// Moves to the end of an accepted step in these lanes. @return evaluations that their runs alone would make
-  [[nodiscard]] P accept(const Mask& these) {
+  /// Moves to the end of an accepted step in these lanes.
+  void accept(const Mask& these) {
     for (std::size_t i = 1; i < before_.size(); ++i) {
       before_[i] = select(these, at_end_[i], before_[i]);
       excess_before_[i] = select(these, excess_at_end_[i], excess_before_[i]);
     }
-    const P made = select(these, holds_, P(0.0));
-    evaluations_ = evaluations_ + made;
-    return made;
   }
 
 private:
@@ -268,7 +263,6 @@ private:
   HeldLoadBound<P> bound_;
   std::array<int, W> stuck_{}; ///< hinges that stick in each lane
   P holds_;                    ///< 1 where any does, else 0
-  P evaluations_;
 };
 
 } // namespace wingspread

@@ -23,6 +23,7 @@ public:
   void resize(const Layout& at) {
     const P none(0.0);
     moments_.assign(at.bodies + 1, {none, none});
+    may_rise_.assign(at.bodies + 1, Mask{});
     forces_ = holds_ = raised_moments_ = raised_forces_ = raised_holds_ = moments_;
     before_.assign(at.bodies + 1, none), at_end_.assign(at.bodies + 1, {none, none});
     levers_.assign(at.bodies + 1, {none, none, {none, none}, none});
@@ -80,10 +81,20 @@ public:
     if (shape_.moments) asks = search_moments(system, step, accepted, held_before);
     if (shape_.holds && system.work().stuck > 0)
       asks = asks || search_holds(system, step, accepted, held_before);
+    asks_for_moments_ = asks;
     if (shape_.forces && system.wing().plates.empty())
       asks = asks || search_forces(system, step, accepted && !asks);
     return asks;
   }
+
+  /// Copies which moments may rise over the last step out of a lane in which search_step searched it.
+  void unload_search(int lane, std::vector<char>& may_rise) const {
+    for (std::size_t i = 1; shape_.moments && i < may_rise_.size(); ++i)
+      may_rise[i] = may_rise_[i].bits[lane] != 0 ? 1 : 0;
+  }
+
+  /// Whether a moment's peak may lie inside the last step of a lane.
+  [[nodiscard]] bool asks_for_moment(int lane) const { return asks_for_moments_.bits[lane] != 0; }
 
   /// Keeps the raised peaks in these lanes. @return evaluations made in each by the search
   [[nodiscard]] P accept(const Mask& these) {
@@ -114,6 +125,7 @@ private:
                                     const Mask& accepted, const std::vector<P>& held_before) {
     Mask asks{};
     for (int i = 1; i < static_cast<int>(moments_.size()); ++i) {
+      may_rise_[i] = Mask{};
       Mask slides = accepted;
       if (system.work().stuck > 0) {
         const Mask locked = system.is_locked(i);
@@ -124,7 +136,13 @@ private:
       const Mask rises = slides && !(moment.most() <= moments_[i].value);
       if (!any(rises)) continue;
       const Mask keeps = moment.keeps_direction();
-      asks = asks || (rises && !keeps);
+      may_rise_[i] = may_rise_[i] || (rises && keeps);
+      const Mask turns = rises && !keeps;
+      if (any(turns)) {
+        const Mask near = turns && samples_come_near(moments_[i], moment);
+        may_rise_[i] = may_rise_[i] || near;
+        asks = asks || near;
+      }
       if (!any(rises && keeps)) continue;
       begin_to_raise();
       PeakOf<P> peak = moments_[i];
@@ -139,6 +157,7 @@ private:
                                         const Mask& these, const P& held_before) {
     if (!any(these)) return Mask{};
     const Mask may = these && held_moment_may_rise(moments_[i], system, step, i);
+    may_rise_[i] = may;
     if (!any(may)) return Mask{};
     if (!held_is_bounded_) held_.over_step(system, step);
     held_is_bounded_ = true;
@@ -212,7 +231,10 @@ private:
   PackShape shape_;
   std::vector<PeakOf<P>> moments_, forces_, holds_; ///< 1 … n: up to the step's start
   std::vector<PeakOf<P>> raised_moments_, raised_forces_,
-      raised_holds_;                          ///< up to its end, if rises_
+      raised_holds_; ///< up to its end, if rises_
+  Mask asks_for_moments_{};
+  std::vector<Mask>
+      may_rise_; ///< 1 … n: lanes in which a moment may rise over this step, inside or towards an end
   bool rises_ = false, samples_made_ = false; ///< in any lane, over this step
   HeldLoadBound<P> held_;
   bool held_is_bounded_ = false; ///< over this step

@@ -45,6 +45,8 @@ public:
   /// @return the lanes that do; the others have already accepted or rejected their last trial step
   virtual LaneSet advance() = 0;
 
+  /// Why a lane needs its run. @pre advance() has returned it
+  [[nodiscard]] virtual Cause cause(int lane) const = 0;
   /// Copies the run's state and the last trial step out of a lane. @pre advance() has returned it
   virtual void unload(int lane, LaneResult& result) const = 0;
 };

@@ -4,6 +4,7 @@
 
 #include "core/dense/friction_layer.hpp"
 #include "core/dense/roughness.hpp"
+#include "core/events/kinks.hpp"
 #include "core/events/turning.hpp"
 #include "core/mechanics/structure.hpp"
 #include "core/mechanics/system.hpp"
@@ -31,7 +32,7 @@ class PackStepper : public PackEngine {
 
 public:
   PackStepper(const Wing<double>& wing, const PackShape& shape)
-      : shape_(shape), system_(make_harmless_wing(wing), std::nullopt, work_),
+      : shape_(shape), system_(set_harmless(wing_, wing), std::nullopt, work_),
         at_(system_.layout()), peaks_(shape) {
     const P none(0.0);
     for (State<P>* x : {&step_.x, &step_.dxdt, &step_.x1, &step_.dxdt1, &error_})
@@ -98,8 +99,9 @@ public:
     get_lane(lane, step_.x1, result.x1), get_lane(lane, step_.dxdt1, result.dxdt1);
     peaks_.unload(lane, result, moved);
     holds_.unload(lane, result, M == BaseMotion::free, moved);
-    result.evaluations = (result.trial_steps + 1) * Formula::evaluations +
-                         peaks_.evaluations(lane) + holds_.evaluations(lane);
+    result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
+    result.searched = asks_after_.back().bits[lane] == 0;
+    if (result.searched) peaks_.unload_search(lane, result.moments_may_rise);
     if constexpr (M == BaseMotion::free) {
       free_.unload(lane, result, shape_.forces);
       result.evaluations += static_cast<long>(free_.evaluations().v[lane]);
@@ -108,6 +110,14 @@ public:
     result.error = scaled_error_.v[lane];
     result.judged = {judged_.v[lane], factor_.v[lane]};
     get_lane(lane, history_, result.history);
+  }
+
+  [[nodiscard]] Cause cause(int lane) const override {
+    int tests = 0; // that did not make the lane ask
+    for (const Mask& asks : asks_after_) tests += asks.bits[lane] == 0 ? 1 : 0;
+    if (tests == static_cast<int>(asks_after_.size()))
+      return peaks_.asks_for_moment(lane) ? Cause::moment : Cause::force;
+    return static_cast<Cause>(static_cast<int>(Cause::limit) + tests);
   }
 
   LaneSet advance() override {
@@ -132,33 +142,6 @@ private:
       if (there != 0) set |= LaneSet{1} << lane;
     }
     return set;
-  }
-
-  /// Gives wing_ this structure, and numbers without which an idle lane would divide by zero.
-  const Wing<P>& make_harmless_wing(const Wing<double>& structure) {
-    Wing<double> harmless = structure;
-    harmless.base = {};
-    for (BodyTerms<double>& body : harmless.bodies) {
-      body = {};
-      body.mass = body.inertia = body.central_inertia = 1, body.minus_inverse = -1;
-    }
-    for (HingeTerms<double>& hinge : harmless.hinges) hinge = {}, hinge.sense = hinge.slip_rate = 1;
-    for (RealHingeTerms<double>& real : harmless.real) {
-      real = {}, real.stop.sense = real.far_stop.sense = real.friction.slip_rate = 1;
-      real.damper.rate = 1;
-    }
-    for (PlateTerms<double>& plate : harmless.plates) plate = {};
-    wing_.real.resize(structure.real.size());
-    wing_.loops.resize(structure.loops.size());
-    wing_.plates.resize(structure.plates.size());
-    wing_.releases.resize(structure.releases.size());
-    wing_.base.motion = structure.base.motion;
-    wing_.tree = structure.tree;
-    wing_.bodies.resize(structure.bodies.size());
-    wing_.hinges.resize(structure.hinges.size());
-    wing_.initial_rates.resize(structure.initial_rates.size());
-    for (int lane = 0; lane < W; ++lane) set_lane(lane, wing_, harmless);
-    return wing_;
   }
 
   struct Judgement {
@@ -209,16 +192,21 @@ private:
     const Mask near_limit = !(next > P(1e-9) * now) || !(next < P(0.999999) * (t_end_ - now));
     const Mask may_leave = history_.held_back.may_leave(step_.h, P(history_.steps + P(1.0)));
     const Mask accepted_enough = history_.steps >= last_step_;
-    Mask asks = busy && (tried_enough || near_limit);
-    asks =
-        asks || (accepted && (accepted_enough || may_leave || events_.lie_inside(system_, step_)));
+    Mask asks =
+        busy && (tried_enough || near_limit || (accepted && (accepted_enough || may_leave)));
+    asks = asks || (busy && !judgement.accepted && suggests_kink(wing_, scaled_error_));
+    asks_after_[0] = asks;
+    asks = asks || (accepted && events_.lie_inside(system_, step_));
+    asks_after_[1] = asks;
     if (work_.stuck > 0) asks = asks || (accepted && holds_.may_release(system_, step_));
+    asks_after_[2] = asks;
     if constexpr (M == BaseMotion::free) {
       free_.restore_momenta(system_, step_);
       if (work_.stuck > 0) holds_.keep_at_end(system_, step_);
     }
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
+    asks_after_[3] = asks;
     return asks || peaks_.search_step(system_, step_, accepted && !asks, holds_.before());
   }
 
@@ -234,7 +222,7 @@ private:
       overtravel_[i] = select(accepted, larger(overtravel_[i], beyond), overtravel_[i]);
     }
     evaluations_before_ = evaluations_before_ + peaks_.accept(accepted);
-    if (work_.stuck > 0) evaluations_before_ = evaluations_before_ + holds_.accept(accepted);
+    if (work_.stuck > 0) holds_.accept(accepted);
     step_.t = select(accepted, P(step_.t + step_.h), step_.t);
     update_history(accepted, these);
     step_.h = select(these, judgement.next, step_.h);
@@ -290,6 +278,8 @@ private:
   std::vector<P> overtravel_;
   LaneEvents<W> events_;
   LaneHolds<W> holds_;
+  std::array<Mask, 4>
+      asks_after_{}; ///< lanes that ask, after the tests of limits, events, releases and turns
   std::vector<Lever<double>> levers_of_wing_; ///< scratch
   LanePeaks<P, AnySystem> peaks_;
   FreeBases<W> free_; ///< used if M is free

@@ -7,8 +7,10 @@
 #include "core/run/integrator.hpp"
 
 #include <array>
+#include <chrono>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace wingspread {
 
@@ -25,6 +27,7 @@ template <class Topology, BaseMotion M> class PackedRuns {
     AnySystem system;
     Integrator<double, Topology, M> run;
     long name = 0;
+    Cause cause = Cause::start; ///< why it is worked on outside
     bool busy = false;
   };
 
@@ -43,10 +46,12 @@ public:
   /// @param done done(name, outcome), called in the order in which the runs end
   template <class Next, class Done> Occupancy run(Next&& next, Done&& done) {
     count_ = {};
+    mark_ = std::chrono::steady_clock::now();
     for (int l = 0; l < engine_.width(); ++l) start_next(l, next, done);
     const long before = engine_.rounds();
     while (busy_ > 0) {
       const LaneSet asking = engine_.advance();
+      count_.in_lanes += since_mark();
       for (int l = 0; l < engine_.width(); ++l)
         if (has(asking, l)) resume(l, next, done);
     }
@@ -62,9 +67,11 @@ private:
     engine_.unload(l, result);
     ++count_.looks;
     count_.busy += result.trial_steps + 1;
+    if (!lane.run.is_inside_a_step()) lane.cause = engine_.cause(l);
     lane.run.resume(result);
-    if (reaches_lane(lane)) return engine_.load(l, lane.run.lane_task());
+    if (reaches_lane(lane)) return load(l);
     done(lane.name, lane.run.outcome());
+    count_time(lane.cause);
     start_next(l, next, done);
   }
 
@@ -73,14 +80,28 @@ private:
     Lane& lane = *lanes_[l];
     while (draw_next(lane, next)) {
       lane.run.begin();
+      lane.cause = Cause::start;
       if (reaches_lane(lane)) {
         engine_.set_wing(l, lane.wing);
-        return engine_.load(l, lane.run.lane_task());
+        return load(l);
       }
       done(lane.name, lane.run.outcome());
+      count_time(lane.cause);
     }
     engine_.set_idle(l);
   }
+
+  void load(int l) {
+    engine_.load(l, lanes_[l]->run.lane_task());
+    count_time(lanes_[l]->cause);
+  }
+
+  /// @return wall-clock time since the last call, s
+  [[nodiscard]] double since_mark() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(mark_, now)).count();
+  }
+  void count_time(Cause cause) { count_.outside[static_cast<std::size_t>(cause)] += since_mark(); }
 
   /// @return whether there is a next run; the lane then has its wing
   template <class Next> [[nodiscard]] bool draw_next(Lane& lane, Next&& next) {
@@ -94,7 +115,10 @@ private:
   /// Makes steps outside the engine until the engine can make the next one.
   /// @return false if the run has ended before
   [[nodiscard]] bool reaches_lane(Lane& lane) {
+    if (lane.run.ended() || lane.run.fits_lane(method_)) return !lane.run.ended();
+    count_time(lane.cause);
     for (; !lane.run.ended() && !lane.run.fits_lane(method_); ++count_.scalar) lane.run.go();
+    count_time(Cause::method);
     return !lane.run.ended();
   }
 
@@ -102,7 +126,8 @@ private:
   Method method_;
   std::array<std::unique_ptr<Lane>, most_lanes> lanes_;
   Occupancy count_;
-  int busy_ = 0; ///< lanes with a run
+  std::chrono::steady_clock::time_point mark_; ///< up to which time is counted
+  int busy_ = 0;                               ///< lanes with a run
 };
 
 } // namespace wingspread

@@ -27,7 +27,7 @@ public:
       : system_(system), hinge_(system.wing().hinges[i]), step_(step), i_(i),
         latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
         smoothed_(system.layout().smoothed && hinge_.has_latch), angle_(angle_of(i)),
-        rate_(derivative(angle_, step.h)),
+        rate_(step.rate_of(angle_, system.layout().angle(i), system.layout().freedoms())),
         linear_(linear_moment(system.work().laws[i], angle_, rate_)) {}
 
   /// Upper bound of |moment| in the step, by the laws' ranges.
@@ -46,8 +46,8 @@ public:
       range = real_range(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_));
     for (const LoopTerms<T>& loop : wing.loops)
       if (joins(loop, i_))
-        range = range +
-                loop_moment_range(loop, i_, angle_of(loop.first), angle_of(loop.second), step_.h);
+        range = range + loop_moment_range(loop, i_, angle_of(loop.first), rate_of(loop.first),
+                                          angle_of(loop.second), rate_of(loop.second));
     return range;
   }
 
@@ -99,11 +99,15 @@ private:
     return step_.coordinate(system_.layout().angle(i), system_.layout().freedoms());
   }
 
+  [[nodiscard]] Quintic<T> rate_of(int i) const {
+    return step_.rate(system_.layout().angle(i), system_.layout().freedoms());
+  }
+
   /// Moment of a loop at s, N·m.
   [[nodiscard]] T moment_of(const LoopTerms<T>& loop, const T& s) const {
-    const Quintic<T> a = angle_of(loop.first), b = angle_of(loop.second);
-    const LoopState<T> state = loop_state(loop, value(a, s), value(derivative(a, step_.h), s),
-                                          value(b, s), value(derivative(b, step_.h), s));
+    const LoopState<T> state =
+        loop_state(loop, value(angle_of(loop.first), s), value(rate_of(loop.first), s),
+                   value(angle_of(loop.second), s), value(rate_of(loop.second), s));
     return on_hinge(loop, i_, state.gear) * loop_torque(loop, state);
   }
 
@@ -117,18 +121,38 @@ private:
   Quintic<T> angle_, rate_, linear_;
 };
 
+/// |moment| at eighths of a step, N·m.
+template <class T, class AnySystem>
+[[nodiscard]] std::array<T, 9> moment_samples(const MomentOverStep<T, AnySystem>& moment) {
+  using std::abs;
+  std::array<T, 9> samples;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    samples[k] =
+        abs(moment(T(static_cast<double>(k)) / T(static_cast<double>(samples.size() - 1))));
+  return samples;
+}
+
+/// Whether any sample comes so near the peak that raise_by_interpolant looks for a maximum beside it; for a pack: in
+/// which lanes.
+template <class T, class AnySystem>
+[[nodiscard]] Truth<T> samples_come_near(const PeakOf<T>& peak,
+                                         const MomentOverStep<T, AnySystem>& moment) {
+  const std::array<T, 9> samples = moment_samples(moment);
+  T largest = samples[0];
+  for (const T& sample : samples) largest = larger(largest, sample);
+  return !(largest < T(sample_margin) * peak.value);
+}
+
 /// Raises `peak` to the largest |moment| that the dense output has over the step: samples the step, and refines
 /// the largest sample.
 template <class T, class AnySystem>
 void raise_by_interpolant(PeakOf<T>& peak, const MomentOverStep<T, AnySystem>& moment,
                           const Step<T>& step) {
   using std::abs;
-  std::array<T, 9> samples;
+  const std::array<T, 9> samples = moment_samples(moment);
   std::size_t best = 0;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    samples[k] = abs(moment(T(k) / T(samples.size() - 1)));
+  for (std::size_t k = 0; k < samples.size(); ++k)
     if (samples[k] > samples[best]) best = k;
-  }
   if (samples[best] < T(sample_margin) * peak.value) return;
   const auto [found, vertex] =
       maximum_near(samples, best, [&](const T& s) { return T(abs(moment(s))); });
@@ -252,9 +276,10 @@ template <class T, class Load>
   if (wants_samples(first, last, rise, peak.value, close)) {
     StepInterpolant<T> interpolant;
     const auto size = [&](const T& s) { return T(abs(load(s))); };
-    found = interpolant.resolve(load, ends.first, ends.last)
-                ? interpolant.largest_magnitude()
-                : largest_of(size, first, last, rise, peak.value, close);
+    found =
+        interpolant.resolve(load, ends.first, ends.last)
+            ? interpolant.largest_magnitude()
+            : largest_of(size, first, last, rise, peak.value, close, shortest_part(step.t, step.h));
   }
   peak.raise(first, step.t);
   peak.raise(last, step.t + step.h);

@@ -102,12 +102,24 @@ public:
 
   /// For the lane to fill: refers to this run's storage.
   [[nodiscard]] LaneResult empty_lane_result() {
-    return {run_.step,        peaks_.force_before(),   peaks_.moments(),
-            peaks_.forces(),  peaks_.holds(),          peaks_.overtravel(),
-            *asked_.x1,       *asked_.dxdt1,           run_.system.made_elsewhere().forces,
-            run_.held_before, events_.excess_before(), run_.system.made_elsewhere().holding,
-            peaks_.base()};
+    return {run_.step,
+            peaks_.force_before(),
+            peaks_.moments(),
+            peaks_.forces(),
+            peaks_.holds(),
+            peaks_.overtravel(),
+            *asked_.x1,
+            *asked_.dxdt1,
+            run_.system.made_elsewhere().forces,
+            run_.held_before,
+            events_.excess_before(),
+            run_.system.made_elsewhere().holding,
+            peaks_.base(),
+            peaks_.moments_may_rise()};
   }
+
+  /// Whether the step asked for is part of one under way: to an event, or to a peak in doubt.
+  [[nodiscard]] bool is_inside_a_step() const { return asked_.stage != Stage::step; }
 
   /// Counts the lane's steps, and takes its last trial step for the one asked for.
   /// @param result empty_lane_result() of this run, filled by its lane
@@ -119,7 +131,9 @@ public:
     } else if (asked_.stage == Stage::step) {
       stepping_.fit(result.h);
     }
+    searched_ = result.searched;
     take(asks_for_whole_step() ? result.judged : Verdict{result.error, 1});
+    searched_ = false;
   }
 
 private:
@@ -186,7 +200,7 @@ private:
   void restart(int let_go) {
     begin_anew(let_go);
     diary_.notify();
-    stepping_.restart(diary_.any_latch());
+    stepping_.restart(diary_.any_latch(), landing_.at_friction());
     diary_.begin_phase(stepping_.method(), stepping_.steps());
   }
 
@@ -197,7 +211,7 @@ private:
     begin_step();
   }
 
-  /// Keeps what holds stuck hinges at the start of the next step. @pre the last evaluation was there
+  /// Keeps what holds stuck hinges at the start of the next step. @pre the workspace has it
   void begin_step() {
     if (run_.system.work().stuck == 0) return;
     run_.held_before = run_.system.work().holding;
@@ -225,24 +239,39 @@ private:
   }
 
   void judge_step(const Verdict& verdict) {
-    if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_)))
-      return ask_for_step(stepping_.plan_again());
+    if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_))) return try_again(verdict);
     stepping_.choose_next_size();
-    if (landing_.cut_at_event(stepping_.kinks())) return ask_to_end(Stage::landing);
+    if (searched_)
+      landing_.expect_no_event();
+    else if (landing_.cut_at_event(stepping_.kinks()))
+      return ask_to_end(Stage::landing);
     accept();
   }
 
   void judge_landing(const Verdict& verdict) {
-    if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
+    if (!stepping_.count_trial(verdict)) return try_again(verdict);
+    if (landing_.holds_other_event(stepping_.kinks())) return ask_to_end(Stage::landing);
     if (landing_.correct_end(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
     accept();
+  }
+
+  /// Tries a shorter step: to the kink that may be why the step was refused, or by step control. A step that was to end
+  /// at an event is not cut again: its kink may be the one at its end, and it would be as long as before.
+  void try_again(const Verdict& refused) {
+    const T h = run_.step.h;
+    if (asked_.stage == Stage::step && suggests_kink(run_.system.wing(), T(refused.error)) &&
+        landing_.cut_at_kink(stepping_.kinks_in_refused())) {
+      stepping_.count_cut(h);
+      return ask_to_end(Stage::landing);
+    }
+    ask_for_step(stepping_.plan_again());
   }
 
   /// Looks for the peaks of an accepted step.
   void accept() {
     if constexpr (M == BaseMotion::free)
       if (run_.system.wing().plates.empty()) restore_momentum(); // with plates the air takes some
-    confirm_peaks(peaks_.first_doubt());
+    confirm_peaks(peaks_.first_doubt(searched_));
   }
 
   /// Asks for a step to the peak in doubt. @param doubt its fraction of the step; none: all are known
@@ -260,7 +289,7 @@ private:
     Step<T>& step = run_.step;
     diary_.watch_energy();
     if (run_.system.work().stuck > 0) {
-      run_.system(step.x, run_.dxdt, step.t);
+      run_.system.made_elsewhere().holding = peaks_.held_at_end();
       begin_step();
     }
     diary_.notify();
@@ -322,7 +351,8 @@ private:
   Ending<T, AnySystem> ending_;
   Try asked_;
   bool ended_ = false;
-  Conserved<T> kept_{}; ///< momenta of a free base
+  bool searched_ = false; ///< a lane has searched the step to be judged, and found no event
+  Conserved<T> kept_{};   ///< momenta of a free base
 };
 
 } // namespace wingspread

@@ -22,12 +22,41 @@ public:
   /// Cuts a step just accepted at the first event inside. @param kinks which kinks are events
   /// @return whether there is one: the step must then be made again, to the event
   [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks) {
+    of_refused_ = false;
     due_ = events_.first(run_.step, run_.x, run_.dxdt, kinks);
-    if (!due_) return false;
-    corrections_ = 0;
-    longest_ = run_.step.h;
-    cut(due_->s * longest_);
+    if (due_) begin();
+    return due_.has_value();
+  }
+
+  /// As cut_at_event where a lane has found that there is none.
+  void expect_no_event() {
+    of_refused_ = false;
+    due_.reset();
+  }
+
+  /// Cuts a refused step at its first kink that may be why. The end of a refused step is inaccurate, and with it the
+  /// kink's instant: `correct_end` corrects it, as that of an event.
+  /// @return whether there is one; not where a step has just been cut at a kink at its start, in vain
+  [[nodiscard]] bool cut_at_kink(const KinkLimit& limit) {
+    const auto found = KinkSearch<T, AnySystem>(run_.system, run_.step, limit).first();
+    if (!found) return false;
+    const bool at_start = found->s < T(1e-3);
+    if (at_start && run_.step.t == start_of_vain_) return false;
+    due_ = Due<T>{Event::kink, 0, found->s, T(0), Edge::stop, found->kink};
+    of_refused_ = true;
+    begin();
+    if (at_start) start_of_vain_ = run_.step.t + run_.step.h;
     return true;
+  }
+
+  /// Whether an event other than the kink lies in a step that was cut because it was refused. The step then ends there,
+  /// and must be made again. @param kinks which kinks are events
+  [[nodiscard]] bool holds_other_event(const std::optional<KinkLimit>& kinks) {
+    if (!of_refused_) return false;
+    const std::optional<Due<T>> kink = due_;
+    if (cut_at_event(kinks)) return true;
+    due_ = kink, of_refused_ = true;
+    return false;
   }
 
   /// Corrects the end of a cut step that was accepted: Newton's step to the event.
@@ -49,13 +78,19 @@ public:
     shift_end(way);
     step.h = smaller(T(step.h + way), longest_);
     // forces and accelerations at the new end
-    if (run_.goal.peak_moment || run_.goal.peak_force || due_->event == Event::kink)
+    if (run_.goal.peak_moment || run_.goal.peak_force || due_->event == Event::kink ||
+        run_.system.work().stuck > 0)
       run_.system(step.x1, step.dxdt1, step.t + step.h);
     return false;
   }
 
   /// Whether the step under way ends at an event.
   [[nodiscard]] bool at_event() const { return due_.has_value(); }
+
+  /// Whether that event is a hinge with exact friction that comes to rest or lets go.
+  [[nodiscard]] bool at_friction() const {
+    return due_ && (due_->event == Event::rest || due_->event == Event::release);
+  }
 
   /// Applies the event that was due, and all others at the same instant, at the end of a step: latches
   /// engage (events/latches.hpp), hinges stick or begin to slide, holds let go.
@@ -73,6 +108,12 @@ public:
   }
 
 private:
+  void begin() {
+    corrections_ = 0;
+    longest_ = run_.step.h;
+    cut(due_->s * longest_);
+  }
+
   /// Looks again for a release, in a step that ends where the moment that holds a hinge is largest.
   /// @return whether the moment passes its limit on the way; the step is then cut to end there
   [[nodiscard]] bool cut_at_release() {
@@ -154,6 +195,8 @@ private:
   std::optional<Due<T>> due_; ///< the event that ends the step
   int corrections_ = 0;       ///< made to its instant
   T longest_ = T(0);          ///< the step in which it was found
+  bool of_refused_ = false;   ///< it is a kink of a refused step
+  T start_of_vain_ = T(-1);   ///< end of a step cut at a kink at its start, s
 };
 
 } // namespace wingspread

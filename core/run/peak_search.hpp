@@ -35,6 +35,12 @@ public:
   [[nodiscard]] std::vector<T>& overtravel() { return overtravel_; }
   [[nodiscard]] const std::vector<T>& overtravel() const { return overtravel_; }
 
+  /// Which moments may rise over a step that a lane has searched, 1 … n; for the lane to write to.
+  [[nodiscard]] std::vector<char>& moments_may_rise() { return may_rise_; }
+
+  /// Moments on stuck hinges at the end of the step searched last, 1 … n, N·m.
+  [[nodiscard]] const std::vector<T>& held_at_end() const { return held_at_end_; }
+
   /// The largest excursions of a free base.
   [[nodiscard]] const BaseExcursion<T>& base() const { return base_; }
   [[nodiscard]] BaseExcursion<T>& base() { return base_; }
@@ -43,6 +49,7 @@ public:
   void start() {
     base_.start(run_.at, run_.step.x);
     moments_.assign(run_.at.bodies + 1, {});
+    may_rise_.assign(run_.at.bodies + 1, true);
     overtravel_.assign(run_.at.bodies + 1, T(0));
     holds_.assign(watches_holds() ? run_.at.bodies + 1 : 0, {});
     if (run_.goal.peak_force) forces_.start(run_.system, worth_a_step());
@@ -61,9 +68,10 @@ public:
   }
 
   /// Looks for the peaks of a step just accepted. @pre the last evaluation was at its end
+  /// @param searched whether a lane has searched the step and written moments_may_rise
   /// @return the first doubt: the fraction of the step to which the method must make a step
-  [[nodiscard]] std::optional<T> first_doubt() {
-    made_sure_ = false;
+  [[nodiscard]] std::optional<T> first_doubt(bool searched) {
+    made_sure_ = false, searched_ = searched;
     if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
     hinge_ = hold_ = 0;
     doubt_.reset(), held_at_.reset(), borne_at_.reset();
@@ -107,7 +115,8 @@ private:
   [[nodiscard]] std::optional<T> next_doubt() {
     std::optional<T> s;
     if (run_.goal.peak_force) s = forces_.doubtful();
-    while (!s && run_.goal.peak_moment && ++hinge_ <= run_.at.bodies) s = doubtful_moment();
+    while (!s && run_.goal.peak_moment && ++hinge_ <= run_.at.bodies)
+      if (!searched_ || may_rise_[hinge_]) s = doubtful_moment();
     while (!s && ++hold_ < static_cast<int>(holds_.size())) s = doubtful_hold();
     made_sure_ = made_sure_ || s;
     return s;
@@ -173,6 +182,8 @@ private:
   int hold_ = 0;               ///< the hold searched
   std::optional<T> borne_at_;  ///< where its load is in doubt
   bool made_sure_ = false;
+  bool searched_ = false;      ///< a lane has searched the step
+  std::vector<char> may_rise_; ///< 1 … n: if so, the moments that may rise over it
 };
 
 } // namespace wingspread

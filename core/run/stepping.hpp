@@ -33,20 +33,26 @@ public:
   /// A run begins.
   void start() {
     tried_ = steps_ = rejected_ = 0;
+    h_ = T(-1);
     engaged_ = -1;
     choice_ = first_choices_[has_series(run_.system.wing()) ? 1 : 0];
   }
 
   /// Begins anew after a change of the right-hand side. @param any_latch whether a latch has engaged
-  void restart(bool any_latch) {
+  /// @param by_friction whether a hinge has come to rest or let go
+  void restart(bool any_latch, bool by_friction) {
     any_latch_ = any_latch;
     const std::vector<char>& latched = run_.system.work().engaged;
     const auto engaged = std::count(latched.begin(), latched.end(), true);
-    choice_.restart(static_cast<double>(run_.step.t), run_.system.work().evaluations,
-                    spectral_radius_bound<T>(run_.system),
-                    engaged != std::exchange(engaged_, engaged));
+    const bool stiffens = engaged != std::exchange(engaged_, engaged);
+    const auto time = static_cast<double>(run_.step.t);
+    const bool friction_only = by_friction && !stiffens;
+    if (!(friction_only && choice_.goes_on(time, run_.system.work().evaluations)))
+      choice_.restart(time, run_.system.work().evaluations, spectral_radius_bound<T>(run_.system),
+                      stiffens);
     begin_with_method();
-    h_ = T(-1);
+    before_ = h_;
+    if (!(friction_only && h_ > T(0) && has_lanes(method()))) h_ = T(-1);
   }
 
   /// Begins anew where the base's motion enters another piece of its table, with the step size so far.
@@ -73,7 +79,11 @@ public:
   /// Which kinks end a step of the method, if any does.
   [[nodiscard]] std::optional<KinkLimit> kinks() const {
     if (!needs_smooth_laws(method())) return std::nullopt;
-    return KinkLimit{tolerance().rtol, tolerance().atol};
+    return KinkLimit{tolerance().rtol, tolerance().atol, false};
+  }
+  /// Which kinks may be why a step was refused.
+  [[nodiscard]] KinkLimit kinks_in_refused() const {
+    return {tolerance().rtol, tolerance().atol, true};
   }
 
   // ---- a step: planned, made, judged
@@ -189,6 +199,14 @@ public:
     h_ = last_ && !(verdict_.factor < 1) ? larger(h_, next) : next;
   }
 
+  /// Counts a rejection after which the step is cut at a kink.
+  /// @param h size of the refused step: of the step after that too
+  void count_cut(const T& h) {
+    ++rejected_;
+    h_ = h;
+    steppers_.with(method(), [](auto& stepper) { stepper.rejected(); });
+  }
+
   /// Plans a shorter step after a rejection. @return why none is possible, if so
   [[nodiscard]] std::optional<std::string> plan_again() {
     ++rejected_;
@@ -259,6 +277,9 @@ private:
     });
   }
 
+  /// The method's own first step, or the step size before the event if that is less: most events change the motion
+  /// little, and an estimate from one point is too long as often as too short. (Events of friction leave the size as it
+  /// was.)
   void choose_first_step() {
     const Step<T>& step = run_.step;
     const T rest = end_of_stretch() - step.t;
@@ -270,6 +291,7 @@ private:
       return first_step(run_.system, step.x, step.dxdt, step.t, Stepper::order, tolerance().rtol,
                         tolerance().atol, longest, run_.x, run_.dxdt);
     });
+    if (before_ > T(0) && method() != Method::taylor) h_ = smaller(h_, before_);
   }
 
   /// @param rest time to end_of_stretch(), s
@@ -315,7 +337,8 @@ private:
     State<T> x, dxdt;
   } between_;              ///< where the next part of a step starts
   Verdict verdict_{0, 1};  ///< on the last trial step
-  T h_ = T(0);             ///< size of the next step, s; negative: not chosen yet
+  T h_ = T(-1);            ///< size of the next step, s; negative: not chosen yet
+  T before_ = T(-1);       ///< h_ before the last restart
   bool last_ = false;      ///< the planned step ends at end_of_stretch()
   bool any_latch_ = false; ///< a latch has engaged
   long engaged_ = -1;      ///< latches at the last restart; -1: the run has not begun

@@ -6,7 +6,8 @@
 Draws realistic wings: one or two, with a yoke or without, 2 to 6 panels, on fixed, free and turning bases; linear, tabulated and
 measured springs, harnesses, each damper, loops with and without slack, stops, exact and regularized friction, latches of 1e2 to
 1e5 N·m/rad, panels of 0.1 to 50 kg. Each becomes a campaign of 200 draws with all outputs, run on one thread in packs and one run at a time
-(--lanes 1). The script prints runs a second, the ratio and the share that deploys, then the median, the worst tenth and the worst. The results of packs and of single runs must be the same bytes: if not, it says so and exits 1.
+(--lanes 1). The script prints runs a second, the ratio, the share that deploys, evaluations of the nominal run, and the share of the time that is
+spent outside the lanes with its three largest causes (timing.json has all); then the median, the worst tenth and the worst. The results of packs and of single runs must be the same bytes: if not, it says so and exits 1.
 """
 
 import argparse
@@ -167,6 +168,11 @@ def rows(folder):
     return (folder / "runs.csv").read_bytes()
 
 
+def evaluations_of_nominal(program, campaign):
+    done = subprocess.run([program, "simulate", campaign, "--json"], capture_output=True, text=True, check=False)
+    return json.loads(done.stdout)["work"]["rhs_evaluations"]
+
+
 def measure(program, folder, index, given):
     scene, words = make_scene(random.Random(f"{given.seed}/{index}"), f"stranger_{index}")
     folder.mkdir(parents=True, exist_ok=True)
@@ -174,7 +180,8 @@ def measure(program, folder, index, given):
     campaign.write_text(json.dumps(make_campaign(scene, given.runs, given.seed), indent=1))
     packs, summary = run(program, campaign, folder / "packs", *given.options)
     alone, _ = run(program, campaign, folder / "alone", "--lanes", "1", *given.options)
-    return {"words": words, "packs": packs, "alone": alone, "summary": summary, "same": rows(folder / "packs") == rows(folder / "alone")}
+    return {"words": words, "packs": packs, "alone": alone, "summary": summary, "same": rows(folder / "packs") == rows(folder / "alone"),
+            "evaluations": evaluations_of_nominal(program, campaign)}
 
 
 def print_summary(name, values, digits):
@@ -196,19 +203,23 @@ def main():
     given = parser.parse_args()
     found = []
     with tempfile.TemporaryDirectory() as scratch:
-        print(f"{'':4} {'runs/s':>8} {'packs/alone':>11} {'deployed':>8}", flush=True)
+        print(f"{'':4} {'runs/s':>8} {'packs/alone':>11} {'deployed':>8} {'evaluations':>11} {'outside':>8}", flush=True)
         for index in given.only or range(given.wings):
             one = measure(given.program, pathlib.Path(given.keep or scratch) / str(index), index, given)
             fast, slow = one["packs"]["runs_per_second"], one["alone"]["runs_per_second"]
             status = one["summary"]["status"]
             deployed = status["deployed"]["count"] / one["summary"]["runs"]
             failed = f"   {status['failed']['count']} FAILED" if status["failed"]["count"] else ""
-            print(f"{index:4} {fast:8.0f} {fast / slow:11.2f} {deployed:8.2f}   {one['words']}{failed}{'' if one['same'] else '   DIFFERENT BYTES'}",
-                  flush=True)
-            found.append({"runs": fast, "ratio": fast / slow, "same": one["same"]})
+            causes = one["packs"]["outside_lanes"] or {"method": 1.0}
+            outside = sum(causes.values())
+            largest = ", ".join(f"{name} {share:.0%}" for name, share in sorted(causes.items(), key=lambda c: -c[1])[:3])
+            print(f"{index:4} {fast:8.0f} {fast / slow:11.2f} {deployed:8.2f} {one['evaluations']:11.0f} {outside:8.0%}   {one['words']}"
+                  f" | {largest}{failed}{'' if one['same'] else '   DIFFERENT BYTES'}", flush=True)
+            found.append({"runs": fast, "ratio": fast / slow, "within": 1 - outside, "same": one["same"]})
     print()
     print_summary("runs a second of one core", [one["runs"] for one in found], 0)
     print_summary("packs over one at a time", [one["ratio"] for one in found], 2)
+    print_summary("share of the time in lanes", [one["within"] for one in found], 2)
     return 0 if all(one["same"] for one in found) else 1
 
 

@@ -40,6 +40,11 @@ void write_timing(const std::filesystem::path& folder, const SessionTiming& timi
   const Json occupancy =
       lanes.tries > 0 ? Json(static_cast<double>(lanes.busy) / static_cast<double>(lanes.tries))
                       : Json();
+  Json outside = Json::object(); // shares of the time
+  double all = lanes.in_lanes;
+  for (const double seconds : lanes.outside) all += seconds;
+  for (std::size_t k = 0; k < lanes.outside.size(); ++k)
+    outside[cause_names[k]] = lanes.outside[k] / std::max(all, 1e-9);
   const double runs_per_second = static_cast<double>(made) / std::max(timing.seconds, 1e-9);
   write_file(folder / timing_file, json_text({{"host", host_name()},
                                               {"math_library", math_library()},
@@ -49,6 +54,7 @@ void write_timing(const std::filesystem::path& folder, const SessionTiming& timi
                                               {"instruction_set", to_string(pool.set)},
                                               {"lanes", lanes_of(pool.set)},
                                               {"lane_occupancy", occupancy},
+                                              {"outside_lanes", lanes.tries > 0 ? outside : Json()},
                                               {"runs", made},
                                               {"runs_before", timing.tally.before},
                                               {"seconds", timing.seconds},

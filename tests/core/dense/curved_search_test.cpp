@@ -29,7 +29,8 @@ TEST_CASE("the first point where a function is positive is found, however narrow
     const double expected = (left + cycles * turn - wave.phase) / wave.turns;
     Sampled<double> crest{0, -1e9};
     if (wave(0) > 0) continue;
-    const auto s = first_positive(wave, wave(0), wave(1), Bulge<double>{wave.rise()}, 1e-12, crest);
+    const auto s = first_positive(wave, wave(0), wave(1), Bulge<double>{wave.rise()}, 1e-12,
+                                  1.0 / (1 << 17), crest);
     CAPTURE(k, margin, expected);
     REQUIRE(s.has_value() == (expected <= 1));
     if (!s) continue;
@@ -46,8 +47,8 @@ TEST_CASE("the largest value is found, at an end or inside, and none below the f
     const Wave wave{2, 0.5 + 0.04 * k, 0.61 * k, 5};
     int calls = 0;
     const auto counted = [&](double s) { return ++calls, wave(s); };
-    const Sampled<double> best =
-        largest_of(counted, wave(0), wave(1), Bulge<double>{wave.rise()}, 0.0, 1e-12);
+    const Sampled<double> best = largest_of(counted, wave(0), wave(1), Bulge<double>{wave.rise()},
+                                            0.0, 1e-12, 1.0 / (1 << 17));
     double expected = std::max(wave(0), wave(1));
     for (int n = 1; n < 2000; ++n) expected = std::max(expected, wave(n / 2000.0));
     CAPTURE(k);
@@ -57,7 +58,7 @@ TEST_CASE("the largest value is found, at an end or inside, and none below the f
     inside += best.s > 0 && best.s < 1;
     calls = 0;
     (void)largest_of(counted, wave(0), wave(1), Bulge<double>{wave.rise()}, 7 + wave.rise() + 1,
-                     1e-12);
+                     1e-12, 1.0 / (1 << 17));
     CHECK(calls == 0);
   }
   CHECK(inside > 100);
@@ -69,9 +70,9 @@ TEST_CASE("a search ends, whatever its bound says") {
     long calls = 0;
     const auto counted = [&](double s) { return ++calls, wave(s); };
     Sampled<double> crest{0, -2};
-    CHECK_FALSE(first_positive(counted, wave(0), wave(1), bulge, 1e-12, crest));
+    CHECK_FALSE(first_positive(counted, wave(0), wave(1), bulge, 1e-12, 1.0 / (1 << 17), crest));
     CHECK(crest.value == Approx(-1).epsilon(1e-9)); // on the way it has seen all there is
-    CHECK(largest_of(counted, wave(0), wave(1), bulge, -1e9, 1e-12).value ==
+    CHECK(largest_of(counted, wave(0), wave(1), bulge, -1e9, 1e-12, 1.0 / (1 << 17)).value ==
           Approx(-1).epsilon(1e-9));
     CHECK(calls < 2 << detail::most_halvings);
   }

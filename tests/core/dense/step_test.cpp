@@ -40,3 +40,20 @@ TEST_CASE("inside a step angles are quintics, rates their derivatives, latches' 
     CHECK(value(step.coordinate(0, 1), s) == Approx(angle(u)).epsilon(1e-14));
   }
 }
+
+TEST_CASE("the rate in a step of a few roundings is between those at its ends") {
+  const double h = 2e-14, rate = 1.75,
+               acceleration = -3e3; // a rounding of the angle is 0.6 % of the way
+  Step<double> step{0.3, h, {1.3, rate}, {rate, acceleration}, {}, {}};
+  step.x1 = {std::nextafter(1.3 + h * rate, 2.0), rate + h * acceleration};
+  step.dxdt1 = {step.x1[1], acceleration};
+  const Layout at{0, 1, false};
+  const Quintic<double> inside = step.rate(0, at.freedoms());
+  State<double> x(2);
+  for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+    step.interpolate(at, s, x);
+    CHECK(x[1] == Approx(rate).epsilon(1e-9));
+    CHECK(value(inside, s) == Approx(rate).epsilon(1e-9));
+    CHECK(value(derivative(inside, h), s) == Approx(acceleration).epsilon(1e-3));
+  }
+}

@@ -187,3 +187,35 @@ TEST_CASE("overtravel that is not asked for is not searched, and nothing else ch
   watched.overtravel = true;
   CHECK(looks(watched) > looks(first_latch) + 16);
 }
+
+TEST_CASE("the time of runs in packs is counted by where it goes") {
+  const InstructionSet set = instruction_sets().back();
+  if (lanes_of(set) == 1) return;
+  Scene rubbing = oracle::seed_scene();
+  for (Hinge& hinge : rubbing.hinges) {
+    hinge.friction.coulomb = 0.02;
+    hinge.friction.model = FrictionModel::exact;
+  }
+  const std::vector<Scene> scenes = units(rubbing, 19);
+  std::size_t next = 0;
+  const Integration how = within(1e-8, 20);
+  DeploymentPack pack(set, how, every_peak);
+  const Occupancy count = pack.run(
+      scenes.front(),
+      [&](Scene& scene) -> std::optional<long> {
+        if (next == scenes.size()) return std::nullopt;
+        scene = scenes[next];
+        return static_cast<long>(next++);
+      },
+      [](long, Outcome&&) {});
+  const auto outside = [&](Cause cause) { return count.outside[static_cast<std::size_t>(cause)]; };
+  CHECK(count.in_lanes > 0);
+  for (const Cause cause :
+       {Cause::start, Cause::limit, Cause::event, Cause::release, Cause::moment})
+    CHECK(outside(cause) > 0);
+  CHECK(outside(Cause::base) == 0); // it is fixed
+  Occupancy twice = count;
+  twice += count;
+  CHECK(twice.in_lanes == 2 * count.in_lanes);
+  CHECK(twice.outside[0] == 2 * count.outside[0]);
+}

@@ -75,15 +75,6 @@ Step<double> any_step(Draws& draws) {
   return step;
 }
 
-/// The rate over the step, as the run alone has it.
-Quintic<double> rate_over(const Layout& at, const Step<double>& step) {
-  const double angle = std::max(std::abs(step.x[0]), std::abs(step.x1[0]));
-  const double way = step.h * std::max(std::abs(step.x[1]), std::abs(step.x1[1]));
-  if (64 * epsilon_of<double> * angle > 1e-6 * way)
-    return cubic_hermite(step.h, step.x[1], step.dxdt[1], step.x1[1], step.dxdt1[1]);
-  return derivative(step.coordinate(at.angle(1), at.freedoms()), step.h);
-}
-
 } // namespace
 
 TEST_CASE("where the way to rest is negative no hinge turns inside the step") {
@@ -93,7 +84,7 @@ TEST_CASE("where the way to rest is negative no hinge turns inside the step") {
   for (int k = 0; k < 20000; ++k) {
     const Step<double> step = any_step(draws);
     if (!all_negative(way_to_rest(at, step, 1, -1.0))) continue;
-    const Quintic<double> rate = rate_over(at, step);
+    const Quintic<double> rate = step.rate(at.angle(1), at.freedoms());
     ++(step.x[1] == 0 ? set_out : stay);
     CAPTURE(k, step.h, step.x[0]);
     for (int s = 1; s <= 256; ++s)

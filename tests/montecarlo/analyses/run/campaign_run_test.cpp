@@ -58,6 +58,16 @@ TEST_CASE("a campaign's runs and statistics are in its folder", "[parallel]") {
   CHECK(timing["runs"] == 60);
   CHECK(timing["runs_before"] == 0);
   CHECK(timing["interrupted"] == false);
+  if (timing["lanes"] > 1) {
+    double outside = 0;
+    for (const auto& [cause, share] : timing["outside_lanes"].items()) {
+      CHECK(share >= 0);
+      outside += share.get<double>();
+    }
+    CHECK(timing["outside_lanes"].contains("event"));
+    CHECK(outside > 0);
+    CHECK(outside < 1);
+  }
   CHECK(caller.tallies.back().done == 60);
   CHECK(caller.tallies.back().timed_out ==
         std::ranges::count(read_stored_results(results.folders[0].stored).results.status,
