@@ -34,7 +34,9 @@
     const rows = of(set).map((one, hinge) => ({
       hinge,
       name: set.wing.hinges[hinge].name,
-      kinds: KINDS.map((kind) => [...kind, one[kind[0]]]).filter(([key, , , event]) => event.count || (key === "released" && one.release)),
+      kinds: KINDS.map((kind) => [...kind, one[kind[0]]]).filter(
+        ([key, , , event]) => event.count || (key === "released" && one.release),
+      ),
     }));
     const first = (row) => d3.min(row.kinds, ([, , , event]) => event.times[MEDIAN]) ?? Infinity;
     return rows.filter((row) => row.kinds.length).sort((a, b) => first(a) - first(b));
@@ -55,9 +57,27 @@
       note: `Over ${F.runs(runs)} spread evenly through the campaign. Upright mark: median; dark: 25 % to 75 %; pale: 5 % to 95 %; line: first to last. At the right: runs in which it happens.`,
       description: () => rows.map((row) => `${row.name}: ${row.kinds.map(words).join(", ")}`).join("; "),
       table: () => ({
-        columns: ["hinge", "event", "runs", "events", "first s", "5 % s", "25 % s", "median s", "75 % s", "95 % s", "last s"],
+        columns: [
+          "hinge",
+          "event",
+          "runs",
+          "events",
+          "first s",
+          "5 % s",
+          "25 % s",
+          "median s",
+          "75 % s",
+          "95 % s",
+          "last s",
+        ],
         rows: rows.flatMap((row) =>
-          row.kinds.map(([, text, , event]) => [row.name, text, event.runs, event.count, ...d3.range(7).map((at) => event.times[at] ?? null)]),
+          row.kinds.map(([, text, , event]) => [
+            row.name,
+            text,
+            event.runs,
+            event.count,
+            ...d3.range(7).map((at) => event.times[at] ?? null),
+          ]),
         ),
       }),
       draw: function (svg, width) {
@@ -74,24 +94,36 @@
             rows.map((row) => row.name),
           );
         const box = { left, right: width - 84, top: top + 6, bottom: top + 6 + lanes * LANE + rows.length * gap },
-          x = M.linear([0, ...rows.flatMap((row) => row.kinds.flatMap(([, , , event]) => event.times))], [box.left, box.right]);
+          x = M.linear(
+            [0, ...rows.flatMap((row) => row.kinds.flatMap(([, , , event]) => event.times))],
+            [box.left, box.right],
+          );
         M.axes(svg, box, x, null, { xText: "time (s)" });
         let y = box.top;
         for (const row of rows) {
           M.rowLabel(svg, row.name, left, y + (row.kinds.length * LANE) / 2);
           for (const [key, text, colour, event] of row.kinds) {
             const middle = y + LANE / 2,
-              bar = (from, to, opacity) =>
+              bar = function (from, to, opacity) {
+                const [left, right] = [from, to].map((at) => x(event.times[at])),
+                  wide = Math.max(6, right - left); // wider than the median's mark
                 M.put(svg, "rect.span", {
-                  x: x(event.times[from]),
-                  width: Math.max(1, x(event.times[to]) - x(event.times[from])),
+                  x: (left + right - wide) / 2,
+                  width: wide,
                   y: middle - 5,
                   height: 10,
                   style: { fill: colour, "fill-opacity": opacity },
                   title: `${row.name} ${words([key, text, colour, event])}`,
                 });
+              };
             if (event.count) {
-              M.put(svg, "line.reach", { x1: x(event.times[0]), x2: x(event.times[6]), y1: middle, y2: middle, style: { stroke: colour } });
+              M.put(svg, "line.reach", {
+                x1: x(event.times[0]),
+                x2: x(event.times[6]),
+                y1: middle,
+                y2: middle,
+                style: { stroke: colour },
+              });
               bar(1, 5, 0.35);
               bar(2, 4, 0.8);
               M.upright(svg, "line.middle", x(event.times[MEDIAN]), { top: middle - 7, bottom: middle + 7 });
@@ -116,28 +148,34 @@
     const sets = W.sets.filter((one) => of(one) && one.wing.hinges.length === set.wing.hinges.length);
     const happened = (hinge, key) => sets.some((one) => of(one)[hinge][key].count);
     const rows = lanesOf(set).flatMap(({ hinge, name }) =>
-      KINDS.filter(([key]) => happened(hinge, key) || (key === "released" && of(set)[hinge].release)).map(([key, text]) => [
-        name,
-        key === "released" ? h("span.double", text, h("small", releaseOf(of(set)[hinge].release, set.wing))) : text,
-        ...sets.flatMap(function (one) {
-          const event = of(one)[hinge][key],
-            runs = one.envelopes.runs,
-            often = `${F.count(event.runs)} of ${F.runs(runs)}${event.count > event.runs ? `, ${F.count(event.count)} times` : ""}`;
-          const spread = event.count ? (event.times[6] - event.times[0]) / 10 : 0,
-            time = (at) => (spread ? F.sized(event.times[at], spread) : F.given(event.times[at]));
-          const [median, range] = event.count ? [time(MEDIAN), spread ? `${time(0)} … ${time(6)}` : "always"] : [F.none, F.none];
-          return sets.length > 1 ? h("span.double", event.count ? `${median} (${range})` : F.none, h("small", often)) : [median, range, often];
-        }),
-      ]),
+      KINDS.filter(([key]) => happened(hinge, key) || (key === "released" && of(set)[hinge].release)).map(
+        ([key, text]) => [
+          name,
+          key === "released" ? h("span.double", text, h("small", releaseOf(of(set)[hinge].release, set.wing))) : text,
+          ...sets.flatMap(function (one) {
+            const event = of(one)[hinge][key],
+              runs = one.envelopes.runs,
+              often = `${F.count(event.runs)} of ${F.runs(runs)}${event.count > event.runs ? `, ${F.count(event.count)} times` : ""}`;
+            const spread = event.count ? (event.times[6] - event.times[0]) / 10 : 0,
+              time = (at) => (spread ? F.sized(event.times[at], spread) : F.given(event.times[at]));
+            const [median, range] = event.count
+              ? [time(MEDIAN), spread ? `${time(0)} … ${time(6)}` : "always"]
+              : [F.none, F.none];
+            return sets.length > 1
+              ? h("span.double", event.count ? `${median} (${range})` : F.none, h("small", often))
+              : [median, range, often];
+          }),
+        ],
+      ),
     );
     const columns =
-      sets.length > 1 ? sets.map((one) => number(one.label, "s")) : [number("Median", "s"), number("First … last", "s"), number("Runs")];
-    return W.table(
-      "Median time of each event, first and last",
-      ["Hinge", "Event", ...columns],
-      rows,
-      { class: "sequence-table", showCaption: true },
-    );
+      sets.length > 1
+        ? sets.map((one) => number(one.label, "s"))
+        : [number("Median", "s"), number("First … last", "s"), number("Runs")];
+    return W.table("Median time of each event, first and last", ["Hinge", "Event", ...columns], rows, {
+      class: "sequence-table",
+      showCaption: true,
+    });
   }
 
   // Null for a wing without holds and whose latches cannot miss: its latch times say all.

@@ -11,7 +11,10 @@
       const pair = Object.entries(
         sensitivity.kind === "sobol"
           ? { first: "first order", total: "total" }
-          : { spearman: "Spearman", prcc: sensitivity.held === false ? "PRCC" : "partial (PRCC): other dispersions held" },
+          : {
+              spearman: "Spearman",
+              prcc: sensitivity.held === false ? "PRCC" : "partial (PRCC): other dispersions held",
+            },
       );
       return { pair, kind: sensitivity.kind, rows: sensitivity.effects.filter((one) => one.output === name) };
     }
@@ -114,7 +117,9 @@
     const acts = function (draw) {
       const { paths = [], apply } = ((set.inputs || {}).dispersions || []).find((one) => one.draw === draw) || {};
       if (!paths.length) return "";
-      return paths.length === 1 ? [" (acts on ", h("code", paths[0]), ")"] : ` (acts on ${F.count(paths.length)} parameters${apply === "by a table" ? " by tables" : ""})`;
+      return paths.length === 1
+        ? [" (acts on ", h("code", paths[0]), ")"]
+        : ` (acts on ${F.count(paths.length)} parameters${apply === "by a table" ? " by tables" : ""})`;
     };
     const most = (sign, text) => {
       const one = rows.find((each) => shown(each) && sign * strength(each) > 0);
@@ -122,7 +127,12 @@
     };
     const parts = [most(1, "increases most with "), most(-1, "decreases most with ")].filter(Boolean);
     if (!parts.length) return null;
-    return h("p.effects", `${F.nameOf(name)} `, parts.map((part, at) => [at ? " and " : "", part]), ".");
+    return h(
+      "p.effects",
+      `${F.nameOf(name)} `,
+      parts.map((part, at) => [at ? " and " : "", part]),
+      ".",
+    );
   }
 
   // Dispersions without a visible effect: they may act on the wrong parameter.

@@ -27,7 +27,11 @@
           svg,
           [
             { text: text.toLowerCase(), line: "var(--c0)" },
-            rows.some((row) => W.isNumber(row[2]) || W.isNumber(row[3])) && { text: "bounds", fill: "var(--c0)", opacity: 0.2 },
+            rows.some((row) => W.isNumber(row[2]) || W.isNumber(row[3])) && {
+              text: "bounds",
+              fill: "var(--c0)",
+              opacity: 0.2,
+            },
           ].filter(Boolean),
           width,
         );

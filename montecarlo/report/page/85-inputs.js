@@ -95,7 +95,9 @@
         one.law_before_case ? h("small.faint", ` (nominal: ${one.law_before_case})`) : null,
       ),
       F.unit(one.unit),
-      (one.paths || []).length > 1 ? F.none : `${either(one.nominal)} ${one.nominal_unit && one.nominal_unit !== one.unit ? F.unit(one.nominal_unit) : ""}`.trim(),
+      (one.paths || []).length > 1
+        ? F.none
+        : `${either(one.nominal)} ${one.nominal_unit && one.nominal_unit !== one.unit ? F.unit(one.nominal_unit) : ""}`.trim(),
       `${F.number(one.low, 4)} … ${F.number(one.high, 4)}`,
       inDegrees(one.low, one.unit) ? `${inDegrees(one.low, one.unit)} … ${inDegrees(one.high, one.unit)}` : "",
       h(
