@@ -80,6 +80,11 @@ namespace detail {
 
 [[nodiscard]] inline bool has_plate(const Body& body) { return body.plate.has_value(); }
 [[nodiscard]] inline bool has_motor(const Hinge& hinge) { return hinge.motor.has_value(); }
+/// Whether air acts on plates. Without air a plate is an outline: its wing has all proofs of a wing without plates.
+[[nodiscard]] inline bool feels_air(const Scene& scene) {
+  return scene.environment.air_density != 0 &&
+         std::any_of(scene.bodies.begin(), scene.bodies.end(), has_plate);
+}
 [[nodiscard]] inline bool has_release(const Hinge& hinge) { return hinge.release.has_value(); }
 
 /// The base's motion; a fixed base under gravity is treated as one that accelerates against gravity.
@@ -149,8 +154,7 @@ template <class T>
   wing.hinges.resize(n + 1);
   wing.initial_rates.resize(n + 1);
   if (std::any_of(scene.hinges.begin(), scene.hinges.end(), is_real)) wing.real.resize(n + 1);
-  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), detail::has_plate))
-    wing.plates.resize(n + 1);
+  if (detail::feels_air(scene)) wing.plates.resize(n + 1);
   if (std::any_of(scene.hinges.begin(), scene.hinges.end(), detail::has_release))
     wing.releases.resize(n + 1);
   if (std::any_of(scene.hinges.begin(), scene.hinges.end(), detail::has_motor))
@@ -230,8 +234,7 @@ template <class T> [[nodiscard]] bool has_room(const Wing<T>& wing, const Scene&
   return wing.base.motion == detail::motion_of_base(scene) &&
          (wing.base.table != nullptr) == (detail::table_of_base(scene) != nullptr) &&
          (!wing.real.empty() || std::none_of(scene.hinges.begin(), scene.hinges.end(), is_real)) &&
-         (!wing.plates.empty() ||
-          std::none_of(scene.bodies.begin(), scene.bodies.end(), detail::has_plate)) &&
+         wing.plates.empty() != detail::feels_air(scene) && // the proofs depend on it
          (!wing.releases.empty() ||
           std::none_of(scene.hinges.begin(), scene.hinges.end(), detail::has_release)) &&
          (!wing.motors.empty() ||

@@ -136,6 +136,12 @@ class Numbers:
         texts = [parsed(text.text)[0][0] for text in self.all(f"figure.{figure} text.limit-text")]
         self.assertTrue(all(any(math.isclose(text, limit, rel_tol=1e-5) for limit in wanted) for text in texts), about)
 
+    def margin(self, one):
+        """The guaranteed value's distance to the limit; of too few runs the observed value's."""
+        if one["limit"] is None or one["margin"] is not None or one["observed_value"] is None:
+            return one["margin"]
+        return (one["limit"] - one["observed_value"]) * (1 if one["upper"] else -1)
+
     def words(self, one):
         """A requirement as the page states it: in words, and in degrees where they make the shorter number."""
         name = " ".join(word for word in (one.get("id"), one.get("name")) if word)
@@ -163,7 +169,7 @@ class Numbers:
         for each in sets:
             count = {word: sum(one["verdict"] == word for one in each["requirements"]) for word in ("failed", "open", "passed")}
             parts = [f"{count['failed']} fail{'s' * (count['failed'] == 1)}", f"{count['open']} undecided", f"{count['passed']} pass{'es' * (count['passed'] == 1)}"]
-            entry = next(entry for entry in text.split("\n")[-1].split(" · ") if re.search(rf"(^|\W){re.escape(each['label'])}(\W|$)", entry))
+            entry = next(entry for entry in text.split("\n")[-1].split("; ") if re.search(rf"(^|\W){re.escape(each['label'])}(\W|$)", entry))
             self.assertTrue(entry.endswith(", ".join(part for part, number in zip(parts, count.values()) if number)), f"{each['label']}: {entry}")
 
     def verdict_numbers(self, kind):
@@ -188,8 +194,11 @@ class Numbers:
             counted = not values or one["observed_value"] is None  # a share where there is no such value
             self.check(row[2], one["observed"] if counted else shown(one["observed_value"]), share=counted, about=one["text"])
             self.check(row[3], shown(one["guaranteed_value"]) if values else one["guaranteed"], share=not values, about=one["text"])
-            self.check(row[4], shown(one["margin"]) if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
-            found, parts = [value for value, _ in parsed(row[6])], [one["broken"]]
+            self.check(row[4], shown(self.margin(one)) if values else 100 * (one["guaranteed"] - one["probability"]), about=one["text"])
+            self.assertEqual("observed" in row[4], values and one["margin"] is None and one["observed_value"] is not None, one["text"])
+            causes = sum(bool(count) for count in (one["not_deployed"], one["beyond"] if values else 0, one["without_value"], one["cut"]))
+            self.assertEqual("none" in row[6], one["broken"] == 0, one["text"])
+            found, parts = [value for value, _ in parsed(row[6])], [one["broken"]] if causes > 1 else []
             if one["not_deployed"]:
                 parts += [one["not_deployed"], *(run["run"] for run in one["not_deployed_runs"][:3])]
             if values and (one["beyond"] or one["not_deployed"]):
@@ -198,9 +207,9 @@ class Numbers:
             if values and one["worst"]:
                 factor = self.limit_factor(one)
                 self.assertAlmostEqual(found[len(parts)], one["worst"]["value"] * factor, delta=abs(one["worst"]["value"] * factor) * 1e-3)
-            margin = one["margin"] if values else one["guaranteed"] - one["probability"]
+            margin = self.margin(one) if values else one["guaranteed"] - one["probability"]
             self.assertEqual(row[4].startswith("+"), margin is not None and margin > 0, one["text"])
-        strain = lambda one: -one["margin"] / abs(one["limit"]) if one["limit"] and one["margin"] is not None else one["broken"] / one_set["runs"] - (1 - one["probability"])
+        strain = lambda one: -self.margin(one) / abs(one["limit"]) if one["limit"] and self.margin(one) is not None else one["broken"] / one_set["runs"] - (1 - one["probability"])
         ranked = [(("failed", "open", "passed").index(one["verdict"]), -strain(one)) for one in self.run_script("return W.verdicts.judged().map(row => row.requirement)")]
         self.assertEqual(ranked, sorted(ranked))
         badges = self.run_script("return [...document.querySelectorAll('.outputs tbody tr')].map(row => row.querySelector('th .badge')?.title)")

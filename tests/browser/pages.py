@@ -38,13 +38,18 @@ def made_up(kind):
     return path
 
 
-def made(campaign, runs, name=None, *options):
-    """The results folder of so many runs of a campaign of studies/campaigns; made once."""
-    folder = SCRATCH / (name or campaign)
+def made_of(path, runs, name, *options):
+    """The results folder of so many runs of a campaign; made once."""
+    folder = SCRATCH / name
     if not folder.exists():
-        ran = subprocess.run([PROGRAM, "run", ROOT / f"studies/campaigns/{campaign}.json", "--runs", str(runs), "--out", folder, *options], capture_output=True, text=True)
+        ran = subprocess.run([PROGRAM, "run", path, "--runs", str(runs), "--out", folder, *options], capture_output=True, text=True)
         assert ran.returncode in (0, 1), ran.stderr  # 1: a requirement is not shown to be met
     return folder
+
+
+def made(campaign, runs, name=None, *options):
+    """The same of a campaign of studies/campaigns."""
+    return made_of(ROOT / f"studies/campaigns/{campaign}.json", runs, name or campaign, *options)
 
 
 def reported(name, *folders):

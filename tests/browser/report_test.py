@@ -25,6 +25,7 @@ try:
     from mark_checks import MarkChecks
     from number_checks import NumberChecks, Numbers, parsed
     from pose_checks import PoseChecks
+    from sequence_checks import SequenceChecks
 except ImportError as missing:
     raise SystemExit(f"left out: {missing}")
 
@@ -283,7 +284,7 @@ class Quick(PoseChecks, MarkChecks, NumberChecks, Page):
         self.one(".play").click()
 
 
-class Own(Numbers, Page):
+class Own(SequenceChecks, Numbers, Page):
     """The program's own pages: of the seed campaign, of a wing of which some stall, of three cases, of a satellite."""
 
     CAMPAIGNS = {"seed": 300, "stall": 300, "yoke_wing": 40, "satellite": 40}
@@ -357,6 +358,8 @@ class Own(Numbers, Page):
         self.assertTrue(first["folders"])
         self.assertEqual([data["sets"][at]["case"] for at in first["sets"]], ["cold", "cold"])
         labels = [data["sets"][at]["label"] for at in first["sets"]]
+        folders = [pages.made("satellite", 40), pages.made("satellite", 40, "satellite_changed", *self.CHANGE)]
+        self.assertEqual(list(dict.fromkeys(one["made_by"] for one in data["sets"])), [f"wingspread run {folder}/campaign.json --seed 5 --runs 40 --out again" for folder in folders])
         rows = self.table(f"Inputs that differ: {labels[1]} against {labels[0]}")
         self.assertEqual(len(rows), 1, rows)  # eight hinges changed alike
         self.assertIn("latch stiffness: left_root, left_inner", rows[0][0])
@@ -372,8 +375,8 @@ class Own(Numbers, Page):
 
     def test_any_run_in_the_page_is_the_program_s(self):
         """The kernel in the page gives the rows of runs.csv within 1e-9."""
-        for campaign, count in (("seed", 12), ("yoke_wing", 3), ("satellite", 3), ("stall", 12)):
-            self.open(pages.real(campaign, self.CAMPAIGNS[campaign]))
+        for campaign, count in (("seed", 12), ("yoke_wing", 3), ("satellite", 3), ("stall", 12), ("two_wing_release", 8)):
+            self.open(pages.real(campaign, self.CAMPAIGNS.get(campaign, 12)))
             if not self.run_script("return document.getElementById('kernel')"):
                 self.skipTest("the program was built without the kernel")
             one_set = self.run_script("return W.set()")

@@ -1,5 +1,7 @@
 #include "montecarlo/model/input_checks/shape_checks.hpp"
 
+#include "montecarlo/foundation/formats/text_layout.hpp"
+
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -86,9 +88,9 @@ void check_turning(const Scene& scene, std::size_t h, InputWarnings& warnings) {
   const double apart = direction(-hinge.child_point) - direction(-hinge.parent_point);
   if (!passes_turn(apart + hinge.stowed, apart + hinge.latched)) return;
   warnings.add(fmt::format("/hinges/{}/angle", h),
-               fmt::format("{} turns through {} on its way from {:.4g} to {:.4g} rad",
+               fmt::format("{} turns through {} on its way from {} to {} deg",
                            scene.bodies[hinge.child].name, scene.bodies[hinge.parent].name,
-                           hinge.stowed, hinge.latched),
+                           degrees_text(hinge.stowed), degrees_text(hinge.latched)),
                "a rotation on the open side: the other sense, or hinge points of the other sign");
 }
 
@@ -186,10 +188,10 @@ void check_loop(const Scene& scene, std::size_t k, InputWarnings& warnings) {
   const double needed = travel_of(second);
   if (std::abs(given - needed) <= most_out_of_step * needed) return;
   warnings.add(fmt::format("/synchronisations/{}/ratio", k),
-               fmt::format("{:.4g} rad of {} where {} latches, after {:.4g} rad", given,
-                           second.name, first.name, travel_of(first)),
-               fmt::format("{:.4g} rad, where {} latches: else the cable holds one of them back{}",
-                           needed, second.name,
+               fmt::format("{} deg of {} where {} latches, after {} deg", degrees_text(given),
+                           second.name, first.name, degrees_text(travel_of(first))),
+               fmt::format("{} deg, where {} latches: else the cable holds one of them back{}",
+                           degrees_text(needed), second.name,
                            loop.table
                                ? ""
                                : fmt::format(" (a ratio of {:.6g})", needed / travel_of(first))));

@@ -119,7 +119,7 @@ std::string describe_damper(const std::optional<Damper>& damper) {
 
 std::string describe_stop(const char* name, const std::optional<Stop>& stop) {
   if (!stop) return "";
-  return fmt::format("; {} {} N·m/rad, {} s/rad, gap {} deg", name, stop->stiffness,
+  return fmt::format("; {} {:.7g} N·m/rad, {} s/rad, gap {} deg", name, stop->stiffness,
                      stop->dissipation, degrees_text(stop->gap));
 }
 
@@ -170,12 +170,13 @@ std::string describe_latch(const std::optional<Latch>& latch) {
   const std::string damping = latch->dissipation
                                   ? fmt::format("dissipation {} s/rad", *latch->dissipation)
                                   : fmt::format("{} N·m·s/rad", latch->damping);
-  const std::string capture =
-      latch->capture_rate ? fmt::format(", engages up to {} rad/s", *latch->capture_rate) : "";
+  const std::string capture = latch->capture_rate ? fmt::format(", engages up to {} deg/s",
+                                                                degrees_text(*latch->capture_rate))
+                                                  : "";
   const std::string holding =
       latch->holding_moment ? fmt::format(", lets go from {} N·m on", *latch->holding_moment) : "";
-  return fmt::format("; latch {} N·m/rad, {}{}{}{}", latch->stiffness, damping, backlash, capture,
-                     holding);
+  return fmt::format("; latch {:.7g} N·m/rad, {}{}{}{}", latch->stiffness, damping, backlash,
+                     capture, holding);
 }
 
 std::string describe_flexible(const Body& body) {
@@ -192,7 +193,7 @@ std::string describe_hinge(const Scene& scene, const Hinge& hinge) {
   const std::string parent = hinge.parent == base_index ? "base" : scene.bodies[hinge.parent].name;
   if (hinge.joint)
     return fmt::format(
-        "{}: {} to {}; elastic joint at {} deg, {} N·m/rad, {} N·m·s/rad{}", hinge.name, parent,
+        "{}: {} to {}; elastic joint at {} deg, {:.7g} N·m/rad, {} N·m·s/rad{}", hinge.name, parent,
         scene.bodies[hinge.child].name, degrees_text(hinge.stowed), hinge.joint->stiffness,
         hinge.joint->damping,
         hinge.initial_rate == 0 ? "" : fmt::format(", from {} rad/s", hinge.initial_rate));

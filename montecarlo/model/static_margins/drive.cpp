@@ -64,8 +64,14 @@ std::vector<HingeState> states_at(const Scene& scene, const HingeDrive& drive, d
   return states;
 }
 
+/// states_at(…)[member], without those that it does not depend on: bisections ask for it millions of times.
+HingeState state_at(const Scene& scene, const HingeDrive& drive, std::size_t member, double x) {
+  if (member == 0) return {x * whole_travel(scene.hinges[drive.hinges.front()]), 1};
+  return follow(scene, drive, member, state_at(scene, drive, drive.links[member - 1].from, x));
+}
+
 double share_at(const Scene& scene, const HingeDrive& drive, std::size_t member, double x) {
-  return share_of(scene.hinges[drive.hinges[member]], states_at(scene, drive, x)[member].travel);
+  return share_of(scene.hinges[drive.hinges[member]], state_at(scene, drive, member, x).travel);
 }
 
 /// Adds the x at which a hinge passes the given places of its own travel. Places it does not pass are left out.
@@ -75,9 +81,18 @@ void add_places(const Scene& scene, const HingeDrive& drive, std::size_t member,
   for (const double place : places) {
     if (!((first < place && place < last) || (last < place && place < first))) continue;
     double from = 0, to = 1;
+    const auto halve_at = [&](double x) {
+      ((share_at(scene, drive, member, x) < place) == (first < last) ? from : to) = x;
+    };
+    // Loops without a table are straight: the place lies within rounding of the chord's, between these two. Shares are
+    // monotone, so the place does not depend on where the bisection begins.
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    const double chord = (place - first) / (last - first);
+    for (const double x : {chord * (1 - rounding), chord * (1 + rounding)})
+      if (from < x && x < to) halve_at(x);
     for (double middle = std::midpoint(from, to); from < middle && middle < to;
          middle = std::midpoint(from, to))
-      ((share_at(scene, drive, member, middle) < place) == (first < last) ? from : to) = middle;
+      halve_at(middle);
     points.push_back(to);
   }
 }

@@ -93,8 +93,8 @@ std::string table_lines(const CaseMargins& at) {
       const std::string name =
           kind == 0 ? fmt::format("  {:<8}{}", at.scale, drive.hinge) : std::string();
       text += fmt::format(
-          "{}{:<22}{:>9}{:>9.3f}{:>10}{:>10}{:>8}\n", in_column(name, 26), margin_kind_texts[kind],
-          margin_text(drive.worst[kind]), drive.worst_angle[kind],
+          "{}{:<22}{:>9}{:>9}{:>10}{:>10}{:>8}\n", in_column(name, 26), margin_kind_texts[kind],
+          margin_text(drive.worst[kind]), degrees_text(drive.worst_angle[kind]),
           margin_text(spread.quantiles.empty() ? undefined : spread.quantiles.front()),
           margin_text(spread.least), spread.worst_run);
     }
@@ -178,7 +178,7 @@ std::string static_margins_text(const StaticMarginReport& report) {
                                    ? "–"
                                    : fmt::format("{:g} %", 100 * report.probabilities.front());
   text += fmt::format("{:<10}{:<16}{:<22}{:>9}{:>9}{:>10}{:>10}{:>8}\n", "SCALE", "hinge",
-                      "standard", "nominal", "at rad", quantile, "least", "run");
+                      "standard", "nominal", "at deg", quantile, "least", "run");
   for (const CaseMargins& at : report.cases) {
     if (!at.of_case.empty()) text += at.of_case + '\n';
     text += table_lines(at);

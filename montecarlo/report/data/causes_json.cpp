@@ -13,6 +13,9 @@
 namespace wingspread {
 namespace {
 
+/// Fewer runs have no bounds of correlations.
+constexpr std::size_t fewest_runs = 4;
+
 // ---- effects
 
 /// The first runs of a random design; all runs of a replicated design, whose replicates must stay complete.
@@ -83,6 +86,20 @@ std::vector<std::size_t> rows_of_both(const Column& x, const Column& y) {
   return rows;
 }
 
+/// Whether a pair is correlated beyond three standard errors of independent columns, 1/√(n − 1): of a thousand pairs
+/// about three are by chance. Of three runs every pair has a coefficient of 1 or 1/2.
+bool is_visible(const Correlation& value) {
+  return std::abs(value.spearman) * std::sqrt(static_cast<double>(value.count) - 1) > 3;
+}
+
+/// Whether a requirement on an output fails.
+bool fails(const PageSource& source, std::size_t output) {
+  return std::ranges::any_of(source.summary.requirements, [&](const Verdict& verdict) {
+    return verdict.decision == Decision::fail &&
+           verdict.requirement.output == source.results.outputs[output].name;
+  });
+}
+
 Json points_json(const PageSource& source, const Column& x, const Column& y) {
   constexpr std::size_t most_points = 400;
   Json json{
@@ -121,7 +138,7 @@ Json correlations_json(const PageSource& source, const PageDetail& detail) {
   const Results& results = source.results;
   const std::size_t draws = std::min(results.draws.size(), detail.correlated_draws);
   const std::size_t outputs = std::min(results.outputs.size(), detail.outputs);
-  if (draws == 0 || results.size() < 2) return nullptr;
+  if (draws == 0 || results.size() < fewest_runs) return nullptr;
   Json json{{"draws", Json::array()},
             {"outputs", Json::array()},
             {"spearman", Json::array()},
@@ -143,7 +160,6 @@ Json correlations_json(const PageSource& source, const PageDetail& detail) {
 }
 
 Json effects_json(const PageSource& source, const PageDetail& detail) {
-  constexpr std::size_t fewest_runs = 4;
   if (source.results.draws.empty() || source.results.size() < fewest_runs) return nullptr;
   Results first;
   const Results& runs = effect_runs(source, first);
@@ -164,11 +180,12 @@ std::vector<Pair> strongest_pairs(const PageSource& source, std::size_t most) {
   std::vector<Pair> all;
   const std::size_t row = source.results.outputs.size() + 1;
   for (std::size_t i = 0; i < source.summary.correlations.size(); ++i)
-    if (const double r = source.summary.correlations[i].value.spearman;
-        i % row + 1 < row && !std::isnan(r))
-      all.push_back({i / row, i % row, r});
-  std::ranges::stable_sort(all, std::ranges::greater{},
-                           [](const Pair& pair) { return std::abs(pair.spearman); });
+    if (const Correlation& value = source.summary.correlations[i].value;
+        i % row + 1 < row && is_visible(value))
+      all.push_back({i / row, i % row, value.spearman});
+  std::ranges::stable_sort(all, std::ranges::greater{}, [&](const Pair& pair) {
+    return std::pair(fails(source, pair.output), std::abs(pair.spearman));
+  });
   std::vector<Pair> strongest;
   for (const Pair& pair : all)
     if (strongest.size() < most &&

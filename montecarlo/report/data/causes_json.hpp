@@ -13,7 +13,7 @@ namespace wingspread {
 /// then 1/√10,000 = 0.01, and the time is bounded.
 inline constexpr std::size_t most_effect_runs = 10'000;
 
-/// Correlations of each draw with each output; null without draws.
+/// Correlations of each draw with each output; null without draws, and of fewer than four runs.
 [[nodiscard]] Json correlations_json(const PageSource& source, const PageDetail& detail);
 
 /// Rank correlations with bounds (rank_sensitivity.hpp), the strongest of each output first; null without any.
@@ -24,7 +24,7 @@ struct Pair {
   std::size_t draw, output;
   double spearman;
 };
-/// The pairs with the largest correlation, at most two per output.
+/// The pairs with the largest visible correlation, at most two per output; first those of outputs that fail a requirement.
 [[nodiscard]] std::vector<Pair> strongest_pairs(const PageSource& source, std::size_t most);
 
 /// The rows that a scatter shows as points, ascending: the extremes of both columns, then every n-th row; at most `most`.

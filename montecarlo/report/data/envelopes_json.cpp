@@ -14,12 +14,15 @@ namespace {
 
 constexpr double beyond_last_latch = 1.08; // the displayed time ends at so many last latches
 
+constexpr std::array sequence_levels{0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0};
+
 constexpr std::array levels{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 
 /// The part of a run that the envelopes need.
 struct Track {
   std::vector<MotionSample> samples; ///< empty if the run is left out
   std::vector<LatchEvent> latches;
+  std::vector<HingeEvent> releases, missed, let_go;
   double end = 0; ///< end of the displayed time, s
   bool deployed = false;
 };
@@ -53,6 +56,7 @@ Track track_of(const RunPlan& plan, long run, double end) {
   Track track;
   track.deployed = outcome.status == Status::deployed;
   track.latches = outcome.latches;
+  track.releases = outcome.releases, track.missed = outcome.missed, track.let_go = outcome.let_go;
   track.end = outcome.t_end;
   if (track.deployed) track.end = beyond_last_latch * outcome.latches.back().time;
   if (outcome.status == Status::failed) return track;
@@ -166,6 +170,60 @@ Json latch_times_json(const std::vector<Track>& tracks, std::size_t hinges, std:
   return json;
 }
 
+// ---- the sequence of releases and captures
+
+/// Counts and quantiles of one kind of event of a hinge over the runs.
+template <class Events> Json events_json(const std::vector<Track>& tracks, int hinge, Events of) {
+  std::vector<double> times;
+  std::size_t runs = 0;
+  for (const Track& track : tracks) {
+    const std::size_t before = times.size();
+    for (const auto& event : of(track))
+      if (event.hinge == hinge) times.push_back(event.time);
+    runs += times.size() > before ? 1 : 0;
+  }
+  std::ranges::sort(times);
+  std::vector<double> shown;
+  if (!times.empty())
+    for (const double p : sequence_levels) shown.push_back(quantile(times, p));
+  return {{"runs", runs}, {"count", times.size()}, {"times", page_numbers(shown, 6)}};
+}
+
+/// The nominal release of a hinge; null without one.
+Json release_json(const Hinge& hinge) {
+  if (!hinge.release) return nullptr;
+  constexpr std::array events{"time", "latched", "released", "passed"}; // in the order of Event
+  const Release& release = *hinge.release;
+  return {{"event", events[static_cast<std::size_t>(release.event)]},
+          {"time", page_number(release.time)},
+          {"after", release.after},
+          {"angle", page_number(release.angle)},
+          {"delay", page_number(release.delay)}};
+}
+
+/// Null for a wing without holds and whose latches cannot miss: its latch times say all.
+Json sequence_json(const std::vector<Track>& tracks, const Scene& scene) {
+  if (std::ranges::none_of(scene.hinges, [](const Hinge& hinge) {
+        return hinge.release || (hinge.latch && hinge.latch->can_miss());
+      }))
+    return nullptr;
+  Json json = Json::array();
+  for (std::size_t h = 0; h < scene.hinges.size(); ++h) {
+    const auto of = [&](auto Track::*events) {
+      return events_json(
+          tracks, static_cast<int>(h), [events](const Track& track) -> const auto& {
+            return track.*events;
+          });
+    };
+    json.push_back({{"release", release_json(scene.hinges[h])},
+                    {"released", of(&Track::releases)},
+                    {"missed", of(&Track::missed)},
+                    {"latched", of(&Track::latches)},
+                    {"let_go", of(&Track::let_go)}});
+  }
+  return json;
+}
+
 } // namespace
 
 Json envelopes_json(const PageSource& source, const PageDetail& detail, int threads) {
@@ -183,7 +241,8 @@ Json envelopes_json(const PageSource& source, const PageDetail& detail, int thre
           {"levels", levels},
           {"angles", bands_json(bands, 0, layout.hinges, 5)},
           {"rates", bands_json(bands, layout.hinges, layout.hinges, 4)},
-          {"latch_times", latch_times_json(tracks, layout.hinges, detail.latch_times)}};
+          {"latch_times", latch_times_json(tracks, layout.hinges, detail.latch_times)},
+          {"sequence", sequence_json(tracks, source.stored.campaign.scene)}};
 }
 
 } // namespace wingspread

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace wingspread {
 namespace {
@@ -147,6 +148,13 @@ Json motion_json(const Scene& scene, MotionRecorder& recorder, const Outcome& ou
   json["latches"] = Json::array();
   for (const LatchEvent& latch : outcome.latches)
     json["latches"].push_back({{"hinge", latch.hinge}, {"time", page_number(latch.time)}});
+  json["events"] = Json::array();
+  for (const auto& [kind, events] : {std::pair("released", &outcome.releases),
+                                     {"missed", &outcome.missed},
+                                     {"let_go", &outcome.let_go}})
+    for (const HingeEvent& event : *events)
+      json["events"].push_back(
+          {{"kind", kind}, {"hinge", event.hinge}, {"time", page_number(event.time)}});
   json["peaks"] = Json::array();
   for (std::size_t h = 0; h < outcome.peak_moment.size(); ++h)
     json["peaks"].push_back({{"hinge", h},

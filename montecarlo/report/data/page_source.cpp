@@ -10,6 +10,7 @@ std::unique_ptr<PageSource> read_page_source(StoredCampaign stored, const std::s
   source->label = label;
   source->before_case = before_case ? *before_case : stored.campaign;
   source->stored = std::move(stored);
+  source->made_from = source->stored.folder;
   const Campaign& campaign = source->stored.campaign;
   source->results = std::move(read_stored_results(source->stored).results);
   source->replication = replication_of(campaign.sampling, source->results);

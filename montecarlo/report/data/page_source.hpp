@@ -4,9 +4,11 @@
 #include "montecarlo/report/data/order_split.hpp"
 #include "montecarlo/results/results_folder/results_folder.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wingspread {
 
@@ -15,6 +17,8 @@ struct PageSource {
   std::string label;
   std::size_t argument = 0; ///< which of the command's folders it is from
   StoredCampaign stored;
+  std::filesystem::path made_from;     ///< the folder whose campaign reproduces the rows
+  std::vector<std::string> made_cases; ///< the cases made from it, if they are not all of its cases
   /// The campaign without its case's changes; the set's own campaign without cases.
   Campaign before_case;
   Results results;

@@ -20,11 +20,13 @@ namespace wingspread {
 namespace {
 
 /// The command that reproduces the rows.
-std::string made_by(const StoredCampaign& stored) {
+std::string made_by(const PageSource& source) {
+  const StoredCampaign& stored = source.stored;
   if (stored.foreign) return "";
-  std::string text =
-      fmt::format("wingspread run {} --seed {} --runs {}", (stored.folder / campaign_file).string(),
-                  stored.stamp.seed, stored.campaign.sampling.runs);
+  std::string text = fmt::format("wingspread run {} --seed {} --runs {}",
+                                 (source.made_from / campaign_file).string(), stored.stamp.seed,
+                                 stored.campaign.sampling.runs);
+  for (const std::string& name : source.made_cases) text += " --case " + name;
   if (const auto& shard = stored.stamp.shard)
     text += fmt::format(" --shard {}/{}", shard->index, shard->of);
   return text + " --out again";
@@ -52,7 +54,7 @@ Json identity_json(const PageSource& source) {
           {"confidence", source.summary.confidence},
           {"looks", source.summary.interim.count()},
           {"replicates", source.replication.replicates},
-          {"made_by", made_by(stored)}};
+          {"made_by", made_by(source)}};
 }
 
 Json statuses_json(const Summary& summary) {

@@ -137,6 +137,7 @@ Json hinges_json(const Scene& scene) {
                     {"stowed", page_number(hinge.stowed)},
                     {"latched", page_number(hinge.latched)},
                     {"latch", hinge.latch.has_value()},
+                    {"held", hinge.release.has_value()},
                     {"parent", hinge.parent == base_index ? -1 : hinge_of(scene, hinge.parent)}});
   return json;
 }

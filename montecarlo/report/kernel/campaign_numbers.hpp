@@ -56,6 +56,7 @@ public:
   void scene(Scene& scene) {
     base(scene.base);
     each(scene.bodies, [&](Body& body) {
+      pass_.text(body.name);
       numbers({&body.mass, &body.inertia});
       present(body.plate, [&](Plate& plate) {
         vectors({&plate.from, &plate.to});
@@ -172,6 +173,7 @@ private:
   }
 
   void hinge(Hinge& hinge) {
+    pass_.text(hinge.name); // reasons name it
     whole(hinge.parent);
     whole(hinge.child);
     vectors({&hinge.parent_point, &hinge.child_point});

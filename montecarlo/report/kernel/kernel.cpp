@@ -176,7 +176,8 @@ private:
   }
 
   /// status, t_end, peaks_final, number of latches, then (hinge, time, rates…) of each; then of each hinge peak moment and
-  /// its time, peak force, overtravel, NaN where not asked for; then the base's peak angle and rate.
+  /// its time, peak force, overtravel, hold moment and final angle, NaN where not asked for; then the base's peak angle and
+  /// rate; then of releases, passes too fast for the latch and latches that let go: their number, (hinge, time) of each.
   void keep_result(const Outcome& outcome) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     result = {static_cast<double>(outcome.status), outcome.t_end,
@@ -193,9 +194,16 @@ private:
       result.push_back(moment ? outcome.peak_moment[h].time : none);
       result.push_back(h < outcome.peak_force.size() ? outcome.peak_force[h].value : none);
       result.push_back(h < outcome.overtravel.size() ? outcome.overtravel[h] : none);
+      result.push_back(h < outcome.hold_moment.size() ? outcome.hold_moment[h].value : none);
+      result.push_back(h < outcome.final_angle.size() ? outcome.final_angle[h] : none);
     }
     result.push_back(outcome.base_peaks ? outcome.base_peaks->angle : none);
     result.push_back(outcome.base_peaks ? outcome.base_peaks->rate : none);
+    for (const auto* events : {&outcome.releases, &outcome.missed, &outcome.let_go}) {
+      result.push_back(static_cast<double>(events->size()));
+      for (const HingeEvent& event : *events)
+        result.insert(result.end(), {static_cast<double>(event.hinge), event.time});
+    }
   }
 
   /// Samples to the end of the ring. If a proof ended the run before, it is made again to a later end: exceptions, by which

@@ -95,7 +95,8 @@
   F.value = function (value, unit, spread) {
     const { factor } = F.shown(unit);
     if (!W.isNumber(value)) return F.none;
-    return W.isNumber(spread) && spread > 0 ? F.sized(value * factor, spread * factor) : F.number(value * factor, 5);
+    if (W.isNumber(spread) && spread > 0) return F.sized(value * factor, spread * factor);
+    return !unit && Number.isInteger(value) ? F.given(value) : F.number(value * factor, 5); // a count that never varies
   };
   F.sized = function (value, spread) {
     const decimals = F.decimals(spread, value);

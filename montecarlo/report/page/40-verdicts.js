@@ -17,13 +17,21 @@
     );
   };
 
+  // The guaranteed value's distance to the limit, positive where the limit is kept; of too few runs the observed value's.
+  function marginOf(one) {
+    if (!W.isNumber(one.limit)) return null;
+    if (W.isNumber(one.margin)) return one.margin;
+    if (!W.isNumber(one.observed_value)) return null;
+    return one.upper ? one.limit - one.observed_value : one.observed_value - one.limit;
+  }
+
   // Every requirement of every set, the worst first: by verdict, then by margin relative to the limit. A requirement on a
   // share has no such margin; its share of broken runs beyond the allowed one takes its place.
   function judged() {
     const all = W.sets.flatMap((set, at) => (set.requirements || []).map((requirement) => ({ set, at, requirement })));
     const strain = ({ requirement: one, set }) =>
-      W.isNumber(one.margin) && W.isNumber(one.limit) && one.limit !== 0
-        ? -one.margin / Math.abs(one.limit)
+      marginOf(one) !== null && one.limit !== 0
+        ? -marginOf(one) / Math.abs(one.limit)
         : one.broken / Math.max(1, set.runs) - (1 - one.probability);
     return all.sort(
       (a, b) =>
@@ -51,7 +59,7 @@
       const text = tallyText(tally(own)) || "no requirements";
       groups.set(text, [...(groups.get(text) || []), set.label]);
     });
-    return [...groups].map(([text, labels]) => `${listed(labels)}: ${text}`).join(" · ");
+    return [...groups].map(([text, labels]) => `${listed(labels)}: ${text}`).join("; ");
   }
   function headline(rows) {
     if (!rows.length)
@@ -74,15 +82,20 @@
     const where = !several ? "" : failing.length === 1 ? ` in ${failing[0].label}` : " in at least one case";
     const all = total === 1 ? "The requirement" : worst === "passed" ? `All ${total} requirements` : `Each of ${total} requirements`;
     const one = (count, many, single) => (count === 1 ? single : many);
+    // Few requirements that decide the verdict are named.
+    const deciding = [...new Map(rows.map((row) => [keyOf(row.requirement), row.requirement])).values()].filter(
+      (each) => worstOf.get(keyOf(each)) === worst,
+    );
+    const named = worst !== "passed" && deciding.length < total && deciding.length <= 3 ? `: ${listed(deciding.map(shortOf))}` : "";
     const text = {
       failed:
         counts.failed === total
           ? `${all} fails${where}`
-          : `${counts.failed} of ${total} requirements ${one(counts.failed, "fail", "fails")}${where}`,
+          : `${counts.failed} of ${total} requirements ${one(counts.failed, "fail", "fails")}${where}${named}`,
       open:
         counts.open === total
           ? `${all} is undecided: too few runs`
-          : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided: too few runs`,
+          : `${counts.open} of ${total} requirements ${one(counts.open, "are", "is")} undecided, for too few runs${named}`,
       passed: `${all} ${one(total, "pass", "passes")}${several ? " in every case" : ""}`,
     }[worst];
     return h(
@@ -100,6 +113,7 @@
   }
   // Requirements of two sets are the same if they limit the same output at the same level.
   const keyOf = (one) => one.text;
+  const shortOf = (one) => one.id || one.name || F.nameOf(one.output);
 
   // One sentence where wings that did not deploy are the only failures of a set.
   function cause(rows) {
@@ -148,13 +162,18 @@
     W.isNumber(one.observed_value) ? valueText(one.observed_value, one, set) : F.share(one.observed);
   function guaranteed(one, set) {
     if (W.isNumber(one.limit))
-      return W.isNumber(one.guaranteed_value) ? valueText(one.guaranteed_value, one, set) : "too few runs with a value";
+      return W.isNumber(one.guaranteed_value)
+        ? valueText(one.guaranteed_value, one, set)
+        : one.not_deployed || one.without_value
+          ? "too few runs with a value"
+          : "too few runs";
     return W.isNumber(one.guaranteed) ? F.share(one.guaranteed) : "too few runs";
   }
   function marginText(one, set) {
-    const { factor, unit } = F.shown(unitOf(one, set));
-    if (W.isNumber(one.margin) && W.isNumber(one.limit))
-      return `${one.margin > 0 ? "+" : ""}${F.number(one.margin * factor, 3)} ${unit}`.trim();
+    const { factor, unit } = F.shown(unitOf(one, set)),
+      margin = marginOf(one);
+    if (margin !== null)
+      return `${margin > 0 ? "+" : ""}${F.number(margin * factor, 3)} ${unit}`.trim() + (W.isNumber(one.margin) ? "" : " observed");
     return W.isNumber(one.guaranteed) && !W.isNumber(one.limit)
       ? `${one.guaranteed > one.probability ? "+" : ""}${F.fixed(100 * (one.guaranteed - one.probability), 2)} points`
       : F.none;
@@ -205,8 +224,9 @@
     const limited = W.isNumber(one.limit),
       side = one.upper ? "above" : "below",
       worst = one.worst;
+    const causes = [one.not_deployed, limited ? one.beyond : 0, one.without_value, one.cut].filter(Boolean).length;
     const lines = [
-      h("span.cause", F.count(one.broken)),
+      causes === 1 ? null : h("span.cause", one.broken ? F.count(one.broken) : "none"),
       one.not_deployed
         ? line(`${F.count(one.not_deployed)} not deployed`, one.not_deployed, (one.not_deployed_runs || []).map((each) => each.run))
         : null,
@@ -218,7 +238,7 @@
       limited && worst
         ? h(
             "span.cause",
-            `${one.upper ? "largest" : "least"} ${valueText(worst.value, one, set)} of ${F.written(one.limit, unitOf(one, set))}`,
+            `${one.upper ? "largest" : "least"} ${valueText(worst.value, one, set)}`,
             one.beyond ? null : [h("span.faint", " run"), runButtons([worst.run], at)],
           )
         : null,
@@ -270,8 +290,8 @@
       if (!row) return F.none;
       const one = row.requirement,
         margin = marginText(one, row.set),
-        known = margin !== F.none || !one.not_deployed;
-      return h("span.cell", W.badge(one.verdict, true), " ", known ? margin : `${F.count(one.not_deployed)} not deployed`);
+        known = margin !== F.none && (W.isNumber(one.margin) || !W.isNumber(one.limit) || !one.not_deployed);
+      return h("span.cell", W.badge(one.verdict, true), " ", known ? margin : one.not_deployed ? `${F.count(one.not_deployed)} not deployed` : F.none);
     };
     return W.table(
       "Verdict and margin by case",
@@ -303,7 +323,7 @@
       requirementTable(shown),
       h(
         "p.note",
-        "pass: the runs show the requirement at its confidence. fail: they do not, though enough runs were made. undecided: too few runs. ● observed: quantile (or share) of the runs. ┃ guaranteed: one-sided tolerance limit at the stated confidence; the requirement passes when it lies on the shaded side of the limit. Shares stand on a logarithmic scale: 90, 99, 99.9 % are equally far apart.",
+        "99 % at 90 %: at least 99 % of all wings keep the limit, shown with a confidence of 90 %. pass: the runs show it. fail: enough runs were made and do not show it, or they disprove it. undecided: too few runs. ● observed: the quantile (or share) of these runs. ┃ guaranteed: its one-sided bound at the stated confidence; the requirement passes when the bound lies on the shaded side of the limit. Margin: from the guaranteed value to the limit, or from the observed one where too few runs guarantee any. Shares stand on a logarithmic scale: 90, 99, 99.9 % are equally far apart.",
       ),
       more,
     ];

@@ -66,6 +66,12 @@
       W.sets.map((set) => [reasons(set, set.label), stalledAt(set, set.label)]),
     ];
   }
+  // A reason without the clauses whose numbers differ from run to run: "lacks … J".
+  const common = (reason) =>
+    reason
+      .split(", ")
+      .filter((clause, at) => !at || !clause.includes("…"))
+      .join(", ");
   function reasons(set, label) {
     if (!(set.reasons || []).length) return null;
     return h(
@@ -75,7 +81,7 @@
       h(
         "ul.plain",
         set.reasons.map((one) =>
-          h("li", h("b", F.count(one.count)), ` ${nameOf(one.status)}: ${one.reason || "no reason given"}`),
+          h("li", h("b", F.count(one.count)), ` ${nameOf(one.status)}: ${one.reason ? common(one.reason) : "no reason given"}`),
         ),
       ),
     );
@@ -167,8 +173,7 @@
           "li",
           text,
           W.sets.length > 1
-            ? h("span.faint", ` (${where.length === W.sets.length ? "all" : where.join(", ")}${other.length ? `; the numbers are those of ${same.join(", ")}` : ""})`,
-              )
+            ? h("span.faint", ` (${where.length === W.sets.length ? "every case" : where.join(", ")}${other.length ? `; numbers of ${same.join(", ")}` : ""})`)
             : null,
         );
       }),
@@ -228,7 +233,7 @@
           ? ` In ${F.runs(one.order_in_doubt)} the status or the latch order is in doubt${one.in_doubt ? `: ${one.in_doubt.join(", ")}` : ""}.`
           : " No status and no latch order is in doubt.",
         one.beyond_largest
-          ? ` The runs were drawn at random: at most ${F.share(one.beyond_largest.share_at_most)} of all runs have an error beyond the largest (at ${100 * set.confidence} %).`
+          ? ` With ${100 * set.confidence} % confidence at most ${F.share(one.beyond_largest.share_at_most)} of all runs have a larger error than these.`
           : null,
         one.moved && one.moved.runs
           ? ` In ${F.runs(one.moved.runs)} an output moves by more than 1 %: at most ${F.share(one.moved.share_at_most)} of all.`
@@ -248,9 +253,9 @@
       W.command(W.data.command, "command of this report"),
       h(
         "p.note",
-        made.map((set, at) => [
+        W.sets.filter((set) => set.made_by).map((set, at) => [
           at ? "; " : "",
-          W.sets.length > 1 && made.length > 1 ? `${set.label}: ` : "",
+          W.sets.length > 1 ? `${set.label}: ` : "",
           `wingspread ${set.version}, seed ${set.seed}, campaign hash `,
           h("code.hash", set.hash),
         ]),
@@ -316,7 +321,7 @@
       set.stopped ? `stopped early: its goals were met (${F.count(set.planned)} runs planned)` : null,
       set.looks > 1 ? `bounds hold over ${set.looks} interim analyses` : null,
       `wingspread ${one((each) => each.version).join(", ")}`,
-      `hash ${one((each) => String(each.hash).slice(0, 12)).join(", ")}`,
+      W.sets.length > 1 ? null : `hash ${String(set.hash).slice(0, 12)}`, // of several sets: below their commands
     ];
     const words = W.data.document || {};
     W.fill(

@@ -61,6 +61,26 @@
       base,
     };
   };
+  // What a hinge has done up to a time: whether its latch holds, and its last event in words.
+  P.state = function (wing, motion, at, time) {
+    const hinge = wing.hinges[at],
+      seconds = (event) => `${W.format.fixed(event.time, 3)} s`;
+    const events = [...(motion.latches || []).map((one) => ({ ...one, kind: "latched" })), ...(motion.events || [])]
+      .filter((one) => one.hinge === at)
+      .sort((a, b) => a.time - b.time);
+    const never = events.some((one) => one.kind === "latched") ? "" : ", never latches",
+      last = events.filter((one) => one.time <= time).pop();
+    if (!last && hinge.held) return { text: events.some((one) => one.kind === "released") ? "held" : "held, never released" };
+    if (hinge.latch === false) return { text: last ? `released at ${seconds(last)}` : "has no latch" };
+    if (!last) return { text: `open${never}` };
+    const words = {
+      latched: `latched at ${seconds(last)}`,
+      released: `released at ${seconds(last)}${never}`,
+      missed: `passed its latch too fast at ${seconds(last)}`,
+      let_go: `latch let go at ${seconds(last)}`,
+    };
+    return { latched: last.kind === "latched", text: words[last.kind] };
+  };
   P.stowed = (wing) => wing.hinges.map((hinge) => hinge.stowed);
   P.deployed = (wing) => wing.hinges.map((hinge) => (W.isNumber(hinge.latched) ? hinge.latched : 0));
 
@@ -149,7 +169,7 @@
             wing,
             scale,
             pose,
-            at === poses.length - 1 ? () => true : null,
+            at === poses.length - 1 ? (hinge) => P.state(wing, motion, hinge, end).latched : null,
           );
         });
         P.bar(svg, scale, 6, scale.height + 20);

@@ -4,6 +4,7 @@
   const W = window.wingspread;
   const { h, number, format: F, marks: M, pose: P } = W;
   const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10];
+  const HAPPENS = { released: "is released", missed: "passes its latch too fast", let_go: "is let go by its latch" };
   const player = W.player,
     QUANTITIES = { moments: ["Moment", "N m"], angles: ["Angle", "rad"], rates: ["Rate", "rad/s"] };
   const angle = () => F.shown("rad"),
@@ -19,8 +20,7 @@
       { angles: P.stowed(wing) },
       { angles: P.deployed(wing), base: thinned[thinned.length - 1].base },
     ]);
-    const latched = (hinge) =>
-      (motion.latches || []).some((latch) => latch.hinge === hinge && latch.time <= player.time);
+    const latched = (hinge) => P.state(wing, motion, hinge, player.time).latched;
     const element = W.figure({
       title: `In motion: ${motion.label}`,
       class: "stage",
@@ -66,6 +66,7 @@
     const element = W.figure({
       title: `${text}s of the hinges: ${motion.label}`,
       class: "history",
+      printed: 440,
       description: () =>
         `${text} against time. ${(motion.peaks || [])
           .map(
@@ -163,18 +164,11 @@
     function move() {
       const now = P.at(motion, player.time);
       cells.forEach(function (row, at) {
-        const latch = (motion.latches || []).find((one) => one.hinge === at);
         const texts = [
           F.fixed(now.angles[at] * angle().factor, angle().factor === 1 ? 4 : 2),
           F.fixed(now.rates[at] * rate().factor, rate().factor === 1 ? 4 : 2),
           F.fixed(now.moments[at], 2),
-          latch
-            ? latch.time <= player.time
-              ? `latched at ${F.fixed(latch.time, 3)} s`
-              : "open"
-            : wing.hinges[at].latch === false
-              ? "has no latch"
-              : "open, never latches",
+          P.state(wing, motion, at, player.time).text,
         ];
         texts.forEach((text, place) => {
           if (row[place].data !== text) row[place].data = text;
@@ -237,9 +231,9 @@
         },
         [
           [0, "start"],
-          ...[...(motion.latches || [])]
+          ...[...(motion.latches || []), ...(motion.events || [])]
             .sort((a, b) => a.time - b.time)
-            .map((latch) => [latch.time, `${name(latch)} latches`]),
+            .map((one) => [one.time, `${name(one)} ${HAPPENS[one.kind] || "latches"}`]),
           ...(motion.peaks || [])
             .filter((peak) => W.isNumber(peak.time))
             .map((peak) => [peak.time, `peak moment of ${name(peak)}`]),

@@ -182,7 +182,7 @@
               envelopeFigure(set, group, at, groups.length),
             ),
       ),
-      strips(set),
+      W.sequence(set) || strips(set),
     ];
   }
 

@@ -108,7 +108,7 @@
         "Small swings of the nominal wing about rest, all latches engaged: without Coulomb friction, backlash and air. ",
         `Every picture swings once in ${SECONDS} seconds, whatever its frequency.`,
       ),
-      h("p", player.button),
+      h("p.controls", player.button),
       h(
         "div.stills",
         modes.modes.map((mode, at) => figureOf(modes, mode, at, player)),

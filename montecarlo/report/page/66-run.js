@@ -63,10 +63,18 @@
       return latch;
     });
     const each = d3.range(hinges).map(function (hinge) {
-      const [moment, time, force, overtravel] = result.slice(next + 4 * hinge, next + 4 * hinge + 4);
-      return { hinge, peak_moment: moment, time, peak_force: force, overtravel };
+      const [peak_moment, time, peak_force, overtravel, hold_moment, final_angle] = result.slice(next + 6 * hinge, next + 6 * hinge + 6);
+      return { hinge, peak_moment, time, peak_force, overtravel, hold_moment, final_angle };
     });
-    next += 4 * hinges;
+    next += 6 * hinges;
+    const base = { peak_angle: result[next], peak_rate: result[next + 1] };
+    next += 2;
+    const events = ["released", "missed", "let_go"].flatMap(function (kind) {
+      const from = next + 1,
+        count = result[next];
+      next = from + 2 * count;
+      return d3.range(count).map((at) => ({ kind, hinge: result[from + 2 * at], time: result[from + 2 * at + 1] }));
+    });
     const width = 1 + 3 * hinges + 3,
       rows = d3.range(samples.length / width).map((row) => samples.slice(row * width, (row + 1) * width)),
       column = (place) => rows.map((row) => row[place]),
@@ -77,7 +85,8 @@
       t_end: result[1],
       latches,
       each,
-      base: { peak_angle: result[next], peak_rate: result[next + 1] },
+      base,
+      events,
       t: column(0),
       angles: columns(1),
       rates: columns(1 + hinges),
@@ -89,14 +98,23 @@
   // An output of an outcome, by the name of its column; null if it did not happen.
   function outputOf(set, output, made) {
     const at = (name) => set.wing.hinges.findIndex((hinge) => hinge.name === name),
-      latch = (hinge) => made.latches.find((one) => one.hinge === hinge);
+      own = (list, hinge) => list.filter((one) => one.hinge === hinge),
+      captures = (hinge) => own(made.latches, hinge),
+      ended = !["invalid", "failed"].includes(made.status);
+    // The engagement that holds at the end of the run.
+    const latch = (hinge) =>
+      own(made.events, hinge).filter((one) => one.kind === "let_go").length < captures(hinge).length
+        ? captures(hinge).pop()
+        : null;
     const value = function () {
       if (output.name === "deployment_time")
         return made.status === "deployed" ? d3.max(made.latches, (one) => one.time) : NaN;
       if (output.name.startsWith("base.")) return made.base[output.name.slice(5)];
-      const own = latch(at(output.hinge));
-      if (output.family === "latch_time") return own ? own.time : NaN;
-      if (output.family === "latch_rate") return own ? own.rates[own.hinge] : NaN;
+      const held = latch(at(output.hinge));
+      if (output.family === "latch_time") return held ? held.time : NaN;
+      if (output.family === "latch_rate") return held ? held.rates[held.hinge] : NaN;
+      if (output.family === "captures") return ended ? captures(at(output.hinge)).length : NaN;
+      if (output.family === "held") return ended ? Number(Boolean(held)) : NaN;
       const other = output.name.indexOf(".rate_at.");
       if (other > 0) {
         const then = latch(at(output.name.slice(other + 9)));
@@ -125,6 +143,7 @@
       moments: made.moments,
       base: moving ? made.moved : null,
       latches: made.latches,
+      events: made.events,
       peaks: made.each
         .filter((one) => W.isNumber(one.peak_moment))
         .map((one) => ({ hinge: one.hinge, value: one.peak_moment, time: one.time })),

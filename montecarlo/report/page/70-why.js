@@ -11,7 +11,10 @@
       const pair = Object.entries(
         sensitivity.kind === "sobol"
           ? { first: "first order", total: "total" }
-          : { spearman: "Spearman", prcc: sensitivity.held === false ? "PRCC" : "PRCC, others held" },
+          : {
+              spearman: "Spearman",
+              prcc: sensitivity.held === false ? "PRCC" : "partial (PRCC): other dispersions held",
+            },
       );
       return { pair, kind: sensitivity.kind, rows: sensitivity.effects.filter((one) => one.output === name) };
     }
@@ -105,6 +108,33 @@
     });
   }
 
+  // What an output increases and decreases with most, of the effects that the bounds show, and what those dispersions act on.
+  function sentence(set, name) {
+    const { kind, rows } = effectsOf(set, name);
+    if (kind !== "rank") return null;
+    const strength = (one) => (Math.abs(one.prcc) > Math.abs(one.spearman) ? one.prcc : one.spearman),
+      shown = (one) => one.spearman_lower * one.spearman_upper > 0 || one.prcc_lower * one.prcc_upper > 0;
+    const acts = function (draw) {
+      const { paths = [], apply } = ((set.inputs || {}).dispersions || []).find((one) => one.draw === draw) || {};
+      if (!paths.length) return "";
+      return paths.length === 1
+        ? [" (acts on ", h("code", paths[0]), ")"]
+        : ` (acts on ${F.count(paths.length)} parameters${apply === "by a table" ? " by tables" : ""})`;
+    };
+    const most = (sign, text) => {
+      const one = rows.find((each) => shown(each) && sign * strength(each) > 0);
+      return one ? [text, h("b", one.draw), acts(one.draw)] : null;
+    };
+    const parts = [most(1, "increases most with "), most(-1, "decreases most with ")].filter(Boolean);
+    if (!parts.length) return null;
+    return h(
+      "p.effects",
+      `${F.nameOf(name)} `,
+      parts.map((part, at) => [at ? " and " : "", part]),
+      ".",
+    );
+  }
+
   // Dispersions without a visible effect: they may act on the wrong parameter.
   function idle(set) {
     const names = (set.sensitivity && set.sensitivity.idle) || [];
@@ -169,7 +199,7 @@
             ),
           )
         : null;
-    W.fill(tornadoHost, tornado(set, W.chosen.output));
+    W.fill(tornadoHost, sentence(set, W.chosen.output), tornado(set, W.chosen.output));
     choose(set);
     W.fill(
       W.section("why"),
@@ -191,7 +221,7 @@
   };
   W.on("output", function (name) {
     if (!tornadoHost.isConnected) return;
-    W.fill(tornadoHost, tornado(W.set(), name));
+    W.fill(tornadoHost, sentence(W.set(), name), tornado(W.set(), name));
     choose(W.set());
   });
 })();

@@ -91,8 +91,10 @@
     const { factor, unit } = F.shown("rad");
     // Mirrored hinges turn in opposite senses: their travels, from 0, coincide.
     const travel = (one) => one.angle.map((angle) => Math.abs(angle - one.angle[0]) * factor);
+    // Too few draws for a quantile: the least of them.
+    const quantile = W.isNumber(share) && share * draws < 1 ? "least" : `${F.level(share)} quantile`;
     const part = hinges.slice(0, 7),
-      dispersed = W.isNumber(share) ? `Least, ${F.level(share)} quantile` : "Least, dispersed",
+      dispersed = !W.isNumber(share) ? "Least, dispersed" : quantile === "least" ? "Least of all draws" : `Least, ${quantile}`,
       least = hinges.map((one) => [
         one.hinge,
         F.fixed(one.least, 2),
@@ -104,7 +106,7 @@
       W.figure({
         title: `Static margin of torque along the travel${kind ? ` (${kind})` : ""}`,
         class: "static-margins",
-        note: `Thick: nominal.${W.isNumber(share) ? ` Thin: the ${F.level(share)} quantile over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The picture has the first ${part.length} of ${hinges.length} hinges; the table has all.` : ""}`,
+        note: `Thick: nominal.${W.isNumber(share) ? ` Thin: the ${quantile} over ${F.count(draws)} draws.` : ""} 0 is enough.${hinges.length > part.length ? ` The picture has the first ${part.length} of ${hinges.length} hinges; the table has all.` : ""}`,
         description: () =>
           hinges
             .slice(0, 20)

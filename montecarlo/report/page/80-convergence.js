@@ -27,8 +27,12 @@
           svg,
           [
             { text: text.toLowerCase(), line: "var(--c0)" },
-            { text: "bounds", fill: "var(--c0)", opacity: 0.2 },
-          ],
+            rows.some((row) => W.isNumber(row[2]) || W.isNumber(row[3])) && {
+              text: "bounds",
+              fill: "var(--c0)",
+              opacity: 0.2,
+            },
+          ].filter(Boolean),
           width,
         );
         // The first quarter of the points may have very wide bounds, so only the others set the scale.

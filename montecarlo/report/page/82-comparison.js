@@ -39,7 +39,7 @@
       : W.figure({
           title: `Change of the means: ${W.sets[j].label} against ${W.sets[i].label}`,
           class: "forest",
-          note: `${comparison.paired ? `Paired over the ${F.count(comparison.runs)} runs of both sets with the same draws, so scatter between runs cancels. An output's difference goes over those of them that have it in both sets.` : "Not paired: the sets have different draws."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
+          note: `${comparison.paired ? `Paired over the ${F.count(comparison.runs)} runs of both sets with the same draws, so scatter between runs cancels. Each difference is over the runs that have the output in both sets.` : "Not paired: the sets have different draws."}${rows.length > drawn.length ? ` The picture has the ${drawn.length} largest of ${rows.length} changes; the table has all.` : ""}`,
           description: () =>
             drawn
               .slice(0, 12)
@@ -70,7 +70,7 @@
                 relative(one.upper, one),
               ]),
               x = wideScale(values, [box.left, box.right]);
-            M.axes(svg, box, x, null, { xText: "change of the mean (%)", xValues: x.wide });
+            M.axes(svg, box, x, null, { xText: `change of the mean (%${x.wide ? ", logarithmic away from 0" : ""})`, xValues: x.wide });
             M.upright(svg, "line.zero-line", x(0), box);
             drawn.forEach(function (one, at) {
               const y = box.top + 20 * (at + 0.5),
@@ -118,7 +118,7 @@
         "div.wide-pair",
         forest(comparison),
         h(
-          "div",
+          "div.differences",
           W.table(
             `Differences of the means: ${comparison.text}`,
             ["Output", "Unit", number("Difference"), number("Bounds"), number("Relative"), number("Runs")],

@@ -95,7 +95,9 @@
         one.law_before_case ? h("small.faint", ` (nominal: ${one.law_before_case})`) : null,
       ),
       F.unit(one.unit),
-      `${either(one.nominal)} ${one.nominal_unit && one.nominal_unit !== one.unit ? F.unit(one.nominal_unit) : ""}`.trim(),
+      (one.paths || []).length > 1
+        ? F.none
+        : `${either(one.nominal)} ${one.nominal_unit && one.nominal_unit !== one.unit ? F.unit(one.nominal_unit) : ""}`.trim(),
       `${F.number(one.low, 4)} … ${F.number(one.high, 4)}`,
       inDegrees(one.low, one.unit) ? `${inDegrees(one.low, one.unit)} … ${inDegrees(one.high, one.unit)}` : "",
       h(
@@ -118,8 +120,8 @@
               "Dispersion",
               "Law",
               "Unit",
-              number("Nominal"),
-              number("1 % … 99 %"),
+              number("Nominal parameter"),
+              number("Draw, 1 % … 99 %"),
               number("In degrees"),
               "Acts on",
             ]),

@@ -1,5 +1,6 @@
 #include "montecarlo/report/page/html_page.hpp"
 
+#include "montecarlo/foundation/platform/thread_pool.hpp"
 #include "montecarlo/report/data/differences.hpp"
 #include "montecarlo/report/data/page_numbers.hpp"
 #include "montecarlo/report/data/set_json.hpp"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace wingspread {
 namespace {
@@ -42,10 +44,15 @@ void read_folder(const std::filesystem::path& folder, bool several, int threads,
     return;
   }
   const StoredCampaign whole = read_stored_campaign(folder);
-  for (const CaseSpec& spec : made_cases(whole))
+  const std::vector<CaseSpec> made = made_cases(whole);
+  for (const CaseSpec& spec : made) {
     sources.runs.push_back(read_page_source(as_analyzed(read_stored_campaign(folder / spec.name)),
                                             several ? name + " · " + spec.name : spec.name,
                                             &whole.campaign, threads));
+    sources.runs.back()->made_from = folder;
+    if (made.size() < whole.campaign.cases.size())
+      for (const CaseSpec& each : made) sources.runs.back()->made_cases.push_back(each.name);
+  }
 }
 
 /// Replaces equal labels by the paths of their sets.
@@ -121,9 +128,14 @@ Json page_json(const PageSources& sources, const ReportHeader& header, const std
             {"sets", Json::array()},
             {"comparisons", comparisons_json(sources, pairs)},
             {"unpaired", pairs.missing}};
-  for (const auto& source : sources.runs) {
+  std::vector<Json> margins(sources.runs.size());
+  for_each_task(threads, margins.size(), [&](std::size_t i) {
+    margins[i] = static_margins_json(sources.runs[i]->stored.campaign);
+  });
+  for (std::size_t i = 0; i < sources.runs.size(); ++i) {
+    const auto& source = sources.runs[i];
     json["sets"].push_back(set_json(*source, detail, threads));
-    json["sets"].back()["static_margins"] = static_margins_json(source->stored.campaign);
+    json["sets"].back()["static_margins"] = std::move(margins[i]);
     json["sets"].back()["modes"] = modes_json(nominal_scene(source->stored.campaign));
     json["sets"].back()["kernel"] =
         source->replayable() ? kernel_json(source->stored.campaign) : Json(nullptr);

@@ -147,7 +147,7 @@ std::string described_quiet(const std::vector<std::pair<std::string, Reach>>& qu
   const auto add = [&](const std::string& sentence) { text += "  " + wrapped(sentence, 2) + '\n'; };
   if (!hinges.empty())
     add(fmt::format("overtravel of {}: {}", fmt::join(hinges, ", "),
-                    largest == 0 ? "none" : fmt::format("at most {:.2g} rad", largest)));
+                    largest == 0 ? "none" : fmt::format("at most {} deg", degrees_text(largest))));
   if (!constants.empty()) add(fmt::format("the same in every run: {}", fmt::join(constants, ", ")));
   return text;
 }

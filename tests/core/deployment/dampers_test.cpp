@@ -124,3 +124,21 @@ TEST_CASE("quadratic drag on one panel has its closed form") {
   scene.environment.air_density = 0; // in a vacuum a plate is nothing
   check_both_senses(scene, {1, 1}, 6);
 }
+
+TEST_CASE("without air a wing of plates is made as one without plates, whatever was made before") {
+  const Scene bare = seed_scene();
+  Scene plated = bare;
+  for (Body& body : plated.bodies) body.plate = Plate{{-0.5, 0}, {0.5, 0}, 1, 1.2};
+  const Outcome expected = Deployment().run(bare, within(1e-8, 60), {});
+  REQUIRE(expected.peaks_final);
+  Deployment deployment;
+  for (const double density : {0., 1.2, 0.}) { // also after a run in air
+    plated.environment.air_density = density;
+    const Outcome out = deployment.run(plated, within(1e-8, 60), {});
+    CAPTURE(density, out.t_end);
+    CHECK((out.t_end == expected.t_end) == (density == 0));
+    CHECK((out.peak_moment[0].value == expected.peak_moment[0].value) == (density == 0));
+    CHECK((out.work.steps == expected.work.steps) == (density == 0));
+    CHECK((out.peaks_final && out.t_end < 60) == (density == 0));
+  }
+}

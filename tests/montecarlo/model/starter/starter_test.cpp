@@ -98,6 +98,15 @@ TEST_CASE("the same design gives the same bytes, and each kind of line is explai
   CHECK(starter.page.find("    wingspread new --wings 2\n") != std::string::npos);
 }
 
+TEST_CASE("new wings without friction, cables and dampers have final peaks") {
+  for (const int panels : {1, 3}) {
+    WingDesign design;
+    design.panels = panels, design.friction = design.harness = 0, design.damper = 0;
+    CAPTURE(panels);
+    check_starter(design);
+  }
+}
+
 TEST_CASE("a damper of a new wing about doubles its time") {
   WingDesign design;
   design.panels = 3;

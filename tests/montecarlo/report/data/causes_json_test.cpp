@@ -52,6 +52,19 @@ TEST_CASE("the strongest pairs come first, at most two of an output", "[page]") 
   CHECK(scatter["points"]["run"].size() == 200);
 }
 
+TEST_CASE("pairs of an output that fails a requirement come first; of three runs there are none",
+          "[page]") {
+  Json campaign = quick_campaign(200);
+  const std::size_t weakest = strongest_pairs(*made(campaign), 8).back().output;
+  const std::string name = made(campaign)->results.outputs[weakest].name;
+  campaign["requirements"] =
+      Json::array({{{"output", name}, {"max", -1e3}, {"probability", 0.99}, {"confidence", 0.9}}});
+  const auto pairs = strongest_pairs(*made(campaign), 8);
+  CHECK(pairs[0].output == weakest);
+  CHECK(strongest_pairs(*made(quick_campaign(3)), 8).empty());
+  CHECK(correlations_json(*made(quick_campaign(3)), {}).is_null());
+}
+
 TEST_CASE("a density counts row by row of y", "[page]") {
   const auto source = made(quick_campaign(50));
   const Json scatter = scatters_json(*source, {}, 2).front();

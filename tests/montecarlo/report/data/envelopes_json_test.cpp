@@ -57,3 +57,35 @@ TEST_CASE("envelopes have at most so many runs, spread evenly, and a foreign set
   source->stored.foreign = true;
   CHECK(envelopes_json(*source, detail, 1).is_null());
 }
+
+TEST_CASE("a sequence has the events of every hinge, and only a wing with holds has one",
+          "[page]") {
+  CHECK(envelopes_json(*made(quick_campaign(3)), {}, 1)["sequence"].is_null());
+  Json campaign = quick_campaign(20);
+  campaign["scene"]["hinges"][2]["release"] =
+      parse_json(R"({"after": "root", "event": "latched", "delay": 0.25})");
+  const auto source = made(campaign);
+  const Json sequence = envelopes_json(*source, {}, 2)["sequence"];
+  REQUIRE(sequence.size() == 3);
+  CHECK(sequence[0]["release"].is_null());
+  CHECK(sequence[2]["release"]["event"] == "latched");
+  CHECK(sequence[2]["release"]["after"] == 0);
+  for (std::size_t h = 0; h < 3; ++h) {
+    const std::string name = source->stored.campaign.scene.hinges[h].name + ".latch_time";
+    std::vector<double> times; // of the rows
+    for (const Column& column : source->results.outputs)
+      if (column.name == name)
+        std::ranges::copy_if(column.values, std::back_inserter(times),
+                             [](double time) { return !std::isnan(time); });
+    REQUIRE_FALSE(times.empty());
+    std::ranges::sort(times);
+    CHECK(sequence[h]["latched"]["runs"] == times.size());
+    CHECK(sequence[h]["latched"]["times"].front() == page_number(times.front(), 6));
+    CHECK(sequence[h]["latched"]["times"][3] == page_number(times[(times.size() - 1) / 2], 6));
+    CHECK(sequence[h]["latched"]["times"].back() == page_number(times.back(), 6));
+    CHECK(sequence[h]["let_go"]["count"] == 0);
+    CHECK(sequence[h]["released"]["count"] == (h == 2 ? sequence[0]["latched"]["count"] : Json(0)));
+  }
+  const double first = sequence[0]["latched"]["times"].front().get<double>();
+  CHECK(sequence[2]["released"]["times"].front().get<double>() == Approx(first + 0.25));
+}
