@@ -52,7 +52,7 @@ bool settle_edges(AnySystem& system, const State<T>& x, const State<T>& dxdt) {
     const T& going = rate != T(0) ? rate : dxdt[at.rate(i)];
     const int way = way_over(system, i, edge);
     if (!(T(way) * going > T(0))) return;
-    system.pass(i, edge, way > 0);
+    system.note_crossing(i, edge, way > 0);
     changed = true;
   });
   return changed;

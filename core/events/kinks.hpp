@@ -118,65 +118,67 @@ public:
   [[nodiscard]] std::optional<Found> first() {
     const int hinges = limit_.motors_only ? 0 : static_cast<int>(system_.wing().real.size());
     for (int i = 1; i < hinges; ++i)
-      if (!system_.sticks(i)) pass_hinge(i);
+      if (!system_.sticks(i)) search_hinge(i);
     const int motors = static_cast<int>(system_.wing().motors.size());
     for (int i = 1; i < motors; ++i)
-      if (!system_.sticks(i) && system_.motor_runs(i)) pass_motor(i);
+      if (!system_.sticks(i) && system_.motor_runs(i)) search_motor(i);
     const int loops = limit_.motors_only ? 0 : static_cast<int>(system_.wing().loops.size());
-    for (int l = 0; l < loops; ++l) pass_loop(l);
+    for (int l = 0; l < loops; ++l) search_loop(l);
     return first_;
   }
 
 private:
   using Of = typename Kink<T>::Of;
 
-  void pass_hinge(int i) {
+  void search_hinge(int i) {
     const RealHingeTerms<T>& real = system_.wing().real[i];
     const Layout& at = system_.layout();
     const Quintic<T> angle = step_.coordinate(at.angle(i), at.freedoms());
     for (const CurveTorqueTerms<T>* torque : {&real.spring, &real.harness})
-      if (torque->curve) pass_knots(*torque->curve, torque->weight, i, angle);
-    if (real.friction.level) pass_knots(*real.friction.level, real.friction.weight, i, angle);
-    pass_rates(i, step_.rate_of(angle, at.angle(i), at.freedoms()));
+      if (torque->curve) search_knots(*torque->curve, torque->weight, i, angle);
+    if (real.friction.level) search_knots(*real.friction.level, real.friction.weight, i, angle);
+    search_rates(i, step_.rate_of(angle, at.angle(i), at.freedoms()));
   }
 
-  void pass_rates(int i, const Quintic<T>& rate) {
+  void search_rates(int i, const Quintic<T>& rate) {
     using std::abs;
     const RealHingeTerms<T>& real = system_.wing().real[i];
     const HingeMode<T>& mode = system_.work().modes[i];
     if (real.has_damper && real.damper.law == DamperLaw::power && mode.damper_acts > T(0)) {
       const T turn = abs(T(1) - real.damper.exponent) * real.damper.near_zero;
       for (const T& at : {T(-real.damper.rate), T(real.damper.rate)})
-        pass({Of::rate, i, at, T(0)}, rate, {i, T(0), turn, T(0)});
+        offer_passage({Of::rate, i, at, T(0)}, rate, {i, T(0), turn, T(0)});
     }
-    pass_stop(i, rate, real.stop, mode.in_contact);
-    pass_stop(i, rate, real.far_stop, mode.in_far_contact);
+    search_stop(i, rate, real.stop, mode.in_contact);
+    search_stop(i, rate, real.far_stop, mode.in_far_contact);
   }
 
-  void pass_stop(int i, const Quintic<T>& rate, const StopTerms<T>& terms, const T& in_contact) {
+  void search_stop(int i, const Quintic<T>& rate, const StopTerms<T>& terms, const T& in_contact) {
     if (!(in_contact > T(0) && terms.dissipation > T(0))) return;
     const HingeStop<T> stop{terms, in_contact};
     const T depth = larger(stop.depth(step_.x[system_.layout().angle(i)]),
                            stop.depth(step_.x1[system_.layout().angle(i)]));
     const T turn = terms.stiffness * terms.dissipation * larger(depth, T(0));
-    pass({Of::rate, i, T(terms.sense / terms.dissipation), T(0)}, rate, {i, T(0), turn, T(0)});
+    offer_passage({Of::rate, i, T(terms.sense / terms.dissipation), T(0)}, rate,
+                  {i, T(0), turn, T(0)});
   }
 
-  void pass_motor(int i) {
+  void search_motor(int i) {
     const MotorTerms<T>& motor = system_.wing().motors[i];
     const Layout& at = system_.layout();
     const Quintic<T> rate = step_.rate(at.angle(i), at.freedoms());
     const Quintic<T> excess = motor_excess(system_.work().motors[i], step_.t, step_.h, rate);
     if (!(motor_regime(motor, excess) == T(2))) return;
     for (const T& at_limit : {T(motor.limit / motor.gain), T(-motor.limit / motor.gain)})
-      pass({Of::excess, i, at_limit, T(0)}, excess, {i, T(0), motor.gain, T(0)});
+      offer_passage({Of::excess, i, at_limit, T(0)}, excess, {i, T(0), motor.gain, T(0)});
   }
 
   /// Knots of a curve of hinge i's angle.
-  void pass_knots(const Curve& curve, const T& weight, int i, const Quintic<T>& angle) {
+  void search_knots(const Curve& curve, const T& weight, int i, const Quintic<T>& angle) {
     using std::abs;
     for_each_knot(curve, angle, [&](const T& knot, const T& turn, const T& bend) {
-      pass({Of::angle, i, knot, T(0)}, angle, {i, T(0), abs(weight) * turn, abs(weight) * bend});
+      offer_passage({Of::angle, i, knot, T(0)}, angle,
+                    {i, T(0), abs(weight) * turn, abs(weight) * bend});
     });
   }
 
@@ -199,7 +201,7 @@ private:
     }
   }
 
-  void pass_loop(int l) {
+  void search_loop(int l) {
     using std::abs;
     const LoopTerms<T>& loop = system_.wing().loops[l];
     if (system_.sticks(loop.first) && system_.sticks(loop.second)) return;
@@ -207,21 +209,22 @@ private:
     const Jet<T> start = argument(system_, taut, step_.x, step_.dxdt, step_.t),
                  end = argument(system_, taut, step_.x1, step_.dxdt1, T(step_.t + step_.h));
     const Quintic<T> elastic = hermite<T>(step_.h, start, end);
-    if (loop.table) pass_gear(loop, largest(start.value, end.value));
+    if (loop.table) search_gear(loop, largest(start.value, end.value));
     if (!(bound(elastic) > loop.slack_beyond)) return;
     const T jump = loop.stiffness > T(0)
                        ? T(T(0.5) * loop.damping / loop.stiffness * largest(start.first, end.first))
                        : T(0);
     for (const T& at : {T(-loop.slack_beyond), T(loop.slack_beyond)}) {
-      pass({Of::strands, l, at, T(0)}, elastic, {loop.second, jump, T(0.5), T(0)});
+      offer_passage({Of::strands, l, at, T(0)}, elastic, {loop.second, jump, T(0.5), T(0)});
       const T gear = largest_gear(loop);
-      pass({Of::strands, l, at, T(0)}, elastic, {loop.first, gear * jump, gear * T(0.5), T(0)});
+      offer_passage({Of::strands, l, at, T(0)}, elastic,
+                    {loop.first, gear * jump, gear * T(0.5), T(0)});
     }
   }
 
   /// Knots of a loop's table: a monotone cubic, whose slope is continuous; the moment at hinge a is that slope times τ.
   /// @param elastic the largest |K e| at the step's ends
-  void pass_gear(const LoopTerms<T>& loop, const T& elastic) {
+  void search_gear(const LoopTerms<T>& loop, const T& elastic) {
     const Layout& at = system_.layout();
     const Quintic<T> angle = step_.coordinate(at.angle(loop.first), at.freedoms());
     Quintic<T> travel = angle;
@@ -230,10 +233,11 @@ private:
       const T angle_there = fused(loop.sense_a, knot, loop.stowed_a);
       const Kink<T> kink{Of::angle, loop.first, angle_there, T(0)};
       const T gear = largest_gear(loop);
-      pass(kink, angle,
-           {loop.first, turn * elastic, fused(gear * loop.stiffness, turn, T(2) * bend * elastic),
-            gear * loop.stiffness * bend});
-      pass(kink, angle, {loop.second, T(0), loop.stiffness * turn, loop.stiffness * bend});
+      offer_passage(kink, angle,
+                    {loop.first, turn * elastic,
+                     fused(gear * loop.stiffness, turn, T(2) * bend * elastic),
+                     gear * loop.stiffness * bend});
+      offer_passage(kink, angle, {loop.second, T(0), loop.stiffness * turn, loop.stiffness * bend});
     });
   }
 
@@ -243,7 +247,7 @@ private:
   }
 
   /// Offers the first passage of u over kink.at that matters.
-  void pass(Kink<T> kink, Quintic<T> u, const KinkChange<T>& change) {
+  void offer_passage(Kink<T> kink, Quintic<T> u, const KinkChange<T>& change) {
     const T speed = bound(derivative(u, step_.h));
     for (T& c : u) c = c - kink.at;
     Quintic<T> rest = u;

@@ -24,7 +24,7 @@ public:
     }
   }
   /// Records that hinge i has passed an edge, upwards or downwards.
-  void pass(int i, Edge edge, bool upwards) {
+  void note_crossing(int i, Edge edge, bool upwards) {
     work_.above[i][static_cast<int>(edge)] = upwards;
     update_law(i);
   }

@@ -30,8 +30,8 @@ public:
   }
 
   template <class System>
-  [[nodiscard]] Verdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
-                                State<T>& dxdt1) {
+  [[nodiscard]] StepVerdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
+                                    State<T>& dxdt1) {
     x1.resize(from.x.size()), error_.resize(from.x.size()); // kept sizes: no allocation
     h_ = h;
     stepper_.do_step_impl(std::ref(system), from.x, from.t, x1, h_, error_);
@@ -47,7 +47,7 @@ public:
   }
 
   /// @pre the last attempt was the step accepted
-  void accepted(const Verdict& /*verdict*/, double /*h*/) {
+  void accepted(const StepVerdict& /*verdict*/, double /*h*/) {
     auto& history = stepper_.coeff();
     history.do_step(dxdt_);
     history.confirm();

@@ -24,8 +24,8 @@ public:
   void restart(const Tolerance& tolerance) { stepper_.emplace(tolerance.atol, tolerance.rtol); }
 
   template <class System>
-  [[nodiscard]] Verdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
-                                State<T>& dxdt1) {
+  [[nodiscard]] StepVerdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
+                                    State<T>& dxdt1) {
     T t = from.t, next = h;
     const bool good = stepper_->try_step(std::ref(system), from.x, from.dxdt, t, x1, next) ==
                       boost::numeric::odeint::success;
@@ -35,10 +35,10 @@ public:
       return {std::numeric_limits<double>::quiet_NaN(), 0.1};
     }
     const double factor = static_cast<double>(T(next / h));
-    return good ? Verdict{0.5, factor} : Verdict{2, std::min(factor, 0.7)};
+    return good ? StepVerdict{0.5, factor} : StepVerdict{2, std::min(factor, 0.7)};
   }
 
-  void accepted(const Verdict& /*verdict*/, double /*h*/) {}
+  void accepted(const StepVerdict& /*verdict*/, double /*h*/) {}
   void rejected() {}
 
 private:

@@ -3,7 +3,7 @@
 ///     order, fixed_step             constants: order of the first step's error; whether the step is given
 ///     restart(tolerance)            forgets all earlier steps; called first, and whenever the right-hand
 ///                                   side or the tolerance has changed
-///     attempt(system, from, h, x1, dxdt1) → Verdict
+///     attempt(system, from, h, x1, dxdt1) → StepVerdict
 ///                                   makes a trial step from `from` (t, x, dxdt) to (x1, dxdt1) at t + h.
 ///                                   The system's last evaluation is at (x1, t + h). A method that knows
 ///                                   how long the step may be makes h shorter.
@@ -33,7 +33,7 @@ template <class T>
 }
 
 /// A method's judgement on a trial step.
-struct Verdict {
+struct StepVerdict {
   double error;  ///< in units of the tolerance: accepted if ≤ 1; NaN if anything is not finite
   double factor; ///< to the next step or, if rejected, the next trial step
   [[nodiscard]] bool accepted() const { return error <= 1; }
@@ -84,8 +84,8 @@ public:
   }
 
   template <class System>
-  [[nodiscard]] Verdict attempt(System& system, const Start<T>& from, T& h, State<T>& x1,
-                                State<T>& dxdt1) {
+  [[nodiscard]] StepVerdict attempt(System& system, const Start<T>& from, T& h, State<T>& x1,
+                                    State<T>& dxdt1) {
     const T rtol(tolerance_.rtol), atol(tolerance_.atol);
     error_.resize(from.x.size());
     estimate(formula_, system, from, h, x1, dxdt1, error_, rtol, atol);
@@ -94,13 +94,13 @@ public:
   }
 
   /// The verdict on a trial step h with this scaled error.
-  [[nodiscard]] Verdict verdict(double error, double h) const {
+  [[nodiscard]] StepVerdict verdict(double error, double h) const {
     return {error, factor_of<Formula>(error, h, memory_)};
   }
   [[nodiscard]] StepMemory<double>& memory() { return memory_; }
   [[nodiscard]] Formula& formula() { return formula_; }
 
-  void accepted(const Verdict& verdict, double h) { memory_.accepted(verdict.error, h); }
+  void accepted(const StepVerdict& verdict, double h) { memory_.accepted(verdict.error, h); }
   void rejected() { memory_.rejected(); }
 
 private:

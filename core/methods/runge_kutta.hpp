@@ -70,8 +70,8 @@ public:
   void restart(const Tolerance& tolerance) { tolerance_ = tolerance; }
 
   template <class System>
-  [[nodiscard]] Verdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
-                                State<T>& dxdt1) {
+  [[nodiscard]] StepVerdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
+                                    State<T>& dxdt1) {
     const T half = T(0.5) * h;
     middle_.resize(from.x.size());
     error_.resize(from.x.size());
@@ -84,7 +84,7 @@ public:
     return {in_tolerances(from.x, x1, dxdt1, error_, tolerance_), 1};
   }
 
-  void accepted(const Verdict& /*verdict*/, double /*h*/) {}
+  void accepted(const StepVerdict& /*verdict*/, double /*h*/) {}
   void rejected() {}
 
 private:

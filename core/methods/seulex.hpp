@@ -28,11 +28,11 @@ public:
   }
 
   template <class System>
-  [[nodiscard]] Verdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
-                                State<T>& dxdt1) {
+  [[nodiscard]] StepVerdict attempt(System& system, const Start<T>& from, const T& h, State<T>& x1,
+                                    State<T>& dxdt1) {
     for (State<T>& row : table_) row.resize(from.x.size());
     error_.resize(from.x.size());
-    Verdict verdict{2, 0.5};
+    StepVerdict verdict{2, 0.5};
     int j = 0;
     for (; j < std::min(target_ + 2, most); ++j) {
       substeps(system, from, h, j, dxdt1);
@@ -52,7 +52,7 @@ public:
     return verdict;
   }
 
-  void accepted(const Verdict& /*verdict*/, double /*h*/) {
+  void accepted(const StepVerdict& /*verdict*/, double /*h*/) {
     target_ = next_target_;
     after_rejection_ = false;
   }
@@ -123,7 +123,7 @@ private:
 
   /// Chooses order and step of the next trial step by the work per unit of time. A higher order must save 5 %
   /// (heuristic: otherwise orders change to and fro).
-  void choose(int j, Verdict& verdict) {
+  void choose(int j, StepVerdict& verdict) {
     int best = 1;
     for (int row = 2; row <= j; ++row)
       if (work(row) / factor_of(row) < 0.95 * work(best) / factor_of(best)) best = row;

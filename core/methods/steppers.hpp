@@ -111,10 +111,10 @@ private:
 }
 
 /// Rejects a step that is too rough (> 1), and limits the factor to the next.
-inline void limit_roughness(double rough, Verdict& verdict) {
+inline void limit_roughness(double rough, StepVerdict& verdict) {
   const double factor = factor_by_roughness(rough);
-  verdict =
-      rough > 1 ? Verdict{2, factor} : Verdict{verdict.error, std::min(verdict.factor, factor)};
+  verdict = rough > 1 ? StepVerdict{2, factor}
+                      : StepVerdict{verdict.error, std::min(verdict.factor, factor)};
 }
 
 /// Error of a smoothed latch's state over a step of Fehlberg78, in units of the tolerance. That state is a

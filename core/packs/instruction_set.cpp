@@ -68,7 +68,7 @@ int lanes_of(InstructionSet set) {
 }
 
 Occupancy& Occupancy::operator+=(const Occupancy& other) {
-  tries += other.tries, busy += other.busy, scalar += other.scalar, looks += other.looks;
+  tries += other.tries, busy += other.busy, scalar += other.scalar, returns += other.returns;
   in_lanes += other.in_lanes;
   for (std::size_t k = 0; k < outside.size(); ++k) outside[k] += other.outside[k];
   return *this;

@@ -27,7 +27,7 @@ struct Occupancy {
   long tries = 0;      ///< trial steps made by engines, all lanes counted
   long busy = 0;       ///< made by engines in lanes with a run
   long scalar = 0;     ///< made outside engines
-  long looks = 0;      ///< trial steps by engines after which a lane needed its run
+  long returns = 0;    ///< trial steps by engines after which a lane needed its run
   double in_lanes = 0; ///< time in engines, s
   std::array<double, cause_names.size()> outside{}; ///< time with one run at a time, by Cause, s
   Occupancy& operator+=(const Occupancy& other);

@@ -66,7 +66,7 @@ public:
   void keep_forces_at_end(const AnySystem& system) {
     if (!shape_.forces) return;
     at_end_ = system.work().forces;
-    samples_.take(system, samples_.last);
+    samples_.keep(system, samples_.last);
     for (std::size_t i = 1; i < before_.size(); ++i)
       samples_.of(static_cast<int>(i))[0] = before_[i];
   }
@@ -224,7 +224,7 @@ private:
     const P s = P(static_cast<double>(k)) / P(4.0);
     step.interpolate(system.layout(), s, x_);
     system(x_, dxdt_, step.t + s * step.h);
-    samples_.take(system, k);
+    samples_.keep(system, k);
     sampled_ = sampled_ + select(open, P(1.0), P(0.0));
   }
 

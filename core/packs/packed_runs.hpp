@@ -65,7 +65,7 @@ private:
     Lane& lane = *lanes_[l];
     LaneResult result = lane.run.empty_lane_result();
     engine_.unload(l, result);
-    ++count_.looks;
+    ++count_.returns;
     count_.busy += result.trial_steps + 1;
     if (!lane.run.is_inside_a_step()) lane.cause = engine_.cause(l);
     lane.run.resume(result);
@@ -117,7 +117,7 @@ private:
   [[nodiscard]] bool reaches_lane(Lane& lane) {
     if (lane.run.ended() || lane.run.fits_lane(method_)) return !lane.run.ended();
     count_time(lane.cause);
-    for (; !lane.run.ended() && !lane.run.fits_lane(method_); ++count_.scalar) lane.run.go();
+    for (; !lane.run.ended() && !lane.run.fits_lane(method_); ++count_.scalar) lane.run.make_step();
     count_time(Cause::method);
     return !lane.run.ended();
   }

@@ -48,7 +48,7 @@ public:
   /// Maxima inside the step that only the dense output has become doubts, to be confirmed.
   void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
     samples_.begin(system, levers_, step);
-    samples_.take(system, samples_.last);
+    samples_.keep(system, samples_.last);
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       std::array<T, 5>& f = samples_.of(static_cast<int>(i));
       f[0] = before_[i];
@@ -100,7 +100,7 @@ private:
   /// At k quarters of the step.
   void sample(AnySystem& system, const Step<T>& step, int k, State<T>& x, State<T>& dxdt) {
     evaluate(system, step, T(k) / T(4), x, dxdt);
-    samples_.take(system, k);
+    samples_.keep(system, k);
   }
 
   static void evaluate(AnySystem& system, const Step<T>& step, const T& s, State<T>& x,

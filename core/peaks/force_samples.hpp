@@ -32,7 +32,7 @@ public:
   [[nodiscard]] const std::array<T, 5>& of(int i) const { return samples_[i]; }
 
   /// Stores the forces of the system's last evaluation, which was at k quarters of the step.
-  template <class AnySystem> void take(const AnySystem& system, int k) {
+  template <class AnySystem> void keep(const AnySystem& system, int k) {
     for (int i = 1; i < static_cast<int>(samples_.size()); ++i)
       samples_[i][k] = magnitude(system.work().forces[i]);
   }

@@ -105,11 +105,11 @@ public:
   }
 
   /// Steps that may be accepted before one at whose end a proof is attempted.
-  [[nodiscard]] long steps_to_look() const {
+  [[nodiscard]] long steps_to_attempt() const {
     return seeks_proof() ? schedule_.steps_to_attempt() : std::numeric_limits<long>::max();
   }
-  /// Counts steps that a lane has made. @pre no more than `steps_to_look`
-  void pass(long steps) {
+  /// Counts steps that a lane has made. @pre no more than `steps_to_attempt`
+  void count_lane_steps(long steps) {
     if (seeks_proof()) schedule_.skip_steps(steps);
   }
 

@@ -2,7 +2,7 @@
 ///
 /// | where is …                           | file                                                        |
 /// |--------------------------------------|-------------------------------------------------------------|
-/// | the loop                             | `run` and `go` below: request a step, make it, judge it     |
+/// | the loop                             | `run` and `make_step` below: request a step, make it, judge it     |
 /// | the next step's size and method      | stepping.hpp                                                |
 /// | a step that ends at an event         | landing.hpp                                                 |
 /// | the instant at which a latch engages | `finish_step` below: apply_events; events/latches.hpp       |
@@ -28,7 +28,7 @@
 
 namespace wingspread {
 
-/// Integrates one wing. The run asks for a step and takes the verdict on it; `go`, or the lane of an
+/// Integrates one wing. The run asks for a step and takes the verdict on it; `make_step`, or the lane of an
 /// engine of packs, makes the step. Storage is made before the first step: a step of the core's own
 /// methods allocates nothing.
 template <class T, class Topology, BaseMotion M> class Integrator {
@@ -43,7 +43,7 @@ public:
 
   [[nodiscard]] Outcome run() {
     begin();
-    while (!ended_) go();
+    while (!ended_) make_step();
     return outcome();
   }
 
@@ -62,10 +62,10 @@ public:
   [[nodiscard]] Outcome&& outcome() { return diary_.outcome(); }
 
   /// Makes the step that is asked for, judges it, and asks for the next one.
-  void go() {
-    const Verdict verdict = stepping_.attempt(asked_.h, *asked_.x1, *asked_.dxdt1);
+  void make_step() {
+    const StepVerdict verdict = stepping_.attempt(asked_.h, *asked_.x1, *asked_.dxdt1);
     if (asked_.stage == Stage::step) stepping_.fit(asked_.h);
-    take(asks_for_whole_step() ? stepping_.judged(verdict) : verdict);
+    judge(asks_for_whole_step() ? stepping_.judged(verdict) : verdict);
   }
 
   // ---- the same where a lane of an engine makes the steps: see lane_protocol.hpp
@@ -97,7 +97,7 @@ public:
             .base = peaks_.base(),
             .t_end = static_cast<double>(stepping_.end_of_stretch()),
             .most_trial_steps = asks_for_plain_step() ? stepping_.tries_left() : 0,
-            .most_steps = std::min(stepping_.steps_to_look(), ending_.steps_to_look()),
+            .most_steps = std::min(stepping_.steps_to_radius(), ending_.steps_to_attempt()),
             .evaluations = run_.system.work().evaluations,
             .history = stepping_.history()};
   }
@@ -130,13 +130,13 @@ public:
     run_.system.made_elsewhere().evaluations += result.evaluations;
     run_.system.command(T(run_.step.t + result.h)); // the lane's last evaluation
     if (result.trial_steps > 0) {
-      ending_.pass(stepping_.resume(result));
+      ending_.count_lane_steps(stepping_.resume(result));
       run_.step.h = asked_.h = result.h;
     } else if (asked_.stage == Stage::step) {
       stepping_.fit(result.h);
     }
     searched_ = result.searched;
-    take(asks_for_whole_step() ? result.judged : Verdict{result.error, 1});
+    judge(asks_for_whole_step() ? result.judged : StepVerdict{result.error, 1});
     searched_ = false;
   }
 
@@ -163,7 +163,7 @@ private:
 
   /// Takes the step asked for, once it is made. @pre the system's last evaluation was at its end
   /// @param verdict on a whole step by all that it must satisfy, else the method's own
-  void take(const Verdict& verdict) {
+  void judge(const StepVerdict& verdict) {
     switch (asked_.stage) {
     case Stage::step:
       return judge_step(verdict);
@@ -242,7 +242,7 @@ private:
     ask_to_end(Stage::step);
   }
 
-  void judge_step(const Verdict& verdict) {
+  void judge_step(const StepVerdict& verdict) {
     if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_))) return try_again(verdict);
     stepping_.choose_next_size();
     if (searched_)
@@ -252,7 +252,7 @@ private:
     accept();
   }
 
-  void judge_landing(const Verdict& verdict) {
+  void judge_landing(const StepVerdict& verdict) {
     if (!stepping_.count_trial(verdict)) return try_again(verdict);
     if (landing_.holds_other_event(stepping_.kinks())) return ask_to_end(Stage::landing);
     if (landing_.correct_end(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
@@ -261,7 +261,7 @@ private:
 
   /// Tries a shorter step: to the kink that may be why the step was refused, or by step control. A step that was to end
   /// at an event is not cut again: its kink may be the one at its end, and it would be as long as before.
-  void try_again(const Verdict& refused) {
+  void try_again(const StepVerdict& refused) {
     const T h = run_.step.h;
     if (asked_.stage == Stage::step && suggests_kink(run_.system.wing(), T(refused.error)) &&
         landing_.cut_at_kink(stepping_.kinks_in_refused())) {

@@ -82,11 +82,11 @@ struct LaneResult {
   BaseExcursion<double>& base;      ///< of a free base, up to the start of that step
   std::vector<char>& moments_may_rise; ///< 1 … n: over that step; only if `searched`
   // values
-  long trial_steps = 0; ///< before the last one; 0: the state is the task's, and not written
-  double h = 0;         ///< the last trial step, s
-  long evaluations = 0; ///< made by the lane, those of the last trial step included
-  double error = 0;     ///< of the last trial step, as in Verdict
-  Verdict judged{0, 1}; ///< on it, by all that a whole step must satisfy
+  long trial_steps = 0;     ///< before the last one; 0: the state is the task's, and not written
+  double h = 0;             ///< the last trial step, s
+  long evaluations = 0;     ///< made by the lane, those of the last trial step included
+  double error = 0;         ///< of the last trial step, as in StepVerdict
+  StepVerdict judged{0, 1}; ///< on it, by all that a whole step must satisfy
   StepHistory<double> history{};
   /// The last trial step is accepted and holds no event: the lane asks for a peak alone.
   bool searched = false;

@@ -110,7 +110,7 @@ public:
   [[nodiscard]] bool is_last() const { return last_; }
 
   /// Makes a trial step of h from where the run stands. A method may make it shorter, and sets h.
-  [[nodiscard]] Verdict attempt(T& h, State<T>& x1, State<T>& dxdt1) {
+  [[nodiscard]] StepVerdict attempt(T& h, State<T>& x1, State<T>& dxdt1) {
     return steppers_.with(method(), [&](auto& stepper) {
       const Step<T>& step = run_.step;
       return stepper.attempt(run_.system, Start<T>{step.t, step.x, step.dxdt}, h, x1, dxdt1);
@@ -132,7 +132,7 @@ public:
     between_.x = run_.step.x, between_.dxdt = run_.step.dxdt;
     T rest = h, part = T(0.5) * h;
     for (int tries = 0; tries < 64; ++tries) { // heuristic: beyond, dense output must do
-      const Verdict verdict = steppers_.with(method(), [&](auto& stepper) {
+      const StepVerdict verdict = steppers_.with(method(), [&](auto& stepper) {
         const T t = run_.step.t + (h - rest);
         return stepper.attempt(run_.system, {t, between_.x, between_.dxdt}, part, x1, dxdt1);
       });
@@ -149,7 +149,7 @@ public:
 
   /// Adds to the method's verdict what else a step must satisfy: it does not leap over a layer of
   /// friction, and with methods of long steps the dense output is accurate inside.
-  [[nodiscard]] Verdict judged(Verdict verdict) const {
+  [[nodiscard]] StepVerdict judged(StepVerdict verdict) const {
     if (verdict.accepted() && run_.system.wing().has_regularized_friction) limit_by_layers(verdict);
     if (!verdict.accepted() || !takes_long_steps(method())) return verdict;
     // the interpolant decides whether a hinge that grazes its latch reaches it
@@ -167,14 +167,14 @@ public:
   /// Rejects a step by series beyond the first turning point that counts: the dense output of so long a
   /// step would not show how far the hinge comes. @param verdict on the step under way
   template <class AnyEvents>
-  [[nodiscard]] Verdict cut_at_turn(const Verdict& verdict, const AnyEvents& events) const {
+  [[nodiscard]] StepVerdict cut_at_turn(const StepVerdict& verdict, const AnyEvents& events) const {
     if (!verdict.accepted() || method() != Method::taylor) return verdict;
     T first(1);
     for (int i = 1; i <= run_.at.bodies; ++i)
       if (turns_where_it_counts(run_.system.wing(), run_.at, run_.step, i, events.may_latch(i)))
         if (const std::optional<T> s = turning_point(run_.at, run_.step, i))
           first = smaller(first, *s);
-    return first < T(1) ? Verdict{2, static_cast<double>(first)} : verdict;
+    return first < T(1) ? StepVerdict{2, static_cast<double>(first)} : verdict;
   }
 
   /// Writes the method's own state at the fraction s of the step to the run's x. @return whether the
@@ -188,7 +188,7 @@ public:
   }
 
   /// Counts a trial step and keeps its verdict. @return whether it is accepted
-  [[nodiscard]] bool count_trial(const Verdict& judged) {
+  [[nodiscard]] bool count_trial(const StepVerdict& judged) {
     ++tried_;
     verdict_ = judged;
     return verdict_.accepted();
@@ -253,9 +253,9 @@ public:
   // ---- steps made elsewhere
 
   /// The most trial steps that a lane may make before it returns control, if no event, peak or proof is due;
-  /// steps_to_look: the most of them that it may accept.
+  /// steps_to_radius: the most of them that it may accept.
   [[nodiscard]] long tries_left() const { return run_.how.max_steps - tried_ - 1; }
-  [[nodiscard]] long steps_to_look() const { return choice_.steps_to_radius(); }
+  [[nodiscard]] long steps_to_radius() const { return choice_.steps_to_radius(); }
   [[nodiscard]] StepHistory<double> history() {
     return {static_cast<double>(choice_.steps()), memory(), choice_.held_back()};
   }
@@ -305,7 +305,7 @@ private:
     return h_;
   }
 
-  void limit_by_layers(Verdict& verdict) const {
+  void limit_by_layers(StepVerdict& verdict) const {
     if (method() == Method::runge_kutta4) return; // the step is fixed
     const Tolerance limit = tolerance();
     const LayerLimits<T> layers =
@@ -337,13 +337,13 @@ private:
   Steppers<T> steppers_;
   struct {
     State<T> x, dxdt;
-  } between_;              ///< where the next part of a step starts
-  Verdict verdict_{0, 1};  ///< on the last trial step
-  T h_ = T(-1);            ///< size of the next step, s; negative: not chosen yet
-  T before_ = T(-1);       ///< h_ before the last restart
-  bool last_ = false;      ///< the planned step ends at end_of_stretch()
-  bool any_latch_ = false; ///< a latch has engaged
-  long engaged_ = -1;      ///< latches at the last restart; -1: the run has not begun
+  } between_;                 ///< where the next part of a step starts
+  StepVerdict verdict_{0, 1}; ///< on the last trial step
+  T h_ = T(-1);               ///< size of the next step, s; negative: not chosen yet
+  T before_ = T(-1);          ///< h_ before the last restart
+  bool last_ = false;         ///< the planned step ends at end_of_stretch()
+  bool any_latch_ = false;    ///< a latch has engaged
+  long engaged_ = -1;         ///< latches at the last restart; -1: the run has not begun
   long tried_ = 0, steps_ = 0, rejected_ = 0;
 };
 

@@ -64,12 +64,12 @@ template <class T> struct Stepping {
   }
 
   template <class Stepper, class AnySystem>
-  [[nodiscard]] Verdict attempt(Stepper& stepper, AnySystem& system, const T& h) {
+  [[nodiscard]] StepVerdict attempt(Stepper& stepper, AnySystem& system, const T& h) {
     made = h;
     return stepper.attempt(system, Start<T>{t, x, dxdt}, made, x1, dxdt1);
   }
 
-  template <class Stepper> void accept(Stepper& stepper, const Verdict& verdict, const T& h) {
+  template <class Stepper> void accept(Stepper& stepper, const StepVerdict& verdict, const T& h) {
     stepper.accepted(verdict, static_cast<double>(h));
     t = t + h;
     std::swap(x, x1);

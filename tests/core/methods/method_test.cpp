@@ -47,7 +47,7 @@ template <class Stepper> struct UnderWay {
 
   /// Makes one trial step. @return whether it was accepted
   bool go_on(Stepper& with, double& step) {
-    const Verdict verdict = at.attempt(with, wing.system, step);
+    const StepVerdict verdict = at.attempt(with, wing.system, step);
     if (verdict.accepted())
       at.accept(with, verdict, step);
     else
@@ -84,7 +84,7 @@ TEST_CASE("a number that is none, at any evaluation of a step, rejects that step
           run.at = start;
           auto poisoned = run.stepper;
           Faulty faulty{run.wing.system, what, k};
-          const Verdict verdict = run.at.attempt(poisoned, faulty, run.h);
+          const StepVerdict verdict = run.at.attempt(poisoned, faulty, run.h);
           REQUIRE(faulty.left < 0);
           REQUIRE_FALSE(verdict.accepted());
           poisoned.rejected();

@@ -64,7 +64,7 @@ Series steps(Stepper& stepper, TestWing<T>& wing, const std::vector<State<Quad>>
   for (int k = 0; k < halvings; ++k, h /= 2) {
     Stepping<T> at(wing.system, wing.start);
     stepper.restart(tolerance);
-    const Verdict verdict = at.attempt(stepper, wing.system, T(h));
+    const StepVerdict verdict = at.attempt(stepper, wing.system, T(h));
     const State<Quad> got(at.x1.begin(), at.x1.end());
     series.errors.push_back(static_cast<double>(apart(got, exact[k])));
     series.estimates.push_back(verdict.error * tolerance.atol);

@@ -48,7 +48,7 @@ double error_of_fitted_step(std::uint64_t seed, const Scene& scene, From from, d
   Adaptive<double, TaylorSeries<double>> series;
   series.restart({tolerance, tolerance});
   Stepping<double> at(wing.system, wing.start);
-  const Verdict verdict = at.attempt(series, wing.system, 1e3);
+  const StepVerdict verdict = at.attempt(series, wing.system, 1e3);
   CHECK(verdict.accepted());
   CHECK(verdict.factor > 1);
   CHECK(verdict.error > 1e-4); // no shorter than need be: 1/32, less where rates grow in it

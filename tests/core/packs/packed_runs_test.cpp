@@ -164,7 +164,7 @@ TEST_CASE("overtravel that is not asked for is not searched, and nothing else ch
       watched.overtravel.clear();
       CHECK((oracle::bits_of(watched) == oracle::bits_of(unwatched)));
     }
-  const auto looks = [](const Goal& goal) {
+  const auto returns = [](const Goal& goal) {
     const std::vector<Scene> scenes = units(oracle::seed_scene(), 64);
     long next = 0;
     Integration how;
@@ -179,13 +179,13 @@ TEST_CASE("overtravel that is not asked for is not searched, and nothing else ch
               return next++;
             },
             [](long, Outcome&&) {})
-        .looks;
+        .returns;
   };
   if (instruction_sets().size() == 1) return; // no lanes
-  CHECK(looks(first_latch) <= 2 * 64 + 8);    // the step that holds the latch, and the landing
+  CHECK(returns(first_latch) <= 2 * 64 + 8);  // the step that holds the latch, and the landing
   Goal watched = first_latch;
   watched.overtravel = true;
-  CHECK(looks(watched) > looks(first_latch) + 16);
+  CHECK(returns(watched) > returns(first_latch) + 16);
 }
 
 TEST_CASE("the time of runs in packs is counted by where it goes") {

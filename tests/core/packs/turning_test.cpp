@@ -155,7 +155,7 @@ TEST_CASE("runs are asked where a hinge turns, and not at every step that begins
         },
         [](long, Outcome&&) {});
     CAPTURE(to_string(set));
-    CHECK(lanes.looks <
+    CHECK(lanes.returns <
           150 * std::ssize(scenes)); // 171 a run where every step that begins at rest asks
   }
 }

@@ -33,7 +33,7 @@ template <BaseMotion M> struct Latched {
   void bear(const State<double>& x) {
     for (int i = 1; i < static_cast<int>(wing.real.size()); ++i)
       if (wing.real[i].dissipation.present)
-        system.pass(i, Edge::backlash_high, x[at.angle(i)] > wing.hinges[i].latched);
+        system.note_crossing(i, Edge::backlash_high, x[at.angle(i)] > wing.hinges[i].latched);
   }
 
   /// @param rates rates about which dampers are linearized @return whether all modes decay

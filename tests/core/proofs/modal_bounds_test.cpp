@@ -371,8 +371,8 @@ TEST_CASE("a damper with a window damps a rest inside, on whichever side the hin
     Latched<BaseMotion::fixed> wing(scene);
     for (const bool above_low : {false, true})
       for (const bool above_high : {false, true}) {
-        wing.system.pass(1, Edge::window_low, above_low);
-        wing.system.pass(1, Edge::window_high, above_high);
+        wing.system.note_crossing(1, Edge::window_low, above_low);
+        wing.system.note_crossing(1, Edge::window_high, above_high);
         CAPTURE(low, high, above_low, above_high);
         REQUIRE(wing.tune(&wing.still[wing.at.rate(1)]));
         CHECK(wing.model.angles(0) == Approx(rest));

@@ -33,7 +33,7 @@ Refused run_refusing_probes(const Integration& how) {
   for (run.begin(); !run.ended();) {
     LaneResult place = run.empty_lane_result();
     if (&place.x1 == &place.step.x1) {
-      run.go();
+      run.make_step();
       continue;
     }
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
