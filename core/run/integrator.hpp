@@ -2,7 +2,7 @@
 ///
 /// | where is …                           | file                                                        |
 /// |--------------------------------------|-------------------------------------------------------------|
-/// | the loop                             | `run` and `make_step` below: request a step, make it, judge it     |
+/// | the loop                             | `run`, `make_step` below: request a step, make it, judge it |
 /// | the next step's size and method      | stepping.hpp                                                |
 /// | a step that ends at an event         | landing.hpp                                                 |
 /// | the instant at which a latch engages | `finish_step` below: apply_events; events/latches.hpp       |
