@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/mechanics/edges.hpp"
-#include "core/mechanics/wing.hpp"
+#include "core/mechanics/layout.hpp"
 #include "core/mechanics/workspace.hpp"
 
 #include <optional>
