@@ -63,7 +63,7 @@ std::vector<Eigenvalue> LinearWing::eigenvalues(const State<double>& x) {
   for (int c = 0; c < m; ++c) {
     linear.solve(
         system_, [&](int i) { return i == held[c] ? 1.0 : 0.0; }, column.data());
-    const auto hinge = resistance(system_, x, held[c]);
+    const auto hinge = resistance(system_, x, 0.0, held[c]);
     for (int r = 0; r < m; ++r) {
       A(m + r, c) = -column[held[r] - 1] * hinge.stiffness;
       A(m + r, m + c) = -column[held[r] - 1] * hinge.damping;

@@ -20,7 +20,7 @@ TEST_CASE("a smoothed latch resists as far as it has engaged") {
   State<double> x(system.layout().size(), 0.0);
   for (const auto& [state, share] : {std::pair{0.0, 0.0}, {epsilon / 2, 0.5}, {epsilon, 1.0}}) {
     x[system.layout().latch(1)] = state;
-    const Resistance<double> found = resistance(system, x, 1);
+    const Resistance<double> found = resistance(system, x, 0.0, 1);
     CHECK(found.stiffness == Approx(1000 * share));
     CHECK(found.damping == Approx(3 + 10 * share));
   }

@@ -53,7 +53,7 @@ template <BaseMotion M> double share_of_bound(const Scene& scene, Draws& draws) 
   for (int i = 1; i <= n; ++i) {
     solve.solve(
         system, [&](int k) { return k == i ? 1.0 : 0.0; }, column.data());
-    const Resistance<double> hinge = resistance(system, x, i);
+    const Resistance<double> hinge = resistance(system, x, 0.0, i);
     for (int k = 0; k < n; ++k) {
       model(n + k, i - 1) = -column[base + k] * hinge.stiffness;
       model(n + k, n + i - 1) = -column[base + k] * hinge.damping;
