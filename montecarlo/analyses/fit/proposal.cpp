@@ -62,9 +62,17 @@ public:
     if (z_.size() < PolynomialMap::terms(d, 2)) return part_; // numbers are missing near the mode
     part_.bend.emplace(z_, xi_, 2);
     const std::size_t terms = PolynomialMap::terms(d, 3);
-    if (acceptance_of(draws(trials)) >= good_acceptance || terms > most_terms) return part_;
+    const std::vector<FitPoint> first = draws(trials);
+    if (first.size() < trials / 2) { // a map that folds near the mode
+      part_.bend.reset();
+      return part_;
+    }
+    if (acceptance_of(first) >= good_acceptance || terms > most_terms) return part_;
     (void)add(draws(static_cast<std::size_t>(runs_of_a_term * static_cast<double>(terms))));
-    if (z_.size() > 2 * terms) part_.bend.emplace(z_, xi_, 3);
+    if (z_.size() <= 2 * terms) return part_;
+    const PolynomialMap quadratic = *part_.bend;
+    part_.bend.emplace(z_, xi_, 3);
+    if (draws(trials).size() < trials / 2) part_.bend = quadratic;
     return part_;
   }
 

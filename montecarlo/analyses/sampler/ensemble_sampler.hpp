@@ -37,7 +37,7 @@ public:
     double log_weight = 0;
     Eigen::VectorXd center;
     Eigen::MatrixXd covariance;        ///< L Lᵀ, positive definite
-    std::optional<PolynomialMap> bend; ///< G; nothing: ξ = z
+    std::optional<PolynomialMap> bend{}; ///< G; nothing: ξ = z
   };
   explicit StudentMixture(const std::vector<Part>& parts);
 

@@ -1,6 +1,7 @@
 #include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include <cmath>
