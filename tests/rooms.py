@@ -22,7 +22,7 @@ WINGS = {
     "montecarlo/model": ["scene_file", "static_margins", "campaign", "input_checks", "schema starter"],
     "montecarlo/engine": ["runs", "mpi accuracy"],
     "montecarlo/results": ["summary", "results_folder", "checkpoint streaming export"],
-    "montecarlo/analyses": ["run margin sensitivity rare fit"],
+    "montecarlo/analyses": ["sampler", "run margin sensitivity rare fit"],
     "montecarlo/report": ["data", "kernel", "text page drawing"],
     "montecarlo/interfaces": ["library", "python package terminal", "commands"],
     "montecarlo": ["main mpi_main"],

@@ -3,6 +3,7 @@
 #include "distributions/prepared_distribution.hpp"
 #include "distributions/random_stream.hpp"
 #include "montecarlo/analyses/fit/fit_campaign.hpp"
+#include "montecarlo/analyses/fit/proposal.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 #include "montecarlo/results/results_folder/stamp.hpp"
 
@@ -15,7 +16,8 @@
 namespace wingspread {
 namespace {
 
-constexpr std::size_t least_walkers = 48; // enough for two threads and eight lanes
+constexpr std::size_t least_walkers = 32; // each half fills two threads of eight lanes
+constexpr double independent_moves = 0.8;
 constexpr long runs_of_a_sample = 100;
 constexpr std::size_t predicted_rows = 400; // for bands and p-values
 constexpr int temperings = 2;               // the mode moves little when the likelihood is tempered
@@ -98,14 +100,6 @@ Eigen::MatrixXd covariance_of(const std::vector<FitPoint>& points) {
   return sum / static_cast<double>(points.size() - 1);
 }
 
-StudentMixture proposal_of(const std::vector<FitMode>& modes) {
-  std::vector<StudentMixture::Part> parts;
-  for (const FitMode& mode : modes)
-    parts.push_back({mode.log_posterior + 0.5 * std::log(mode.covariance.determinant()), mode.at,
-                     mode.covariance});
-  return StudentMixture(parts);
-}
-
 std::string name_of(const FitTest& test, const Channel& channel) {
   return channel.column ? test.columns[*channel.column].name : test.values[channel.value].name;
 }
@@ -127,6 +121,10 @@ public:
     result_.space = space_.list();
     result_.common = space_.common();
     result_.runs = runs_.runs();
+    std::vector<std::size_t> written;
+    for (std::size_t k = 0; k < space_.common(); ++k)
+      written.push_back(space_.list()[k].dispersion);
+    result_.lost_laws = lost_laws(campaign_, written);
     return std::move(result_);
   }
 
@@ -162,8 +160,10 @@ private:
     const EnsembleOptions how{.walkers = walkers_for(space_.size()),
                               .seed = campaign_.sampling.seed,
                               .ess = static_cast<double>(spec_.samples),
-                              .most_evaluations = most};
-    const Ensemble ensemble = run_ensemble(density, proposal_of(modes_), how, told);
+                              .most_evaluations = most,
+                              .independent = independent_moves};
+    const StudentMixture proposal = proposal_about(modes_, data_, runs_, campaign_.sampling.seed);
+    const Ensemble ensemble = run_ensemble(density, proposal, how, told);
     result_.finished = ensemble.finished;
     result_.sampler = ensemble.state;
     points_ = points_of(ensemble);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "montecarlo/analyses/fit/batch_log.hpp"
-#include "montecarlo/analyses/fit/ensemble_sampler.hpp"
 #include "montecarlo/analyses/fit/identifiability.hpp"
+#include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
 
 #include <atomic>
 #include <functional>
@@ -66,6 +66,7 @@ struct FitResult {
   std::vector<std::vector<double>> rows; ///< posterior.csv: common parameters
   std::vector<CandidateGain> candidates;
   std::vector<PredictedOutput> prediction;
+  std::vector<std::string> lost_laws; ///< of cases, for fitted dispersions; see lost_laws()
 };
 
 /// @param log recorded batches of the sampler; may be null

@@ -118,6 +118,10 @@ std::vector<std::string> fit_findings(const FitResult& result, const FitSpec& sp
                                  fitted.name, spec.tests[fitted.channel.test].name,
                                  fitted.channel.count, fitted.channel.effective));
   }
+  for (const std::string& law : result.lost_laws)
+    list.push_back("the law of this case is not in the written campaign, which draws the posterior "
+                   "in every case: " +
+                   law);
   return list;
 }
 

@@ -114,10 +114,11 @@ double autocorrelation_time(std::span<const double> values) {
     return sum;
   };
   const double variance = covariance(0);
+  const double noise = 2 * std::sqrt(2 / static_cast<double>(n)); // two standard errors
   double pairs = 0, last = std::numeric_limits<double>::infinity();
   for (std::size_t lag = 0; lag + 1 < n / 2; lag += 2) {
     const double pair = (covariance(lag) + covariance(lag + 1)) / variance;
-    if (!(pair > 0)) break;
+    if (!(pair > (lag == 0 ? 1 + noise : noise))) break; // ρ_0 = 1
     pairs += last = std::min(last, pair);
   }
   return std::max(1.0, 2 * pairs - 1);

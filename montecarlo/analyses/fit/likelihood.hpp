@@ -44,8 +44,8 @@ struct ChannelFit {
 [[nodiscard]] std::size_t least_squares_size(const FitData& data, std::size_t parameters);
 
 /// τ = 1 + 2 Σ ρ_k of a sequence: the number of residuals with the information of one independent residual. The sum ends
-/// before the first pair ρ_2k + ρ_2k+1 below zero, and the pairs must not rise (C. J. Geyer, Statist. Sci. 7 (1992)
-/// 473–483). At least 1.
+/// before the first pair ρ_2k + ρ_2k+1 below its noise, 2 √(2/n), and the pairs must not rise (C. J. Geyer, Statist. Sci. 7
+/// (1992) 473–483; with zero in place of the noise 106 independent residuals count as 94). At least 1.
 [[nodiscard]] double autocorrelation_time(std::span<const double> values);
 
 /// Sets `effective` of each correlated channel with more than one number from its residuals' autocorrelation.

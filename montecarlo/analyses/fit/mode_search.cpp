@@ -33,34 +33,6 @@ std::vector<Prediction> predictions_around(TestRuns& runs, const FitPoint& at) {
   return runs.predict(points, RunAccuracy::derivative);
 }
 
-std::vector<double> squares_of(const FitData& data, const Prediction& prediction) {
-  std::vector<double> squares;
-  for (const Channel& channel : data.channels) {
-    const double sum = fit_of(data, channel, prediction).sum_of_squares;
-    squares.push_back(std::isfinite(sum) ? std::max(sum, std::numeric_limits<double>::min()) : 1);
-  }
-  return squares;
-}
-
-/// Derivative of least_squares with fixed weights.
-Eigen::MatrixXd derivative(const FitData& data, std::span<const double> squares, TestRuns& runs,
-                           const FitPoint& at) {
-  const std::vector<Prediction> around = predictions_around(runs, at);
-  Eigen::MatrixXd matrix(
-      static_cast<Eigen::Index>(least_squares_size(data, static_cast<std::size_t>(at.size()))),
-      at.size());
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
-    const double h = step_of(at[i]);
-    FitPoint above = at, below = at;
-    above[i] += h, below[i] -= h;
-    const auto k = static_cast<std::size_t>(2 * i);
-    matrix.col(i) = (least_squares(data, squares, above, around[k]) -
-                     least_squares(data, squares, below, around[k + 1])) /
-                    (above[i] - below[i]);
-  }
-  return matrix;
-}
-
 /// The functions that Eigen's LevenbergMarquardt asks for.
 struct Problem {
   const FitData& data;
@@ -76,7 +48,7 @@ struct Problem {
     return 0;
   }
   int df(const Eigen::VectorXd& at, Eigen::MatrixXd& matrix) const {
-    matrix = derivative(data, squares, runs, at);
+    matrix = least_squares_jacobian(data, squares, runs, at);
     return 0;
   }
   Eigen::Index inputs_;
@@ -107,6 +79,33 @@ FitMode end_of(const FitData& data, TestRuns& runs, FitPoint at) {
 
 } // namespace
 
+std::vector<double> squares_of(const FitData& data, const Prediction& prediction) {
+  std::vector<double> squares;
+  for (const Channel& channel : data.channels) {
+    const double sum = fit_of(data, channel, prediction).sum_of_squares;
+    squares.push_back(std::isfinite(sum) ? std::max(sum, std::numeric_limits<double>::min()) : 1);
+  }
+  return squares;
+}
+
+Eigen::MatrixXd least_squares_jacobian(const FitData& data, std::span<const double> squares,
+                                       TestRuns& runs, const FitPoint& at) {
+  const std::vector<Prediction> around = predictions_around(runs, at);
+  Eigen::MatrixXd matrix(
+      static_cast<Eigen::Index>(least_squares_size(data, static_cast<std::size_t>(at.size()))),
+      at.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const double h = step_of(at[i]);
+    FitPoint above = at, below = at;
+    above[i] += h, below[i] -= h;
+    const auto k = static_cast<std::size_t>(2 * i);
+    matrix.col(i) = (least_squares(data, squares, above, around[k]) -
+                     least_squares(data, squares, below, around[k + 1])) /
+                    (above[i] - below[i]);
+  }
+  return matrix;
+}
+
 Eigen::MatrixXd jacobian_of(TestRuns& runs, const FitPoint& at) {
   const std::vector<Prediction> around = predictions_around(runs, at);
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(runs.numbers()), at.size());
@@ -121,7 +120,7 @@ Eigen::MatrixXd jacobian_of(TestRuns& runs, const FitPoint& at) {
 
 Eigen::MatrixXd laplace_covariance(const FitData& data, TestRuns& runs, const FitPoint& at,
                                    const Prediction& prediction) {
-  const Eigen::MatrixXd v = derivative(data, squares_of(data, prediction), runs, at);
+  const Eigen::MatrixXd v = least_squares_jacobian(data, squares_of(data, prediction), runs, at);
   const Eigen::MatrixXd curvature = v.transpose() * v;
   return curvature.llt().solve(Eigen::MatrixXd::Identity(at.size(), at.size()));
 }

@@ -23,6 +23,14 @@ struct FitMode {
 /// Derivatives of all predictions in u: a row a number. Missing numbers have the derivative 0.
 [[nodiscard]] Eigen::MatrixXd jacobian_of(TestRuns& runs, const FitPoint& at);
 
+/// Σ (r − b̂)² of each channel, as least_squares() wants it.
+[[nodiscard]] std::vector<double> squares_of(const FitData& data, const Prediction& prediction);
+
+/// Derivative of least_squares() with fixed squares.
+[[nodiscard]] Eigen::MatrixXd least_squares_jacobian(const FitData& data,
+                                                     std::span<const double> squares,
+                                                     TestRuns& runs, const FitPoint& at);
+
 /// Laplace's covariance at a point. @param data with the tempering in force
 [[nodiscard]] Eigen::MatrixXd laplace_covariance(const FitData& data, TestRuns& runs,
                                                  const FitPoint& at, const Prediction& prediction);

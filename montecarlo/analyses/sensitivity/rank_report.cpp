@@ -48,7 +48,7 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
                               {"entangled", output.entangled},
                               {"dispersions", effects}};
   }
-  return {
+  Json json{
       {stamp_key, about},
       {"method", "rank correlation"},
       {"runs", all.runs},
@@ -66,6 +66,8 @@ Json sensitivity_json(const RankSensitivity& all, const Json& about) {
       {"do_not_vary", all.unvaried},
       {"moves_nothing", all.idle},
       {"follow_from_others", all.collinear}};
+  if (!all.rows.empty()) json["rows"] = all.rows;
+  return json;
 }
 
 std::string sensitivity_csv(const RankSensitivity& all) {
@@ -130,6 +132,13 @@ std::vector<std::string> warnings(const RankSensitivity& all) {
     list.push_back(fmt::format("no visible effect of {} on any output in {} runs (an effect that "
                                "first increases and then decreases shows in Sobol' indices only)",
                                quoted(all.idle), all.runs));
+  for (const auto& [name, columns] : all.rows)
+    if (columns.size() > 1)
+      list.push_back(
+          fmt::format("{} are drawn together, as rows of \"{}\": Spearman's coefficient of "
+                      "one has the effects of the others in it; Sobol' indices are of "
+                      "\"{}\" as a whole",
+                      quoted(columns), name, name));
   if (all.replicates == 1) list.emplace_back(one_replicate);
   if (!all.collinear.empty())
     list.push_back(fmt::format("the draws of {} depend on those of others: their joint effect "

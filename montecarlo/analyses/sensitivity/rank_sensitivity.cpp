@@ -336,6 +336,7 @@ RankSensitivity rank_sensitivity(const Results& results, double confidence, cons
   all.confidence = confidence;
   all.interim = made.interim;
   all.replicates = made.replication.replicates;
+  all.rows = made.rows;
   std::vector<const Column*> drawn, outputs;
   for (const Column& draw : results.draws) drawn.push_back(&draw);
   for (const Column& output : results.outputs) outputs.push_back(&output);

@@ -7,6 +7,7 @@
 #include "montecarlo/foundation/statistics/rank_correlation.hpp"
 #include "montecarlo/results/summary/replication.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -45,12 +46,15 @@ struct RankSensitivity {
   std::vector<std::string> idle;
   /// Dispersions whose ranks are explained by those of the others (R² ≥ 0.5). Partial coefficients omit their joint effect.
   std::vector<std::string> collinear;
+  std::map<std::string, std::vector<std::string>> rows; ///< as in RunsMade
 };
 
 /// How the runs were made, as far as the bounds depend on it.
 struct RunsMade {
   Replication replication{};
   InterimAnalyses interim{};
+  /// Columns of each `rows`: they take the same row of a file, so the file decides how they depend on each other.
+  std::map<std::string, std::vector<std::string>> rows{};
 };
 
 /// The coefficients of all outputs with all dispersions. Pure.

@@ -75,8 +75,10 @@ int analyze_ranks(const SensitivityOptions& options) {
   Stamp stamp = stored.stamp;
   stamp.shard.reset();
   warn_of_preview(stored);
-  const RunsMade made{replication_of(stored.campaign.sampling, results),
-                      interim_analyses(stored.campaign)};
+  RunsMade made{replication_of(stored.campaign.sampling, results),
+                interim_analyses(stored.campaign)};
+  for (const Dispersion& each : stored.campaign.dispersions)
+    if (!each.rows.empty()) made.rows[each.rows].push_back(each.name);
   show_analysis(rank_sensitivity(results, confidence, made), stamp_json(stamp),
                 fmt::format("{} · {} · rank correlations", stored.campaign.scene.name,
                             counted(static_cast<long>(results.size()), "run", "runs")),

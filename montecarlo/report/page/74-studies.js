@@ -245,7 +245,10 @@
       if (!found.has("static") && set.static_margins && (set.static_margins.hinges || []).length)
         add("static", "Static margins", set, staticMargins(set.static_margins));
       if (set.rare) add("rare", "Rare events", set, rareEvent(set.rare));
-      if (set.fit) add("fit", "Fit to tests", set, W.fitParts(set.fit));
+      if (set.fit) {
+        add("fit", "Fit to tests", set, W.fitParts(set.fit));
+        parts[parts.length - 1].classList.add("across");
+      }
     }
     const names = {
       margin: "the margin window (wingspread margin)",

@@ -66,7 +66,7 @@
         M.trace(svg, M.line(x, y)(one.t.map((t, at) => [t, fitted[at]])), 0);
         const below = { left: box.left, right: box.right, top: box.bottom + 50, bottom: box.bottom + 140 },
           r = M.linear([0, ...residuals], [below.bottom, below.top]);
-        M.axes(svg, below, x, r, { xText: "time (s)", yText: `measured - fitted (${unit})`, yTicks: 4 });
+        M.axes(svg, below, x, r, { xText: "time (s)", yText: `measured − fitted (${unit})`, yTicks: 4 });
         points(svg, residuals, r);
         return below.bottom + 40;
       },
@@ -180,7 +180,8 @@
     `${F.number(middle, 5)} (${F.number(low, 5)} … ${F.number(high, 5)})`;
 
   function tables(fit) {
-    const outputs = Object.entries(fit.prediction);
+    const varies = ([low, , high]) => low !== high;
+    const outputs = Object.entries(fit.prediction).filter(([, one]) => varies(one.before) || varies(one.after));
     return [
       fit.values.length
         ? W.table(
@@ -221,10 +222,16 @@
   W.fitParts = function (fit) {
     return [
       ...fit.findings.map((text) => h("p", h("b", text))),
-      fit.parameters.length ? priorAndPosterior(fit.parameters) : null,
-      ...fit.unseen.map((one) => h("p", one.text)),
-      ...fit.traces.map(trace),
-      fit.samples ? pairs(fit.samples) : null,
+      h(
+        "div.grid.pairs",
+        h(
+          "div",
+          fit.parameters.length ? priorAndPosterior(fit.parameters) : null,
+          fit.unseen.map((one) => h("p", one.text)),
+        ),
+        fit.samples ? pairs(fit.samples) : null,
+        fit.traces.map(trace),
+      ),
       ...tables(fit),
     ];
   };

@@ -202,6 +202,21 @@ TEST_CASE("chains that are not finished are no result") {
   CHECK(fit_json(result, wants, Json::object())["finished"] == false);
 }
 
+TEST_CASE("the findings name the laws of cases that the written campaign does not have") {
+  const Folder folder;
+  folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));
+  Json json = panel_campaign();
+  json["cases"] = parse_json(R"([ { "name": "cold", "distributions": {
+    "friction": { "type": "normal", "mean": 2, "std": 0.3 } } } ])");
+  const Campaign campaign = campaign_of(json);
+  Json tests = parse_json(one_way);
+  tests["fit"]["samples"] = 100;
+  const FitSpec spec = read_fit(tests, "", folder.path(), campaign);
+  const FitResult result = fitted(campaign, spec);
+  REQUIRE_FALSE(fit_findings(result, spec).empty());
+  CHECK(fit_findings(result, spec).back().ends_with("in every case: cold: friction"));
+}
+
 TEST_CASE("threads and lanes do not change a bit") {
   const Folder folder;
   folder.write("t1.csv", panel_trace(1.02, 1.1, 0, 0.005, 1));

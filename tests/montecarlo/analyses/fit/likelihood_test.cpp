@@ -87,6 +87,10 @@ TEST_CASE("the autocorrelation of residuals tempers the likelihood") {
   CHECK(autocorrelation_time(white) == Approx(1).margin(0.05));
   CHECK(autocorrelation_time(red) == Approx(9).epsilon(0.15)); // (1 + 0.8)/(1 − 0.8)
   CHECK(autocorrelation_time(std::vector<double>(10, 3)) == 1);
+  int counted_less = 0; // short traces of independent residuals
+  for (std::size_t k = 0; k < 100; ++k)
+    counted_less += autocorrelation_time(std::span(white).subspan(100 * k, 100)) > 1.01;
+  CHECK(counted_less <= 8); // beyond two standard errors: 2.3 % of them
   std::vector<FitTest> tests(1);
   FitData data{red, {{.count = red.size(), .std = 1, .effective = 20000}}};
   const Prediction zeros(red.size(), 0);

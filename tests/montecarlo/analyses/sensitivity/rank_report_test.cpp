@@ -74,6 +74,16 @@ TEST_CASE("what a dispersion does with others is not hidden by what it does by i
   CHECK_THAT(said[0], Catch::Contains("\"together\"") && Catch::Contains("partial"));
 }
 
+TEST_CASE("columns of one rows are told as such") {
+  RankSensitivity all;
+  CHECK_FALSE(sensitivity_json(all, {}).contains("rows"));
+  all.rows = {{"alone", {"mass"}}, {"fitted", {"spring", "friction"}}};
+  CHECK(sensitivity_json(all, {})["rows"]["fitted"] == Json::array({"spring", "friction"}));
+  const auto said = warnings(all);
+  REQUIRE(said.size() == 1);
+  CHECK_THAT(said[0], Catch::Contains("drawn together, as rows of \"fitted\""));
+}
+
 TEST_CASE("the report says what its bounds are") {
   const auto definition = [](int replicates, long looks) {
     RankSensitivity all;

@@ -1,6 +1,7 @@
-#include "montecarlo/analyses/fit/ensemble_sampler.hpp"
+#include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
 #include "montecarlo/foundation/statistics/statistics.hpp"
 
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -119,4 +120,33 @@ TEST_CASE("too few evaluations: not finished") {
       target, proposal, {.walkers = 48, .ess = 1e6, .most_evaluations = 20000}, nothing);
   CHECK_FALSE(ensemble.finished);
   CHECK(ensemble.state.evaluations <= 20000);
+}
+
+TEST_CASE("a bent proposal makes short chains where a posterior bends by more than its thickness") {
+  // x₀ ~ N(0, 1), x₁ ~ N(3 (x₀² − 1), 0.1²).
+  const auto target = [](std::span<const Eigen::VectorXd> points) {
+    std::vector<double> logs;
+    for (const Eigen::VectorXd& x : points)
+      logs.push_back(-0.5 * x[0] * x[0] - 50 * std::pow(x[1] - 3 * (x[0] * x[0] - 1), 2));
+    return logs;
+  };
+  std::vector<Eigen::VectorXd> z, xi; // ξ₁ = (x₁ − 3 (x₀² − 1))/0.1
+  for (const double a : {-1.0, 0.0, 1.0})
+    for (const double b : {-1.0, 0.0, 1.0}) {
+      z.push_back(Eigen::Vector2d{a, b});
+      xi.push_back(Eigen::Vector2d{a, b - 30 * (a * a - 1)});
+    }
+  const Eigen::MatrixXd covariance = Eigen::Vector2d{1, 0.01}.asDiagonal();
+  const Eigen::VectorXd center = Eigen::Vector2d::Zero();
+  const StudentMixture bent({{0, center, covariance, PolynomialMap(z, xi, 2)}});
+  const EnsembleOptions options{
+      .walkers = 32, .ess = 4000, .most_evaluations = 100000, .independent = 0.8};
+  const Ensemble ensemble = run_ensemble(target, bent, options, nothing);
+  REQUIRE(ensemble.finished);
+  CHECK(ensemble.state.evaluations < 12000);
+  const Moments across = moments(coordinate(ensemble, 1));
+  CHECK(across.mean == Approx(0).margin(4.5 * std::sqrt(18.0 / 4000)));
+  CHECK(across.std == Approx(std::sqrt(18.01)).epsilon(0.15)); // kurtosis 15
+  const StudentMixture straight({{0, center, covariance}});
+  CHECK_FALSE(run_ensemble(target, straight, options, nothing).finished);
 }

@@ -1,4 +1,4 @@
-#include "montecarlo/analyses/fit/ensemble_sampler.hpp"
+#include "montecarlo/analyses/sampler/ensemble_sampler.hpp"
 
 #include "distributions/continuous_law.hpp"
 #include "distributions/random_stream.hpp"
@@ -13,11 +13,14 @@
 namespace wingspread {
 namespace {
 
-constexpr double degrees = 5;      // of the proposal: tails heavier than a normal posterior's
 constexpr double stretch = 2;      // a of (1), Goodman and Weare's
 constexpr long first_check = 64;   // steps before the first diagnosis
 constexpr double next_check = 1.3; // growth between diagnoses
 constexpr double discarded = 0.25; // share of the steps at the start
+
+/// Degrees of freedom of the proposal: tails heavier than a normal posterior's. A Student law of fixed degrees loses more and
+/// more moves as d grows: of a normal target's, 5 degrees accept 84 % for d = 3, 67 % for d = 9; 2 d accept 87 % there.
+int degrees_for(Eigen::Index d) { return std::max(5, 2 * static_cast<int>(d)); }
 
 double normal_of(double u) { return inverse(Normal{}, tails_of_uniform(u)); }
 
@@ -27,7 +30,10 @@ public:
       : density_(density), proposal_(proposal), options_(options), chains_(options.walkers) {
     for (std::size_t k = 0; k < options.walkers; ++k) {
       RandomStream random = stream(k);
-      at_.push_back(proposal.draw([&] { return open_uniform(random()); }));
+      Eigen::VectorXd start;
+      do start = proposal.draw([&] { return open_uniform(random()); });
+      while (!start.allFinite());
+      at_.push_back(std::move(start));
     }
     log_ = evaluate(at_);
   }
@@ -94,6 +100,7 @@ private:
     const double toss = uniform();
     if (independent) {
       Eigen::VectorXd y = proposal_.draw(uniform);
+      if (!y.allFinite()) return {at_[k], 0, toss}; // stays
       const double factor = proposal_.log_density(at_[k]) - proposal_.log_density(y);
       return {std::move(y), factor, toss};
     }
@@ -145,6 +152,7 @@ StudentMixture::StudentMixture(const std::vector<Part>& parts) {
     prepared.share = std::exp(part.log_weight - largest) / sum;
     prepared.center = part.center;
     prepared.factor = part.covariance.llt().matrixL();
+    prepared.bend = part.bend;
     prepared.log_scale = prepared.factor.diagonal().array().log().sum();
   }
 }
@@ -156,8 +164,13 @@ Eigen::VectorXd StudentMixture::draw(const std::function<double()>& uniform) con
   Eigen::VectorXd normal(parts_[k].center.size());
   for (double& z : normal) z = normal_of(uniform());
   double square = 0;
-  for (int i = 0; i < static_cast<int>(degrees); ++i) square += std::pow(normal_of(uniform()), 2);
-  return parts_[k].center + parts_[k].factor * normal * std::sqrt(degrees / square);
+  const int degrees = degrees_for(normal.size());
+  for (int i = 0; i < degrees; ++i) square += std::pow(normal_of(uniform()), 2);
+  const Eigen::VectorXd xi = normal * std::sqrt(degrees / square);
+  if (!parts_[k].bend) return parts_[k].center + parts_[k].factor * xi;
+  const auto z = parts_[k].bend->inverse(xi);
+  if (!z) return Eigen::VectorXd::Constant(xi.size(), std::numeric_limits<double>::quiet_NaN());
+  return parts_[k].center + parts_[k].factor * *z;
 }
 
 double StudentMixture::log_density(const Eigen::VectorXd& at) const {
@@ -165,11 +178,15 @@ double StudentMixture::log_density(const Eigen::VectorXd& at) const {
   std::vector<double> logs;
   for (const Prepared& part : parts_) {
     const Eigen::VectorXd z = part.factor.triangularView<Eigen::Lower>().solve(at - part.center);
-    const double d = static_cast<double>(at.size());
-    logs.push_back(std::log(part.share) - part.log_scale -
-                   0.5 * (degrees + d) * std::log1p(z.squaredNorm() / degrees));
+    const auto stretched = part.bend ? part.bend->log_determinant(z) : 0;
+    if (!stretched) continue;
+    const Eigen::VectorXd xi = part.bend ? (*part.bend)(z) : z;
+    const double d = static_cast<double>(at.size()), degrees = degrees_for(at.size());
+    logs.push_back(std::log(part.share) - part.log_scale + *stretched -
+                   0.5 * (degrees + d) * std::log1p(xi.squaredNorm() / degrees));
     largest = std::max(largest, logs.back());
   }
+  if (logs.empty()) return largest;
   for (const double log : logs) sum += std::exp(log - largest);
   return largest + std::log(sum);
 }

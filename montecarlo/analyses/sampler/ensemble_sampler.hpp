@@ -16,6 +16,7 @@
 /// needs less than a third of the evaluations that (1) alone needs for an effective sample (ensemble_sampler_test.cpp).
 #pragma once
 
+#include "montecarlo/analyses/sampler/polynomial_map.hpp"
 #include "montecarlo/foundation/statistics/chain_diagnostics.hpp"
 
 #include <Eigen/Core>
@@ -29,19 +30,20 @@ namespace wingspread {
 /// log π of points, up to a constant; −∞ where π is 0.
 using LogDensity = std::function<std::vector<double>(std::span<const Eigen::VectorXd>)>;
 
-/// q: a mixture of multivariate Student laws with few degrees of freedom.
+/// q: a mixture of multivariate Student laws with few degrees of freedom, each of ξ = G(z), x = center + L z.
 class StudentMixture {
 public:
   struct Part {
     double log_weight = 0;
     Eigen::VectorXd center;
-    Eigen::MatrixXd covariance; ///< positive definite
+    Eigen::MatrixXd covariance;        ///< L Lᵀ, positive definite
+    std::optional<PolynomialMap> bend{}; ///< G; nothing: ξ = z
   };
   explicit StudentMixture(const std::vector<Part>& parts);
 
-  /// @param uniform source of uniform numbers in (0, 1)
+  /// NaN where ξ = G(z) has no solution. @param uniform source of uniform numbers in (0, 1)
   [[nodiscard]] Eigen::VectorXd draw(const std::function<double()>& uniform) const;
-  /// log q, up to a constant.
+  /// log q, up to a constant; −∞ where draw() never leads.
   [[nodiscard]] double log_density(const Eigen::VectorXd& at) const;
 
 private:
@@ -49,7 +51,8 @@ private:
     double share;
     double log_scale;
     Eigen::VectorXd center;
-    Eigen::MatrixXd factor; ///< lower triangular
+    Eigen::MatrixXd factor; ///< L, lower triangular
+    std::optional<PolynomialMap> bend;
   };
   std::vector<Prepared> parts_;
 };
