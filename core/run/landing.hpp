@@ -36,16 +36,14 @@ public:
 
   /// Cuts a refused step at its first kink that may be why. The end of a refused step is inaccurate, and with it the
   /// kink's instant: `correct_end` corrects it, as that of an event.
-  /// @return whether there is one; not where a step has just been cut at a kink at its start, in vain
+  /// @return whether there is one; none in the first thousandth of the step (heuristic): so far from its inaccurate end
+  /// the kink is not known, and to restart a hinge that has just let go before it has moved may stick it again
   [[nodiscard]] bool cut_at_kink(const KinkLimit& limit) {
     const auto found = KinkSearch<T, AnySystem>(run_.system, run_.step, limit).first();
-    if (!found) return false;
-    const bool at_start = found->s < T(1e-3);
-    if (at_start && run_.step.t == start_of_vain_) return false;
+    if (!found || found->s < T(1e-3)) return false;
     due_ = Due<T>{Event::kink, 0, found->s, T(0), Edge::stop, found->kink};
     of_refused_ = true;
     begin();
-    if (at_start) start_of_vain_ = run_.step.t + run_.step.h;
     return true;
   }
 
@@ -196,7 +194,6 @@ private:
   int corrections_ = 0;       ///< made to its instant
   T longest_ = T(0);          ///< the step in which it was found
   bool of_refused_ = false;   ///< it is a kink of a refused step
-  T start_of_vain_ = T(-1);   ///< end of a step cut at a kink at its start, s
 };
 
 } // namespace wingspread
