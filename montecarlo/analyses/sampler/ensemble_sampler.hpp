@@ -36,7 +36,7 @@ public:
   struct Part {
     double log_weight = 0;
     Eigen::VectorXd center;
-    Eigen::MatrixXd covariance;        ///< L Lᵀ, positive definite
+    Eigen::MatrixXd covariance;          ///< L Lᵀ, positive definite
     std::optional<PolynomialMap> bend{}; ///< G; nothing: ξ = z
   };
   explicit StudentMixture(const std::vector<Part>& parts);

@@ -1,10 +1,13 @@
 #include "montecarlo/engine/runs/runner.hpp"
+#include "montecarlo/model/scene_file/scene_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
+#include "tests/support/source_folder.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <bit>
 #include <cmath>
+#include <filesystem>
 
 using namespace wingspread;
 using namespace wingspread::test;
@@ -171,4 +174,17 @@ TEST_CASE("a campaign of wings that bend has moments and frequencies, alone as i
     frequencies.insert(alone.outputs[mode]);
   }
   CHECK(frequencies.size() > 2); // the spring is part of the stiffness
+}
+
+TEST_CASE("a yoke's hinges that creep on soft latches let go and stick a few times, not for ever") {
+  for (const double stiffness : {100.0, 200.0, 400.0, 800.0, 1600.0}) {
+    Scene scene =
+        read_scene_file(std::filesystem::path(source_folder) / "studies/scenes/yoke_wing.json");
+    for (Hinge& hinge : scene.hinges)
+      if (hinge.latch) hinge.latch->stiffness = stiffness;
+    const Outcome out = Deployment().run(scene, Integration{}, Goal{});
+    CAPTURE(stiffness, out.reason);
+    CHECK(out.status == Status::deployed);
+    CHECK(out.work.rhs_evaluations < 100'000);
+  }
 }
