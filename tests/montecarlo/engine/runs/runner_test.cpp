@@ -1,5 +1,5 @@
 #include "montecarlo/engine/runs/runner.hpp"
-#include "montecarlo/model/scene_file/scene_json.hpp"
+#include "montecarlo/model/campaign/campaign_json.hpp"
 #include "tests/montecarlo/campaign_support.hpp"
 #include "tests/support/source_folder.hpp"
 
