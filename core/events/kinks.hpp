@@ -12,10 +12,6 @@
 ///     Δφ̇ ≤ σ (jump τ + turn abs(u̇) τ²/2 + bend u̇² τ³/3),    σ ≥ (M⁻¹)_ii                           (1)
 ///
 /// (mobility_bound). Where (1) is below the tolerance of a step, the kink does not matter.
-///
-/// The estimates of the other methods refuse such a step, and halving finds the kink only after some ten refusals. So a
-/// step refused with a large error is cut at the first kink that may be why. Its stages lie anywhere in the step, so
-/// there τ in (1) is the whole step.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -28,17 +24,8 @@ namespace wingspread {
 /// Tolerance of a step, by which kinks matter.
 struct KinkLimit {
   double rtol, atol;
-  bool refused = false;     ///< whether the step was refused
   bool motors_only = false; ///< of methods that do not need smooth laws
 };
-
-/// Whether a trial step's error, in units of its tolerance, suggests a kink inside; for a pack: in which lanes. Heuristic:
-/// step control alone seldom errs by ten, which is a factor of 1.3 in the step of order 8. Less: more searches in vain.
-/// More: kinks found by more refusals.
-template <class T> [[nodiscard]] Truth<T> suggests_kink(const Wing<T>& wing, const T& error) {
-  if (!wing.is_real() && wing.loops.empty()) return Truth<T>{};
-  return error > T(10);
-}
 
 /// A function u of the state and its value b at a kink.
 template <class T> struct Kink {
@@ -277,7 +264,7 @@ private:
   [[nodiscard]] bool matters(const T& s, const T& speed, const KinkChange<T>& change) const {
     using std::abs;
     const int r = system_.layout().rate(change.hinge);
-    const T tau = limit_.refused ? step_.h : T(step_.h * smaller(s, T(T(1) - s)));
+    const T tau = step_.h * smaller(s, T(T(1) - s));
     const T way = speed * tau;
     const T impulse =
         tau * (change.jump + way * fused(T(0.5), change.turn, way * change.bend / T(3)));

@@ -67,10 +67,11 @@ inline constexpr int first_recheck = 10, longest_recheck = 80;
 /// evaluations took 29,000.
 inline constexpr int steps_to_try_anyway = 200;
 
-/// The first implicit step, in explicit ones. The error of extrapolation has a hump where a step lasts 1 to 10 time
-/// constants of a fast mode that has died out, and step control stays below it: on one wing at 1e-4 s for 1,200 steps,
-/// where 0.1 s would do. So the first step is tried beyond the hump. Heuristic: smaller, and it may lie on the hump;
-/// larger, and more trial steps are refused.
+/// The first implicit step of a wing at rest, in explicit ones. The error of extrapolation has a hump where a step lasts
+/// 1 to 10 time constants of a fast mode that has died out, and step control stays below it. Where nothing else moves
+/// the first step is tried beyond the hump. Heuristic: smaller, and it may lie on the hump; larger, and more trial steps
+/// are refused. A wing that moves begins with one explicit step: a long first step of low order can be wrong there by
+/// more than its estimate.
 inline constexpr double first_implicit_step = 30;
 
 /// Implicit steps that are not judged: extrapolation needs them to find its order and step.
@@ -190,7 +191,8 @@ public:
 
   /// The first trial step of the active method, s. @param h the step planned by the method before
   [[nodiscard]] double first_step(double h) const {
-    return active_ == explicit_ ? std::min(h, 0.5 * stable_step_) : choice::first_implicit_step * h;
+    if (active_ == explicit_) return std::min(h, 0.5 * stable_step_);
+    return is_still_ ? choice::first_implicit_step * h : h;
   }
 
   // ---- steps that a lane makes with the explicit method
@@ -235,6 +237,7 @@ private:
       return false;
     }
     explicit_speed_ = speed(held_back_.last_free, now);
+    is_still_ = quickness == 0;
     active_ = Method::seulex;
     before_ = now;
     tried_ = 0, loss_ = gain_ = 0;
@@ -258,6 +261,7 @@ private:
   }
 
   bool automatic_;
+  bool is_still_ = false;    ///< nothing moved where the implicit method was chosen
   bool measured_ = true;     ///< ρ is measured or unbounded; false: its bound stands in for it
   bool wants_first_ = false; ///< steps are held back by the bound: measure ρ
   Method explicit_ = Method::dopri5, active_ = Method::dopri5;

@@ -60,7 +60,12 @@ template <class T> using Truth = decltype(std::declval<T>() < T(0));
 /// Whether T is a single number and no pack.
 template <class T> inline constexpr bool is_one_number = std::is_same_v<Truth<T>, bool>;
 
+/// 2^(1 − digits): a library's number of many digits has no constant expression for it.
 template <class T>
-inline constexpr double epsilon_of = static_cast<double>(std::numeric_limits<T>::epsilon());
+inline constexpr double epsilon_of = [] {
+  double epsilon = 1;
+  for (int digit = 1; digit < std::numeric_limits<T>::digits; ++digit) epsilon /= 2;
+  return epsilon;
+}();
 
 } // namespace wingspread

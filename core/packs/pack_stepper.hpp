@@ -201,7 +201,6 @@ private:
     const Mask accepted_enough = history_.steps >= last_step_;
     Mask asks =
         busy && (tried_enough || near_limit || (accepted && (accepted_enough || may_leave)));
-    asks = asks || (busy && !judgement.accepted && suggests_kink(wing_, scaled_error_));
     asks_after_[0] = asks;
     asks = asks || (accepted && events_.lie_inside(system_, step_));
     if (!wing_.motors.empty()) asks = asks || (accepted && motors_may_pass_limit());

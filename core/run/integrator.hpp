@@ -243,7 +243,8 @@ private:
   }
 
   void judge_step(const StepVerdict& verdict) {
-    if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_))) return try_again(verdict);
+    if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_)))
+      return ask_for_step(stepping_.plan_again());
     stepping_.choose_next_size();
     if (searched_)
       landing_.expect_no_event();
@@ -253,28 +254,16 @@ private:
   }
 
   void judge_landing(const StepVerdict& verdict) {
-    if (!stepping_.count_trial(verdict)) return try_again(verdict);
-    if (landing_.holds_other_event(stepping_.kinks())) return ask_to_end(Stage::landing);
+    if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
     if (landing_.correct_end(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
     accept();
-  }
-
-  /// Tries a shorter step: to the kink that may be why the step was refused, or by step control. A step that was to end
-  /// at an event is not cut again: its kink may be the one at its end, and it would be as long as before.
-  void try_again(const StepVerdict& refused) {
-    const T h = run_.step.h;
-    if (asked_.stage == Stage::step && suggests_kink(run_.system.wing(), T(refused.error)) &&
-        landing_.cut_at_kink(stepping_.kinks_in_refused())) {
-      stepping_.count_cut(h);
-      return ask_to_end(Stage::landing);
-    }
-    ask_for_step(stepping_.plan_again());
   }
 
   /// Looks for the peaks of an accepted step.
   void accept() {
     if constexpr (M == BaseMotion::free)
       if (run_.system.wing().plates.empty()) restore_momentum(); // with plates the air takes some
+    if (landing_.at_jump()) peaks_.include_before_jump();
     confirm_peaks(peaks_.first_doubt(searched_));
   }
 

@@ -22,40 +22,13 @@ public:
   /// Cuts a step just accepted at the first event inside. @param kinks which kinks are events
   /// @return whether there is one: the step must then be made again, to the event
   [[nodiscard]] bool cut_at_event(const std::optional<KinkLimit>& kinks) {
-    of_refused_ = false;
     due_ = events_.first(run_.step, run_.x, run_.dxdt, kinks);
     if (due_) begin();
     return due_.has_value();
   }
 
   /// As cut_at_event where a lane has found that there is none.
-  void expect_no_event() {
-    of_refused_ = false;
-    due_.reset();
-  }
-
-  /// Cuts a refused step at its first kink that may be why. The end of a refused step is inaccurate, and with it the
-  /// kink's instant: `correct_end` corrects it, as that of an event.
-  /// @return whether there is one; none in the first thousandth of the step (heuristic): so far from its inaccurate end
-  /// the kink is not known, and to restart a hinge that has just let go before it has moved may stick it again
-  [[nodiscard]] bool cut_at_kink(const KinkLimit& limit) {
-    const auto found = KinkSearch<T, AnySystem>(run_.system, run_.step, limit).first();
-    if (!found || found->s < T(1e-3)) return false;
-    due_ = Due<T>{Event::kink, 0, found->s, T(0), Edge::stop, found->kink};
-    of_refused_ = true;
-    begin();
-    return true;
-  }
-
-  /// Whether an event other than the kink lies in a step that was cut because it was refused. The step then ends there,
-  /// and must be made again. @param kinks which kinks are events
-  [[nodiscard]] bool holds_other_event(const std::optional<KinkLimit>& kinks) {
-    if (!of_refused_) return false;
-    const std::optional<Due<T>> kink = due_;
-    if (cut_at_event(kinks)) return true;
-    due_ = kink, of_refused_ = true;
-    return false;
-  }
+  void expect_no_event() { due_.reset(); }
 
   /// Corrects the end of a cut step that was accepted: Newton's step to the event.
   /// @param rtol relative tolerance of the step, 0 where the method does not resolve accelerations
@@ -84,6 +57,11 @@ public:
 
   /// Whether the step under way ends at an event.
   [[nodiscard]] bool at_event() const { return due_.has_value(); }
+
+  /// Whether the moments jump there: a damped strand goes slack. (At other events they jump when the event is applied.)
+  [[nodiscard]] bool at_jump() const {
+    return due_ && due_->event == Event::kink && due_->kink.of == Kink<T>::Of::strands;
+  }
 
   /// Whether that event is a hinge with exact friction that comes to rest or lets go.
   [[nodiscard]] bool at_friction() const {
@@ -193,7 +171,6 @@ private:
   std::optional<Due<T>> due_; ///< the event that ends the step
   int corrections_ = 0;       ///< made to its instant
   T longest_ = T(0);          ///< the step in which it was found
-  bool of_refused_ = false;   ///< it is a kink of a refused step
 };
 
 } // namespace wingspread

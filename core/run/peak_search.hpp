@@ -80,6 +80,22 @@ public:
     if (run_.goal.peak_force) forces_.sample(run_.system, step.t);
   }
 
+  /// Takes the peaks next to the end of a step that ends just beyond a jump of the moments.
+  /// @pre, and afterwards: the last evaluation was at its end
+  void include_before_jump() {
+    using std::abs;
+    const Step<T>& step = run_.step;
+    const T s(1 - next_to_an_end), t = step.t + s * step.h;
+    run_.evaluate_at(s);
+    for (int i = 1; run_.goal.peak_moment && i <= run_.at.bodies; ++i)
+      moments_[i].raise(T(abs(run_.system.moment(run_.x, i))), t);
+    for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
+      if (run_.system.is_held(i) || run_.system.is_restrained(i))
+        holds_[i].raise(T(abs(load_of_hold(run_.x, i))), t);
+    if (run_.goal.peak_force) forces_.raise_only(run_.system, t);
+    run_.system(step.x1, run_.dxdt, step.t + step.h);
+  }
+
   /// Looks for the peaks of a step just accepted. @pre the last evaluation was at its end
   /// @param searched whether a lane has searched the step and written moments_may_rise
   /// @return the first doubt: the fraction of the step to which the method must make a step

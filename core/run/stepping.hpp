@@ -80,11 +80,7 @@ public:
   [[nodiscard]] std::optional<KinkLimit> kinks() const {
     const bool smooth = needs_smooth_laws(method());
     if (!smooth && run_.system.wing().motors.empty()) return std::nullopt;
-    return KinkLimit{tolerance().rtol, tolerance().atol, false, !smooth};
-  }
-  /// Which kinks may be why a step was refused.
-  [[nodiscard]] KinkLimit kinks_in_refused() const {
-    return {tolerance().rtol, tolerance().atol, true};
+    return KinkLimit{tolerance().rtol, tolerance().atol, !smooth};
   }
 
   // ---- a step: planned, made, judged
@@ -198,14 +194,6 @@ public:
   void choose_next_size() {
     const T next = run_.step.h * T(verdict_.factor);
     h_ = last_ && !(verdict_.factor < 1) ? larger(h_, next) : next;
-  }
-
-  /// Counts a rejection after which the step is cut at a kink.
-  /// @param h size of the refused step: of the step after that too
-  void count_cut(const T& h) {
-    ++rejected_;
-    h_ = h;
-    steppers_.with(method(), [](auto& stepper) { stepper.rejected(); });
   }
 
   /// Plans a shorter step after a rejection. @return why none is possible, if so

@@ -100,17 +100,3 @@ TEST_CASE("at kinks implicit methods and extrapolation keep the tolerance in eve
     }
   }
 }
-
-TEST_CASE("a step that an explicit method refuses is cut at the kink inside") {
-  long steps = 0, rejected = 0;
-  for (int seed = 0; seed < 10; ++seed) {
-    const Scene scene = kinked_wing(static_cast<std::uint64_t>(seed));
-    Integration how = within(1e-8, 4, 1e-2);
-    how.method = "dop853";
-    const Outcome out = Deployment().run(scene, how, Goal{.to_t_end = true});
-    REQUIRE(out.status != Status::failed);
-    steps += out.work.steps, rejected += out.work.rejected;
-  }
-  CAPTURE(steps, rejected);
-  CHECK(100 * rejected < 45 * steps); // 0.56 where halving has to find the kinks
-}
