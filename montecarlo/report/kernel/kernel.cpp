@@ -176,8 +176,8 @@ private:
   }
 
   /// status, t_end, peaks_final, number of latches, then (hinge, time, rates…) of each; then of each hinge peak moment and
-  /// its time, peak force, overtravel, hold moment and final angle, NaN where not asked for; then the base's peak angle and
-  /// rate; then of releases, passes too fast for the latch and latches that let go: their number, (hinge, time) of each.
+  /// its time, peak force, overtravel, hold moment, final angle and motor energy, NaN where not asked for; then the base's
+  /// peak angle and rate; then of releases, passes too fast for the latch and latches that let go: their number, (hinge, time) of each.
   void keep_result(const Outcome& outcome) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     result = {static_cast<double>(outcome.status), outcome.t_end,
@@ -196,6 +196,7 @@ private:
       result.push_back(h < outcome.overtravel.size() ? outcome.overtravel[h] : none);
       result.push_back(h < outcome.hold_moment.size() ? outcome.hold_moment[h].value : none);
       result.push_back(h < outcome.final_angle.size() ? outcome.final_angle[h] : none);
+      result.push_back(h < outcome.motor_energy.size() ? outcome.motor_energy[h] : none);
     }
     result.push_back(outcome.base_peaks ? outcome.base_peaks->angle : none);
     result.push_back(outcome.base_peaks ? outcome.base_peaks->rate : none);

@@ -63,10 +63,13 @@
       return latch;
     });
     const each = d3.range(hinges).map(function (hinge) {
-      const [peak_moment, time, peak_force, overtravel, hold_moment, final_angle] = result.slice(next + 6 * hinge, next + 6 * hinge + 6);
-      return { hinge, peak_moment, time, peak_force, overtravel, hold_moment, final_angle };
+      const [peak_moment, time, peak_force, overtravel, hold_moment, final_angle, motor_energy] = result.slice(
+        next + 7 * hinge,
+        next + 7 * hinge + 7,
+      );
+      return { hinge, peak_moment, time, peak_force, overtravel, hold_moment, final_angle, motor_energy };
     });
-    next += 6 * hinges;
+    next += 7 * hinges;
     const base = { peak_angle: result[next], peak_rate: result[next + 1] };
     next += 2;
     const events = ["released", "missed", "let_go"].flatMap(function (kind) {
