@@ -216,7 +216,7 @@
       );
     const text = glossaryText(output);
     const title = h("h3.chosen", F.name(output), " ", h("code", output.name));
-    const limits = requirementsOn(set, output).map((one) => h("li", W.badge(one.verdict), " ", one.text));
+    const limits = requirementsOn(set, output).map((one) => h("li", W.badge(one.verdict), " ", W.verdicts.wordsOf(one, set)));
     const head = [title, text ? h("p.note", text) : null, limits.length ? h("ul.plain", limits) : null];
     if (!output.count || !output.histogram)
       return W.fill(host, head, h("p.nothing", `No run of ${set.label} has a value.`), byCase(F.name(output)));
