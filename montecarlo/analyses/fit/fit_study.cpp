@@ -38,7 +38,6 @@ public:
   [[nodiscard]] std::vector<double> of(const FitPoint& at) {
     std::vector<double> values(space_.size());
     at_ = &at;
-    std::optional<std::size_t> drawn;
     std::vector<double> draws(campaign_.dispersions.size());
     test_.reset();
     plan_.draw(0, draws);
