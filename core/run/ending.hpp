@@ -10,6 +10,7 @@
 /// |   … and no peak can rise                     | the energy left bounds every peak         | energy_bounds.hpp  |
 /// | early: all have latched, no peak can rise    | the modes of the wing bound every peak,   | modal_bounds.hpp   |
 /// |                                              | or the energy left does                   | energy_bounds.hpp  |
+/// |   … nor a peak of a free base's motion       | the modes and the angular momentum do     | final_peaks.hpp    |
 /// | … and no latch lets go                       | the energy left bounds its load           | energy_bounds.hpp  |
 ///
 /// No run ends early while a hold may still let go.

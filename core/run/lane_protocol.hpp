@@ -10,9 +10,10 @@
 ///
 /// A lane accepts and rejects plain steps alone. A lane needs its run when the last trial step may
 /// hold an event or a peak, may end at t_end or at a knot of the base's table, or uses up what the task
-/// allows. The run then treats that trial step as one that it made itself. A lane that asks for a peak alone has found no event, and says which moments may rise
-/// (LaneResult::searched): the run does not search the others again. Lane and run use the same
-/// expressions, so every number has the same bits with and without a lane.
+/// allows. The run then treats that trial step as one that it made itself. A lane that asks for a peak
+/// alone has found no event, and says which moments may rise (LaneResult::searched): the run does not
+/// search the others again. Lane and run use the same expressions, so every number has the same bits
+/// with and without a lane.
 #pragma once
 
 #include "core/dense/step.hpp"
