@@ -8,7 +8,7 @@
 ///
 ///     viscous        −c v                                                                       (1)
 ///     power law      −A |v|^p sign v for |v| ≥ w,  −A w^{p−1} v below                           (2)
-///     eddy current   −2 T_p r/(1 + r²),  r = v/ω_p: largest at r = 1                            (3)
+///     eddy current   −2 T_p r/(1 + r²) = −2 T_p ω_p v/(ω_p² + v²),  r = v/ω_p: largest at r = 1  (3)
 ///
 /// A damper with a window acts between two angles only. A run keeps whether it acts as a mode, which changes at
 /// events (Edge::window_low, Edge::window_high).
@@ -62,8 +62,7 @@ template <class T> [[nodiscard]] T damper_moment(const DamperTerms<T>& damper, c
   case DamperLaw::eddy_current:
     break;
   }
-  const T r = v / damper.rate;
-  return -damper.strength * r / fused(r, r, T(1));
+  return -(damper.strength * damper.rate * v) / fused(v, v, damper.rate * damper.rate);
 }
 
 /// −dM/dv, N·m·s/rad.

@@ -8,6 +8,8 @@
 /// contact and the latch bears are modes of the run, which change at events: inside a step every law is smooth. Whether
 /// the latch engages and lets go: latch_laws.hpp.
 ///
+/// The right-hand side sums the tables of a hinge to one polynomial between two knots (TablePiece).
+///
 /// To add a law: README.md.
 #pragma once
 
@@ -18,6 +20,11 @@
 #include "core/laws/latch_laws.hpp"
 #include "core/laws/stop.hpp"
 #include "core/scene/scene.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace wingspread {
 
@@ -44,19 +51,28 @@ template <class T> struct RealHingeTerms {
 
   /// Whether the latch's law changes at the latched angle, or at the ends of its backlash.
   [[nodiscard]] bool has_latch_edge() const { return has_backlash || dissipation.present; }
+  [[nodiscard]] bool has_tables() const { return spring.curve || harness.curve || friction.level; }
 };
 
-/// Calls visit(law) for each law that the hinge has, in the order of (1). A new law is a line here.
+/// Calls visit(law) for each law of (1) that the hinge has and that has no table. A new law is a line here.
+template <class T, class Visit>
+void for_each_law_without_table(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
+                                Visit&& visit) {
+  const auto offer = [&visit](const HingeLaw<T> auto& law) { visit(law); };
+  if (hinge.has_damper) offer(HingeDamper<T>{hinge.damper, mode.damper_acts});
+  if (hinge.stop.present) offer(HingeStop<T>{hinge.stop, mode.in_contact});
+  if (hinge.far_stop.present) offer(HingeStop<T>{hinge.far_stop, mode.in_far_contact});
+  if (hinge.dissipation.present) offer(LatchDissipation<T>{hinge.dissipation, mode.bears});
+}
+
+/// The same for all laws, in the order of (1).
 template <class T, class Visit>
 void for_each_law(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, Visit&& visit) {
   const auto offer = [&visit](const HingeLaw<T> auto& law) { visit(law); };
   if (hinge.spring.curve) offer(CurveTorque<T>{hinge.spring});
   if (hinge.harness.curve) offer(CurveTorque<T>{hinge.harness});
   if (hinge.friction.level) offer(MeasuredFriction<T>{hinge.friction, mode.sliding});
-  if (hinge.has_damper) offer(HingeDamper<T>{hinge.damper, mode.damper_acts});
-  if (hinge.stop.present) offer(HingeStop<T>{hinge.stop, mode.in_contact});
-  if (hinge.far_stop.present) offer(HingeStop<T>{hinge.far_stop, mode.in_far_contact});
-  if (hinge.dissipation.present) offer(LatchDissipation<T>{hinge.dissipation, mode.bears});
+  for_each_law_without_table(hinge, mode, visit);
 }
 
 /// Whether a hinge has any of the laws, or a latch with backlash or that may miss.
@@ -67,12 +83,119 @@ void for_each_law(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode, Visi
           (hinge.latch->backlash > 0 || hinge.latch->dissipation || hinge.latch->can_miss()));
 }
 
-/// (1), N·m.
+/// The tables of a hinge over angles that no knot divides, as polynomials of u = φ − origin. A workspace keeps the
+/// last one: the next evaluation mostly lies in it too.
+template <class T> struct TablePiece {
+  T low, high;            ///< it holds for low ≤ φ < high, rad
+  T origin;               ///< rad
+  std::array<T, 4> drive; ///< coefficients of w_s S + w_h H, N·m/radᵏ
+  std::array<T, 4> level; ///< coefficients of f F, N·m/radᵏ
+};
+
+/// One that holds for no angle.
+template <class T> [[nodiscard]] TablePiece<T> no_table_piece() {
+  const T none(0);
+  return {none, none, none, {none, none, none, none}, {none, none, none, none}};
+}
+
+namespace detail {
+
+/// A table of a hinge and its factor in (1).
+template <class T> struct WeightedCurve {
+  const Curve* curve; ///< null: none
+  T weight;
+};
+
+/// Adds a curve's piece k to a polynomial about `origin`.
+template <class T>
+void add_piece(std::array<T, 4>& sum, const WeightedCurve<T>& table, std::size_t k,
+               const T& origin) {
+  const std::array<double, 4>& c = table.curve->pieces()[k].c;
+  const T d = origin - T(knot_of(*table.curve, k));
+  const T third = T(3) * T(c[3]);
+  const T value = fused(d, fused(d, fused(d, T(c[3]), T(c[2])), T(c[1])), T(c[0]));
+  const T slope = fused(d, fused(d, third, T(2) * T(c[2])), T(c[1]));
+  sum[0] = fused(table.weight, value, sum[0]);
+  sum[1] = fused(table.weight, slope, sum[1]);
+  sum[2] = fused(table.weight, fused(d, third, T(c[2])), sum[2]);
+  sum[3] = fused(table.weight, T(c[3]), sum[3]);
+}
+
+/// The piece of a hinge's tables at an angle. @param tables spring, harness, friction
+template <class T>
+[[nodiscard]] TablePiece<T> table_piece(const std::array<WeightedCurve<T>, 3>& tables,
+                                        const T& angle) {
+  constexpr double far = 1e300;
+  TablePiece<T> piece = no_table_piece<T>();
+  piece.low = T(-far), piece.high = T(far);
+  std::array<std::size_t, 3> numbers{};
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    if (!tables[t].curve) continue;
+    const std::vector<double>& knots = tables[t].curve->knots();
+    const std::size_t k = numbers[t] = piece_number(*tables[t].curve, angle);
+    if (k > 0) piece.low = larger(piece.low, T(knots[k - 1]));
+    if (k < knots.size()) piece.high = smaller(piece.high, T(knots[k]));
+  }
+  piece.origin = piece.low > T(-far) ? piece.low : piece.high;
+  for (std::size_t t = 0; t < tables.size(); ++t)
+    if (tables[t].curve)
+      add_piece(t < 2 ? piece.drive : piece.level, tables[t], numbers[t], piece.origin);
+  return piece;
+}
+
+/// Sets the piece at an angle; of packs in the lanes `these`. A function of its own (noinline): knots are passed rarely.
+template <class T>
+[[gnu::noinline]] void find_table_piece(TablePiece<T>& piece, const RealHingeTerms<T>& hinge,
+                                        const T& angle, [[maybe_unused]] const Truth<T>& these) {
+  if constexpr (is_one_number<T>) {
+    piece = table_piece<T>({{{hinge.spring.curve, hinge.spring.weight},
+                             {hinge.harness.curve, hinge.harness.weight},
+                             {hinge.friction.level, hinge.friction.weight}}},
+                           angle);
+  } else {
+    for (int lane = 0; lane < T::width; ++lane) {
+      const std::int64_t is_in = these.bits[lane];
+      if (is_in == 0) continue;
+      const TablePiece<double> found =
+          table_piece<double>({{{hinge.spring.curve, hinge.spring.weight.v[lane]},
+                                {hinge.harness.curve, hinge.harness.weight.v[lane]},
+                                {hinge.friction.level, hinge.friction.weight.v[lane]}}},
+                              angle.v[lane]);
+      piece.low.v[lane] = found.low, piece.high.v[lane] = found.high;
+      piece.origin.v[lane] = found.origin;
+      for (std::size_t k = 0; k < 4; ++k) {
+        piece.drive[k].v[lane] = found.drive[k];
+        piece.level[k].v[lane] = found.level[k];
+      }
+    }
+  }
+}
+
+template <class T> [[nodiscard]] T value_of_cubic(const std::array<T, 4>& c, const T& u) {
+  return fused(u, fused(u, fused(u, c[3], c[2]), c[1]), c[0]);
+}
+
+} // namespace detail
+
+/// Terms of (1) by tables, N·m. @param piece of this hinge and run, or no_table_piece; updated
+template <class T>
+[[nodiscard]] T tables_moment(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
+                              TablePiece<T>& piece, const T& angle, const T& rate) {
+  const Truth<T> outside = !(piece.low <= angle && angle < piece.high);
+  if (any(outside)) detail::find_table_piece(piece, hinge, angle, outside);
+  const T u = angle - piece.origin;
+  const T drive = detail::value_of_cubic(piece.drive, u);
+  if (!hinge.friction.level) return drive;
+  const MeasuredFriction<T> friction{hinge.friction, mode.sliding};
+  return drive - friction.sense(rate) * larger(detail::value_of_cubic(piece.level, u), T(0));
+}
+
+/// (1), N·m. @param piece as of tables_moment
 template <class T>
 [[nodiscard]] T real_moment(const RealHingeTerms<T>& hinge, const HingeMode<T>& mode,
-                            const T& angle, const T& rate) {
-  T m(0);
-  for_each_law(hinge, mode, [&](const auto& law) { law.add_moment(m, angle, rate); });
+                            TablePiece<T>& piece, const T& angle, const T& rate) {
+  T m = hinge.has_tables() ? tables_moment(hinge, mode, piece, angle, rate) : T(0);
+  for_each_law_without_table(hinge, mode, [&](const auto& law) { law.add_moment(m, angle, rate); });
   return m;
 }
 

@@ -157,6 +157,11 @@ public:
                : linear;
   }
 
+  /// Moment of the laws of real_hinge.hpp at hinge i, N·m. @pre the wing has real hinges
+  [[nodiscard]] T moment_of_laws(int i, const T& angle, const T& rate) const {
+    return real_moment(wing_.real[i], work_.modes[i], work_.pieces[i], angle, rate);
+  }
+
   /// Largest moment that locks hinge i at x, N·m: by exact friction; by a hold, without limit.
   [[nodiscard]] T static_limit(const State<T>& x, int i) const {
     const bool tested = !wing_.real.empty() && !wing_.real[i].friction.regularized;
@@ -241,7 +246,7 @@ protected:
   }
 
   [[nodiscard]] T of_real_hinge(const State<T>& x, int i) const {
-    return real_moment(wing_.real[i], work_.modes[i], x[layout_.angle(i)], x[layout_.rate(i)]);
+    return moment_of_laws(i, x[layout_.angle(i)], x[layout_.rate(i)]);
   }
 
   /// Moment of regularized friction and a smoothed latch, N·m.

@@ -41,7 +41,8 @@ template <class T> struct Workspace {
   std::vector<LinearLaw<T>> laws; ///< 1 … n
   std::vector<T> nonlinear;       ///< 1 … n: moments that are not linear, N·m
   // of real hinges; empty where there are none
-  std::vector<HingeMode<T>> modes; ///< 1 … n
+  std::vector<HingeMode<T>> modes;   ///< 1 … n
+  std::vector<TablePiece<T>> pieces; ///< 1 … n: of their tables, at the last evaluation
   std::vector<std::array<char, edges_of_hinge>>
       above;                         ///< 1 … n: whether the angle is above the edge
   std::vector<MotorPiece<T>> motors; ///< 0 … n: present commands; empty where no hinge has a motor
@@ -70,6 +71,7 @@ template <class T> struct Workspace {
     nonlinear.resize(n + 1);
     crossings.resize(n + 1);
     modes.assign(real, {T(0), T(0), T(0), T(0), T(0)});
+    pieces.assign(real, no_table_piece<T>());
     above.assign(real, {});
     motors.assign(motored, idle_motor<T>());
     air_moments.assign(plates, T(0));
@@ -84,6 +86,7 @@ template <class T> struct Workspace {
     holding.assign(n + 1, T(0));
     watches.assign(n + 1, false), restrained.assign(n + 1, false);
     motors.assign(motors.size(), idle_motor<T>());
+    pieces.assign(pieces.size(), no_table_piece<T>());
     if constexpr (!is_one_number<T>) locks.assign(n + 1, T(0));
     stuck = 0, evaluations = 0;
   }

@@ -82,6 +82,14 @@ template <int W> inline constexpr bool is_of_doubles<Pack<W>> = true;
 template <class Mask>
 requires requires(Mask mask) { mask.bits; }
 [[nodiscard, gnu::always_inline]] inline bool any(const Mask& mask) {
+#ifdef __AVX512DQ__
+  if constexpr (sizeof mask.bits == 64)
+    return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask.bits)) != 0;
+#endif
+#ifdef __AVX2__
+  if constexpr (sizeof mask.bits == 32)
+    return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.bits)) != 0;
+#endif
   std::int64_t some = 0;
   for (int lane = 0; lane < static_cast<int>(sizeof mask.bits / 8); ++lane) some |= mask.bits[lane];
   return some != 0;

@@ -73,24 +73,27 @@ public:
 
   /// Raises the peaks of the accepted lanes to the step's ends, for `accept` to keep.
   /// @return lanes in which a peak may lie inside the step
+  /// @param asks lanes that need their runs in any case: their forces are not sampled
   /// @param held_before moments on stuck hinges at the step's start; those at its end are the system's last
   [[nodiscard]] Mask search_step(AnySystem& system, const Step<P>& step, const Mask& accepted,
-                                 const std::vector<P>& held_before) {
+                                 const Mask& asks, const std::vector<P>& held_before) {
     rises_ = samples_made_ = held_is_bounded_ = false;
-    Mask asks{};
-    if (shape_.moments) asks = search_moments(system, step, accepted, held_before);
+    Mask in_doubt{};
+    if (shape_.moments) in_doubt = search_moments(system, step, accepted, held_before);
     if (shape_.holds && system.work().stuck > 0)
-      asks = asks || search_holds(system, step, accepted, held_before);
-    asks_for_moments_ = asks;
+      in_doubt = in_doubt || search_holds(system, step, accepted, held_before);
+    asks_for_moments_ = in_doubt;
+    force_may_rise_ = accepted;
     if (shape_.forces && system.wing().plates.empty())
-      asks = asks || search_forces(system, step, accepted && !asks);
-    return asks;
+      in_doubt = in_doubt || search_forces(system, step, accepted, asks || in_doubt);
+    return in_doubt;
   }
 
-  /// Copies which moments may rise over the last step out of a lane in which search_step searched it.
-  void unload_search(int lane, std::vector<char>& may_rise) const {
+  /// Copies which peaks may rise over the last step out of a lane in which search_step searched it.
+  void unload_search(int lane, LaneResult& result) const {
     for (std::size_t i = 1; shape_.moments && i < may_rise_.size(); ++i)
-      may_rise[i] = may_rise_[i].bits[lane] != 0 ? 1 : 0;
+      result.moments_may_rise[i] = may_rise_[i].bits[lane] != 0 ? 1 : 0;
+    result.forces_may_rise = force_may_rise_.bits[lane] != 0;
   }
 
   /// Whether a moment's peak may lie inside the last step of a lane.
@@ -195,26 +198,28 @@ private:
     return asks;
   }
 
-  /// As ForcePeaks::over_step.
-  [[nodiscard]] Mask search_forces(AnySystem& system, const Step<P>& step, const Mask& accepted) {
+  /// As ForcePeaks::over_step. @param asks lanes whose forces are not sampled
+  [[nodiscard]] Mask search_forces(AnySystem& system, const Step<P>& step, const Mask& accepted,
+                                   const Mask& asks) {
     if (!any(accepted)) return Mask{};
     samples_.begin(system, levers_, step);
-    Mask open = accepted && samples_.may_rise(forces_);
+    force_may_rise_ = accepted && samples_.may_rise(forces_);
+    Mask open = force_may_rise_ && !asks;
     if (!any(open)) return Mask{};
     sample(system, step, samples_.middle, open);
     open = open && samples_.may_rise_in_a_half(forces_);
     if (!any(open)) return Mask{};
     for (const int k : {1, 3}) sample(system, step, k, open);
     begin_to_raise();
-    Mask asks{};
+    Mask in_doubt{};
     for (int i = 1; i < static_cast<int>(forces_.size()); ++i) {
       PeakOf<P> peak = forces_[i];
       samples_.raise_to_ends(i, step, peak);
       for (int k = 0; k <= samples_.last; ++k)
-        asks = asks || (open && samples_.wants_search(i, k, peak));
+        in_doubt = in_doubt || (open && samples_.wants_search(i, k, peak));
       assign_where(open, raised_forces_[i], peak);
     }
-    return asks;
+    return in_doubt;
   }
 
   /// Evaluates the forces at k quarters of the step. @param open lanes whose runs would do so
@@ -233,6 +238,7 @@ private:
   std::vector<PeakOf<P>> raised_moments_, raised_forces_,
       raised_holds_; ///< up to its end, if rises_
   Mask asks_for_moments_{};
+  Mask force_may_rise_{}; ///< lanes in which any force may rise over this step
   std::vector<Mask>
       may_rise_; ///< 1 … n: lanes in which a moment may rise over this step, inside or towards an end
   bool rises_ = false, samples_made_ = false; ///< in any lane, over this step

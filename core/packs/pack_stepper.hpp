@@ -55,6 +55,7 @@ public:
 
   void set_wing(int lane, const Wing<double>& wing) override {
     set_lane(lane, wing_, wing);
+    for (TablePiece<P>& piece : work_.pieces) set_lane(lane, piece, no_table_piece<double>());
     if (!shape_.forces) return;
     set_levers(wing, system_.topology(), levers_of_wing_);
     set_lane(lane, peaks_.levers(), levers_of_wing_);
@@ -107,8 +108,9 @@ public:
     peaks_.unload(lane, result, moved);
     holds_.unload(lane, result, M == BaseMotion::free, moved);
     result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
-    result.searched = asks_after_.back().bits[lane] == 0;
-    if (result.searched) peaks_.unload_search(lane, result.moments_may_rise);
+    result.has_no_event = asks_after_.back().bits[lane] == 0;
+    result.peaks_searched = accepted_.bits[lane] != 0;
+    if (result.peaks_searched) peaks_.unload_search(lane, result);
     if constexpr (M == BaseMotion::free) {
       free_.unload(lane, result, shape_.forces);
       result.evaluations += static_cast<long>(free_.evaluations().v[lane]);
@@ -191,7 +193,7 @@ private:
   /// @return the lanes that need their runs: see lane_protocol.hpp
   [[nodiscard]] Mask find_lanes_that_ask(const Judgement& judgement) {
     const P& next = judgement.next;
-    const Mask busy = busy_ > P(0.0), accepted = busy && judgement.accepted;
+    const Mask busy = busy_ > P(0.0), accepted = accepted_ = busy && judgement.accepted;
     const P end = step_.t + step_.h, now = select(accepted, end, step_.t);
     const Mask tried_enough = last_round_ < P(static_cast<double>(round_));
     // Both margins are far wider than the limits at which a run alone stops a step, 4 and 8 roundings
@@ -217,7 +219,7 @@ private:
     peaks_.keep_forces_at_end(system_);
     asks = asks || (accepted && may_turn_or_end_at_event());
     asks_after_[3] = asks;
-    return asks || peaks_.search_step(system_, step_, accepted && !asks, holds_.before());
+    return asks || peaks_.search_step(system_, step_, accepted, asks, holds_.before());
   }
 
   /// Moves the accepted ones of these lanes to the step's end, and plans the next trial step of all.
@@ -306,6 +308,7 @@ private:
   std::vector<P> motor_energy_, motor_work_; ///< up to the step's start; over the step, J
   LaneEvents<W> events_;
   LaneHolds<W> holds_;
+  Mask accepted_{}; ///< lanes whose last trial step is accepted
   std::array<Mask, 4>
       asks_after_{}; ///< lanes that ask, after the tests of limits, events, releases and turns
   std::vector<Lever<double>> levers_of_wing_; ///< scratch

@@ -52,14 +52,17 @@ public:
 
   /// Raises the peaks over a step. @pre the last evaluation was at the step's end
   /// Maxima inside the step that only the dense output has become doubts, to be confirmed.
-  void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt) {
-    samples_.begin(system, levers_, step);
+  /// @param may_rise whether any force may exceed its peak inside the step, as far as the caller knows
+  void over_step(AnySystem& system, const Step<T>& step, State<T>& x, State<T>& dxdt,
+                 bool may_rise = true) {
     samples_.keep(system, samples_.last);
     for (std::size_t i = 1; i < peaks.size(); ++i) {
       std::array<T, 5>& f = samples_.of(static_cast<int>(i));
       f[0] = before_[i];
       before_[i] = f[4];
     }
+    if (!may_rise) return;
+    samples_.begin(system, levers_, step);
     const bool in_air = !system.wing().plates.empty(); // the bound has no term for the air
     if (!in_air && !samples_.may_rise(peaks)) return;
     sample(system, step, samples_.middle, x, dxdt);

@@ -27,7 +27,9 @@ public:
       : system_(system), hinge_(system.wing().hinges[i]), step_(step), i_(i),
         latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
         smoothed_(system.layout().smoothed && hinge_.has_latch), angle_(angle_of(i)),
-        rate_(step.rate_of(angle_, system.layout().angle(i), system.layout().freedoms())),
+        rate_(depends_on_rate()
+                  ? step.rate_of(angle_, system.layout().angle(i), system.layout().freedoms())
+                  : Quintic<T>{}),
         linear_(linear_moment(system.work().laws[i], angle_, rate_)) {
     if (!system.wing().motors.empty())
       excess_ = motor_excess(system.work().motors[i], step.t, step.h, rate_);
@@ -94,8 +96,7 @@ public:
                                     step_.cubic(latch_state_, s), epsilon_);
     if (!system_.wing().is_real()) return m;
     if (!system_.wing().real.empty())
-      m = m + real_moment(system_.wing().real[i_], system_.work().modes[i_], value(angle_, s),
-                          value(rate_, s));
+      m = m + system_.moment_of_laws(i_, value(angle_, s), value(rate_, s));
     if (!system_.wing().motors.empty())
       m = m + motor_moment(system_.wing().motors[i_], system_.work().motors[i_], value(excess_, s));
     for (const LoopTerms<T>& loop : system_.wing().loops)
@@ -106,6 +107,12 @@ public:
 private:
   [[nodiscard]] Quintic<T> angle_of(int i) const {
     return step_.coordinate(system_.layout().angle(i), system_.layout().freedoms());
+  }
+
+  /// Whether any term of the moment depends on the hinge's rate.
+  [[nodiscard]] bool depends_on_rate() const {
+    return any(!(system_.work().laws[i_].damping == T(0))) || system_.wing().is_nonlinear() ||
+           smoothed_;
   }
 
   [[nodiscard]] Quintic<T> rate_of(int i) const {

@@ -135,9 +135,10 @@ public:
     } else if (asked_.stage == Stage::step) {
       stepping_.fit(result.h);
     }
-    searched_ = result.searched;
+    has_no_event_ = result.has_no_event;
+    by_lane_ = {result.peaks_searched, result.forces_may_rise};
     judge(asks_for_whole_step() ? result.judged : StepVerdict{result.error, 1});
-    searched_ = false;
+    has_no_event_ = false, by_lane_ = {};
   }
 
 private:
@@ -246,7 +247,7 @@ private:
     if (!stepping_.count_trial(stepping_.cut_at_turn(verdict, events_)))
       return ask_for_step(stepping_.plan_again());
     stepping_.choose_next_size();
-    if (searched_)
+    if (has_no_event_)
       landing_.expect_no_event();
     else if (landing_.cut_at_event(stepping_.kinks()))
       return ask_to_end(Stage::landing);
@@ -256,6 +257,7 @@ private:
   void judge_landing(const StepVerdict& verdict) {
     if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
     if (landing_.correct_end(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
+    by_lane_ = {}; // the end may have been shifted since
     accept();
   }
 
@@ -264,7 +266,7 @@ private:
     if constexpr (M == BaseMotion::free)
       if (run_.system.wing().plates.empty()) restore_momentum(); // with plates the air takes some
     if (landing_.at_jump()) peaks_.include_before_jump();
-    confirm_peaks(peaks_.first_doubt(searched_));
+    confirm_peaks(peaks_.first_doubt(by_lane_));
   }
 
   /// Asks for a step to the peak in doubt. @param doubt its fraction of the step; none: all are known
@@ -345,8 +347,9 @@ private:
   Ending<T, AnySystem> ending_;
   Try asked_;
   bool ended_ = false;
-  bool searched_ = false; ///< a lane has searched the step to be judged, and found no event
-  Conserved<T> kept_{};   ///< momenta of a free base
+  bool has_no_event_ = false; ///< a lane has found none in the step to be judged
+  typename PeakSearch<T, AnySystem>::LaneSearch by_lane_; ///< of the peaks of that step
+  Conserved<T> kept_{};                                   ///< momenta of a free base
 };
 
 } // namespace wingspread

@@ -10,10 +10,10 @@
 ///
 /// A lane accepts and rejects plain steps alone. A lane needs its run when the last trial step may
 /// hold an event or a peak, may end at t_end or at a knot of the base's table, or uses up what the task
-/// allows. The run then treats that trial step as one that it made itself. A lane that asks for a peak
-/// alone has found no event, and says which moments may rise (LaneResult::searched): the run does not
-/// search the others again. Lane and run use the same expressions, so every number has the same bits
-/// with and without a lane.
+/// allows. The run then treats that trial step as one that it made itself. A lane says whether it has found
+/// that the step holds no event (LaneResult::has_no_event), and which peaks may rise over it
+/// (LaneResult::peaks_searched): the run does not search the others again. Lane and run use the same
+/// expressions, so every number has the same bits with and without a lane.
 #pragma once
 
 #include "core/dense/step.hpp"
@@ -80,7 +80,7 @@ struct LaneResult {
   std::vector<double>& excess_before; ///< 1 … n: of their friction over its limit there, N·m
   std::vector<double>& held_at_end; ///< 1 … n: their moments at the end of the last trial step, N·m
   BaseExcursion<double>& base;      ///< of a free base, up to the start of that step
-  std::vector<char>& moments_may_rise; ///< 1 … n: over that step; only if `searched`
+  std::vector<char>& moments_may_rise; ///< 1 … n: over that step; only if `peaks_searched`
   // values
   long trial_steps = 0;     ///< before the last one; 0: the state is the task's, and not written
   double h = 0;             ///< the last trial step, s
@@ -88,8 +88,10 @@ struct LaneResult {
   double error = 0;         ///< of the last trial step, as in StepVerdict
   StepVerdict judged{0, 1}; ///< on it, by all that a whole step must satisfy
   StepHistory<double> history{};
-  /// The last trial step is accepted and holds no event: the lane asks for a peak alone.
-  bool searched = false;
+  bool peaks_searched = false; ///< the last trial step is accepted, and its peaks are searched
+  bool forces_may_rise = true; ///< over that step
+  bool has_no_event =
+      false; ///< that step is accepted and holds no event: the lane asks for a peak alone
 };
 
 } // namespace wingspread

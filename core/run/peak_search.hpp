@@ -47,7 +47,7 @@ public:
     return false;
   }
 
-  /// Which moments may rise over a step that a lane has searched, 1 … n; for the lane to write to.
+  /// Which moments may rise over a step whose peaks a lane has searched, 1 … n; for the lane to write to.
   [[nodiscard]] std::vector<char>& moments_may_rise() { return may_rise_; }
 
   /// Moments on stuck hinges at the end of the step searched last, 1 … n, N·m.
@@ -70,37 +70,31 @@ public:
 
   /// Takes the peaks at t⁺. @pre the right-hand side has changed, and was last evaluated there
   void include_start() {
-    using std::abs;
-    const Step<T>& step = run_.step;
-    for (int i = 1; run_.goal.peak_moment && i <= run_.at.bodies; ++i)
-      moments_[i].raise(T(abs(run_.system.moment(step.x, i))), step.t);
-    for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
-      if (run_.system.is_held(i) || run_.system.is_restrained(i))
-        holds_[i].raise(T(abs(load_of_hold(step.x, i))), step.t);
-    if (run_.goal.peak_force) forces_.sample(run_.system, step.t);
+    include_moments(run_.step.x, run_.step.t);
+    if (run_.goal.peak_force) forces_.sample(run_.system, run_.step.t);
   }
 
   /// Takes the peaks next to the end of a step that ends just beyond a jump of the moments.
   /// @pre, and afterwards: the last evaluation was at its end
   void include_before_jump() {
-    using std::abs;
     const Step<T>& step = run_.step;
     const T s(1 - next_to_an_end), t = step.t + s * step.h;
     run_.evaluate_at(s);
-    for (int i = 1; run_.goal.peak_moment && i <= run_.at.bodies; ++i)
-      moments_[i].raise(T(abs(run_.system.moment(run_.x, i))), t);
-    for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
-      if (run_.system.is_held(i) || run_.system.is_restrained(i))
-        holds_[i].raise(T(abs(load_of_hold(run_.x, i))), t);
+    include_moments(run_.x, t);
     if (run_.goal.peak_force) forces_.raise_only(run_.system, t);
     run_.system(step.x1, run_.dxdt, step.t + step.h);
   }
 
+  /// What a lane has found of the peaks of a step.
+  struct LaneSearch {
+    bool done = false;           ///< it has written moments_may_rise
+    bool forces_may_rise = true; ///< if done
+  };
+
   /// Looks for the peaks of a step just accepted. @pre the last evaluation was at its end
-  /// @param searched whether a lane has searched the step and written moments_may_rise
   /// @return the first doubt: the fraction of the step to which the method must make a step
-  [[nodiscard]] std::optional<T> first_doubt(bool searched) {
-    made_sure_ = false, searched_ = searched;
+  [[nodiscard]] std::optional<T> first_doubt(const LaneSearch& by_lane) {
+    made_sure_ = false, searched_ = by_lane.done;
     if (run_.system.work().stuck > 0) held_at_end_ = run_.system.work().holding;
     hinge_ = hold_ = 0;
     doubt_.reset(), held_at_.reset(), borne_at_.reset();
@@ -109,7 +103,9 @@ public:
     for (int i = 1; run_.goal.overtravel && i <= run_.at.bodies; ++i)
       raise_overtravel(overtravel_[i], run_.system.wing(), run_.at, run_.step, i);
     add_motor_energy(motor_energy_, run_.system, run_.step);
-    if (run_.goal.peak_force) forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt);
+    if (run_.goal.peak_force)
+      forces_.over_step(run_.system, run_.step, run_.x, run_.dxdt,
+                        !by_lane.done || by_lane.forces_may_rise);
     return next_doubt();
   }
 
@@ -135,6 +131,16 @@ private:
   /// steps of extrapolation are so long that the dense output misplaces the maximum.
   [[nodiscard]] double worth_a_step() const {
     return run_.how.method == "bulirsch_stoer" ? std::max(1e-12, run_.how.rtol) : 1;
+  }
+
+  /// Raises the peaks of moments and holds to those at x and t. @pre the last evaluation was there
+  void include_moments(const State<T>& x, const T& t) {
+    using std::abs;
+    for (int i = 1; run_.goal.peak_moment && i <= run_.at.bodies; ++i)
+      moments_[i].raise(T(abs(run_.system.moment(x, i))), t);
+    for (int i = 1; i < static_cast<int>(holds_.size()); ++i)
+      if (run_.system.is_held(i) || run_.system.is_restrained(i))
+        holds_[i].raise(T(abs(load_of_hold(x, i))), t);
   }
 
   [[nodiscard]] bool watches_holds() const {
@@ -247,7 +253,7 @@ private:
   int hold_ = 0;               ///< the hold searched
   std::optional<T> borne_at_;  ///< where its load is in doubt
   bool made_sure_ = false;
-  bool searched_ = false;      ///< a lane has searched the step
+  bool searched_ = false;      ///< a lane has searched the peaks of the step
   std::vector<char> may_rise_; ///< 1 … n: if so, the moments that may rise over it
 };
 

@@ -6,9 +6,11 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <typeinfo>
+#include <vector>
 
 using namespace wingspread;
 using namespace wingspread::oracle;
@@ -179,7 +181,10 @@ TEST_CASE("the sums over laws are those of the laws") {
     for (int k = 0; k < parts; ++k) {
       const double share = double(k) / parts, x = at(angle, share), v = at(rate, share);
       const double a = at(acceleration, share), d = 1e-6;
-      const auto m = [&](double dt) { return real_moment(terms, mode, x + v * dt, v + a * dt); };
+      TablePiece<double> piece = no_table_piece<double>();
+      const auto m = [&](double dt) {
+        return real_moment(terms, mode, piece, x + v * dt, v + a * dt);
+      };
       const double quotient = (m(d) - m(-d)) / (2 * d);
       const double close =
           1e-4 * (1 + largest_magnitude_of(change.range)); // beyond an interval's end
@@ -188,4 +193,43 @@ TEST_CASE("the sums over laws are those of the laws") {
       CHECK(quotient <= change.range.high + close);
     }
   }
+}
+
+TEST_CASE("the tables of a hinge summed between knots give the sum of its laws, whatever piece was "
+          "known before") {
+  int tables = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Draws draws(seed);
+    RandomScene options;
+    options.bodies = 1;
+    Scene scene = with_real_hinges(random_scene(seed, options), seed);
+    Hinge& hinge = scene.hinges[0];
+    if (draws.chance(0.7)) hinge.friction.model = FrictionModel::exact;
+    hinge.friction.regularization_rate = draws.log_uniform(1e-2, 1);
+    const RealHingeTerms<double> terms =
+        real_hinge_terms(hinge, hinge.latched > hinge.stowed ? 1.0 : -1.0);
+    const HingeMode<double> mode{1, 1, draws.sign(), draws.sign(), 1};
+    tables += terms.has_tables() ? 1 : 0;
+    std::vector<double> angles; // in any order, at knots, just below and beyond them
+    for (int k = 0; k < parts; ++k)
+      angles.push_back(hinge.stowed + (hinge.latched - hinge.stowed) * draws.uniform(-0.2, 1.2));
+    for (const Curve* curve : {terms.spring.curve, terms.harness.curve, terms.friction.level})
+      for (std::size_t k = 0; curve && k < curve->knots().size(); ++k)
+        for (const double off : {0.0, -1e-15, 1e-15, -0.01, 0.01})
+          angles.push_back(curve->knots()[k] + off);
+    TablePiece<double> piece = no_table_piece<double>();
+    for (const double angle : angles) {
+      const double rate = draws.uniform(-2, 2);
+      double sum = 0, size = 0;
+      for_each_law(terms, mode, [&](const auto& law) {
+        sum += moment(law, angle, rate), size += std::abs(moment(law, angle, rate));
+      });
+      TablePiece<double> fresh = no_table_piece<double>();
+      const double found = real_moment(terms, mode, piece, angle, rate);
+      CAPTURE(seed, angle, rate);
+      CHECK(std::abs(found - sum) <= 1e-13 * size);
+      CHECK(found == real_moment(terms, mode, fresh, angle, rate));
+    }
+  }
+  CHECK(tables > 100);
 }
