@@ -97,19 +97,20 @@ public:
   /// The sum of the magnitudes that L_i consists of, at most, N·m: rounding and errors of integration are parts of it.
   [[nodiscard]] T size(int i) const { return loads_[i].size; }
 
-  /// Largest excess over the whole step of the friction that holds hinge i.
-  [[nodiscard]] T most_friction(int i) const {
-    const T load = rise(i) + of_motor(i);
-    return loops_.empty() ? load : T(load + loops_[i].over(T(1)));
-  }
-
-  /// Largest excess of the friction that holds hinge i, between s = a and b. Where a loop may go slack or pass a
-  /// knot in the step, its bound is that of the interval a … b.
-  [[nodiscard]] Inside<T> friction(int i, const T& a, const T& b) const {
+  /// Excess of the friction that holds hinge i over the larger of its values at two fractions of the step.
+  [[nodiscard]] Bulge<T> friction(int i) const {
     Bulge<T> bulge{rise(i), of_motor(i)};
-    if (loops_.empty()) return bulge(a, b);
-    if (loops_[i].is_smooth()) return (bulge += loops_[i])(a, b);
-    Inside<T> inside = bulge(a, b);
+    if (!loops_.empty()) bulge += loops_[i];
+    return bulge;
+  }
+  /// The same over the whole step.
+  [[nodiscard]] T most_friction(int i) const { return friction(i).over(T(1)); }
+
+  /// The same between s = a and b. Where a loop may go slack or pass a knot in the step, its bound is that of the
+  /// interval a … b.
+  [[nodiscard]] Inside<T> friction(int i, const T& a, const T& b) const {
+    if (loops_.empty() || loops_[i].is_smooth()) return friction(i)(a, b);
+    Inside<T> inside = Bulge<T>{rise(i), of_motor(i)}(a, b);
     for (const HeldLoop& held : held_) {
       if (!joins(*held.loop, i)) continue;
       const LoopBulges<T> bulges = loop_bulges(*held.loop, part_of(held.angle_of_first, a, b),

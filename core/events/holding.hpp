@@ -35,12 +35,25 @@ template <class T> struct Slip {
   bool graze;
 };
 
-/// Whether the friction that holds hinge i may pass its limit in a step; for a pack: in which lanes.
+/// Difference below which two loads of stuck hinge i count as one, N·m. The load is not known better than to its errors
+/// of integration, a hundredth of which this is at the default rtol.
+/// @param limit static limit of the hinge's friction, N·m
+template <class T>
+[[nodiscard]] T negligible_load(const HeldLoadBound<T>& bound, int i, const T& limit) {
+  return T(1e-10) * larger(limit, bound.size(i));
+}
+
+/// Whether the friction that holds hinge i may pass its limit in a step, as first_positive decides before its first
+/// sample; for a pack: in which lanes.
 /// @param bound of the step @param before, after excess over the limit at the step's ends, N·m
+/// @param close negligible_load
 template <class T>
 [[nodiscard]] Truth<T> may_slip(const HeldLoadBound<T>& bound, int i, const T& before,
-                                const T& after) {
-  return larger(before, after) + bound.most_friction(i) > T(0);
+                                const T& after, const T& close) {
+  const T inside =
+      detail::rise_inside(detail::Stretch<T>{{T(0), before}, {T(1), after}}, bound.friction(i));
+  const T most = larger(before, after);
+  return most > T(0) || (most + inside > T(0) && inside > close);
 }
 
 /// Finds releases of stuck hinges over a step.
@@ -66,13 +79,14 @@ public:
       return std::nullopt;
     std::optional<Slip<T>> first;
     for (int i = 1; i <= system.layout().bodies; ++i) {
-      if (!system.sticks(i) || !may_exceed(i)) continue;
+      const T limit = system.static_limit(step.x, i);
+      if (!system.sticks(i) || !may_exceed(i, limit)) continue;
       const auto excess_at = [&](const T& s) {
         step.interpolate(system.layout(), s, x);
         system(x, dxdt, step.t + s * step.h);
         return excess(system, x, i);
       };
-      const auto found = release_of(excess_at, i, system.static_limit(step.x, i), step);
+      const auto found = release_of(excess_at, i, limit, step);
       if (found && (!first || found->s < first->s)) first = found;
     }
     system(step.x1, dxdt, step.t + step.h);
@@ -98,13 +112,17 @@ private:
     for (int i = 1; i <= system.layout().bodies; ++i) {
       if (!system.sticks(i)) continue;
       after_[i] = excess(system, step.x1, i);
-      if (may_exceed(i)) bound_.narrow(system, step, i);
-      near = near || may_exceed(i);
+      const T limit = system.static_limit(step.x, i);
+      if (may_exceed(i, limit)) bound_.narrow(system, step, i);
+      near = near || may_exceed(i, limit);
     }
     return near;
   }
 
-  [[nodiscard]] bool may_exceed(int i) const { return may_slip(bound_, i, before_[i], after_[i]); }
+  /// @param limit static limit of the hinge's friction at the step's start
+  [[nodiscard]] bool may_exceed(int i, const T& limit) const {
+    return may_slip(bound_, i, before_[i], after_[i], negligible_load(bound_, i, limit));
+  }
 
   template <class Function>
   [[nodiscard]] std::optional<Slip<T>> release_of(const Function& excess_at, int i, const T& limit,
@@ -112,8 +130,9 @@ private:
     constexpr double grazes = 1e-3, width = 1e-3;
     Sampled<T> crest{T(0), larger(before_[i], after_[i])};
     const auto rise = [&](const T& a, const T& b) { return bound_.friction(i, a, b); };
-    const auto s = first_positive(excess_at, before_[i], after_[i], rise, close_to(i, limit),
-                                  shortest_part(step.t, step.h), crest);
+    const auto s =
+        first_positive(excess_at, before_[i], after_[i], rise, negligible_load(bound_, i, limit),
+                       shortest_part(step.t, step.h), crest);
     if (s) {
       const T slope =
           (excess_at(T(*s + width)) - excess_at(T(*s - width))) / (T(2 * width) * step.h);
@@ -124,11 +143,6 @@ private:
     if (inside && crest.value > T(-grazes) * smaller(limit, change))
       return Slip<T>{i, crest.s, T(0), true};
     return std::nullopt;
-  }
-
-  /// The load is not known better than to its errors of integration, a hundredth of which this is at the default rtol.
-  [[nodiscard]] T close_to(int i, const T& limit) const {
-    return T(1e-10) * larger(limit, bound_.size(i));
   }
 
   HeldLoadBound<T> bound_;

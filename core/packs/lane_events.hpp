@@ -238,7 +238,9 @@ public:
     for (int i = 1; i < static_cast<int>(before_.size()); ++i) {
       const Mask locked = system.is_locked(i);
       const auto slips = [&] {
-        return locked && may_slip(bound_, i, excess_before_[i], excess_at_end_[i]);
+        const P limit = system.static_limit(step.x, i);
+        return locked && may_slip(bound_, i, excess_before_[i], excess_at_end_[i],
+                                  negligible_load(bound_, i, limit));
       };
       if (!any(slips())) continue;
       bound_.narrow(system, step, i);

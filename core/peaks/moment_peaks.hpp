@@ -26,21 +26,20 @@ public:
   MomentOverStep(const AnySystem& system, const Step<T>& step, int i)
       : system_(system), hinge_(system.wing().hinges[i]), step_(step), i_(i),
         latch_state_(system.layout().latch(i)), epsilon_(system.epsilon()),
-        smoothed_(system.layout().smoothed && hinge_.has_latch), angle_(angle_of(i)),
-        rate_(depends_on_rate()
-                  ? step.rate_of(angle_, system.layout().angle(i), system.layout().freedoms())
-                  : Quintic<T>{}),
-        linear_(linear_moment(system.work().laws[i], angle_, rate_)) {
+        smoothed_(system.layout().smoothed && hinge_.has_latch) {
+    own_.angle = angle_of(i);
+    own_.rate = depends_on_rate() ? rate_of(own_.angle, i) : Quintic<T>{};
+    linear_ = linear_moment(system.work().laws[i], own_.angle, own_.rate);
     if (!system.wing().motors.empty())
-      excess_ = motor_excess(system.work().motors[i], step.t, step.h, rate_);
+      excess_ = motor_excess(system.work().motors[i], step.t, step.h, own_.rate);
   }
 
   /// Upper bound of |moment| in the step, by the laws' ranges.
   [[nodiscard]] T most() const {
-    ValueRange<T> range = hull(linear_) + regularized_friction_range(hinge_, hull(rate_));
+    ValueRange<T> range = hull(linear_) + regularized_friction_range(hinge_, hull(own_.rate));
     if (system_.wing().is_real()) range = range + range_of_real();
     const T linear = larger(range.high, T(-range.low));
-    return smoothed_ ? linear + most_of_smoothed_latch(hinge_, angle_, rate_) : linear;
+    return smoothed_ ? linear + most_of_smoothed_latch(hinge_, own_.angle, own_.rate) : linear;
   }
 
   /// A range of the real hinge's laws and the loops, N·m.
@@ -48,13 +47,12 @@ public:
     const Wing<T>& wing = system_.wing();
     ValueRange<T> range{T(0), T(0)};
     if (!wing.real.empty())
-      range = real_range(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_));
+      range =
+          real_range(wing.real[i_], system_.work().modes[i_], hull(own_.angle), hull(own_.rate));
     if (!wing.motors.empty())
       range = range + motor_range(wing.motors[i_], system_.work().motors[i_], excess_);
     for (const LoopTerms<T>& loop : wing.loops)
-      if (joins(loop, i_))
-        range = range + loop_moment_range(loop, i_, angle_of(loop.first), rate_of(loop.first),
-                                          angle_of(loop.second), rate_of(loop.second));
+      if (joins(loop, i_)) range = range + range_of(loop);
     return range;
   }
 
@@ -64,18 +62,18 @@ public:
     KnownRange<T> change;
     change.range = hull(derivative(linear_, step_.h));
     const Wing<T>& wing = system_.wing();
-    const auto acceleration = [&] { return hull(derivative(rate_, step_.h)); };
+    const auto acceleration = [&] { return hull(derivative(own_.rate, step_.h)); };
     if (wing.has_regularized_friction)
-      change.add(regularized_friction_change(hinge_, hull(rate_), acceleration()));
+      change.add(regularized_friction_change(hinge_, hull(own_.rate), acceleration()));
     if (!wing.real.empty())
-      change.add(real_change(wing.real[i_], system_.work().modes[i_], hull(angle_), hull(rate_),
-                             acceleration()));
+      change.add(real_change(wing.real[i_], system_.work().modes[i_], hull(own_.angle),
+                             hull(own_.rate), acceleration()));
     if (!wing.motors.empty())
       change.add(motor_change(wing.motors[i_], system_.work().motors[i_], excess_, step_.h));
     for (const LoopTerms<T>& loop : wing.loops)
       if (any(change.known) && joins(loop, i_))
         change.add(
-            loop_moment_change(loop, i_, angle_of(loop.first), angle_of(loop.second), step_.h));
+            loop_moment_change(loop, i_, path(loop.first).angle, path(loop.second).angle, step_.h));
     if (smoothed_) change.known = T(0) < T(0);
     return change.known && (change.range.low > T(0) || change.range.high < T(0));
   }
@@ -90,13 +88,13 @@ public:
   [[nodiscard]] T operator()(const T& s) const {
     T m = value(linear_, s);
     if (any(hinge_.regularized_friction > T(0)))
-      m = m + regularized_friction_moment(hinge_, value(rate_, s));
+      m = m + regularized_friction_moment(hinge_, value(own_.rate, s));
     if (smoothed_)
-      m = m + smoothed_latch_moment(hinge_, value(angle_, s), value(rate_, s),
+      m = m + smoothed_latch_moment(hinge_, value(own_.angle, s), value(own_.rate, s),
                                     step_.cubic(latch_state_, s), epsilon_);
     if (!system_.wing().is_real()) return m;
     if (!system_.wing().real.empty())
-      m = m + system_.moment_of_laws(i_, value(angle_, s), value(rate_, s));
+      m = m + system_.moment_of_laws(i_, value(own_.angle, s), value(own_.rate, s));
     if (!system_.wing().motors.empty())
       m = m + motor_moment(system_.wing().motors[i_], system_.work().motors[i_], value(excess_, s));
     for (const LoopTerms<T>& loop : system_.wing().loops)
@@ -115,15 +113,38 @@ private:
            smoothed_;
   }
 
-  [[nodiscard]] Quintic<T> rate_of(int i) const {
-    return step_.rate(system_.layout().angle(i), system_.layout().freedoms());
+  [[nodiscard]] Quintic<T> rate_of(const Quintic<T>& angle, int i) const {
+    return step_.rate_of(angle, system_.layout().angle(i), system_.layout().freedoms());
+  }
+
+  /// A hinge's motion over the step.
+  struct Path {
+    Quintic<T> angle, rate;
+  };
+
+  /// The motion of the hinge itself, or of one that a loop joins to it: kept, for a step is sampled many times.
+  [[nodiscard]] const Path& path(int i) const {
+    if (i == i_) return own_;
+    const int place = i % 2;
+    if (joined_[place] != i) {
+      joined_[place] = i;
+      paths_[place].angle = angle_of(i);
+      paths_[place].rate = rate_of(paths_[place].angle, i);
+    }
+    return paths_[place];
+  }
+
+  /// A range of a loop's moment, N·m.
+  [[nodiscard]] ValueRange<T> range_of(const LoopTerms<T>& loop) const {
+    const Path &a = path(loop.first), &b = path(loop.second);
+    return loop_moment_range(loop, i_, a.angle, a.rate, b.angle, b.rate);
   }
 
   /// Moment of a loop at s, N·m.
   [[nodiscard]] T moment_of(const LoopTerms<T>& loop, const T& s) const {
+    const Path &a = path(loop.first), &b = path(loop.second);
     const LoopState<T> state =
-        loop_state(loop, value(angle_of(loop.first), s), value(rate_of(loop.first), s),
-                   value(angle_of(loop.second), s), value(rate_of(loop.second), s));
+        loop_state(loop, value(a.angle, s), value(a.rate, s), value(b.angle, s), value(b.rate, s));
     return on_hinge(loop, i_, state.gear) * loop_torque(loop, state);
   }
 
@@ -134,7 +155,10 @@ private:
   int latch_state_;
   T epsilon_;
   bool smoothed_;
-  Quintic<T> angle_, rate_, linear_;
+  Path own_;                            ///< its rate only where depends_on_rate
+  mutable std::array<int, 2> joined_{}; ///< hinges of `paths_`; 0: none
+  mutable std::array<Path, 2> paths_;
+  Quintic<T> linear_;
   Quintic<T> excess_; ///< of a motor's command over the rate; only where the wing has motors
 };
 
