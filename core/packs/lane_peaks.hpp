@@ -92,7 +92,7 @@ public:
   /// Copies which peaks may rise over the last step out of a lane in which search_step searched it.
   void unload_search(int lane, LaneResult& result) const {
     for (std::size_t i = 1; shape_.moments && i < may_rise_.size(); ++i)
-      result.moments_may_rise[i] = may_rise_[i].bits[lane] != 0 ? 1 : 0;
+      (*result.moments_may_rise)[i] = may_rise_[i].bits[lane] != 0 ? 1 : 0;
     result.forces_may_rise = force_may_rise_.bits[lane] != 0;
   }
 

@@ -109,7 +109,7 @@ public:
     holds_.unload(lane, result, M == BaseMotion::free, moved);
     result.evaluations = (result.trial_steps + 1) * Formula::evaluations + peaks_.evaluations(lane);
     result.has_no_event = asks_after_.back().bits[lane] == 0;
-    result.peaks_searched = accepted_.bits[lane] != 0;
+    result.peaks_searched = result.moments_may_rise && accepted_.bits[lane] != 0;
     if (result.peaks_searched) peaks_.unload_search(lane, result);
     if constexpr (M == BaseMotion::free) {
       free_.unload(lane, result, shape_.forces);

@@ -178,10 +178,7 @@ template <class T, class Moment>
 template <class T, class AnySystem>
 [[nodiscard]] Truth<T> samples_come_near(const PeakOf<T>& peak,
                                          const MomentOverStep<T, AnySystem>& moment) {
-  const std::array<T, 9> samples = moment_samples<T>(moment);
-  T largest = samples[0];
-  for (const T& sample : samples) largest = larger(largest, sample);
-  return !(largest < T(sample_margin) * peak.value);
+  return !(most_by_samples(moment_samples<T>(moment)) <= peak.value);
 }
 
 /// Raises `peak` to the largest |moment| that the dense output has over the step: samples the step, and refines
@@ -193,7 +190,7 @@ void raise_by_interpolant(PeakOf<T>& peak, const Moment& moment, const Step<T>& 
   std::size_t best = 0;
   for (std::size_t k = 0; k < samples.size(); ++k)
     if (samples[k] > samples[best]) best = k;
-  if (samples[best] < T(sample_margin) * peak.value) return;
+  if (most_by_samples(samples) <= peak.value) return;
   const auto [found, vertex] =
       maximum_near(samples, best, [&](const T& s) { return T(abs(moment(s))); });
   peak.raise(found.value, step.t + found.s * step.h);

@@ -3,6 +3,10 @@
 
 #include "core/number/scalar.hpp"
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+
 namespace wingspread {
 
 /// For one run or for packs of runs. The outcome reports it as `Peak`.
@@ -17,14 +21,22 @@ template <class T> struct PeakOf {
   }
 };
 
-/// The maximum between samples is sought only if the largest of nine samples over a step reaches this share of the
-/// known peak.
+/// The most that a function over a step may reach, as far as equidistant samples tell: the largest sample, and a
+/// quarter of the largest second difference.
 ///
-/// Heuristic. A swing of x rad over the step is sampled within x/16 of its crest, where it has cos(x/16) of its
-/// height: 0.95 suffices up to x = 5.08, 0.8 of a period. Roughness (core/dense) keeps a swing that dominates its
-/// coordinate below 2.6 rad. Too large a margin misses peaks; too small a one costs evaluations. A swing of
-/// 1.27 periods breaks it (cos 0.5 = 0.88), and so does a jump: a damped loop drops ½ D ė where a strand goes
-/// slack, and a crest at the jump may stand more than 5 % above both samples beside it.
-inline constexpr double sample_margin = 0.95;
+/// Heuristic: the vertex of the parabola through three samples stands at most an eighth of their second difference above
+/// the largest. A swing of x rad over the step is sampled within a = x/16 of its crest by nine samples, where it has cos a of
+/// its height, and (1 + sin² a) cos a ≥ 1 up to x = 14.5, 2.3 periods. Roughness (core/dense) keeps a swing that
+/// dominates its coordinate below 2.6 rad. A spike between two samples breaks it: a damped loop drops ½ D ė where a strand
+/// goes slack, and the moment may have risen steeply until there.
+template <class T, std::size_t N> [[nodiscard]] T most_by_samples(const std::array<T, N>& samples) {
+  using std::abs;
+  T largest = larger(samples[0], samples[N - 1]), bend(0);
+  for (std::size_t k = 1; k + 1 < N; ++k) {
+    largest = larger(largest, samples[k]);
+    bend = larger(bend, T(abs((samples[k - 1] - samples[k]) + (samples[k + 1] - samples[k]))));
+  }
+  return fused(T(0.25), bend, largest);
+}
 
 } // namespace wingspread

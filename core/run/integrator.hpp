@@ -118,7 +118,7 @@ public:
             events_.excess_before(),
             run_.system.made_elsewhere().holding,
             peaks_.base(),
-            peaks_.moments_may_rise()};
+            asked_.stage == Stage::step ? &peaks_.moments_may_rise() : nullptr};
   }
 
   /// Whether the step asked for is part of one under way: to an event, or to a peak in doubt.
@@ -257,7 +257,6 @@ private:
   void judge_landing(const StepVerdict& verdict) {
     if (!stepping_.count_trial(verdict)) return ask_for_step(stepping_.plan_again());
     if (landing_.correct_end(stepping_.rtol_of_landing())) return ask_to_end(Stage::landing);
-    by_lane_ = {}; // the end may have been shifted since
     accept();
   }
 

@@ -80,7 +80,8 @@ struct LaneResult {
   std::vector<double>& excess_before; ///< 1 … n: of their friction over its limit there, N·m
   std::vector<double>& held_at_end; ///< 1 … n: their moments at the end of the last trial step, N·m
   BaseExcursion<double>& base;      ///< of a free base, up to the start of that step
-  std::vector<char>& moments_may_rise; ///< 1 … n: over that step; only if `peaks_searched`
+  /// 1 … n: over that step; written only if `peaks_searched`. Null: a step inside another one, whose peaks count.
+  std::vector<char>* moments_may_rise;
   // values
   long trial_steps = 0;     ///< before the last one; 0: the state is the task's, and not written
   double h = 0;             ///< the last trial step, s
